@@ -1,0 +1,50 @@
+//! `contact-dma`: dynamic mechanical analysis by contact.
+//!
+//! A rigid indenter is pressed into a linear viscoelastic half-space under a load that oscillates about a mean. This crate
+//! computes the stabilised cycle at many load frequencies and says what it dissipates: energy loss per cycle, hysteresis
+//! loops, phase, harmonics, equivalent storage and loss modulus. It implements S. Spinu, *Viscoelastic Contact Simulation
+//! under Harmonic Cyclic Load*, Advances in Tribology 2018, 9432894, and goes on from there: an exact axisymmetric engine
+//! beside the half-space engine of the paper, second-order time steps, and a stabilisation that is judged by the estimated
+//! distance to the stabilised cycle rather than by the last change.
+//!
+//! # Model
+//!
+//! At every instant t, with initial gap g, surface displacement u, approach delta, pressure p, load W:
+//!
+//! ```text
+//! h = g + u - delta,   p >= 0,  h >= 0,  p h = 0,   W = integral of p dA
+//! u(x,y,t) = integral over area of q / (pi r),       q(x,y,t) = integral from 0 to t of C(t-s) dp(x,y,s)
+//! ```
+//!
+//! Frictionless, quasi-static, no adhesion, small slopes, constant Poisson ratio. C(t) is the contact compliance:
+//! (1 - nu^2) D(t) of the longitudinal creep compliance D, or (1 - nu) J(t)/2 of the shear creep compliance J.
+//!
+//! # Conventions
+//!
+//! SI units in every `f64`, named in the identifier where it crosses a boundary (`radius_m`). Pressure is positive in
+//! compression, displacement and approach are positive into the body. The energy loss is the closed integral of W d(delta),
+//! positive where the approach lags behind the load. An undefined value is `None` and an empty cell, never 0 or NaN.
+//!
+//! # Map
+//!
+//! A room may use those above it, never those below; a test holds it to that.
+//!
+//! | room | what it knows |
+//! |---|---|
+//! | [`quantity`] | quantities with units |
+//! | [`material`] | relaxation modulus, creep compliance, complex modulus; models, conversion, library |
+//! | [`indenter`] | gap functions |
+//! | [`drive`] | load against time; nothing of contact |
+//! | [`contact`] | one instant, by two engines; a gap field and a compliance number, nothing else |
+//! | [`history`] | viscoelastic memory and time marching |
+//! | [`cycle`] | signals of one cycle; a measured loop is as good as a computed one |
+//! | [`mod@reference`] | closed forms and slow independent solvers; no production room imports it |
+//! | [`sweep`] | plans, cases in parallel, records on disk, peaks |
+//! | [`report`] | tables and figures, from records alone |
+//! | [`cli`] | flags and files to plans |
+//!
+//! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
+//! bit for bit.
+
+pub mod material;
+pub mod quantity;

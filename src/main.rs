@@ -1,0 +1,3 @@
+//! The `contact-dma` program.
+
+fn main() {}

@@ -1,0 +1,85 @@
+//! What can be wrong with a material, and what to write instead.
+
+use thiserror::Error;
+
+/// A material that cannot be built, converted or put into contact.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum MaterialError {
+    /// A parameter outside the range in which the model means something.
+    #[error("{parameter} is {value:?}: it must be {requirement}")]
+    Parameter {
+        /// What the number is, for example `modulus of branch 2 (Pa)`.
+        parameter: String,
+        /// The number given.
+        value: f64,
+        /// The range that is allowed.
+        requirement: &'static str,
+    },
+
+    /// Neither an equilibrium modulus nor a branch.
+    #[error(
+        "the relaxation modulus is zero at all times: give an equilibrium modulus, or at least one branch with a modulus and a time"
+    )]
+    NoStiffness,
+
+    /// Neither an instantaneous compliance, nor a branch, nor a viscosity.
+    #[error(
+        "the creep compliance is zero at all times: give an instantaneous compliance, a viscosity, or at least one branch with a compliance and a time"
+    )]
+    NoCompliance,
+
+    /// The relaxation modulus is no ordinary function of time.
+    #[error(
+        "a relaxation modulus was asked for, but the material has no instantaneous compliance (Kelvin-Voigt): its stress after a unit step of strain begins with a Dirac impulse; use the creep compliance, or give it an instantaneous spring (Zener solid)"
+    )]
+    NoRelaxationModulus,
+
+    /// The contact problem has no bounded pressure.
+    #[error(
+        "the material has no instantaneous compliance (Kelvin-Voigt), so its contact pressure is singular at first touch; give it an instantaneous spring (Zener solid)"
+    )]
+    SingularContactPressure,
+
+    /// The result is beyond the range of a double.
+    #[error(
+        "{what} leaves the range of double precision numbers: check the units of moduli, compliances and times"
+    )]
+    OutOfRange {
+        /// What was being computed.
+        what: &'static str,
+    },
+}
+
+/// Accepts a finite, strictly positive number.
+pub(super) fn positive(parameter: impl Into<String>, value: f64) -> Result<f64, MaterialError> {
+    if value.is_finite() && value > 0.0 {
+        return Ok(value);
+    }
+    Err(MaterialError::Parameter {
+        parameter: parameter.into(),
+        value,
+        requirement: "finite and greater than zero",
+    })
+}
+
+/// Accepts a finite number that is zero or greater.
+pub(super) fn non_negative(parameter: impl Into<String>, value: f64) -> Result<f64, MaterialError> {
+    if value.is_finite() && value >= 0.0 {
+        // Minus zero compares equal to zero; keep only plus zero.
+        return Ok(value.abs());
+    }
+    Err(MaterialError::Parameter {
+        parameter: parameter.into(),
+        value,
+        requirement: "finite and not negative",
+    })
+}
+
+/// Accepts a computed number that is still finite.
+pub(super) fn in_range(what: &'static str, value: f64) -> Result<f64, MaterialError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(MaterialError::OutOfRange { what })
+    }
+}

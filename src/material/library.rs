@@ -1,0 +1,184 @@
+//! Materials with published constants, each with its source.
+
+use super::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
+
+/// One material of the library.
+#[derive(Debug, Clone, Copy)]
+pub struct LibraryEntry {
+    /// The name by which it is asked for, in lower case.
+    pub name: &'static str,
+    /// The name to print.
+    pub title: &'static str,
+    /// Where the constants come from, as a full citation.
+    pub source: &'static str,
+    /// How they were measured and what to keep in mind.
+    pub notes: &'static str,
+    build: fn() -> Result<Material, MaterialError>,
+}
+
+impl LibraryEntry {
+    /// The material itself.
+    ///
+    /// # Errors
+    /// None for the entries of this file, whose constants are tested.
+    pub fn material(&self) -> Result<Material, MaterialError> {
+        (self.build)().map(|material| material.named(self.title))
+    }
+}
+
+/// All materials, by name.
+pub fn entries() -> &'static [LibraryEntry] {
+    &[LibraryEntry {
+        name: "pmma",
+        title: "PMMA",
+        source: "M. V. Ramesh Kumar and R. Narasimhan, \"Analysis of spherical indentation of linear viscoelastic materials\" (the experiments); as the two-term Prony series of S. Spinu, \"Viscoelastic Contact Simulation under Harmonic Cyclic Load\", Advances in Tribology 2018, 9432894, equation (8), doi:10.1155/2018/9432894, after W. W. Chen, Q. J. Wang, Z. Huan and X. Luo, \"Semi-Analytical Viscoelastic Contact Modeling of Polymer-Based Materials\", Journal of Tribology 133 (2011) 041404, doi:10.1115/1.4004928",
+        notes: "Polymethyl methacrylate. Longitudinal relaxation modulus from uniaxial compression, observed for 1000 s; Poisson ratio 0.38, taken as constant. Two relaxation times describe that window only: far above 1 rad/s or below 1 mrad/s the series is an extrapolation.",
+        build: pmma,
+    }]
+}
+
+/// The entry of that name, whatever the case and surrounding blanks.
+pub fn find(name: &str) -> Option<&'static LibraryEntry> {
+    let wanted = name.trim();
+    entries()
+        .iter()
+        .find(|entry| entry.name.eq_ignore_ascii_case(wanted))
+}
+
+/// The name nearest to one that [`find`] does not know, if it looks like a slip of the pen.
+pub fn suggest(name: &str) -> Option<&'static str> {
+    let wanted = name.trim().to_lowercase();
+    entries()
+        .iter()
+        .map(|entry| (strsim::damerau_levenshtein(entry.name, &wanted), entry.name))
+        .min()
+        .filter(|(distance, known)| *distance <= 2 && *distance < known.chars().count())
+        .map(|(_, known)| known)
+}
+
+/// `E(t) = 1973 + 254.776 exp(-t/8.93) + 263.6628 exp(-t/117.96)`, in MPa and s.
+fn pmma() -> Result<Material, MaterialError> {
+    let branches = vec![
+        RelaxationBranch {
+            modulus_pa: 254.776e6,
+            time_s: 8.93,
+        },
+        RelaxationBranch {
+            modulus_pa: 263.6628e6,
+            time_s: 117.96,
+        },
+    ];
+    let relaxation = Relaxation::new(1973e6, branches)?;
+    Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.38)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::LossPeak;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn every_entry_builds_and_is_found_by_its_own_name() {
+        for entry in entries() {
+            assert_eq!(entry.material().unwrap().name(), Some(entry.title));
+            assert!(entry.material().unwrap().contact_compliance().is_ok());
+            assert_eq!(find(&entry.name.to_uppercase()).unwrap().name, entry.name);
+            assert_eq!(entry.name, entry.name.to_lowercase());
+        }
+    }
+
+    #[test]
+    fn a_slip_of_the_pen_gets_a_suggestion_and_another_word_does_not() {
+        assert!(find("pmam").is_none());
+        assert_eq!(suggest("pmam"), Some("pmma"));
+        assert_eq!(suggest(" PMA "), Some("pmma"));
+        assert_eq!(suggest("steel"), None);
+        assert_eq!(suggest(""), None);
+    }
+
+    #[test]
+    fn pmma_has_the_published_relaxation_modulus() {
+        let material = find("pmma").unwrap().material().unwrap();
+        let relaxation = material.relaxation().unwrap();
+        // Six digits, as printed in tables of the series.
+        assert_relative_eq!(relaxation.modulus(0.0), 2491.44e6, max_relative = 2e-6);
+        assert_relative_eq!(relaxation.modulus(1000.0), 1973.05e6, max_relative = 3e-6);
+    }
+
+    #[test]
+    fn pmma_has_the_creep_function_of_the_paper() {
+        let material = find("pmma").unwrap().material().unwrap();
+        let phi = material.shear_creep_function().unwrap();
+        let per_mpa = |compliance_per_pa: f64| compliance_per_pa * 1e6;
+        let equilibrium = per_mpa(phi.equilibrium_compliance().unwrap());
+        let [fast, slow] = phi.branches() else {
+            panic!("two retardation times")
+        };
+        // Sixty-digit arithmetic (mpmath); here a dozen roundings.
+        assert_relative_eq!(
+            equilibrium,
+            0.000_699_442_473_390_775_5,
+            max_relative = 1e-14
+        );
+        assert_relative_eq!(
+            per_mpa(fast.compliance_per_pa),
+            6.174_206_011_876_47e-5,
+            max_relative = 1e-14
+        );
+        assert_relative_eq!(
+            per_mpa(slow.compliance_per_pa),
+            8.380_360_472_909_171e-5,
+            max_relative = 1e-14
+        );
+        assert_relative_eq!(fast.time_s, 9.936_295_903_145_377, max_relative = 1e-15);
+        assert_relative_eq!(slow.time_s, 133.870_487_456_205_86, max_relative = 1e-15);
+        // Equation (10) of the paper, to the digits it prints:
+        // Phi = 7e-4 - 6.17e-5 exp(-0.1 t) - 8.38e-5 exp(-7.47e-3 t) per MPa.
+        assert_eq!(format!("{equilibrium:.0e}"), "7e-4");
+        assert_eq!(
+            format!("{:.2e}", per_mpa(fast.compliance_per_pa)),
+            "6.17e-5"
+        );
+        assert_eq!(format!("{:.0e}", 1.0 / fast.time_s), "1e-1");
+        assert_eq!(
+            format!("{:.2e}", per_mpa(slow.compliance_per_pa)),
+            "8.38e-5"
+        );
+        assert_eq!(format!("{:.2e}", 1.0 / slow.time_s), "7.47e-3");
+    }
+
+    #[test]
+    fn pmma_loses_most_at_the_known_frequencies() {
+        let material = find("pmma").unwrap().material().unwrap();
+        let peaks = material.loss_peaks(ModulusKind::Longitudinal).unwrap();
+        let assert_peaks = |found: &[LossPeak], expected: &[(f64, f64)], digits: f64| {
+            assert_eq!(found.len(), expected.len());
+            for (peak, (omega, value)) in found.iter().zip(expected) {
+                // Half a unit in the last printed digit.
+                assert_relative_eq!(
+                    peak.angular_frequency_rad_per_s,
+                    *omega,
+                    max_relative = 7e-4
+                );
+                assert_relative_eq!(peak.value, *value, max_relative = digits);
+            }
+        };
+        assert_peaks(
+            &peaks.loss_modulus,
+            &[(0.01009, 152.63e6), (0.0926, 149.06e6)],
+            4e-5,
+        );
+        assert_peaks(
+            &peaks.loss_compliance,
+            &[(0.00844, 3.3865e-11), (0.0765, 2.743e-11)],
+            2e-4,
+        );
+        let highest = peaks
+            .loss_tangent
+            .iter()
+            .max_by(|left, right| left.value.total_cmp(&right.value))
+            .unwrap();
+        assert_peaks(&[*highest], &[(0.00921, 0.0719)], 7e-4);
+    }
+}

@@ -1,0 +1,395 @@
+//! Linear viscoelastic materials: relaxation modulus, creep compliance, complex modulus.
+//!
+//! A [`Material`] holds both faces of one material, the [`Creep`] compliance and, where there is
+//! one, the [`Relaxation`] modulus, with a Poisson ratio that does not depend on time. SI units
+//! throughout; harmonic quantities vary as `exp(+i omega t)`, so `E* = E' + i E''` and
+//! `D* = 1/E* = D' - i D''`.
+//!
+//! With a constant Poisson ratio every function of the material is a multiple of one of them:
+//!
+//! | function | from longitudinal D | from shear J |
+//! |---|---|---|
+//! | longitudinal creep compliance D | D | J/(2 (1 + nu)) |
+//! | shear creep compliance J | 2 (1 + nu) D | J |
+//! | Phi, shear as S. Spinu (2018) writes it | (1 + nu) D | J/2 |
+//! | contact compliance C = (1 - nu) Phi | (1 - nu^2) D | (1 - nu) J/2 |
+//!
+//! This room knows nothing of indenters, drives or contact.
+
+pub mod classical;
+pub mod library;
+
+mod conversion;
+mod creep;
+mod error;
+mod harmonic;
+mod peaks;
+mod relaxation;
+
+use num_complex::Complex;
+
+pub use creep::{Creep, CreepBranch};
+pub use error::MaterialError;
+pub use peaks::{LossPeak, LossPeaks};
+pub use relaxation::{Relaxation, RelaxationBranch};
+
+/// What a modulus or a compliance relates: shear stress and engineering shear strain, or
+/// longitudinal (uniaxial) stress and strain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum ModulusKind {
+    /// Shear modulus G and shear creep compliance J.
+    Shear,
+    /// Young's modulus E and uniaxial creep compliance D.
+    Longitudinal,
+}
+
+/// The face of the material that was given; the other was computed from it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum GivenFace {
+    /// A relaxation modulus.
+    Relaxation,
+    /// A creep compliance.
+    Creep,
+}
+
+/// An isotropic linear viscoelastic material of constant Poisson ratio.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    name: Option<String>,
+    poisson_ratio: f64,
+    kind: ModulusKind,
+    given: GivenFace,
+    creep: Creep,
+    relaxation: Option<Relaxation>,
+}
+
+impl Material {
+    /// A material from its relaxation modulus.
+    ///
+    /// # Errors
+    /// A Poisson ratio outside -1 < nu <= 1/2; a creep compliance beyond the range of a double.
+    pub fn from_relaxation(
+        relaxation: Relaxation,
+        kind: ModulusKind,
+        poisson_ratio: f64,
+    ) -> Result<Self, MaterialError> {
+        Ok(Material {
+            name: None,
+            poisson_ratio: checked_poisson_ratio(poisson_ratio)?,
+            kind,
+            given: GivenFace::Relaxation,
+            creep: relaxation.to_creep()?,
+            relaxation: Some(relaxation),
+        })
+    }
+
+    /// A material from its creep compliance. Without an instantaneous compliance (Kelvin-Voigt) it
+    /// has no relaxation modulus and cannot go into contact, but can be looked at.
+    ///
+    /// # Errors
+    /// A Poisson ratio outside -1 < nu <= 1/2; a relaxation modulus beyond the range of a double.
+    pub fn from_creep(
+        creep: Creep,
+        kind: ModulusKind,
+        poisson_ratio: f64,
+    ) -> Result<Self, MaterialError> {
+        let poisson_ratio = checked_poisson_ratio(poisson_ratio)?;
+        let relaxation = match creep.to_relaxation() {
+            Ok(relaxation) => Some(relaxation),
+            Err(MaterialError::NoRelaxationModulus) => None,
+            Err(error) => return Err(error),
+        };
+        let given = GivenFace::Creep;
+        Ok(Material {
+            name: None,
+            poisson_ratio,
+            kind,
+            given,
+            creep,
+            relaxation,
+        })
+    }
+
+    /// The same material under a name.
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Material {
+            name: Some(name.into()),
+            ..self
+        }
+    }
+
+    /// The name, if it has one.
+    pub fn name(&self) -> Option<&str> {
+        self.name.as_deref()
+    }
+
+    /// Poisson ratio, constant in time.
+    pub fn poisson_ratio(&self) -> f64 {
+        self.poisson_ratio
+    }
+
+    /// Whether [`creep`](Self::creep) and [`relaxation`](Self::relaxation) are shear or longitudinal.
+    pub fn kind(&self) -> ModulusKind {
+        self.kind
+    }
+
+    /// Which of the two faces was given.
+    pub fn given(&self) -> GivenFace {
+        self.given
+    }
+
+    /// Creep compliance of the material's own [`kind`](Self::kind), in 1/Pa.
+    pub fn creep(&self) -> &Creep {
+        &self.creep
+    }
+
+    /// Relaxation modulus of the material's own [`kind`](Self::kind), in Pa; `None` if the
+    /// material is instantaneously rigid (Kelvin-Voigt).
+    pub fn relaxation(&self) -> Option<&Relaxation> {
+        self.relaxation.as_ref()
+    }
+
+    /// Creep compliance of the kind asked for, in 1/Pa: `J = 2 (1 + nu) D`.
+    ///
+    /// # Errors
+    /// A compliance beyond the range of a double.
+    pub fn creep_as(&self, kind: ModulusKind) -> Result<Creep, MaterialError> {
+        self.creep.scaled(1.0 / self.modulus_factor(kind))
+    }
+
+    /// Relaxation modulus of the kind asked for, in Pa: `E(t) = 2 (1 + nu) G(t)`; `None` if the
+    /// material is instantaneously rigid.
+    ///
+    /// # Errors
+    /// A modulus beyond the range of a double.
+    pub fn relaxation_as(&self, kind: ModulusKind) -> Result<Option<Relaxation>, MaterialError> {
+        let factor = self.modulus_factor(kind);
+        self.relaxation
+            .as_ref()
+            .map(|relaxation| relaxation.scaled(factor))
+            .transpose()
+    }
+
+    /// The shear creep function `Phi(t) = J(t)/2 = (1 + nu) D(t)`, in 1/Pa, as S. Spinu writes it
+    /// (Advances in Tribology 2018, 9432894, equations (3) to (10)); `1/(2G)` for an elastic solid.
+    ///
+    /// # Errors
+    /// A compliance beyond the range of a double.
+    pub fn shear_creep_function(&self) -> Result<Creep, MaterialError> {
+        self.creep.scaled(match self.kind {
+            ModulusKind::Shear => 0.5,
+            ModulusKind::Longitudinal => 1.0 + self.poisson_ratio,
+        })
+    }
+
+    /// The contact compliance `C(t) = (1 - nu^2) D(t) = (1 - nu) J(t)/2`, in 1/Pa: what takes the
+    /// place of `1/E* = (1 - nu^2)/E` of a half-space when the solid is viscoelastic (E. H. Lee
+    /// and J. R. M. Radok, Journal of Applied Mechanics 27 (1960) 438).
+    ///
+    /// # Errors
+    /// [`MaterialError::SingularContactPressure`] without an instantaneous compliance; a
+    /// compliance beyond the range of a double.
+    pub fn contact_compliance(&self) -> Result<Creep, MaterialError> {
+        if self.creep.is_instantaneously_rigid() {
+            return Err(MaterialError::SingularContactPressure);
+        }
+        let lateral = 1.0 - self.poisson_ratio;
+        self.creep.scaled(match self.kind {
+            ModulusKind::Shear => 0.5 * lateral,
+            ModulusKind::Longitudinal => lateral * (1.0 + self.poisson_ratio),
+        })
+    }
+
+    /// Longitudinal complex modulus `E* = E' + i E'' = 2 (1 + nu) G*`, in Pa.
+    pub fn longitudinal_complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
+        self.complex_modulus_as(ModulusKind::Longitudinal, angular_frequency_rad_per_s)
+    }
+
+    /// Shear complex modulus `G* = G' + i G''`, in Pa.
+    pub fn shear_complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
+        self.complex_modulus_as(ModulusKind::Shear, angular_frequency_rad_per_s)
+    }
+
+    /// Contact complex modulus `1/C* = E*/(1 - nu^2)`, in Pa, which a flat punch sees.
+    pub fn contact_complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
+        let lateral = (1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio);
+        self.longitudinal_complex_modulus(angular_frequency_rad_per_s) / lateral
+    }
+
+    /// Local maxima over frequency of loss modulus, loss compliance (of the kind asked for) and
+    /// loss tangent, searched to two decades beyond the time constants.
+    ///
+    /// # Errors
+    /// A compliance beyond the range of a double.
+    pub fn loss_peaks(&self, kind: ModulusKind) -> Result<LossPeaks, MaterialError> {
+        let relaxation = self.relaxation_as(kind)?;
+        Ok(peaks::loss_peaks(
+            &self.creep_as(kind)?,
+            relaxation.as_ref(),
+        ))
+    }
+
+    /// The complex modulus from the face that was given, which has seen no conversion.
+    fn complex_modulus_as(&self, kind: ModulusKind, omega: f64) -> Complex<f64> {
+        let own = match (self.given, &self.relaxation) {
+            (GivenFace::Relaxation, Some(relaxation)) => relaxation.complex_modulus(omega),
+            _ => self.creep.complex_modulus(omega),
+        };
+        own * self.modulus_factor(kind)
+    }
+
+    /// What a modulus of the material's own kind is multiplied by to be one of `kind`.
+    fn modulus_factor(&self, kind: ModulusKind) -> f64 {
+        let longitudinal_over_shear = 2.0 * (1.0 + self.poisson_ratio);
+        match (self.kind, kind) {
+            (ModulusKind::Shear, ModulusKind::Longitudinal) => longitudinal_over_shear,
+            (ModulusKind::Longitudinal, ModulusKind::Shear) => 1.0 / longitudinal_over_shear,
+            _ => 1.0,
+        }
+    }
+}
+
+/// A Poisson ratio that leaves both the shear and the bulk modulus positive.
+fn checked_poisson_ratio(poisson_ratio: f64) -> Result<f64, MaterialError> {
+    if poisson_ratio > -1.0 && poisson_ratio <= 0.5 {
+        return Ok(poisson_ratio);
+    }
+    Err(MaterialError::Parameter {
+        parameter: "Poisson ratio".to_owned(),
+        value: poisson_ratio,
+        requirement: "greater than -1 and at most 0.5",
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    // A handful of multiplications.
+    const ROUNDING: f64 = 1e-15;
+
+    fn elastic(modulus_pa: f64, kind: ModulusKind, poisson_ratio: f64) -> Material {
+        Material::from_relaxation(
+            Relaxation::new(modulus_pa, vec![]).unwrap(),
+            kind,
+            poisson_ratio,
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn an_elastic_solid_has_the_contact_modulus_of_hertz() {
+        for nu in [-0.9, 0.0, 0.3, 0.5] {
+            let young = 3e9;
+            let shear = young / (2.0 * (1.0 + nu));
+            let hertz = (1.0 - nu * nu) / young;
+            let from_young = elastic(young, ModulusKind::Longitudinal, nu);
+            let from_shear = elastic(shear, ModulusKind::Shear, nu);
+            for material in [from_young, from_shear] {
+                let contact = material
+                    .contact_compliance()
+                    .unwrap()
+                    .instantaneous_compliance();
+                assert_relative_eq!(contact, hertz, max_relative = ROUNDING);
+                let phi = material
+                    .shear_creep_function()
+                    .unwrap()
+                    .instantaneous_compliance();
+                assert_relative_eq!(phi, 1.0 / (2.0 * shear), max_relative = ROUNDING);
+                let modulus = material.longitudinal_complex_modulus(1.0);
+                assert_relative_eq!(modulus.re, young, max_relative = ROUNDING);
+                assert_relative_eq!(
+                    material.shear_complex_modulus(1.0).re,
+                    shear,
+                    max_relative = ROUNDING
+                );
+                let contact = material.contact_complex_modulus(1.0).re;
+                assert_relative_eq!(contact, 1.0 / hertz, max_relative = ROUNDING);
+            }
+        }
+    }
+
+    #[test]
+    fn shear_and_longitudinal_descriptions_of_one_material_agree() {
+        let branch = RelaxationBranch {
+            modulus_pa: 5e8,
+            time_s: 3.0,
+        };
+        let relaxation = Relaxation::new(1e9, vec![branch]).unwrap();
+        let nu = 0.4;
+        let shear = Material::from_relaxation(relaxation.clone(), ModulusKind::Shear, nu).unwrap();
+        let longitudinal = Material::from_relaxation(
+            relaxation.scaled(2.0 * (1.0 + nu)).unwrap(),
+            ModulusKind::Longitudinal,
+            nu,
+        )
+        .unwrap();
+        for omega in [0.0, 0.01, 0.4, 30.0, f64::INFINITY] {
+            let difference = shear.longitudinal_complex_modulus(omega)
+                - longitudinal.longitudinal_complex_modulus(omega);
+            assert!(difference.norm() <= 4e-15 * 4e9, "{difference} at {omega}");
+        }
+        for time_s in [0.0, 0.1, 3.0, 100.0] {
+            let left = shear.contact_compliance().unwrap().compliance(time_s);
+            let right = longitudinal
+                .contact_compliance()
+                .unwrap()
+                .compliance(time_s);
+            assert_relative_eq!(left, right, max_relative = 4e-15);
+            let left = shear
+                .creep_as(ModulusKind::Longitudinal)
+                .unwrap()
+                .compliance(time_s);
+            assert_relative_eq!(
+                left,
+                longitudinal.creep().compliance(time_s),
+                max_relative = 4e-15
+            );
+            let right = longitudinal
+                .relaxation_as(ModulusKind::Shear)
+                .unwrap()
+                .unwrap();
+            assert_relative_eq!(
+                right.modulus(time_s),
+                relaxation.modulus(time_s),
+                max_relative = 4e-15
+            );
+        }
+    }
+
+    #[test]
+    fn a_kelvin_voigt_solid_can_be_looked_at_but_not_put_into_contact() {
+        let material = classical::KelvinVoigt::new(1e9, 2.0)
+            .unwrap()
+            .material(0.3)
+            .unwrap();
+        assert_eq!(material.relaxation(), None);
+        assert_eq!(material.given(), GivenFace::Creep);
+        assert_relative_eq!(
+            material.shear_complex_modulus(0.5).re,
+            1e9,
+            max_relative = ROUNDING
+        );
+        let error = material.contact_compliance().unwrap_err();
+        assert_eq!(error, MaterialError::SingularContactPressure);
+        assert!(error.to_string().contains("Zener"));
+    }
+
+    #[test]
+    fn a_poisson_ratio_outside_the_thermodynamic_range_is_refused() {
+        let relaxation = Relaxation::new(1.0, vec![]).unwrap();
+        for nu in [-1.0, 0.51, f64::NAN, f64::INFINITY] {
+            let error =
+                Material::from_relaxation(relaxation.clone(), ModulusKind::Shear, nu).unwrap_err();
+            assert!(error.to_string().contains("Poisson ratio"), "{error}");
+        }
+    }
+
+    #[test]
+    fn a_name_is_kept() {
+        let material = elastic(1.0, ModulusKind::Shear, 0.0);
+        assert_eq!(material.name(), None);
+        assert_eq!(material.named("glass").name(), Some("glass"));
+    }
+}

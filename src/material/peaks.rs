@@ -1,0 +1,239 @@
+//! The frequencies at which a material loses most: maxima of E'', D'' and tan delta.
+//!
+//! A maximum is found as a zero of the analytic derivative with respect to `ln omega`. Comparing
+//! values of the function instead (golden section, Brent's minimiser) cannot place a maximum
+//! better than the square root of the rounding error, about 1e-8.
+
+use num_complex::Complex;
+
+use super::creep::Creep;
+use super::harmonic::reciprocal;
+use super::relaxation::Relaxation;
+
+/// A local maximum over frequency.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LossPeak {
+    /// Where it is, in rad/s, to a relative 1e-12.
+    pub angular_frequency_rad_per_s: f64,
+    /// How high it is: Pa for a modulus, 1/Pa for a compliance, 1 for a loss tangent.
+    pub value: f64,
+}
+
+/// The local maxima of a material's three measures of loss, by ascending frequency.
+///
+/// A list is empty where the measure has no maximum: an elastic solid has none at all, a Maxwell
+/// fluid only one of E''. Maxima nearer than a fiftieth of a decade count as one.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LossPeaks {
+    /// Of the loss modulus E'', in Pa.
+    pub loss_modulus: Vec<LossPeak>,
+    /// Of the loss compliance D'', in 1/Pa: the loss of a contact under a small oscillating load
+    /// peaks where this does.
+    pub loss_compliance: Vec<LossPeak>,
+    /// Of the loss tangent E''/E' = D''/D'.
+    pub loss_tangent: Vec<LossPeak>,
+}
+
+/// Frequencies tried per decade before refinement; a peak of one exponential is a decade wide.
+const SAMPLES_PER_DECADE: f64 = 100.0;
+
+/// How far beyond the reciprocals of the time constants the search goes.
+const MARGIN: f64 = 100.0;
+
+/// The maxima within two decades beyond the range of the time constants of both faces.
+pub(super) fn loss_peaks(creep: &Creep, relaxation: Option<&Relaxation>) -> LossPeaks {
+    let retardation = creep.branches().iter().map(|branch| branch.time_s);
+    let relaxing = relaxation.map_or(&[][..], Relaxation::branches);
+    let times = retardation.chain(relaxing.iter().map(|branch| branch.time_s));
+    let Some((shortest, longest)) = times.fold(None, |range: Option<(f64, f64)>, time| {
+        let (low, high) = range.unwrap_or((time, time));
+        Some((low.min(time), high.max(time)))
+    }) else {
+        return LossPeaks::default();
+    };
+    let range = (1.0 / longest / MARGIN, MARGIN / shortest);
+    LossPeaks {
+        loss_modulus: maxima(range, |omega| loss_modulus(Point::at(creep, omega))),
+        loss_compliance: maxima(range, |omega| loss_compliance(Point::at(creep, omega))),
+        loss_tangent: maxima(range, |omega| loss_tangent(Point::at(creep, omega))),
+    }
+}
+
+/// The complex compliance and its derivative by `ln omega` at one frequency.
+struct Point {
+    compliance: Complex<f64>,
+    slope: Complex<f64>,
+}
+
+impl Point {
+    fn at(creep: &Creep, omega: f64) -> Self {
+        Point {
+            compliance: creep.complex_compliance(omega),
+            slope: creep.complex_compliance_slope(omega),
+        }
+    }
+}
+
+/// A measure of loss and a number with the sign of its derivative by `ln omega`.
+struct Measure {
+    value: f64,
+    slope: f64,
+}
+
+/// `E'' = Im 1/D*`, with `d(1/D*) = -dD*/D*^2` taken relative to `|E*|`.
+fn loss_modulus(point: Point) -> Measure {
+    let modulus = reciprocal(point.compliance);
+    let relative = point.slope * modulus;
+    Measure {
+        value: modulus.im,
+        slope: -(relative * modulus).im,
+    }
+}
+
+fn loss_compliance(point: Point) -> Measure {
+    Measure {
+        value: -point.compliance.im,
+        slope: -point.slope.im,
+    }
+}
+
+/// `tan delta = D''/D'`; its derivative times `D'`.
+fn loss_tangent(point: Point) -> Measure {
+    let tangent = -point.compliance.im / point.compliance.re;
+    Measure {
+        value: tangent,
+        slope: -point.slope.im - tangent * point.slope.re,
+    }
+}
+
+/// Every change of the slope from rising to falling on a logarithmic grid, refined by bisection.
+fn maxima(range: (f64, f64), measure: impl Fn(f64) -> Measure) -> Vec<LossPeak> {
+    let (start, end) = (range.0.ln(), range.1.ln());
+    let intervals = ((end - start) / std::f64::consts::LN_10 * SAMPLES_PER_DECADE).ceil();
+    let rising = |logarithm: f64| measure(logarithm.exp()).slope > 0.0;
+    let at = |index: u32| start + (end - start) * f64::from(index) / intervals;
+    let mut peaks = Vec::new();
+    let mut before = rising(start);
+    // At most 616 decades of doubles: the count fits.
+    for index in 1..=intervals as u32 {
+        let now = rising(at(index));
+        if before && !now {
+            let angular_frequency_rad_per_s = last_rising(at(index - 1), at(index), rising).exp();
+            let value = measure(angular_frequency_rad_per_s).value;
+            peaks.push(LossPeak {
+                angular_frequency_rad_per_s,
+                value,
+            });
+        }
+        before = now;
+    }
+    peaks
+}
+
+/// Bisection between a rising `low` and a falling `high`, in `ln omega`, to 1e-13.
+fn last_rising(mut low: f64, mut high: f64, rising: impl Fn(f64) -> bool) -> f64 {
+    while high - low > 1e-13 * (1.0 + low.abs()) {
+        let middle = low + 0.5 * (high - low);
+        if rising(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    low
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::{CreepBranch, RelaxationBranch};
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn a_zener_solid_peaks_at_its_three_closed_form_frequencies() {
+        // E'' at 1/tau with (E_0 - E_inf)/2, D'' at 1/lambda with D_1/2, tan delta at the
+        // geometric mean of the two with (E_0 - E_inf)/(2 sqrt(E_0 E_inf)).
+        let (d0, d1, lambda) = (1e-9, 3e-9, 20.0);
+        let branch = CreepBranch {
+            compliance_per_pa: d1,
+            time_s: lambda,
+        };
+        let creep = Creep::new(d0, vec![branch], None).unwrap();
+        let relaxation = creep.to_relaxation().unwrap();
+        let peaks = loss_peaks(&creep, Some(&relaxation));
+        let (glassy, rubbery) = (1.0 / d0, 1.0 / (d0 + d1));
+        let tau = lambda * d0 / (d0 + d1);
+        let expected = [
+            (&peaks.loss_modulus, 1.0 / tau, (glassy - rubbery) / 2.0),
+            (&peaks.loss_compliance, 1.0 / lambda, d1 / 2.0),
+            (
+                &peaks.loss_tangent,
+                1.0 / (tau * lambda).sqrt(),
+                (glassy - rubbery) / (2.0 * (glassy * rubbery).sqrt()),
+            ),
+        ];
+        for (found, omega, value) in expected {
+            assert_eq!(found.len(), 1);
+            // The slope vanishes there: its rounding error, a few eps, over its own slope, near one.
+            assert_relative_eq!(
+                found[0].angular_frequency_rad_per_s,
+                omega,
+                max_relative = 1e-12
+            );
+            assert_relative_eq!(found[0].value, value, max_relative = 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_maxwell_fluid_peaks_in_its_modulus_only() {
+        let branch = RelaxationBranch {
+            modulus_pa: 4e6,
+            time_s: 0.1,
+        };
+        let relaxation = Relaxation::new(0.0, vec![branch]).unwrap();
+        let peaks = loss_peaks(&relaxation.to_creep().unwrap(), Some(&relaxation));
+        assert_eq!(peaks.loss_modulus.len(), 1);
+        let peak = peaks.loss_modulus[0];
+        assert_relative_eq!(peak.angular_frequency_rad_per_s, 10.0, max_relative = 1e-12);
+        assert_relative_eq!(peak.value, 2e6, max_relative = 1e-14);
+        assert!(peaks.loss_compliance.is_empty() && peaks.loss_tangent.is_empty());
+    }
+
+    #[test]
+    fn an_elastic_solid_has_no_peak_and_a_kelvin_voigt_solid_only_in_its_compliance() {
+        let elastic = Creep::new(1e-9, vec![], None).unwrap();
+        assert_eq!(loss_peaks(&elastic, None), LossPeaks::default());
+        let branch = CreepBranch {
+            compliance_per_pa: 1e-9,
+            time_s: 2.0,
+        };
+        let voigt = loss_peaks(&Creep::new(0.0, vec![branch], None).unwrap(), None);
+        assert!(voigt.loss_modulus.is_empty() && voigt.loss_tangent.is_empty());
+        assert_eq!(voigt.loss_compliance.len(), 1);
+        let omega = voigt.loss_compliance[0].angular_frequency_rad_per_s;
+        assert_relative_eq!(omega, 0.5, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn well_separated_branches_peak_one_by_one() {
+        let branches = [1e-3, 1.0, 1e3]
+            .map(|time_s| RelaxationBranch {
+                modulus_pa: 1e6,
+                time_s,
+            })
+            .to_vec();
+        let relaxation = Relaxation::new(1e9, branches).unwrap();
+        let peaks = loss_peaks(&relaxation.to_creep().unwrap(), Some(&relaxation));
+        let frequencies: Vec<f64> = peaks
+            .loss_modulus
+            .iter()
+            .map(|peak| peak.angular_frequency_rad_per_s)
+            .collect();
+        assert_eq!(frequencies.len(), 3);
+        for (found, expected) in frequencies.iter().zip([1e-3, 1.0, 1e3]) {
+            // Neighbours three decades away lend a tail of slope 1e-3, which moves the outer
+            // maxima (curvature 1/2) by 2e-3 relative.
+            assert_relative_eq!(*found, expected, max_relative = 4e-3);
+        }
+    }
+}

@@ -1,0 +1,784 @@
+//! Quantities with units: reading `"10 mm"`, writing `"3.509 µJ"`. Inside, everything is SI `f64`.
+//!
+//! Reading is exact: the digits and the power of ten of the prefix are turned into a double
+//! together, so `"0.1 mm"` is the double nearest to 1e-4 and not the double nearest to 0.1 times
+//! 1e-3. (Minutes, hours, days and degrees are no powers of ten and cost one more rounding.)
+
+mod units;
+
+use std::fmt;
+
+use thiserror::Error;
+
+use units::{Exponents, Unit, UnitProblem};
+
+/// What kind of quantity a number is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Dimension {
+    /// m.
+    Length,
+    /// m^2.
+    Area,
+    /// N.
+    Force,
+    /// Pa; moduli and pressures too.
+    Stress,
+    /// 1/Pa.
+    Compliance,
+    /// Pa s.
+    Viscosity,
+    /// s.
+    Time,
+    /// rad.
+    Angle,
+    /// rad/s.
+    AngularFrequency,
+    /// Hz.
+    Frequency,
+    /// J.
+    Energy,
+}
+
+/// What there is to know about a dimension.
+struct Profile {
+    /// Name with its article, for messages.
+    name: &'static str,
+    si_unit: &'static str,
+    example: &'static str,
+    exponents: Exponents,
+    /// Powers of ten whose prefixes look natural before the SI unit.
+    prefixes: (i32, i32),
+}
+
+impl Dimension {
+    /// Every dimension.
+    pub const ALL: [Dimension; 11] = [
+        Dimension::Length,
+        Dimension::Area,
+        Dimension::Force,
+        Dimension::Stress,
+        Dimension::Compliance,
+        Dimension::Viscosity,
+        Dimension::Time,
+        Dimension::Angle,
+        Dimension::AngularFrequency,
+        Dimension::Frequency,
+        Dimension::Energy,
+    ];
+
+    /// The SI unit in which [`parse`] answers, as [`format_si`] writes it.
+    pub fn si_unit(self) -> &'static str {
+        self.profile().si_unit
+    }
+
+    /// A quantity of this dimension as one would write it, for example `10 mm`.
+    pub fn example(self) -> &'static str {
+        self.profile().example
+    }
+
+    /// Exponents are those of m, kg, s, rad and cycles.
+    fn profile(self) -> Profile {
+        let profile = |name, si_unit, example, exponents, prefixes| Profile {
+            name,
+            si_unit,
+            example,
+            exponents: Exponents(exponents),
+            prefixes,
+        };
+        match self {
+            Self::Length => profile("a length", "m", "10 mm", [1, 0, 0, 0, 0], (-15, 3)),
+            Self::Area => profile("an area", "m^2", "2 mm^2", [2, 0, 0, 0, 0], (0, 0)),
+            Self::Force => profile("a force", "N", "10 N", [1, 1, -2, 0, 0], (-15, 12)),
+            Self::Stress => profile(
+                "a stress or modulus",
+                "Pa",
+                "1973 MPa",
+                [-1, 1, -2, 0, 0],
+                (-15, 12),
+            ),
+            Self::Compliance => profile(
+                "a compliance",
+                "1/Pa",
+                "1e-4 1/MPa",
+                [1, -1, 2, 0, 0],
+                (0, 0),
+            ),
+            Self::Viscosity => profile(
+                "a viscosity",
+                "Pa s",
+                "2 GPa s",
+                [-1, 1, -1, 0, 0],
+                (-15, 12),
+            ),
+            // Long times stay in seconds: nobody reads kiloseconds.
+            Self::Time => profile("a time", "s", "8.93 s", [0, 0, 1, 0, 0], (-15, 0)),
+            Self::Angle => profile("an angle", "rad", "90 deg", [0, 0, 0, 1, 0], (0, 0)),
+            Self::AngularFrequency => profile(
+                "an angular frequency",
+                "rad/s",
+                "0.5 rad/s",
+                [0, 0, -1, 1, 0],
+                (0, 0),
+            ),
+            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1], (-15, 12)),
+            Self::Energy => profile("an energy", "J", "3.5 µJ", [2, 1, -2, 0, 0], (-15, 12)),
+        }
+    }
+}
+
+impl fmt::Display for Dimension {
+    /// The name with its article: `a length`.
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str(self.profile().name)
+    }
+}
+
+/// Why a text is not a quantity of the expected dimension.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum QuantityError {
+    /// Nothing that begins like a number.
+    #[error(
+        "'{text}' does not begin with a number; {expected} is expected, for example \"{}\"",
+        expected.example()
+    )]
+    NotANumber {
+        /// What was read.
+        text: String,
+        /// What was wanted.
+        expected: Dimension,
+    },
+
+    /// A comma where the point belongs.
+    #[error(
+        "'{text}' has a comma in its number: write a decimal point, and no thousands separator"
+    )]
+    Comma {
+        /// What was read.
+        text: String,
+    },
+
+    /// A number in quotes without a unit.
+    #[error(
+        "'{number}' has no unit: write \"{number} {common_unit}\", or the bare number {number} without quotes for SI ({})",
+        expected.si_unit()
+    )]
+    MissingUnit {
+        /// The number, as read.
+        number: String,
+        /// The unit that is usual for the dimension.
+        common_unit: &'static str,
+        /// What was wanted.
+        expected: Dimension,
+    },
+
+    /// A unit that does not exist.
+    #[error(
+        "'{text}' has the unknown unit '{unit}'{}; {expected} is written for example \"{}\"",
+        did_you_mean(suggestions),
+        expected.example()
+    )]
+    UnknownUnit {
+        /// What was read.
+        text: String,
+        /// The part that is not a unit.
+        unit: String,
+        /// Units that look like it, the likeliest first.
+        suggestions: Vec<String>,
+        /// What was wanted.
+        expected: Dimension,
+    },
+
+    /// A product after a division sign, which may be read in two ways.
+    #[error(
+        "the unit of '{text}' can be read in two ways, because a product follows a '/': use negative exponents, for example \"Pa^-1 s\""
+    )]
+    AmbiguousUnit {
+        /// What was read.
+        text: String,
+    },
+
+    /// A unit of another dimension.
+    #[error("'{text}' is {found}, {expected} is expected, for example \"{}\"", expected.example())]
+    WrongDimension {
+        /// What was read.
+        text: String,
+        /// What that is, with its article.
+        found: String,
+        /// What was wanted.
+        expected: Dimension,
+    },
+
+    /// An infinity or a NaN.
+    #[error("'{text}' is not a finite number; {expected} is expected, for example \"{}\"", expected.example())]
+    NotFinite {
+        /// What was read.
+        text: String,
+        /// What was wanted.
+        expected: Dimension,
+    },
+
+    /// Too large for a double.
+    #[error("'{text}' is too large: in {} it exceeds 1.8e308", expected.si_unit())]
+    TooLarge {
+        /// What was read.
+        text: String,
+        /// What was wanted.
+        expected: Dimension,
+    },
+
+    /// Not zero, but too small for a double.
+    #[error("'{text}' is too small: in {} it is below 5e-324, yet not zero", expected.si_unit())]
+    TooSmall {
+        /// What was read.
+        text: String,
+        /// What was wanted.
+        expected: Dimension,
+    },
+}
+
+/// `: did you mean "MPa" or "mPa"?`, or nothing.
+fn did_you_mean(suggestions: &[String]) -> String {
+    if suggestions.is_empty() {
+        return String::new();
+    }
+    let quoted: Vec<String> = suggestions
+        .iter()
+        .map(|unit| format!("\"{unit}\""))
+        .collect();
+    format!(" (did you mean {}?)", quoted.join(" or "))
+}
+
+/// Reads a number with a unit, such as `10 mm`, `1973 MPa`, `1e-4 1/MPa`, `2 GPa s` or `90 deg`,
+/// and gives it in the SI unit of the dimension.
+///
+/// A unit is a product or quotient of m, g, s, rad, N, Pa, J, Hz (with any SI prefix from f to T),
+/// Å, min, h, d and deg (or °), with exponents: `N/mm^2` is as good as `MPa`. The blank before the
+/// unit may be missing; both micro signs, `u`, superscripts and the Unicode minus are understood.
+///
+/// # Errors
+/// See [`QuantityError`]: each says what was found and what to write instead.
+pub fn parse(text: &str, expected: Dimension) -> Result<f64, QuantityError> {
+    let trimmed = text.trim();
+    let quoted = || trimmed.to_owned();
+    let Some((number, rest)) = Number::read(trimmed) else {
+        return Err(no_number(trimmed, expected));
+    };
+    if rest.trim_start().starts_with(',') {
+        return Err(QuantityError::Comma { text: quoted() });
+    }
+    if rest.trim().is_empty() {
+        return Err(QuantityError::MissingUnit {
+            number: quoted(),
+            common_unit: common_unit(expected),
+            expected,
+        });
+    }
+    let unit = Unit::read(rest).map_err(|problem| match problem {
+        UnitProblem::Ambiguous => QuantityError::AmbiguousUnit { text: quoted() },
+        UnitProblem::Unknown(unit) => QuantityError::UnknownUnit {
+            text: quoted(),
+            suggestions: units::suggestions(&unit, expected.profile().exponents),
+            unit,
+            expected,
+        },
+    })?;
+    if unit.exponents != expected.profile().exponents {
+        let found = describe(unit.exponents);
+        return Err(QuantityError::WrongDimension {
+            text: quoted(),
+            found,
+            expected,
+        });
+    }
+    let value = number.times(&unit);
+    if !value.is_finite() {
+        return Err(QuantityError::TooLarge {
+            text: quoted(),
+            expected,
+        });
+    }
+    if value == 0.0 && !number.is_zero() {
+        return Err(QuantityError::TooSmall {
+            text: quoted(),
+            expected,
+        });
+    }
+    Ok(value)
+}
+
+/// The shortest number that reads back as `value`, with the SI unit: `0.01 m`, `1e-9 1/Pa`.
+///
+/// [`parse`] returns every finite value bit for bit.
+pub fn format_si(value: f64, dimension: Dimension) -> String {
+    let magnitude = value.abs();
+    let unit = dimension.si_unit();
+    if magnitude == 0.0 || (1e-4..1e16).contains(&magnitude) || !value.is_finite() {
+        format!("{value} {unit}")
+    } else {
+        format!("{value:e} {unit}")
+    }
+}
+
+/// A number to be read by people: rounded to `significant_digits` (1 to 17), with an SI prefix
+/// where that is customary: `3.509 µJ`, `365.4 µm`, `53.63 MPa`, `8.44e-3 rad/s`.
+pub fn format_human(value: f64, dimension: Dimension, significant_digits: usize) -> String {
+    let profile = dimension.profile();
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value} {}", profile.si_unit);
+    }
+    let digits = significant_digits.clamp(1, 17);
+    let scientific = format!("{value:.*e}", digits - 1);
+    // Rust writes every finite number as mantissa, e, exponent; the fallback is never needed.
+    let (mantissa, exponent) = scientific.split_once('e').unwrap_or((&scientific, "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let (lowest, highest) = profile.prefixes;
+    let power = (exponent.div_euclid(3) * 3).clamp(lowest, highest);
+    let shift = exponent - power;
+    // Fixed notation from 0.01 to below a million, as in print.
+    if (-2..6).contains(&shift) {
+        let prefix = units::prefix_symbol(power);
+        format!("{} {prefix}{}", shifted(mantissa, shift), profile.si_unit)
+    } else {
+        format!("{scientific} {}", profile.si_unit)
+    }
+}
+
+/// `mantissa` (one digit before the point) times ten to the power `shift`, in fixed notation.
+fn shifted(mantissa: &str, shift: i32) -> String {
+    let (sign, magnitude) = mantissa
+        .strip_prefix('-')
+        .map_or(("", mantissa), |rest| ("-", rest));
+    let digits: String = magnitude.chars().filter(char::is_ascii_digit).collect();
+    let shift_right = usize::try_from(shift.saturating_neg()).unwrap_or(0);
+    let shift_left = usize::try_from(shift).unwrap_or(0);
+    if shift_right > 0 {
+        return format!("{sign}0.{}{digits}", "0".repeat(shift_right - 1));
+    }
+    let whole: String = digits
+        .chars()
+        .chain(std::iter::repeat('0'))
+        .take(shift_left + 1)
+        .collect();
+    let fraction: String = digits.chars().skip(shift_left + 1).collect();
+    let point = if fraction.is_empty() { "" } else { "." };
+    format!("{sign}{whole}{point}{fraction}")
+}
+
+/// A decimal number in two texts, so that a power of ten can be added before it is rounded.
+struct Number {
+    /// Sign, digits and point, in ASCII.
+    mantissa: String,
+    exponent: i64,
+}
+
+impl Number {
+    /// The number at the beginning of a text, and what follows it.
+    fn read(text: &str) -> Option<(Number, &str)> {
+        let (negative, unsigned) = match text.strip_prefix(['-', '\u{2212}']) {
+            Some(rest) => (true, rest),
+            None => (false, text.strip_prefix('+').unwrap_or(text)),
+        };
+        let unsigned = unsigned.trim_start();
+        let end = unsigned
+            .find(|character: char| !character.is_ascii_digit() && character != '.')
+            .unwrap_or(unsigned.len());
+        let (digits, rest) = unsigned.split_at(end);
+        let points = digits.matches('.').count();
+        if points > 1 || digits.len() == points {
+            return None;
+        }
+        let (exponent, rest) = read_exponent(rest);
+        let sign = if negative { "-" } else { "" };
+        Some((
+            Number {
+                mantissa: format!("{sign}{digits}"),
+                exponent,
+            },
+            rest,
+        ))
+    }
+
+    fn is_zero(&self) -> bool {
+        !self
+            .mantissa
+            .contains(|character| matches!(character, '1'..='9'))
+    }
+
+    /// The value in SI units, infinite if too large.
+    fn times(&self, unit: &Unit) -> f64 {
+        let exponent = self
+            .exponent
+            .saturating_add(i64::from(unit.decimal_exponent));
+        // The text is digits with at most one point, and an integer exponent: always a number.
+        let decimal: f64 = format!("{}e{exponent}", self.mantissa)
+            .parse()
+            .unwrap_or(f64::INFINITY);
+        unit.without_powers_of_ten(decimal)
+    }
+}
+
+/// An exponent such as `e-4` at the beginning of a text, zero if there is none.
+fn read_exponent(text: &str) -> (i64, &str) {
+    let Some(after_e) = text.strip_prefix(['e', 'E']) else {
+        return (0, text);
+    };
+    let (negative, unsigned) = match after_e.strip_prefix(['-', '\u{2212}']) {
+        Some(rest) => (true, rest),
+        None => (false, after_e.strip_prefix('+').unwrap_or(after_e)),
+    };
+    let end = unsigned
+        .find(|character: char| !character.is_ascii_digit())
+        .unwrap_or(unsigned.len());
+    let (digits, rest) = unsigned.split_at(end);
+    if digits.is_empty() {
+        return (0, text);
+    }
+    // Beyond eighteen digits any number is infinite or zero, whatever its mantissa.
+    let magnitude = digits.parse().unwrap_or(i64::MAX / 2);
+    (if negative { -magnitude } else { magnitude }, rest)
+}
+
+/// The error for a text that begins with no number.
+fn no_number(text: &str, expected: Dimension) -> QuantityError {
+    let word = text
+        .trim_start_matches(['+', '-', '\u{2212}'])
+        .to_lowercase();
+    let text = text.to_owned();
+    if word.starts_with("inf") || word.starts_with("nan") {
+        QuantityError::NotFinite { text, expected }
+    } else {
+        QuantityError::NotANumber { text, expected }
+    }
+}
+
+/// The unit in the example of a dimension.
+fn common_unit(dimension: Dimension) -> &'static str {
+    let example = dimension.example();
+    example
+        .split_once(' ')
+        .map_or(dimension.si_unit(), |(_, unit)| unit)
+}
+
+/// What a quantity with these exponents is, with its article.
+fn describe(exponents: Exponents) -> String {
+    const INVERSE_TIME: Exponents = Exponents([0, 0, -1, 0, 0]);
+    const MASS: Exponents = Exponents([0, 1, 0, 0, 0]);
+    if let Some(known) = Dimension::ALL
+        .into_iter()
+        .find(|dimension| dimension.profile().exponents == exponents)
+    {
+        return known.to_string();
+    }
+    match exponents {
+        INVERSE_TIME => "an inverse time, which may mean rad/s or Hz".to_owned(),
+        MASS => "a mass".to_owned(),
+        _ => "no quantity that is used here".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use proptest::num::f64 as bits;
+    use proptest::prelude::*;
+    use proptest::test_runner::{Config, TestRunner};
+
+    fn message(text: &str, expected: Dimension) -> String {
+        parse(text, expected).unwrap_err().to_string()
+    }
+
+    /// A few thousand cases, the same at every run.
+    fn deterministic(cases: u32) -> TestRunner {
+        let config = Config {
+            cases,
+            failure_persistence: None,
+            ..Config::default()
+        };
+        let algorithm = config.rng_algorithm;
+        TestRunner::new_with_rng(
+            config,
+            proptest::test_runner::TestRng::deterministic_rng(algorithm),
+        )
+    }
+
+    #[test]
+    fn quantities_read_exactly_what_is_written() {
+        use Dimension::*;
+        for (text, dimension, expected) in [
+            ("10 mm", Length, 0.01),
+            ("10mm", Length, 0.01),
+            ("0.1 mm", Length, 1e-4),
+            (" 5 µm ", Length, 5e-6),
+            ("5 \u{03BC}m", Length, 5e-6),
+            ("5 um", Length, 5e-6),
+            ("5e3 nm", Length, 5e-6),
+            ("3 Å", Length, 3e-10),
+            ("2.5 cm", Length, 0.025),
+            (".5 m", Length, 0.5),
+            ("5. m", Length, 5.0),
+            ("\u{2212}5 N", Force, -5.0),
+            ("-5N", Force, -5.0),
+            ("+1e\u{2212}3 kN", Force, 1.0),
+            ("7 kg m/s^2", Force, 7.0),
+            ("1973 MPa", Stress, 1973e6),
+            ("254.776 MPa", Stress, 254.776e6),
+            ("263.6628 N/mm^2", Stress, 263.6628e6),
+            ("3 mPa", Stress, 3e-3),
+            ("1e-4 1/MPa", Compliance, 1e-10),
+            ("1e-4/MPa", Compliance, 1e-10),
+            ("1e-4 MPa^-1", Compliance, 1e-10),
+            ("1e-4 MPa⁻¹", Compliance, 1e-10),
+            ("0.3 m²/MN", Compliance, 3e-7),
+            ("2 GPa s", Viscosity, 2e9),
+            ("2 GPa·s", Viscosity, 2e9),
+            ("2 GPa*s", Viscosity, 2e9),
+            ("8.93 s", Time, 8.93),
+            ("12 min", Time, 720.0),
+            ("3 h", Time, 10800.0),
+            ("2 d", Time, 172800.0),
+            ("117.96 ms", Time, 0.11796),
+            ("90 deg", Angle, std::f64::consts::FRAC_PI_2),
+            ("180°", Angle, std::f64::consts::PI),
+            ("1.5 rad", Angle, 1.5),
+            ("0.5 rad/s", AngularFrequency, 0.5),
+            ("30 rad/min", AngularFrequency, 0.5),
+            ("180 deg/s", AngularFrequency, std::f64::consts::PI),
+            ("10 Hz", Frequency, 10.0),
+            ("1 kHz", Frequency, 1e3),
+            ("3.509 µJ", Energy, 3.509e-6),
+            ("2 N m", Energy, 2.0),
+            ("4 mm^2", Area, 4e-6),
+            ("4 mm2", Area, 4e-6),
+            ("0 m", Length, 0.0),
+        ] {
+            assert_eq!(parse(text, dimension), Ok(expected), "{text}");
+        }
+    }
+
+    #[test]
+    fn every_prefix_is_the_nearest_double() {
+        for (prefix, power) in [
+            ("f", -15),
+            ("p", -12),
+            ("n", -9),
+            ("µ", -6),
+            ("u", -6),
+            ("m", -3),
+            ("c", -2),
+            ("d", -1),
+            ("", 0),
+            ("da", 1),
+            ("h", 2),
+            ("k", 3),
+            ("M", 6),
+            ("G", 9),
+            ("T", 12),
+        ] {
+            for number in ["1", "0.1", "254.776", "8.93", "123456789.123"] {
+                let nearest: f64 = format!("{number}e{power}").parse().unwrap();
+                for (unit, dimension) in [("m", Dimension::Length), ("Pa", Dimension::Stress)] {
+                    assert_eq!(
+                        parse(&format!("{number} {prefix}{unit}"), dimension),
+                        Ok(nearest)
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_number_without_a_unit_is_told_both_ways_to_write_it() {
+        assert_eq!(
+            message("10", Dimension::Length),
+            "'10' has no unit: write \"10 mm\", or the bare number 10 without quotes for SI (m)"
+        );
+        assert!(message("0.5", Dimension::AngularFrequency).contains("\"0.5 rad/s\""));
+    }
+
+    #[test]
+    fn another_dimension_is_named() {
+        assert_eq!(
+            message("10 N", Dimension::Length),
+            "'10 N' is a force, a length is expected, for example \"10 mm\""
+        );
+        assert!(
+            message("10 Hz", Dimension::AngularFrequency).starts_with("'10 Hz' is a frequency, an")
+        );
+        assert!(message("10 1/s", Dimension::Frequency).contains("rad/s or Hz"));
+        assert!(message("10 rad/s", Dimension::Frequency).contains("an angular frequency"));
+        assert!(message("10 kg", Dimension::Force).contains("a mass"));
+        assert!(message("10 m s", Dimension::Length).contains("no quantity"));
+        assert!(message("5 1", Dimension::Length).contains("no quantity"));
+    }
+
+    #[test]
+    fn an_unknown_unit_gets_the_likeliest_ones() {
+        let suggestions = |text: &str, expected| match parse(text, expected) {
+            Err(QuantityError::UnknownUnit { suggestions, .. }) => suggestions,
+            other => panic!("{text}: {other:?}"),
+        };
+        assert_eq!(suggestions("5 mpa", Dimension::Stress), ["MPa", "mPa"]);
+        assert_eq!(suggestions("5 KN", Dimension::Force), ["kN"]);
+        assert_eq!(suggestions("5 hz", Dimension::Frequency), ["Hz"]);
+        assert_eq!(suggestions("5 Nm", Dimension::Energy)[0], "N m");
+        assert_eq!(suggestions("5 GPas", Dimension::Viscosity)[0], "GPa s");
+        assert_eq!(suggestions("5 seconds", Dimension::Time), ["s"]);
+        assert_eq!(suggestions("5 dge", Dimension::Angle)[0], "deg");
+        assert!(suggestions("5 furlong", Dimension::Length).is_empty());
+        assert_eq!(
+            message("5 mpa", Dimension::Stress),
+            "'5 mpa' has the unknown unit 'mpa' (did you mean \"MPa\" or \"mPa\"?); a stress or modulus is written for example \"1973 MPa\""
+        );
+        assert!(message("5 furlong", Dimension::Length).contains("'furlong'; a length"));
+        // Words before numbers do not confuse the parts of a compound unit.
+        assert!(
+            message("5 rad/S", Dimension::AngularFrequency).contains("'S' (did you mean \"s\"?)")
+        );
+    }
+
+    #[test]
+    fn what_is_no_finite_number_is_refused() {
+        assert!(message("1e400 mm", Dimension::Length).contains("too large"));
+        assert!(message("1e999999999999999999999 mm", Dimension::Length).contains("too large"));
+        assert!(message("1.8e308 min", Dimension::Time).contains("too large"));
+        assert!(message("1e-400 m", Dimension::Length).contains("too small"));
+        assert!(message("inf m", Dimension::Length).contains("finite"));
+        assert!(message("-NaN m", Dimension::Length).contains("finite"));
+        assert_eq!(parse("0e999 m", Dimension::Length), Ok(0.0));
+    }
+
+    #[test]
+    fn broken_texts_are_refused_with_a_reason() {
+        for text in ["", "  ", "m", "mm 10", "1.2.3 m", ".", "- m"] {
+            assert!(
+                message(text, Dimension::Length).contains("number"),
+                "{text}"
+            );
+        }
+        assert!(message("1,5 mm", Dimension::Length).contains("decimal point"));
+        assert!(message("5 1/Pa s", Dimension::Viscosity).contains("two ways"));
+        for text in [
+            "5 m^", "5 m^x", "5 m/", "5 m//s", "5 (m)", "5 m^99", "5 12 m", "5 m^0",
+        ] {
+            assert!(
+                message(text, Dimension::Length).contains("unknown unit"),
+                "{text}"
+            );
+        }
+        // An e without digits is not an exponent but the beginning of a unit.
+        assert!(message("1em", Dimension::Length).contains("unknown unit 'em'"));
+    }
+
+    #[test]
+    fn examples_read_and_si_units_are_what_they_say() {
+        for dimension in Dimension::ALL {
+            assert!(parse(dimension.example(), dimension).is_ok(), "{dimension}");
+            assert_eq!(
+                parse(&format!("1 {}", dimension.si_unit()), dimension),
+                Ok(1.0)
+            );
+        }
+    }
+
+    #[test]
+    fn si_texts_return_every_double_bit_for_bit() {
+        let any = bits::POSITIVE | bits::NEGATIVE | bits::NORMAL | bits::SUBNORMAL | bits::ZERO;
+        let dimension = proptest::sample::select(Dimension::ALL.to_vec());
+        deterministic(20_000)
+            .run(&(any, dimension), |(value, dimension)| {
+                let text = format_si(value, dimension);
+                prop_assert_eq!(
+                    parse(&text, dimension).map(f64::to_bits),
+                    Ok(value.to_bits())
+                );
+                Ok(())
+            })
+            .unwrap();
+        for value in [0.0, -0.0, f64::MAX, f64::MIN_POSITIVE, 5e-324, 1e16, 1e-4] {
+            let read = parse(
+                &format_si(value, Dimension::Compliance),
+                Dimension::Compliance,
+            );
+            assert_eq!(read.map(f64::to_bits), Ok(value.to_bits()));
+        }
+        assert_eq!(format_si(0.01, Dimension::Length), "0.01 m");
+        assert_eq!(format_si(5e-10, Dimension::Compliance), "5e-10 1/Pa");
+    }
+
+    #[test]
+    fn no_text_makes_the_reader_panic() {
+        deterministic(5_000)
+            .run(
+                &("[-+−0-9.eEmMPas/^*· µ°²⁻1]{0,12}|\\PC{0,8}", 0..11usize),
+                |(text, index)| {
+                    if let Ok(value) = parse(&text, Dimension::ALL[index]) {
+                        prop_assert!(value.is_finite());
+                    }
+                    Ok(())
+                },
+            )
+            .unwrap();
+    }
+
+    #[test]
+    fn people_read_prefixes() {
+        use Dimension::*;
+        for (value, dimension, digits, expected) in [
+            (3.5090e-6, Energy, 4, "3.509 µJ"),
+            (3.65397e-4, Length, 4, "365.4 µm"),
+            (5.36324e7, Stress, 4, "53.63 MPa"),
+            (0.00844, AngularFrequency, 3, "8.44e-3 rad/s"),
+            (0.0363, AngularFrequency, 3, "0.0363 rad/s"),
+            (900.0, AngularFrequency, 3, "900 rad/s"),
+            (1.25, Angle, 5, "1.2500 rad"),
+            (133.8704874, Time, 4, "133.9 s"),
+            (86400.0, Time, 3, "86400 s"),
+            (2.5e-3, Time, 2, "2.5 ms"),
+            (10.0, Force, 3, "10.0 N"),
+            (-5e-3, Force, 2, "-5.0 mN"),
+            (999.96e-6, Length, 4, "1.000 mm"),
+            (2e9, Viscosity, 1, "2 GPa s"),
+            (5.07e-10, Compliance, 3, "5.07e-10 1/Pa"),
+            (1e20, Stress, 3, "1.00e20 Pa"),
+            (1e-20, Length, 3, "1.00e-20 m"),
+            (365.4e-6, Length, 2, "370 µm"),
+            (0.0, Energy, 4, "0 J"),
+        ] {
+            assert_eq!(format_human(value, dimension, digits), expected);
+        }
+    }
+
+    #[test]
+    fn what_people_read_reads_back_to_the_digits_shown() {
+        let dimension = proptest::sample::select(Dimension::ALL.to_vec());
+        let magnitude = (-30.0..30.0f64).prop_map(|exponent| 10f64.powf(exponent));
+        deterministic(5_000)
+            .run(
+                &(magnitude, dimension, 1..=17usize),
+                |(value, dimension, digits)| {
+                    let text = format_human(-value, dimension, digits);
+                    let read = parse(&text, dimension)
+                        .map_err(|error| TestCaseError::fail(error.to_string()))?;
+                    // Half a unit of the last digit shown, and the rounding of the number read.
+                    let half_unit = 0.5 * 10f64.powi(1 - digits as i32) + 4e-16;
+                    prop_assert!(
+                        (read / -value - 1.0).abs() <= half_unit,
+                        "{} for {}",
+                        text,
+                        value
+                    );
+                    Ok(())
+                },
+            )
+            .unwrap();
+        assert_relative_eq!(
+            parse(
+                &format_human(1.0 / 3.0, Dimension::Length, 17),
+                Dimension::Length
+            )
+            .unwrap(),
+            1.0 / 3.0
+        );
+    }
+}

@@ -1,0 +1,363 @@
+//! Units: their symbols and prefixes, and the reading of products and quotients of them.
+
+use std::f64::consts::PI;
+
+/// Exponents of metre, kilogram, second, radian and cycle.
+///
+/// Radian and cycle are kept apart from a pure number, so that rad/s and Hz are not confused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Exponents(pub(super) [i32; 5]);
+
+impl Exponents {
+    const NONE: Exponents = Exponents([0; 5]);
+
+    fn plus(self, other: Exponents, times: i32) -> Exponents {
+        let mut sum = self.0;
+        for (left, right) in sum.iter_mut().zip(other.0) {
+            *left += right * times;
+        }
+        Exponents(sum)
+    }
+}
+
+/// A unit in terms of SI: `10^decimal_exponent * (seconds ratio) * (pi/180)^degrees`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Unit {
+    pub(super) exponents: Exponents,
+    pub(super) decimal_exponent: i32,
+    /// Whole numbers by which to multiply and to divide: 60, 3600 and 86400 and their products.
+    multiplier: f64,
+    divisor: f64,
+    degrees: i32,
+}
+
+/// Why a text is no unit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum UnitProblem {
+    /// A symbol that does not exist.
+    Unknown(String),
+    /// A product after a division sign.
+    Ambiguous,
+}
+
+/// A unit symbol that stands for itself.
+struct Symbol {
+    text: &'static str,
+    exponents: Exponents,
+    decimal_exponent: i32,
+    multiplier: f64,
+    degrees: i32,
+    takes_prefix: bool,
+}
+
+const fn prefixable(text: &'static str, exponents: [i32; 5], decimal_exponent: i32) -> Symbol {
+    let exponents = Exponents(exponents);
+    Symbol {
+        text,
+        exponents,
+        decimal_exponent,
+        multiplier: 1.0,
+        degrees: 0,
+        takes_prefix: true,
+    }
+}
+
+const fn time(text: &'static str, seconds: f64) -> Symbol {
+    let exponents = Exponents([0, 0, 1, 0, 0]);
+    Symbol {
+        text,
+        exponents,
+        decimal_exponent: 0,
+        multiplier: seconds,
+        degrees: 0,
+        takes_prefix: false,
+    }
+}
+
+const fn degree(text: &'static str) -> Symbol {
+    let exponents = Exponents([0, 0, 0, 1, 0]);
+    Symbol {
+        text,
+        exponents,
+        decimal_exponent: 0,
+        multiplier: 1.0,
+        degrees: 1,
+        takes_prefix: false,
+    }
+}
+
+const SYMBOLS: [Symbol; 14] = [
+    prefixable("m", [1, 0, 0, 0, 0], 0),
+    prefixable("N", [1, 1, -2, 0, 0], 0),
+    prefixable("Pa", [-1, 1, -2, 0, 0], 0),
+    prefixable("s", [0, 0, 1, 0, 0], 0),
+    prefixable("J", [2, 1, -2, 0, 0], 0),
+    prefixable("Hz", [0, 0, -1, 0, 1], 0),
+    prefixable("rad", [0, 0, 0, 1, 0], 0),
+    prefixable("g", [0, 1, 0, 0, 0], -3),
+    Symbol {
+        text: "Å",
+        exponents: Exponents([1, 0, 0, 0, 0]),
+        decimal_exponent: -10,
+        multiplier: 1.0,
+        degrees: 0,
+        takes_prefix: false,
+    },
+    time("min", 60.0),
+    time("h", 3600.0),
+    time("d", 86400.0),
+    degree("deg"),
+    degree("°"),
+];
+
+/// SI prefixes from femto to tera; the first of two spellings is the one that is written.
+const PREFIXES: [(&str, i32); 15] = [
+    ("f", -15),
+    ("p", -12),
+    ("n", -9),
+    ("µ", -6),
+    ("u", -6),
+    ("m", -3),
+    ("c", -2),
+    ("d", -1),
+    ("", 0),
+    ("da", 1),
+    ("h", 2),
+    ("k", 3),
+    ("M", 6),
+    ("G", 9),
+    ("T", 12),
+];
+
+/// Words that people write for symbols, without a plural s.
+const WORDS: [(&str, &str); 18] = [
+    ("meter", "m"),
+    ("metre", "m"),
+    ("micron", "µm"),
+    ("millimeter", "mm"),
+    ("millimetre", "mm"),
+    ("newton", "N"),
+    ("pascal", "Pa"),
+    ("sec", "s"),
+    ("second", "s"),
+    ("minute", "min"),
+    ("hr", "h"),
+    ("hour", "h"),
+    ("day", "d"),
+    ("joule", "J"),
+    ("hertz", "Hz"),
+    ("radian", "rad"),
+    ("degree", "deg"),
+    ("angstrom", "Å"),
+];
+
+/// The prefix of a power of ten, empty for one that has none.
+pub(super) fn prefix_symbol(power: i32) -> &'static str {
+    PREFIXES
+        .iter()
+        .find(|(_, exponent)| *exponent == power)
+        .map_or("", |(symbol, _)| symbol)
+}
+
+impl Unit {
+    const ONE: Unit = Unit {
+        exponents: Exponents::NONE,
+        decimal_exponent: 0,
+        multiplier: 1.0,
+        divisor: 1.0,
+        degrees: 0,
+    };
+
+    /// Reads a unit such as `mm`, `1/MPa`, `GPa s`, `rad/s`, `N/mm^2` or `Pa⁻¹`.
+    pub(super) fn read(text: &str) -> Result<Unit, UnitProblem> {
+        let plain = plain_spelling(text);
+        let mut rest = plain.trim();
+        let mut unit = Unit::ONE;
+        let (mut divided, mut factors_below) = (false, 0);
+        while !rest.is_empty() {
+            if let Some(after) = rest.strip_prefix('/') {
+                (divided, factors_below) = (true, 0);
+                rest = after.trim_start();
+            } else if let Some(after) = rest.strip_prefix('*') {
+                rest = after.trim_start();
+            }
+            let Some((factor, power, after)) = read_factor(rest)? else {
+                return Err(UnitProblem::Unknown(text.trim().to_owned()));
+            };
+            factors_below += i32::from(divided);
+            if factors_below > 1 {
+                return Err(UnitProblem::Ambiguous);
+            }
+            unit = unit.times(&factor, if divided { -power } else { power });
+            rest = after.trim_start();
+        }
+        Ok(unit)
+    }
+
+    /// One symbol with or without prefix.
+    fn from_symbol(text: &str) -> Option<Unit> {
+        let exact = SYMBOLS
+            .iter()
+            .find(|symbol| symbol.text == text)
+            .map(|symbol| (symbol, 0));
+        let (symbol, power) = exact.or_else(|| {
+            SYMBOLS
+                .iter()
+                .filter(|symbol| symbol.takes_prefix)
+                .find_map(|symbol| {
+                    let prefix = text.strip_suffix(symbol.text)?;
+                    let known = PREFIXES.iter().find(|(spelling, _)| *spelling == prefix)?;
+                    Some((symbol, known.1))
+                })
+        })?;
+        Some(Unit {
+            exponents: symbol.exponents,
+            decimal_exponent: symbol.decimal_exponent + power,
+            multiplier: symbol.multiplier,
+            divisor: 1.0,
+            degrees: symbol.degrees,
+        })
+    }
+
+    fn times(self, other: &Unit, power: i32) -> Unit {
+        let (multiplier, divisor) = if power < 0 {
+            (other.divisor, other.multiplier)
+        } else {
+            (other.multiplier, other.divisor)
+        };
+        Unit {
+            exponents: self.exponents.plus(other.exponents, power),
+            decimal_exponent: self.decimal_exponent + other.decimal_exponent * power,
+            multiplier: self.multiplier * multiplier.powi(power.abs()),
+            divisor: self.divisor * divisor.powi(power.abs()),
+            degrees: self.degrees + other.degrees * power,
+        }
+    }
+
+    /// A number to which the power of ten has been applied, times the rest of the unit.
+    pub(super) fn without_powers_of_ten(&self, decimal: f64) -> f64 {
+        let mut value = decimal * self.multiplier / self.divisor;
+        // Dividing first makes 45, 90 and 180 degrees exact fractions of pi.
+        for _ in 0..self.degrees {
+            value = value / 180.0 * PI;
+        }
+        for _ in self.degrees..0 {
+            value = value / PI * 180.0;
+        }
+        value
+    }
+}
+
+/// One symbol with its exponent (or the number one) at the beginning of a text, and what follows.
+fn read_factor(text: &str) -> Result<Option<(Unit, i32, &str)>, UnitProblem> {
+    if let Some(after) = text.strip_prefix('1')
+        && !after.starts_with(|character: char| character.is_ascii_digit() || character == '.')
+    {
+        return Ok(Some((Unit::ONE, 1, after)));
+    }
+    let is_symbol = |character: char| character.is_alphabetic() || character == '°';
+    let end = text
+        .find(|character| !is_symbol(character))
+        .unwrap_or(text.len());
+    let (symbol, after) = text.split_at(end);
+    if symbol.is_empty() {
+        return Ok(None);
+    }
+    let unit = Unit::from_symbol(symbol).ok_or_else(|| UnitProblem::Unknown(symbol.to_owned()))?;
+    let Some((power, rest)) = read_power(after) else {
+        return Ok(None);
+    };
+    Ok(Some((unit, power, rest)))
+}
+
+/// The exponent after a symbol, one if there is none; `None` if it is broken or beyond one digit.
+fn read_power(text: &str) -> Option<(i32, &str)> {
+    let (caret, after) = text
+        .strip_prefix('^')
+        .map_or((false, text), |after| (true, after));
+    let (sign, unsigned) = match after.strip_prefix('-') {
+        Some(unsigned) => (-1, unsigned),
+        None => (1, after),
+    };
+    let end = unsigned
+        .find(|character: char| !character.is_ascii_digit())
+        .unwrap_or(unsigned.len());
+    let (digits, rest) = unsigned.split_at(end);
+    if digits.is_empty() {
+        return (!caret && sign == 1).then_some((1, text));
+    }
+    let power = digits
+        .parse::<i32>()
+        .ok()
+        .filter(|power| (1..=9).contains(power))?;
+    Some((sign * power, rest))
+}
+
+/// One spelling for everything that has several: micro, ångström, minus, dots and superscripts.
+fn plain_spelling(text: &str) -> String {
+    let mut plain = String::with_capacity(text.len());
+    let mut raised = false;
+    for character in text.chars() {
+        let digit = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"
+            .chars()
+            .position(|superscript| superscript == character);
+        if digit.is_some() && !raised {
+            plain.push('^');
+        }
+        raised = digit.is_some();
+        plain.push(match (digit, character) {
+            (Some(position), _) => char::from(b"0123456789-"[position]),
+            (None, '\u{03BC}') => 'µ',
+            (None, '\u{212B}') => 'Å',
+            (None, '\u{2212}') => '-',
+            (None, '·' | '⋅' | '×') => '*',
+            (None, other) => other,
+        });
+    }
+    plain
+}
+
+/// At most three units that look like an unknown one; those of the expected dimension first.
+pub(super) fn suggestions(unknown: &str, expected: Exponents) -> Vec<String> {
+    let lower = unknown.to_lowercase();
+    let singular = lower.strip_suffix('s').unwrap_or(&lower);
+    let word = WORDS
+        .iter()
+        .find(|(word, _)| *word == singular || *word == lower);
+    if let Some((_, symbol)) = word {
+        return vec![(*symbol).to_owned()];
+    }
+    let mut ranked: Vec<(bool, bool, String)> = Vec::new();
+    for symbol in &SYMBOLS {
+        let prefixes = PREFIXES
+            .iter()
+            .filter(|(prefix, _)| symbol.takes_prefix || prefix.is_empty());
+        for (prefix, _) in prefixes.filter(|(prefix, _)| *prefix != "u") {
+            let candidate = format!("{prefix}{}", symbol.text);
+            let distance = strsim::damerau_levenshtein(&candidate.to_lowercase(), &lower);
+            // One slip in three letters or more; in shorter words only the case may differ.
+            if distance <= usize::from(lower.chars().count() >= 3) {
+                ranked.push((distance > 0, symbol.exponents != expected, candidate));
+            }
+        }
+    }
+    ranked.sort();
+    // Where only the case is wrong, nothing else was meant.
+    if ranked.first().is_some_and(|(slip, ..)| !slip) {
+        ranked.retain(|(slip, ..)| !slip);
+    }
+    let run_together = split_product(unknown, expected).into_iter();
+    run_together
+        .chain(ranked.into_iter().map(|(.., candidate)| candidate))
+        .take(3)
+        .collect()
+}
+
+/// `N m` for `Nm`: two symbols run together whose product is what was expected.
+fn split_product(unknown: &str, expected: Exponents) -> Option<String> {
+    unknown.char_indices().skip(1).find_map(|(index, _)| {
+        let (left, right) = unknown.split_at(index);
+        let product = Unit::from_symbol(left)?.times(&Unit::from_symbol(right)?, 1);
+        (product.exponents == expected).then(|| format!("{left} {right}"))
+    })
+}
