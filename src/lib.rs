@@ -46,5 +46,7 @@
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
 //! bit for bit.
 
+pub mod drive;
+pub mod indenter;
 pub mod material;
 pub mod quantity;

@@ -1,0 +1,66 @@
+//! The sphere, in the small-slope (paraboloid) form on which Hertz contact rests: g = r^2 / (2 R).
+
+use super::{Axisymmetric, Indenter, IndenterError, Parameter, positive_length};
+use crate::quantity::Dimension;
+
+/// A rigid sphere of radius R, as a paraboloid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sphere {
+    radius_m: f64,
+}
+
+impl Sphere {
+    /// A sphere of this radius (m).
+    pub fn new(radius_m: f64) -> Result<Self, IndenterError> {
+        Ok(Self {
+            radius_m: positive_length("radius", radius_m)?,
+        })
+    }
+
+    /// Radius R (m).
+    pub fn radius_m(&self) -> f64 {
+        self.radius_m
+    }
+}
+
+impl Indenter for Sphere {
+    fn shape(&self) -> &'static str {
+        "sphere"
+    }
+
+    fn parameters(&self) -> Vec<Parameter> {
+        vec![Parameter {
+            key: "radius",
+            value: self.radius_m,
+            dimension: Dimension::Length,
+        }]
+    }
+
+    fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
+        (x_m * x_m + y_m * y_m) / (2.0 * self.radius_m)
+    }
+
+    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+        Some(self)
+    }
+
+    /// Hertz: a^3 = (3/4) W R C.
+    fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
+        (0.75 * load_n * self.radius_m * compliance_per_pa).cbrt()
+    }
+}
+
+impl Axisymmetric for Sphere {
+    /// G(x) = x^2 / R.
+    fn transformed_gap_m(&self, x_m: f64) -> f64 {
+        x_m * x_m / self.radius_m
+    }
+
+    fn contact_limit_m(&self) -> Option<f64> {
+        None
+    }
+
+    fn has_bounded_pressure(&self) -> bool {
+        true
+    }
+}
