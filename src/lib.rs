@@ -46,7 +46,9 @@
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
 //! bit for bit.
 
+pub mod contact;
 pub mod drive;
 pub mod indenter;
 pub mod material;
 pub mod quantity;
+pub mod reference;

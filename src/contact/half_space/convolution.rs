@@ -1,0 +1,744 @@
+//! The half-space operator on a grid: displacement of every cell by the pressure on all cells, in O(N log N).
+//!
+//! `displacement = B * pressure` is a discrete convolution with the influence coefficients of [`super::influence`]. It is
+//! done by Fourier transforms on a grid padded with zeros to at least `2n - 1` cells per direction, which keeps the
+//! periodic images apart and so is exactly free space, to rounding (DC-FFT: Liu, Wang & Liu, *Wear* 243 (2000) 101).
+//!
+//! What makes it fast: only rows that carry load are transformed, at half length and without touching their padding
+//! ([`padded_row`]); each block of columns goes forward, through the multiplication and back while it is in cache; the
+//! spectrum of `B` is real because `B` is even, is stored for half the frequencies, and carries the scale of the inverse
+//! transform; only the rows of the grid proper are transformed back.
+//!
+//! A [`Convolution`] is immutable and shared between threads, a [`Scratch`] belongs to one thread. A result depends on
+//! the pressure alone, never on what the scratch held before.
+
+mod kernel_spectrum;
+mod length;
+mod padded_row;
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use num_complex::Complex;
+use realfft::FftError;
+use rustfft::{Fft, FftPlanner};
+use thiserror::Error;
+
+use super::grid::Grid;
+use super::influence::Influence;
+use length::{COLUMN_COST_OF_ODD_FACTOR, conflict_free_stride, fast_length};
+use padded_row::PaddedRow;
+
+const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
+
+/// Side of the tiles in which rows are turned into columns: four complex numbers fill a cache line.
+const TILE: usize = 4;
+/// Columns transformed together: one tile. Wider blocks were measured to be no faster, and need more cache.
+const BLOCK_COLUMNS: usize = TILE;
+
+/// Why a convolution cannot be set up or applied.
+#[derive(Debug, Error)]
+pub enum ConvolutionError {
+    /// The pressure does not have one value per cell.
+    #[error(
+        "cannot apply the half-space operator to {found} pressures: give one per cell of the grid, that is {expected}"
+    )]
+    PressureLength {
+        /// Values given.
+        found: usize,
+        /// Cells of the grid.
+        expected: usize,
+    },
+    /// The displacement does not have one value per cell.
+    #[error(
+        "cannot write the displacement into {found} values: give one per cell of the grid, that is {expected}"
+    )]
+    DisplacementLength {
+        /// Values given.
+        found: usize,
+        /// Cells of the grid.
+        expected: usize,
+    },
+    /// The scratch was made for a grid of another shape.
+    #[error(
+        "cannot use scratch space made for another grid: take it from `Convolution::scratch` of the convolution in use"
+    )]
+    ForeignScratch,
+    /// A Fourier transform refused the buffers planned for it.
+    #[error(
+        "cannot transform a row of the padded grid with the buffers planned for it: this is a defect of the program, \
+         please report it with the number of cells"
+    )]
+    Transform(#[from] FftError),
+}
+
+/// Sizes of the padded grid and of the buffers on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Shape {
+    cells_x: usize,
+    cells_y: usize,
+    /// Frequencies kept per row, that is columns.
+    columns: usize,
+    /// Length of a padded column.
+    column_length: usize,
+    /// Elements from one row of the spectra to the next.
+    row_stride: usize,
+    /// Elements from one column of a block to the next.
+    column_stride: usize,
+    /// Rows of the spectra: those of the grid, filled up to whole tiles.
+    rows: usize,
+}
+
+impl Shape {
+    fn new(grid: &Grid, columns: usize) -> Self {
+        let rows = grid.cells_y().next_multiple_of(TILE);
+        let column_length = fast_length(2 * grid.cells_y() - 1, COLUMN_COST_OF_ODD_FACTOR);
+        Self {
+            cells_x: grid.cells_x(),
+            cells_y: grid.cells_y(),
+            columns,
+            column_length,
+            row_stride: conflict_free_stride(columns.next_multiple_of(BLOCK_COLUMNS)),
+            column_stride: conflict_free_stride(column_length.max(rows)),
+            rows,
+        }
+    }
+
+    fn cells(&self) -> usize {
+        self.cells_x * self.cells_y
+    }
+}
+
+/// The half-space operator of one grid: plans and spectrum, to be built once and shared.
+pub struct Convolution {
+    grid: Grid,
+    shape: Shape,
+    row: PaddedRow,
+    column_forward: Arc<dyn Fft<f64>>,
+    column_inverse: Arc<dyn Fft<f64>>,
+    /// Spectrum of the influence coefficients, `column_length / 2 + 1` values per column.
+    spectrum: Vec<f64>,
+}
+
+/// Work space of one thread for one shape of grid; from [`Convolution::scratch`].
+#[derive(Clone)]
+pub struct Scratch {
+    shape: Shape,
+    /// The transformed rows, row by row.
+    spectra: Vec<Complex<f64>>,
+    /// The columns being transformed, column by column.
+    block: Vec<Complex<f64>>,
+    /// One padded row.
+    real: Vec<f64>,
+    /// What the transforms themselves ask for.
+    work: Vec<Complex<f64>>,
+}
+
+impl Convolution {
+    /// Plans the transforms of this grid and computes the spectrum of its influence coefficients. Takes about as long as
+    /// five applications.
+    ///
+    /// # Errors
+    /// [`ConvolutionError::Transform`] if a planned transform refuses its own buffers, which would be a defect.
+    pub fn new(grid: Grid) -> Result<Self, ConvolutionError> {
+        let row = PaddedRow::new(grid.cells_x());
+        let shape = Shape::new(&grid, row.bins());
+        let mut planner = FftPlanner::new();
+        let spectrum = kernel_spectrum::columns(&Influence::new(&grid), &row, shape.column_length)?;
+        Ok(Self {
+            grid,
+            shape,
+            column_forward: planner.plan_fft_forward(shape.column_length),
+            column_inverse: planner.plan_fft_inverse(shape.column_length),
+            row,
+            spectrum,
+        })
+    }
+
+    /// The grid this operator belongs to.
+    pub fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Cells per row and per column of the padded grid on which the transforms run.
+    pub fn padded_cells(&self) -> (usize, usize) {
+        (self.row.padded_length(), self.shape.column_length)
+    }
+
+    /// Work space for one thread.
+    pub fn scratch(&self) -> Scratch {
+        let shape = self.shape;
+        let work = self
+            .row
+            .work_length()
+            .max(self.column_forward.get_inplace_scratch_len())
+            .max(self.column_inverse.get_inplace_scratch_len());
+        Scratch {
+            shape,
+            spectra: vec![ZERO; shape.rows * shape.row_stride],
+            block: vec![ZERO; BLOCK_COLUMNS * shape.column_stride],
+            real: vec![0.0; self.row.buffer_length()],
+            work: vec![ZERO; work],
+        }
+    }
+
+    /// Displacement of every cell's centre, in m per 1/Pa of contact compliance, by `pressure` (Pa), both row by row
+    /// over [`Convolution::grid`]. Allocates nothing. Rows without load above and below the loaded ones cost nothing.
+    ///
+    /// The rounding error is a few units in the last place of the largest displacement. On one machine the result is the
+    /// same to the last bit for the same pressure; another processor may round differently.
+    ///
+    /// # Errors
+    /// [`ConvolutionError`] if a slice does not have one value per cell or the scratch belongs to another shape of grid.
+    /// `displacement` is then untouched.
+    pub fn apply(
+        &self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+        scratch: &mut Scratch,
+    ) -> Result<(), ConvolutionError> {
+        self.check(pressure, displacement, scratch)?;
+        let Some(loaded) = loaded_rows(pressure, self.shape.cells_x) else {
+            displacement.fill(0.0);
+            return Ok(());
+        };
+        self.transform_rows(pressure, loaded.clone(), scratch)?;
+        self.convolve_columns(loaded, scratch);
+        self.recover_rows(displacement, scratch)
+    }
+
+    fn check(
+        &self,
+        pressure: &[f64],
+        displacement: &[f64],
+        scratch: &Scratch,
+    ) -> Result<(), ConvolutionError> {
+        let expected = self.shape.cells();
+        if pressure.len() != expected {
+            let found = pressure.len();
+            return Err(ConvolutionError::PressureLength { found, expected });
+        }
+        if displacement.len() != expected {
+            let found = displacement.len();
+            return Err(ConvolutionError::DisplacementLength { found, expected });
+        }
+        if scratch.shape != self.shape {
+            return Err(ConvolutionError::ForeignScratch);
+        }
+        Ok(())
+    }
+
+    /// Transforms the loaded rows of the pressure into the spectra.
+    fn transform_rows(
+        &self,
+        pressure: &[f64],
+        loaded: Range<usize>,
+        scratch: &mut Scratch,
+    ) -> Result<(), ConvolutionError> {
+        let rows = pressure.chunks_exact(self.shape.cells_x);
+        let spectra = scratch.spectra.chunks_exact_mut(self.shape.row_stride);
+        for (row, bins) in rows.zip(spectra).take(loaded.end).skip(loaded.start) {
+            let bins = &mut bins[..self.shape.columns];
+            self.row
+                .forward(row, bins, &mut scratch.real, &mut scratch.work)?;
+        }
+        Ok(())
+    }
+
+    /// Multiplies the two-dimensional spectrum by that of the influence coefficients, block by block of columns: the
+    /// spectra enter with the loaded rows only and leave with all rows of the grid.
+    fn convolve_columns(&self, loaded: Range<usize>, scratch: &mut Scratch) {
+        let shape = &self.shape;
+        let half_length = shape.column_length / 2 + 1;
+        let (spectra, block) = (&mut scratch.spectra[..], &mut scratch.block[..]);
+        let kernels = self.spectrum.chunks(BLOCK_COLUMNS * half_length);
+        let first_tile = loaded.start / TILE * TILE;
+        for (first, kernels) in (0..).step_by(BLOCK_COLUMNS).zip(kernels) {
+            for row in (first_tile..loaded.end).step_by(TILE) {
+                let at = row * shape.row_stride + first;
+                transpose_tile(
+                    spectra,
+                    at,
+                    shape.row_stride,
+                    block,
+                    row,
+                    shape.column_stride,
+                );
+            }
+            let columns = block.chunks_exact_mut(shape.column_stride);
+            for (column, kernel) in columns.zip(kernels.chunks_exact(half_length)) {
+                let column = &mut column[..shape.column_length];
+                column[..loaded.start].fill(ZERO);
+                column[loaded.end..].fill(ZERO);
+                self.column_forward
+                    .process_with_scratch(column, &mut scratch.work);
+                multiply_by_even(column, kernel);
+                self.column_inverse
+                    .process_with_scratch(column, &mut scratch.work);
+            }
+            for row in (0..shape.rows).step_by(TILE) {
+                let at = row * shape.row_stride + first;
+                transpose_tile(
+                    block,
+                    row,
+                    shape.column_stride,
+                    spectra,
+                    at,
+                    shape.row_stride,
+                );
+            }
+        }
+    }
+
+    /// Transforms the rows of the grid back into the displacement.
+    fn recover_rows(
+        &self,
+        displacement: &mut [f64],
+        scratch: &mut Scratch,
+    ) -> Result<(), ConvolutionError> {
+        let rows = displacement.chunks_exact_mut(self.shape.cells_x);
+        let spectra = scratch.spectra.chunks_exact_mut(self.shape.row_stride);
+        for (row, bins) in rows.zip(spectra) {
+            let bins = &mut bins[..self.shape.columns];
+            self.row
+                .inverse(bins, row, &mut scratch.real, &mut scratch.work)?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Debug for Convolution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Convolution")
+            .field("grid", &self.grid)
+            .field("padded_cells", &self.padded_cells())
+            .finish_non_exhaustive()
+    }
+}
+
+impl fmt::Debug for Scratch {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Scratch")
+            .field("shape", &self.shape)
+            .finish_non_exhaustive()
+    }
+}
+
+/// First to last row with a value other than zero; `None` if there is none. NaN counts as a value, so it is not lost.
+fn loaded_rows(pressure: &[f64], cells_x: usize) -> Option<Range<usize>> {
+    let loaded = |row: &[f64]| row.iter().any(|&value| value != 0.0);
+    let first = pressure.chunks_exact(cells_x).position(loaded)?;
+    let last = pressure.chunks_exact(cells_x).rposition(loaded)?;
+    Some(first..last + 1)
+}
+
+/// Copies the tile at `from[at]`, whose lines lie `stride` apart, transposed to `to[to_at]`. Whole tiles, because writing
+/// full cache lines is what keeps the transposition cheap.
+#[inline(always)]
+fn transpose_tile(
+    from: &[Complex<f64>],
+    at: usize,
+    stride: usize,
+    to: &mut [Complex<f64>],
+    to_at: usize,
+    to_stride: usize,
+) {
+    let mut tile = [[ZERO; TILE]; TILE];
+    for (line, values) in tile.iter_mut().enumerate() {
+        let start = at + line * stride;
+        values.copy_from_slice(&from[start..start + TILE]);
+    }
+    let transposed: [[Complex<f64>; TILE]; TILE] =
+        std::array::from_fn(|line| std::array::from_fn(|k| tile[k][line]));
+    for (line, values) in transposed.iter().enumerate() {
+        let start = to_at + line * to_stride;
+        to[start..start + TILE].copy_from_slice(values);
+    }
+}
+
+/// Multiplies frequency `k` and its mirror image `length - k` by `even[k]`.
+fn multiply_by_even(column: &mut [Complex<f64>], even: &[f64]) {
+    let (Some((zero, others)), Some((even_zero, even))) =
+        (column.split_first_mut(), even.split_first())
+    else {
+        return;
+    };
+    *zero *= even_zero;
+    let pairs = others.len() / 2;
+    let (lower, upper) = others.split_at_mut(pairs);
+    let mirrored = upper.iter_mut().rev();
+    for ((a, b), factor) in lower.iter_mut().zip(mirrored).zip(even) {
+        *a *= factor;
+        *b *= factor;
+    }
+    // An even length has one frequency that is its own mirror image; `upper` is then one longer than `lower`.
+    if upper.len() > pairs
+        && let (Some(middle), Some(factor)) = (upper.first_mut(), even.get(pairs))
+    {
+        *middle *= factor;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::super::influence::rectangle_displacement_m;
+    use super::*;
+
+    /// Odd, even, prime, square, flat and tall grids, with square and oblong cells.
+    const SHAPES: [(usize, usize, f64, f64); 10] = [
+        (1, 1, 1.0, 1.0),
+        (2, 3, 1.0, 1.0),
+        (1, 9, 0.5, 1.0),
+        (9, 1, 0.5, 1.0),
+        (7, 7, 1.0, 1.0),
+        (8, 8, 1.0e-6, 1.0e-6),
+        (13, 32, 1.0, 1.7),
+        (31, 17, 3.0e-3, 1.0e-3),
+        (64, 48, 1.0, 1.0),
+        (61, 67, 1.0, 0.9),
+    ];
+
+    fn convolution(
+        (cells_x, cells_y, spacing_x, spacing_y): (usize, usize, f64, f64),
+    ) -> Convolution {
+        Convolution::new(Grid::new(cells_x, cells_y, spacing_x, spacing_y).unwrap()).unwrap()
+    }
+
+    fn displacement(convolution: &Convolution, pressure: &[f64]) -> Vec<f64> {
+        let mut displacement = vec![f64::NAN; pressure.len()];
+        convolution
+            .apply(pressure, &mut displacement, &mut convolution.scratch())
+            .unwrap();
+        displacement
+    }
+
+    /// Reproducible values in [-1, 1) (linear congruential generator of Knuth's MMIX).
+    fn random(count: usize, seed: u64) -> Vec<f64> {
+        let mut state = seed;
+        (0..count)
+            .map(|_| {
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1_442_695_040_888_963_407);
+                (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+            })
+            .collect()
+    }
+
+    fn dot(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(a, b)| a * b).sum()
+    }
+
+    fn norm(a: &[f64]) -> f64 {
+        dot(a, a).sqrt()
+    }
+
+    fn bits(values: &[f64]) -> Vec<u64> {
+        values.iter().map(|value| value.to_bits()).collect()
+    }
+
+    #[test]
+    fn a_loaded_cell_moves_every_cell_by_its_influence_coefficient() {
+        for shape in SHAPES {
+            let convolution = convolution(shape);
+            let grid = *convolution.grid();
+            let influence = Influence::new(&grid);
+            let cells = grid.cells();
+            for loaded in [0, cells / 2, cells - 1] {
+                let mut pressure = vec![0.0; cells];
+                pressure[loaded] = 1.0;
+                let found = displacement(&convolution, &pressure);
+                let (x, y) = (loaded % grid.cells_x(), loaded / grid.cells_x());
+                // The rounding of the transforms is relative to the largest displacement, that of the cell itself.
+                let tolerance = 8.0 * f64::EPSILON * influence.coefficient_m(0, 0);
+                for (index, value) in found.iter().enumerate() {
+                    let offset_x = x.abs_diff(index % grid.cells_x());
+                    let offset_y = y.abs_diff(index / grid.cells_x());
+                    let expected = influence.coefficient_m(offset_x, offset_y);
+                    assert!(
+                        (value - expected).abs() < tolerance,
+                        "{shape:?}, {loaded}, {index}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn far_from_a_loaded_cell_the_surface_moves_as_under_a_point_load() {
+        let convolution = convolution((257, 129, 1.0, 1.0));
+        let grid = *convolution.grid();
+        let mut pressure = vec![0.0; grid.cells()];
+        let origin = grid.cells() / 2;
+        pressure[origin] = 1.0;
+        let found = displacement(&convolution, &pressure);
+        for (index, value) in found.iter().enumerate() {
+            let (x, y) = grid.center(index);
+            let r = x.hypot(y);
+            if r >= 8.0 {
+                let point_load = grid.cell_area_m2() / (PI * r);
+                // Multipole expansion: 1/(24 r^2) and, for r >= 8, under 1 % of that from the next term.
+                assert!((value / point_load - 1.0) * r * r < 1.01 / 24.0, "{x}, {y}");
+                assert!((value / point_load - 1.0) * r * r > 0.99 / 24.0, "{x}, {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_uniform_pressure_moves_the_surface_as_under_one_rectangle() {
+        for shape in [
+            (7, 7, 1.0, 1.0),
+            (31, 17, 3.0e-3, 1.0e-3),
+            (61, 67, 1.0, 0.9),
+            (255, 5, 1.0, 1.0),
+        ] {
+            let convolution = convolution(shape);
+            let grid = *convolution.grid();
+            let found = displacement(&convolution, &vec![1.0; grid.cells()]);
+            let half_x = 0.5 * grid.cells_x() as f64 * grid.spacing_x_m();
+            let half_y = 0.5 * grid.cells_y() as f64 * grid.spacing_y_m();
+            for index in [grid.cells() / 2, 0, grid.cells_x() - 1, grid.cells() / 3] {
+                let (x, y) = grid.center(index);
+                let expected = rectangle_displacement_m(x, y, half_x, half_y);
+                // Rounding of the transforms, a few units in the last place of the largest displacement, which is no
+                // more than some three times that of a corner.
+                assert!(
+                    (found[index] - expected).abs() < 2e-14 * expected,
+                    "{shape:?}, {index}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_operator_is_symmetric() {
+        for (seed, shape) in (1..).zip(SHAPES) {
+            let convolution = convolution(shape);
+            let p = random(convolution.grid().cells(), seed);
+            let q = random(convolution.grid().cells(), seed + 100);
+            let (bp, bq) = (
+                displacement(&convolution, &p),
+                displacement(&convolution, &q),
+            );
+            // Both products carry the rounding of one application, relative to the size of what they multiply.
+            let size = norm(&q) * norm(&bp) + norm(&p) * norm(&bq);
+            assert!(
+                (dot(&q, &bp) - dot(&p, &bq)).abs() < 1e-14 * size,
+                "{shape:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_operator_is_positive_definite() {
+        for shape in SHAPES {
+            let convolution = convolution(shape);
+            let cells_x = convolution.grid().cells_x();
+            let cells = convolution.grid().cells();
+            // The checkerboard is the stiffest pressure the grid holds, hence the smallest energy.
+            let checkerboard = (0..cells)
+                .map(|i| {
+                    if (i % cells_x + i / cells_x).is_multiple_of(2) {
+                        1.0
+                    } else {
+                        -1.0
+                    }
+                })
+                .collect();
+            for p in [
+                checkerboard,
+                random(cells, 3),
+                random(cells, 4),
+                random(cells, 5),
+            ] {
+                let energy = dot(&p, &displacement(&convolution, &p));
+                let of_single_cells =
+                    dot(&p, &p) * Influence::new(convolution.grid()).coefficient_m(0, 0);
+                // The least of these, the checkerboard, has 0.52 of the energy of independent cells if the cells are
+                // square and 0.43 if they are 3:1.
+                assert!(
+                    energy > 0.4 * of_single_cells,
+                    "{shape:?}: {}",
+                    energy / of_single_cells
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn the_operator_is_linear() {
+        for (seed, shape) in (1..).zip(SHAPES) {
+            let convolution = convolution(shape);
+            let cells = convolution.grid().cells();
+            let (p, q) = (random(cells, seed), random(cells, seed + 50));
+            let both: Vec<f64> = p.iter().zip(&q).map(|(p, q)| 3.0 * p - 0.25 * q).collect();
+            let found = displacement(&convolution, &both);
+            let (bp, bq) = (
+                displacement(&convolution, &p),
+                displacement(&convolution, &q),
+            );
+            let difference: Vec<f64> = (0..cells)
+                .map(|i| found[i] - (3.0 * bp[i] - 0.25 * bq[i]))
+                .collect();
+            // Three applications' rounding.
+            assert!(
+                norm(&difference) < 4e-15 * (3.0 * norm(&bp) + norm(&bq)),
+                "{shape:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn moving_the_load_by_whole_cells_moves_the_displacement() {
+        let convolution = convolution((37, 29, 1.0, 1.2));
+        let cells_x = 37;
+        let (patch_x, patch_y) = (9, 6);
+        let patch = random(patch_x * patch_y, 7);
+        let placed = |at_x: usize, at_y: usize| {
+            let mut pressure = vec![0.0; convolution.grid().cells()];
+            for (iy, row) in patch.chunks_exact(patch_x).enumerate() {
+                let start = (at_y + iy) * cells_x + at_x;
+                pressure[start..start + patch_x].copy_from_slice(row);
+            }
+            displacement(&convolution, &pressure)
+        };
+        let (one, other) = (placed(2, 3), placed(19, 20));
+        let largest = one.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        for iy in 0..29 - 17 {
+            for ix in 0..37 - 17 {
+                let moved = other[(iy + 17) * cells_x + ix + 17];
+                // Rounding of two applications, relative to the largest displacement.
+                assert!(
+                    (one[iy * cells_x + ix] - moved).abs() < 4e-15 * largest,
+                    "{ix}, {iy}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn mirrored_loads_give_mirrored_displacements() {
+        for shape in SHAPES {
+            let convolution = convolution(shape);
+            let p = random(convolution.grid().cells(), 11);
+            let turned: Vec<f64> = p.iter().rev().copied().collect();
+            let u = displacement(&convolution, &p);
+            let mut v = displacement(&convolution, &turned);
+            v.reverse();
+            let difference: Vec<f64> = u.iter().zip(&v).map(|(u, v)| u - v).collect();
+            // Two applications' rounding.
+            assert!(norm(&difference) < 4e-15 * norm(&u), "{shape:?}");
+        }
+    }
+
+    #[test]
+    fn a_result_depends_on_the_pressure_alone() {
+        for shape in SHAPES {
+            let convolution = convolution(shape);
+            let cells = convolution.grid().cells();
+            let mut pressure = random(cells, 21);
+            // Some rows without load, so that skipping them is part of the test.
+            let cells_x = convolution.grid().cells_x();
+            pressure[..cells / 3 / cells_x * cells_x].fill(0.0);
+            let expected = bits(&displacement(&convolution, &pressure));
+
+            let mut scratch = convolution.scratch();
+            scratch.spectra.fill(Complex::new(f64::NAN, f64::INFINITY));
+            scratch.block.fill(Complex::new(f64::NAN, f64::INFINITY));
+            scratch.work.fill(Complex::new(f64::NAN, f64::INFINITY));
+            scratch.real.fill(f64::NAN);
+            let mut found = vec![f64::NAN; cells];
+            convolution
+                .apply(&pressure, &mut found, &mut scratch)
+                .unwrap();
+            assert_eq!(bits(&found), expected, "poisoned, {shape:?}");
+
+            let others = [vec![f64::NAN; cells], random(cells, 22), vec![1.0; cells]];
+            for other in others {
+                convolution.apply(&other, &mut found, &mut scratch).unwrap();
+                convolution
+                    .apply(&pressure, &mut found, &mut scratch)
+                    .unwrap();
+                assert_eq!(bits(&found), expected, "after another load, {shape:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn threads_share_one_convolution_and_agree_to_the_last_bit() {
+        let convolution = convolution((31, 17, 1.0, 1.0));
+        let pressure = random(31 * 17, 5);
+        let expected = bits(&displacement(&convolution, &pressure));
+        std::thread::scope(|scope| {
+            let run = || bits(&displacement(&convolution, &pressure));
+            for thread in [scope.spawn(run), scope.spawn(run)] {
+                assert_eq!(thread.join().unwrap(), expected);
+            }
+        });
+    }
+
+    #[test]
+    fn no_pressure_moves_nothing() {
+        for shape in SHAPES {
+            let convolution = convolution(shape);
+            let found = displacement(&convolution, &vec![0.0; convolution.grid().cells()]);
+            assert!(found.iter().all(|&u| u == 0.0));
+            let negative_zero = displacement(&convolution, &vec![-0.0; convolution.grid().cells()]);
+            assert!(negative_zero.iter().all(|&u| u == 0.0));
+        }
+    }
+
+    #[test]
+    fn a_pressure_that_is_no_number_is_not_hidden() {
+        let convolution = convolution((8, 8, 1.0, 1.0));
+        let mut pressure = vec![0.0; 64];
+        pressure[27] = f64::NAN;
+        assert!(
+            displacement(&convolution, &pressure)
+                .iter()
+                .all(|u| u.is_nan())
+        );
+    }
+
+    #[test]
+    fn wrong_lengths_and_a_foreign_scratch_are_refused() {
+        let convolution = convolution((8, 6, 1.0, 1.0));
+        let mut scratch = convolution.scratch();
+        let mut u = vec![7.0; 48];
+        assert!(matches!(
+            convolution.apply(&[1.0; 47], &mut u, &mut scratch),
+            Err(ConvolutionError::PressureLength {
+                found: 47,
+                expected: 48
+            })
+        ));
+        assert!(matches!(
+            convolution.apply(&[1.0; 48], &mut u[..40], &mut scratch),
+            Err(ConvolutionError::DisplacementLength {
+                found: 40,
+                expected: 48
+            })
+        ));
+        let mut foreign = self::convolution((6, 8, 1.0, 1.0)).scratch();
+        assert!(matches!(
+            convolution.apply(&[1.0; 48], &mut u, &mut foreign),
+            Err(ConvolutionError::ForeignScratch)
+        ));
+        assert!(u.iter().all(|&u| u == 7.0));
+        // Spacing is no part of the shape: scratch space may be shared between grids of the same numbers of cells.
+        let mut finer = self::convolution((8, 6, 0.5, 0.5)).scratch();
+        assert!(convolution.apply(&[1.0; 48], &mut u, &mut finer).is_ok());
+    }
+
+    #[test]
+    fn the_padding_keeps_periodic_images_apart() {
+        for cells in 1..300 {
+            let convolution_shape = Shape::new(&Grid::new(1, cells, 1.0, 1.0).unwrap(), 3);
+            assert!(convolution_shape.column_length >= 2 * cells - 1);
+            assert!(PaddedRow::new(cells).padded_length() >= 2 * cells - 1);
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Spectrum of the influence coefficients on the padded grid.
+//!
+//! Periodic on the padded grid, a coefficient depends on the shorter way round. That function is even in both
+//! directions, so its spectrum is real and even, and half the frequencies of each direction hold all of it.
+
+use std::sync::Arc;
+
+use num_complex::Complex;
+use realfft::{FftError, RealFftPlanner, RealToComplex};
+
+use super::super::influence::Influence;
+use super::padded_row::PaddedRow;
+
+/// The spectrum in the order in which it is used: for every bin of `row`, the frequencies `0..=column_length / 2` along
+/// the column, scaled so that the inverse transforms need no scaling of their own.
+pub(super) fn columns(
+    influence: &Influence,
+    row: &PaddedRow,
+    column_length: usize,
+) -> Result<Vec<f64>, FftError> {
+    let row_length = row.padded_length();
+    let (row_half, column_half) = (row_length / 2 + 1, column_length / 2 + 1);
+    let mut planner = RealFftPlanner::new();
+
+    let mut along_x = EvenTransform::new(planner.plan_fft_forward(row_length));
+    let mut rows = vec![0.0; column_half * row_half];
+    for (offset_y, spectrum) in rows.chunks_exact_mut(row_half).enumerate() {
+        let coefficient = |offset_x| influence.coefficient_m(offset_x, offset_y);
+        along_x.transform(coefficient, spectrum)?;
+    }
+
+    let mut along_y = EvenTransform::new(planner.plan_fft_forward(column_length));
+    let mut columns = vec![0.0; row.bins() * column_half];
+    for (bin, spectrum) in columns.chunks_exact_mut(column_half).enumerate() {
+        let (frequency, weight) = row.frequency_and_weight(bin);
+        along_y.transform(|offset_y| rows[offset_y * row_half + frequency], spectrum)?;
+        let scale = weight / (row_length as f64 * column_length as f64);
+        spectrum.iter_mut().for_each(|value| *value *= scale);
+    }
+    Ok(columns)
+}
+
+/// Fourier transform of an even periodic function, which is real.
+struct EvenTransform {
+    plan: Arc<dyn RealToComplex<f64>>,
+    values: Vec<f64>,
+    spectrum: Vec<Complex<f64>>,
+    work: Vec<Complex<f64>>,
+}
+
+impl EvenTransform {
+    fn new(plan: Arc<dyn RealToComplex<f64>>) -> Self {
+        Self {
+            values: plan.make_input_vec(),
+            spectrum: plan.make_output_vec(),
+            work: plan.make_scratch_vec(),
+            plan,
+        }
+    }
+
+    /// Transforms the function whose value at the distance `d` from the origin is `value(d)`.
+    fn transform(
+        &mut self,
+        value: impl Fn(usize) -> f64,
+        spectrum: &mut [f64],
+    ) -> Result<(), FftError> {
+        let length = self.values.len();
+        for distance in 0..=length / 2 {
+            let here = value(distance);
+            self.values[distance] = here;
+            if distance > 0 {
+                self.values[length - distance] = here;
+            }
+        }
+        self.plan
+            .process_with_scratch(&mut self.values, &mut self.spectrum, &mut self.work)?;
+        for (real, complex) in spectrum.iter_mut().zip(&self.spectrum) {
+            *real = complex.re;
+        }
+        Ok(())
+    }
+}

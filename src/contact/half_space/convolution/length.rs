@@ -1,0 +1,83 @@
+//! Lengths and strides at which the transforms run fast.
+
+/// Odd factors of the transform lengths considered. Times a power of two they make lengths at most a quarter apart, all of
+/// them well served by rustfft's AVX code.
+const ODD_FACTORS: [usize; 6] = [3, 5, 7, 9, 11, 27];
+
+/// Cost of a column per point if its length has an odd factor, relative to a power of two: measured around 400 points.
+pub(super) const COLUMN_COST_OF_ODD_FACTOR: f64 = 1.15;
+
+/// The same for a row. Its length is also the number of columns, whose transforms take three quarters of the time and cost
+/// the same however many there are, so a long row is not worth its faster transform.
+pub(super) const ROW_COST_OF_ODD_FACTOR: f64 = 1.06;
+
+/// The length of at least `minimum` that is cheapest, if a length with an odd factor costs `cost_of_odd_factor` times as
+/// much per point as a power of two.
+pub(super) fn fast_length(minimum: usize, cost_of_odd_factor: f64) -> usize {
+    let mut best = minimum.next_power_of_two();
+    let mut best_cost = best as f64;
+    for factor in ODD_FACTORS {
+        let length = factor * minimum.div_ceil(factor).next_power_of_two();
+        let cost = cost_of_odd_factor * length as f64;
+        if cost < best_cost {
+            (best, best_cost) = (length, cost);
+        }
+    }
+    best
+}
+
+/// The number of complex elements, at least `length`, by which to space parallel lines in memory: whole cache lines, but
+/// not a power of two, at which neighbouring lines would compete for the same few places of the cache.
+pub(super) fn conflict_free_stride(length: usize) -> usize {
+    const CACHE_LINE: usize = 4;
+    let stride = length.next_multiple_of(CACHE_LINE);
+    if stride.is_multiple_of(16 * CACHE_LINE) {
+        stride + CACHE_LINE
+    } else {
+        stride
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_long_enough_and_never_twice_too_long() {
+        for minimum in 1..3000 {
+            for cost in [COLUMN_COST_OF_ODD_FACTOR, ROW_COST_OF_ODD_FACTOR] {
+                let length = fast_length(minimum, cost);
+                assert!(length >= minimum);
+                assert!(length < 2 * minimum);
+                let odd = length >> length.trailing_zeros();
+                assert!(
+                    odd == 1 || ODD_FACTORS.contains(&odd),
+                    "{minimum}: {length}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_power_of_two_is_taken_where_it_is_close() {
+        let column = |minimum| fast_length(minimum, COLUMN_COST_OF_ODD_FACTOR);
+        assert_eq!(column(1), 1);
+        assert_eq!(column(300), 320);
+        assert_eq!(column(399), 432);
+        assert_eq!(column(440), 512);
+        assert_eq!(column(511), 512);
+        let row = |minimum| fast_length(minimum, ROW_COST_OF_ODD_FACTOR);
+        assert_eq!(row(100), 108);
+        assert_eq!(row(125), 128);
+        assert_eq!(row(128), 128);
+    }
+
+    #[test]
+    fn strides_are_whole_cache_lines_and_no_large_power_of_two() {
+        for length in 1..2000 {
+            let stride = conflict_free_stride(length);
+            assert!(stride >= length && stride < length + 8);
+            assert!(stride.is_multiple_of(4) && !stride.is_multiple_of(64));
+        }
+    }
+}

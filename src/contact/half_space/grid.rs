@@ -1,0 +1,234 @@
+//! The surface grid: equal rectangular cells centred on the origin, row-major.
+//!
+//! Cell `(ix, iy)` has the index `iy * cells_x + ix` and its centre at
+//! `((ix - (cells_x - 1) / 2) * spacing_x, (iy - (cells_y - 1) / 2) * spacing_y)`, so an odd number of cells puts a
+//! centre on the origin and an even number puts a cell edge there.
+
+use thiserror::Error;
+
+/// Most cells a grid may have: 2^26, that is 8192 x 8192, whose fields take 0.5 GiB each.
+pub const MAX_CELLS: usize = 1 << 26;
+
+/// Most that the longer side of a cell may exceed the shorter one by.
+pub const MAX_ASPECT_RATIO: f64 = 1000.0;
+
+/// Why a grid cannot be built.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum GridError {
+    /// One direction has no cells, or both together have more than [`MAX_CELLS`].
+    #[error(
+        "cannot build a grid of {cells_x} x {cells_y} cells: give at least 1 cell per direction and at most \
+         {MAX_CELLS} cells in all"
+    )]
+    Cells {
+        /// Cells asked for along x.
+        cells_x: usize,
+        /// Cells asked for along y.
+        cells_y: usize,
+    },
+    /// A spacing is not a positive finite length, or the cell's area leaves the range of floating-point numbers.
+    #[error(
+        "cannot build a grid with a cell of {spacing_x_m} m x {spacing_y_m} m: give two positive, finite lengths \
+         whose product is neither zero nor infinite"
+    )]
+    Spacing {
+        /// Cell side asked for along x, m.
+        spacing_x_m: f64,
+        /// Cell side asked for along y, m.
+        spacing_y_m: f64,
+    },
+    /// The cells are needles, with which no pressure field is resolved.
+    #[error(
+        "cannot build a grid with a cell of {spacing_x_m} m x {spacing_y_m} m: give sides that differ by at most a \
+         factor of {MAX_ASPECT_RATIO}"
+    )]
+    AspectRatio {
+        /// Cell side asked for along x, m.
+        spacing_x_m: f64,
+        /// Cell side asked for along y, m.
+        spacing_y_m: f64,
+    },
+}
+
+/// A grid of equal rectangular cells centred on the origin; fields on it are slices of [`Grid::cells`] values, row by row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    cells_x: usize,
+    cells_y: usize,
+    spacing_x_m: f64,
+    spacing_y_m: f64,
+}
+
+impl Grid {
+    /// A grid of `cells_x` by `cells_y` cells with the sides `spacing_x_m` and `spacing_y_m` (m).
+    ///
+    /// # Errors
+    /// [`GridError`] if a direction has no cells, there are more than [`MAX_CELLS`], a spacing is not a positive finite
+    /// length, or the sides differ by more than [`MAX_ASPECT_RATIO`].
+    pub fn new(
+        cells_x: usize,
+        cells_y: usize,
+        spacing_x_m: f64,
+        spacing_y_m: f64,
+    ) -> Result<Self, GridError> {
+        match cells_x.checked_mul(cells_y) {
+            Some(1..=MAX_CELLS) => {}
+            _ => return Err(GridError::Cells { cells_x, cells_y }),
+        }
+        let positive = spacing_x_m > 0.0 && spacing_y_m > 0.0;
+        if !positive || !(spacing_x_m * spacing_y_m).is_normal() {
+            return Err(GridError::Spacing {
+                spacing_x_m,
+                spacing_y_m,
+            });
+        }
+        if spacing_x_m.max(spacing_y_m) / spacing_x_m.min(spacing_y_m) > MAX_ASPECT_RATIO {
+            return Err(GridError::AspectRatio {
+                spacing_x_m,
+                spacing_y_m,
+            });
+        }
+        Ok(Self {
+            cells_x,
+            cells_y,
+            spacing_x_m,
+            spacing_y_m,
+        })
+    }
+
+    /// A square grid: `cells_per_side` square cells of side `spacing_m` (m) in both directions.
+    ///
+    /// # Errors
+    /// As [`Grid::new`].
+    pub fn square(cells_per_side: usize, spacing_m: f64) -> Result<Self, GridError> {
+        Self::new(cells_per_side, cells_per_side, spacing_m, spacing_m)
+    }
+
+    /// Cells along x, that is per row.
+    pub fn cells_x(&self) -> usize {
+        self.cells_x
+    }
+
+    /// Cells along y, that is the number of rows.
+    pub fn cells_y(&self) -> usize {
+        self.cells_y
+    }
+
+    /// Side of a cell along x, m.
+    pub fn spacing_x_m(&self) -> f64 {
+        self.spacing_x_m
+    }
+
+    /// Side of a cell along y, m.
+    pub fn spacing_y_m(&self) -> f64 {
+        self.spacing_y_m
+    }
+
+    /// Number of cells: the length of every field on this grid.
+    pub fn cells(&self) -> usize {
+        self.cells_x * self.cells_y
+    }
+
+    /// Area of one cell, m^2.
+    pub fn cell_area_m2(&self) -> f64 {
+        self.spacing_x_m * self.spacing_y_m
+    }
+
+    /// x of the centres of column `ix`, m. Columns outside the grid continue it.
+    pub fn x_m(&self, ix: usize) -> f64 {
+        centred(ix, self.cells_x) * self.spacing_x_m
+    }
+
+    /// y of the centres of row `iy`, m. Rows outside the grid continue it.
+    pub fn y_m(&self, iy: usize) -> f64 {
+        centred(iy, self.cells_y) * self.spacing_y_m
+    }
+
+    /// Centre `(x, y)` of the cell with this index, m.
+    pub fn center(&self, index: usize) -> (f64, f64) {
+        (
+            self.x_m(index % self.cells_x),
+            self.y_m(index / self.cells_x),
+        )
+    }
+}
+
+/// Position of cell `i` of `n` from the middle, in cells. Half integers are exact, so the grid is exactly symmetric.
+fn centred(i: usize, n: usize) -> f64 {
+    i as f64 - 0.5 * (n as f64 - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_odd_grid_has_a_centre_on_the_origin_and_an_even_one_an_edge() {
+        let odd = Grid::square(5, 0.1).unwrap();
+        assert_eq!(odd.center(12), (0.0, 0.0));
+        let even = Grid::new(4, 2, 2.0, 3.0).unwrap();
+        assert_eq!(even.center(1), (-1.0, -1.5));
+        assert_eq!(even.center(2), (1.0, -1.5));
+        assert_eq!(even.center(7), (3.0, 1.5));
+    }
+
+    #[test]
+    fn centres_are_mirrored_exactly() {
+        for n in [1, 2, 7, 64, 129] {
+            let grid = Grid::new(n, n + 1, 1.0e-6 / 3.0, 0.7e-6).unwrap();
+            for i in 0..n {
+                assert_eq!(grid.x_m(i), -grid.x_m(n - 1 - i));
+            }
+            for i in 0..=n {
+                assert_eq!(grid.y_m(i), -grid.y_m(n - i));
+            }
+        }
+    }
+
+    #[test]
+    fn the_index_runs_along_x_first() {
+        let grid = Grid::new(3, 4, 1.0, 10.0).unwrap();
+        assert_eq!(grid.cells(), 12);
+        assert_eq!(grid.cell_area_m2(), 10.0);
+        for iy in 0..4 {
+            for ix in 0..3 {
+                assert_eq!(grid.center(iy * 3 + ix), (grid.x_m(ix), grid.y_m(iy)));
+            }
+        }
+    }
+
+    #[test]
+    fn a_grid_without_cells_or_with_too_many_is_refused() {
+        for (cells_x, cells_y) in [
+            (0, 4),
+            (4, 0),
+            (MAX_CELLS, 2),
+            (usize::MAX, 2),
+            (usize::MAX, usize::MAX),
+        ] {
+            assert_eq!(
+                Grid::new(cells_x, cells_y, 1.0, 1.0),
+                Err(GridError::Cells { cells_x, cells_y })
+            );
+        }
+        assert!(Grid::new(MAX_CELLS, 1, 1.0, 1.0).is_ok());
+    }
+
+    #[test]
+    fn a_spacing_that_is_no_length_is_refused() {
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY, 1.0e-200, 1.0e200] {
+            assert!(
+                matches!(Grid::square(4, bad), Err(GridError::Spacing { .. })),
+                "{bad}"
+            );
+        }
+        assert!(matches!(
+            Grid::new(4, 4, 1.0, f64::NAN),
+            Err(GridError::Spacing { .. })
+        ));
+        assert!(matches!(
+            Grid::new(4, 4, 1.0, 1001.0),
+            Err(GridError::AspectRatio { .. })
+        ));
+    }
+}

@@ -1,0 +1,10 @@
+//! The half-space engine: rectangular cells of uniform pressure on an elastic half-space in free space, for any shape.
+//!
+//! Conventions: displacement positive into the body, pressure positive in compression, cells row-major (x fastest).
+
+pub mod convolution;
+pub mod grid;
+pub mod influence;
+mod solver;
+
+pub use solver::{HalfSpace, SolverSettings};

@@ -1,0 +1,131 @@
+//! One instant of contact: given the gap field, the displacement that history left, one compliance number and the drive's
+//! value, find pressure and approach.
+//!
+//! With u = B (A p + H) the displacement of the surface, at every node
+//!
+//! ```text
+//! h = g + B (A p + H) - delta,   p >= 0,  h >= 0,  p h = 0
+//! ```
+//!
+//! where p is the unknown, A (1/Pa) the compliance that multiplies it, H the part of the hereditary integral that earlier
+//! times fixed, B the elastic operator and delta the approach. Either the load W or delta is prescribed. Two engines:
+//!
+//! * [`axisymmetric`]: independent springs (method of dimensionality reduction), exact for convex bodies of revolution;
+//!   B = 1 and the "pressure" of a node is the line force f of its spring in N/m;
+//! * [`half_space`]: rectangular cells of uniform pressure on the half-space, for any shape.
+//!
+//! Neither knows what material, indenter or drive the numbers came from.
+
+pub mod axisymmetric;
+pub mod half_space;
+
+/// The quantity that the drive imposes at an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Prescribed {
+    /// Normal load W (N), not negative.
+    LoadN(f64),
+    /// Rigid-body approach delta (m).
+    ApproachM(f64),
+}
+
+/// What is known before an instant is solved.
+#[derive(Debug, Clone, Copy)]
+pub struct Instant<'a> {
+    /// H per node: the hereditary part in 1/Pa times the unit of the engine's nodal pressure.
+    pub history: &'a [f64],
+    /// A in 1/Pa: the instantaneous compliance, plus what the time rule adds to it.
+    pub compliance_per_pa: f64,
+    /// What the drive asks for.
+    pub prescribed: Prescribed,
+}
+
+/// What an instant came to. The nodal pressures are in the slice handed to [`Engine::solve`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solution {
+    /// Normal load W (N).
+    pub load_n: f64,
+    /// Approach delta (m). Under zero load: the approach at which the indenter just touches the surface.
+    pub approach_m: f64,
+    /// Radius of the circle whose area is the contact area (m).
+    pub contact_radius_m: f64,
+    /// Iterations the solver took.
+    pub iterations: usize,
+}
+
+/// Why an instant could not be solved.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ContactError {
+    #[error(
+        "the contact reached the edge of the computational domain (half width {half_width_m:e} m)"
+    )]
+    ReachedEdge { half_width_m: f64 },
+    #[error(
+        "the contact solver stopped after {iterations} iterations at a residual of {residual:e}, above its tolerance {tolerance:e}"
+    )]
+    NotConverged {
+        iterations: usize,
+        residual: f64,
+        tolerance: f64,
+    },
+    #[error(
+        "the pressure falls to {ratio:.2e} of its maximum at r = {radius_m:e} m: the contact is no longer a disc, which only \
+         the half-space engine can treat (set solver.engine = \"half-space\")"
+    )]
+    NotADisc { ratio: f64, radius_m: f64 },
+    #[error("{reason}")]
+    Operator { reason: String },
+    #[error("the prescribed {what} is {value}: it must be finite{also}")]
+    Drive {
+        what: &'static str,
+        value: f64,
+        also: &'static str,
+    },
+}
+
+/// A solver for one instant of contact. State carried between instants may only speed up the next one: the answer is a
+/// function of gap and [`Instant`] alone, to the solver's tolerance.
+pub trait Engine: Send {
+    /// Number of nodes: the length of every nodal slice.
+    fn nodes(&self) -> usize;
+
+    /// Solves one instant. `pressure` holds the starting guess and receives the answer.
+    ///
+    /// # Errors
+    /// [`ContactError`]; `pressure` is then meaningless.
+    fn solve(
+        &mut self,
+        instant: &Instant<'_>,
+        pressure: &mut [f64],
+    ) -> Result<Solution, ContactError>;
+
+    /// The largest contact pressure (Pa); `None` where the indenter's shape makes it unbounded. 0 out of contact.
+    ///
+    /// # Errors
+    /// [`ContactError::NotADisc`] where the engine finds that its own assumption fails.
+    fn peak_pressure_pa(
+        &mut self,
+        pressure: &[f64],
+        solution: &Solution,
+    ) -> Result<Option<f64>, ContactError>;
+}
+
+impl Prescribed {
+    /// Refuses loads and approaches that no contact can have.
+    fn check(self) -> Result<Self, ContactError> {
+        match self {
+            Self::LoadN(value) if !(value.is_finite() && value >= 0.0) => {
+                Err(ContactError::Drive {
+                    what: "load",
+                    value,
+                    also: " and not negative, because a contact without adhesion cannot carry a pull",
+                })
+            }
+            Self::ApproachM(value) if !value.is_finite() => Err(ContactError::Drive {
+                what: "approach",
+                value,
+                also: "",
+            }),
+            fine => Ok(fine),
+        }
+    }
+}
