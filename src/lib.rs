@@ -47,7 +47,9 @@
 //! bit for bit.
 
 pub mod contact;
+pub mod cycle;
 pub mod drive;
+pub mod history;
 pub mod indenter;
 pub mod material;
 pub mod quantity;

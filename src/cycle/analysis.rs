@@ -1,0 +1,292 @@
+//! What a hysteresis loop says: energy loss by two routes, phase lag, harmonics, equivalent complex modulus.
+
+use std::f64::consts::PI;
+
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+
+/// Why a loop cannot be analysed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum LoopError {
+    #[error(
+        "a loop needs at least {needed} samples per period to show its harmonics; this one has {samples}"
+    )]
+    TooFewSamples { samples: usize, needed: usize },
+    #[error("load and approach have {loads} and {approaches} samples; they must have as many")]
+    Lengths { loads: usize, approaches: usize },
+    #[error("sample {index} of the {signal} is {value}, not a finite number")]
+    NotFinite {
+        signal: &'static str,
+        index: usize,
+        value: f64,
+    },
+    #[error("the {signal} does not oscillate: a phase and a modulus are undefined")]
+    Constant { signal: &'static str },
+    #[error("the transform of the loop failed: {0}")]
+    Transform(String),
+}
+
+/// Amplitude and phase of one harmonic: value sin(n omega t + phase).
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Harmonic {
+    pub load_amplitude_n: f64,
+    pub load_phase_rad: f64,
+    pub approach_amplitude_m: f64,
+    pub approach_phase_rad: f64,
+}
+
+/// A loop's numbers.
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct LoopAnalysis {
+    /// Energy loss per cycle (J): pi * sum of n W_n delta_n sin(phase of W_n less phase of delta_n).
+    pub energy_loss_j: f64,
+    /// The same from the polygon through the samples (J), which is low by (N / 2 pi) sin(2 pi / N) for a smooth loop.
+    pub polygon_loss_j: f64,
+    /// Lag of the approach behind the load, first harmonic (rad).
+    pub phase_lag_rad: f64,
+    /// Mean load (N) and mean approach (m) over the cycle.
+    pub load_mean_n: f64,
+    pub approach_mean_m: f64,
+    /// Harmonics 1 to 5, as far as the samples resolve them.
+    pub harmonics: Vec<Harmonic>,
+}
+
+/// Number of harmonics reported.
+const HARMONICS: usize = 5;
+
+/// Analyses one period, N + 1 uniform samples of load (N) and approach (m), both ends included.
+///
+/// The two end samples stand for one instant of the period and are averaged.
+///
+/// # Errors
+/// [`LoopError`] for loops that are too short, not finite or constant.
+pub fn analyse(load_n: &[f64], approach_m: &[f64]) -> Result<LoopAnalysis, LoopError> {
+    check(load_n, approach_m)?;
+    let load = spectrum(load_n)?;
+    let approach = spectrum(approach_m)?;
+    let harmonics: Vec<Harmonic> = load
+        .iter()
+        .zip(&approach)
+        .skip(1)
+        .take(HARMONICS)
+        .map(|(w, d)| Harmonic {
+            load_amplitude_n: w.norm(),
+            load_phase_rad: w.arg(),
+            approach_amplitude_m: d.norm(),
+            approach_phase_rad: d.arg(),
+        })
+        .collect();
+    for (signal, values, first) in [
+        ("load", load_n, load[1]),
+        ("approach", approach_m, approach[1]),
+    ] {
+        let scale = values.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+        // A first harmonic at the level of rounding carries no phase.
+        if first.norm() <= 1e-13 * scale {
+            return Err(LoopError::Constant { signal });
+        }
+    }
+    // sin(phase of W - phase of delta) |W| |delta| = Im(W conj(delta)).
+    let energy_loss_j = load
+        .iter()
+        .zip(&approach)
+        .enumerate()
+        .skip(1)
+        .map(|(n, (w, d))| PI * n as f64 * (w * d.conj()).im)
+        .sum();
+    Ok(LoopAnalysis {
+        energy_loss_j,
+        polygon_loss_j: polygon_area(load_n, approach_m),
+        phase_lag_rad: (load[1] * approach[1].conj()).arg(),
+        load_mean_n: load[0].re,
+        approach_mean_m: approach[0].re,
+        harmonics,
+    })
+}
+
+impl LoopAnalysis {
+    /// Storage and loss modulus (Pa) that instrumented indentation reads from the first harmonic, with contact radius a_0:
+    /// E'/(1 - nu^2) = W_1 cos(phase lag) / (2 a_0 delta_1), E'' with the sine
+    /// (G. Huang, B. Wang, H. Lu, Mech. Time-Depend. Mater. 8 (2004) 345, with 2 sqrt(R delta_0) for 2 a_0).
+    ///
+    /// `None` where there is no contact radius or no first harmonic to divide by.
+    pub fn equivalent_moduli_pa(
+        &self,
+        contact_radius_m: f64,
+        poisson_ratio: f64,
+    ) -> Option<(f64, f64)> {
+        let first = self.harmonics.first()?;
+        let stiffness = first.load_amplitude_n / first.approach_amplitude_m;
+        let modulus = (1.0 - poisson_ratio * poisson_ratio) * stiffness / (2.0 * contact_radius_m);
+        let (sine, cosine) = self.phase_lag_rad.sin_cos();
+        (modulus.is_finite() && contact_radius_m > 0.0)
+            .then_some((modulus * cosine, modulus * sine))
+    }
+
+    /// Amplitude of harmonic `n` of the approach relative to the first.
+    pub fn approach_harmonic(&self, n: usize) -> Option<f64> {
+        let first = self.harmonics.first()?.approach_amplitude_m;
+        let this = self.harmonics.get(n.checked_sub(1)?)?.approach_amplitude_m;
+        (first > 0.0).then(|| this / first)
+    }
+}
+
+fn check(load_n: &[f64], approach_m: &[f64]) -> Result<(), LoopError> {
+    if load_n.len() != approach_m.len() {
+        return Err(LoopError::Lengths {
+            loads: load_n.len(),
+            approaches: approach_m.len(),
+        });
+    }
+    // The third harmonic needs more than two samples per oscillation.
+    let needed = 8;
+    let samples = load_n.len().saturating_sub(1);
+    if samples < needed {
+        return Err(LoopError::TooFewSamples { samples, needed });
+    }
+    for (signal, values) in [("load", load_n), ("approach", approach_m)] {
+        if let Some(index) = values.iter().position(|v| !v.is_finite()) {
+            return Err(LoopError::NotFinite {
+                signal,
+                index,
+                value: values[index],
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Complex amplitudes a_n such that the signal is a_0 + sum |a_n| sin(n omega t + arg a_n), below the Nyquist harmonic.
+fn spectrum(samples: &[f64]) -> Result<Vec<Complex<f64>>, LoopError> {
+    let n = samples.len() - 1;
+    let mut periodic = samples[..n].to_vec();
+    periodic[0] = 0.5 * (samples[0] + samples[n]);
+    let transform = RealFftPlanner::<f64>::new().plan_fft_forward(n);
+    let mut output = transform.make_output_vec();
+    transform
+        .process(&mut periodic, &mut output)
+        .map_err(|error| LoopError::Transform(error.to_string()))?;
+    output.truncate(n.div_ceil(2));
+    for (k, value) in output.iter_mut().enumerate() {
+        // cos(n omega t) = sin(n omega t + pi/2): a factor i.
+        *value *= if k == 0 {
+            Complex::new(1.0 / n as f64, 0.0)
+        } else {
+            Complex::new(0.0, 2.0 / n as f64)
+        };
+    }
+    Ok(output)
+}
+
+/// Closed integral of W d(delta) by the trapezium rule.
+fn polygon_area(load_n: &[f64], approach_m: &[f64]) -> f64 {
+    let edges = load_n.windows(2).zip(approach_m.windows(2));
+    let open: f64 = edges
+        .map(|(w, d)| 0.5 * (w[0] + w[1]) * (d[1] - d[0]))
+        .sum();
+    // What is left between last and first sample closes the polygon.
+    let (first, last) = (0, load_n.len() - 1);
+    open + 0.5 * (load_n[last] + load_n[first]) * (approach_m[first] - approach_m[last])
+}
+
+/// Angle of sample `i` of `n` on the period.
+#[cfg(test)]
+fn angle(i: usize, n: usize) -> f64 {
+    std::f64::consts::TAU * i as f64 / n as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ellipse(n: usize, lag: f64, load_phase: f64) -> (Vec<f64>, Vec<f64>) {
+        let w = |i| 10.0 + 5.0 * (angle(i, n) + load_phase).sin();
+        let d = |i| 1e-5 + 2e-6 * (angle(i, n) + load_phase - lag).sin();
+        ((0..=n).map(w).collect(), (0..=n).map(d).collect())
+    }
+
+    #[test]
+    fn an_ellipse_has_the_area_pi_w_delta_sin_phase_at_any_sampling_and_phase() {
+        let exact = PI * 5.0 * 2e-6 * 0.3_f64.sin();
+        for n in [8, 9, 25, 100, 101] {
+            for phase in [0.0, 1.0, -2.5] {
+                let (w, d) = ellipse(n, 0.3, phase);
+                let analysis = analyse(&w, &d).unwrap();
+                // Sums of n roundings.
+                assert!((analysis.energy_loss_j / exact - 1.0).abs() < 1e-12);
+                assert!((analysis.phase_lag_rad - 0.3).abs() < 1e-12);
+                assert!((analysis.load_mean_n - 10.0).abs() < 1e-13);
+                let low =
+                    n as f64 / std::f64::consts::TAU * (std::f64::consts::TAU / n as f64).sin();
+                assert!((analysis.polygon_loss_j / (exact * low) - 1.0).abs() < 1e-12);
+                assert!(analysis.approach_harmonic(2).unwrap() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn harmonics_are_told_apart_and_only_common_ones_dissipate() {
+        let n = 64;
+        let w: Vec<f64> = (0..=n).map(|i| 3.0 + angle(i, n).sin()).collect();
+        let d: Vec<f64> = (0..=n)
+            .map(|i| {
+                let t = angle(i, n);
+                (t - 0.1).sin() + 0.25 * (2.0 * t + 0.7).sin() + 0.125 * (3.0 * t).cos()
+            })
+            .collect();
+        let analysis = analyse(&w, &d).unwrap();
+        assert!((analysis.energy_loss_j / (PI * 0.1_f64.sin()) - 1.0).abs() < 1e-12);
+        assert!((analysis.approach_harmonic(2).unwrap() - 0.25).abs() < 1e-13);
+        assert!((analysis.approach_harmonic(3).unwrap() - 0.125).abs() < 1e-13);
+        assert!((analysis.harmonics[1].approach_phase_rad - 0.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_loop_run_backwards_gives_back_the_energy() {
+        let (mut w, mut d) = ellipse(50, 0.2, 0.0);
+        let forward = analyse(&w, &d).unwrap();
+        w.reverse();
+        d.reverse();
+        let backward = analyse(&w, &d).unwrap();
+        assert!((forward.energy_loss_j + backward.energy_loss_j).abs() < 1e-18);
+        assert!((forward.polygon_loss_j + backward.polygon_loss_j).abs() < 1e-18);
+    }
+
+    #[test]
+    fn equivalent_moduli_of_a_spring_and_a_dashpot() {
+        let (w, d) = ellipse(100, 0.0, 0.0);
+        let (storage, loss) = analyse(&w, &d)
+            .unwrap()
+            .equivalent_moduli_pa(1e-4, 0.5)
+            .unwrap();
+        assert!((storage / (0.75 * 5.0 / (2e-6 * 2e-4)) - 1.0).abs() < 1e-12);
+        assert!((loss / storage).abs() < 1e-12);
+        assert_eq!(
+            analyse(&w, &d).unwrap().equivalent_moduli_pa(0.0, 0.5),
+            None
+        );
+    }
+
+    #[test]
+    fn loops_without_meaning_are_refused() {
+        let (w, d) = ellipse(100, 0.1, 0.0);
+        assert!(matches!(
+            analyse(&w[..5], &d[..5]),
+            Err(LoopError::TooFewSamples { .. })
+        ));
+        assert!(matches!(
+            analyse(&w, &d[1..]),
+            Err(LoopError::Lengths { .. })
+        ));
+        assert!(matches!(
+            analyse(&w, &vec![1.0; 101]),
+            Err(LoopError::Constant { signal: "approach" })
+        ));
+        let mut broken = d.clone();
+        broken[7] = f64::NAN;
+        assert!(matches!(
+            analyse(&w, &broken),
+            Err(LoopError::NotFinite { index: 7, .. })
+        ));
+    }
+}

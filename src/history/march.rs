@@ -1,0 +1,138 @@
+//! Time marching: one engine, its memory, and the last pressure, moved from instant to instant.
+
+use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
+use crate::history::{Memory, StepWeights, TimeRule};
+use crate::material::Creep;
+
+/// A contact moving through time.
+pub struct March<'a> {
+    engine: &'a mut dyn Engine,
+    memory: Memory,
+    rule: TimeRule,
+    pressure: Vec<f64>,
+    history: Vec<f64>,
+    solution: Option<Solution>,
+    iterations: u64,
+}
+
+/// Sees every instant of a march: the engine, the nodal pressure and the solution.
+pub type Observer<'o> =
+    dyn FnMut(&mut dyn Engine, &[f64], &Solution) -> Result<(), ContactError> + 'o;
+
+impl<'a> March<'a> {
+    /// A contact at rest on an undisturbed body of contact compliance C(t) (1/Pa).
+    pub fn new(engine: &'a mut dyn Engine, compliance: Creep, rule: TimeRule) -> Self {
+        let nodes = engine.nodes();
+        Self {
+            engine,
+            memory: Memory::new(compliance, nodes),
+            rule,
+            pressure: vec![0.0; nodes],
+            history: vec![0.0; nodes],
+            solution: None,
+            iterations: 0,
+        }
+    }
+
+    /// Weights of a step of this length, to be used for as many equal steps as there are.
+    pub fn weights(&self, step_s: f64) -> StepWeights {
+        StepWeights::new(self.memory.compliance(), step_s, self.rule)
+    }
+
+    /// Moves on by one step to the instant at which the drive prescribes this value.
+    ///
+    /// # Errors
+    /// [`ContactError`]; the march cannot go on after it.
+    pub fn step(
+        &mut self,
+        weights: &StepWeights,
+        prescribed: Prescribed,
+    ) -> Result<Solution, ContactError> {
+        self.memory
+            .predict(weights, &self.pressure, &mut self.history);
+        let instant = Instant {
+            history: &self.history,
+            compliance_per_pa: weights.compliance_per_pa(),
+            prescribed,
+        };
+        let solution = self.engine.solve(&instant, &mut self.pressure)?;
+        self.memory.commit(weights, &self.pressure);
+        self.iterations += solution.iterations as u64;
+        self.solution = Some(solution);
+        Ok(solution)
+    }
+
+    /// A jump of the drive: two states at one instant.
+    ///
+    /// # Errors
+    /// As [`March::step`].
+    pub fn jump(&mut self, prescribed: Prescribed) -> Result<Solution, ContactError> {
+        self.step(&self.weights(0.0), prescribed)
+    }
+
+    /// Holds one value for `duration_s`, in steps that grow in proportion to the time since the hold began: as many per
+    /// decade, from a small part of the shortest retardation time on.
+    ///
+    /// # Errors
+    /// As [`March::step`].
+    pub fn hold(&mut self, duration_s: f64, prescribed: Prescribed) -> Result<(), ContactError> {
+        const STEPS_PER_DECADE: f64 = 20.0;
+        const FIRST_STEP_PER_RETARDATION_TIME: f64 = 1e-2;
+        if duration_s <= 0.0 {
+            return Ok(());
+        }
+        let shortest_s = self
+            .memory
+            .compliance()
+            .branches()
+            .iter()
+            .map(|b| b.time_s)
+            .fold(duration_s, f64::min);
+        let first_s = FIRST_STEP_PER_RETARDATION_TIME * shortest_s;
+        let steps = ((duration_s / first_s).log10() * STEPS_PER_DECADE).ceil() as i32;
+        let growth = (duration_s / first_s).powf(1.0 / f64::from(steps));
+        let mut time_s = 0.0;
+        for k in 0..=steps {
+            let end_s = if k == steps {
+                duration_s
+            } else {
+                first_s * growth.powi(k)
+            };
+            let weights = self.weights(end_s - time_s);
+            self.step(&weights, prescribed)?;
+            time_s = end_s;
+        }
+        Ok(())
+    }
+
+    /// Shows the present instant to an observer.
+    ///
+    /// # Errors
+    /// What the observer finds.
+    pub fn observe(&mut self, observer: &mut Observer<'_>) -> Result<(), ContactError> {
+        match &self.solution {
+            Some(solution) => observer(&mut *self.engine, &self.pressure, solution),
+            None => Ok(()),
+        }
+    }
+
+    /// The instant last solved.
+    pub fn solution(&self) -> Option<Solution> {
+        self.solution
+    }
+
+    /// Nodal pressure of the instant last solved, in the engine's unit.
+    pub fn pressure(&self) -> &[f64] {
+        &self.pressure
+    }
+
+    /// The memory of the body.
+    pub fn memory(&self) -> &Memory {
+        &self.memory
+    }
+
+    /// Contact iterations since the march began.
+    pub fn iterations(&self) -> u64 {
+        self.iterations
+    }
+}
