@@ -54,3 +54,4 @@ pub mod indenter;
 pub mod material;
 pub mod quantity;
 pub mod reference;
+pub mod sweep;

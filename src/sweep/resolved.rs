@@ -1,0 +1,129 @@
+//! The resolved sweep: every default written out, with units, as a sweep file that gives the same plan again; and its hash.
+
+use std::fmt::Write;
+
+use sha2::{Digest, Sha256};
+
+use crate::history::TimeRule;
+use crate::material::{GivenFace, Material, ModulusKind};
+use crate::quantity::{Dimension, format_si};
+use crate::sweep::plan::SweepPlan;
+
+/// The plan as the text of a sweep file.
+pub fn resolved_text(plan: &SweepPlan) -> String {
+    let mut text = String::new();
+    let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
+    let mut line = |content: &str| {
+        text.push_str(content);
+        text.push('\n');
+    };
+    line(&format!("title = {}", toml_string(&plan.title)));
+    line("");
+    material_lines(&plan.material, &mut line);
+    line("\n[indenter]");
+    line(&format!("shape = \"{}\"", plan.indenter.shape()));
+    for parameter in plan.indenter.parameters() {
+        let value = quantity(parameter.value, parameter.dimension);
+        line(&format!("{} = {value}", parameter.key));
+    }
+    let drive = &plan.drive;
+    line("\n[drive]\ncontrol = \"load\"");
+    line(&format!(
+        "mean = {}",
+        quantity(drive.mean_n(), Dimension::Force)
+    ));
+    let amplitude = quantity(drive.amplitude_n(), Dimension::Force);
+    line(&format!("amplitude = {amplitude}"));
+    line(&format!(
+        "phase = {}",
+        quantity(drive.phase_rad(), Dimension::Angle)
+    ));
+    line(&format!(
+        "hold = {}",
+        quantity(drive.hold_s(), Dimension::Time)
+    ));
+    line("\n[sweep]\nangular_frequency = [");
+    for &omega in &plan.angular_frequencies_rad_per_s {
+        line(&format!(
+            "    {},",
+            quantity(omega, Dimension::AngularFrequency)
+        ));
+    }
+    line("]\n\n[cycle]");
+    line(&format!("steps = {}", plan.cycle.steps));
+    line("method = \"march\"");
+    line(&format!("tolerance = {:e}", plan.cycle.tolerance));
+    line(&format!("max_cycles = {}", plan.cycle.max_cycles));
+    line("\n[solver]");
+    line(&format!("engine = \"{}\"", plan.solver.engine.name()));
+    line(&format!("cells = {}", plan.solver.cells));
+    line(&format!("springs = {}", plan.solver.springs));
+    line(&format!("tolerance = {:e}", plan.solver.tolerance));
+    let rule = match plan.solver.time_rule {
+        TimeRule::Linear => "linear",
+        TimeRule::Constant => "constant",
+    };
+    line(&format!("time_rule = \"{rule}\""));
+    text
+}
+
+/// SHA-256 of the resolved text, in hexadecimal.
+pub fn hash(resolved: &str) -> String {
+    let mut hash = String::with_capacity(64);
+    for byte in Sha256::digest(resolved.as_bytes()) {
+        // Writing to a String cannot fail.
+        let _ = write!(hash, "{byte:02x}");
+    }
+    hash
+}
+
+fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
+    let kind = match material.kind() {
+        ModulusKind::Shear => "shear",
+        ModulusKind::Longitudinal => "longitudinal",
+    };
+    line("[material]");
+    if let Some(name) = material.name() {
+        line(&format!("name = {}", toml_string(name)));
+    }
+    line(&format!("poisson_ratio = {:?}", material.poisson_ratio()));
+    match (material.given(), material.relaxation()) {
+        (GivenFace::Relaxation, Some(relaxation)) => {
+            line(&format!("\n[material.relaxation]\nmodulus = \"{kind}\""));
+            let equilibrium = format_si(relaxation.equilibrium_modulus(), Dimension::Stress);
+            line(&format!("equilibrium = \"{equilibrium}\"\nbranches = ["));
+            for branch in relaxation.branches() {
+                let modulus = format_si(branch.modulus_pa, Dimension::Stress);
+                let time = format_si(branch.time_s, Dimension::Time);
+                line(&format!(
+                    "    {{ modulus = \"{modulus}\", time = \"{time}\" }},"
+                ));
+            }
+            line("]");
+        }
+        _ => {
+            let creep = material.creep();
+            line(&format!("\n[material.creep]\ncompliance = \"{kind}\""));
+            let instantaneous = format_si(creep.instantaneous_compliance(), Dimension::Compliance);
+            line(&format!("instantaneous = \"{instantaneous}\""));
+            if let Some(viscosity) = creep.viscosity_pa_s() {
+                let viscosity = format_si(viscosity, Dimension::Viscosity);
+                line(&format!("viscosity = \"{viscosity}\""));
+            }
+            line("branches = [");
+            for branch in creep.branches() {
+                let compliance = format_si(branch.compliance_per_pa, Dimension::Compliance);
+                let time = format_si(branch.time_s, Dimension::Time);
+                line(&format!(
+                    "    {{ compliance = \"{compliance}\", time = \"{time}\" }},"
+                ));
+            }
+            line("]");
+        }
+    }
+}
+
+/// A TOML basic string.
+fn toml_string(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
