@@ -54,4 +54,5 @@ pub mod indenter;
 pub mod material;
 pub mod quantity;
 pub mod reference;
+pub mod report;
 pub mod sweep;

@@ -1,0 +1,184 @@
+//! Where the data lie in the frame: every series in px, cut to the frame, for drawing and for keeping clear of.
+
+use super::geometry::{Point, Rect};
+use super::layout::Layout;
+use super::look::{MARKER_EDGE, MARKER_RADIUS};
+use super::stroke::{clip, thinned};
+use super::{Chart, MarkPlace, Series};
+
+/// One series in px.
+#[derive(Debug, Default)]
+pub(super) struct Curve {
+    /// The line, in as many parts as gaps and the frame cut it into.
+    pub(super) parts: Vec<Vec<Point>>,
+    /// The points that carry a marker; without markers, the points that have no neighbour to be joined with.
+    pub(super) points: Vec<Point>,
+    /// The filled area.
+    pub(super) fills: Vec<Vec<Point>>,
+    pub(super) error_bars: Vec<ErrorBar>,
+}
+
+/// An error bar in px; an end without a cap lies beyond the frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ErrorBar {
+    pub(super) x: f64,
+    pub(super) top: f64,
+    pub(super) bottom: f64,
+    pub(super) caps: [bool; 2],
+}
+
+/// All series of the chart in px.
+pub(super) fn curves(chart: &Chart, layout: &Layout) -> Vec<Curve> {
+    chart
+        .series
+        .iter()
+        .map(|series| curve(series, layout))
+        .collect()
+}
+
+fn curve(series: &Series, layout: &Layout) -> Curve {
+    let frame = &layout.frame;
+    // A point on the frame must not be lost to rounding.
+    let reach = frame.grown(0.01);
+    let mut curve = Curve::default();
+    for run in series.points.split(Option::is_none) {
+        let line: Vec<Point> = run
+            .iter()
+            .flatten()
+            .map(|&point| layout.px(point))
+            .collect();
+        if series.line.is_some() {
+            curve.parts.extend(clip(&line, &reach));
+        }
+        if series.marker.is_some() || (series.line.is_some() && line.len() == 1) {
+            curve
+                .points
+                .extend(line.iter().copied().filter(|&point| reach.contains(point)));
+        }
+        if let (Some(base), Some(first), Some(last)) = (series.fill_to, line.first(), line.last()) {
+            let base = layout.y.px(base);
+            let outline: Vec<Point> = line
+                .iter()
+                .copied()
+                .chain([(last.0, base), (first.0, base)])
+                .collect();
+            curve.fills.push(frame.clip_polygon(&outline));
+        }
+    }
+    if let Some(errors) = &series.error {
+        let bars = series
+            .points
+            .iter()
+            .zip(errors)
+            .filter_map(|(point, error)| {
+                let ((x, y), error) = ((*point)?, (*error)?);
+                error_bar(x, y, error, layout)
+            });
+        curve.error_bars.extend(bars);
+    }
+    curve
+}
+
+fn error_bar(x: f64, y: f64, error: f64, layout: &Layout) -> Option<ErrorBar> {
+    let frame = &layout.frame;
+    let x = layout.x.px(x);
+    // On a log axis the lower end may be at or below zero: then the bar runs out of the frame.
+    let bottom = layout.y.lowest_px(y - error);
+    let top = layout.y.px(y + error);
+    let inside =
+        (frame.left..=frame.right).contains(&x) && top <= frame.bottom && bottom >= frame.top;
+    inside.then(|| ErrorBar {
+        x,
+        top: top.max(frame.top),
+        bottom: bottom.min(frame.bottom),
+        caps: [top >= frame.top, bottom <= frame.bottom],
+    })
+}
+
+/// What a legend or a label should not cover.
+#[derive(Debug, Default)]
+pub(super) struct Obstacles {
+    pub(super) segments: Vec<(Point, Point)>,
+    pub(super) points: Vec<Point>,
+    pub(super) boxes: Vec<Rect>,
+}
+
+/// Detail finer than this, in px, does not matter for what covers what.
+const COARSE: f64 = 1.5;
+
+impl Obstacles {
+    /// The curves and marks of a chart.
+    pub(super) fn of(chart: &Chart, layout: &Layout, curves: &[Curve]) -> Self {
+        let mut all = Self::default();
+        for curve in curves {
+            for line in curve.parts.iter().chain(&curve.fills) {
+                let line = thinned(line, COARSE);
+                all.segments
+                    .extend(line.windows(2).map(|pair| (pair[0], pair[1])));
+            }
+            all.points.extend(&curve.points);
+            let bars = curve
+                .error_bars
+                .iter()
+                .map(|bar| ((bar.x, bar.top), (bar.x, bar.bottom)));
+            all.segments.extend(bars);
+        }
+        let frame = &layout.frame;
+        for mark in &chart.marks {
+            match mark.place {
+                MarkPlace::Point { x, y } => all.points.push(layout.px((x, y))),
+                MarkPlace::Vertical { x } => {
+                    let x = layout.x.px(x);
+                    all.segments.push(((x, frame.top), (x, frame.bottom)));
+                }
+                MarkPlace::Horizontal { y } => {
+                    let y = layout.y.px(y);
+                    all.segments.push(((frame.left, y), (frame.right, y)));
+                }
+            }
+        }
+        all
+    }
+
+    /// Whether nothing at all lies in the box.
+    pub(super) fn spare(&self, rect: &Rect) -> bool {
+        let wide = rect.grown(MARKER_RADIUS + MARKER_EDGE);
+        self.covered(rect) == 0.0 && !self.points.iter().any(|&point| wide.contains(point))
+    }
+
+    /// How much lies in the box: length of lines in px, a marker counting as much as the line it stands for.
+    pub(super) fn covered(&self, rect: &Rect) -> f64 {
+        let wide = rect.grown(MARKER_RADIUS + MARKER_EDGE);
+        let lines: f64 = self
+            .segments
+            .iter()
+            .map(|&(from, to)| length_inside(rect, from, to))
+            .sum();
+        let points = self
+            .points
+            .iter()
+            .filter(|&&point| wide.contains(point))
+            .count();
+        let boxes = self
+            .boxes
+            .iter()
+            .filter(|other| other.overlaps(rect))
+            .count();
+        lines + 10.0 * points as f64 + 500.0 * boxes as f64
+    }
+}
+
+fn length_inside(rect: &Rect, from: Point, to: Point) -> f64 {
+    let beside = (from.0 < rect.left && to.0 < rect.left)
+        || (from.0 > rect.right && to.0 > rect.right)
+        || (from.1 < rect.top && to.1 < rect.top)
+        || (from.1 > rect.bottom && to.1 > rect.bottom);
+    if beside {
+        return 0.0;
+    }
+    match rect.clip(from, to) {
+        // A line that only touches counts as a little, so that "nothing" means nothing.
+        Some((enter, leave)) => ((leave - enter) * super::geometry::distance(from, to)).max(0.1),
+        None => 0.0,
+    }
+}

@@ -1,0 +1,204 @@
+//! The legend: its entries in a column or in rows, and a place for it that covers no data.
+
+use super::curves::Obstacles;
+use super::geometry::{Point, Rect};
+use super::layout::{Layout, Reserve, Widths, crisp};
+use super::look::*;
+use super::{Chart, LegendPlace};
+
+/// A legend in its place.
+#[derive(Debug)]
+pub(super) struct Legend {
+    pub(super) rect: Rect,
+    pub(super) text_px: f64,
+    /// Inside the frame it stands on white with an outline, outside on nothing.
+    pub(super) framed: bool,
+    /// For each entry the series it stands for and the left end of its sample, at half the height of the row.
+    pub(super) entries: Vec<(usize, Point)>,
+}
+
+/// A legend of known size that has no place yet.
+#[derive(Debug)]
+pub(super) struct Block {
+    width: f64,
+    height: f64,
+    text_px: f64,
+    /// As [`Legend::entries`], counted from the upper left corner of the block.
+    entries: Vec<(usize, Point)>,
+}
+
+impl Block {
+    /// All labelled series in one column at most `room` px wide; `None` where no series has a label.
+    pub(super) fn column(chart: &Chart, widths: &Widths, room: f64) -> Option<Self> {
+        Self::grid(chart, widths, room, 1)
+    }
+
+    /// All labelled series in as many columns as `room` px hold.
+    pub(super) fn rows(chart: &Chart, widths: &Widths, room: f64) -> Option<Self> {
+        let most = labelled(chart).count();
+        let grids = (1..=most)
+            .rev()
+            .filter_map(|columns| Self::grid(chart, widths, room, columns));
+        // The widest that keeps the text at its full size; one column sets it smaller if it must.
+        grids
+            .into_iter()
+            .find(|grid| grid.text_px == LEGEND_TEXT)
+            .or_else(|| Self::column(chart, widths, room))
+    }
+
+    fn grid(chart: &Chart, widths: &Widths, room: f64, columns: usize) -> Option<Self> {
+        let width = |series: usize| widths.series.get(series).copied().unwrap_or(0.0);
+        let entries: Vec<usize> = labelled(chart).collect();
+        let widest = entries
+            .iter()
+            .map(|&series| width(series))
+            .reduce(f64::max)?;
+        // Rows are filled evenly: five entries in at most four columns make three and two.
+        let rows = entries.len().div_ceil(columns);
+        let columns = entries.len().div_ceil(rows);
+        let gaps =
+            columns as f64 * (LEGEND_SAMPLE + LEGEND_GAP) + (columns - 1) as f64 * COLUMN_GAP;
+        let text_room = (room - 2.0 * LEGEND_PADDING - gaps) / columns as f64;
+        let text_px = if widest * LEGEND_TEXT > text_room {
+            (text_room / widest).max(1.0)
+        } else {
+            LEGEND_TEXT
+        };
+        let pitch = LEGEND_SAMPLE + LEGEND_GAP + widest * text_px + COLUMN_GAP;
+        let at = |place: usize| {
+            let (column, row) = (place % columns, place / columns);
+            (
+                LEGEND_PADDING + column as f64 * pitch,
+                LEGEND_PADDING / 2.0 + (row as f64 + 0.5) * LEGEND_ROW,
+            )
+        };
+        Some(Self {
+            width: (columns as f64 * pitch - COLUMN_GAP + 2.0 * LEGEND_PADDING).ceil(),
+            height: (rows as f64 * LEGEND_ROW + LEGEND_PADDING).ceil(),
+            text_px,
+            entries: entries
+                .into_iter()
+                .enumerate()
+                .map(|(place, series)| (series, at(place)))
+                .collect(),
+        })
+    }
+
+    fn at(self, left: f64, top: f64) -> Legend {
+        let (left, top) = (crisp(left), crisp(top));
+        let entries = self
+            .entries
+            .into_iter()
+            .map(|(series, (x, y))| (series, (left + x, top + y)))
+            .collect();
+        Legend {
+            rect: Rect::at(left, top, self.width, self.height),
+            text_px: self.text_px,
+            framed: true,
+            entries,
+        }
+    }
+
+    /// The room to keep free outside the frame.
+    pub(super) fn reserve(&self, side: Outside) -> Reserve {
+        match side {
+            Outside::Right => Reserve {
+                top: 0.0,
+                right: self.width,
+            },
+            Outside::Above => Reserve {
+                top: self.height,
+                right: 0.0,
+            },
+        }
+    }
+
+    /// The legend outside the frame of a layout that reserved the room.
+    pub(super) fn outside(self, layout: &Layout, side: Outside) -> Legend {
+        let frame = &layout.frame;
+        let legend = match side {
+            Outside::Right => self.at(frame.right + MARGIN / 2.0, frame.top - LEGEND_PADDING / 2.0),
+            Outside::Above => {
+                let centered = (frame.left + frame.right - self.width) / 2.0;
+                let left = centered.min(frame.right - self.width).max(MARGIN);
+                let top = frame.top - self.height - 1.0;
+                self.at(left, top)
+            }
+        };
+        Legend {
+            framed: false,
+            ..legend
+        }
+    }
+
+    /// The legend in the given corner, whatever it covers.
+    pub(super) fn in_corner(self, layout: &Layout, corner: LegendPlace) -> Legend {
+        let Rect {
+            left,
+            top,
+            right,
+            bottom,
+        } = layout.frame.grown(-LEGEND_INSET);
+        let (width, height) = (self.width, self.height);
+        match corner {
+            LegendPlace::TopLeft => self.at(left, top),
+            LegendPlace::BottomRight => self.at(right - width, bottom - height),
+            LegendPlace::BottomLeft => self.at(left, bottom - height),
+            LegendPlace::TopRight | LegendPlace::Auto | LegendPlace::Right | LegendPlace::Above => {
+                self.at(right - width, top)
+            }
+        }
+    }
+
+    /// The legend inside the frame where it covers nothing: in a corner, else at the middle of a side.
+    /// Gives the block back where there is no such place.
+    pub(super) fn where_free(self, layout: &Layout, obstacles: &Obstacles) -> Result<Legend, Self> {
+        let inner = layout.frame.grown(-LEGEND_INSET);
+        let (width, height) = (self.width, self.height);
+        if width > 0.75 * inner.width() || height > 0.75 * inner.height() {
+            return Err(self);
+        }
+        let (right, bottom) = (inner.right - width, inner.bottom - height);
+        let (middle_x, middle_y) = ((inner.left + right) / 2.0, (inner.top + bottom) / 2.0);
+        let places = [
+            (right, inner.top),
+            (inner.left, inner.top),
+            (right, bottom),
+            (inner.left, bottom),
+            (right, middle_y),
+            (inner.left, middle_y),
+            (middle_x, inner.top),
+            (middle_x, bottom),
+        ];
+        let free =
+            |&(left, top): &Point| obstacles.spare(&Rect::at(left, top, width, height).grown(3.0));
+        match places.into_iter().find(free) {
+            Some((left, top)) => Ok(self.at(left, top)),
+            None => Err(self),
+        }
+    }
+
+    /// Whether the block reads better in a column beside the frame than in rows above it.
+    pub(super) fn suits_right(&self, layout: &Layout) -> bool {
+        self.width <= 0.27 * layout.frame.width() && self.height <= layout.frame.height()
+    }
+}
+
+/// A place outside the frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Outside {
+    Right,
+    Above,
+}
+
+/// Between the columns of a legend in rows.
+const COLUMN_GAP: f64 = 26.0;
+
+fn labelled(chart: &Chart) -> impl Iterator<Item = usize> {
+    chart
+        .series
+        .iter()
+        .enumerate()
+        .filter(|(_, series)| series.label.as_ref().is_some_and(|label| !label.is_empty()))
+        .map(|(place, _)| place)
+}

@@ -1,0 +1,356 @@
+//! A chart described as plain data: axes, series, marks and a legend.
+//!
+//! A figure says what is to be seen; where the ticks, the legend and the labels go is decided here. The caller passes
+//! data already scaled to the unit named in the axis label. [`to_svg`] gives the finished picture as SVG whose text is
+//! outlines (it needs no font), [`to_png`] the same picture in pixels.
+//!
+//! ```ignore
+//! let losses = [(1e-3, 0.4), (1e-2, 1.7), (1e-1, 0.6)];
+//! let chart = Chart::new(Axis::log("angular frequency ω / rad·s⁻¹"), Axis::linear("energy loss W / µJ"))
+//!     .series(Series::line(losses).marker(Marker::Disc))
+//!     .mark(Mark::point(1e-2, 1.7, "ω = 10⁻² rad/s"));
+//! let svg = to_svg(&chart)?;
+//! let png = to_png(&svg, 2.0)?;
+//! ```
+
+mod canvas;
+mod check;
+mod curves;
+mod draw;
+mod error;
+mod geometry;
+mod layout;
+mod legend;
+mod look;
+mod marker;
+mod palette;
+mod place;
+mod render;
+mod scale;
+mod stroke;
+mod text;
+mod ticks;
+
+pub use error::{AxisName, ChartError};
+pub use palette::Color;
+pub use render::{to_png, to_svg};
+
+/// A chart: what is drawn against which axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// Drawn above the frame; a figure in a paper has its title in the caption instead.
+    pub title: Option<String>,
+    pub x: Axis,
+    pub y: Axis,
+    /// Drawn in this order, later ones on top.
+    pub series: Vec<Series>,
+    pub marks: Vec<Mark>,
+    /// `None`: no legend. A legend lists the series that have a label.
+    pub legend: Option<LegendPlace>,
+    pub size: Size,
+}
+
+impl Chart {
+    /// An empty chart of the default size with an automatically placed legend.
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self {
+            title: None,
+            x,
+            y,
+            series: Vec::new(),
+            marks: Vec::new(),
+            legend: Some(LegendPlace::Auto),
+            size: Size::default(),
+        }
+    }
+
+    #[must_use]
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = Some(title.into());
+        self
+    }
+
+    /// Adds one series.
+    #[must_use]
+    pub fn series(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// Adds several series.
+    #[must_use]
+    pub fn all_series(mut self, series: impl IntoIterator<Item = Series>) -> Self {
+        self.series.extend(series);
+        self
+    }
+
+    /// Adds one mark.
+    #[must_use]
+    pub fn mark(mut self, mark: Mark) -> Self {
+        self.marks.push(mark);
+        self
+    }
+
+    /// Adds several marks; an `Option<Mark>` serves as well.
+    #[must_use]
+    pub fn all_marks(mut self, marks: impl IntoIterator<Item = Mark>) -> Self {
+        self.marks.extend(marks);
+        self
+    }
+
+    /// Fixes where the legend goes, or with `None` leaves it out.
+    #[must_use]
+    pub fn legend(mut self, place: impl Into<Option<LegendPlace>>) -> Self {
+        self.legend = place.into();
+        self
+    }
+
+    #[must_use]
+    pub fn size(mut self, width_px: u32, height_px: u32) -> Self {
+        self.size = Size {
+            width_px,
+            height_px,
+        };
+        self
+    }
+}
+
+/// One axis: quantity and unit in words, how values become lengths, and optionally the range shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    pub label: String,
+    pub scale: Scale,
+    /// The values at the two ends of the axis, low then high. `None`: chosen from the data.
+    pub range: Option<(f64, f64)>,
+}
+
+impl Axis {
+    pub fn linear(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            scale: Scale::Linear,
+            range: None,
+        }
+    }
+
+    pub fn log(label: impl Into<String>) -> Self {
+        Self {
+            label: label.into(),
+            scale: Scale::Log,
+            range: None,
+        }
+    }
+
+    /// Fixes the values at the two ends of the axis. What lies outside is not drawn.
+    #[must_use]
+    pub fn range(mut self, low: f64, high: f64) -> Self {
+        self.range = Some((low, high));
+        self
+    }
+}
+
+/// How a value becomes a length along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scale {
+    Linear,
+    /// Base ten; values must be above zero.
+    Log,
+}
+
+/// One curve or one set of points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// The entry in the legend; a series without a label has none.
+    pub label: Option<String>,
+    /// `(x, y)`; `None` breaks the line where a value is absent.
+    pub points: Vec<Option<(f64, f64)>>,
+    pub line: Option<LineStyle>,
+    pub marker: Option<Marker>,
+    pub color: Color,
+    /// Fills the area between the curve and this y.
+    pub fill_to: Option<f64>,
+    /// Symmetric error bars in units of y, one entry per entry of `points`.
+    pub error: Option<Vec<Option<f64>>>,
+}
+
+impl Series {
+    /// A solid line through the points, given as `(x, y)` or, where values may be absent, as `Option<(x, y)>`.
+    pub fn line<P: Into<Option<(f64, f64)>>>(points: impl IntoIterator<Item = P>) -> Self {
+        Self {
+            label: None,
+            points: points.into_iter().map(Into::into).collect(),
+            line: Some(LineStyle::Solid),
+            marker: None,
+            color: Color::Palette(0),
+            fill_to: None,
+            error: None,
+        }
+    }
+
+    /// Points that no line joins, drawn as discs unless another marker is chosen.
+    pub fn scatter<P: Into<Option<(f64, f64)>>>(points: impl IntoIterator<Item = P>) -> Self {
+        Self {
+            line: None,
+            marker: Some(Marker::Disc),
+            ..Self::line(points)
+        }
+    }
+
+    #[must_use]
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = Some(label.into());
+        self
+    }
+
+    #[must_use]
+    pub fn style(mut self, style: LineStyle) -> Self {
+        self.line = Some(style);
+        self
+    }
+
+    #[must_use]
+    pub fn marker(mut self, marker: Marker) -> Self {
+        self.marker = Some(marker);
+        self
+    }
+
+    /// A [`Color`], or a number for that place in the palette.
+    #[must_use]
+    pub fn color(mut self, color: impl Into<Color>) -> Self {
+        self.color = color.into();
+        self
+    }
+
+    #[must_use]
+    pub fn fill_to(mut self, y: f64) -> Self {
+        self.fill_to = Some(y);
+        self
+    }
+
+    /// One half-length per point, as `f64` or as `Option<f64>`.
+    #[must_use]
+    pub fn error_bars<E: Into<Option<f64>>>(mut self, error: impl IntoIterator<Item = E>) -> Self {
+        self.error = Some(error.into_iter().map(Into::into).collect());
+        self
+    }
+}
+
+/// How a line is stroked. The four stay apart in grey.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LineStyle {
+    Solid,
+    Dashed,
+    Dotted,
+    DashDot,
+}
+
+impl LineStyle {
+    /// The styles in turn, for a family of curves: 0 is solid, 4 is solid again.
+    pub fn nth(index: usize) -> Self {
+        [Self::Solid, Self::Dashed, Self::DashDot, Self::Dotted][index % 4]
+    }
+}
+
+/// What stands on a data point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Marker {
+    Disc,
+    Ring,
+    Square,
+    Triangle,
+    Diamond,
+    Cross,
+}
+
+impl Marker {
+    /// The markers in turn, for a family of curves: 0 is a disc, 6 is a disc again.
+    pub fn nth(index: usize) -> Self {
+        [
+            Self::Disc,
+            Self::Square,
+            Self::Triangle,
+            Self::Diamond,
+            Self::Ring,
+            Self::Cross,
+        ][index % 6]
+    }
+}
+
+/// Something pointed out in the chart. Its label is placed where it covers neither curves nor the legend.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    pub place: MarkPlace,
+    pub label: Option<String>,
+    pub color: Color,
+}
+
+/// Where a [`Mark`] is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MarkPlace {
+    /// A ring about a point, such as a peak, with a thin leader line to its label.
+    Point { x: f64, y: f64 },
+    /// A line over the whole height of the frame.
+    Vertical { x: f64 },
+    /// A line over the whole width of the frame.
+    Horizontal { y: f64 },
+}
+
+impl Mark {
+    pub fn point(x: f64, y: f64, label: impl Into<String>) -> Self {
+        Self::new(MarkPlace::Point { x, y }, label)
+    }
+
+    pub fn vertical(x: f64, label: impl Into<String>) -> Self {
+        Self::new(MarkPlace::Vertical { x }, label)
+    }
+
+    pub fn horizontal(y: f64, label: impl Into<String>) -> Self {
+        Self::new(MarkPlace::Horizontal { y }, label)
+    }
+
+    fn new(place: MarkPlace, label: impl Into<String>) -> Self {
+        Self {
+            place,
+            label: Some(label.into()),
+            color: look::INK,
+        }
+    }
+
+    /// A [`Color`], or a number for that place in the palette; a mark is dark grey otherwise.
+    #[must_use]
+    pub fn color(mut self, color: impl Into<Color>) -> Self {
+        self.color = color.into();
+        self
+    }
+}
+
+/// Where the legend goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LegendPlace {
+    /// A place inside the frame where it covers no data, otherwise outside.
+    Auto,
+    TopRight,
+    TopLeft,
+    BottomRight,
+    BottomLeft,
+    /// Outside, in a column to the right of the frame.
+    Right,
+    /// Outside, in rows above the frame.
+    Above,
+}
+
+/// The size of the picture at scale 1.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size {
+    pub width_px: u32,
+    pub height_px: u32,
+}
+
+impl Default for Size {
+    fn default() -> Self {
+        Self {
+            width_px: 800,
+            height_px: 600,
+        }
+    }
+}

@@ -1,0 +1,30 @@
+//! Relaxation modulus against time, as figure 1 of S. Spinu, Advances in Tribology 2018, 9432894, shows it for PMMA.
+
+use super::{Figure, prefix};
+use crate::report::ReportError;
+use crate::report::chart::{Axis, Chart, Series};
+use crate::report::table::Table;
+
+/// The figure, from (time in s, relaxation modulus in Pa, creep compliance in 1/Pa).
+///
+/// # Errors
+/// Where the table behind it cannot be made.
+pub fn figure(points: &[(f64, f64, f64)], symbol: char) -> Result<Figure, ReportError> {
+    let largest = points.iter().map(|p| p.1).fold(0.0, f64::max);
+    let (factor, unit) = prefix(largest);
+    let chart = Chart::new(
+        Axis::linear("time t / s"),
+        Axis::linear(format!("relaxation modulus {symbol}(t) / {unit}Pa")),
+    )
+    .series(Series::line(points.iter().map(|p| (p.0, factor * p.1))));
+    let columns = ["time_s", "relaxation_modulus_pa", "creep_compliance_per_pa"];
+    let mut table = Table::new("relaxation.csv", &columns)?;
+    for (time, modulus, compliance) in points {
+        table.numbers(&[*time, *modulus, *compliance])?;
+    }
+    Ok(Figure {
+        name: "relaxation",
+        chart,
+        data: table.finish()?,
+    })
+}

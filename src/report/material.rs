@@ -1,0 +1,268 @@
+//! A material as text, table and figures: its series both ways, its moduli over frequency, its peaks.
+
+use std::fmt::Write;
+
+use super::ReportError;
+use super::figure::moduli::ModulusPoint;
+use super::figure::{self, Figure};
+use crate::material::{Creep, LossPeak, Material, MaterialError, ModulusKind, Relaxation};
+use crate::quantity::{Dimension, format_human};
+
+/// A material with its functions as moduli of the kind it was given in.
+pub struct MaterialReport<'a> {
+    material: &'a Material,
+    symbol: char,
+}
+
+impl<'a> MaterialReport<'a> {
+    /// A report on this material.
+    pub fn new(material: &'a Material) -> Self {
+        let symbol = match material.kind() {
+            ModulusKind::Longitudinal => 'E',
+            ModulusKind::Shear => 'G',
+        };
+        Self { material, symbol }
+    }
+
+    /// Times of all branches, shortest and longest (s); those of one second where there are no branches.
+    fn time_range_s(&self) -> (f64, f64) {
+        let relaxation = self.material.relaxation().map(Relaxation::branches);
+        let relaxation = relaxation.unwrap_or_default().iter().map(|b| b.time_s);
+        let retardation = self.material.creep().branches().iter().map(|b| b.time_s);
+        let times = || relaxation.clone().chain(retardation.clone());
+        let (shortest, longest) = (
+            times().fold(f64::INFINITY, f64::min),
+            times().fold(0.0, f64::max),
+        );
+        if longest > 0.0 {
+            (shortest, longest)
+        } else {
+            (1.0, 1.0)
+        }
+    }
+
+    /// Moduli at `per_decade` frequencies per decade, from two decades below to two above the reciprocal times.
+    pub fn moduli(&self, per_decade: usize) -> Vec<ModulusPoint> {
+        let (shortest, longest) = self.time_range_s();
+        let first = (longest.recip().log10() - 2.0).floor() as i32;
+        let last = (shortest.recip().log10() + 2.0).ceil() as i32;
+        let count = (last - first).max(1) as usize * per_decade;
+        (0..=count)
+            .map(|i| {
+                let omega = 10_f64.powf(f64::from(first) + i as f64 / per_decade as f64);
+                let creep = self.material.creep();
+                // A modulus of the series as given is accurate where its creep function is stiff, and the reverse.
+                let modulus = match self.material.relaxation() {
+                    Some(relaxation) => relaxation.complex_modulus(omega),
+                    None => creep.complex_modulus(omega),
+                };
+                let compliance = creep.complex_compliance(omega);
+                ModulusPoint {
+                    angular_frequency_rad_per_s: omega,
+                    storage_modulus_pa: modulus.re,
+                    loss_modulus_pa: modulus.im,
+                    storage_compliance_per_pa: compliance.re,
+                    loss_compliance_per_pa: -compliance.im,
+                }
+            })
+            .collect()
+    }
+
+    /// Relaxation modulus and creep compliance from 0 to past the end of relaxation, where there is a relaxation modulus.
+    fn relaxation_curve(&self) -> Option<Vec<(f64, f64, f64)>> {
+        let relaxation = self.material.relaxation()?;
+        let times = relaxation.branches().iter().map(|branch| branch.time_s);
+        let longest = times.fold(0.0, f64::max);
+        let longest = if longest > 0.0 { longest } else { 1.0 };
+        // Eight relaxation times, rounded up to one digit: 1000 s for PMMA.
+        let span = 8.0 * longest;
+        let power = 10_f64.powf(span.log10().floor());
+        let end = (span / power).ceil() * power;
+        let creep = self.material.creep();
+        let point = |t: f64| (t, relaxation.modulus(t), creep.compliance(t));
+        Some(
+            (0..=400)
+                .map(|i| point(end * f64::from(i) / 400.0))
+                .collect(),
+        )
+    }
+
+    /// The figures: moduli over frequency, relaxation modulus over time.
+    ///
+    /// # Errors
+    /// Where the tables behind them cannot be made.
+    pub fn figures(&self) -> Result<Vec<Figure>, ReportError> {
+        let mut figures = vec![figure::moduli::figure(&self.moduli(20), self.symbol)?];
+        if let Some(curve) = self.relaxation_curve() {
+            figures.push(figure::relaxation::figure(&curve, self.symbol)?);
+        }
+        Ok(figures)
+    }
+
+    /// The text: series, limits, table, peaks.
+    ///
+    /// # Errors
+    /// What the conversion of the material refuses.
+    pub fn text(&self) -> Result<String, MaterialError> {
+        let mut text = String::new();
+        let symbol = self.symbol;
+        let (kind, compliance) = match self.material.kind() {
+            ModulusKind::Longitudinal => ("longitudinal", 'D'),
+            ModulusKind::Shear => ("shear", 'J'),
+        };
+        // Writing to a String cannot fail.
+        let _ = writeln!(text, "Poisson ratio {}", self.material.poisson_ratio());
+        let _ = writeln!(text, "\nRelaxation modulus ({kind}; MPa, s)");
+        match self.material.relaxation() {
+            Some(relaxation) => relaxation_lines(&mut text, symbol, relaxation),
+            None => text.push_str(
+                "  none: without an instantaneous compliance it has an impulse at t = 0\n",
+            ),
+        }
+        let creep = self.material.creep();
+        let _ = writeln!(text, "\nCreep compliance ({kind}; 1/MPa, s)");
+        creep_lines(&mut text, compliance, creep);
+        let _ = writeln!(text, "\nShear creep function J(t)/2 (1/MPa, s)");
+        creep_lines(&mut text, 'Φ', &self.material.shear_creep_function()?);
+        moduli_table(&mut text, symbol, compliance, &self.moduli(2));
+        let peaks = self.material.loss_peaks(self.material.kind())?;
+        let _ = writeln!(text, "\nPeaks over angular frequency");
+        let modulus = |p: &LossPeak| format_human(p.value, Dimension::Stress, 5);
+        peak_lines(
+            &mut text,
+            &format!("{symbol}″"),
+            &peaks.loss_modulus,
+            modulus,
+        );
+        let per_mpa = |p: &LossPeak| format!("{:.4e} 1/MPa", p.value * 1e6);
+        peak_lines(
+            &mut text,
+            &format!("{compliance}″"),
+            &peaks.loss_compliance,
+            per_mpa,
+        );
+        let tangent = |p: &LossPeak| format!("{:.4}", p.value);
+        peak_lines(&mut text, "tan δ", &peaks.loss_tangent, tangent);
+        Ok(text)
+    }
+}
+
+fn relaxation_lines(text: &mut String, symbol: char, relaxation: &Relaxation) {
+    let mpa = |pa: f64| significant(pa * 1e-6);
+    let _ = write!(
+        text,
+        "  {symbol}(t) = {}",
+        mpa(relaxation.equilibrium_modulus())
+    );
+    for branch in relaxation.branches() {
+        let _ = write!(
+            text,
+            "\n       + {} exp(-t / {})",
+            mpa(branch.modulus_pa),
+            significant(branch.time_s)
+        );
+    }
+    let _ = writeln!(
+        text,
+        "\n  {symbol}(0) = {} MPa",
+        mpa(relaxation.instantaneous_modulus())
+    );
+}
+
+fn creep_lines(text: &mut String, symbol: char, creep: &Creep) {
+    let per_mpa = |per_pa: f64| format!("{:.4e}", per_pa * 1e6);
+    match creep.equilibrium_compliance() {
+        // As the paper writes it: equilibrium less what is still to come.
+        Some(equilibrium) => {
+            let _ = write!(text, "  {symbol}(t) = {}", per_mpa(equilibrium));
+            for branch in creep.branches() {
+                let _ = write!(
+                    text,
+                    "\n       - {} exp(-{} t)    retardation time {} s",
+                    per_mpa(branch.compliance_per_pa),
+                    significant(branch.time_s.recip()),
+                    significant(branch.time_s)
+                );
+            }
+        }
+        None => {
+            let _ = write!(
+                text,
+                "  {symbol}(t) = {}",
+                per_mpa(creep.instantaneous_compliance())
+            );
+            for branch in creep.branches() {
+                let _ = write!(
+                    text,
+                    "\n       + {} (1 - exp(-t / {}))",
+                    per_mpa(branch.compliance_per_pa),
+                    significant(branch.time_s)
+                );
+            }
+            if let Some(viscosity) = creep.viscosity_pa_s() {
+                let _ = write!(
+                    text,
+                    "\n       + t / {} MPa s",
+                    significant(viscosity * 1e-6)
+                );
+            }
+        }
+    }
+    text.push('\n');
+}
+
+fn moduli_table(text: &mut String, symbol: char, compliance: char, points: &[ModulusPoint]) {
+    let _ = writeln!(
+        text,
+        "\n  ω / rad/s     {symbol}′ / MPa     {symbol}″ / MPa      tan δ   {compliance}′ / 1/MPa   {compliance}″ / 1/MPa"
+    );
+    for p in points {
+        let _ = writeln!(
+            text,
+            "{:>11}  {:>11}  {:>11}  {:>9.3e}  {:>11.4e}  {:>11.4e}",
+            super::terminal::frequency(p.angular_frequency_rad_per_s),
+            significant(p.storage_modulus_pa * 1e-6),
+            significant(p.loss_modulus_pa * 1e-6),
+            p.loss_modulus_pa / p.storage_modulus_pa,
+            p.storage_compliance_per_pa * 1e6,
+            p.loss_compliance_per_pa * 1e6,
+        );
+    }
+}
+
+fn peak_lines(
+    text: &mut String,
+    name: &str,
+    peaks: &[LossPeak],
+    value: impl Fn(&LossPeak) -> String,
+) {
+    if peaks.is_empty() {
+        let _ = writeln!(text, "  {name}: none");
+    }
+    for peak in peaks {
+        let _ = writeln!(
+            text,
+            "  {name} = {} at ω = {} rad/s",
+            value(peak),
+            significant(peak.angular_frequency_rad_per_s)
+        );
+    }
+}
+
+/// Six significant digits, without exponent where the number is of everyday size.
+fn significant(value: f64) -> String {
+    let magnitude = value.abs();
+    if value == 0.0 || (1e-3..1e7).contains(&magnitude) {
+        let digits = if value == 0.0 {
+            0
+        } else {
+            (5 - magnitude.log10().floor() as i32).max(0) as usize
+        };
+        let text = format!("{value:.digits$}");
+        if text.contains('.') {
+            return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+        }
+        return text;
+    }
+    format!("{value:.5e}")
+}

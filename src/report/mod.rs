@@ -1,0 +1,59 @@
+//! Tables and figures, from records alone: nothing here solves anything.
+
+pub mod chart;
+pub mod figure;
+pub mod material;
+pub mod summary;
+pub mod table;
+pub mod terminal;
+
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::run::Outcome;
+use crate::sweep::store::{Store, StoreError};
+use chart::ChartError;
+
+/// Why a report cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    #[error("cannot draw {name}: {source}")]
+    Chart {
+        name: &'static str,
+        source: ChartError,
+    },
+    #[error("cannot make the table {name}: {reason}")]
+    Table { name: &'static str, reason: String },
+}
+
+/// Writes everything a sweep leaves behind: table, loops, summary, figures with their data. Returns what was left out and
+/// why.
+///
+/// # Errors
+/// [`ReportError`] naming the file that could not be made.
+pub fn write_sweep(
+    store: &Store,
+    plan: &SweepPlan,
+    outcome: &Outcome,
+) -> Result<Vec<String>, ReportError> {
+    store.write("sweep.csv", &table::sweep(&outcome.records)?)?;
+    for record in &outcome.records {
+        if let Some(result) = &record.result {
+            let name = format!("loops/{}.csv", record.index);
+            store.write(name, &table::samples(&result.samples)?)?;
+        }
+    }
+    let summary = summary::summary(plan, outcome, store.sweep_hash())?;
+    store.write("summary.json", &summary)?;
+    if outcome.records.iter().all(|r| r.result.is_none()) {
+        return Ok(vec![
+            "no figures: no case converged, so there is nothing to draw".to_owned(),
+        ]);
+    }
+    let figures = [
+        figure::energy_loss::figure(outcome)?,
+        figure::loops::figure(&outcome.records)?,
+    ];
+    figure::write_all(&figures, &|name, bytes| store.write(name, bytes))?;
+    Ok(Vec::new())
+}

@@ -1,0 +1,63 @@
+//! `summary.json`: what a program wants to know of a sweep at a glance.
+
+use serde::Serialize;
+
+use super::ReportError;
+use crate::sweep::peak::{Peak, RELATIVE_ACCURACY};
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::record::Status;
+use crate::sweep::run::Outcome;
+
+#[derive(Serialize)]
+struct Summary<'a> {
+    title: &'a str,
+    peaks: &'a [Peak],
+    peak_relative_accuracy: f64,
+    peak_problems: &'a [String],
+    cases: Cases,
+    interrupted: bool,
+    engine: &'a str,
+    program: &'a str,
+    program_version: &'a str,
+    sweep_hash: &'a str,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "kebab-case")]
+struct Cases {
+    planned: usize,
+    converged: usize,
+    not_converged: usize,
+    failed: usize,
+}
+
+/// The file's bytes.
+pub fn summary(
+    plan: &SweepPlan,
+    outcome: &Outcome,
+    sweep_hash: &str,
+) -> Result<Vec<u8>, ReportError> {
+    let summary = Summary {
+        title: &plan.title,
+        peaks: &outcome.peaks,
+        peak_relative_accuracy: RELATIVE_ACCURACY,
+        peak_problems: &outcome.peak_problems,
+        cases: Cases {
+            planned: plan.angular_frequencies_rad_per_s.len(),
+            converged: outcome.count(Status::Converged),
+            not_converged: outcome.count(Status::NotConverged),
+            failed: outcome.count(Status::Failed),
+        },
+        interrupted: outcome.interrupted,
+        engine: plan.solver.engine.name(),
+        program: env!("CARGO_PKG_NAME"),
+        program_version: env!("CARGO_PKG_VERSION"),
+        sweep_hash,
+    };
+    let mut bytes = serde_json::to_vec_pretty(&summary).map_err(|error| ReportError::Table {
+        name: "summary.json",
+        reason: error.to_string(),
+    })?;
+    bytes.push(b'\n');
+    Ok(bytes)
+}
