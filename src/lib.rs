@@ -46,6 +46,7 @@
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
 //! bit for bit.
 
+pub mod cli;
 pub mod contact;
 pub mod cycle;
 pub mod drive;

@@ -1,3 +1,7 @@
-//! The `contact-dma` program.
+//! The `contact-dma` program: parse, plan, run, exit code.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    contact_dma::cli::run(std::env::args_os())
+}

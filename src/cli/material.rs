@@ -1,0 +1,89 @@
+//! `contact-dma material`: the library, and one material in full.
+
+use std::path::Path;
+
+use super::arguments::{MaterialCommand, ShowFlags};
+use super::diagnostic::Problems;
+use super::document::Document;
+use super::{Ended, Failure, material_block, print};
+use crate::material::{Material, library};
+use crate::report::{figure, material::MaterialReport};
+use crate::sweep::store::write_atomically;
+
+/// Runs one of the subcommands.
+pub(super) fn run(command: &MaterialCommand) -> Result<Ended, Failure> {
+    match command {
+        MaterialCommand::List => list(),
+        MaterialCommand::Show(flags) => show(flags),
+    }
+}
+
+fn list() -> Result<Ended, Failure> {
+    let mut text = String::new();
+    for entry in library::entries() {
+        text.push_str(&format!("{}    {}\n", entry.name, entry.title));
+        text.push_str(&indented(entry.notes));
+        text.push_str(&indented(&format!("Source: {}", entry.source)));
+    }
+    print(&text)
+}
+
+fn show(flags: &ShowFlags) -> Result<Ended, Failure> {
+    let (material, head) = load(&flags.material)?;
+    let report = MaterialReport::new(&material);
+    let body = report.text().map_err(Failure::input)?;
+    print(&format!("{head}{body}"))?;
+    let Some(folder) = &flags.out else {
+        return Ok(Ended::Done);
+    };
+    let figures = report.figures().map_err(Failure::run)?;
+    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
+    figure::write_all(&figures, &write).map_err(Failure::run)?;
+    print(&format!("\nFigures in {}\n", folder.display()))
+}
+
+/// A material by name or from a file, and the lines that introduce it.
+fn load(name: &str) -> Result<(Material, String), Failure> {
+    if let Some(entry) = library::find(name) {
+        let material = entry.material().map_err(Failure::run)?;
+        let head = format!(
+            "{}\n{}{}",
+            entry.title,
+            indented(entry.notes),
+            indented(&format!("Source: {}", entry.source))
+        );
+        return Ok((material, head));
+    }
+    let path = Path::new(name);
+    if !path.exists() {
+        let near = library::suggest(name).map(|near| format!("; did you mean \"{near}\"?"));
+        return Err(Failure::input(format!(
+            "no material \"{name}\" in the library, and no file of that name{}",
+            near.unwrap_or_else(|| "; `contact-dma material list` names all materials".to_owned())
+        )));
+    }
+    let document = Document::read(path)?;
+    let problems = Problems::new();
+    let mut root = document.root(&problems);
+    let material = material_block::read(&mut root, &problems);
+    let material = problems.into_result(material)?.value;
+    let title = material.name().unwrap_or("Material").to_owned();
+    Ok((material, format!("{title} (from {name})\n")))
+}
+
+/// A paragraph wrapped at 76 columns and set in by four.
+fn indented(text: &str) -> String {
+    let mut lines = String::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > 72 {
+            lines.push_str(&format!("    {line}\n"));
+            line.clear();
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        line.push_str(word);
+    }
+    lines + &format!("    {line}\n")
+}

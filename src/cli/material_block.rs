@@ -1,0 +1,252 @@
+//! The `[material]` block of a sweep file.
+
+use super::diagnostic::Problems;
+use super::document::{Located, TableReader};
+use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
+use crate::material::{
+    Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch, library,
+};
+use crate::quantity::Dimension;
+
+/// The ways to give a material; exactly one of them.
+const BLOCKS: [&str; 6] = [
+    "library",
+    "relaxation",
+    "creep",
+    "maxwell",
+    "zener",
+    "kelvin_voigt",
+];
+
+const KINDS: [(&str, ModulusKind); 2] = [
+    ("longitudinal", ModulusKind::Longitudinal),
+    ("shear", ModulusKind::Shear),
+];
+
+/// More branches than any fit resolves are a mistake in the file.
+const MAX_BRANCHES: usize = 1000;
+
+/// Reads the block; `None` where a problem was reported.
+pub(super) fn read(root: &mut TableReader<'_>, problems: &Problems) -> Option<Located<Material>> {
+    let mut block = root.table("material")?;
+    let name = block.optional_string("name");
+    let poisson_ratio = block.optional_number("poisson_ratio");
+    if let Some(nu) = &poisson_ratio
+        && !(nu.value > -1.0 && nu.value <= 0.5)
+    {
+        problems
+            .at(nu, "a Poisson ratio lies above -1 and not above 0.5")
+            .help("an incompressible material has poisson_ratio = 0.5");
+        return None;
+    }
+    let asked_for_nu = block.has("poisson_ratio");
+    let chosen = block.one_of(&BLOCKS);
+    let material = match chosen {
+        Some("library") => from_library(&mut block, problems, poisson_ratio.map(|nu| nu.value)),
+        Some(key) => {
+            let material = from_block(&mut block, problems, key);
+            match (material, &poisson_ratio) {
+                (Some(build), Some(nu)) => at_block(&mut block, problems, key, build(nu.value)),
+                (_, None) if !asked_for_nu => {
+                    // Asks for the key, which reports it as missing.
+                    block.number("poisson_ratio");
+                    None
+                }
+                _ => None,
+            }
+        }
+        None => None,
+    };
+    let place = chosen.and_then(|key| block.key_location(key));
+    if chosen.is_some() {
+        block.finish();
+    }
+    let material = material?;
+    let value = match name {
+        Some(name) => material.named(name.value),
+        None => material,
+    };
+    Some(Located {
+        value,
+        path: "material".to_owned(),
+        location: place?,
+    })
+}
+
+fn from_library(
+    block: &mut TableReader<'_>,
+    problems: &Problems,
+    poisson_ratio: Option<f64>,
+) -> Option<Material> {
+    let name = block.string("library")?;
+    let Some(entry) = library::find(&name.value) else {
+        let report = problems.at(
+            &name,
+            format!("no material \"{}\" in the library", name.value),
+        );
+        match library::suggest(&name.value) {
+            Some(near) => report.help(format!("write \"{near}\"")),
+            None => report.help("`contact-dma material list` names all of them"),
+        };
+        return None;
+    };
+    let material = at_block(block, problems, "library", entry.material())?;
+    match (poisson_ratio, material.relaxation()) {
+        (Some(nu), Some(relaxation)) => {
+            let other = Material::from_relaxation(relaxation.clone(), material.kind(), nu);
+            at_block(block, problems, "library", other).map(|m| m.named(entry.title))
+        }
+        _ => Some(material),
+    }
+}
+
+/// A material but for its Poisson ratio.
+type Build = Box<dyn FnOnce(f64) -> Result<Material, MaterialError>>;
+
+fn from_block(block: &mut TableReader<'_>, problems: &Problems, key: &str) -> Option<Build> {
+    let mut table = block.table(key)?;
+    let build: Option<Build> = match key {
+        "relaxation" => relaxation(&mut table, problems),
+        "creep" => creep(&mut table, problems),
+        "maxwell" => pair(&mut table, problems, "modulus").map(|[modulus, time]| -> Build {
+            Box::new(move |nu| Maxwell::new(modulus, time)?.material(nu))
+        }),
+        "kelvin_voigt" => pair(&mut table, problems, "spring").map(|[spring, time]| -> Build {
+            Box::new(move |nu| KelvinVoigt::new(spring, time)?.material(nu))
+        }),
+        _ => zener(&mut table, problems),
+    };
+    table.finish();
+    build
+}
+
+/// A modulus under this key, and a time.
+fn pair(table: &mut TableReader<'_>, problems: &Problems, key: &str) -> Option<[f64; 2]> {
+    let modulus = positive(
+        problems,
+        table.quantity(key, Dimension::Stress),
+        "a modulus",
+    );
+    let time = positive(problems, table.quantity("time", Dimension::Time), "a time");
+    Some([modulus?, time?])
+}
+
+fn zener(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
+    let spring = positive(
+        problems,
+        table.quantity("spring", Dimension::Stress),
+        "a modulus",
+    );
+    let [kelvin_spring, time] = pair(table, problems, "kelvin_spring")?;
+    let spring = spring?;
+    Some(Box::new(move |nu| {
+        Zener::new(spring, kelvin_spring, time)?.material(nu)
+    }))
+}
+
+fn relaxation(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
+    let kind = table.choice_of("modulus", &KINDS);
+    let equilibrium = table.quantity("equilibrium", Dimension::Stress);
+    let equilibrium = not_negative(problems, equilibrium, "an equilibrium modulus");
+    let branches = branches(table, problems, "modulus", Dimension::Stress);
+    let (kind, equilibrium, branches) = (kind?.value, equilibrium?, branches?);
+    Some(Box::new(move |nu| {
+        let branches = branches
+            .into_iter()
+            .map(|(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s })
+            .collect();
+        Material::from_relaxation(Relaxation::new(equilibrium, branches)?, kind, nu)
+    }))
+}
+
+fn creep(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
+    let kind = table.choice_of("compliance", &KINDS);
+    let instantaneous = table.quantity("instantaneous", Dimension::Compliance);
+    let instantaneous = not_negative(problems, instantaneous, "an instantaneous compliance");
+    let viscosity = match table.optional_quantity("viscosity", Dimension::Viscosity) {
+        Some(viscosity) => Some(positive(problems, Some(viscosity), "a viscosity")?),
+        None => None,
+    };
+    let branches = branches(table, problems, "compliance", Dimension::Compliance);
+    let (kind, instantaneous, branches) = (kind?.value, instantaneous?, branches?);
+    Some(Box::new(move |nu| {
+        let branches = branches
+            .into_iter()
+            .map(|(compliance_per_pa, time_s)| CreepBranch {
+                compliance_per_pa,
+                time_s,
+            })
+            .collect();
+        Material::from_creep(Creep::new(instantaneous, branches, viscosity)?, kind, nu)
+    }))
+}
+
+/// The `branches` of a series: (modulus or compliance, time).
+fn branches(
+    table: &mut TableReader<'_>,
+    problems: &Problems,
+    key: &str,
+    dimension: Dimension,
+) -> Option<Vec<(f64, f64)>> {
+    let tables = table.tables("branches")?;
+    if tables.value.len() > MAX_BRANCHES {
+        problems
+            .at(
+                &tables,
+                format!("{} branches are too many", tables.value.len()),
+            )
+            .help(format!("give at most {MAX_BRANCHES}"));
+        return None;
+    }
+    let read = |mut branch: TableReader<'_>| {
+        let strength = positive(
+            problems,
+            branch.quantity(key, dimension),
+            &format!("a {key}"),
+        );
+        let time = positive(problems, branch.quantity("time", Dimension::Time), "a time");
+        branch.finish();
+        Some((strength?, time?))
+    };
+    // All branches are read, so that all problems are reported.
+    let all: Vec<_> = tables.value.into_iter().map(read).collect();
+    all.into_iter().collect()
+}
+
+fn positive(problems: &Problems, value: Option<Located<f64>>, what: &str) -> Option<f64> {
+    let value = value?;
+    if value.value > 0.0 {
+        return Some(value.value);
+    }
+    problems
+        .at(&value, format!("{what} must be above zero"))
+        .help("leave out a branch that is not there");
+    None
+}
+
+fn not_negative(problems: &Problems, value: Option<Located<f64>>, what: &str) -> Option<f64> {
+    let value = value?;
+    if value.value >= 0.0 {
+        return Some(value.value);
+    }
+    problems.at(&value, format!("{what} cannot be negative"));
+    None
+}
+
+/// What the material room refuses, reported at the block it came from.
+fn at_block(
+    block: &mut TableReader<'_>,
+    problems: &Problems,
+    key: &str,
+    material: Result<Material, MaterialError>,
+) -> Option<Material> {
+    match material {
+        Ok(material) => Some(material),
+        Err(error) => {
+            if let Some(place) = block.key_location(key) {
+                problems.at(&place, error.to_string());
+            }
+            None
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! The command line: flags and files to plans, outcomes to text and exit codes. The only room that knows flags.
+//!
+//! Exit codes: 0 done; 1 could not run; 2 bad usage or bad input; 3 done, but some cases did not converge; 130 interrupted.
+
+mod arguments;
+pub mod diagnostic;
+pub mod document;
+mod material;
+mod material_block;
+mod progress;
+mod sweep;
+pub mod sweep_file;
+
+use std::ffi::OsString;
+use std::fmt::Display;
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use arguments::{Arguments, Command};
+use diagnostic::Diagnostics;
+
+/// How a command ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ended {
+    Done,
+    SomeCasesWithoutResult,
+    Interrupted,
+}
+
+/// Why a command did not run to its end.
+enum Failure {
+    /// Something outside the input stopped it: exit code 1.
+    Run(String),
+    /// The input is wrong: exit code 2.
+    Input(String),
+    /// The input is wrong at known places: exit code 2.
+    Document(Diagnostics),
+}
+
+impl Failure {
+    fn run(error: impl Display) -> Self {
+        Self::Run(error.to_string())
+    }
+
+    fn input(error: impl Display) -> Self {
+        Self::Input(error.to_string())
+    }
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(diagnostics: Diagnostics) -> Self {
+        Self::Document(diagnostics)
+    }
+}
+
+/// Runs the program with these arguments, the first being its name.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let arguments = match Arguments::try_parse_from(arguments) {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            // Help and version come this way too, with exit code 0. A closed pipe is no reason to fail.
+            let _ = error.print();
+            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+        }
+    };
+    let ended = match arguments.command {
+        Command::Sweep(flags) => sweep::run(&flags),
+        Command::Material(command) => material::run(&command),
+        Command::Completions { shell } => {
+            let mut text = Vec::new();
+            clap_complete::generate(shell, &mut Arguments::command(), "contact-dma", &mut text);
+            print(&String::from_utf8_lossy(&text))
+        }
+    };
+    match ended {
+        Ok(Ended::Done) => ExitCode::SUCCESS,
+        Ok(Ended::SomeCasesWithoutResult) => ExitCode::from(3),
+        Ok(Ended::Interrupted) => ExitCode::from(130),
+        Err(failure) => report(failure),
+    }
+}
+
+/// Prints a failure; returns its exit code.
+fn report(failure: Failure) -> ExitCode {
+    let (code, printed) = match failure {
+        Failure::Run(message) => (1, error_line(&message)),
+        Failure::Input(message) => (2, error_line(&message)),
+        Failure::Document(diagnostics) => (2, diagnostics.print()),
+    };
+    // Where even standard error is closed, the exit code is all that is left to say.
+    let _ = printed;
+    ExitCode::from(code)
+}
+
+fn error_line(message: &str) -> io::Result<()> {
+    writeln!(anstream::stderr(), "error: {message}")
+}
+
+/// Prints to standard output. A reader that has seen enough (`| head`) is no error.
+fn print(text: &str) -> Result<Ended, Failure> {
+    let mut out = anstream::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Failure::run(format!("cannot print: {error}")))
+        }
+        _ => Ok(Ended::Done),
+    }
+}

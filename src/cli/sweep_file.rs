@@ -1,0 +1,315 @@
+//! Sweep files: from a document to a finished plan, every default filled in, every problem reported where it stands.
+
+use std::sync::Arc;
+
+use super::diagnostic::{Diagnostics, Problems};
+use super::document::{Document, Form, Located, TableReader};
+use super::material_block;
+use crate::drive::HarmonicLoad;
+use crate::history::TimeRule;
+use crate::indenter::{Cone, FlatPunch, Indenter, IndenterError, Sphere};
+use crate::material::Material;
+use crate::quantity::Dimension;
+use crate::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
+
+/// Frequencies, steps, cycles and nodes beyond these are a slip of the pen rather than a wish.
+const MAX_POINTS: usize = 100_000;
+const STEPS: std::ops::RangeInclusive<usize> = 8..=1_000_000;
+const CYCLES: std::ops::RangeInclusive<usize> = 1..=100_000_000;
+const SPRINGS: std::ops::RangeInclusive<usize> = 10..=10_000;
+const CELLS: std::ops::RangeInclusive<usize> = 8..=4096;
+
+/// The plan that a sweep file asks for.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once, each problem with its place and what to write instead.
+pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
+    let problems = Problems::new();
+    let mut root = document.root(&problems);
+    let title = root.string("title");
+    let material =
+        material_block::read(&mut root, &problems).and_then(|m| for_contact(&problems, m));
+    let indenter = root.table("indenter").and_then(|t| indenter(t, &problems));
+    let drive = root.table("drive").and_then(|t| drive(t, &problems));
+    let frequencies = root.table("sweep").and_then(|t| frequencies(t, &problems));
+    let cycle = optional(&mut root, "cycle", CyclePlan::default(), |t| {
+        cycle(t, &problems)
+    });
+    let solver = optional(&mut root, "solver", SolverPlan::default(), |t| {
+        solver(t, &problems)
+    });
+    root.finish();
+    let plan = (|| {
+        Some(SweepPlan {
+            title: title?.value,
+            material: material?,
+            indenter: indenter?,
+            drive: drive?,
+            angular_frequencies_rad_per_s: frequencies?,
+            cycle: cycle?,
+            solver: solver?,
+        })
+    })();
+    problems.into_result(plan)
+}
+
+/// A table that may be left out, with every default.
+fn optional<T>(
+    root: &mut TableReader<'_>,
+    key: &str,
+    default: T,
+    read: impl FnOnce(TableReader<'_>) -> Option<T>,
+) -> Option<T> {
+    if root.has(key) {
+        root.optional_table(key).and_then(read)
+    } else {
+        Some(default)
+    }
+}
+
+/// Refuses materials that cannot be in contact, or whose contact has no stabilised cycle.
+fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Material> {
+    match material.value.contact_compliance() {
+        Err(error) => {
+            problems.at(&material, error.to_string());
+            None
+        }
+        Ok(compliance) if compliance.is_fluid() => {
+            problems
+                .at(
+                    &material,
+                    "this material is a fluid, and a sweep looks for a stabilised cycle",
+                )
+                .because("creeps without end under a mean load")
+                .help("give it an equilibrium modulus above zero, or leave out its viscosity");
+            None
+        }
+        Ok(_) => Some(material.value),
+    }
+}
+
+fn indenter(mut table: TableReader<'_>, problems: &Problems) -> Option<Arc<dyn Indenter>> {
+    let shape = table
+        .choice("shape", &["sphere", "cone", "flat-punch"])?
+        .value;
+    let (key, dimension) = match shape {
+        "cone" => ("half_angle", Dimension::Angle),
+        _ => ("radius", Dimension::Length),
+    };
+    let size = table.quantity(key, dimension);
+    table.finish();
+    let size = size?;
+    let made: Result<Arc<dyn Indenter>, IndenterError> = match shape {
+        "cone" => Cone::new(size.value).map(|shape| Arc::new(shape) as _),
+        "flat-punch" => FlatPunch::new(size.value).map(|shape| Arc::new(shape) as _),
+        _ => Sphere::new(size.value).map(|shape| Arc::new(shape) as _),
+    };
+    made.map_err(|error| {
+        let example = if shape == "cone" {
+            "\"70 deg\""
+        } else {
+            "\"10 mm\""
+        };
+        problems
+            .at(&size, error.to_string())
+            .help(format!("for example {key} = {example}"));
+    })
+    .ok()
+}
+
+fn drive(mut table: TableReader<'_>, problems: &Problems) -> Option<HarmonicLoad> {
+    table.choice_or("control", &["load"], "load");
+    let mean = table.quantity("mean", Dimension::Force);
+    let amplitude = table.quantity("amplitude", Dimension::Force);
+    let phase = table.quantity_or("phase", Dimension::Angle, 0.0);
+    let hold = table.quantity_or("hold", Dimension::Time, 0.0);
+    table.finish();
+    let mut fine = true;
+    let mut above_zero = |value: &Option<Located<f64>>, what: &str| {
+        if let Some(value) = value
+            && value.value <= 0.0
+        {
+            problems.at(value, format!("the {what} must be above zero"));
+            fine = false;
+        }
+    };
+    above_zero(&mean, "mean load");
+    above_zero(&amplitude, "load amplitude");
+    let (mean, amplitude, phase, hold) = (mean?, amplitude?, phase?, hold?);
+    if hold.value < 0.0 {
+        problems.at(&hold, "the hold cannot be negative");
+        return None;
+    }
+    if !fine {
+        return None;
+    }
+    if amplitude.value > mean.value {
+        problems
+            .at(&amplitude, "the load would become a pull for part of each cycle")
+            .because("larger than the mean")
+            .label(&mean, "the mean")
+            .help("a contact without adhesion cannot carry a pull: choose an amplitude of at most the mean");
+        return None;
+    }
+    HarmonicLoad::new(mean.value, amplitude.value, phase.value, hold.value)
+        .map_err(|error| {
+            problems.at(&mean, error.to_string());
+        })
+        .ok()
+}
+
+/// Angular frequencies in rad/s, ascending.
+fn frequencies(mut table: TableReader<'_>, problems: &Problems) -> Option<Vec<f64>> {
+    let key = table.one_of(&["angular_frequency", "frequency"])?;
+    let (dimension, to_angular) = match key {
+        "frequency" => (Dimension::Frequency, std::f64::consts::TAU),
+        _ => (Dimension::AngularFrequency, 1.0),
+    };
+    let values = match table.form(key) {
+        Some(Form::Table) => table.table(key).and_then(|t| range(t, problems, dimension)),
+        _ => list(&mut table, problems, key, dimension),
+    };
+    table.finish();
+    Some(
+        values?
+            .into_iter()
+            .map(|value| value * to_angular)
+            .collect(),
+    )
+}
+
+fn list(
+    table: &mut TableReader<'_>,
+    problems: &Problems,
+    key: &str,
+    dimension: Dimension,
+) -> Option<Vec<f64>> {
+    let mut list = table.quantities(key, dimension)?;
+    if list.value.is_empty() || list.value.len() > MAX_POINTS {
+        let message = if list.value.is_empty() {
+            "the sweep is empty".to_owned()
+        } else {
+            format!("a sweep has at most {MAX_POINTS} frequencies")
+        };
+        let example = format!("{key} = [\"{}\"]", dimension.example());
+        problems.at(&list, message).help(format!(
+            "give at least one frequency, for example {example}"
+        ));
+        return None;
+    }
+    let mut fine = true;
+    for value in list.value.iter().filter(|v| v.value <= 0.0) {
+        problems.at(value, "a frequency must be above zero");
+        fine = false;
+    }
+    list.value.sort_by(|a, b| a.value.total_cmp(&b.value));
+    for pair in list.value.windows(2).filter(|p| p[0].value == p[1].value) {
+        problems
+            .at(&pair[1], "this frequency is listed twice")
+            .label(&pair[0], "the other one");
+        fine = false;
+    }
+    fine.then(|| list.value.into_iter().map(|v| v.value).collect())
+}
+
+fn range(
+    mut table: TableReader<'_>,
+    problems: &Problems,
+    dimension: Dimension,
+) -> Option<Vec<f64>> {
+    let from = table.quantity("from", dimension);
+    let to = table.quantity("to", dimension);
+    let points = table.positive_integer("points", 1..=MAX_POINTS);
+    let spacing = table.choice_or("spacing", &["log", "linear"], "log");
+    table.finish();
+    let (from, to, points, spacing) = (from?, to?, points?, spacing?);
+    if from.value <= 0.0 {
+        problems.at(&from, "a frequency must be above zero");
+        return None;
+    }
+    if points.value == 1 && to.value == from.value {
+        return Some(vec![from.value]);
+    }
+    if to.value <= from.value {
+        problems
+            .at(&to, "the sweep ends before it begins")
+            .because("not above the first frequency")
+            .label(&from, "the first frequency");
+        return None;
+    }
+    if points.value < 2 {
+        problems
+            .at(&points, "a range needs at least 2 points, its two ends")
+            .help("for one frequency write a list with one entry");
+        return None;
+    }
+    Some(spaced(
+        from.value,
+        to.value,
+        points.value,
+        spacing.value == "log",
+    ))
+}
+
+/// `points` values from `from` to `to`, both exact.
+fn spaced(from: f64, to: f64, points: usize, logarithmic: bool) -> Vec<f64> {
+    let last = points - 1;
+    let between = |a: f64, b: f64, i: usize| a + (b - a) * i as f64 / last as f64;
+    (0..points)
+        .map(|i| match i {
+            0 => from,
+            _ if i == last => to,
+            // Through decimal logarithms, so that decades come out as written.
+            _ if logarithmic => 10_f64.powf(between(from.log10(), to.log10(), i)),
+            _ => between(from, to, i),
+        })
+        .collect()
+}
+
+fn cycle(mut table: TableReader<'_>, problems: &Problems) -> Option<CyclePlan> {
+    let default = CyclePlan::default();
+    let steps = table.positive_integer_or("steps", STEPS, default.steps);
+    table.choice_or("method", &["march"], "march");
+    let tolerance = tolerance(&mut table, problems, default.tolerance);
+    let max_cycles = table.positive_integer_or("max_cycles", CYCLES, default.max_cycles);
+    table.finish();
+    Some(CyclePlan {
+        steps: steps?.value,
+        tolerance: tolerance?,
+        max_cycles: max_cycles?.value,
+    })
+}
+
+fn solver(mut table: TableReader<'_>, problems: &Problems) -> Option<SolverPlan> {
+    let default = SolverPlan::default();
+    let engines = [EngineKind::Axisymmetric, EngineKind::HalfSpace].map(|e| (e.name(), e));
+    let engine = table.choice_of_or("engine", &engines, default.engine);
+    let cells = table.positive_integer_or("cells", CELLS, default.cells);
+    let springs = table.positive_integer_or("springs", SPRINGS, default.springs);
+    let tolerance = tolerance(&mut table, problems, default.tolerance);
+    let rules = [
+        ("linear", TimeRule::Linear),
+        ("constant", TimeRule::Constant),
+    ];
+    let time_rule = table.choice_of_or("time_rule", &rules, default.time_rule);
+    table.finish();
+    Some(SolverPlan {
+        engine: engine?.value,
+        time_rule: time_rule?.value,
+        springs: springs?.value,
+        cells: cells?.value,
+        tolerance: tolerance?,
+    })
+}
+
+/// A relative tolerance: below 1, and above what rounding leaves.
+fn tolerance(table: &mut TableReader<'_>, problems: &Problems, default: f64) -> Option<f64> {
+    let tolerance = table.number_or("tolerance", default)?;
+    if tolerance.value >= 1e-13 && tolerance.value < 1.0 {
+        return Some(tolerance.value);
+    }
+    problems
+        .at(&tolerance, "a tolerance lies between 1e-13 and 1")
+        .help(format!("for example tolerance = {default:e}"));
+    None
+}

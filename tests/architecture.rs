@@ -1,0 +1,129 @@
+//! The map of rooms in the crate documentation, held to: a room uses those above it, never those below.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Rooms from top to bottom.
+const ROOMS: [&str; 11] = [
+    "quantity",
+    "material",
+    "indenter",
+    "drive",
+    "contact",
+    "history",
+    "cycle",
+    "reference",
+    "sweep",
+    "report",
+    "cli",
+];
+
+/// Rooms that do not know one another, although one stands above the other.
+const STRANGERS: [&str; 5] = ["material", "indenter", "drive", "contact", "cycle"];
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// Production code: what stands before the unit tests, without comments.
+fn production(text: &str) -> String {
+    let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or("");
+    let lines = code.lines().filter(|l| !l.trim_start().starts_with("//"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Rooms named as `crate::room` in the code.
+fn rooms_used(code: &str) -> Vec<&'static str> {
+    let named = |room: &&&str| {
+        code.match_indices(&format!("crate::{room}"))
+            .any(|(at, found)| {
+                let next = code[at + found.len()..].chars().next();
+                !next.is_some_and(|c| c.is_alphanumeric() || c == '_')
+            })
+    };
+    ROOMS.iter().filter(named).copied().collect()
+}
+
+fn rooms() -> Vec<(usize, PathBuf, Vec<&'static str>)> {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut all = Vec::new();
+    for path in sources(&src) {
+        let inside = path.strip_prefix(&src).unwrap();
+        let first = inside.components().next().unwrap().as_os_str();
+        let name = first.to_str().unwrap().trim_end_matches(".rs");
+        if let Some(room) = ROOMS.iter().position(|r| *r == name) {
+            let code = production(&fs::read_to_string(&path).unwrap());
+            all.push((room, inside.to_path_buf(), rooms_used(&code)));
+        } else {
+            assert!(["lib", "main"].contains(&name), "{name} is not on the map");
+        }
+    }
+    assert!(all.len() > 40, "the sources were not found");
+    all
+}
+
+#[test]
+fn a_room_uses_only_rooms_above_it() {
+    for (room, file, used) in rooms() {
+        for name in used {
+            let other = ROOMS.iter().position(|r| *r == name).unwrap();
+            assert!(
+                other <= room,
+                "{} uses {name}, which is below it",
+                file.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn material_indenter_drive_contact_and_cycle_do_not_know_one_another() {
+    for (room, file, used) in rooms() {
+        if STRANGERS.contains(&ROOMS[room]) {
+            for name in used {
+                let stranger = STRANGERS.contains(&name) && name != ROOMS[room];
+                assert!(!stranger, "{} uses {name}", file.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn no_production_code_rests_on_the_reference_solutions() {
+    for (room, file, used) in rooms() {
+        let own = ROOMS[room] == "reference";
+        assert!(own || !used.contains(&"reference"), "{}", file.display());
+    }
+}
+
+#[test]
+fn every_source_file_opens_by_saying_what_it_is_for() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for path in sources(&src) {
+        let text = fs::read_to_string(&path).unwrap();
+        let first = text.lines().next().unwrap_or("");
+        assert!(first.starts_with("//! "), "{}", path.display());
+        assert!(first.len() > 20, "{}", path.display());
+    }
+}
+
+#[test]
+fn only_the_command_line_knows_flags() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for path in sources(&src) {
+        let code = production(&fs::read_to_string(&path).unwrap());
+        let inside = path.strip_prefix(&src).unwrap();
+        if !inside.starts_with("cli") {
+            assert!(!code.contains("clap"), "{}", inside.display());
+        }
+    }
+}
