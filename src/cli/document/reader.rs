@@ -681,7 +681,7 @@ mod tests {
          --> sweep.toml:3:11
           |
         3 | [material.relaxation.branches]
-          |           ^^^^^^^^^^ needs `equilibrium`, a stress
+          |           ^^^^^^^^^^ needs `equilibrium`, a stress or modulus
           |
           = help: add `equilibrium = "1973 MPa"`
         "#);
@@ -808,16 +808,19 @@ keep_history = "yes"
          --> sweep.toml:3:8
           |
         3 | mean = "10 mm"
-          |        ^^^^^^^ `mm` is a unit of length, not of force
+          |        ^^^^^^^
           |
+          = note: '10 mm' is a length, a force is expected, for example "10 N"
           = help: write a quantity with its unit, such as `mean = "10 N"`
 
         error: `drive.amplitude` must be a force
          --> sweep.toml:4:13
           |
         4 | amplitude = "5 bananas"
-          |             ^^^^^^^^^^^ `bananas` is not a known unit
+          |             ^^^^^^^^^^^
           |
+          = note: '5 bananas' has the unknown unit 'bananas'; a force is written for
+                  example "10 N"
           = help: write a quantity with its unit, such as `amplitude = "10 N"`
         "#);
     }
@@ -856,7 +859,7 @@ tolerance = 1e-400
         5 | phase = -inf
           |         ^^^^ not finite
           |
-          = help: write an angle, such as `phase = "30 deg"`
+          = help: write an angle, such as `phase = "90 deg"`
 
         error: `cycle.steps` must be an integer from 8 to 10000
          --> sweep.toml:7:9
@@ -941,8 +944,9 @@ tolerance = 1e-400
         --> command line:1:20
          |
          | --set drive.mean = 10 mm
-         |                    ^^^^^ `mm` is a unit of length, not of force
+         |                    ^^^^^
          |
+         = note: '10 mm' is a length, a force is expected, for example "10 N"
          = help: write a quantity with its unit, such as `--set 'drive.mean=10 N'`
 
         error: unknown key `cycle.stesp`
@@ -1086,9 +1090,10 @@ tolerance = 1e-400
          --> sweep.toml:1:14
           |
         1 | f = ["1 Hz", "2 N", 3, true]
-          |              ^^^^^ `N` is a unit of force, not of frequency
+          |              ^^^^^
           |
-          = help: write a quantity with its unit, such as `"1 Hz"`
+          = note: '2 N' is a force, a frequency is expected, for example "10 Hz"
+          = help: write a quantity with its unit, such as `"10 Hz"`
 
         error: `f[3]` must be a frequency
          --> sweep.toml:1:24
@@ -1096,7 +1101,7 @@ tolerance = 1e-400
         1 | f = ["1 Hz", "2 N", 3, true]
           |                        ^^^^ found a boolean
           |
-          = help: write a quantity with its unit, such as `"1 Hz"`
+          = help: write a quantity with its unit, such as `"10 Hz"`
 
         error: `g` must be an array, each item a frequency
          --> sweep.toml:2:5
@@ -1104,7 +1109,7 @@ tolerance = 1e-400
         2 | g = 1
           |     ^ found an integer
           |
-          = help: write an array, each item a frequency, such as `g = ["1 Hz"]`
+          = help: write an array, each item a frequency, such as `g = ["10 Hz"]`
 
         error: `h[1]` must be a number
          --> sweep.toml:3:9
