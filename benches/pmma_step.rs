@@ -31,6 +31,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let contact_m = (0.75 * LOAD_N * RADIUS_M * relaxed).cbrt();
     let sphere = Sphere::new(RADIUS_M)?;
 
+    let settings = SolverSettings {
+        tolerance: 1e-8,
+        ..SolverSettings::default()
+    };
+
     let started = Instant::now();
     let grid = Grid::square(cells, 4.0 * contact_m / cells as f64)?;
     let operator = Arc::new(Convolution::new(grid)?);
@@ -39,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         sphere.gap_m(x_m, y_m)
     };
     let gaps = (0..operator.grid().cells()).map(gap).collect();
-    let mut engine = HalfSpace::new(operator, gaps, true, SolverSettings::default());
+    let mut engine = HalfSpace::new(operator, gaps, true, settings);
     let mut march = March::new(&mut engine, compliance.clone(), TimeRule::Linear);
     march.jump(Prescribed::LoadN(LOAD_N))?;
     let weights = march.weights(STEP_S);

@@ -38,6 +38,8 @@ pub struct HalfSpace {
     settings: SolverSettings,
     gap_m: Vec<f64>,
     bounded_pressure: bool,
+    /// B H: the displacement that history left.
+    history_displacement_m: Vec<f64>,
     /// g + B H: the gap under no pressure, before the approach is taken off.
     free_gap_m: Vec<f64>,
     /// B p, without the compliance.
@@ -68,7 +70,7 @@ struct Residual {
 impl Residual {
     /// What the tolerance bounds; 0 out of contact, infinite where nothing is in contact yet but something penetrates.
     fn relative(&self) -> f64 {
-        if self.penetration_m <= 0.0 && self.cells == 0 {
+        if self.penetration_m <= 0.0 && self.misfit == 0.0 {
             return 0.0;
         }
         if self.work <= 0.0 {
@@ -105,6 +107,7 @@ impl HalfSpace {
             scratch,
             settings,
             bounded_pressure,
+            history_displacement_m: vec![0.0; cells],
             free_gap_m: vec![0.0; cells],
             displacement: vec![0.0; cells],
             response: vec![0.0; cells],
@@ -122,18 +125,18 @@ impl HalfSpace {
 
     /// The surface displacement u = B (A p + H) in metres of the instant last solved, one value per cell.
     pub fn displacement_m(&self, compliance_per_pa: f64) -> impl Iterator<Item = f64> + '_ {
-        let elastic = self.displacement.iter().map(move |u| compliance_per_pa * u);
-        let free = self.free_gap_m.iter().zip(&self.gap_m);
-        elastic.zip(free).map(|(u, (free, gap))| u + (free - gap))
+        let fields = self.displacement.iter().zip(&self.history_displacement_m);
+        fields.map(move |(u, history)| compliance_per_pa * u + history)
     }
 
     /// free gap = g + B H.
     fn prepare_free_gap(&mut self, history: &[f64]) -> Result<(), ContactError> {
         self.operator
-            .apply(history, &mut self.free_gap_m, &mut self.scratch)?;
+            .apply(history, &mut self.history_displacement_m, &mut self.scratch)?;
         self.convolutions += 1;
-        for (free, gap) in self.free_gap_m.iter_mut().zip(&self.gap_m) {
-            *free += gap;
+        let fields = self.gap_m.iter().zip(&self.history_displacement_m);
+        for (free, (gap, displacement)) in self.free_gap_m.iter_mut().zip(fields) {
+            *free = gap + displacement;
         }
         Ok(())
     }
@@ -145,8 +148,8 @@ impl HalfSpace {
         Ok(())
     }
 
-    /// The starting pressure: the guess made non-negative and scaled to the load, or, without a guess, the load on the
-    /// cells where the gap is smallest.
+    /// The starting pressure: the guess made non-negative and scaled to the load, or, without a guess, the load spread
+    /// evenly over the indenter.
     fn start(&self, target_sum: Option<f64>, pressure: &mut [f64]) {
         for (p, gap) in pressure.iter_mut().zip(&self.gap_m) {
             *p = if gap.is_finite() { p.max(0.0) } else { 0.0 };
@@ -205,7 +208,8 @@ impl HalfSpace {
 
     /// Conjugate direction t = gap + beta t inside the contact, 0 outside; returns the sum of gap * t.
     ///
-    /// Where nothing is in contact yet, the penetrating cells make the direction.
+    /// Where the contact has no gap to close (it is empty, or one cell under a prescribed load), the penetrating cells make
+    /// the direction.
     fn update_direction(
         &mut self,
         compliance: f64,
@@ -225,10 +229,13 @@ impl HalfSpace {
                 0.0
             };
         }
-        if residual.cells == 0 {
-            for (t, &free) in self.direction.iter_mut().zip(&self.free_gap_m) {
-                *t = (free - residual.approach_m).min(0.0);
-                product += *t * *t;
+        if product == 0.0 {
+            let fields = self.free_gap_m.iter().zip(&self.displacement);
+            for ((t, &p), (&free, &u)) in self.direction.iter_mut().zip(pressure).zip(fields) {
+                if p <= 0.0 {
+                    *t = (free + compliance * u - residual.approach_m).min(0.0);
+                    product += *t * *t;
+                }
             }
         }
         product

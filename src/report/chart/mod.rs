@@ -4,13 +4,16 @@
 //! data already scaled to the unit named in the axis label. [`to_svg`] gives the finished picture as SVG whose text is
 //! outlines (it needs no font), [`to_png`] the same picture in pixels.
 //!
-//! ```ignore
+//! ```
+//! use contact_dma::report::chart::{Axis, Chart, Mark, Marker, Series, to_png, to_svg};
+//!
 //! let losses = [(1e-3, 0.4), (1e-2, 1.7), (1e-1, 0.6)];
 //! let chart = Chart::new(Axis::log("angular frequency ω / rad·s⁻¹"), Axis::linear("energy loss W / µJ"))
 //!     .series(Series::line(losses).marker(Marker::Disc))
 //!     .mark(Mark::point(1e-2, 1.7, "ω = 10⁻² rad/s"));
 //! let svg = to_svg(&chart)?;
 //! let png = to_png(&svg, 2.0)?;
+//! # Ok::<(), contact_dma::report::chart::ChartError>(())
 //! ```
 
 mod canvas;

@@ -55,9 +55,28 @@ pub fn to_png(svg: &str, scale: f32) -> Result<Vec<u8>, ChartError> {
         height as f32 / size.height(),
     );
     resvg::render(&tree, stretch, &mut picture.as_mut());
-    picture.encode_png().map_err(|error| ChartError::Encode {
+    encode(&picture).map_err(|error| ChartError::Encode {
         reason: error.to_string(),
     })
+}
+
+/// The pixels as PNG without transparency: the picture stands on white. Fast compression takes a tenth of the time of the
+/// thorough one, which used to be most of the time of a whole sweep.
+fn encode(picture: &tiny_skia::Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+    let opaque: Vec<u8> = picture
+        .pixels()
+        .iter()
+        .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
+        .collect();
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_compression(png::Compression::Fast);
+    let mut writer = encoder.write_header()?;
+    writer.write_image_data(&opaque)?;
+    writer.finish()?;
+    Ok(bytes)
 }
 
 const LARGEST_PIXELS: u32 = 32_768;
