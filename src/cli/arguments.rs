@@ -2,8 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
+
+use crate::material::{GivenFace, ModulusKind};
 
 /// Dynamic mechanical analysis by contact: what a viscoelastic half-space dissipates under an oscillating indenter.
 #[derive(Debug, Parser)]
@@ -83,6 +85,78 @@ Examples:
 With --out, the moduli over frequency and the relaxation modulus over time are written as
 SVG, PNG and CSV.")]
     Show(ShowFlags),
+    /// Fit a series to measured creep compliance or relaxation modulus
+    #[command(after_help = "\
+Examples:
+  contact-dma material fit creep.csv --quantity creep --modulus shear --poisson-ratio 0.38
+  contact-dma material fit stress.csv --quantity relaxation --modulus longitudinal \\
+      --poisson-ratio 0.38 --out reports/fit
+
+The table is CSV: a line of column names, then rows. Columns: time_s (or time, time_min,
+time_h), and creep_compliance_per_pa (or _per_kpa, _per_mpa, _per_gpa) or
+relaxation_modulus_pa (or _kpa, _mpa, _gpa). Printed are the misfit, what had to be assumed,
+the branches, and a [material] block to paste into a sweep file. The same fit is made where
+a sweep file names the table:
+
+  [material.table]
+  file = \"creep.csv\"          # from the folder of the sweep file
+  quantity = \"creep\"
+  modulus = \"shear\"
+
+With --out, that block and figures of data, fit and difference are written.")]
+    Fit(FitFlags),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct FitFlags {
+    /// The table (CSV)
+    pub(super) data: PathBuf,
+    /// What the table holds
+    #[arg(long, value_name = "QUANTITY")]
+    pub(super) quantity: TableQuantity,
+    /// Which modulus, or which modulus the compliance belongs to
+    #[arg(long, value_name = "KIND")]
+    pub(super) modulus: TableModulus,
+    /// Poisson ratio of the material
+    #[arg(long, value_name = "NU", allow_negative_numbers = true)]
+    pub(super) poisson_ratio: f64,
+    /// Folder for the material block, figures and their data
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum TableQuantity {
+    /// Creep compliance
+    Creep,
+    /// Relaxation modulus
+    Relaxation,
+}
+
+impl From<TableQuantity> for GivenFace {
+    fn from(quantity: TableQuantity) -> Self {
+        match quantity {
+            TableQuantity::Creep => Self::Creep,
+            TableQuantity::Relaxation => Self::Relaxation,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum TableModulus {
+    /// Uniaxial: E, D
+    Longitudinal,
+    /// Shear: G, J
+    Shear,
+}
+
+impl From<TableModulus> for ModulusKind {
+    fn from(modulus: TableModulus) -> Self {
+        match modulus {
+            TableModulus::Longitudinal => Self::Longitudinal,
+            TableModulus::Shear => Self::Shear,
+        }
+    }
 }
 
 #[derive(Debug, Args)]

@@ -201,7 +201,7 @@ fn read_limited(path: &Path) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
+pub(super) fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
     let diagnostic = Diagnostic::new(format!("cannot read `{name}`: {error}"));
     match error.kind() {
         io::ErrorKind::NotFound => diagnostic.help("check the path, and the folder it starts from"),
@@ -218,7 +218,7 @@ fn too_long(name: &str) -> Diagnostic {
 }
 
 /// Points at the first byte that is not UTF-8, and guesses the encoding.
-fn not_utf8(name: &str, bytes: &[u8], offset: usize) -> Diagnostic {
+pub(super) fn not_utf8(name: &str, bytes: &[u8], offset: usize) -> Diagnostic {
     let message = format!("`{name}` is not UTF-8 text: stopped at byte {offset}");
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Diagnostic::new(message)

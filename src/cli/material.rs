@@ -1,13 +1,13 @@
-//! `contact-dma material`: the library, and one material in full.
+//! `contact-dma material`: the library, one material in full, and fits.
 
 use std::path::Path;
 
 use super::arguments::{MaterialCommand, ShowFlags};
 use super::diagnostic::Problems;
 use super::document::Document;
-use super::{Ended, Failure, material_block, print};
+use super::{Ended, Failure, material_block, material_fit, print};
 use crate::material::{Material, library};
-use crate::report::{figure, material::MaterialReport};
+use crate::report::{self, figure, material::MaterialReport};
 use crate::sweep::store::write_atomically;
 
 /// Runs one of the subcommands.
@@ -15,6 +15,7 @@ pub(super) fn run(command: &MaterialCommand) -> Result<Ended, Failure> {
     match command {
         MaterialCommand::List => list(),
         MaterialCommand::Show(flags) => show(flags),
+        MaterialCommand::Fit(flags) => material_fit::run(flags),
     }
 }
 
@@ -68,7 +69,8 @@ fn load(name: &str) -> Result<(Material, String), Failure> {
     let material = material_block::read(&mut root, &problems);
     let material = problems.into_result(material)?.value;
     let title = material.name().unwrap_or("Material").to_owned();
-    Ok((material, format!("{title} (from {name})\n")))
+    let fit = material.fit().map(report::fit::text).unwrap_or_default();
+    Ok((material, format!("{title} (from {name})\n{fit}")))
 }
 
 /// A paragraph wrapped at 76 columns and set in by four.

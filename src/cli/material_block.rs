@@ -1,21 +1,26 @@
 //! The `[material]` block of a sweep file.
 
+use std::path::{Path, PathBuf};
+
 use super::diagnostic::Problems;
 use super::document::{Located, TableReader};
+use super::table_file;
 use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
+use crate::material::fit;
 use crate::material::{
     Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch, library,
 };
 use crate::quantity::Dimension;
 
 /// The ways to give a material; exactly one of them.
-const BLOCKS: [&str; 6] = [
+const BLOCKS: [&str; 7] = [
     "library",
     "relaxation",
     "creep",
     "maxwell",
     "zener",
     "kelvin_voigt",
+    "table",
 ];
 
 const KINDS: [(&str, ModulusKind); 2] = [
@@ -108,6 +113,7 @@ fn from_block(block: &mut TableReader<'_>, problems: &Problems, key: &str) -> Op
     let build: Option<Build> = match key {
         "relaxation" => relaxation(&mut table, problems),
         "creep" => creep(&mut table, problems),
+        "table" => tabulated(&mut table, problems),
         "maxwell" => pair(&mut table, problems, "modulus").map(|[modulus, time]| -> Build {
             Box::new(move |nu| Maxwell::new(modulus, time)?.material(nu))
         }),
@@ -179,6 +185,43 @@ fn creep(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
             .collect();
         Material::from_creep(Creep::new(instantaneous, branches, viscosity)?, kind, nu)
     }))
+}
+
+/// A table of data, fitted: the material carries the report of the fit with it.
+fn tabulated(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
+    let file = table.string("file");
+    let face = table.choice_of("quantity", &table_file::QUANTITIES);
+    let kind = table.choice_of("modulus", &KINDS);
+    let (file, face, kind) = (file?, face?.value, kind?.value);
+    let path = beside(&file);
+    let bytes = match table_file::load(&path) {
+        Ok(bytes) => bytes,
+        Err(error) => {
+            problems
+                .at(&file, format!("cannot read `{}`: {error}", path.display()))
+                .help("the path starts from the folder of the file it is written in");
+            return None;
+        }
+    };
+    let data = table_file::parse(&path.display().to_string(), &bytes, face, kind);
+    let data = data.map_err(|refused| problems.extend(refused)).ok()?;
+    match fit::fit(&data) {
+        Ok(fit) => Some(Box::new(move |nu| fit.material(nu))),
+        Err(error) => {
+            problems.at(&file, error.to_string());
+            None
+        }
+    }
+}
+
+/// A path as its writer meant it: from the folder of the file it stands in; in a flag, from the working folder.
+fn beside(file: &Located<String>) -> PathBuf {
+    let source = file.location.source();
+    let folder = Path::new(source.name()).parent();
+    match folder {
+        Some(folder) if !source.is_flag() => folder.join(&file.value),
+        _ => PathBuf::from(&file.value),
+    }
 }
 
 /// The `branches` of a series: (modulus or compliance, time).

@@ -7,9 +7,11 @@ pub mod diagnostic;
 pub mod document;
 mod material;
 mod material_block;
+mod material_fit;
 mod progress;
 mod sweep;
 pub mod sweep_file;
+mod table_file;
 
 use std::ffi::OsString;
 use std::fmt::Display;

@@ -80,7 +80,12 @@ fn ended(outcome: &Outcome) -> Ended {
 /// What is printed at the end.
 fn text(setup: &Setup, outcome: &Outcome, left_out: &[String], folder: &Path) -> String {
     let plan = setup.plan();
-    let mut text = format!("{}\n\n{}", plan.title, terminal::table(&outcome.records));
+    let mut text = format!("{}\n\n", plan.title);
+    if let Some(fit) = plan.material.fit() {
+        text.push_str(&report::fit::text(fit));
+        text.push('\n');
+    }
+    text.push_str(&terminal::table(&outcome.records));
     for part in [
         terminal::peaks(plan, outcome),
         terminal::problems(outcome),

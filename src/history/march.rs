@@ -1,13 +1,13 @@
 //! Time marching: one engine, its memory, and the last pressure, moved from instant to instant.
 
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
-use crate::history::{Memory, StepWeights, TimeRule};
+use crate::history::{Hereditary, Memory, TimeRule};
 use crate::material::Creep;
 
-/// A contact moving through time.
-pub struct March<'a> {
+/// A contact moving through time, its past kept as memory variables or, as [`DirectMemory`](super::DirectMemory), in full.
+pub struct March<'a, M = Memory> {
     engine: &'a mut dyn Engine,
-    memory: Memory,
+    memory: M,
     rule: TimeRule,
     pressure: Vec<f64>,
     history: Vec<f64>,
@@ -23,9 +23,17 @@ impl<'a> March<'a> {
     /// A contact at rest on an undisturbed body of contact compliance C(t) (1/Pa).
     pub fn new(engine: &'a mut dyn Engine, compliance: Creep, rule: TimeRule) -> Self {
         let nodes = engine.nodes();
+        Self::with_memory(engine, Memory::new(compliance, nodes), rule)
+    }
+}
+
+impl<'a, M: Hereditary> March<'a, M> {
+    /// A contact at rest on an undisturbed body, whose past `memory` (of the engine's number of nodes) will keep.
+    pub fn with_memory(engine: &'a mut dyn Engine, memory: M, rule: TimeRule) -> Self {
+        let nodes = engine.nodes();
         Self {
             engine,
-            memory: Memory::new(compliance, nodes),
+            memory,
             rule,
             pressure: vec![0.0; nodes],
             history: vec![0.0; nodes],
@@ -35,8 +43,8 @@ impl<'a> March<'a> {
     }
 
     /// Weights of a step of this length, to be used for as many equal steps as there are.
-    pub fn weights(&self, step_s: f64) -> StepWeights {
-        StepWeights::new(self.memory.compliance(), step_s, self.rule)
+    pub fn weights(&self, step_s: f64) -> M::Step {
+        self.memory.weights(step_s, self.rule)
     }
 
     /// Moves on by one step to the instant at which the drive prescribes this value.
@@ -45,14 +53,14 @@ impl<'a> March<'a> {
     /// [`ContactError`]; the march cannot go on after it.
     pub fn step(
         &mut self,
-        weights: &StepWeights,
+        weights: &M::Step,
         prescribed: Prescribed,
     ) -> Result<Solution, ContactError> {
         self.memory
             .predict(weights, &self.pressure, &mut self.history);
         let instant = Instant {
             history: &self.history,
-            compliance_per_pa: weights.compliance_per_pa(),
+            compliance_per_pa: M::compliance_per_pa(weights),
             prescribed,
         };
         let solution = self.engine.solve(&instant, &mut self.pressure)?;
@@ -83,11 +91,8 @@ impl<'a> March<'a> {
         }
         let shortest_s = self
             .memory
-            .compliance()
-            .branches()
-            .iter()
-            .map(|b| b.time_s)
-            .fold(duration_s, f64::min);
+            .shortest_time_s()
+            .map_or(duration_s, |time_s| time_s.min(duration_s));
         let first_s = FIRST_STEP_PER_RETARDATION_TIME * shortest_s;
         let steps = ((duration_s / first_s).log10() * STEPS_PER_DECADE).ceil() as i32;
         let growth = (duration_s / first_s).powf(1.0 / f64::from(steps));
@@ -127,7 +132,7 @@ impl<'a> March<'a> {
     }
 
     /// The memory of the body.
-    pub fn memory(&self) -> &Memory {
+    pub fn memory(&self) -> &M {
         &self.memory
     }
 

@@ -7,11 +7,16 @@
 //! q = C_0 p + sum C_j m_j + m_v / eta,      lambda_j dm_j/dt = p - m_j,      dm_v/dt = p
 //! ```
 //!
-//! so that cost and storage per step do not grow with the number of steps. This room owns the state and calls `contact`
+//! so that cost and storage per step do not grow with the number of steps. Any other compliance function takes the direct sum
+//! over the past ([`DirectMemory`]). Marching serves both ([`Hereditary`]). This room owns the state and calls `contact`
 //! once per instant; it knows neither indenters nor what drives the load.
 
+mod direct;
+mod hereditary;
 mod march;
 mod memory;
 
+pub use direct::{ComplianceFunction, DirectMemory, DirectStep, Quadrature};
+pub use hereditary::Hereditary;
 pub use march::{March, Observer};
 pub use memory::{Memory, StepWeights, TimeRule};

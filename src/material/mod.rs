@@ -17,7 +17,11 @@
 //! This room knows nothing of indenters, drives or contact.
 
 pub mod classical;
+pub mod fit;
+pub mod interpolant;
 pub mod library;
+pub mod nnls;
+pub mod tabulated;
 
 mod conversion;
 mod creep;
@@ -25,6 +29,8 @@ mod error;
 mod harmonic;
 mod peaks;
 mod relaxation;
+#[cfg(test)]
+mod synthetic;
 
 use num_complex::Complex;
 
@@ -61,6 +67,7 @@ pub struct Material {
     given: GivenFace,
     creep: Creep,
     relaxation: Option<Relaxation>,
+    fit: Option<fit::FitReport>,
 }
 
 impl Material {
@@ -80,6 +87,7 @@ impl Material {
             given: GivenFace::Relaxation,
             creep: relaxation.to_creep()?,
             relaxation: Some(relaxation),
+            fit: None,
         })
     }
 
@@ -107,6 +115,7 @@ impl Material {
             given,
             creep,
             relaxation,
+            fit: None,
         })
     }
 
@@ -116,6 +125,19 @@ impl Material {
             name: Some(name.into()),
             ..self
         }
+    }
+
+    /// The same material, known to come from a fit.
+    pub fn with_fit(self, report: fit::FitReport) -> Self {
+        Material {
+            fit: Some(report),
+            ..self
+        }
+    }
+
+    /// Where the material was fitted to a table: how well, and what was assumed.
+    pub fn fit(&self) -> Option<&fit::FitReport> {
+        self.fit.as_ref()
     }
 
     /// The name, if it has one.

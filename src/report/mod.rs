@@ -2,6 +2,7 @@
 
 pub mod chart;
 pub mod figure;
+pub mod fit;
 pub mod material;
 pub mod summary;
 pub mod table;

@@ -77,6 +77,16 @@ pub fn hash(resolved: &str) -> String {
     hash
 }
 
+/// The material as the block of a sweep file that gives the same material again.
+pub fn material_text(material: &Material) -> String {
+    let mut text = String::new();
+    material_lines(material, &mut |line| {
+        text.push_str(line);
+        text.push('\n');
+    });
+    text
+}
+
 fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
     let kind = match material.kind() {
         ModulusKind::Shear => "shear",

@@ -1,6 +1,7 @@
 //! Figures, one file each: a chart and the data behind it. Every figure is written as SVG and as PNG in two resolutions.
 
 pub mod energy_loss;
+pub mod fit;
 pub mod loops;
 pub mod moduli;
 pub mod relaxation;

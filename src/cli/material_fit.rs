@@ -1,0 +1,43 @@
+//! `contact-dma material fit`: from a table of measured data to a material block.
+
+use super::arguments::FitFlags;
+use super::{Ended, Failure, print, table_file};
+use crate::material::Material;
+use crate::material::fit;
+use crate::report::{self, figure};
+use crate::sweep::resolved;
+use crate::sweep::store::write_atomically;
+
+/// Runs the command.
+pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
+    let table = table_file::read(&flags.data, flags.quantity.into(), flags.modulus.into())?;
+    let fit = fit::fit(&table).map_err(Failure::input)?;
+    let material = fit.material(flags.poisson_ratio).map_err(Failure::input)?;
+    let block = block(flags, &material);
+    print(&format!(
+        "{}\n{}\n{block}",
+        report::fit::text(fit.report()),
+        report::fit::branches(&fit)
+    ))?;
+    let Some(folder) = &flags.out else {
+        return Ok(Ended::Done);
+    };
+    let figures = figure::fit::figures(&table, &fit).map_err(Failure::run)?;
+    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
+    write("material.toml", block.as_bytes()).map_err(Failure::run)?;
+    figure::write_all(&figures, &write).map_err(Failure::run)?;
+    print(&format!("\nMaterial and figures in {}\n", folder.display()))
+}
+
+/// The material block of a sweep file, ready to paste, every number exact.
+fn block(flags: &FitFlags, material: &Material) -> String {
+    let comments: String = material.fit().map_or_else(String::new, |report| {
+        let report = report::fit::text(report);
+        report.lines().map(|line| format!("# {line}\n")).collect()
+    });
+    format!(
+        "# From {}\n{comments}{}",
+        flags.data.display().to_string().escape_debug(),
+        resolved::material_text(material)
+    )
+}

@@ -1,0 +1,51 @@
+//! What time marching asks of the body's past, however it is kept.
+
+use super::memory::{Memory, StepWeights, TimeRule};
+
+/// The past of a body: gives the hereditary part of the next instant, and takes in its pressure.
+///
+/// With q = A p + H the hereditary integral of C(t-s) dp(s) at the end of a step, p the unknown pressure there.
+pub trait Hereditary {
+    /// What a step of one length does, computed once for as many equal steps as there are.
+    type Step;
+
+    /// The step of `step_s` seconds, zero for a jump of the drive.
+    fn weights(&self, step_s: f64, rule: TimeRule) -> Self::Step;
+
+    /// A (1/Pa) of a step.
+    fn compliance_per_pa(step: &Self::Step) -> f64;
+
+    /// First half of a step: writes H (1/Pa times the unit of the pressure) per node.
+    fn predict(&mut self, step: &Self::Step, old_pressure: &[f64], history: &mut [f64]);
+
+    /// Second half of a step: takes in the new pressure.
+    fn commit(&mut self, step: &Self::Step, new_pressure: &[f64]);
+
+    /// The shortest time (s) at which the compliance changes, where there is one.
+    fn shortest_time_s(&self) -> Option<f64>;
+}
+
+impl Hereditary for Memory {
+    type Step = StepWeights;
+
+    fn weights(&self, step_s: f64, rule: TimeRule) -> StepWeights {
+        StepWeights::new(self.compliance(), step_s, rule)
+    }
+
+    fn compliance_per_pa(step: &StepWeights) -> f64 {
+        step.compliance_per_pa()
+    }
+
+    fn predict(&mut self, step: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {
+        Memory::predict(self, step, old_pressure, history);
+    }
+
+    fn commit(&mut self, step: &StepWeights, new_pressure: &[f64]) {
+        Memory::commit(self, step, new_pressure);
+    }
+
+    fn shortest_time_s(&self) -> Option<f64> {
+        // Branches are sorted by time.
+        self.compliance().branches().first().map(|b| b.time_s)
+    }
+}

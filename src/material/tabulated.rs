@@ -1,0 +1,653 @@
+//! A measured creep compliance or relaxation modulus: samples over time, checked, and a function between them.
+//!
+//! Used directly, the samples are joined by power laws (see [`Interpolant`]); before the first sample and beyond the last
+//! one the function keeps their value, so that nothing faster or slower than the data is invented. [`super::fit`] makes a
+//! series of exponentials of them.
+//!
+//! # What a passive material can do
+//!
+//! A creep compliance never falls and a relaxation modulus never rises. Real data do, by noise:
+//!
+//! - *Noise*: a sample up to [`NOISE_LIMIT`] on the wrong side of an earlier one. Kept, counted, and reported as
+//!   [`TableWarning::Noise`].
+//! - *A trend*: what remains when isolated samples are passed over. The median of five consecutive samples (fewer in a table
+//!   of less than ten) must not be on the wrong side of an earlier one by more than [`TREND_FLOOR`] or [`TREND_SCATTER`]
+//!   times the scatter of the samples about their neighbours, whichever is larger. Refused.
+
+use std::fmt;
+
+use super::interpolant::Interpolant;
+use super::{GivenFace, MaterialError, ModulusKind};
+use crate::quantity::{Dimension, format_si};
+
+/// Fewest samples: one more than an instantaneous value, one branch and its time take.
+pub const FEWEST_SAMPLES: usize = 4;
+
+/// Largest share by which one sample may be on the wrong side of an earlier one.
+pub const NOISE_LIMIT: f64 = 0.10;
+
+/// Share by which medians may be on the wrong side, however small the scatter: rounding of the data, drift of an instrument.
+pub const TREND_FLOOR: f64 = 0.005;
+
+/// And how many standard deviations of the scatter they may. Pure scatter about a constant, which is the hardest case, was
+/// refused in fewer than one of a thousand simulated tables of ten samples or more.
+pub const TREND_SCATTER: f64 = 6.0;
+
+/// Consecutive samples whose median stands for them.
+const RUN: usize = 5;
+
+/// Deviations too few for their median to mean anything.
+const FEW: usize = 10;
+
+/// Decades without a sample that are worth a warning, and decades of data that are enough not to get one.
+const WIDE_GAP: f64 = 1.0;
+const ENOUGH_DECADES: f64 = 1.0;
+
+/// Why samples are no creep compliance or relaxation modulus. `row` counts samples from 1.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum TableError {
+    #[error("the table has no samples; it takes at least {FEWEST_SAMPLES}")]
+    Empty,
+
+    #[error("the table has too few samples, {found}; it takes at least {FEWEST_SAMPLES}")]
+    TooFew { found: usize },
+
+    #[error("there are {times} times but {values} values")]
+    Lengths { times: usize, values: usize },
+
+    #[error("the time of row {row} is {time_s:?} s: it must be finite and not negative")]
+    Time { row: usize, time_s: f64 },
+
+    #[error(
+        "the time of row {row}, {time_s} s, does not come after that of the row before, {before_s} s: times must increase"
+    )]
+    TimeOrder {
+        row: usize,
+        time_s: f64,
+        before_s: f64,
+    },
+
+    #[error("the {} of row {row} is {value:?}: it must be finite and greater than zero", name(*face))]
+    Value {
+        face: GivenFace,
+        row: usize,
+        value: f64,
+    },
+
+    #[error(
+        "the {} {} by {:.1} % from row {earlier_row} to row {row}, which no passive material does; up to {:.0} % is taken for noise",
+        name(*face), wrong_way(*face), 100.0 * share, 100.0 * NOISE_LIMIT
+    )]
+    Reversal {
+        face: GivenFace,
+        earlier_row: usize,
+        row: usize,
+        share: f64,
+    },
+
+    #[error(
+        "the {} {} steadily, by {:.2} % from about row {earlier_row} to about row {row}, which no passive material does; its scatter of {:.2} % does not explain it",
+        name(*face), wrong_way(*face), 100.0 * share, 100.0 * scatter
+    )]
+    Trend {
+        face: GivenFace,
+        earlier_row: usize,
+        row: usize,
+        share: f64,
+        /// Standard deviation of the samples about their neighbours, as a share.
+        scatter: f64,
+    },
+}
+
+/// The column of the table in which an error stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum TableColumn {
+    Time,
+    Value,
+}
+
+impl TableError {
+    /// Row (from 1) and column of the error, where it has a place.
+    pub fn place(&self) -> Option<(usize, TableColumn)> {
+        match *self {
+            Self::Empty | Self::TooFew { .. } | Self::Lengths { .. } => None,
+            Self::Time { row, .. } | Self::TimeOrder { row, .. } => Some((row, TableColumn::Time)),
+            Self::Value { row, .. } | Self::Reversal { row, .. } | Self::Trend { row, .. } => {
+                Some((row, TableColumn::Value))
+            }
+        }
+    }
+}
+
+/// `creep compliance` or `relaxation modulus`.
+pub(super) fn name(face: GivenFace) -> &'static str {
+    match face {
+        GivenFace::Creep => "creep compliance",
+        GivenFace::Relaxation => "relaxation modulus",
+    }
+}
+
+fn wrong_way(face: GivenFace) -> &'static str {
+    match face {
+        GivenFace::Creep => "falls",
+        GivenFace::Relaxation => "rises",
+    }
+}
+
+/// What is odd about samples that are used all the same.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TableWarning {
+    /// Samples on the wrong side of an earlier one: how many, by how much at most, and where (row from 1).
+    Noise {
+        face: GivenFace,
+        samples: usize,
+        largest_share: f64,
+        row: usize,
+    },
+    /// More than a decade without a sample.
+    Gap { from_s: f64, to_s: f64 },
+    /// Less than a decade of time.
+    Short { from_s: f64, to_s: f64 },
+}
+
+impl fmt::Display for TableWarning {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Noise {
+                face,
+                samples,
+                largest_share,
+                row,
+            } => write!(
+                formatter,
+                "{samples} {} on the wrong side of an earlier one: the {} {} by up to {:.2} % (row {row}), taken for noise",
+                if *samples == 1 {
+                    "sample is"
+                } else {
+                    "samples are"
+                },
+                name(*face),
+                wrong_way(*face),
+                100.0 * largest_share
+            ),
+            Self::Gap { from_s, to_s } => write!(
+                formatter,
+                "no sample between {} and {}, {:.1} decades: branches with times in there are guessed",
+                seconds(*from_s),
+                seconds(*to_s),
+                (to_s / from_s).log10()
+            ),
+            Self::Short { from_s, to_s } => write!(
+                formatter,
+                "the data cover {:.2} decades of time only, {} to {}: they say little about other times",
+                (to_s / from_s).log10(),
+                seconds(*from_s),
+                seconds(*to_s)
+            ),
+        }
+    }
+}
+
+/// A time in four digits, as short as it can be written.
+pub(super) fn seconds(time_s: f64) -> String {
+    let rounded = format!("{time_s:.3e}").parse().unwrap_or(time_s);
+    format_si(rounded, Dimension::Time)
+}
+
+/// Checked samples of a creep compliance (1/Pa) or a relaxation modulus (Pa) over time (s).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tabulated {
+    face: GivenFace,
+    kind: ModulusKind,
+    curve: Interpolant,
+    warnings: Vec<TableWarning>,
+}
+
+impl Tabulated {
+    /// Samples of `face`, a quantity of `kind`; times in s, values in 1/Pa or Pa.
+    ///
+    /// # Errors
+    /// [`TableError`], naming the row: no or too few samples; a time that is not finite, negative or not after the one
+    /// before; a value that is not finite and positive; a course that no passive material can have.
+    pub fn new(
+        face: GivenFace,
+        kind: ModulusKind,
+        times_s: Vec<f64>,
+        values: Vec<f64>,
+    ) -> Result<Self, TableError> {
+        check_samples(face, &times_s, &values)?;
+        // ln C or -ln E: what must not fall.
+        let rising: Vec<f64> = match face {
+            GivenFace::Creep => values.iter().map(|v| v.ln()).collect(),
+            GivenFace::Relaxation => values.iter().map(|v| -v.ln()).collect(),
+        };
+        let noise = check_course(face, &times_s, &rising)?;
+        let mut warnings: Vec<_> = noise.into_iter().collect();
+        warnings.extend(coverage(&times_s));
+        Ok(Self {
+            face,
+            kind,
+            curve: Interpolant::through(times_s, values),
+            warnings,
+        })
+    }
+
+    /// Whether the samples are a creep compliance or a relaxation modulus.
+    pub fn face(&self) -> GivenFace {
+        self.face
+    }
+
+    /// Whether they are shear or longitudinal.
+    pub fn kind(&self) -> ModulusKind {
+        self.kind
+    }
+
+    /// Times of the samples (s), strictly increasing.
+    pub fn times_s(&self) -> &[f64] {
+        self.curve.times_s()
+    }
+
+    /// Values of the samples, in 1/Pa (creep compliance) or Pa (relaxation modulus).
+    pub fn values(&self) -> &[f64] {
+        self.curve.values()
+    }
+
+    /// The function through the samples.
+    pub fn curve(&self) -> &Interpolant {
+        &self.curve
+    }
+
+    /// What is odd about the samples.
+    pub fn warnings(&self) -> &[TableWarning] {
+        &self.warnings
+    }
+
+    /// The creep compliance (1/Pa) of the table's own kind, without a fit: the samples themselves, or, for a relaxation
+    /// modulus, the solution D of `integral from 0 to t of E(t - s) dD(s) = 1` (I. L. Hopkins and R. W. Hamming, Journal of
+    /// Applied Physics 28 (1957) 906), with D linear between instants four times as dense as the samples.
+    pub fn creep_curve(&self) -> Interpolant {
+        match self.face {
+            GivenFace::Creep => self.curve.clone(),
+            GivenFace::Relaxation => creep_of(&self.curve),
+        }
+    }
+
+    /// The contact compliance C(t) = (1 - nu^2) D(t) = (1 - nu) J(t)/2 without a fit, in 1/Pa, for the direct hereditary sum.
+    ///
+    /// # Errors
+    /// A Poisson ratio outside -1 < nu <= 1/2, or a compliance beyond the range of a double.
+    pub fn contact_compliance(&self, poisson_ratio: f64) -> Result<Interpolant, MaterialError> {
+        let nu = super::checked_poisson_ratio(poisson_ratio)?;
+        self.creep_curve().scaled(match self.kind {
+            ModulusKind::Shear => 0.5 * (1.0 - nu),
+            ModulusKind::Longitudinal => (1.0 - nu) * (1.0 + nu),
+        })
+    }
+}
+
+/// Everything that can be said of one sample and the one before.
+fn check_samples(face: GivenFace, times_s: &[f64], values: &[f64]) -> Result<(), TableError> {
+    if times_s.len() != values.len() {
+        let (times, values) = (times_s.len(), values.len());
+        return Err(TableError::Lengths { times, values });
+    }
+    let mut before: Option<f64> = None;
+    for (index, (&time_s, &value)) in times_s.iter().zip(values).enumerate() {
+        let row = index + 1;
+        if !(time_s.is_finite() && time_s >= 0.0) {
+            return Err(TableError::Time { row, time_s });
+        }
+        if let Some(before_s) = before.filter(|&before_s| time_s <= before_s) {
+            return Err(TableError::TimeOrder {
+                row,
+                time_s,
+                before_s,
+            });
+        }
+        if !(value.is_finite() && value > 0.0) {
+            return Err(TableError::Value { face, row, value });
+        }
+        before = Some(time_s);
+    }
+    match times_s.len() {
+        0 => Err(TableError::Empty),
+        found if found < FEWEST_SAMPLES => Err(TableError::TooFew { found }),
+        _ => Ok(()),
+    }
+}
+
+/// Tells noise from what no passive material does. `rising` is the logarithm of what must not fall.
+fn check_course(
+    face: GivenFace,
+    times_s: &[f64],
+    rising: &[f64],
+) -> Result<Option<TableWarning>, TableError> {
+    let share = |fall: f64| -(-fall).exp_m1();
+    let worst = largest_fall(rising);
+    if let Some(fall) = &worst
+        && share(fall.size) > NOISE_LIMIT
+    {
+        return Err(TableError::Reversal {
+            face,
+            earlier_row: fall.from + 1,
+            row: fall.to + 1,
+            share: share(fall.size),
+        });
+    }
+    let run = RUN.min(rising.len() / 2).max(1);
+    let medians: Vec<f64> = rising.windows(run).map(median).collect();
+    let scatter = scatter(times_s, rising);
+    if let Some(fall) = largest_fall(&medians)
+        && fall.size > TREND_FLOOR.max(TREND_SCATTER * scatter)
+    {
+        return Err(TableError::Trend {
+            face,
+            earlier_row: fall.from + 1 + run / 2,
+            row: fall.to + 1 + run / 2,
+            share: share(fall.size),
+            scatter,
+        });
+    }
+    Ok(worst.map(|fall| TableWarning::Noise {
+        face,
+        samples: fall.count,
+        largest_share: share(fall.size),
+        row: fall.to + 1,
+    }))
+}
+
+/// The largest fall from an earlier value to a later one.
+struct Fall {
+    size: f64,
+    from: usize,
+    to: usize,
+    /// Values below an earlier one.
+    count: usize,
+}
+
+fn largest_fall(values: &[f64]) -> Option<Fall> {
+    let mut highest = 0;
+    let mut worst: Option<Fall> = None;
+    let mut count = 0;
+    for (to, &value) in values.iter().enumerate() {
+        let size = values[highest] - value;
+        if size > 0.0 {
+            count += 1;
+            if worst.as_ref().is_none_or(|worst| size > worst.size) {
+                let from = highest;
+                worst = Some(Fall {
+                    size,
+                    from,
+                    to,
+                    count,
+                });
+            }
+        } else {
+            highest = to;
+        }
+    }
+    worst.map(|fall| Fall { count, ..fall })
+}
+
+/// Standard deviation of the samples about the chord between their neighbours; from the median, so that outliers do not
+/// count, except where there are too few samples for that.
+fn scatter(times_s: &[f64], values: &[f64]) -> f64 {
+    let deviations: Vec<f64> = times_s
+        .windows(3)
+        .zip(values.windows(3))
+        .filter(|(t, _)| t[0] > 0.0)
+        .map(|(t, v)| {
+            let share = (t[1] / t[0]).ln() / (t[2] / t[0]).ln();
+            let deviation = v[1] - (1.0 - share) * v[0] - share * v[2];
+            // What three independent samples of unit variance give.
+            deviation.abs() / (1.0 + share * share + (1.0 - share).powi(2)).sqrt()
+        })
+        .collect();
+    if deviations.len() < FEW {
+        let squares: f64 = deviations.iter().map(|d| d * d).sum();
+        return (squares / deviations.len().max(1) as f64).sqrt();
+    }
+    // The median of the magnitude of a normal variable is 0.6745 of its standard deviation.
+    median(&deviations) / 0.6745
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let middle = sorted.len() / 2;
+    match sorted.len() {
+        0 => 0.0,
+        even if even % 2 == 0 => 0.5 * (sorted[middle - 1] + sorted[middle]),
+        _ => sorted[middle],
+    }
+}
+
+/// Gaps and shortness.
+fn coverage(times_s: &[f64]) -> Vec<TableWarning> {
+    let positive = &times_s[times_s.partition_point(|&t| t <= 0.0)..];
+    let wide = |from_s: f64, to_s: f64| (to_s / from_s).log10() > WIDE_GAP * (1.0 + 1e-12);
+    let gaps = positive
+        .windows(2)
+        .filter(|pair| wide(pair[0], pair[1]))
+        .map(|pair| TableWarning::Gap {
+            from_s: pair[0],
+            to_s: pair[1],
+        });
+    let mut warnings: Vec<_> = gaps.collect();
+    if let (Some(&from_s), Some(&to_s)) = (positive.first(), positive.last())
+        && (to_s / from_s).log10() < ENOUGH_DECADES * (1.0 - 1e-12)
+    {
+        warnings.push(TableWarning::Short { from_s, to_s });
+    }
+    warnings
+}
+
+/// The creep compliance that belongs to a relaxation modulus.
+fn creep_of(modulus: &Interpolant) -> Interpolant {
+    const DENSITY: usize = 4;
+    let samples = modulus.times_s();
+    let mut times = vec![0.0];
+    for pair in std::iter::once([0.0, samples[0]]).chain(samples.windows(2).map(|p| [p[0], p[1]])) {
+        for part in 1..=DENSITY {
+            let share = part as f64 / DENSITY as f64;
+            let time = match (pair[0] > 0.0, part == DENSITY) {
+                (_, true) => pair[1],
+                (true, _) => pair[0] * (pair[1] / pair[0]).powf(share),
+                (false, _) => pair[1] * share,
+            };
+            if times.last().is_some_and(|&last| time > last) {
+                times.push(time);
+            }
+        }
+    }
+    let initial = 1.0 / modulus.value(0.0);
+    let mut increments: Vec<f64> = Vec::with_capacity(times.len());
+    let mut compliances = vec![initial];
+    let mut compliance = initial;
+    for &now in &times[1..] {
+        let step = increments.len();
+        let past: f64 = increments
+            .iter()
+            .zip(times.windows(2))
+            .map(|(increment, t)| increment * modulus.mean(now - t[1], now - t[0]))
+            .sum();
+        let missing = 1.0 - initial * modulus.value(now) - past;
+        let increment = missing / modulus.mean(0.0, now - times[step]);
+        increments.push(increment);
+        compliance += increment;
+        // A modulus that rises by noise may ask for less than nothing; a compliance is positive.
+        compliances.push(compliance.max(f64::MIN_POSITIVE));
+    }
+    Interpolant::through(times, compliances)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::library;
+    use crate::material::synthetic::{Noise, log_spaced};
+
+    fn creep(times: &[f64], values: &[f64]) -> Result<Tabulated, TableError> {
+        Tabulated::new(
+            GivenFace::Creep,
+            ModulusKind::Shear,
+            times.to_vec(),
+            values.to_vec(),
+        )
+    }
+
+    fn message(times: &[f64], values: &[f64]) -> String {
+        creep(times, values).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn every_bad_sample_is_refused_by_its_row() {
+        let good = [1.0, 2.0, 3.0, 4.0];
+        assert_eq!(creep(&[], &[]), Err(TableError::Empty));
+        assert!(message(&[1.0], &[1.0]).contains("too few samples, 1; it takes at least 4"));
+        assert!(message(&good, &good[..3]).contains("4 times but 3 values"));
+        for bad in [f64::NAN, f64::INFINITY, -1.0] {
+            assert!(message(&[bad, 2.0, 3.0, 4.0], &good).contains("time of row 1"));
+            assert!(message(&good, &[1.0, 2.0, bad, 4.0]).contains("compliance of row 3"));
+        }
+        assert!(message(&good, &[0.0, 2.0, 3.0, 4.0]).contains("row 1 is 0"));
+        let error = creep(&[1.0, 3.0, 3.0, 4.0], &good).unwrap_err();
+        assert!(error.to_string().contains("row 3, 3 s"));
+        assert_eq!(error.place(), Some((3, TableColumn::Time)));
+        assert!(message(&[1.0, 3.0, 2.0, 4.0], &good).contains("times must increase"));
+        assert!(
+            creep(&[0.0, 1.0, 2.0, 20.0], &good)
+                .unwrap()
+                .warnings()
+                .is_empty()
+        );
+    }
+
+    #[test]
+    fn a_creep_compliance_that_falls_and_a_relaxation_modulus_that_rises_are_refused() {
+        let times = log_spaced(1.0, 1e3, 10);
+        for (slope, words) in [(-0.5, "falls by"), (-0.01, "falls steadily")] {
+            let falling: Vec<f64> = times.iter().map(|t| t.powf(slope)).collect();
+            let text = message(&times, &falling);
+            assert!(text.contains(words), "{text}");
+            let rising = falling.iter().map(|v| 1.0 / v).collect();
+            let error = Tabulated::new(
+                GivenFace::Relaxation,
+                ModulusKind::Shear,
+                times.clone(),
+                rising,
+            );
+            assert!(error.unwrap_err().to_string().contains("rises"));
+        }
+        // The same with noise of a third of what it falls by in all.
+        let mut noise = Noise(5);
+        let falling: Vec<f64> = times
+            .iter()
+            .map(|t| t.powf(-0.01) * (1.0 + 0.003 * noise.normal()))
+            .collect();
+        assert!(message(&times, &falling).contains("steadily"));
+    }
+
+    #[test]
+    fn an_isolated_sample_is_noise_up_to_the_limit_and_no_further() {
+        let times = log_spaced(1.0, 1e3, 10);
+        let mut values: Vec<f64> = times.iter().map(|t| 1.0 + 1e-3 * t.ln()).collect();
+        let clean = values[17];
+        values[17] = 0.93 * clean;
+        let table = creep(&times, &values).unwrap();
+        let [
+            TableWarning::Noise {
+                samples,
+                row,
+                largest_share,
+                ..
+            },
+        ] = table.warnings()
+        else {
+            panic!("{:?}", table.warnings())
+        };
+        assert_eq!((*samples, *row), (1, 18));
+        // 7 % below its own course, and a little less below the sample before.
+        assert!((largest_share - 0.07).abs() < 1e-3);
+        values[17] = 0.88 * clean;
+        assert_eq!(
+            creep(&times, &values).unwrap_err().place(),
+            Some((18, TableColumn::Value))
+        );
+    }
+
+    #[test]
+    fn scatter_about_a_constant_is_not_taken_for_a_trend() {
+        // A constant is the hardest case: nothing rises. One in 10 000 may be refused; here none of 400.
+        let mut noise = Noise(1);
+        for count in [4, 6, 10, 40, 200] {
+            let times: Vec<f64> = (1..=count).map(f64::from).collect();
+            for _ in 0..80 {
+                let values: Vec<f64> = times.iter().map(|_| 1.0 + 0.01 * noise.normal()).collect();
+                assert!(creep(&times, &values).is_ok(), "{count}");
+            }
+        }
+    }
+
+    #[test]
+    fn gaps_and_short_data_are_pointed_out() {
+        let gappy = creep(&[0.0, 1.0, 2.0, 50.0, 500.0], &[1.0, 1.0, 1.1, 1.2, 1.3]).unwrap();
+        assert_eq!(
+            gappy.warnings(),
+            [TableWarning::Gap {
+                from_s: 2.0,
+                to_s: 50.0
+            }]
+        );
+        assert!(
+            gappy.warnings()[0]
+                .to_string()
+                .contains("between 2 s and 50 s")
+        );
+        let short = creep(&[0.0, 1.0, 2.0, 9.0], &[1.0, 1.0, 1.1, 1.2]).unwrap();
+        assert!(matches!(short.warnings(), [TableWarning::Short { .. }]));
+        assert!(short.warnings()[0].to_string().contains("0.95 decades"));
+    }
+
+    #[test]
+    fn a_tabulated_relaxation_modulus_becomes_the_creep_compliance_of_the_material_without_a_fit() {
+        let material = library::find("pmma").unwrap().material().unwrap();
+        let relaxation = material.relaxation().unwrap();
+        let error = |per_decade, first| {
+            let mut times = log_spaced(0.01, 1e4, per_decade);
+            if first {
+                times.insert(0, 0.0);
+            }
+            let values = times.iter().map(|&t| relaxation.modulus(t)).collect();
+            let table = Tabulated::new(GivenFace::Relaxation, material.kind(), times, values);
+            let curve = table.unwrap().creep_curve();
+            log_spaced(0.01, 9e3, 37)
+                .iter()
+                .map(|&t| (curve.value(t) / material.creep().compliance(t) - 1.0).abs())
+                .fold(0.0, f64::max)
+        };
+        let (coarse, fine) = (error(10, false), error(20, true));
+        println!("creep from tabulated relaxation: {coarse:e} {fine:e}");
+        // Power laws between ten samples per decade miss the modulus of PMMA by 3e-4 (measured); what is done with them
+        // must not be worse, and is of second order. The time before the first sample costs 0.01/8.93/10.
+        assert!(coarse < 3e-4, "{coarse:e}");
+        assert!(fine < 0.3 * coarse, "{fine:e}");
+    }
+
+    #[test]
+    fn the_contact_compliance_is_that_of_the_material() {
+        let material = library::find("pmma").unwrap().material().unwrap();
+        let times = log_spaced(0.1, 1e3, 10);
+        let values = times
+            .iter()
+            .map(|&t| material.creep().compliance(t))
+            .collect();
+        let table = Tabulated::new(GivenFace::Creep, material.kind(), times, values).unwrap();
+        let contact = table.contact_compliance(material.poisson_ratio()).unwrap();
+        let exact = material.contact_compliance().unwrap();
+        for &t in table.times_s() {
+            assert!((contact.value(t) / exact.compliance(t) - 1.0).abs() < 1e-14);
+        }
+        assert!(table.contact_compliance(0.7).is_err());
+    }
+}

@@ -1,0 +1,185 @@
+//! Data against the series fitted to them, and the relative difference between the two.
+
+use super::{Figure, prefix};
+use crate::material::fit::Fit;
+use crate::material::tabulated::Tabulated;
+use crate::material::{GivenFace, ModulusKind};
+use crate::report::ReportError;
+use crate::report::chart::{Axis, Chart, Marker, Series};
+use crate::report::table::Table;
+
+/// Points of the fitted curve; most symbols along it, between which it can still be seen, and most symbols without a curve;
+/// ratio of values from which the axis is logarithmic.
+const CURVE: usize = 400;
+const SYMBOLS_ON_CURVE: usize = 50;
+const SYMBOLS: usize = 2000;
+const WIDE: f64 = 20.0;
+
+/// Two figures, `fit` and `fit-residual`. A sample at time zero has no place on their logarithmic axis; it is in the data.
+///
+/// # Errors
+/// Where a table behind them cannot be made.
+pub fn figures(table: &Tabulated, fit: &Fit) -> Result<Vec<Figure>, ReportError> {
+    Ok(vec![curves(table, fit)?, residual(table, fit)?])
+}
+
+/// Samples at positive times; where there are more than `most`, as many at about equal distances in the logarithm of time.
+fn shown(table: &Tabulated, most: usize) -> Vec<(f64, f64)> {
+    let samples = table.times_s().iter().copied();
+    let positive = samples
+        .zip(table.values().iter().copied())
+        .filter(|(time_s, _)| *time_s > 0.0);
+    let positive: Vec<_> = positive.collect();
+    if positive.len() <= most {
+        return positive;
+    }
+    let (from, to) = positive_range_s(table);
+    let mut next = 0.0;
+    let far_enough = |(time_s, _): &(f64, f64)| {
+        let place = (time_s / from).ln() / (to / from).ln() * (most - 1) as f64;
+        let taken = place >= next - 1e-9;
+        if taken {
+            next = place.floor() + 1.0;
+        }
+        taken
+    };
+    positive.into_iter().filter(far_enough).collect()
+}
+
+fn curves(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
+    let symbol = match (table.face(), table.kind()) {
+        (GivenFace::Creep, ModulusKind::Longitudinal) => 'D',
+        (GivenFace::Creep, ModulusKind::Shear) => 'J',
+        (GivenFace::Relaxation, ModulusKind::Longitudinal) => 'E',
+        (GivenFace::Relaxation, ModulusKind::Shear) => 'G',
+    };
+    let lowest = table.values().iter().copied().fold(f64::INFINITY, f64::min);
+    let highest = table.values().iter().copied().fold(0.0, f64::max);
+    let (factor, label) = match table.face() {
+        GivenFace::Relaxation => {
+            let (factor, unit) = prefix(highest);
+            (factor, format!("relaxation modulus {symbol}(t) / {unit}Pa"))
+        }
+        // A compliance per GPa where moduli are in GPa.
+        GivenFace::Creep => {
+            let (factor, unit) = prefix(highest.recip());
+            (
+                factor.recip(),
+                format!("creep compliance {symbol}(t) / {unit}Pa⁻¹"),
+            )
+        }
+    };
+    let axis = if highest > WIDE * lowest {
+        Axis::log(label)
+    } else {
+        Axis::linear(label)
+    };
+    let symbols = shown(table, SYMBOLS_ON_CURVE);
+    let samples = table.times_s().len();
+    let data = if symbols.len() + 1 < samples {
+        format!("data ({} of {samples} samples)", symbols.len())
+    } else {
+        "data".to_owned()
+    };
+    let data = Series::scatter(symbols.into_iter().map(|(t, v)| (t, factor * v)))
+        .marker(Marker::Ring)
+        .label(data);
+    let (from, to) = positive_range_s(table);
+    let curve = (0..=CURVE).map(|i| {
+        let time_s = from * (to / from).powf(i as f64 / CURVE as f64);
+        let value = factor * fit.series().value(time_s);
+        // A modulus that has relaxed to nothing has no place on a logarithmic axis.
+        (value > 0.0).then_some((time_s, value))
+    });
+    let chart = Chart::new(Axis::log("time t / s"), axis)
+        .series(data)
+        .series(Series::line(curve).label("fit").color(1));
+    Ok(Figure {
+        name: "fit",
+        chart,
+        data: data_table(table, fit)?,
+    })
+}
+
+fn residual(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
+    let percent = |(t, v): (f64, f64)| (t, 100.0 * (fit.series().value(t) / v - 1.0));
+    let points = shown(table, SYMBOLS).into_iter().map(percent);
+    let (from, to) = positive_range_s(table);
+    let chart = Chart::new(
+        Axis::log("time t / s"),
+        Axis::linear("difference fit − data / % of the data"),
+    )
+    .series(Series::line([(from, 0.0), (to, 0.0)]).color(1))
+    .series(Series::scatter(points).marker(Marker::Ring));
+    let mut data = Table::new("fit-residual.csv", &["time_s", "relative_difference"])?;
+    for (&time_s, value) in table.times_s().iter().zip(table.values()) {
+        data.numbers(&[time_s, fit.series().value(time_s) / value - 1.0])?;
+    }
+    Ok(Figure {
+        name: "fit-residual",
+        chart,
+        data: data.finish()?,
+    })
+}
+
+fn positive_range_s(table: &Tabulated) -> (f64, f64) {
+    let curve = table.curve();
+    (curve.shortest_time_s().unwrap_or(1.0), curve.last_time_s())
+}
+
+fn data_table(table: &Tabulated, fit: &Fit) -> Result<Vec<u8>, ReportError> {
+    let columns = match table.face() {
+        GivenFace::Creep => ["time_s", "creep_compliance_per_pa", "fit_per_pa"],
+        GivenFace::Relaxation => ["time_s", "relaxation_modulus_pa", "fit_pa"],
+    };
+    let mut rows = Table::new("fit.csv", &columns)?;
+    for (&time_s, &value) in table.times_s().iter().zip(table.values()) {
+        rows.numbers(&[time_s, value, fit.series().value(time_s)])?;
+    }
+    rows.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::fit::fit;
+    use crate::report::chart;
+
+    fn table(count: i32) -> Tabulated {
+        let times: Vec<f64> = (0..count).map(|i| f64::from(i) * 0.5).collect();
+        let values = times
+            .iter()
+            .map(|t| 1e-9 * (2.0 - (-t / 10.0).exp()))
+            .collect();
+        Tabulated::new(GivenFace::Creep, ModulusKind::Shear, times, values).unwrap()
+    }
+
+    #[test]
+    fn many_samples_are_thinned_evenly_and_the_legend_says_so() {
+        let table = table(2001);
+        let symbols = shown(&table, SYMBOLS_ON_CURVE);
+        assert!(symbols.len() <= SYMBOLS_ON_CURVE && symbols.len() > 30);
+        assert_eq!(symbols[0].0, 0.5);
+        assert_eq!(symbols.last().unwrap().0, 1000.0);
+        let figures = figures(&table, &fit(&table).unwrap()).unwrap();
+        let label = figures[0].chart.series[0].label.clone().unwrap();
+        assert!(label.starts_with("data (") && label.contains("of 2001 samples"));
+        let few = table_figures(20);
+        assert_eq!(few[0].chart.series[0].label.as_deref(), Some("data"));
+    }
+
+    fn table_figures(count: i32) -> Vec<Figure> {
+        let table = table(count);
+        figures(&table, &fit(&table).unwrap()).unwrap()
+    }
+
+    #[test]
+    fn the_figures_hold_every_sample_in_their_data_and_can_be_drawn() {
+        for figure in table_figures(20) {
+            let rows = String::from_utf8(figure.data).unwrap();
+            assert_eq!(rows.lines().count(), 21);
+            assert!(rows.lines().nth(1).unwrap().starts_with("0e0,"));
+            assert!(chart::to_svg(&figure.chart).is_ok());
+        }
+    }
+}

@@ -1,0 +1,413 @@
+//! Measured data as a material: from a CSV file to the contact, with a fit and without one.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use contact_dma::cli::document::Document;
+use contact_dma::cli::sweep_file;
+use contact_dma::contact::Prescribed;
+use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
+use contact_dma::history::{DirectMemory, Hereditary, March, Memory, TimeRule};
+use contact_dma::material::fit::fit;
+use contact_dma::material::tabulated::Tabulated;
+use contact_dma::material::{GivenFace, Material, library};
+use contact_dma::reference::transient::step_load_contact_radius_m;
+use predicates::prelude::*;
+use predicates::str::contains;
+use tempfile::TempDir;
+
+fn pmma() -> Material {
+    library::find("pmma").unwrap().material().unwrap()
+}
+
+/// Ten samples per decade, from 0.1 s to 1000 s.
+fn times() -> Vec<f64> {
+    (0..=40)
+        .map(|i| 0.1 * 10_f64.powf(f64::from(i) / 10.0))
+        .collect()
+}
+
+fn csv(face: GivenFace) -> String {
+    let material = pmma();
+    let (column, value): (_, &dyn Fn(f64) -> f64) = match face {
+        GivenFace::Creep => ("creep_compliance_per_pa", &|t| {
+            material.creep().compliance(t)
+        }),
+        GivenFace::Relaxation => ("relaxation_modulus_pa", &|t| {
+            material.relaxation().unwrap().modulus(t)
+        }),
+    };
+    let rows: String = times()
+        .iter()
+        .map(|&t| format!("{t},{}\n", value(t)))
+        .collect();
+    format!("time_s,{column}\n{rows}")
+}
+
+fn program() -> Command {
+    Command::cargo_bin("contact-dma").unwrap()
+}
+
+fn write(folder: &Path, name: &str, text: &str) {
+    fs::create_dir_all(folder).unwrap();
+    fs::write(folder.join(name), text).unwrap();
+}
+
+const REST: &str = r#"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+
+[drive]
+mean = "10 N"
+amplitude = "5 N"
+
+[sweep]
+angular_frequency = ["0.006 rad/s", "0.0084 rad/s", "0.012 rad/s"]
+
+[cycle]
+steps = 50
+
+[solver]
+springs = 100
+"#;
+
+const TABLE: &str = r#"
+[material]
+poisson_ratio = 0.38
+
+[material.table]
+file = "data/creep.csv"
+quantity = "creep"
+modulus = "longitudinal"
+"#;
+
+#[test]
+fn the_printed_block_is_a_material_block_with_exact_numbers() {
+    let folder = TempDir::new().unwrap();
+    for (face, quantity) in [
+        (GivenFace::Creep, "creep"),
+        (GivenFace::Relaxation, "relaxation"),
+    ] {
+        write(folder.path(), "data.csv", &csv(face));
+        let out = folder.path().join(quantity);
+        let assert = program()
+            .current_dir(folder.path())
+            .args(["material", "fit", "data.csv", "--quantity", quantity])
+            .args([
+                "--modulus",
+                "longitudinal",
+                "--poisson-ratio",
+                "0.38",
+                "--out",
+            ])
+            .arg(&out)
+            .assert()
+            .success()
+            .stdout(contains("Fit of 2 branches").and(contains("Misfit relative to the data")))
+            .stdout(contains("the data begin at 0.1 s"));
+        let printed = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+        let start = printed.find("# From data.csv").unwrap();
+        let end = printed.find("\nMaterial and figures in").unwrap();
+        let block = &printed[start..end];
+        assert_eq!(
+            block,
+            fs::read_to_string(out.join("material.toml")).unwrap()
+        );
+
+        let sweep = format!("title = \"pasted\"\n{block}{REST}");
+        let plan = sweep_file::plan(&Document::parse("sweep.toml", &sweep).unwrap()).unwrap();
+        let table = {
+            let rows = csv(face);
+            let rows = rows.lines().skip(1).map(|row| row.split_once(',').unwrap());
+            let (times, values) = rows
+                .map(|(t, v)| (t.parse::<f64>().unwrap(), v.parse::<f64>().unwrap()))
+                .unzip();
+            Tabulated::new(face, pmma().kind(), times, values).unwrap()
+        };
+        let expected = fit(&table).unwrap().material(0.38).unwrap();
+        assert_eq!(plan.material.creep(), expected.creep());
+        assert_eq!(plan.material.relaxation(), expected.relaxation());
+        assert_eq!(plan.material.poisson_ratio(), 0.38);
+        for name in [
+            "fit.svg",
+            "fit.png",
+            "fit@2x.png",
+            "fit.csv",
+            "fit-residual.svg",
+        ] {
+            assert!(out.join(name).is_file(), "{name}");
+        }
+        let rows = fs::read_to_string(out.join("fit.csv")).unwrap();
+        assert_eq!(rows.lines().count(), 1 + times().len());
+    }
+}
+
+#[test]
+fn a_sweep_takes_its_material_from_a_table_beside_its_file_and_shows_the_misfit() {
+    let folder = TempDir::new().unwrap();
+    let project = folder.path().join("project");
+    write(&project.join("data"), "creep.csv", &csv(GivenFace::Creep));
+    write(
+        &project,
+        "sweep.toml",
+        &format!("title = \"tabulated\"\n{TABLE}{REST}"),
+    );
+    let library = "[material]\nlibrary = \"pmma\"\n";
+    write(
+        &project,
+        "pmma.toml",
+        &format!("title = \"library\"\n{library}{REST}"),
+    );
+    // From another folder: the path counts from the sweep file.
+    for name in ["sweep", "pmma"] {
+        let assert = program()
+            .current_dir(folder.path())
+            .args(["sweep", &format!("project/{name}.toml"), "--out", name])
+            .assert()
+            .success();
+        if name == "sweep" {
+            assert.stdout(contains("Fit of 2 branches").and(contains("the data begin at 0.1 s")));
+        }
+    }
+    let loss = |name: &str| -> f64 {
+        let summary = fs::read(folder.path().join(name).join("summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+        summary["peaks"][0]["energy_loss_j"].as_f64().unwrap()
+    };
+    // The table holds seventeen digits: its fit is the library's material to 1e-12, and marching amplifies nothing.
+    assert!((loss("sweep") / loss("pmma") - 1.0).abs() < 1e-9);
+    // What is resolved needs no table.
+    let resolved = fs::read_to_string(folder.path().join("sweep/resolved.toml")).unwrap();
+    assert!(resolved.contains("[material.creep]") && !resolved.contains("creep.csv"));
+
+    program()
+        .current_dir(folder.path())
+        .args(["material", "show", "project/sweep.toml"])
+        .assert()
+        .success()
+        .stdout(contains("Misfit relative to the data").and(contains("E(0) = 2491.44 MPa")));
+    // In a flag, the path counts from the working folder.
+    let flag = "material.table.file=project/data/creep.csv";
+    program()
+        .current_dir(folder.path())
+        .args([
+            "sweep",
+            "project/sweep.toml",
+            "--out",
+            "flag",
+            "--set",
+            flag,
+        ])
+        .assert()
+        .success();
+}
+
+#[test]
+fn a_table_that_cannot_be_used_is_refused_at_its_place() {
+    let good = csv(GivenFace::Creep);
+    let first = good.lines().nth(1).unwrap();
+    let falling =
+        csv(GivenFace::Relaxation).replace("relaxation_modulus_pa", "creep_compliance_per_pa");
+    let rising = good.replace("creep_compliance_per_pa", "relaxation_modulus_pa");
+    let cases: [(&str, String, &[&str]); 10] = [
+        ("creep", String::new(), &["data.csv", "the table is empty"]),
+        (
+            "creep",
+            format!("time_s,creep_compliance_per_pa\n{first}\n"),
+            &["too few samples, 1", "at least 4"],
+        ),
+        (
+            "creep",
+            good.replace("time_s", "seconds"),
+            &["data.csv:1:1", "no column `time_s`"],
+        ),
+        (
+            "creep",
+            good.replace("\n1,", "\n0.5,"),
+            &["data.csv:12:1", "row 11", "must increase"],
+        ),
+        (
+            "creep",
+            good.replace("\n1,", "\nNaN,"),
+            &["data.csv:12:1", "not a finite number"],
+        ),
+        (
+            "creep",
+            good.replace("\n1,", "\n1,-"),
+            &["data.csv:12:3", "greater than zero"],
+        ),
+        (
+            "creep",
+            good.replace("\n1,", "\n1,2,"),
+            &["data.csv:12:1", "3 cells"],
+        ),
+        (
+            "creep",
+            falling,
+            &["falls by", "the other quantity", "relaxation"],
+        ),
+        ("relaxation", rising, &["rises by", "no passive material"]),
+        (
+            "relaxation",
+            good.clone(),
+            &["no column `relaxation_modulus_pa`", "creep"],
+        ),
+    ];
+    let folder = TempDir::new().unwrap();
+    for (quantity, text, expected) in cases {
+        write(folder.path(), "data.csv", &text);
+        let run = |arguments: &[&str]| {
+            let assert = program()
+                .current_dir(folder.path())
+                .args(arguments)
+                .assert()
+                .code(2)
+                .stdout("");
+            let stderr = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+            for words in expected {
+                assert!(stderr.contains(words), "{words:?} is missing in:\n{stderr}");
+            }
+        };
+        run(&[
+            "material",
+            "fit",
+            "data.csv",
+            "--quantity",
+            quantity,
+            "--modulus",
+            "shear",
+            "--poisson-ratio",
+            "0.4",
+        ]);
+        let sweep = TABLE
+            .replace("data/creep.csv", "data.csv")
+            .replace("\"creep\"", &format!("\"{quantity}\""));
+        write(
+            folder.path(),
+            "sweep.toml",
+            &format!("title = \"x\"\n{sweep}{REST}"),
+        );
+        run(&["sweep", "sweep.toml"]);
+    }
+    write(
+        folder.path(),
+        "sweep.toml",
+        &format!("title = \"x\"\n{TABLE}{REST}"),
+    );
+    program()
+        .current_dir(folder.path())
+        .args(["sweep", "sweep.toml"])
+        .assert()
+        .code(2)
+        .stderr(contains("sweep.toml:7:8").and(contains("cannot read `data/creep.csv`")));
+    write(folder.path(), "data.csv", &good);
+    program()
+        .current_dir(folder.path())
+        .args(["material", "fit", "data.csv", "--quantity", "creep"])
+        .args(["--modulus", "shear", "--poisson-ratio", "0.7"])
+        .assert()
+        .code(2)
+        .stderr(contains("Poisson ratio is 0.7"));
+}
+
+/// Instants of the march: most of them between samples, some before the first.
+fn instants() -> Vec<f64> {
+    (0..=97)
+        .map(|i| 0.05 * 10_f64.powf(f64::from(i) / 23.0))
+        .collect()
+}
+
+/// Contact radii of a sphere under a step load.
+fn step_load<M: Hereditary>(memory: impl Fn(usize) -> M) -> Vec<f64> {
+    let width = 5e-4 / 400.0;
+    let gap = |i: usize| ((i as f64 + 0.5) * width).powi(2) / RADIUS_M;
+    let gaps: Vec<f64> = (0..400).map(gap).collect();
+    let mut engine = Axisymmetric::new(width, gaps, Edge::Open, true);
+    let mut march = March::with_memory(&mut engine, memory(400), TimeRule::Linear);
+    march.jump(Prescribed::LoadN(LOAD_N)).unwrap();
+    let mut before = 0.0;
+    let instants = instants();
+    let radii = instants.iter().map(|&time| {
+        let weights = march.weights(time - before);
+        before = time;
+        march
+            .step(&weights, Prescribed::LoadN(LOAD_N))
+            .unwrap()
+            .contact_radius_m
+    });
+    radii.collect()
+}
+
+const RADIUS_M: f64 = 10e-3;
+const LOAD_N: f64 = 10.0;
+
+#[test]
+fn a_step_load_on_tabulated_pmma_is_the_same_direct_and_fitted_and_both_are_right() {
+    let material = pmma();
+    let compliance = material.contact_compliance().unwrap();
+    // Six digits, as data come.
+    let rounded = |value: f64| format!("{value:.5e}").parse::<f64>().unwrap();
+    let values = times()
+        .iter()
+        .map(|&t| rounded(material.creep().compliance(t)))
+        .collect();
+    let table = Tabulated::new(GivenFace::Creep, material.kind(), times(), values).unwrap();
+    let contact = table.contact_compliance(0.38).unwrap();
+    let interpolation_error = (1..=3000)
+        .map(|i| 0.1 * 10_f64.powf(4.0 * f64::from(i) / 3000.0))
+        .map(|t| (contact.value(t) / compliance.compliance(t) - 1.0).abs())
+        .fold(
+            (contact.value(0.0) / compliance.compliance(0.0) - 1.0).abs(),
+            f64::max,
+        );
+    let fit = fit(&table).unwrap();
+    let misfit = fit.report().misfit.largest;
+    let fitted = fit.material(0.38).unwrap().contact_compliance().unwrap();
+
+    let exact: Vec<f64> = instants()
+        .iter()
+        .map(|&t| step_load_contact_radius_m(RADIUS_M, LOAD_N, &compliance, t))
+        .collect();
+    let largest = |left: &[f64], right: &[f64]| {
+        let pairs = left.iter().zip(right);
+        pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+    };
+    let recursive = step_load(|nodes| Memory::new(compliance.clone(), nodes));
+    let direct = step_load(|nodes| DirectMemory::new(contact.clone(), nodes));
+    let by_fit = step_load(|nodes| Memory::new(fitted.clone(), nodes));
+    let discretisation = largest(&recursive, &exact);
+    println!(
+        "interpolation {interpolation_error:.2e}, misfit {misfit:.2e}; radius: springs and steps {discretisation:.2e}, \
+         direct {:.2e}, fitted {:.2e}, apart {:.2e}",
+        largest(&direct, &exact),
+        largest(&by_fit, &exact),
+        largest(&direct, &by_fit),
+    );
+    // The radius goes with the cube root of the compliance; linear steps of the pressure are the same for all three, and so
+    // are the springs. What the table does to the recursion's result is at most what it does to the compliance.
+    assert!(largest(&direct, &recursive) < interpolation_error);
+    assert!(largest(&by_fit, &recursive) < 3.0 * misfit);
+    assert!(largest(&direct, &by_fit) < interpolation_error + misfit);
+    // Springs and steps against the closed form.
+    assert!(discretisation < 2e-3, "{discretisation:e}");
+}
+
+#[test]
+fn a_tabulated_relaxation_modulus_goes_into_contact_without_a_fit() {
+    let material = pmma();
+    let compliance = material.contact_compliance().unwrap();
+    let values = times()
+        .iter()
+        .map(|&t| material.relaxation().unwrap().modulus(t))
+        .collect();
+    let table = Tabulated::new(GivenFace::Relaxation, material.kind(), times(), values).unwrap();
+    let contact = table.contact_compliance(0.38).unwrap();
+    let direct = step_load(|nodes| DirectMemory::new(contact.clone(), nodes));
+    let recursive = step_load(|nodes| Memory::new(compliance.clone(), nodes));
+    for (a, b) in direct.iter().zip(&recursive) {
+        // Ten samples per decade miss the compliance by 2.2e-4, before 0.1 s by 1.2e-3; a third of it in the radius.
+        assert!((a / b - 1.0).abs() < 5e-4, "{a} {b}");
+    }
+}
