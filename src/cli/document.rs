@@ -72,7 +72,7 @@ mod tree;
 
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
@@ -116,6 +116,8 @@ impl<T> AsRef<Location> for Located<T> {
 pub struct Document {
     source: Arc<Source>,
     root: Table,
+    /// Where paths in the file start from.
+    folder: PathBuf,
     /// Flags applied so far; orders their problems.
     flags: usize,
 }
@@ -128,7 +130,19 @@ impl Document {
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
         let name = path.display().to_string();
         let bytes = read_limited(path).map_err(|error| cannot_read(&name, &error))?;
-        Self::from_bytes(&name, &bytes)
+        let document = Self::from_bytes(&name, &bytes)?;
+        Ok(document.in_folder(path.parent().unwrap_or(Path::new(""))))
+    }
+
+    /// The same document, in which paths start from this folder.
+    pub fn in_folder(mut self, folder: &Path) -> Self {
+        self.folder = folder.to_path_buf();
+        self
+    }
+
+    /// Where paths in the document start from: the folder of the file, or the working folder for text from memory.
+    pub fn folder(&self) -> &Path {
+        &self.folder
     }
 
     /// Parses the bytes of a file; a byte order mark is passed over.
@@ -159,6 +173,7 @@ impl Document {
             Ok(Self {
                 source,
                 root,
+                folder: PathBuf::new(),
                 flags: 0,
             })
         } else {

@@ -5,6 +5,8 @@
 mod arguments;
 pub mod diagnostic;
 pub mod document;
+pub mod field_file;
+mod indenter_block;
 mod material;
 mod material_block;
 mod material_fit;

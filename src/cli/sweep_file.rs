@@ -1,13 +1,10 @@
 //! Sweep files: from a document to a finished plan, every default filled in, every problem reported where it stands.
 
-use std::sync::Arc;
-
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Form, Located, TableReader};
-use super::material_block;
+use super::{indenter_block, material_block};
 use crate::drive::HarmonicLoad;
 use crate::history::TimeRule;
-use crate::indenter::{Cone, FlatPunch, Indenter, IndenterError, Sphere};
 use crate::material::Material;
 use crate::quantity::Dimension;
 use crate::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
@@ -29,14 +26,23 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let title = root.string("title");
     let material =
         material_block::read(&mut root, &problems).and_then(|m| for_contact(&problems, m));
-    let indenter = root.table("indenter").and_then(|t| indenter(t, &problems));
+    let indenter = root
+        .table("indenter")
+        .and_then(|t| indenter_block::read(t, document.folder(), &problems));
     let drive = root.table("drive").and_then(|t| drive(t, &problems));
     let frequencies = root.table("sweep").and_then(|t| frequencies(t, &problems));
     let cycle = optional(&mut root, "cycle", CyclePlan::default(), |t| {
         cycle(t, &problems)
     });
-    let solver = optional(&mut root, "solver", SolverPlan::default(), |t| {
-        solver(t, &problems)
+    let default = match &indenter {
+        Some(indenter) if indenter.axisymmetric().is_none() => SolverPlan {
+            engine: EngineKind::HalfSpace,
+            ..SolverPlan::default()
+        },
+        _ => SolverPlan::default(),
+    };
+    let solver = optional(&mut root, "solver", default, |t| {
+        solver(t, default, &problems)
     });
     root.finish();
     let plan = (|| {
@@ -86,35 +92,6 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
         }
         Ok(_) => Some(material.value),
     }
-}
-
-fn indenter(mut table: TableReader<'_>, problems: &Problems) -> Option<Arc<dyn Indenter>> {
-    let shape = table
-        .choice("shape", &["sphere", "cone", "flat-punch"])?
-        .value;
-    let (key, dimension) = match shape {
-        "cone" => ("half_angle", Dimension::Angle),
-        _ => ("radius", Dimension::Length),
-    };
-    let size = table.quantity(key, dimension);
-    table.finish();
-    let size = size?;
-    let made: Result<Arc<dyn Indenter>, IndenterError> = match shape {
-        "cone" => Cone::new(size.value).map(|shape| Arc::new(shape) as _),
-        "flat-punch" => FlatPunch::new(size.value).map(|shape| Arc::new(shape) as _),
-        _ => Sphere::new(size.value).map(|shape| Arc::new(shape) as _),
-    };
-    made.map_err(|error| {
-        let example = if shape == "cone" {
-            "\"70 deg\""
-        } else {
-            "\"10 mm\""
-        };
-        problems
-            .at(&size, error.to_string())
-            .help(format!("for example {key} = {example}"));
-    })
-    .ok()
 }
 
 fn drive(mut table: TableReader<'_>, problems: &Problems) -> Option<HarmonicLoad> {
@@ -280,8 +257,11 @@ fn cycle(mut table: TableReader<'_>, problems: &Problems) -> Option<CyclePlan> {
     })
 }
 
-fn solver(mut table: TableReader<'_>, problems: &Problems) -> Option<SolverPlan> {
-    let default = SolverPlan::default();
+fn solver(
+    mut table: TableReader<'_>,
+    default: SolverPlan,
+    problems: &Problems,
+) -> Option<SolverPlan> {
     let engines = [EngineKind::Axisymmetric, EngineKind::HalfSpace].map(|e| (e.name(), e));
     let engine = table.choice_of_or("engine", &engines, default.engine);
     let cells = table.positive_integer_or("cells", CELLS, default.cells);

@@ -1,6 +1,6 @@
 //! The cone of half angle alpha, measured between its axis and its side: g = r cot(alpha).
 
-use super::{Axisymmetric, Indenter, IndenterError, Parameter};
+use super::{Axisymmetric, Indenter, IndenterError, Parameter, Value};
 use crate::quantity::Dimension;
 
 /// A rigid cone. Small slopes: the linear theory asks for a half angle near 90 degrees.
@@ -41,11 +41,8 @@ impl Indenter for Cone {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        vec![Parameter {
-            key: "half_angle",
-            value: self.half_angle_rad,
-            dimension: Dimension::Angle,
-        }]
+        let angle = Value::Quantity(self.half_angle_rad, Dimension::Angle);
+        vec![Parameter::new("half_angle", angle)]
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

@@ -1,7 +1,6 @@
 //! The flat-ended cylindrical punch: gap 0 inside its radius, no indenter outside.
 
 use super::{Axisymmetric, Indenter, IndenterError, Parameter, positive_length};
-use crate::quantity::Dimension;
 
 /// A rigid flat punch of circular section.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,11 +28,7 @@ impl Indenter for FlatPunch {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        vec![Parameter {
-            key: "radius",
-            value: self.radius_m,
-            dimension: Dimension::Length,
-        }]
+        vec![Parameter::length("radius", self.radius_m)]
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

@@ -4,22 +4,109 @@
 //! dimensionality reduction stand for it (the transformed gap G), and how large an elastic contact it makes, which sizes the
 //! computational domain.
 
+mod asperities;
 mod cone;
+mod ellipsoid;
 mod flat_punch;
+mod height_map;
+mod power_law;
+mod profile;
+mod rough;
+mod shifted;
 mod sphere;
 
+pub use asperities::{Asperities, Asperity};
 pub use cone::Cone;
+pub use ellipsoid::Ellipsoid;
 pub use flat_punch::FlatPunch;
+pub use height_map::{HeightMap, MapEdge, MapQuantity};
+pub use power_law::PowerLaw;
+pub use profile::Profile;
+pub use rough::{Rough, Roughness};
+pub use shifted::Shifted;
 pub use sphere::Sphere;
 
 use crate::quantity::Dimension;
 
-/// One number of a shape, as a sweep file names it, in SI units.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// One setting of a shape, as a sweep file names it.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     pub key: &'static str,
-    pub value: f64,
-    pub dimension: Dimension,
+    pub value: Value,
+}
+
+/// The value of a setting, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    Quantity(f64, Dimension),
+    Quantities(Vec<f64>, Dimension),
+    Number(f64),
+    Integer(u64),
+    Text(String),
+    Tables(Vec<Vec<Parameter>>),
+}
+
+impl Parameter {
+    /// A length (m).
+    pub fn length(key: &'static str, value_m: f64) -> Self {
+        Self::new(key, Value::Quantity(value_m, Dimension::Length))
+    }
+
+    /// Any other setting.
+    pub fn new(key: &'static str, value: Value) -> Self {
+        Self { key, value }
+    }
+}
+
+/// The file a shape was read from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DataFile {
+    /// Path of the file, absolute, so that it can be read again from anywhere.
+    pub file: String,
+    /// SHA-256 of its bytes, in hexadecimal.
+    pub sha256: String,
+}
+
+impl DataFile {
+    fn parameters(&self) -> [Parameter; 2] {
+        [
+            Parameter::new("file", Value::Text(self.file.clone())),
+            Parameter::new("sha256", Value::Text(self.sha256.clone())),
+        ]
+    }
+}
+
+/// The part of the surface that the half-space engine covers with cells: a rectangle centred on the origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Domain {
+    /// A rectangle that just holds the elastic contact, and that may be enlarged.
+    Around {
+        half_width_x_m: f64,
+        half_width_y_m: f64,
+        /// Side of a cell along x over that along y which resolves the contact equally well in both directions.
+        cell_aspect_ratio: f64,
+        /// Half widths (m) along x and y beyond which the shape is not known, where there are such.
+        limit_m: Option<(f64, f64)>,
+    },
+    /// One cell for every point at which the shape is known, which cannot be enlarged.
+    Cells {
+        cells_x: usize,
+        cells_y: usize,
+        spacing_x_m: f64,
+        spacing_y_m: f64,
+    },
+}
+
+impl Domain {
+    /// A square, for a contact that is about round.
+    fn square(half_width_m: f64) -> Self {
+        Self::Around {
+            half_width_x_m: half_width_m,
+            half_width_y_m: half_width_m,
+            cell_aspect_ratio: 1.0,
+            limit_m: None,
+        }
+    }
 }
 
 /// Why a shape is refused.
@@ -31,6 +118,57 @@ pub enum IndenterError {
         "the cone's half angle is {half_angle_rad} rad; it must lie between 0 and pi/2 (90 deg), both excluded"
     )]
     HalfAngle { half_angle_rad: f64 },
+    #[error(
+        "the power law's exponent is {exponent}; it must lie between 1 (a cone) and {}, both included",
+        power_law::MAX_EXPONENT
+    )]
+    Exponent { exponent: f64 },
+    #[error("the {what} is {value_m} m; it must be a finite length")]
+    Position { what: &'static str, value_m: f64 },
+    #[error("there are no asperities; give at least one")]
+    NoAsperities,
+    #[error("the profile has {points} points; give at least 2, the first on the axis")]
+    TooFewPoints { points: usize },
+    #[error("the profile begins at r = {radius_m:e} m; it must begin on the axis, at r = 0")]
+    ProfileStart { radius_m: f64 },
+    #[error(
+        "point {point} of the profile is (r, gap) = ({radius_m:e} m, {gap_m:e} m): radii must increase, and both must be finite"
+    )]
+    ProfilePoint {
+        /// Counted from 1.
+        point: usize,
+        radius_m: f64,
+        gap_m: f64,
+    },
+    #[error(
+        "the map has {cells_x} x {cells_y} points; it needs at least {} in each direction and at most {} in all",
+        height_map::MIN_CELLS,
+        height_map::MAX_CELLS
+    )]
+    MapSize { cells_x: usize, cells_y: usize },
+    #[error("the map has {found} values where {expected} are needed")]
+    MapLength { found: usize, expected: usize },
+    #[error("the map has a hole: its value at column {column}, row {row} is {value}")]
+    MapHole {
+        /// Both counted from 1.
+        column: usize,
+        row: usize,
+        value: f64,
+    },
+    #[error("the Hurst exponent is {hurst}; it must lie between 0 and 1, both included")]
+    Hurst { hurst: f64 },
+    #[error("the rough surface has {cells} cells per side; give from {} to {}", rough::CELLS.start(), rough::CELLS.end())]
+    RoughCells { cells: usize },
+    #[error(
+        "the wavelengths of the rough surface must obey 2 spacing <= cut-off < roll-off <= side, but they are \
+         2 x {spacing_m:e} m, {cut_off_m:e} m, {roll_off_m:e} m, {side_m:e} m"
+    )]
+    Wavelengths {
+        spacing_m: f64,
+        cut_off_m: f64,
+        roll_off_m: f64,
+        side_m: f64,
+    },
 }
 
 /// A rigid indenter, pressed along its axis into the half-space.
@@ -38,17 +176,38 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
     /// The name of the shape as written in a sweep file.
     fn shape(&self) -> &'static str;
 
-    /// The numbers that make the shape.
+    /// The settings that make the shape.
     fn parameters(&self) -> Vec<Parameter>;
 
     /// Gap g(x, y) in metres before deformation, 0 at the lowest point; infinite where the indenter ends.
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64;
 
-    /// The shape as a convex body of revolution about the origin, where it is one.
+    /// The shape as a convex body of revolution about its own axis, where it is one.
     fn axisymmetric(&self) -> Option<&dyn Axisymmetric>;
+
+    /// Why there is no [`Indenter::axisymmetric`], to follow "the SHAPE".
+    fn not_axisymmetric_because(&self) -> String {
+        "is not a body of revolution".to_owned()
+    }
 
     /// Half the side of the square that just holds the elastic contact under this load (N) and contact compliance (1/Pa).
     fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64;
+
+    /// Where the half-space engine puts its cells under this load (N) and contact compliance (1/Pa).
+    fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
+        Domain::square(self.elastic_half_width_m(load_n, compliance_per_pa))
+    }
+
+    /// Whether an infinite gap means that the data end there and not the indenter, so that contact beside it is in doubt.
+    fn ends_in_data(&self) -> bool {
+        false
+    }
+
+    /// Whether the contact pressure is finite everywhere; an apex or a sharp edge makes it unbounded.
+    fn pressure_is_bounded(&self) -> bool {
+        self.axisymmetric()
+            .is_none_or(|body| body.has_bounded_pressure())
+    }
 }
 
 /// A convex indenter of revolution, as the method of dimensionality reduction sees it
@@ -60,6 +219,11 @@ pub trait Axisymmetric {
     /// The radius at which the indenter ends and the contact with it, where the shape has one.
     fn contact_limit_m(&self) -> Option<f64>;
 
+    /// The radius beyond which the shape is not known, where there is one; contact that reaches it is in doubt.
+    fn known_radius_m(&self) -> Option<f64> {
+        None
+    }
+
     /// Whether the contact pressure is finite everywhere; an apex or a sharp edge makes it unbounded.
     fn has_bounded_pressure(&self) -> bool;
 }
@@ -70,5 +234,14 @@ fn positive_length(what: &'static str, value_m: f64) -> Result<f64, IndenterErro
         Ok(value_m)
     } else {
         Err(IndenterError::Length { what, value_m })
+    }
+}
+
+/// A coordinate or height, which may have either sign.
+fn finite_position(what: &'static str, value_m: f64) -> Result<f64, IndenterError> {
+    if value_m.is_finite() {
+        Ok(value_m)
+    } else {
+        Err(IndenterError::Position { what, value_m })
     }
 }

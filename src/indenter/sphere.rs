@@ -1,7 +1,6 @@
 //! The sphere, in the small-slope (paraboloid) form on which Hertz contact rests: g = r^2 / (2 R).
 
 use super::{Axisymmetric, Indenter, IndenterError, Parameter, positive_length};
-use crate::quantity::Dimension;
 
 /// A rigid sphere of radius R, as a paraboloid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,11 +28,7 @@ impl Indenter for Sphere {
     }
 
     fn parameters(&self) -> Vec<Parameter> {
-        vec![Parameter {
-            key: "radius",
-            value: self.radius_m,
-            dimension: Dimension::Length,
-        }]
+        vec![Parameter::length("radius", self.radius_m)]
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {

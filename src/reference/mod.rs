@@ -3,5 +3,7 @@
 
 pub mod direct_sum;
 pub mod elastic;
+pub mod elliptic;
+pub mod power_law;
 pub mod steady;
 pub mod transient;

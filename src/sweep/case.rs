@@ -5,12 +5,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::contact::axisymmetric::{self, Axisymmetric};
 use crate::contact::half_space::convolution::Convolution;
-use crate::contact::half_space::grid::Grid;
 use crate::contact::half_space::{HalfSpace, SolverSettings};
 use crate::contact::{ContactError, Engine, Prescribed};
 use crate::cycle::{self, BranchChange, Extrema, Loop, LoopError};
 use crate::history::{March, StepWeights};
+use crate::indenter::{self, Domain};
 use crate::material::{Creep, MaterialError};
+use crate::sweep::domain::{self, GROWTH};
 use crate::sweep::plan::{EngineKind, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 
@@ -25,9 +26,9 @@ pub enum SetupError {
     )]
     Fluid,
     #[error(
-        "the {shape} is not a body of revolution; the axisymmetric engine cannot treat it (set solver.engine = \"half-space\")"
+        "the {shape} {reason}; the axisymmetric engine cannot treat it (set solver.engine = \"half-space\")"
     )]
-    NotAxisymmetric { shape: &'static str },
+    NotAxisymmetric { shape: &'static str, reason: String },
     #[error("the half-space grid cannot be built: {0}")]
     Grid(String),
 }
@@ -37,6 +38,7 @@ pub struct Setup {
     plan: SweepPlan,
     compliance: Creep,
     half_width_m: f64,
+    domain: Domain,
     operator: Option<Arc<Convolution>>,
 }
 
@@ -51,11 +53,9 @@ enum CaseError {
     Interrupted,
 }
 
-/// Room beyond the largest contact expected: one part in fifty for springs, more for cells, whose border must stay empty.
+/// Room beyond the largest contact expected.
 const SPRING_ROOM: f64 = 1.02;
-const CELL_ROOM: f64 = 1.1;
-/// Each enlargement of the domain, and how many there may be before a case counts as failed.
-const GROWTH: f64 = 1.25;
+/// How many enlargements of the domain there may be before a case counts as failed.
 const MAX_GROWTHS: usize = 12;
 
 impl Setup {
@@ -70,28 +70,22 @@ impl Setup {
             .equilibrium_compliance()
             .ok_or(SetupError::Fluid)?;
         // No load history within the drive's range makes a larger contact than its maximum held for ever.
-        let contact_m = plan
-            .indenter
-            .elastic_half_width_m(plan.drive.maximum_n(), relaxed);
+        let largest_n = plan.drive.maximum_n();
         let mut setup = Self {
-            half_width_m: contact_m,
+            half_width_m: plan.indenter.elastic_half_width_m(largest_n, relaxed),
+            domain: plan.indenter.domain(largest_n, relaxed),
             operator: None,
             compliance,
             plan,
         };
         match setup.plan.solver.engine {
             EngineKind::Axisymmetric => {
-                let indenter = setup.plan.indenter.as_ref();
-                let body = indenter.axisymmetric().ok_or(SetupError::NotAxisymmetric {
-                    shape: indenter.shape(),
-                })?;
-                if body.contact_limit_m().is_none() {
+                if setup.body()?.contact_limit_m().is_none() {
                     setup.half_width_m *= SPRING_ROOM;
                 }
             }
             EngineKind::HalfSpace => {
-                setup.half_width_m *= CELL_ROOM;
-                let operator = setup.operator(setup.half_width_m);
+                let operator = setup.operator(0);
                 setup.operator = Some(Arc::new(operator.map_err(SetupError::Grid)?));
             }
         }
@@ -116,27 +110,46 @@ impl Setup {
         (2.0 + cycles_to_forget * to_tolerance).min(self.plan.cycle.max_cycles as f64)
     }
 
-    fn operator(&self, half_width_m: f64) -> Result<Convolution, String> {
-        let cells = self.plan.solver.cells;
-        let spacing_m = 2.0 * half_width_m / cells as f64;
-        let grid = Grid::square(cells, spacing_m).map_err(|e| e.to_string())?;
-        Convolution::new(grid).map_err(|e| e.to_string())
+    fn operator(&self, growths: usize) -> Result<Convolution, String> {
+        let grid = domain::grid(&self.domain, self.plan.solver.cells, growths);
+        Convolution::new(grid.map_err(|e| e.to_string())?).map_err(|e| e.to_string())
+    }
+
+    /// The indenter as the axisymmetric engine sees it.
+    fn body(&self) -> Result<&dyn indenter::Axisymmetric, SetupError> {
+        let indenter = self.plan.indenter.as_ref();
+        let refusal = || SetupError::NotAxisymmetric {
+            shape: indenter.shape(),
+            reason: indenter.not_axisymmetric_because(),
+        };
+        indenter.axisymmetric().ok_or_else(refusal)
+    }
+
+    /// Half width (m) of the domain enlarged `growths` times, and whether a further enlargement would enlarge it.
+    fn half_width_m(&self, growths: usize) -> (f64, bool) {
+        let known_m = match self.plan.solver.engine {
+            EngineKind::HalfSpace => {
+                let half_width_m = domain::half_width_m(&self.domain, growths);
+                return (half_width_m, domain::can_grow(&self.domain, growths));
+            }
+            EngineKind::Axisymmetric => self.body().ok().and_then(|body| body.known_radius_m()),
+        };
+        let wanted_m = self.half_width_m * GROWTH.powi(growths as i32);
+        match known_m {
+            Some(known_m) if known_m <= wanted_m => (known_m, false),
+            _ => (wanted_m, true),
+        }
     }
 
     /// An engine on a domain enlarged `growths` times.
-    fn engine(&self, growths: usize) -> Result<(Box<dyn Engine>, f64), SetupError> {
-        let half_width_m = self.half_width_m * GROWTH.powi(growths as i32);
+    fn engine(&self, growths: usize) -> Result<Box<dyn Engine>, SetupError> {
         let indenter = self.plan.indenter.as_ref();
-        let bounded = indenter
-            .axisymmetric()
-            .is_none_or(|body| body.has_bounded_pressure());
-        let engine: Box<dyn Engine> = match self.plan.solver.engine {
+        let bounded = indenter.pressure_is_bounded();
+        match self.plan.solver.engine {
             EngineKind::Axisymmetric => {
-                let body = indenter.axisymmetric().ok_or(SetupError::NotAxisymmetric {
-                    shape: indenter.shape(),
-                })?;
+                let body = self.body()?;
                 let springs = self.plan.solver.springs;
-                let width_m = half_width_m / springs as f64;
+                let width_m = self.half_width_m(growths).0 / springs as f64;
                 let gaps = (0..springs)
                     .map(|i| body.transformed_gap_m((i as f64 + 0.5) * width_m))
                     .collect();
@@ -144,27 +157,26 @@ impl Setup {
                     Some(_) => axisymmetric::Edge::Rim,
                     None => axisymmetric::Edge::Open,
                 };
-                Box::new(Axisymmetric::new(width_m, gaps, edge, bounded))
+                Ok(Box::new(Axisymmetric::new(width_m, gaps, edge, bounded)))
             }
             EngineKind::HalfSpace => {
                 let operator = match &self.operator {
                     Some(shared) if growths == 0 => Arc::clone(shared),
-                    _ => Arc::new(self.operator(half_width_m).map_err(SetupError::Grid)?),
+                    _ => Arc::new(self.operator(growths).map_err(SetupError::Grid)?),
                 };
-                let gaps = (0..operator.grid().cells())
-                    .map(|cell| {
-                        let (x_m, y_m) = operator.grid().center(cell);
-                        indenter.gap_m(x_m, y_m)
-                    })
-                    .collect();
+                let gaps = domain::gaps_m(indenter, operator.grid());
                 let settings = SolverSettings {
                     tolerance: self.plan.solver.tolerance,
                     ..SolverSettings::default()
                 };
-                Box::new(HalfSpace::new(operator, gaps, bounded, settings))
+                let engine = HalfSpace::new(operator, gaps, bounded, settings);
+                Ok(Box::new(if indenter.ends_in_data() {
+                    engine.ending_in_data()
+                } else {
+                    engine
+                }))
             }
-        };
-        Ok((engine, half_width_m))
+        }
     }
 
     /// Runs one case to its record; `None` where it was interrupted.
@@ -181,14 +193,15 @@ impl Setup {
             message: None,
             cycles: 0,
             steady_distance: None,
-            domain_half_width_m: self.half_width_m,
+            domain_half_width_m: self.half_width_m(0).0,
             domain_enlarged: 0,
             iterations: 0,
             result: None,
         };
         for growths in 0..=MAX_GROWTHS {
             record.domain_enlarged = growths;
-            let (mut engine, half_width_m) = match self.engine(growths) {
+            let (half_width_m, can_grow) = self.half_width_m(growths);
+            let mut engine = match self.engine(growths) {
                 Ok(engine) => engine,
                 Err(error) => {
                     record.message = Some(error.to_string());
@@ -200,7 +213,14 @@ impl Setup {
                 Ok(()) => return Some(record),
                 Err(CaseError::Interrupted) => return None,
                 Err(CaseError::Contact(ContactError::ReachedEdge { .. }))
-                    if growths < MAX_GROWTHS => {}
+                    if can_grow && growths < MAX_GROWTHS => {}
+                Err(CaseError::Contact(error @ ContactError::ReachedEdge { .. })) if !can_grow => {
+                    record.message = Some(format!(
+                        "{error}, beyond which the shape of the indenter is not known: give a larger map or a longer profile, \
+                         or a smaller load"
+                    ));
+                    return Some(record);
+                }
                 Err(error) => {
                     record.message = Some(error.to_string());
                     return Some(record);

@@ -38,7 +38,7 @@ pub struct SolverPlan {
     pub time_rule: TimeRule,
     /// Axisymmetric engine: springs over the domain.
     pub springs: usize,
-    /// Half-space engine: cells per side of the square domain.
+    /// Half-space engine: cells along the longer side of the domain; an indenter that is a map brings its own.
     pub cells: usize,
     /// Half-space engine: tolerance of one instant, see [`crate::contact::half_space::SolverSettings`].
     pub tolerance: f64,

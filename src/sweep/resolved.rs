@@ -5,6 +5,7 @@ use std::fmt::Write;
 use sha2::{Digest, Sha256};
 
 use crate::history::TimeRule;
+use crate::indenter::{Parameter, Value};
 use crate::material::{GivenFace, Material, ModulusKind};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::plan::SweepPlan;
@@ -23,8 +24,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     line("\n[indenter]");
     line(&format!("shape = \"{}\"", plan.indenter.shape()));
     for parameter in plan.indenter.parameters() {
-        let value = quantity(parameter.value, parameter.dimension);
-        line(&format!("{} = {value}", parameter.key));
+        line(&format!("{} = {}", parameter.key, value(&parameter.value)));
     }
     let drive = &plan.drive;
     line("\n[drive]\ncontrol = \"load\"");
@@ -67,10 +67,44 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     text
 }
 
+/// A setting of the indenter as TOML.
+fn value(value: &Value) -> String {
+    let list = |items: Vec<String>| format!("[{}]", items.join(", "));
+    let quoted = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
+    match value {
+        Value::Quantity(value, dimension) => quoted(*value, *dimension),
+        Value::Quantities(values, dimension) => {
+            list(values.iter().map(|&v| quoted(v, *dimension)).collect())
+        }
+        // Debug keeps the decimal point that TOML asks of a float.
+        Value::Number(number) => format!("{number:?}"),
+        Value::Integer(integer) => integer.to_string(),
+        Value::Text(text) => toml_string(text),
+        Value::Tables(tables) => {
+            let rows: Vec<String> = tables.iter().map(|t| inline_table(t)).collect();
+            format!("[\n{}]", rows.concat())
+        }
+    }
+}
+
+/// One line of an array of tables.
+fn inline_table(table: &[Parameter]) -> String {
+    let entries: Vec<String> = table
+        .iter()
+        .map(|parameter| format!("{} = {}", parameter.key, value(&parameter.value)))
+        .collect();
+    format!("    {{ {} }},\n", entries.join(", "))
+}
+
 /// SHA-256 of the resolved text, in hexadecimal.
 pub fn hash(resolved: &str) -> String {
+    hash_of_bytes(resolved.as_bytes())
+}
+
+/// SHA-256 of any bytes, in hexadecimal.
+pub fn hash_of_bytes(bytes: &[u8]) -> String {
     let mut hash = String::with_capacity(64);
-    for byte in Sha256::digest(resolved.as_bytes()) {
+    for byte in Sha256::digest(bytes) {
         // Writing to a String cannot fail.
         let _ = write!(hash, "{byte:02x}");
     }

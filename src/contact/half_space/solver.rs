@@ -40,6 +40,8 @@ pub struct HalfSpace {
     bounded_pressure: bool,
     /// B H: the displacement that history left.
     history_displacement_m: Vec<f64>,
+    /// Cells inside the grid in which contact is an error, because the gap beside them is not known.
+    end_of_data: Vec<usize>,
     /// g + B H: the gap under no pressure, before the approach is taken off.
     free_gap_m: Vec<f64>,
     /// B p, without the compliance.
@@ -108,6 +110,7 @@ impl HalfSpace {
             settings,
             bounded_pressure,
             history_displacement_m: vec![0.0; cells],
+            end_of_data: Vec::new(),
             free_gap_m: vec![0.0; cells],
             displacement: vec![0.0; cells],
             response: vec![0.0; cells],
@@ -116,6 +119,24 @@ impl HalfSpace {
             operator,
             gap_m,
         }
+    }
+
+    /// The same engine for a shape whose data end where its gap is infinite: contact beside such a cell is an error too.
+    pub fn ending_in_data(mut self) -> Self {
+        let grid = *self.operator.grid();
+        let (nx, ny) = (grid.cells_x(), grid.cells_y());
+        let unknown = |cell: usize| !self.gap_m[cell].is_finite();
+        let beside_unknown = |cell: &usize| {
+            let (x, y) = (cell % nx, cell / nx);
+            let rows = y.saturating_sub(1)..=(y + 1).min(ny - 1);
+            let mut neighbours = rows.flat_map(|y| {
+                let columns = x.saturating_sub(1)..=(x + 1).min(nx - 1);
+                columns.map(move |x| y * nx + x)
+            });
+            !unknown(*cell) && neighbours.any(unknown)
+        };
+        self.end_of_data = (0..grid.cells()).filter(beside_unknown).collect();
+        self
     }
 
     /// Convolutions computed so far: the unit in which this engine's work is counted.
@@ -375,7 +396,7 @@ impl HalfSpace {
         })
     }
 
-    /// Whether any cell on the border of the grid carries pressure.
+    /// Whether any cell on the border of the grid or of the data carries pressure.
     fn touches_edge(&self, pressure: &[f64]) -> bool {
         let (nx, ny) = (
             self.operator.grid().cells_x(),
@@ -383,7 +404,8 @@ impl HalfSpace {
         );
         let row = |iy: usize| (0..nx).any(|ix| pressure[iy * nx + ix] > 0.0);
         let column = |ix: usize| (0..ny).any(|iy| pressure[iy * nx + ix] > 0.0);
-        row(0) || row(ny - 1) || column(0) || column(nx - 1)
+        let border = row(0) || row(ny - 1) || column(0) || column(nx - 1);
+        border || self.end_of_data.iter().any(|&cell| pressure[cell] > 0.0)
     }
 
     fn out_of_contact(&mut self, pressure: &mut [f64]) -> Solution {

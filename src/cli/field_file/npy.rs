@@ -1,0 +1,266 @@
+//! Matrices of floats in NumPy's `.npy` format, versions 1 to 3 (NumPy Enhancement Proposal 1, and the documentation of
+//! `numpy.lib.format`): a mark, the length of the header, the header as a Python dictionary, then the bare numbers.
+
+use super::{Field, FieldProblem, Place};
+
+/// What the file begins with.
+pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
+
+type Refused = (Place, FieldProblem);
+
+/// How one number is stored.
+#[derive(Clone, Copy)]
+enum Float {
+    Little4,
+    Little8,
+    Big4,
+    Big8,
+}
+
+impl Float {
+    fn of(descriptor: &str) -> Option<Self> {
+        match descriptor {
+            "'<f4'" => Some(Self::Little4),
+            "'<f8'" => Some(Self::Little8),
+            "'>f4'" => Some(Self::Big4),
+            "'>f8'" => Some(Self::Big8),
+            _ => None,
+        }
+    }
+
+    fn bytes(self) -> usize {
+        match self {
+            Self::Little4 | Self::Big4 => 4,
+            Self::Little8 | Self::Big8 => 8,
+        }
+    }
+
+    /// The number in a chunk of [`Float::bytes`] bytes.
+    fn decode(self, chunk: &[u8]) -> f64 {
+        let four = || <[u8; 4]>::try_from(chunk).unwrap_or_default();
+        let eight = || <[u8; 8]>::try_from(chunk).unwrap_or_default();
+        match self {
+            Self::Little4 => f64::from(f32::from_le_bytes(four())),
+            Self::Big4 => f64::from(f32::from_be_bytes(four())),
+            Self::Little8 => f64::from_le_bytes(eight()),
+            Self::Big8 => f64::from_be_bytes(eight()),
+        }
+    }
+}
+
+/// The matrix in a whole file.
+pub(super) fn read(bytes: &[u8]) -> Result<Field, Refused> {
+    let whole = |problem| (Place::File, problem);
+    let (header, data) =
+        split(bytes).ok_or(whole(FieldProblem::NpyHeader("it ends within its header")))?;
+    let missing = |what| whole(FieldProblem::NpyHeader(what));
+    let descriptor = entry(header, "descr").ok_or(missing("no 'descr' in its header"))?;
+    let order =
+        entry(header, "fortran_order").ok_or(missing("no 'fortran_order' in its header"))?;
+    let shape = entry(header, "shape").ok_or(missing("no 'shape' in its header"))?;
+    let float = Float::of(descriptor).ok_or_else(|| {
+        let found = descriptor.chars().take(40).collect();
+        whole(FieldProblem::NpyType { found })
+    })?;
+    let (cells_y, cells_x) = two_lengths(shape).ok_or_else(|| {
+        let shape = shape.chars().take(40).collect();
+        whole(FieldProblem::NpyShape { shape })
+    })?;
+    let expected = cells_x
+        .saturating_mul(cells_y)
+        .saturating_mul(float.bytes());
+    if data.len() != expected {
+        let found = data.len();
+        return Err(whole(FieldProblem::NpyLength { found, expected }));
+    }
+    if expected == 0 {
+        return Err(whole(FieldProblem::Empty));
+    }
+    let stored = data.chunks_exact(float.bytes()).map(|c| float.decode(c));
+    let values_m: Vec<f64> = if order == "True" {
+        // Columns first.
+        let stored: Vec<f64> = stored.collect();
+        let place = |index: usize| index % cells_x * cells_y + index / cells_x;
+        (0..stored.len())
+            .map(|index| stored[place(index)])
+            .collect()
+    } else {
+        stored.collect()
+    };
+    if let Some(at) = values_m.iter().position(|z| !z.is_finite()) {
+        let place = Place::Entry {
+            row: at / cells_x + 1,
+            column: at % cells_x + 1,
+        };
+        let hole = format!("the entry is {}", values_m[at]);
+        return Err((place, FieldProblem::Hole(hole)));
+    }
+    Ok(Field {
+        cells_x,
+        cells_y,
+        values_m,
+        spacing_m: None,
+    })
+}
+
+/// Header and data.
+fn split(bytes: &[u8]) -> Option<(&str, &[u8])> {
+    let version = *bytes.get(MAGIC.len())?;
+    let after = MAGIC.len() + 2;
+    let (length, start) = if version == 1 {
+        let length = bytes.get(after..after + 2)?;
+        (
+            usize::from(u16::from_le_bytes(length.try_into().ok()?)),
+            after + 2,
+        )
+    } else {
+        let length = bytes.get(after..after + 4)?;
+        let length = u32::from_le_bytes(length.try_into().ok()?);
+        (usize::try_from(length).ok()?, after + 4)
+    };
+    let end = start.checked_add(length)?;
+    let header = std::str::from_utf8(bytes.get(start..end)?).ok()?;
+    Some((header, bytes.get(end..)?))
+}
+
+/// The text of one entry of the dictionary, up to the comma that ends it; commas in brackets are part of it.
+fn entry<'a>(header: &'a str, key: &str) -> Option<&'a str> {
+    let at = header.find(&format!("'{key}'"))?;
+    let rest = header.get(at..)?.split_once(':')?.1.trim_start();
+    let mut depth = 0_i32;
+    for (index, character) in rest.char_indices() {
+        match character {
+            '(' | '[' => depth += 1,
+            ')' | ']' => depth -= 1,
+            ',' | '}' if depth == 0 => return rest.get(..index).map(str::trim),
+            _ => {}
+        }
+    }
+    None
+}
+
+/// (rows, columns) of a Python tuple of two lengths.
+fn two_lengths(shape: &str) -> Option<(usize, usize)> {
+    let inside = shape.strip_prefix('(')?.strip_suffix(')')?;
+    let lengths: Option<Vec<usize>> = inside
+        .split(',')
+        .map(str::trim)
+        .filter(|length| !length.is_empty())
+        .map(|length| length.parse().ok())
+        .collect();
+    match lengths?.as_slice() {
+        [rows, columns] => Some((*rows, *columns)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::field;
+    use super::*;
+
+    /// A file as numpy.save writes it: header padded with blanks to a multiple of 64 bytes and ended by a line end.
+    fn file(version: u8, header: &str, data: &[u8]) -> Vec<u8> {
+        let length_bytes = if version == 1 { 2 } else { 4 };
+        let start = MAGIC.len() + 2 + length_bytes;
+        let padded = (start + header.len() + 1).next_multiple_of(64) - start;
+        let mut bytes = [MAGIC, &[version, 0]].concat();
+        bytes.extend(&(padded as u32).to_le_bytes()[..length_bytes]);
+        bytes.extend(format!("{header:<width$}\n", width = padded - 1).as_bytes());
+        bytes.extend(data);
+        bytes
+    }
+
+    fn header(descriptor: &str, order: &str, shape: &str) -> String {
+        format!("{{'descr': {descriptor}, 'fortran_order': {order}, 'shape': {shape}, }}")
+    }
+
+    fn bytes_of(values: &[f64]) -> Vec<u8> {
+        values.iter().flat_map(|v| v.to_le_bytes()).collect()
+    }
+
+    fn refused(bytes: &[u8]) -> String {
+        field("map.npy", bytes).unwrap_err().to_string()
+    }
+
+    const VALUES: [f64; 6] = [1.0, 2.5, -3.0, 4.0, 0.1, 6e-9];
+
+    #[test]
+    fn every_version_order_and_width_gives_the_same_matrix() {
+        let expected = Field {
+            cells_x: 3,
+            cells_y: 2,
+            values_m: VALUES.to_vec(),
+            spacing_m: None,
+        };
+        let plain = header("'<f8'", "False", "(2, 3)");
+        for version in 1..=3 {
+            let found = field("map.npy", &file(version, &plain, &bytes_of(&VALUES)));
+            assert_eq!(found.unwrap(), expected);
+        }
+        let columns_first = [0, 3, 1, 4, 2, 5].map(|i| VALUES[i]);
+        let fortran = file(
+            1,
+            &header("'<f8'", "True", "(2, 3)"),
+            &bytes_of(&columns_first),
+        );
+        assert_eq!(field("map.npy", &fortran).unwrap(), expected);
+        let big: Vec<u8> = VALUES.iter().flat_map(|v| v.to_be_bytes()).collect();
+        let big = file(1, &header("'>f8'", "False", "(2, 3)"), &big);
+        assert_eq!(field("map.npy", &big).unwrap(), expected);
+        for (descriptor, data) in [
+            ("'<f4'", VALUES.map(|v| (v as f32).to_le_bytes()).concat()),
+            ("'>f4'", VALUES.map(|v| (v as f32).to_be_bytes()).concat()),
+        ] {
+            let single = file(1, &header(descriptor, "False", "(2, 3)"), &data);
+            let found = field("map.npy", &single).unwrap();
+            assert_eq!(found.values_m, VALUES.map(|v| f64::from(v as f32)));
+        }
+    }
+
+    #[test]
+    fn arrays_of_another_type_or_shape_are_refused() {
+        let with = |descriptor, shape| file(1, &header(descriptor, "False", shape), &[0; 48]);
+        assert_eq!(
+            refused(&with("'<i4'", "(2, 3)")),
+            "`map.npy`: holds numbers of the type '<i4', where '<f8' or '<f4' is needed"
+        );
+        assert!(refused(&with("[('x', '<f8'), ('y', '<f8')]", "(2,)")).contains("('x', '<f8')"));
+        for shape in ["(6,)", "()", "(1, 2, 3)", "(-2, 3)"] {
+            assert_eq!(
+                refused(&with("'<f8'", shape)),
+                format!(
+                    "`map.npy`: holds an array of shape {shape}, where two dimensions are needed"
+                )
+            );
+        }
+    }
+
+    #[test]
+    fn files_that_are_not_whole_are_refused() {
+        let whole = file(1, &header("'<f8'", "False", "(2, 3)"), &bytes_of(&VALUES));
+        assert_eq!(
+            refused(&whole[..whole.len() - 1]),
+            "`map.npy`: holds 47 bytes of numbers, where its shape needs 48"
+        );
+        for length in [6, 7, 9, 40] {
+            assert!(refused(&whole[..length]).contains("ends within its header"));
+        }
+        let huge = header("'<f8'", "False", "(9999999999999, 9999999999999)");
+        assert!(refused(&file(1, &huge, &[0; 48])).contains("holds 48 bytes"));
+        let none = file(1, &header("'<f8'", "False", "(0, 3)"), &[]);
+        assert_eq!(refused(&none), "`map.npy`: holds no numbers");
+        assert!(refused(&file(1, "{'descr': '<f8', }", &[])).contains("no 'fortran_order'"));
+    }
+
+    #[test]
+    fn a_hole_is_shown_by_row_and_column() {
+        let mut values = VALUES;
+        values[5] = f64::NAN;
+        let holed = file(1, &header("'<f8'", "False", "(2, 3)"), &bytes_of(&values));
+        assert_eq!(
+            refused(&holed),
+            "`map.npy`, row 2, column 3: a hole: the entry is NaN"
+        );
+    }
+}

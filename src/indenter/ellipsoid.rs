@@ -1,0 +1,142 @@
+//! The ellipsoid by its principal radii of curvature, in small-slope form: g = x^2 / (2 Rx) + y^2 / (2 Ry).
+
+use super::{Axisymmetric, Domain, Indenter, IndenterError, Parameter, Sphere, positive_length};
+
+/// A rigid body of two principal radii of curvature, along x and y; its elastic contact is an ellipse (Hertz).
+///
+/// Two crossed cylinders of radii R1 and R2, one of them along x and the other along y, have the same gap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ellipsoid {
+    radius_x_m: f64,
+    radius_y_m: f64,
+    /// With equal radii the ellipsoid is a body of revolution.
+    sphere: Option<Sphere>,
+}
+
+impl Ellipsoid {
+    /// An ellipsoid with these principal radii of curvature (m) at its lowest point.
+    ///
+    /// # Errors
+    /// [`IndenterError::Length`] where one of them is not positive and finite.
+    pub fn new(radius_x_m: f64, radius_y_m: f64) -> Result<Self, IndenterError> {
+        let sphere = Sphere::new(positive_length("radius_x", radius_x_m)?)?;
+        Ok(Self {
+            radius_x_m,
+            radius_y_m: positive_length("radius_y", radius_y_m)?,
+            sphere: (radius_x_m == radius_y_m).then_some(sphere),
+        })
+    }
+
+    /// Principal radii of curvature along x and y (m).
+    pub fn radii_m(&self) -> (f64, f64) {
+        (self.radius_x_m, self.radius_y_m)
+    }
+
+    /// Semi-axes of the elastic contact along x and y (m), to 3 %.
+    ///
+    /// a^3 = 3 k^2 E W R C / pi with 1/R = 1/Rx + 1/Ry, and for the axis ratio k and the elliptic integral E the
+    /// approximations k = r^(2/pi), E = 1 + (pi/2 - 1)/r of B. J. Hamrock and D. Brewe, J. Lubr. Technol. 105 (1983) 171,
+    /// r being the larger radius over the smaller.
+    fn elastic_semi_axes_m(&self, load_n: f64, compliance_per_pa: f64) -> (f64, f64) {
+        use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, PI};
+        let (rx, ry) = self.radii_m();
+        let ratio = rx.max(ry) / rx.min(ry);
+        let axis_ratio = ratio.powf(FRAC_2_PI);
+        let integral = 1.0 + (FRAC_PI_2 - 1.0) / ratio;
+        let radius_m = (rx.recip() + ry.recip()).recip();
+        let scale = load_n * compliance_per_pa * radius_m;
+        let long_m = (3.0 / PI * axis_ratio * axis_ratio * integral * scale).cbrt();
+        let short_m = long_m / axis_ratio;
+        if rx >= ry {
+            (long_m, short_m)
+        } else {
+            (short_m, long_m)
+        }
+    }
+}
+
+impl Indenter for Ellipsoid {
+    fn shape(&self) -> &'static str {
+        "ellipsoid"
+    }
+
+    fn parameters(&self) -> Vec<Parameter> {
+        vec![
+            Parameter::length("radius_x", self.radius_x_m),
+            Parameter::length("radius_y", self.radius_y_m),
+        ]
+    }
+
+    fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
+        x_m * x_m / (2.0 * self.radius_x_m) + y_m * y_m / (2.0 * self.radius_y_m)
+    }
+
+    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+        self.sphere.as_ref().map(|sphere| sphere as _)
+    }
+
+    fn not_axisymmetric_because(&self) -> String {
+        "has two different radii and is not a body of revolution".to_owned()
+    }
+
+    fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
+        let (x_m, y_m) = self.elastic_semi_axes_m(load_n, compliance_per_pa);
+        x_m.max(y_m)
+    }
+
+    /// A rectangle with the axis ratio of the contact, and cells likewise: both semi-axes get as many of them.
+    fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
+        let (x_m, y_m) = self.elastic_semi_axes_m(load_n, compliance_per_pa);
+        Domain::Around {
+            half_width_x_m: x_m,
+            half_width_y_m: y_m,
+            cell_aspect_ratio: x_m / y_m,
+            limit_m: None,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn equal_radii_make_a_sphere_and_its_axisymmetric_body() {
+        let (ellipsoid, sphere) = (
+            Ellipsoid::new(0.02, 0.02).unwrap(),
+            Sphere::new(0.02).unwrap(),
+        );
+        // Two squares over 2R added, or their sum over 2R: one rounding.
+        let difference = ellipsoid.gap_m(3e-4, 1e-4) - sphere.gap_m(3e-4, 1e-4);
+        assert!(difference.abs() < 1e-15 * sphere.gap_m(3e-4, 1e-4));
+        let body = ellipsoid.axisymmetric().unwrap();
+        assert_eq!(body.transformed_gap_m(1e-4), sphere.transformed_gap_m(1e-4));
+        let (own, its) = (
+            ellipsoid.elastic_half_width_m(10.0, 4e-10),
+            sphere.elastic_half_width_m(10.0, 4e-10),
+        );
+        assert!((own / its - 1.0).abs() < 1e-14);
+        assert!(Ellipsoid::new(0.02, 0.01).unwrap().axisymmetric().is_none());
+    }
+
+    #[test]
+    fn exchanging_the_radii_exchanges_the_axes() {
+        let (one, other) = (
+            Ellipsoid::new(0.02, 0.005).unwrap(),
+            Ellipsoid::new(0.005, 0.02).unwrap(),
+        );
+        assert_eq!(one.gap_m(1e-4, 3e-4), other.gap_m(3e-4, 1e-4));
+        let (x_m, y_m) = one.elastic_semi_axes_m(3.0, 4e-10);
+        assert_eq!(other.elastic_semi_axes_m(3.0, 4e-10), (y_m, x_m));
+        assert!(x_m > y_m);
+    }
+
+    #[test]
+    fn a_radius_that_is_no_length_is_refused_by_its_name() {
+        for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            let refused = Ellipsoid::new(1.0, bad).unwrap_err().to_string();
+            assert!(refused.contains("radius_y"), "{refused}");
+            assert!(Ellipsoid::new(bad, 1.0).is_err());
+        }
+    }
+}

@@ -1,0 +1,368 @@
+//! The height map: a measured or computed indenter, given by one value per cell of a regular grid.
+
+use super::{Axisymmetric, DataFile, Domain, Indenter, IndenterError, Parameter, Value};
+use crate::quantity::Dimension;
+
+/// Fewest points of a map in each direction: a contact needs a border of cells around it.
+pub(super) const MIN_CELLS: usize = 3;
+/// Most points of a map: 2^24, that is 4096 x 4096.
+pub(super) const MAX_CELLS: usize = 1 << 24;
+
+/// Share of a cell up to which a place beside a point is that point.
+const ON_POINT_TOLERANCE: f64 = 1e-6;
+
+/// What the values of a map are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MapQuantity {
+    /// Heights of the indenter's surface, positive towards the half-space: the highest point touches first.
+    Height,
+    /// The gap itself: the lowest point touches first.
+    Gap,
+}
+
+/// What is beyond the border of a map.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MapEdge {
+    /// The indenter goes on, though nobody knows how: contact at the border is an error.
+    Unknown,
+    /// The indenter ends half a cell beyond the outer points, as a punch does.
+    Rim,
+}
+
+impl MapQuantity {
+    /// Names as written in a sweep file.
+    pub const NAMES: [(&'static str, Self); 2] = [("height", Self::Height), ("gap", Self::Gap)];
+}
+
+impl MapEdge {
+    /// Names as written in a sweep file.
+    pub const NAMES: [(&'static str, Self); 2] = [("unknown", Self::Unknown), ("rim", Self::Rim)];
+
+    /// The name as written in a sweep file.
+    pub(super) fn parameter(self) -> Parameter {
+        let name = match self {
+            Self::Unknown => "unknown",
+            Self::Rim => "rim",
+        };
+        Parameter::new("edge", Value::Text(name.to_owned()))
+    }
+}
+
+/// A rigid indenter given on a grid that is centred on the origin. The least gap counts as 0: a map whose points miss the
+/// summit of what it was taken from touches at its own highest point, and approaches are counted from there.
+///
+/// The half-space engine puts one cell on every point. On a grid of other spacing the gap is interpolated bilinearly.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HeightMap {
+    cells_x: usize,
+    cells_y: usize,
+    spacing_x_m: f64,
+    spacing_y_m: f64,
+    /// Row by row, x fastest, rows in the order of ascending y.
+    gap_m: Vec<f64>,
+    quantity: MapQuantity,
+    edge: MapEdge,
+    source: Option<DataFile>,
+    spacing_in_source: bool,
+}
+
+impl HeightMap {
+    /// A map of `cells.0` by `cells.1` points, `spacing_m` (x, y) apart, from values (m) row by row, x fastest, the first row
+    /// at the smallest y.
+    ///
+    /// # Errors
+    /// [`IndenterError`] for fewer than 3 points in a direction, more than 2^24 in all, another number of values, values
+    /// that are not finite, and spacings that are no lengths.
+    pub fn new(
+        cells: (usize, usize),
+        spacing_m: (f64, f64),
+        values_m: Vec<f64>,
+        quantity: MapQuantity,
+        edge: MapEdge,
+    ) -> Result<Self, IndenterError> {
+        let (cells_x, cells_y) = cells;
+        let expected = cells_x.saturating_mul(cells_y);
+        if cells_x.min(cells_y) < MIN_CELLS || expected > MAX_CELLS {
+            return Err(IndenterError::MapSize { cells_x, cells_y });
+        }
+        if values_m.len() != expected {
+            return Err(IndenterError::MapLength {
+                found: values_m.len(),
+                expected,
+            });
+        }
+        if let Some(at) = values_m.iter().position(|z| !z.is_finite()) {
+            return Err(IndenterError::MapHole {
+                column: at % cells_x + 1,
+                row: at / cells_x + 1,
+                value: values_m[at],
+            });
+        }
+        Ok(Self {
+            cells_x,
+            cells_y,
+            spacing_x_m: super::positive_length("spacing", spacing_m.0)?,
+            spacing_y_m: super::positive_length("spacing", spacing_m.1)?,
+            gap_m: gap_from(values_m, quantity),
+            quantity,
+            edge,
+            source: None,
+            spacing_in_source: false,
+        })
+    }
+
+    /// The same map, which remembers the file it was read from, and whether the file gave the spacing too.
+    pub fn with_source(mut self, source: DataFile, spacing_in_source: bool) -> Self {
+        self.source = Some(source);
+        self.spacing_in_source = spacing_in_source;
+        self
+    }
+
+    /// Points along x and y.
+    pub fn cells(&self) -> (usize, usize) {
+        (self.cells_x, self.cells_y)
+    }
+
+    /// Gap (m) at every point, row by row.
+    pub fn gaps_m(&self) -> &[f64] {
+        &self.gap_m
+    }
+
+    /// What lies beyond the border.
+    pub fn edge(&self) -> MapEdge {
+        self.edge
+    }
+}
+
+/// Gaps from values: the point that touches first gets gap 0.
+fn gap_from(mut values_m: Vec<f64>, quantity: MapQuantity) -> Vec<f64> {
+    let fold = |start: f64, pick: fn(f64, f64) -> f64| values_m.iter().copied().fold(start, pick);
+    match quantity {
+        MapQuantity::Height => {
+            let highest_m = fold(f64::NEG_INFINITY, f64::max);
+            values_m.iter_mut().for_each(|z| *z = highest_m - *z);
+        }
+        MapQuantity::Gap => {
+            let lowest_m = fold(f64::INFINITY, f64::min);
+            values_m.iter_mut().for_each(|z| *z -= lowest_m);
+        }
+    }
+    values_m
+}
+
+/// The two neighbouring points of a place on one axis, and the share of the second; `None` where the map has ended.
+fn neighbours(
+    position_m: f64,
+    spacing_m: f64,
+    cells: usize,
+    edge: MapEdge,
+) -> Option<(usize, usize, f64)> {
+    let last = (cells - 1) as f64;
+    let place = position_m / spacing_m + 0.5 * last;
+    let nearest = place.round();
+    let place = if (place - nearest).abs() <= ON_POINT_TOLERANCE {
+        nearest
+    } else {
+        place
+    };
+    let beyond = match edge {
+        MapEdge::Unknown => 0.0,
+        MapEdge::Rim => 0.5,
+    };
+    if !(-beyond..=last + beyond).contains(&place) {
+        return None;
+    }
+    let place = place.clamp(0.0, last);
+    let first = place.floor();
+    let index = first as usize;
+    Some((index, (index + 1).min(cells - 1), place - first))
+}
+
+/// a, b or between; an end of the range is met exactly.
+fn between(a: f64, b: f64, share: f64) -> f64 {
+    if share == 0.0 { a } else { a + share * (b - a) }
+}
+
+impl Indenter for HeightMap {
+    fn shape(&self) -> &'static str {
+        "height-map"
+    }
+
+    /// The file and how to read it; a map made of values in memory has no file.
+    fn parameters(&self) -> Vec<Parameter> {
+        let mut parameters: Vec<Parameter> = Vec::new();
+        parameters.extend(self.source.iter().flat_map(DataFile::parameters));
+        let quantity = match self.quantity {
+            MapQuantity::Height => "height",
+            MapQuantity::Gap => "gap",
+        };
+        parameters.push(Parameter::new("quantity", Value::Text(quantity.to_owned())));
+        if !self.spacing_in_source {
+            let spacing = vec![self.spacing_x_m, self.spacing_y_m];
+            let spacing = Value::Quantities(spacing, Dimension::Length);
+            parameters.push(Parameter::new("spacing", spacing));
+        }
+        parameters.push(self.edge.parameter());
+        parameters
+    }
+
+    fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
+        let columns = neighbours(x_m, self.spacing_x_m, self.cells_x, self.edge);
+        let rows = neighbours(y_m, self.spacing_y_m, self.cells_y, self.edge);
+        let (Some((left, right, along_x)), Some((lower, upper, along_y))) = (columns, rows) else {
+            return f64::INFINITY;
+        };
+        let along_row = |row: usize| {
+            let row = row * self.cells_x;
+            between(self.gap_m[row + left], self.gap_m[row + right], along_x)
+        };
+        between(along_row(lower), along_row(upper), along_y)
+    }
+
+    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+        None
+    }
+
+    /// Half the longer side of the map: what any contact with it fits into.
+    fn elastic_half_width_m(&self, _load_n: f64, _compliance_per_pa: f64) -> f64 {
+        let x_m = self.cells_x as f64 * self.spacing_x_m;
+        let y_m = self.cells_y as f64 * self.spacing_y_m;
+        0.5 * x_m.max(y_m)
+    }
+
+    /// A cell on every point; around a rim one more on each side, which stays empty.
+    fn domain(&self, _load_n: f64, _compliance_per_pa: f64) -> Domain {
+        let border = match self.edge {
+            MapEdge::Unknown => 0,
+            MapEdge::Rim => 2,
+        };
+        Domain::Cells {
+            cells_x: self.cells_x + border,
+            cells_y: self.cells_y + border,
+            spacing_x_m: self.spacing_x_m,
+            spacing_y_m: self.spacing_y_m,
+        }
+    }
+
+    fn ends_in_data(&self) -> bool {
+        self.edge == MapEdge::Unknown
+    }
+
+    fn pressure_is_bounded(&self) -> bool {
+        self.edge == MapEdge::Unknown
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Sphere;
+    use super::*;
+
+    fn map(edge: MapEdge) -> HeightMap {
+        // Four columns, three rows; highest at column 3, row 2.
+        let values = vec![0.0, 1.0, 2.0, 1.0, 1.0, 3.0, 7.0, 2.0, 0.0, 1.0, 4.0, 1.0];
+        HeightMap::new((4, 3), (0.1, 0.3), values, MapQuantity::Height, edge).unwrap()
+    }
+
+    #[test]
+    fn the_highest_point_of_heights_and_the_lowest_of_gaps_touches_first() {
+        let heights = map(MapEdge::Unknown);
+        let gaps = HeightMap::new(
+            (4, 3),
+            (0.1, 0.3),
+            heights.gaps_m().iter().map(|g| g + 12.0).collect(),
+            MapQuantity::Gap,
+            MapEdge::Unknown,
+        )
+        .unwrap();
+        assert_eq!(gaps.gaps_m(), heights.gaps_m());
+        assert_eq!(heights.gaps_m()[6], 0.0);
+        assert_eq!(heights.gaps_m()[0], 7.0);
+    }
+
+    #[test]
+    fn points_are_met_exactly_and_between_them_the_gap_is_bilinear() {
+        let map = map(MapEdge::Unknown);
+        for (index, &gap) in map.gaps_m().iter().enumerate() {
+            let x = ((index % 4) as f64 - 1.5) * 0.1;
+            let y = ((index / 4) as f64 - 1.0) * 0.3;
+            assert_eq!(map.gap_m(x, y), gap);
+        }
+        // The mean of the four points 3, 7, 1, 4 of height 7 at most.
+        let middle = map.gap_m(0.0, 0.15);
+        assert!((middle - (7.0 - 3.75)).abs() < 1e-14, "{middle}");
+    }
+
+    #[test]
+    fn beyond_the_outer_points_nothing_is_known_but_a_rim_reaches_half_a_cell_further() {
+        let (open, rim) = (map(MapEdge::Unknown), map(MapEdge::Rim));
+        assert_eq!(open.gap_m(0.151, 0.0), f64::INFINITY);
+        assert_eq!(rim.gap_m(0.199, 0.0), 5.0);
+        assert_eq!(rim.gap_m(0.201, 0.0), f64::INFINITY);
+        assert_eq!(rim.gap_m(0.0, -0.46), f64::INFINITY);
+        assert!(open.ends_in_data() && !rim.ends_in_data());
+        assert!(open.pressure_is_bounded() && !rim.pressure_is_bounded());
+        let cells = |map: &HeightMap| match map.domain(1.0, 1.0) {
+            Domain::Cells {
+                cells_x, cells_y, ..
+            } => (cells_x, cells_y),
+            Domain::Around { .. } => (0, 0),
+        };
+        assert_eq!((cells(&open), cells(&rim)), ((4, 3), (6, 5)));
+    }
+
+    #[test]
+    fn bilinear_interpolation_of_a_sphere_is_of_second_order() {
+        let sphere = Sphere::new(0.01).unwrap();
+        let error = |cells: usize| {
+            let spacing = 1e-3 / (cells - 1) as f64;
+            let at = |i: usize| (i as f64 - 0.5 * (cells - 1) as f64) * spacing;
+            let values = (0..cells * cells)
+                .map(|i| sphere.gap_m(at(i % cells), at(i / cells)))
+                .collect();
+            let gap = MapQuantity::Gap;
+            let map = HeightMap::new(
+                (cells, cells),
+                (spacing, spacing),
+                values,
+                gap,
+                MapEdge::Unknown,
+            )
+            .unwrap();
+            (0..1000)
+                .map(|i| 4.9e-7 * f64::from(i))
+                .map(|x| (map.gap_m(x, -0.3 * x) - sphere.gap_m(x, -0.3 * x)).abs())
+                .fold(0.0, f64::max)
+        };
+        let order = (error(21) / error(41)).log2();
+        assert!((order - 2.0).abs() < 0.1, "{order}");
+    }
+
+    #[test]
+    fn maps_that_are_too_small_or_have_holes_are_refused() {
+        let refused = |cells, values: Vec<f64>| {
+            let map = HeightMap::new(
+                cells,
+                (1.0, 1.0),
+                values,
+                MapQuantity::Gap,
+                MapEdge::Unknown,
+            );
+            map.unwrap_err().to_string()
+        };
+        assert!(refused((2, 3), vec![0.0; 6]).contains("2 x 3"));
+        assert!(refused((3, 3), vec![0.0; 8]).contains("8 values where 9"));
+        assert!(refused((usize::MAX, 3), Vec::new()).contains("at most"));
+        let mut holed = vec![0.0; 12];
+        holed[7] = f64::NAN;
+        assert!(refused((4, 3), holed).contains("column 4, row 2"));
+        let spacing = HeightMap::new(
+            (3, 3),
+            (1.0, 0.0),
+            vec![0.0; 9],
+            MapQuantity::Gap,
+            MapEdge::Unknown,
+        );
+        assert!(matches!(spacing, Err(IndenterError::Length { .. })));
+    }
+}

@@ -1,0 +1,150 @@
+//! An indenter moved sideways: the same shape about another point of the surface.
+
+use std::sync::Arc;
+
+use super::{Axisymmetric, Domain, Indenter, IndenterError, Parameter, Value, finite_position};
+use crate::quantity::Dimension;
+
+/// An indenter whose own origin lies at an offset.
+///
+/// On a uniform half-space only the fields move with it. The half-space engine keeps its domain centred on the origin and
+/// widens it to hold the contact; an offset of whole cells then moves the fields by whole cells, any other one also places
+/// the cells differently under the shape. The axisymmetric engine works about the indenter's own axis and sees no offset.
+#[derive(Debug, Clone)]
+pub struct Shifted {
+    inner: Arc<dyn Indenter>,
+    offset_x_m: f64,
+    offset_y_m: f64,
+}
+
+/// Share of a cell up to which an offset beyond whole cells is rounding.
+const WHOLE_CELL_TOLERANCE: f64 = 1e-6;
+
+impl Shifted {
+    /// This indenter, moved by these offsets (m).
+    ///
+    /// # Errors
+    /// [`IndenterError::Position`] where an offset is not finite.
+    pub fn new(
+        inner: Arc<dyn Indenter>,
+        offset_x_m: f64,
+        offset_y_m: f64,
+    ) -> Result<Self, IndenterError> {
+        Ok(Self {
+            inner,
+            offset_x_m: finite_position("offset", offset_x_m)?,
+            offset_y_m: finite_position("offset", offset_y_m)?,
+        })
+    }
+}
+
+/// Cells by which a grid grows so that a shape moved by this offset stays on it; even, so that cells stay over cells.
+fn more_cells(offset_m: f64, spacing_m: f64) -> usize {
+    // A cast of a float that is too large saturates, and the grid is then refused for its size.
+    let cells = (offset_m.abs() / spacing_m - WHOLE_CELL_TOLERANCE).ceil();
+    (cells.max(0.0) as usize).saturating_mul(2)
+}
+
+impl Indenter for Shifted {
+    fn shape(&self) -> &'static str {
+        self.inner.shape()
+    }
+
+    fn parameters(&self) -> Vec<Parameter> {
+        let offset = vec![self.offset_x_m, self.offset_y_m];
+        let mut parameters = self.inner.parameters();
+        parameters.push(Parameter::new(
+            "offset",
+            Value::Quantities(offset, Dimension::Length),
+        ));
+        parameters
+    }
+
+    fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
+        self.inner
+            .gap_m(x_m - self.offset_x_m, y_m - self.offset_y_m)
+    }
+
+    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+        self.inner.axisymmetric()
+    }
+
+    fn not_axisymmetric_because(&self) -> String {
+        self.inner.not_axisymmetric_because()
+    }
+
+    fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
+        self.inner.elastic_half_width_m(load_n, compliance_per_pa)
+    }
+
+    fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
+        let (x_m, y_m) = (self.offset_x_m.abs(), self.offset_y_m.abs());
+        match self.inner.domain(load_n, compliance_per_pa) {
+            Domain::Around {
+                half_width_x_m,
+                half_width_y_m,
+                cell_aspect_ratio,
+                limit_m,
+            } => Domain::Around {
+                half_width_x_m: half_width_x_m + x_m,
+                half_width_y_m: half_width_y_m + y_m,
+                cell_aspect_ratio,
+                limit_m: limit_m.map(|(limit_x_m, limit_y_m)| (limit_x_m + x_m, limit_y_m + y_m)),
+            },
+            Domain::Cells {
+                cells_x,
+                cells_y,
+                spacing_x_m,
+                spacing_y_m,
+            } => Domain::Cells {
+                cells_x: cells_x.saturating_add(more_cells(x_m, spacing_x_m)),
+                cells_y: cells_y.saturating_add(more_cells(y_m, spacing_y_m)),
+                spacing_x_m,
+                spacing_y_m,
+            },
+        }
+    }
+
+    fn ends_in_data(&self) -> bool {
+        self.inner.ends_in_data()
+    }
+
+    fn pressure_is_bounded(&self) -> bool {
+        self.inner.pressure_is_bounded()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Sphere;
+    use super::*;
+
+    #[test]
+    fn the_gap_moves_with_the_offset_and_the_domain_holds_it() {
+        let sphere = Arc::new(Sphere::new(0.01).unwrap());
+        let shifted = Shifted::new(Arc::clone(&sphere) as _, 2e-4, -1e-4).unwrap();
+        assert_eq!(shifted.gap_m(2e-4, -1e-4), 0.0);
+        assert_eq!(shifted.gap_m(3e-4, -1e-4), sphere.gap_m(3e-4 - 2e-4, 0.0));
+        let contact_m = sphere.elastic_half_width_m(1.0, 4e-10);
+        assert_eq!(
+            shifted.domain(1.0, 4e-10),
+            Domain::Around {
+                half_width_x_m: contact_m + 2e-4,
+                half_width_y_m: contact_m + 1e-4,
+                cell_aspect_ratio: 1.0,
+                limit_m: None,
+            }
+        );
+        assert!(shifted.axisymmetric().is_some());
+        assert!(Shifted::new(sphere, f64::NAN, 0.0).is_err());
+    }
+
+    #[test]
+    fn a_map_moved_by_whole_cells_gets_as_many_more_on_both_sides() {
+        assert_eq!(more_cells(0.0, 1e-8), 0);
+        // 3e-8 / 1e-8 is not exactly 3.
+        assert_eq!(more_cells(-3e-8, 1e-8), 6);
+        assert_eq!(more_cells(2.5e-8, 1e-8), 6);
+        assert_eq!(more_cells(1e300, 1e-300), usize::MAX);
+    }
+}
