@@ -28,6 +28,8 @@ Exit codes:
 pub(super) enum Command {
     /// Compute the energy loss per cycle over the load frequencies of a sweep file
     Sweep(SweepFlags),
+    /// Follow one drive history: load or approach against time, from a scenario file
+    Simulate(SimulateFlags),
     /// Look at materials: their series, moduli over frequency, sources
     #[command(subcommand)]
     Material(MaterialCommand),
@@ -64,6 +66,33 @@ pub(super) struct SweepFlags {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
     /// Replace the results of a different sweep in the output folder
+    #[arg(long)]
+    pub(super) force: bool,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma simulate sweeps/zener-unloading.toml
+  contact-dma simulate sweeps/zener-unloading.toml --set solver.engine=half-space \\
+      --set output.fields_at='[\"4 s\"]' --out reports/fields
+
+Written to the output folder: history.csv (one row per time step, two at a jump), profiles/
+and fields/ at the times asked for (CSV; NumPy .npy and ParaView .vti), history, profiles and
+pressure-map as SVG and PNG, summary.json, resolved.toml (the scenario with every default).")]
+pub(super) struct SimulateFlags {
+    /// The scenario file (TOML)
+    pub(super) file: PathBuf,
+    /// Folder for the results [default: reports/<name of the file>]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Change one key of the scenario file, for example indenter.radius='5 mm'; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(super) set: Vec<String>,
+    /// Replace the results of a different sweep or scenario in the output folder
     #[arg(long)]
     pub(super) force: bool,
     /// Print nothing but errors

@@ -5,12 +5,17 @@
 mod arguments;
 pub mod diagnostic;
 pub mod document;
+mod drive_table;
 pub mod field_file;
+mod harmonic_block;
 mod indenter_block;
 mod material;
 mod material_block;
 mod material_fit;
 mod progress;
+pub mod scenario_file;
+mod segments_block;
+mod simulate;
 mod sweep;
 pub mod sweep_file;
 mod table_file;
@@ -71,6 +76,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     let ended = match arguments.command {
         Command::Sweep(flags) => sweep::run(&flags),
+        Command::Simulate(flags) => simulate::run(&flags),
         Command::Material(command) => material::run(&command),
         Command::Completions { shell } => {
             let mut text = Vec::new();

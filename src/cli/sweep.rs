@@ -55,7 +55,7 @@ fn open_store(flags: &SweepFlags, setup: &Setup) -> Result<Store, Failure> {
 }
 
 /// A flag that Ctrl-C, SIGTERM and SIGHUP set. A second signal ends the program at once; every file is whole even then.
-fn interrupt_flag() -> Result<Arc<AtomicBool>, Failure> {
+pub(super) fn interrupt_flag() -> Result<Arc<AtomicBool>, Failure> {
     let flag = Arc::new(AtomicBool::new(false));
     let shared = Arc::clone(&flag);
     ctrlc::set_handler(move || {

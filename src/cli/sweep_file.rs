@@ -2,9 +2,9 @@
 
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Form, Located, TableReader};
-use super::{indenter_block, material_block};
-use crate::drive::HarmonicLoad;
+use super::{harmonic_block, indenter_block, material_block};
 use crate::history::TimeRule;
+use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::Dimension;
 use crate::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
@@ -29,18 +29,14 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let indenter = root
         .table("indenter")
         .and_then(|t| indenter_block::read(t, document.folder(), &problems));
-    let drive = root.table("drive").and_then(|t| drive(t, &problems));
+    let drive = root
+        .table("drive")
+        .and_then(|t| harmonic_block::read(t, &problems));
     let frequencies = root.table("sweep").and_then(|t| frequencies(t, &problems));
     let cycle = optional(&mut root, "cycle", CyclePlan::default(), |t| {
         cycle(t, &problems)
     });
-    let default = match &indenter {
-        Some(indenter) if indenter.axisymmetric().is_none() => SolverPlan {
-            engine: EngineKind::HalfSpace,
-            ..SolverPlan::default()
-        },
-        _ => SolverPlan::default(),
-    };
+    let default = default_solver(indenter.as_deref());
     let solver = optional(&mut root, "solver", default, |t| {
         solver(t, default, &problems)
     });
@@ -59,8 +55,20 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     problems.into_result(plan)
 }
 
+/// The solver where the file asks for none: springs where the indenter allows them, cells elsewhere.
+pub(super) fn default_solver(indenter: Option<&dyn Indenter>) -> SolverPlan {
+    let engine = match indenter {
+        Some(indenter) if indenter.axisymmetric().is_none() => EngineKind::HalfSpace,
+        _ => EngineKind::Axisymmetric,
+    };
+    SolverPlan {
+        engine,
+        ..SolverPlan::default()
+    }
+}
+
 /// A table that may be left out, with every default.
-fn optional<T>(
+pub(super) fn optional<T>(
     root: &mut TableReader<'_>,
     key: &str,
     default: T,
@@ -92,47 +100,6 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
         }
         Ok(_) => Some(material.value),
     }
-}
-
-fn drive(mut table: TableReader<'_>, problems: &Problems) -> Option<HarmonicLoad> {
-    table.choice_or("control", &["load"], "load");
-    let mean = table.quantity("mean", Dimension::Force);
-    let amplitude = table.quantity("amplitude", Dimension::Force);
-    let phase = table.quantity_or("phase", Dimension::Angle, 0.0);
-    let hold = table.quantity_or("hold", Dimension::Time, 0.0);
-    table.finish();
-    let mut fine = true;
-    let mut above_zero = |value: &Option<Located<f64>>, what: &str| {
-        if let Some(value) = value
-            && value.value <= 0.0
-        {
-            problems.at(value, format!("the {what} must be above zero"));
-            fine = false;
-        }
-    };
-    above_zero(&mean, "mean load");
-    above_zero(&amplitude, "load amplitude");
-    let (mean, amplitude, phase, hold) = (mean?, amplitude?, phase?, hold?);
-    if hold.value < 0.0 {
-        problems.at(&hold, "the hold cannot be negative");
-        return None;
-    }
-    if !fine {
-        return None;
-    }
-    if amplitude.value > mean.value {
-        problems
-            .at(&amplitude, "the load would become a pull for part of each cycle")
-            .because("larger than the mean")
-            .label(&mean, "the mean")
-            .help("a contact without adhesion cannot carry a pull: choose an amplitude of at most the mean");
-        return None;
-    }
-    HarmonicLoad::new(mean.value, amplitude.value, phase.value, hold.value)
-        .map_err(|error| {
-            problems.at(&mean, error.to_string());
-        })
-        .ok()
 }
 
 /// Angular frequencies in rad/s, ascending.
@@ -257,7 +224,7 @@ fn cycle(mut table: TableReader<'_>, problems: &Problems) -> Option<CyclePlan> {
     })
 }
 
-fn solver(
+pub(super) fn solver(
     mut table: TableReader<'_>,
     default: SolverPlan,
     problems: &Problems,

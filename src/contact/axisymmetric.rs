@@ -12,6 +12,9 @@
 //! Springs stand at the midpoints x_i = (i + 1/2) dx. The midpoint rule is off by at most slope dx^2 / 8 in the spring
 //! that holds the contact edge: about 1e-6 of the load for 400 springs.
 
+mod profile;
+
+use super::surface::{Response, Surface};
 use super::{ContactError, Engine, Instant, Prescribed, Solution};
 
 /// The row of springs of one indenter.
@@ -230,6 +233,18 @@ impl Engine for Axisymmetric {
             });
         }
         Ok(Some(peak))
+    }
+
+    fn check_assumptions(
+        &mut self,
+        force: &[f64],
+        solution: &Solution,
+    ) -> Result<(), ContactError> {
+        self.check_disc(force, solution.approach_m, solution.contact_radius_m)
+    }
+
+    fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
+        Ok(Surface::Radial(self.radial_surface(response)))
     }
 }
 

@@ -18,6 +18,9 @@
 
 pub mod axisymmetric;
 pub mod half_space;
+pub mod surface;
+
+use surface::{Response, Surface};
 
 /// The quantity that the drive imposes at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,6 +75,11 @@ pub enum ContactError {
          the half-space engine can treat (set solver.engine = \"half-space\")"
     )]
     NotADisc { ratio: f64, radius_m: f64 },
+    #[error(
+        "springs around r = {radius_m:e} m are in contact while springs further inside are not: the contact is a ring, no \
+         longer a disc, which only the half-space engine can treat (set solver.engine = \"half-space\")"
+    )]
+    Ring { radius_m: f64 },
     #[error("{reason}")]
     Operator { reason: String },
     #[error("the prescribed {what} is {value}: it must be finite{also}")]
@@ -107,6 +115,24 @@ pub trait Engine: Send {
         pressure: &[f64],
         solution: &Solution,
     ) -> Result<Option<f64>, ContactError>;
+
+    /// Whether the engine's own assumptions hold for the instant last solved; cheap enough to ask at every one.
+    ///
+    /// # Errors
+    /// [`ContactError::NotADisc`] or [`ContactError::Ring`] from an engine that treats discs alone.
+    fn check_assumptions(
+        &mut self,
+        _pressure: &[f64],
+        _solution: &Solution,
+    ) -> Result<(), ContactError> {
+        Ok(())
+    }
+
+    /// Pressure and displacement of the surface, inside and outside the contact.
+    ///
+    /// # Errors
+    /// [`ContactError::Operator`], for slices of the wrong length alone.
+    fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError>;
 }
 
 impl Prescribed {

@@ -1,4 +1,45 @@
-//! What drives the contact: a load (N) against time. Knows nothing of contact.
+//! What drives the contact: a load (N) or an approach (m) against time. Knows nothing of contact.
+//!
+//! Under load control the drive says how hard the indenter is pressed, and never pulls: a contact without adhesion cannot.
+//! Under approach control it says where the indenter stands, and may well stand clear of the surface. A number whose unit
+//! depends on the [`Control`] carries no unit in its name: it is in newtons or in metres.
+
+mod harmonic;
+mod piece;
+mod schedule;
+mod segments;
+
+pub use harmonic::HarmonicDrive;
+pub use schedule::{MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
+pub use segments::{HistoryError, Joint, Segment, SegmentProblem, SegmentedDrive};
+
+/// What the drive prescribes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Control {
+    /// The normal load W, in N.
+    #[default]
+    Load,
+    /// The approach delta, in m.
+    Approach,
+}
+
+impl Control {
+    /// The name as written in a file, which is also that of the quantity.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Load => "load",
+            Self::Approach => "approach",
+        }
+    }
+
+    /// The SI unit of the drive's values.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Load => "N",
+            Self::Approach => "m",
+        }
+    }
+}
 
 /// Why a drive is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -12,6 +53,14 @@ pub enum DriveError {
          cycle, which a contact without adhesion cannot carry"
     )]
     Pull { mean_n: f64, amplitude_n: f64 },
+    #[error("the mean approach is {mean_m} m; it must be finite")]
+    MeanApproach { mean_m: f64 },
+    #[error("the approach amplitude is {amplitude_m} m; it must be positive and finite")]
+    ApproachAmplitude { amplitude_m: f64 },
+    #[error(
+        "the approach {mean_m} m with an amplitude of {amplitude_m} m is never above zero: the indenter never touches the surface"
+    )]
+    NoTouch { mean_m: f64, amplitude_m: f64 },
     #[error("the phase {phase_rad} rad is not a finite angle")]
     Phase { phase_rad: f64 },
     #[error("the hold of {hold_s} s must be zero or a positive, finite time")]
@@ -48,12 +97,7 @@ impl HarmonicLoad {
                 amplitude_n,
             });
         }
-        if !phase_rad.is_finite() {
-            return Err(DriveError::Phase { phase_rad });
-        }
-        if !(hold_s.is_finite() && hold_s >= 0.0) {
-            return Err(DriveError::Hold { hold_s });
-        }
+        check_phase_and_hold(phase_rad, hold_s)?;
         Ok(Self {
             mean_n,
             amplitude_n,
@@ -99,6 +143,17 @@ impl HarmonicLoad {
             0.0
         }
     }
+}
+
+/// What mean and amplitude do not decide.
+fn check_phase_and_hold(phase_rad: f64, hold_s: f64) -> Result<(), DriveError> {
+    if !phase_rad.is_finite() {
+        return Err(DriveError::Phase { phase_rad });
+    }
+    if !(hold_s.is_finite() && hold_s >= 0.0) {
+        return Err(DriveError::Hold { hold_s });
+    }
+    Ok(())
 }
 
 #[cfg(test)]

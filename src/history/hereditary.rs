@@ -12,6 +12,12 @@ pub trait Hereditary {
     /// The step of `step_s` seconds, zero for a jump of the drive.
     fn weights(&self, step_s: f64, rule: TimeRule) -> Self::Step;
 
+    /// The same step while the body settles after a jump or in a hold, where steps grow long beside the times of relaxation
+    /// and a rule may ring; as it is, where nothing rings.
+    fn settling(&self, step: Self::Step) -> Self::Step {
+        step
+    }
+
     /// A (1/Pa) of a step.
     fn compliance_per_pa(step: &Self::Step) -> f64;
 
@@ -30,6 +36,10 @@ impl Hereditary for Memory {
 
     fn weights(&self, step_s: f64, rule: TimeRule) -> StepWeights {
         StepWeights::new(self.compliance(), step_s, rule)
+    }
+
+    fn settling(&self, step: StepWeights) -> StepWeights {
+        step.settling(self.compliance())
     }
 
     fn compliance_per_pa(step: &StepWeights) -> f64 {

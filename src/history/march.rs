@@ -1,5 +1,6 @@
 //! Time marching: one engine, its memory, and the last pressure, moved from instant to instant.
 
+use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use crate::history::{Hereditary, Memory, TimeRule};
 use crate::material::Creep;
@@ -11,6 +12,8 @@ pub struct March<'a, M = Memory> {
     rule: TimeRule,
     pressure: Vec<f64>,
     history: Vec<f64>,
+    /// A of the instant last solved (1/Pa).
+    compliance_per_pa: f64,
     solution: Option<Solution>,
     iterations: u64,
 }
@@ -37,6 +40,7 @@ impl<'a, M: Hereditary> March<'a, M> {
             rule,
             pressure: vec![0.0; nodes],
             history: vec![0.0; nodes],
+            compliance_per_pa: 0.0,
             solution: None,
             iterations: 0,
         }
@@ -45,6 +49,11 @@ impl<'a, M: Hereditary> March<'a, M> {
     /// Weights of a step of this length, to be used for as many equal steps as there are.
     pub fn weights(&self, step_s: f64) -> M::Step {
         self.memory.weights(step_s, self.rule)
+    }
+
+    /// Weights of a step in which the body settles after a jump or kink of the drive; see [`StepWeights::settling`].
+    pub fn settling_weights(&self, step_s: f64) -> M::Step {
+        self.memory.settling(self.weights(step_s))
     }
 
     /// Moves on by one step to the instant at which the drive prescribes this value.
@@ -65,6 +74,7 @@ impl<'a, M: Hereditary> March<'a, M> {
         };
         let solution = self.engine.solve(&instant, &mut self.pressure)?;
         self.memory.commit(weights, &self.pressure);
+        self.compliance_per_pa = M::compliance_per_pa(weights);
         self.iterations += solution.iterations as u64;
         self.solution = Some(solution);
         Ok(solution)
@@ -103,7 +113,7 @@ impl<'a, M: Hereditary> March<'a, M> {
             } else {
                 first_s * growth.powi(k)
             };
-            let weights = self.weights(end_s - time_s);
+            let weights = self.settling_weights(end_s - time_s);
             self.step(&weights, prescribed)?;
             time_s = end_s;
         }
@@ -119,6 +129,40 @@ impl<'a, M: Hereditary> March<'a, M> {
             Some(solution) => observer(&mut *self.engine, &self.pressure, solution),
             None => Ok(()),
         }
+    }
+
+    /// Refuses the present instant where the engine's own assumptions do not hold.
+    ///
+    /// # Errors
+    /// As [`Engine::check_assumptions`].
+    pub fn check_assumptions(&mut self) -> Result<(), ContactError> {
+        match &self.solution {
+            Some(solution) => self.engine.check_assumptions(&self.pressure, solution),
+            None => Ok(()),
+        }
+    }
+
+    /// The surface at the present instant; `None` before the first.
+    ///
+    /// # Errors
+    /// As [`Engine::surface`].
+    pub fn surface(&mut self) -> Result<Option<Surface>, ContactError> {
+        let Some(solution) = &self.solution else {
+            return Ok(None);
+        };
+        let response = Response {
+            pressure: &self.pressure,
+            history: &self.history,
+            compliance_per_pa: self.compliance_per_pa,
+            contact_radius_m: solution.contact_radius_m,
+        };
+        self.engine.surface(&response).map(Some)
+    }
+
+    /// The hereditary integral q of the present instant per node: what the operator turns into displacement.
+    pub fn hereditary(&self) -> impl Iterator<Item = f64> + '_ {
+        let nodes = self.pressure.iter().zip(&self.history);
+        nodes.map(|(p, h)| self.compliance_per_pa * p + h)
     }
 
     /// The instant last solved.

@@ -4,9 +4,13 @@ pub mod chart;
 pub mod figure;
 pub mod fit;
 pub mod material;
+pub mod npy;
+pub mod scenario;
 pub mod summary;
 pub mod table;
 pub mod terminal;
+pub mod terminal_simulation;
+pub mod vti;
 
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::run::Outcome;

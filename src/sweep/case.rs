@@ -1,18 +1,13 @@
 //! One case of a sweep: hold, march to the stabilised cycle, record it.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::contact::axisymmetric::{self, Axisymmetric};
-use crate::contact::half_space::convolution::Convolution;
-use crate::contact::half_space::{HalfSpace, SolverSettings};
 use crate::contact::{ContactError, Engine, Prescribed};
 use crate::cycle::{self, BranchChange, Extrema, Loop, LoopError};
 use crate::history::{March, StepWeights};
-use crate::indenter::{self, Domain};
 use crate::material::{Creep, MaterialError};
-use crate::sweep::domain::{self, GROWTH};
-use crate::sweep::plan::{EngineKind, SweepPlan};
+use crate::sweep::engines::{self, AsContactError, EngineBuilder, EngineError, LargestContact};
+use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 
 /// Why a sweep cannot be set up.
@@ -25,21 +20,15 @@ pub enum SetupError {
          equilibrium modulus above zero"
     )]
     Fluid,
-    #[error(
-        "the {shape} {reason}; the axisymmetric engine cannot treat it (set solver.engine = \"half-space\")"
-    )]
-    NotAxisymmetric { shape: &'static str, reason: String },
-    #[error("the half-space grid cannot be built: {0}")]
-    Grid(String),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
 }
 
 /// What all cases of a sweep share.
 pub struct Setup {
     plan: SweepPlan,
     compliance: Creep,
-    half_width_m: f64,
-    domain: Domain,
-    operator: Option<Arc<Convolution>>,
+    engines: EngineBuilder,
 }
 
 /// How a case ended early, other than by a record.
@@ -48,15 +37,21 @@ enum CaseError {
     #[error(transparent)]
     Contact(#[from] ContactError),
     #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
     Loop(#[from] LoopError),
     #[error("interrupted")]
     Interrupted,
 }
 
-/// Room beyond the largest contact expected.
-const SPRING_ROOM: f64 = 1.02;
-/// How many enlargements of the domain there may be before a case counts as failed.
-const MAX_GROWTHS: usize = 12;
+impl AsContactError for CaseError {
+    fn as_contact_error(&self) -> Option<&ContactError> {
+        match self {
+            Self::Contact(error) => Some(error),
+            _ => None,
+        }
+    }
+}
 
 impl Setup {
     /// Checks the plan against the physics and prepares what the cases share.
@@ -69,27 +64,17 @@ impl Setup {
         let relaxed = compliance
             .equilibrium_compliance()
             .ok_or(SetupError::Fluid)?;
-        // No load history within the drive's range makes a larger contact than its maximum held for ever.
-        let largest_n = plan.drive.maximum_n();
-        let mut setup = Self {
-            half_width_m: plan.indenter.elastic_half_width_m(largest_n, relaxed),
-            domain: plan.indenter.domain(largest_n, relaxed),
-            operator: None,
+        // No history within the drive's range makes a larger contact than its maximum held for ever.
+        let largest = LargestContact {
+            control: plan.drive.control(),
+            maximum: plan.drive.maximum(),
+            compliance_per_pa: relaxed,
+        };
+        Ok(Self {
+            engines: EngineBuilder::new(plan.indenter.clone(), plan.solver, largest)?,
             compliance,
             plan,
-        };
-        match setup.plan.solver.engine {
-            EngineKind::Axisymmetric => {
-                if setup.body()?.contact_limit_m().is_none() {
-                    setup.half_width_m *= SPRING_ROOM;
-                }
-            }
-            EngineKind::HalfSpace => {
-                let operator = setup.operator(0);
-                setup.operator = Some(Arc::new(operator.map_err(SetupError::Grid)?));
-            }
-        }
-        Ok(setup)
+        })
     }
 
     /// The plan.
@@ -110,75 +95,6 @@ impl Setup {
         (2.0 + cycles_to_forget * to_tolerance).min(self.plan.cycle.max_cycles as f64)
     }
 
-    fn operator(&self, growths: usize) -> Result<Convolution, String> {
-        let grid = domain::grid(&self.domain, self.plan.solver.cells, growths);
-        Convolution::new(grid.map_err(|e| e.to_string())?).map_err(|e| e.to_string())
-    }
-
-    /// The indenter as the axisymmetric engine sees it.
-    fn body(&self) -> Result<&dyn indenter::Axisymmetric, SetupError> {
-        let indenter = self.plan.indenter.as_ref();
-        let refusal = || SetupError::NotAxisymmetric {
-            shape: indenter.shape(),
-            reason: indenter.not_axisymmetric_because(),
-        };
-        indenter.axisymmetric().ok_or_else(refusal)
-    }
-
-    /// Half width (m) of the domain enlarged `growths` times, and whether a further enlargement would enlarge it.
-    fn half_width_m(&self, growths: usize) -> (f64, bool) {
-        let known_m = match self.plan.solver.engine {
-            EngineKind::HalfSpace => {
-                let half_width_m = domain::half_width_m(&self.domain, growths);
-                return (half_width_m, domain::can_grow(&self.domain, growths));
-            }
-            EngineKind::Axisymmetric => self.body().ok().and_then(|body| body.known_radius_m()),
-        };
-        let wanted_m = self.half_width_m * GROWTH.powi(growths as i32);
-        match known_m {
-            Some(known_m) if known_m <= wanted_m => (known_m, false),
-            _ => (wanted_m, true),
-        }
-    }
-
-    /// An engine on a domain enlarged `growths` times.
-    fn engine(&self, growths: usize) -> Result<Box<dyn Engine>, SetupError> {
-        let indenter = self.plan.indenter.as_ref();
-        let bounded = indenter.pressure_is_bounded();
-        match self.plan.solver.engine {
-            EngineKind::Axisymmetric => {
-                let body = self.body()?;
-                let springs = self.plan.solver.springs;
-                let width_m = self.half_width_m(growths).0 / springs as f64;
-                let gaps = (0..springs)
-                    .map(|i| body.transformed_gap_m((i as f64 + 0.5) * width_m))
-                    .collect();
-                let edge = match body.contact_limit_m() {
-                    Some(_) => axisymmetric::Edge::Rim,
-                    None => axisymmetric::Edge::Open,
-                };
-                Ok(Box::new(Axisymmetric::new(width_m, gaps, edge, bounded)))
-            }
-            EngineKind::HalfSpace => {
-                let operator = match &self.operator {
-                    Some(shared) if growths == 0 => Arc::clone(shared),
-                    _ => Arc::new(self.operator(growths).map_err(SetupError::Grid)?),
-                };
-                let gaps = domain::gaps_m(indenter, operator.grid());
-                let settings = SolverSettings {
-                    tolerance: self.plan.solver.tolerance,
-                    ..SolverSettings::default()
-                };
-                let engine = HalfSpace::new(operator, gaps, bounded, settings);
-                Ok(Box::new(if indenter.ends_in_data() {
-                    engine.ending_in_data()
-                } else {
-                    engine
-                }))
-            }
-        }
-    }
-
     /// Runs one case to its record; `None` where it was interrupted.
     pub fn run(
         &self,
@@ -193,39 +109,21 @@ impl Setup {
             message: None,
             cycles: 0,
             steady_distance: None,
-            domain_half_width_m: self.half_width_m(0).0,
+            domain_half_width_m: self.engines.half_width_m(),
             domain_enlarged: 0,
             iterations: 0,
             result: None,
         };
-        for growths in 0..=MAX_GROWTHS {
-            record.domain_enlarged = growths;
-            let (half_width_m, can_grow) = self.half_width_m(growths);
-            let mut engine = match self.engine(growths) {
-                Ok(engine) => engine,
-                Err(error) => {
-                    record.message = Some(error.to_string());
-                    return Some(record);
-                }
-            };
-            record.domain_half_width_m = half_width_m;
-            match self.march(engine.as_mut(), &mut record, interrupt) {
-                Ok(()) => return Some(record),
-                Err(CaseError::Interrupted) => return None,
-                Err(CaseError::Contact(ContactError::ReachedEdge { .. }))
-                    if can_grow && growths < MAX_GROWTHS => {}
-                Err(CaseError::Contact(error @ ContactError::ReachedEdge { .. })) if !can_grow => {
-                    record.message = Some(format!(
-                        "{error}, beyond which the shape of the indenter is not known: give a larger map or a longer profile, \
-                         or a smaller load"
-                    ));
-                    return Some(record);
-                }
-                Err(error) => {
-                    record.message = Some(error.to_string());
-                    return Some(record);
-                }
-            }
+        let mut domain = (record.domain_half_width_m, 0);
+        let ended = self.engines.on_a_large_enough_domain(
+            |half_width_m, growths| domain = (half_width_m, growths),
+            |engine| self.march(engine, &mut record, interrupt),
+        );
+        (record.domain_half_width_m, record.domain_enlarged) = domain;
+        match ended {
+            Ok(()) => {}
+            Err(CaseError::Interrupted) => return None,
+            Err(error) => record.message = Some(error.to_string()),
         }
         Some(record)
     }
@@ -239,10 +137,10 @@ impl Setup {
         let SweepPlan { drive, cycle, .. } = &self.plan;
         let rule = self.plan.solver.time_rule;
         let mut march = March::new(engine, self.compliance.clone(), rule);
-        let mean = Prescribed::LoadN(drive.mean_n());
+        let mean = engines::prescribed(drive.control(), drive.mean());
         march.jump(mean)?;
         march.hold(drive.hold_s(), mean)?;
-        march.jump(Prescribed::LoadN(drive.load_n(0.0)))?;
+        march.jump(self.prescribed(0.0))?;
 
         let period_s = std::f64::consts::TAU / record.angular_frequency_rad_per_s;
         let mut cycles = Cycles {
@@ -278,6 +176,12 @@ impl Setup {
         Ok(())
     }
 
+    /// What the drive asks for at this fraction of a cycle.
+    fn prescribed(&self, cycle_fraction: f64) -> Prescribed {
+        let drive = &self.plan.drive;
+        engines::prescribed(drive.control(), drive.value(cycle_fraction))
+    }
+
     fn result(&self, samples: Loop) -> Result<CaseResult, LoopError> {
         let analysis = cycle::analyse(&samples.load_n, &samples.approach_m)?;
         let radii = &samples.contact_radius_m;
@@ -297,11 +201,19 @@ impl Setup {
             storage_modulus_pa: moduli.map(|m| m.0),
             loss_modulus_pa: moduli.map(|m| m.1),
             approach_m: extrema(&samples.approach_m)?,
-            contact_radius_m: extrema(&samples.contact_radius_m)?,
-            peak_pressure_pa: peaks.as_deref().and_then(Extrema::of),
+            contact_radius_m: not_negative(extrema(&samples.contact_radius_m)?),
+            peak_pressure_pa: peaks.as_deref().and_then(Extrema::of).map(not_negative),
             analysis,
             samples,
         })
+    }
+}
+
+/// Extrema of what cannot be negative: where a contact opens or closes, a parabola through samples may go below zero.
+fn not_negative(extrema: Extrema) -> Extrema {
+    Extrema {
+        minimum: extrema.minimum.max(0.0),
+        ..extrema
     }
 }
 
@@ -322,7 +234,6 @@ impl Cycles<'_> {
         interrupt: &AtomicBool,
         mut samples: Option<&mut Loop>,
     ) -> Result<Option<f64>, CaseError> {
-        let drive = &self.setup.plan.drive;
         let steps = self.setup.plan.cycle.steps;
         self.start.clear();
         self.start.extend_from_slice(march.memory().variables());
@@ -335,7 +246,7 @@ impl Cycles<'_> {
                 return Err(CaseError::Interrupted);
             }
             let fraction = step as f64 / steps as f64;
-            march.step(&self.weights, Prescribed::LoadN(drive.load_n(fraction)))?;
+            march.step(&self.weights, self.setup.prescribed(fraction))?;
             scale = march.pressure().iter().fold(scale, |s, &p| s.max(p));
             if let Some(samples) = samples.as_deref_mut() {
                 sample(march, samples, fraction * self.period_s)?;
@@ -365,6 +276,7 @@ impl Cycles<'_> {
 /// Appends the present instant to a loop.
 fn sample(march: &mut March<'_>, samples: &mut Loop, time_s: f64) -> Result<(), ContactError> {
     march.observe(&mut |engine, pressure, solution| {
+        engine.check_assumptions(pressure, solution)?;
         samples.time_s.push(time_s);
         samples.load_n.push(solution.load_n);
         samples.approach_m.push(solution.approach_m);

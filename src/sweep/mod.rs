@@ -1,10 +1,13 @@
-//! Frequency sweeps: what to compute, cases in parallel, records on disk, peak search.
+//! Frequency sweeps: what to compute, cases in parallel, records on disk, peak search; and single drive histories.
 
 pub mod case;
 pub mod domain;
+pub mod engines;
 pub mod peak;
 pub mod plan;
 pub mod record;
 pub mod resolved;
 pub mod run;
+pub mod scenario;
+pub mod simulate;
 pub mod store;

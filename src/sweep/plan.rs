@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::drive::HarmonicLoad;
+use crate::drive::HarmonicDrive;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
@@ -13,7 +13,7 @@ pub struct SweepPlan {
     pub title: String,
     pub material: Material,
     pub indenter: Arc<dyn Indenter>,
-    pub drive: HarmonicLoad,
+    pub drive: HarmonicDrive,
     /// Ascending, in rad/s.
     pub angular_frequencies_rad_per_s: Vec<f64>,
     pub cycle: CyclePlan,
@@ -58,6 +58,11 @@ impl EngineKind {
             Self::Axisymmetric => "axisymmetric",
             Self::HalfSpace => "half-space",
         }
+    }
+
+    /// Whether the engine knows the surface as a field, not just along a radius.
+    pub fn has_fields(self) -> bool {
+        self == Self::HalfSpace
     }
 }
 

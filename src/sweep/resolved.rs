@@ -4,35 +4,29 @@ use std::fmt::Write;
 
 use sha2::{Digest, Sha256};
 
+use crate::drive::Control;
 use crate::history::TimeRule;
-use crate::indenter::{Parameter, Value};
+use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{GivenFace, Material, ModulusKind};
 use crate::quantity::{Dimension, format_si};
-use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::{SolverPlan, SweepPlan};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {
-    let mut text = String::new();
+    let mut text = opening_text(&plan.title, &plan.material, plan.indenter.as_ref());
     let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
     let mut line = |content: &str| {
         text.push_str(content);
         text.push('\n');
     };
-    line(&format!("title = {}", toml_string(&plan.title)));
-    line("");
-    material_lines(&plan.material, &mut line);
-    line("\n[indenter]");
-    line(&format!("shape = \"{}\"", plan.indenter.shape()));
-    for parameter in plan.indenter.parameters() {
-        line(&format!("{} = {}", parameter.key, value(&parameter.value)));
-    }
     let drive = &plan.drive;
-    line("\n[drive]\ncontrol = \"load\"");
     line(&format!(
-        "mean = {}",
-        quantity(drive.mean_n(), Dimension::Force)
+        "\n[drive]\ncontrol = \"{}\"",
+        drive.control().name()
     ));
-    let amplitude = quantity(drive.amplitude_n(), Dimension::Force);
+    let dimension = drive_dimension(drive.control());
+    line(&format!("mean = {}", quantity(drive.mean(), dimension)));
+    let amplitude = quantity(drive.amplitude(), dimension);
     line(&format!("amplitude = {amplitude}"));
     line(&format!(
         "phase = {}",
@@ -54,17 +48,48 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     line("method = \"march\"");
     line(&format!("tolerance = {:e}", plan.cycle.tolerance));
     line(&format!("max_cycles = {}", plan.cycle.max_cycles));
-    line("\n[solver]");
-    line(&format!("engine = \"{}\"", plan.solver.engine.name()));
-    line(&format!("cells = {}", plan.solver.cells));
-    line(&format!("springs = {}", plan.solver.springs));
-    line(&format!("tolerance = {:e}", plan.solver.tolerance));
-    let rule = match plan.solver.time_rule {
+    line("");
+    text.push_str(&solver_text(&plan.solver));
+    text
+}
+
+/// What sweeps and scenarios have in common at their beginning: title, material, indenter.
+pub(super) fn opening_text(title: &str, material: &Material, indenter: &dyn Indenter) -> String {
+    let mut text = format!("title = {}\n\n", toml_string(title));
+    let mut line = |content: &str| {
+        text.push_str(content);
+        text.push('\n');
+    };
+    material_lines(material, &mut line);
+    line("\n[indenter]");
+    line(&format!("shape = \"{}\"", indenter.shape()));
+    for parameter in indenter.parameters() {
+        line(&format!("{} = {}", parameter.key, value(&parameter.value)));
+    }
+    text
+}
+
+/// The `[solver]` block, at the end of both.
+pub(super) fn solver_text(solver: &SolverPlan) -> String {
+    let rule = match solver.time_rule {
         TimeRule::Linear => "linear",
         TimeRule::Constant => "constant",
     };
-    line(&format!("time_rule = \"{rule}\""));
-    text
+    format!(
+        "[solver]\nengine = \"{}\"\ncells = {}\nsprings = {}\ntolerance = {:e}\ntime_rule = \"{rule}\"\n",
+        solver.engine.name(),
+        solver.cells,
+        solver.springs,
+        solver.tolerance
+    )
+}
+
+/// What kind of quantity a drive's values are.
+pub(super) fn drive_dimension(control: Control) -> Dimension {
+    match control {
+        Control::Load => Dimension::Force,
+        Control::Approach => Dimension::Length,
+    }
 }
 
 /// A setting of the indenter as TOML.

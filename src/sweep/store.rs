@@ -21,7 +21,7 @@ pub enum StoreError {
     #[error("cannot encode {path}: {reason}")]
     Encode { path: PathBuf, reason: String },
     #[error(
-        "{path} holds results of a different sweep; choose another folder with --out, or replace them with --force"
+        "{path} holds results of a different sweep or scenario; choose another folder with --out, or replace them with --force"
     )]
     OtherSweep { path: PathBuf },
 }
@@ -46,6 +46,8 @@ pub const RESOLVED: &str = "resolved.toml";
 
 /// What a sweep leaves in its folder besides single files: folders with one file per case.
 const CASE_FOLDERS: [&str; 2] = ["records", "loops"];
+/// The same of a scenario: folders with one file per requested time.
+const SURFACE_FOLDERS: [&str; 2] = ["profiles", "fields"];
 
 impl Store {
     /// Opens (or creates) a folder for a sweep whose resolved text and hash are given, and proves that it can be written.
@@ -121,13 +123,15 @@ impl Store {
     /// Removes what an earlier sweep left, before another takes the folder.
     fn clear(&self) -> Result<(), StoreError> {
         let failed = |path: PathBuf| move |source| StoreError::Write { path, source };
-        for folder in CASE_FOLDERS {
+        for folder in CASE_FOLDERS.into_iter().chain(SURFACE_FOLDERS) {
             let path = self.folder.join(folder);
             if path.is_dir() {
                 fs::remove_dir_all(&path).map_err(failed(path.clone()))?;
             }
         }
-        for name in crate::sweep::run::SUMMARY_FILES {
+        let of_sweeps = crate::sweep::run::SUMMARY_FILES;
+        let of_scenarios = crate::sweep::scenario::RESULT_FILES;
+        for name in of_sweeps.into_iter().chain(of_scenarios) {
             let path = self.folder.join(name);
             if path.is_file() {
                 fs::remove_file(&path).map_err(failed(path.clone()))?;

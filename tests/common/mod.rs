@@ -137,7 +137,9 @@ pub fn sweep_plan(
         title: "integration test".into(),
         material,
         indenter,
-        drive: HarmonicLoad::new(mean_n, amplitude_n, 0.0, 0.0).unwrap(),
+        drive: HarmonicLoad::new(mean_n, amplitude_n, 0.0, 0.0)
+            .unwrap()
+            .into(),
         angular_frequencies_rad_per_s: Vec::new(),
         cycle: CyclePlan::default(),
         solver: SolverPlan::default(),

@@ -7,16 +7,22 @@
 //! search direction, so that an iteration costs one convolution; where the contact changes, it costs two. Everything that
 //! decides when to stop is a ratio: the answer does not change with the user's units.
 
+mod residual;
+
 use std::sync::Arc;
 
+use residual::{Fields, Residual};
+
 use super::convolution::{Convolution, ConvolutionError, Scratch};
+use crate::contact::surface::{CellSurface, Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 
 /// When the iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SolverSettings {
     /// Largest allowed pressure-weighted mean |gap| inside the contact, and largest penetration outside, both relative to
-    /// the pressure-weighted mean displacement that the instant's own pressure causes.
+    /// the pressure-weighted mean displacement that the instant's own pressure causes. Where that displacement is tiny beside
+    /// what earlier pressures have left (a load about to vanish), rounding of the latter is allowed on top.
     pub tolerance: f64,
     /// Iterations after which an instant counts as not converged.
     pub max_iterations: usize,
@@ -49,39 +55,14 @@ pub struct HalfSpace {
     /// B t.
     response: Vec<f64>,
     direction: Vec<f64>,
+    /// What rounding leaves in a gap (m).
+    noise_m: f64,
     convolutions: u64,
 }
 
-/// Sums over the contact that one iteration needs.
-#[derive(Debug, Clone, Copy, Default)]
-struct Residual {
-    cells: usize,
-    /// The approach prescribed, or the mean over the contact of free gap + displacement (mean-gap correction).
-    approach_m: f64,
-    /// Sum of the squared gaps inside the contact (m^2).
-    squared_gap: f64,
-    /// Sums over the contact of p |gap|, of p u, of p (free gap + u), and of p.
-    misfit: f64,
-    work: f64,
-    lifted: f64,
-    pressure_sum: f64,
-    /// Deepest penetration outside the contact, as a positive number (m).
-    penetration_m: f64,
-}
-
-impl Residual {
-    /// What the tolerance bounds; 0 out of contact, infinite where nothing is in contact yet but something penetrates.
-    fn relative(&self) -> f64 {
-        if self.penetration_m <= 0.0 && self.misfit == 0.0 {
-            return 0.0;
-        }
-        if self.work <= 0.0 {
-            return f64::INFINITY;
-        }
-        let reference_m = self.work / self.pressure_sum;
-        (self.misfit / self.work).max(self.penetration_m / reference_m)
-    }
-}
+/// Rounding of a convolution and of the gaps made from it, as a part of the largest displacement: some units in the last
+/// place.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// The state of the iteration between two passes.
 struct Progress {
@@ -115,6 +96,7 @@ impl HalfSpace {
             displacement: vec![0.0; cells],
             response: vec![0.0; cells],
             direction: vec![0.0; cells],
+            noise_m: 0.0,
             convolutions: 0,
             operator,
             gap_m,
@@ -155,10 +137,13 @@ impl HalfSpace {
         self.operator
             .apply(history, &mut self.history_displacement_m, &mut self.scratch)?;
         self.convolutions += 1;
+        let mut largest_m = 0.0_f64;
         let fields = self.gap_m.iter().zip(&self.history_displacement_m);
         for (free, (gap, displacement)) in self.free_gap_m.iter_mut().zip(fields) {
+            largest_m = largest_m.max(displacement.abs());
             *free = gap + displacement;
         }
+        self.noise_m = ROUNDING * largest_m;
         Ok(())
     }
 
@@ -190,47 +175,7 @@ impl HalfSpace {
         }
     }
 
-    /// Gap sums over the contact for the current pressure; `approach_m` is prescribed or, under load control, found here.
-    fn residual(&self, compliance: f64, approach_m: Option<f64>, pressure: &[f64]) -> Residual {
-        let mut total = Residual::default();
-        let mut lifted_sum = 0.0;
-        for ((&p, &free), &u) in pressure
-            .iter()
-            .zip(&self.free_gap_m)
-            .zip(&self.displacement)
-        {
-            if p > 0.0 {
-                let elastic = compliance * u;
-                total.cells += 1;
-                lifted_sum += free + elastic;
-                total.work += p * elastic;
-                total.lifted += p * (free + elastic);
-                total.pressure_sum += p;
-            }
-        }
-        total.approach_m = approach_m.unwrap_or(lifted_sum / total.cells.max(1) as f64);
-        let mut lowest = 0.0_f64;
-        for ((&p, &free), &u) in pressure
-            .iter()
-            .zip(&self.free_gap_m)
-            .zip(&self.displacement)
-        {
-            let gap = free + compliance * u - total.approach_m;
-            if p > 0.0 {
-                total.squared_gap += gap * gap;
-                total.misfit += p * gap.abs();
-            } else {
-                lowest = lowest.min(gap);
-            }
-        }
-        total.penetration_m = -lowest;
-        total
-    }
-
     /// Conjugate direction t = gap + beta t inside the contact, 0 outside; returns the sum of gap * t.
-    ///
-    /// Where the contact has no gap to close (it is empty, or one cell under a prescribed load), the penetrating cells make
-    /// the direction.
     fn update_direction(
         &mut self,
         compliance: f64,
@@ -250,14 +195,25 @@ impl HalfSpace {
                 0.0
             };
         }
-        if product == 0.0 {
-            let fields = self.free_gap_m.iter().zip(&self.displacement);
-            for ((t, &p), (&free, &u)) in self.direction.iter_mut().zip(pressure).zip(fields) {
-                if p <= 0.0 {
-                    *t = (free + compliance * u - residual.approach_m).min(0.0);
-                    product += *t * *t;
-                }
-            }
+        product
+    }
+
+    /// The direction of the cells that penetrate without carrying pressure; returns the sum of gap * t.
+    fn penetrating_direction(
+        &mut self,
+        compliance: f64,
+        residual: &Residual,
+        pressure: &[f64],
+    ) -> f64 {
+        let mut product = 0.0;
+        let fields = self.free_gap_m.iter().zip(&self.displacement);
+        for ((t, &p), (&free, &u)) in self.direction.iter_mut().zip(pressure).zip(fields) {
+            *t = if p > 0.0 {
+                0.0
+            } else {
+                (free + compliance * u - residual.approach_m).min(0.0)
+            };
+            product += *t * *t;
         }
         product
     }
@@ -334,10 +290,17 @@ impl HalfSpace {
         } else {
             0.0
         };
-        let product = self.update_direction(compliance, residual, beta, pressure);
+        let mut product = self.update_direction(compliance, residual, beta, pressure);
         progress.previous_squared_gap = residual.squared_gap;
         let load_controlled = target_sum.is_some();
-        let Some(step) = self.step_length(compliance, product, load_controlled, pressure)? else {
+        let mut step = self.step_length(compliance, product, load_controlled, pressure)?;
+        if step.is_none() && residual.penetration_m > 0.0 {
+            // Nothing is in contact, or the contact is settled (a single cell that carries the load always is) while others
+            // penetrate: these show the way.
+            product = self.penetrating_direction(compliance, residual, pressure);
+            step = self.step_length(compliance, product, false, pressure)?;
+        }
+        let Some(step) = step else {
             return Ok(false);
         };
         let (joined, left) = self.move_pressure(compliance, residual.approach_m, step, pressure);
@@ -373,8 +336,21 @@ impl HalfSpace {
         let tolerance = self.settings.tolerance;
         let (mut relative, mut iterations) = (f64::INFINITY, 0);
         for iteration in 0..self.settings.max_iterations {
-            let residual = self.residual(compliance, approach_m, pressure);
-            relative = residual.relative();
+            let fields = Fields {
+                pressure,
+                free_gap_m: &self.free_gap_m,
+                displacement: &self.displacement,
+            };
+            let residual = Residual::of(&fields, compliance, approach_m);
+            if residual.cells == 0 && target_sum.is_some() {
+                // A step has emptied the contact, which has a load to carry: begin again.
+                self.start(target_sum, pressure);
+                self.refresh_displacement(pressure)?;
+                (progress.exact, progress.conjugate) = (true, false);
+                continue;
+            }
+            let noise_m = self.noise_m + ROUNDING * residual.approach_m.abs();
+            relative = residual.relative(tolerance, noise_m);
             if relative <= tolerance {
                 if progress.exact {
                     return Ok((residual, iteration));
@@ -460,7 +436,17 @@ impl Engine for HalfSpace {
         let (target_sum, approach_m) = match prescribed {
             Prescribed::LoadN(0.0) => return Ok(self.out_of_contact(pressure)),
             Prescribed::LoadN(load_n) => (Some(load_n / cell_area_m2), None),
-            Prescribed::ApproachM(approach_m) => (None, Some(approach_m)),
+            Prescribed::ApproachM(approach_m) => {
+                // Where the free surface is clear of the indenter, no pressure is the solution, whatever the guess.
+                if self.free_gap_m.iter().all(|&free| free >= approach_m) {
+                    let clear = self.out_of_contact(pressure);
+                    return Ok(Solution {
+                        approach_m,
+                        ..clear
+                    });
+                }
+                (None, Some(approach_m))
+            }
         };
         let compliance = instant.compliance_per_pa;
         let (residual, iterations) = self.iterate(compliance, target_sum, approach_m, pressure)?;
@@ -486,5 +472,21 @@ impl Engine for HalfSpace {
     ) -> Result<Option<f64>, ContactError> {
         let peak = pressure.iter().copied().fold(0.0, f64::max);
         Ok(self.bounded_pressure.then_some(peak))
+    }
+
+    fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
+        let nodes = response.pressure.iter().zip(response.history);
+        let hereditary: Vec<f64> = nodes
+            .map(|(p, h)| response.compliance_per_pa * p + h)
+            .collect();
+        let mut displacement_m = vec![0.0; self.gap_m.len()];
+        self.operator
+            .apply(&hereditary, &mut displacement_m, &mut self.scratch)?;
+        self.convolutions += 1;
+        Ok(Surface::Cells(CellSurface {
+            grid: *self.operator.grid(),
+            pressure_pa: response.pressure.to_vec(),
+            displacement_m,
+        }))
     }
 }

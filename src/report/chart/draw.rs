@@ -20,9 +20,9 @@ pub(super) struct Arrangement {
     pub(super) labels: Vec<PlacedLabel>,
 }
 
-/// The chart as SVG of the right size that still contains text.
-pub(super) fn draw(chart: &Chart) -> Result<String, ChartError> {
-    let arrangement = arrange(chart)?;
+/// The chart as SVG of the right size that still contains text; its frame begins no further left than `left`.
+pub(super) fn draw(chart: &Chart, left: f64) -> Result<String, ChartError> {
+    let arrangement = arrange_beside(chart, left)?;
     let mut svg = String::new();
     let canvas = Canvas::new(&mut svg, chart.size);
     paint(chart, &arrangement, &canvas)?;
@@ -32,16 +32,22 @@ pub(super) fn draw(chart: &Chart) -> Result<String, ChartError> {
 
 /// Decides where everything goes.
 pub(super) fn arrange(chart: &Chart) -> Result<Arrangement, ChartError> {
+    arrange_beside(chart, 0.0)
+}
+
+/// As [`arrange`], with a frame that begins no further left than `left`.
+fn arrange_beside(chart: &Chart, left: f64) -> Result<Arrangement, ChartError> {
     check(chart)?;
+    let beside = |reserve: Reserve| Reserve { left, ..reserve };
     let widths = Widths::measure(chart)?;
     let ranges = ranges(chart)?;
-    let plain = lay_out(chart, &ranges, &widths, Reserve::default())?;
+    let plain = lay_out(chart, &ranges, &widths, beside(Reserve::default()))?;
     let inside = |layout: Layout, legend: Option<Legend>| {
         let curves = curves(chart, &layout);
         (layout, curves, legend)
     };
     let outside = |block: Block, side: Outside| {
-        let layout = lay_out(chart, &ranges, &widths, block.reserve(side))?;
+        let layout = lay_out(chart, &ranges, &widths, beside(block.reserve(side)))?;
         let legend = block.outside(&layout, side);
         Ok::<_, ChartError>(inside(layout, Some(legend)))
     };
@@ -115,6 +121,11 @@ fn paint(chart: &Chart, arrangement: &Arrangement, canvas: &Canvas<'_>) -> Resul
     for label in labels {
         mark_label(chart, label, canvas)?;
     }
+    texts(layout, canvas)
+}
+
+/// Title and axis labels.
+pub(super) fn texts(layout: &Layout, canvas: &Canvas<'_>) -> Result<(), ChartError> {
     for text in &layout.texts {
         canvas.text(&text.text, text.at, text.size, TEXT, text.hold)?;
     }
@@ -146,7 +157,7 @@ fn grid(layout: &Layout, canvas: &Canvas<'_>) -> Result<(), ChartError> {
 }
 
 /// The left and lower side of the frame, the ticks and their labels.
-fn axes(layout: &Layout, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+pub(super) fn axes(layout: &Layout, canvas: &Canvas<'_>) -> Result<(), ChartError> {
     let frame = &layout.frame;
     let draw_ticks = |minor: &[f64], major: &[f64], ends: &dyn Fn(f64, f64) -> [Point; 2]| {
         let all = minor

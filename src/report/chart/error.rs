@@ -70,6 +70,23 @@ pub enum ChartError {
     },
 
     #[error(
+        "cannot draw the map of {map}: there are {found} values for {columns} columns and {rows} rows; give one per cell, None \
+         where there is none"
+    )]
+    CellCount {
+        map: String,
+        found: usize,
+        columns: usize,
+        rows: usize,
+    },
+
+    #[error("cannot draw the map of {map}: {reason}")]
+    Map { map: String, reason: &'static str },
+
+    #[error("cannot stack no charts; give at least one")]
+    EmptyStack,
+
+    #[error(
         "cannot write the text {text:?}: it contains a control character; write it on one line of printable characters"
     )]
     Text { text: String },

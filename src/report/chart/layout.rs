@@ -35,11 +35,13 @@ pub(super) struct PlacedText {
     pub(super) hold: (Anchor, Direction),
 }
 
-/// Room kept free outside the frame for a legend.
+/// Room kept free outside the frame, for a legend above or at the right, or to line frames up.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reserve {
     pub(super) top: f64,
     pub(super) right: f64,
+    /// The frame begins no further left than this.
+    pub(super) left: f64,
 }
 
 /// The widths at size 1 of the texts that do not depend on the layout.
@@ -113,8 +115,12 @@ pub(super) fn lay_out(
     };
     let top = crisp(MARGIN + title_height + reserve.top);
     let below_ticks = MAJOR_TICK + TICK_GAP + TICK_TEXT * ASCENT_EM;
-    let bottom =
-        crisp(height - MARGIN - LABEL_TEXT * (ASCENT_EM + DESCENT_EM) - LABEL_GAP - below_ticks);
+    let label_height = if chart.x.label.is_empty() {
+        0.0
+    } else {
+        LABEL_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP
+    };
+    let bottom = crisp(height - MARGIN - label_height - below_ticks);
     checked_size(chart, bottom - top)?;
 
     let y = AxisMap {
@@ -126,9 +132,9 @@ pub(super) fn lay_out(
     };
     let y_ticks = ticks::choose(y.scale, y.low, y.high, |ticks| room_for_heights(&y, ticks));
     let widest = tick_widths(&y_ticks)?.into_iter().fold(0.0, f64::max);
-    let left = crisp(
-        MARGIN + LABEL_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP + widest + TICK_GAP + MAJOR_TICK,
-    );
+    let beside_frame =
+        MARGIN + LABEL_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP + widest + TICK_GAP + MAJOR_TICK;
+    let left = crisp(beside_frame.max(reserve.left));
 
     let mut right = crisp(width - MARGIN - reserve.right);
     checked_size(chart, right - left)?;

@@ -103,12 +103,12 @@ impl Block {
     pub(super) fn reserve(&self, side: Outside) -> Reserve {
         match side {
             Outside::Right => Reserve {
-                top: 0.0,
                 right: self.width,
+                ..Reserve::default()
             },
             Outside::Above => Reserve {
                 top: self.height,
-                right: 0.0,
+                ..Reserve::default()
             },
         }
     }

@@ -18,10 +18,12 @@
 
 mod canvas;
 mod check;
+mod color_map;
 mod curves;
 mod draw;
 mod error;
 mod geometry;
+mod heat_map;
 mod layout;
 mod legend;
 mod look;
@@ -30,13 +32,16 @@ mod palette;
 mod place;
 mod render;
 mod scale;
+mod stack;
 mod stroke;
 mod text;
 mod ticks;
 
 pub use error::{AxisName, ChartError};
+pub use heat_map::{HeatMap, heat_map_to_svg};
 pub use palette::Color;
 pub use render::{to_png, to_svg};
+pub use stack::stack_to_svg;
 
 /// A chart: what is drawn against which axes.
 #[derive(Clone, Debug, PartialEq)]

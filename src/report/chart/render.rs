@@ -7,15 +7,19 @@ use resvg::{tiny_skia, usvg};
 use super::check::subject;
 use super::draw::draw;
 use super::text::{escaped, options};
-use super::{Chart, ChartError};
+use super::{Chart, ChartError, Size};
 
 /// The chart as SVG that needs no font and refers to no other file.
 ///
 /// # Errors
 /// [`ChartError`] where the chart has no point, or a value, text or range that cannot be drawn.
 pub fn to_svg(chart: &Chart) -> Result<String, ChartError> {
-    let drawn = draw(chart)?;
-    let tree = usvg::Tree::from_str(&drawn, &options())?;
+    finished(&draw(chart, 0.0)?, chart.size, &subject(chart))
+}
+
+/// A drawing of this size with its text turned into outlines, under a title.
+pub(super) fn finished(drawn: &str, size: Size, title: &str) -> Result<String, ChartError> {
+    let tree = usvg::Tree::from_str(drawn, &options())?;
     let written = tree.to_string(&usvg::WriteOptions {
         preserve_text: false,
         // Coordinates are in sixteenths of a px: two places are far below what can be seen.
@@ -23,7 +27,7 @@ pub fn to_svg(chart: &Chart) -> Result<String, ChartError> {
         indent: usvg::Indent::Spaces(1),
         ..usvg::WriteOptions::default()
     });
-    headed(&written, chart)
+    headed(&written, size, title)
 }
 
 /// The SVG from [`to_svg`] as PNG on white; at `scale` 1 one pixel per px, at 2 two in each direction.
@@ -83,7 +87,7 @@ const LARGEST_PIXELS: u32 = 32_768;
 
 /// Puts into the root what usvg leaves out: the view box, so that a page can scale the picture, and a title, which
 /// browsers show and screen readers read.
-fn headed(written: &str, chart: &Chart) -> Result<String, ChartError> {
+fn headed(written: &str, size: Size, title: &str) -> Result<String, ChartError> {
     let body = written
         .strip_prefix("<svg ")
         .and_then(|rest| rest.split_once('>'))
@@ -91,14 +95,13 @@ fn headed(written: &str, chart: &Chart) -> Result<String, ChartError> {
             reason: "usvg wrote no <svg> element".to_owned(),
         })?;
     let (attributes, content) = body;
-    let size = chart.size;
     let view_box = format!(
         "viewBox=\"0 0 {} {}\" role=\"img\"",
         size.width_px, size.height_px
     );
     Ok(format!(
         "<svg {attributes} {view_box}>\n <title>{}</title>{content}",
-        escaped(&subject(chart))
+        escaped(title)
     ))
 }
 

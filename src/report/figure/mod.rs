@@ -2,8 +2,11 @@
 
 pub mod energy_loss;
 pub mod fit;
+pub mod history;
 pub mod loops;
 pub mod moduli;
+pub mod pressure_map;
+pub mod profiles;
 pub mod relaxation;
 
 use rayon::prelude::*;
@@ -35,11 +38,28 @@ pub fn write_all(figures: &[Figure], write: &WriteFile<'_>) -> Result<(), Report
         let failed = |source| ReportError::Chart { name, source };
         write(&format!("{name}.csv"), &figure.data)?;
         let svg = chart::to_svg(&figure.chart).map_err(failed)?;
-        write(&format!("{name}.svg"), svg.as_bytes())?;
-        RESOLUTIONS.par_iter().try_for_each(|&(suffix, scale)| {
-            let png = chart::to_png(&svg, scale).map_err(failed)?;
-            Ok(write(&format!("{name}{suffix}.png"), &png)?)
-        })
+        write_picture(name, name, &svg, write)
+    })
+}
+
+/// Writes a finished picture as SVG and, in both resolutions, as PNG. `file` is the name without its ending, `figure` what
+/// errors call it.
+///
+/// # Errors
+/// [`ReportError`] naming the figure.
+pub fn write_picture(
+    file: &str,
+    figure: &'static str,
+    svg: &str,
+    write: &WriteFile<'_>,
+) -> Result<(), ReportError> {
+    write(&format!("{file}.svg"), svg.as_bytes())?;
+    RESOLUTIONS.par_iter().try_for_each(|&(suffix, scale)| {
+        let png = chart::to_png(svg, scale).map_err(|source| ReportError::Chart {
+            name: figure,
+            source,
+        })?;
+        Ok(write(&format!("{file}{suffix}.png"), &png)?)
     })
 }
 

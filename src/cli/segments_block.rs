@@ -1,0 +1,207 @@
+//! The `[drive]` block of a scenario file: a history of segments.
+
+use std::path::Path;
+
+use super::diagnostic::{Location, Problems};
+use super::document::{Located, TableReader};
+use super::drive_table;
+use super::harmonic_block::{CONTROLS, dimension};
+use crate::drive::{Control, HistoryError, Segment, SegmentProblem, SegmentedDrive};
+use crate::quantity::Dimension;
+
+/// More segments than this belong into a table.
+const MAX_SEGMENTS: usize = 10_000;
+
+const KINDS: [&str; 5] = ["step", "ramp", "polynomial", "sine", "table"];
+
+/// A segment, and where the part of it stands that most of its problems come from.
+struct Placed {
+    segment: Segment,
+    place: Location,
+}
+
+/// Reads the block; `None` where a problem was reported. Names of files are relative to `folder`.
+pub(super) fn read(
+    mut table: TableReader<'_>,
+    folder: &Path,
+    problems: &Problems,
+) -> Option<SegmentedDrive> {
+    let control = table.choice_of_or("control", &CONTROLS, Control::Load)?;
+    let segments = table.tables("segments");
+    table.finish();
+    let segments = segments?;
+    let whole = segments.location.clone();
+    if segments.value.len() > MAX_SEGMENTS {
+        problems
+            .at(&whole, format!("{} segments are too many", segments.value.len()))
+            .help(format!(
+                "give at most {MAX_SEGMENTS}, or a table: {{ kind = \"table\", file = \"drive.csv\" }}"
+            ));
+        return None;
+    }
+    let reader = Reader {
+        control: control.value,
+        folder,
+        problems,
+    };
+    // All segments are read, so that all problems are reported.
+    let all: Vec<_> = segments
+        .value
+        .into_iter()
+        .map(|t| reader.segment(t))
+        .collect();
+    let all: Vec<Placed> = all.into_iter().collect::<Option<_>>()?;
+    let (segments, places): (Vec<_>, Vec<_>) =
+        all.into_iter().map(|p| (p.segment, p.place)).unzip();
+    SegmentedDrive::new(control.value, segments)
+        .map_err(|error| report(problems, &error, &whole, &places))
+        .ok()
+}
+
+fn report(problems: &Problems, error: &HistoryError, whole: &Location, places: &[Location]) {
+    let HistoryError::Segment { segment, problem } = error else {
+        problems.at(whole, error.to_string()).help(
+            "for example segments = [{ kind = \"step\", to = \"10 N\", duration = \"200 s\" }]",
+        );
+        return;
+    };
+    let place = places.get(*segment).unwrap_or(whole);
+    let told = problems.at(place, format!("segment {}: {problem}", segment + 1));
+    if let SegmentProblem::Pull { .. } = problem {
+        told.because("takes the load below zero")
+            .help("a load of zero is allowed: the indenter is then out of contact");
+    }
+}
+
+struct Reader<'a> {
+    control: Control,
+    folder: &'a Path,
+    problems: &'a Problems,
+}
+
+impl Reader<'_> {
+    fn segment(&self, mut table: TableReader<'_>) -> Option<Placed> {
+        let kind = table.choice("kind", &KINDS)?.value;
+        let placed = match kind {
+            "step" => self.to(&mut table, |to, duration_s| Segment::Step {
+                to,
+                duration_s,
+            }),
+            "ramp" => self.to(&mut table, |to, duration_s| Segment::Ramp {
+                to,
+                duration_s,
+            }),
+            "polynomial" => self.polynomial(&mut table),
+            "sine" => self.sine(&mut table),
+            _ => self.table(&mut table),
+        };
+        table.finish();
+        placed
+    }
+
+    fn to(
+        &self,
+        table: &mut TableReader<'_>,
+        build: impl FnOnce(f64, f64) -> Segment,
+    ) -> Option<Placed> {
+        let to = table.quantity("to", dimension(self.control));
+        let duration = self.duration(table);
+        let to = to?;
+        Some(Placed {
+            segment: build(to.value, duration?),
+            place: to.location,
+        })
+    }
+
+    fn duration(&self, table: &mut TableReader<'_>) -> Option<f64> {
+        self.positive(table.quantity("duration", Dimension::Time), "a duration")
+    }
+
+    fn positive(&self, value: Option<Located<f64>>, what: &str) -> Option<f64> {
+        let value = value?;
+        if value.value > 0.0 {
+            return Some(value.value);
+        }
+        self.problems
+            .at(&value, format!("{what} must be above zero"));
+        None
+    }
+
+    fn polynomial(&self, table: &mut TableReader<'_>) -> Option<Placed> {
+        let coefficients = table.numbers("coefficients");
+        let duration = self.duration(table);
+        let coefficients = coefficients?;
+        Some(Placed {
+            segment: Segment::Polynomial {
+                coefficients: coefficients.value.iter().map(|c| c.value).collect(),
+                duration_s: duration?,
+            },
+            place: coefficients.location,
+        })
+    }
+
+    fn sine(&self, table: &mut TableReader<'_>) -> Option<Placed> {
+        let mean = table.quantity("mean", dimension(self.control));
+        let amplitude = table.quantity("amplitude", dimension(self.control));
+        let place = amplitude.as_ref().map(|a| a.location.clone());
+        let amplitude = self.positive(amplitude, "an amplitude");
+        let key = table.one_of(&["angular_frequency", "frequency"]);
+        let frequency = key.and_then(|key| {
+            let (dimension, to_angular) = match key {
+                "frequency" => (Dimension::Frequency, std::f64::consts::TAU),
+                _ => (Dimension::AngularFrequency, 1.0),
+            };
+            let value = self.positive(table.quantity(key, dimension), "a frequency");
+            value.map(|value| value * to_angular)
+        });
+        let phase = table.quantity_or("phase", Dimension::Angle, 0.0);
+        let cycles = self.positive(table.number("cycles"), "the number of cycles");
+        Some(Placed {
+            segment: Segment::Sine {
+                mean: mean?.value,
+                amplitude: amplitude?,
+                angular_frequency_rad_per_s: frequency?,
+                phase_rad: phase?.value,
+                cycles: cycles?,
+            },
+            place: place?,
+        })
+    }
+
+    fn table(&self, table: &mut TableReader<'_>) -> Option<Placed> {
+        if table.one_of(&["file", "times"])? == "times" {
+            let times = table.quantities("times", Dimension::Time);
+            let values = table.quantities("values", dimension(self.control));
+            let (times, values) = (times?, values?);
+            let plain = |list: &[Located<f64>]| list.iter().map(|v| v.value).collect();
+            return Some(Placed {
+                segment: Segment::Table {
+                    times_s: plain(&times.value),
+                    values: plain(&values.value),
+                },
+                place: values.location,
+            });
+        }
+        let file = table.string("file")?;
+        let column = match self.control {
+            Control::Load => "load_n",
+            Control::Approach => "approach_m",
+        };
+        match drive_table::read(&self.folder.join(&file.value), column) {
+            Ok(columns) => Some(Placed {
+                segment: Segment::Table {
+                    times_s: columns.times_s,
+                    values: columns.values,
+                },
+                place: file.location,
+            }),
+            Err(message) => {
+                self.problems.at(&file, message).help(format!(
+                    "a table is a CSV file with the columns {} and {column}; its name is relative to this file",
+                    drive_table::TIME_COLUMN
+                ));
+                None
+            }
+        }
+    }
+}

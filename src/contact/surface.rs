@@ -1,0 +1,42 @@
+//! The deformed surface at one instant: pressure and displacement, along a radius or over the cells of a grid.
+
+use super::half_space::grid::Grid;
+
+/// What the surface needs besides the nodal pressure: how the body answered.
+#[derive(Debug, Clone, Copy)]
+pub struct Response<'a> {
+    /// Nodal pressure of the instant, in the engine's unit.
+    pub pressure: &'a [f64],
+    /// H per node, as in [`super::Instant`].
+    pub history: &'a [f64],
+    /// A (1/Pa), as in [`super::Instant`].
+    pub compliance_per_pa: f64,
+    /// Contact radius (m), as in [`super::Solution`].
+    pub contact_radius_m: f64,
+}
+
+/// The surface at one instant. Displacements are positive into the body.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Surface {
+    /// Of a body of revolution.
+    Radial(RadialSurface),
+    /// On a grid of cells.
+    Cells(CellSurface),
+}
+
+/// Values along a radius, from the axis outwards, beyond the contact and the row of springs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RadialSurface {
+    pub radius_m: Vec<f64>,
+    /// 0 outside the contact; `None` where it is unbounded, at an apex.
+    pub pressure_pa: Vec<Option<f64>>,
+    pub displacement_m: Vec<f64>,
+}
+
+/// Values at the centres of cells, row by row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellSurface {
+    pub grid: Grid,
+    pub pressure_pa: Vec<f64>,
+    pub displacement_m: Vec<f64>,
+}

@@ -1,0 +1,652 @@
+//! A drive history: segments one after another, each a step, a ramp, a polynomial, a sine or a table.
+
+use super::Control;
+use super::piece::{Form, Piece};
+use crate::quantity::{Dimension, format_human};
+
+/// One segment of a drive history. Values are loads in N or approaches in m, as the history's [`Control`] says.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Segment {
+    /// A jump to a value, which is then held.
+    Step { to: f64, duration_s: f64 },
+    /// From the value before, evenly to another.
+    Ramp { to: f64, duration_s: f64 },
+    /// Sum of c_k t^k, t in seconds since the segment began.
+    Polynomial {
+        coefficients: Vec<f64>,
+        duration_s: f64,
+    },
+    /// mean + amplitude sin(omega t + phase), t since the segment began, for this many cycles (not necessarily a whole
+    /// number).
+    Sine {
+        mean: f64,
+        amplitude: f64,
+        angular_frequency_rad_per_s: f64,
+        phase_rad: f64,
+        cycles: f64,
+    },
+    /// Points joined by straight lines; times count from the beginning of the segment. Two points at one time are a jump.
+    Table { times_s: Vec<f64>, values: Vec<f64> },
+}
+
+/// Why a history is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum HistoryError {
+    #[error("a drive history needs at least one segment")]
+    Empty,
+    #[error(
+        "the {} never rises above zero: there is nothing to simulate", .control.name()
+    )]
+    NeverTouches { control: Control },
+    #[error("segment {}: {problem}", .segment + 1)]
+    Segment {
+        /// Counted from 0.
+        segment: usize,
+        problem: SegmentProblem,
+    },
+}
+
+/// What is wrong with a segment.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SegmentProblem {
+    #[error("its duration is {duration_s} s; it must be positive and finite")]
+    Duration { duration_s: f64 },
+    #[error("its {what} is {value}; it must be finite")]
+    NotFinite { what: &'static str, value: f64 },
+    #[error("its {what} is {value}; it must be positive and finite")]
+    NotPositive { what: &'static str, value: f64 },
+    #[error("a polynomial needs at least one coefficient")]
+    NoCoefficients,
+    #[error("a table needs as many values as times, but has {values} and {times}")]
+    Lengths { times: usize, values: usize },
+    #[error("a table needs at least two points, but has {points}")]
+    TooFewPoints { points: usize },
+    #[error(
+        "the times of a table count from the beginning of its segment, so that the first is 0 s, not {time_s} s"
+    )]
+    FirstTime { time_s: f64 },
+    #[error("time {time_s} s of point {} does not follow {before_s} s of the point before", .point + 1)]
+    Order {
+        point: usize,
+        time_s: f64,
+        before_s: f64,
+    },
+    #[error(
+        "more than two points stand at {time_s} s; two are a jump, from the first to the second"
+    )]
+    TripleJump { time_s: f64 },
+    #[error(
+        "the load falls to {} at {} of the history, {} after the segment began: a contact without adhesion cannot carry a pull",
+        format_human(*load_n, Dimension::Force, 4),
+        format_human(*time_s, Dimension::Time, 6),
+        format_human(*since_s, Dimension::Time, 6)
+    )]
+    Pull {
+        load_n: f64,
+        time_s: f64,
+        since_s: f64,
+    },
+}
+
+/// Where two pieces of a history meet, its beginning and its end included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Joint {
+    /// Time since the history began (s).
+    pub time_s: f64,
+    /// The value before; `None` at the beginning.
+    pub before: Option<f64>,
+    /// The value after, another one at a jump; `None` at the end.
+    pub after: Option<f64>,
+}
+
+/// A drive history made of segments. Before it begins the body is undisturbed: load 0, approach 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SegmentedDrive {
+    control: Control,
+    segments: Vec<Segment>,
+    pieces: Vec<Piece>,
+    maximum: f64,
+}
+
+/// Below this part of what makes it up, a load is zero plus rounding.
+const ZERO_LOAD: f64 = 1e-14;
+/// Values at a joint that differ by less than this part of their size differ by rounding.
+const SAME: f64 = 1e-12;
+/// Time steps that resolve a cycle, and a ramp, polynomial or table.
+const STEPS_PER_CYCLE: f64 = 200.0;
+const STEPS_PER_SEGMENT: f64 = 100.0;
+
+impl SegmentedDrive {
+    /// A history of these segments.
+    ///
+    /// # Errors
+    /// [`HistoryError`]: a number out of range, a table out of order, a load that becomes a pull, a history that never
+    /// touches the body.
+    pub fn new(control: Control, segments: Vec<Segment>) -> Result<Self, HistoryError> {
+        let mut pieces: Vec<Piece> = Vec::new();
+        for (index, segment) in segments.iter().enumerate() {
+            let (start_s, before) = pieces.last().map_or((0.0, 0.0), |last| {
+                (last.end_s(), last.value(last.duration_s))
+            });
+            let placed = segment.pieces(index, start_s, before).and_then(|new| {
+                new.iter().try_for_each(|piece| piece.check(control))?;
+                Ok(new)
+            });
+            pieces.extend(placed.map_err(|problem| HistoryError::Segment {
+                segment: index,
+                problem,
+            })?);
+        }
+        if pieces.is_empty() {
+            return Err(HistoryError::Empty);
+        }
+        let largest = pieces.iter().map(|piece| piece.extremes().1.value);
+        let maximum = largest.fold(f64::NEG_INFINITY, f64::max);
+        if maximum <= 0.0 {
+            return Err(HistoryError::NeverTouches { control });
+        }
+        Ok(Self {
+            control,
+            segments,
+            pieces,
+            maximum,
+        })
+    }
+
+    /// What is prescribed.
+    pub fn control(&self) -> Control {
+        self.control
+    }
+
+    /// The segments, in order.
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// Length of the history (s).
+    pub fn duration_s(&self) -> f64 {
+        self.pieces.last().map_or(0.0, Piece::end_s)
+    }
+
+    /// The largest value of the history, between joints too; above zero.
+    pub fn maximum(&self) -> f64 {
+        self.maximum
+    }
+
+    /// Where pieces meet: the ends of segments and the points of tables, in order, the beginning and the end of the history
+    /// among them.
+    pub fn joints(&self) -> Vec<Joint> {
+        let mut joints: Vec<Joint> = Vec::with_capacity(self.pieces.len() + 1);
+        let mut before = None;
+        for piece in &self.pieces {
+            joints.push(Joint {
+                time_s: piece.start_s,
+                before,
+                after: Some(self.value_in(piece, 0.0)),
+            });
+            before = Some(self.value_in(piece, piece.duration_s));
+        }
+        joints.push(Joint {
+            time_s: self.duration_s(),
+            before,
+            after: None,
+        });
+        joints
+    }
+
+    /// The smooth pieces.
+    pub(super) fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// The value this long after a piece began. A load that is zero but for rounding is zero: a contact is out of contact at
+    /// load zero, and a pull of 1e-16 N would be no load at all.
+    pub(super) fn value_in(&self, piece: &Piece, time_s: f64) -> f64 {
+        let value = piece.value(time_s);
+        if self.control == Control::Load && value <= ZERO_LOAD * piece.scale() {
+            0.0
+        } else {
+            value
+        }
+    }
+
+    /// Whether the drive jumps from the end of one piece to the beginning of the next.
+    pub(super) fn jumps(&self, piece: &Piece, next: &Piece) -> bool {
+        let (before, after) = (
+            self.value_in(piece, piece.duration_s),
+            self.value_in(next, 0.0),
+        );
+        (after - before).abs() > SAME * piece.scale().max(next.scale())
+    }
+}
+
+impl Piece {
+    /// Time from the beginning of the history to the end of the piece (s).
+    pub(super) fn end_s(&self) -> f64 {
+        self.start_s + self.duration_s
+    }
+
+    /// Refuses values that are no numbers, and pulls.
+    fn check(&self, control: Control) -> Result<(), SegmentProblem> {
+        if !self.scale().is_finite() {
+            let value = self.value(self.duration_s);
+            return Err(SegmentProblem::NotFinite {
+                what: "value",
+                value,
+            });
+        }
+        let (least, _) = self.extremes();
+        if control == Control::Load && least.value < -ZERO_LOAD * self.scale() {
+            return Err(SegmentProblem::Pull {
+                load_n: least.value,
+                time_s: self.start_s + least.time_s,
+                since_s: self.offset_s + least.time_s,
+            });
+        }
+        Ok(())
+    }
+}
+
+impl Segment {
+    /// The smooth pieces of the segment, which begins `start_s` after the history with the value `before` behind it.
+    fn pieces(
+        &self,
+        segment: usize,
+        start_s: f64,
+        before: f64,
+    ) -> Result<Vec<Piece>, SegmentProblem> {
+        let piece = |form, duration_s: f64, longest_step_s| Piece {
+            form,
+            segment,
+            start_s,
+            offset_s: 0.0,
+            duration_s,
+            longest_step_s,
+            is_continued_table: false,
+        };
+        let resolved = |duration_s: f64| Some(duration_s / STEPS_PER_SEGMENT);
+        match self {
+            Self::Step { to, duration_s } => {
+                finite("value", *to)?;
+                Ok(vec![piece(
+                    Form::Constant(*to),
+                    checked_duration(*duration_s)?,
+                    None,
+                )])
+            }
+            Self::Ramp { to, duration_s } => {
+                finite("value", *to)?;
+                let form = Form::Linear {
+                    from: before,
+                    to: *to,
+                };
+                let duration_s = checked_duration(*duration_s)?;
+                Ok(vec![piece(form, duration_s, resolved(duration_s))])
+            }
+            Self::Polynomial {
+                coefficients,
+                duration_s,
+            } => {
+                if coefficients.is_empty() {
+                    return Err(SegmentProblem::NoCoefficients);
+                }
+                for &coefficient in coefficients {
+                    finite("coefficient", coefficient)?;
+                }
+                let duration_s = checked_duration(*duration_s)?;
+                let form = Form::Polynomial(coefficients.clone());
+                Ok(vec![piece(form, duration_s, resolved(duration_s))])
+            }
+            Self::Sine { .. } => self.sine(&piece),
+            Self::Table { times_s, values } => table(segment, start_s, times_s, values),
+        }
+    }
+
+    fn sine(
+        &self,
+        piece: &dyn Fn(Form, f64, Option<f64>) -> Piece,
+    ) -> Result<Vec<Piece>, SegmentProblem> {
+        let Self::Sine {
+            mean,
+            amplitude,
+            angular_frequency_rad_per_s,
+            phase_rad,
+            cycles,
+        } = *self
+        else {
+            return Ok(Vec::new());
+        };
+        finite("mean", mean)?;
+        positive("amplitude", amplitude)?;
+        positive("angular frequency", angular_frequency_rad_per_s)?;
+        finite("phase", phase_rad)?;
+        positive("number of cycles", cycles)?;
+        let period_s = std::f64::consts::TAU / angular_frequency_rad_per_s;
+        let form = Form::Sine {
+            mean,
+            amplitude,
+            angular_frequency_rad_per_s,
+            phase_rad,
+        };
+        let duration_s = checked_duration(cycles * period_s)?;
+        Ok(vec![piece(
+            form,
+            duration_s,
+            Some(period_s / STEPS_PER_CYCLE),
+        )])
+    }
+}
+
+/// The straight pieces between the points of a table.
+fn table(
+    segment: usize,
+    start_s: f64,
+    times_s: &[f64],
+    values: &[f64],
+) -> Result<Vec<Piece>, SegmentProblem> {
+    check_table(times_s, values)?;
+    let duration_s = checked_duration(times_s.last().copied().unwrap_or(0.0))?;
+    let last = times_s.len() - 2;
+    let mut pieces: Vec<Piece> = Vec::with_capacity(times_s.len());
+    let mut after_jump = true;
+    let pairs = times_s.windows(2).zip(values.windows(2));
+    for (pair, (times, values)) in pairs.enumerate() {
+        let length_s = times[1] - times[0];
+        let straight = Form::Linear {
+            from: values[0],
+            to: values[1],
+        };
+        // A jump lies between two pieces; at an end of the table one of them has no length.
+        let form = match (length_s > 0.0, pair) {
+            (true, _) => straight,
+            (false, 0) => Form::Constant(values[0]),
+            (false, pair) if pair == last => Form::Constant(values[1]),
+            (false, _) => {
+                after_jump = true;
+                continue;
+            }
+        };
+        pieces.push(Piece {
+            form,
+            segment,
+            start_s: start_s + times[0],
+            offset_s: times[0],
+            duration_s: length_s,
+            longest_step_s: Some(duration_s / STEPS_PER_SEGMENT),
+            is_continued_table: !after_jump,
+        });
+        after_jump = length_s == 0.0;
+    }
+    Ok(pieces)
+}
+
+fn check_table(times_s: &[f64], values: &[f64]) -> Result<(), SegmentProblem> {
+    if times_s.len() != values.len() {
+        return Err(SegmentProblem::Lengths {
+            times: times_s.len(),
+            values: values.len(),
+        });
+    }
+    if times_s.len() < 2 {
+        return Err(SegmentProblem::TooFewPoints {
+            points: times_s.len(),
+        });
+    }
+    for (&time_s, &value) in times_s.iter().zip(values) {
+        finite("time", time_s)?;
+        finite("value", value)?;
+    }
+    if times_s[0] != 0.0 {
+        return Err(SegmentProblem::FirstTime { time_s: times_s[0] });
+    }
+    for (point, pair) in times_s.windows(2).enumerate() {
+        if pair[1] < pair[0] {
+            return Err(SegmentProblem::Order {
+                point: point + 1,
+                time_s: pair[1],
+                before_s: pair[0],
+            });
+        }
+    }
+    match times_s.windows(3).find(|three| three[0] == three[2]) {
+        Some(three) => Err(SegmentProblem::TripleJump { time_s: three[0] }),
+        None => Ok(()),
+    }
+}
+
+fn checked_duration(duration_s: f64) -> Result<f64, SegmentProblem> {
+    if duration_s.is_finite() && duration_s > 0.0 {
+        Ok(duration_s)
+    } else {
+        Err(SegmentProblem::Duration { duration_s })
+    }
+}
+
+fn finite(what: &'static str, value: f64) -> Result<(), SegmentProblem> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        Err(SegmentProblem::NotFinite { what, value })
+    }
+}
+
+fn positive(what: &'static str, value: f64) -> Result<(), SegmentProblem> {
+    if value.is_finite() && value > 0.0 {
+        Ok(())
+    } else {
+        Err(SegmentProblem::NotPositive { what, value })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step(to: f64, duration_s: f64) -> Segment {
+        Segment::Step { to, duration_s }
+    }
+
+    fn ramp(to: f64, duration_s: f64) -> Segment {
+        Segment::Ramp { to, duration_s }
+    }
+
+    fn sine(mean: f64, amplitude: f64, phase_rad: f64, cycles: f64) -> Segment {
+        Segment::Sine {
+            mean,
+            amplitude,
+            angular_frequency_rad_per_s: std::f64::consts::TAU,
+            phase_rad,
+            cycles,
+        }
+    }
+
+    fn table(times_s: &[f64], values: &[f64]) -> Segment {
+        Segment::Table {
+            times_s: times_s.to_vec(),
+            values: values.to_vec(),
+        }
+    }
+
+    fn load(segments: Vec<Segment>) -> Result<SegmentedDrive, HistoryError> {
+        SegmentedDrive::new(Control::Load, segments)
+    }
+
+    fn problem(segments: Vec<Segment>) -> (usize, SegmentProblem) {
+        match load(segments) {
+            Err(HistoryError::Segment { segment, problem }) => (segment, problem),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn every_joint_has_the_value_before_and_after_it() {
+        let drive = load(vec![
+            ramp(2.0, 4.0),
+            step(10.0, 200.0),
+            ramp(2.0, 5.0),
+            Segment::Polynomial {
+                coefficients: vec![2.0, 0.1, 0.03],
+                duration_s: 3.0,
+            },
+            sine(2.0, 1.0, 0.0, 4.0),
+            table(&[0.0, 1.0, 1.0, 3.0], &[2.0, 4.0, 0.0, 0.0]),
+        ])
+        .unwrap();
+        let joint = |time_s, before, after| Joint {
+            time_s,
+            before,
+            after,
+        };
+        let expected = [
+            joint(0.0, None, Some(0.0)),
+            joint(4.0, Some(2.0), Some(10.0)),
+            joint(204.0, Some(10.0), Some(10.0)),
+            joint(209.0, Some(2.0), Some(2.0)),
+            // 2 + 0.3 + 0.27 at the end of the polynomial.
+            joint(212.0, Some(2.57), Some(2.0)),
+            joint(216.0, Some(2.0), Some(2.0)),
+            joint(217.0, Some(4.0), Some(0.0)),
+            joint(219.0, Some(0.0), None),
+        ];
+        let joints = drive.joints();
+        assert_eq!(joints.len(), expected.len());
+        for (found, expected) in joints.iter().zip(expected) {
+            let same = |a: Option<f64>, b: Option<f64>| match (a, b) {
+                // Rounding of a few operations on numbers up to 200, and of the sine of 8 pi.
+                (Some(a), Some(b)) => (a - b).abs() < 1e-13,
+                (a, b) => a == b,
+            };
+            assert!((found.time_s - expected.time_s).abs() < 1e-12);
+            assert!(same(found.before, expected.before), "{found:?}");
+            assert!(same(found.after, expected.after), "{found:?}");
+        }
+        assert_eq!(drive.maximum(), 10.0);
+    }
+
+    #[test]
+    fn jumps_at_the_ends_of_a_table_are_kept() {
+        let drive = load(vec![
+            step(3.0, 1.0),
+            table(&[0.0, 0.0, 2.0, 2.0], &[3.0, 5.0, 6.0, 1.0]),
+            ramp(0.0, 1.0),
+        ])
+        .unwrap();
+        let joints = drive.joints();
+        let states: Vec<_> = joints
+            .iter()
+            .map(|j| (j.time_s, j.before, j.after))
+            .collect();
+        assert_eq!(
+            states,
+            [
+                (0.0, None, Some(3.0)),
+                (1.0, Some(3.0), Some(3.0)),
+                (1.0, Some(3.0), Some(5.0)),
+                (3.0, Some(6.0), Some(1.0)),
+                (3.0, Some(1.0), Some(1.0)),
+                (4.0, Some(0.0), None),
+            ]
+        );
+    }
+
+    #[test]
+    fn a_load_that_touches_zero_is_zero_there_and_one_that_goes_below_is_refused_with_its_place() {
+        let touching = load(vec![sine(1.0, 1.0, 1.5 * std::f64::consts::PI, 3.0)]).unwrap();
+        assert_eq!(touching.joints()[0].after, Some(0.0));
+        assert_eq!(touching.joints()[1].before, Some(0.0));
+        let (segment, found) = problem(vec![step(1.0, 2.0), sine(1.0, 1.5, 0.0, 1.0)]);
+        assert_eq!(segment, 1);
+        // The trough of a sine lies at three quarters of its cycle.
+        let SegmentProblem::Pull {
+            load_n,
+            time_s,
+            since_s,
+        } = found
+        else {
+            panic!("{found:?}")
+        };
+        assert!((load_n + 0.5).abs() < 1e-12);
+        assert!((time_s - 2.75).abs() < 1e-12 && (since_s - 0.75).abs() < 1e-12);
+        // A quarter of the same sine stays above zero.
+        assert!(load(vec![sine(1.0, 1.5, 0.0, 0.25)]).is_ok());
+        for bad in [
+            step(-1.0, 1.0),
+            ramp(-1e-9, 1.0),
+            table(&[0.0, 1.0], &[1.0, -1.0]),
+            Segment::Polynomial {
+                // Below zero between 0.4 and 0.6 only.
+                coefficients: vec![0.24, -1.0, 1.0],
+                duration_s: 1.0,
+            },
+        ] {
+            assert!(matches!(problem(vec![bad]).1, SegmentProblem::Pull { .. }));
+        }
+        // (t - 1/2)^2 touches zero and stays.
+        assert!(
+            load(vec![Segment::Polynomial {
+                coefficients: vec![0.25, -1.0, 1.0],
+                duration_s: 1.0
+            }])
+            .is_ok()
+        );
+    }
+
+    #[test]
+    fn an_approach_may_be_negative_but_must_reach_the_surface() {
+        let approach = |segments| SegmentedDrive::new(Control::Approach, segments);
+        assert!(approach(vec![step(-1e-6, 1.0), ramp(1e-6, 1.0)]).is_ok());
+        assert!(matches!(
+            approach(vec![step(-1e-6, 1.0), ramp(0.0, 1.0)]),
+            Err(HistoryError::NeverTouches { .. })
+        ));
+        assert!(matches!(
+            load(vec![step(0.0, 1.0)]),
+            Err(HistoryError::NeverTouches { .. })
+        ));
+        assert_eq!(load(Vec::new()), Err(HistoryError::Empty));
+    }
+
+    #[test]
+    fn numbers_that_make_no_segment_are_refused_by_name() {
+        let inf = f64::INFINITY;
+        assert!(matches!(
+            problem(vec![step(1.0, 0.0)]).1,
+            SegmentProblem::Duration { .. }
+        ));
+        assert!(matches!(
+            problem(vec![step(inf, 1.0)]).1,
+            SegmentProblem::NotFinite { what: "value", .. }
+        ));
+        assert!(matches!(
+            problem(vec![sine(1.0, 0.0, 0.0, 1.0)]).1,
+            SegmentProblem::NotPositive {
+                what: "amplitude",
+                ..
+            }
+        ));
+        assert!(matches!(
+            problem(vec![table(&[1.0, 2.0], &[1.0, 2.0])]).1,
+            SegmentProblem::FirstTime { time_s: 1.0 }
+        ));
+        assert!(matches!(
+            problem(vec![table(&[0.0, 2.0, 1.0], &[1.0, 2.0, 3.0])]).1,
+            SegmentProblem::Order { point: 2, .. }
+        ));
+        assert!(matches!(
+            problem(vec![table(&[0.0, 1.0, 1.0, 1.0, 2.0], &[1.0; 5])]).1,
+            SegmentProblem::TripleJump { time_s: 1.0 }
+        ));
+        assert!(matches!(
+            problem(vec![table(&[0.0, 1.0], &[1.0])]).1,
+            SegmentProblem::Lengths { .. }
+        ));
+        let overflow = Segment::Polynomial {
+            coefficients: vec![1.0, 1e300],
+            duration_s: 1e30,
+        };
+        assert!(matches!(
+            problem(vec![step(1.0, 1.0), overflow]),
+            (1, SegmentProblem::NotFinite { .. })
+        ));
+    }
+}

@@ -1,0 +1,132 @@
+//! Pressure and surface displacement along a radius, or along x through the centre, at the times asked for.
+
+use super::{WriteFile, prefix, scientific, write_picture};
+use crate::report::ReportError;
+use crate::report::chart::{self, Axis, Chart, Color, LegendPlace, Series};
+use crate::report::scenario::{ProfilePoint, lines};
+use crate::report::table::{Table, number, optional};
+use crate::sweep::simulate::SurfaceRecord;
+
+const NAME: &str = "profiles";
+/// Curves in one figure; more cannot be told apart.
+const CURVES: usize = 6;
+const WIDTH_PX: u32 = 800;
+const UPPER_PX: u32 = 380;
+const LOWER_PX: u32 = 380;
+
+/// A profile to be drawn: its time (s) and its points.
+type Curve = (f64, Vec<ProfilePoint>);
+
+/// Writes the figure and its data. Returns why where there is nothing to draw, nothing where nothing was asked for.
+///
+/// # Errors
+/// [`ReportError`] naming the figure.
+pub fn write(
+    records: &[SurfaceRecord],
+    write: &WriteFile<'_>,
+) -> Result<Option<String>, ReportError> {
+    let Some((line, _)) = records.first().and_then(|r| lines(r).into_iter().next()) else {
+        return Ok(None);
+    };
+    let curves = chosen(records);
+    write("profiles.csv", &data(&curves)?)?;
+    let svg = chart::stack_to_svg(&panels(line, &curves))
+        .map_err(|source| ReportError::Chart { name: NAME, source })?;
+    write_picture(NAME, NAME, &svg, write)?;
+    let left_out = records.len() - curves.len();
+    Ok((left_out > 0).then(|| {
+        format!(
+            "figure of the profiles: {CURVES} of {} drawn, all are in profiles/",
+            records.len()
+        )
+    }))
+}
+
+/// At most [`CURVES`] profiles in the order of their times, evenly spread, both ends among them.
+fn chosen(records: &[SurfaceRecord]) -> Vec<Curve> {
+    let mut ordered: Vec<&SurfaceRecord> = records.iter().collect();
+    ordered.sort_by(|a, b| a.row.time_s.total_cmp(&b.row.time_s));
+    let count = ordered.len();
+    let shown = count.min(CURVES);
+    let place = |k: usize| {
+        if shown > 1 {
+            k * (count - 1) / (shown - 1)
+        } else {
+            0
+        }
+    };
+    (0..shown)
+        .filter_map(|k| {
+            let record = ordered.get(place(k))?;
+            let (_, points) = lines(record).into_iter().next()?;
+            Some((record.row.time_s, points))
+        })
+        .collect()
+}
+
+fn panels(line: &str, curves: &[Curve]) -> [Chart; 2] {
+    let all = || curves.iter().flat_map(|(_, points)| points);
+    let (to_length, length) = prefix(all().map(|p| p.position_m).fold(0.0, f64::max));
+    let pressures = all().filter_map(|p| p.pressure_pa);
+    let (to_pressure, pressure) = prefix(pressures.fold(0.0, f64::max));
+    let displacements = all().map(|p| p.displacement_m);
+    let (to_displacement, displacement) = prefix(displacements.fold(0.0, f64::max));
+    let family = |value: &dyn Fn(&ProfilePoint) -> Option<f64>, labelled: bool| {
+        let curve = |(step, (time_s, points)): (usize, &Curve)| {
+            let series = Series::line(
+                points
+                    .iter()
+                    .map(|p| Some((to_length * p.position_m, value(p)?))),
+            )
+            .color(Color::Ramp {
+                step,
+                of: curves.len(),
+            });
+            if labelled {
+                series.label(format!("t = {} s", scientific(*time_s, 4)))
+            } else {
+                series
+            }
+        };
+        curves.iter().enumerate().map(curve).collect::<Vec<_>>()
+    };
+    let position = if line == "r" { "radius r" } else { line };
+    let ends = |f: fn(f64, f64) -> f64| all().map(|p| to_length * p.position_m).reduce(f);
+    let axis = |label: String| {
+        let axis = Axis::linear(label);
+        match (ends(f64::min), ends(f64::max)) {
+            (Some(low), Some(high)) if low < high => axis.range(low, high),
+            _ => axis,
+        }
+    };
+    let upper = Chart::new(
+        axis(String::new()),
+        Axis::linear(format!("pressure p / {pressure}Pa")),
+    )
+    .all_series(family(&|p| p.pressure_pa.map(|v| to_pressure * v), true))
+    .legend(LegendPlace::Auto)
+    .size(WIDTH_PX, UPPER_PX);
+    let lower = Chart::new(
+        axis(format!("{position} / {length}m")),
+        Axis::linear(format!("displacement u / {displacement}m")),
+    )
+    .all_series(family(&|p| Some(to_displacement * p.displacement_m), false))
+    .size(WIDTH_PX, LOWER_PX);
+    [upper, lower]
+}
+
+fn data(curves: &[Curve]) -> Result<Vec<u8>, ReportError> {
+    let columns = ["time_s", "position_m", "pressure_pa", "displacement_m"];
+    let mut table = Table::new("profiles.csv", &columns)?;
+    for (time_s, points) in curves {
+        for point in points {
+            table.row(&[
+                number(*time_s),
+                number(point.position_m),
+                optional(point.pressure_pa),
+                number(point.displacement_m),
+            ])?;
+        }
+    }
+    table.finish()
+}

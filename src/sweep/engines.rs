@@ -1,0 +1,346 @@
+//! Engines on a domain: how large it must be, the operator all engines share, and a larger one where the contact reaches the
+//! edge after all.
+
+use std::sync::Arc;
+
+use crate::contact::axisymmetric::{self, Axisymmetric};
+use crate::contact::half_space::convolution::Convolution;
+use crate::contact::half_space::{HalfSpace, SolverSettings};
+use crate::contact::{ContactError, Engine, Prescribed};
+use crate::drive::Control;
+use crate::indenter::{self, Domain, Indenter};
+use crate::sweep::domain::{self, GROWTH};
+use crate::sweep::plan::{EngineKind, SolverPlan};
+
+/// Why there is no engine for an indenter.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum EngineError {
+    #[error(
+        "the {shape} {reason}; the axisymmetric engine cannot treat it (set solver.engine = \"half-space\")"
+    )]
+    NotAxisymmetric { shape: &'static str, reason: String },
+    #[error("the half-space grid cannot be built: {0}")]
+    Grid(String),
+    #[error(
+        "the contact reached the edge of the computational domain (half width {half_width_m:e} m), beyond which the shape of \
+         the indenter is not known: give a larger map or a longer profile, or a smaller load"
+    )]
+    EndOfData { half_width_m: f64 },
+}
+
+/// Room beyond the largest contact expected.
+const SPRING_ROOM: f64 = 1.02;
+/// How many enlargements of the domain there may be before a contact counts as failed.
+pub const MAX_GROWTHS: usize = 12;
+
+/// The largest contact that a drive can make.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LargestContact {
+    pub control: Control,
+    /// The largest load (N) or approach (m) of the drive.
+    pub maximum: f64,
+    /// The largest contact compliance that a load meets (1/Pa).
+    pub compliance_per_pa: f64,
+}
+
+/// Makes engines of one kind for one indenter.
+pub struct EngineBuilder {
+    indenter: Arc<dyn Indenter>,
+    solver: SolverPlan,
+    /// Half width of the largest contact (m), with room for springs.
+    half_width_m: f64,
+    domain: Domain,
+    /// The operator of the domain before it is enlarged.
+    operator: Option<Arc<Convolution>>,
+}
+
+impl EngineBuilder {
+    /// Engines for contacts up to the largest.
+    ///
+    /// # Errors
+    /// [`EngineError`] where the engine cannot treat the indenter or its grid cannot be built.
+    pub fn new(
+        indenter: Arc<dyn Indenter>,
+        solver: SolverPlan,
+        largest: LargestContact,
+    ) -> Result<Self, EngineError> {
+        let half_width_m = contact_half_width_m(indenter.as_ref(), largest);
+        let mut builder = Self {
+            domain: contact_domain(indenter.as_ref(), largest, half_width_m),
+            indenter,
+            solver,
+            half_width_m,
+            operator: None,
+        };
+        match solver.engine {
+            EngineKind::Axisymmetric => {
+                if builder.body()?.contact_limit_m().is_none() {
+                    builder.half_width_m *= SPRING_ROOM;
+                }
+            }
+            EngineKind::HalfSpace => {
+                builder.operator = Some(Arc::new(builder.new_operator(0)?));
+            }
+        }
+        Ok(builder)
+    }
+
+    /// Half width of the domain before it is enlarged (m).
+    pub fn half_width_m(&self) -> f64 {
+        self.enlarged_half_width_m(0).0
+    }
+
+    /// Half width (m) of the domain enlarged `growths` times, and whether a further enlargement would enlarge it.
+    fn enlarged_half_width_m(&self, growths: usize) -> (f64, bool) {
+        let known_m = match self.solver.engine {
+            EngineKind::HalfSpace => {
+                let half_width_m = domain::half_width_m(&self.domain, growths);
+                return (half_width_m, domain::can_grow(&self.domain, growths));
+            }
+            EngineKind::Axisymmetric => self.body().ok().and_then(|body| body.known_radius_m()),
+        };
+        let wanted_m = self.half_width_m * GROWTH.powi(growths as i32);
+        match known_m {
+            Some(known_m) if known_m <= wanted_m => (known_m, false),
+            _ => (wanted_m, true),
+        }
+    }
+
+    /// An engine on a domain enlarged `growths` times.
+    ///
+    /// # Errors
+    /// As [`EngineBuilder::new`].
+    pub fn engine(&self, growths: usize) -> Result<Box<dyn Engine>, EngineError> {
+        Ok(match self.solver.engine {
+            EngineKind::Axisymmetric => Box::new(self.springs(growths)?),
+            EngineKind::HalfSpace => Box::new(self.half_space(growths)?),
+        })
+    }
+
+    /// Calls `run` with an engine, on ever larger domains as long as it reports that the contact reached the edge. `started`
+    /// hears the half width (m) of each domain and how often it was enlarged.
+    ///
+    /// # Errors
+    /// What `run` or the building of an engine ends with.
+    pub fn on_a_large_enough_domain<T, E>(
+        &self,
+        mut started: impl FnMut(f64, usize),
+        mut run: impl FnMut(&mut dyn Engine) -> Result<T, E>,
+    ) -> Result<T, E>
+    where
+        E: From<EngineError> + AsContactError,
+    {
+        let mut growths = 0;
+        loop {
+            let mut engine = self.engine(growths)?;
+            let (half_width_m, can_grow) = self.enlarged_half_width_m(growths);
+            started(half_width_m, growths);
+            let error = match run(engine.as_mut()) {
+                Err(error) if reached_edge(&error) => error,
+                ended => return ended,
+            };
+            if !can_grow {
+                return Err(EngineError::EndOfData { half_width_m }.into());
+            }
+            if growths == MAX_GROWTHS {
+                return Err(error);
+            }
+            growths += 1;
+        }
+    }
+
+    fn body(&self) -> Result<&dyn indenter::Axisymmetric, EngineError> {
+        let refusal = || EngineError::NotAxisymmetric {
+            shape: self.indenter.shape(),
+            reason: self.indenter.not_axisymmetric_because(),
+        };
+        self.indenter.axisymmetric().ok_or_else(refusal)
+    }
+
+    fn springs(&self, growths: usize) -> Result<Axisymmetric, EngineError> {
+        let body = self.body()?;
+        let springs = self.solver.springs;
+        let width_m = self.enlarged_half_width_m(growths).0 / springs as f64;
+        let gaps = (0..springs)
+            .map(|i| body.transformed_gap_m((i as f64 + 0.5) * width_m))
+            .collect();
+        let edge = match body.contact_limit_m() {
+            Some(_) => axisymmetric::Edge::Rim,
+            None => axisymmetric::Edge::Open,
+        };
+        let bounded = self.indenter.pressure_is_bounded();
+        Ok(Axisymmetric::new(width_m, gaps, edge, bounded))
+    }
+
+    fn half_space(&self, growths: usize) -> Result<HalfSpace, EngineError> {
+        let operator = match &self.operator {
+            Some(shared) if growths == 0 => Arc::clone(shared),
+            _ => Arc::new(self.new_operator(growths)?),
+        };
+        let gaps = domain::gaps_m(self.indenter.as_ref(), operator.grid());
+        let settings = SolverSettings {
+            tolerance: self.solver.tolerance,
+            ..SolverSettings::default()
+        };
+        let bounded = self.indenter.pressure_is_bounded();
+        let engine = HalfSpace::new(operator, gaps, bounded, settings);
+        Ok(if self.indenter.ends_in_data() {
+            engine.ending_in_data()
+        } else {
+            engine
+        })
+    }
+
+    fn new_operator(&self, growths: usize) -> Result<Convolution, EngineError> {
+        let grid = domain::grid(&self.domain, self.solver.cells, growths);
+        let grid = grid.map_err(|e| EngineError::Grid(e.to_string()))?;
+        Convolution::new(grid).map_err(|e| EngineError::Grid(e.to_string()))
+    }
+}
+
+/// Errors that may be those of an instant.
+pub trait AsContactError {
+    /// The instant's error, where this is one.
+    fn as_contact_error(&self) -> Option<&ContactError>;
+}
+
+fn reached_edge(error: &impl AsContactError) -> bool {
+    matches!(
+        error.as_contact_error(),
+        Some(ContactError::ReachedEdge { .. })
+    )
+}
+
+/// A value of a drive as what it prescribes at an instant.
+pub fn prescribed(control: Control, value: f64) -> Prescribed {
+    match control {
+        Control::Load => Prescribed::LoadN(value),
+        Control::Approach => Prescribed::ApproachM(value),
+    }
+}
+
+/// Half the side (m) of the square that no contact leaves while a drive stays below its maximum.
+///
+/// Since the surface never rises above its rest position, a contact lies where the gap is below the approach; that of a body
+/// of revolution where the transformed gap is, since all its springs are shortened or at rest.
+fn contact_half_width_m(indenter: &dyn Indenter, largest: LargestContact) -> f64 {
+    let maximum = largest.maximum;
+    match (largest.control, indenter.axisymmetric()) {
+        (Control::Load, _) => indenter.elastic_half_width_m(maximum, largest.compliance_per_pa),
+        (Control::Approach, Some(body)) => match body.contact_limit_m() {
+            Some(limit_m) => limit_m,
+            None => first_length_m(&|x_m| body.transformed_gap_m(x_m) >= maximum),
+        },
+        (Control::Approach, None) => {
+            first_length_m(&|half_m| lowest_gap_on_square_m(indenter, half_m) >= maximum)
+        }
+    }
+}
+
+/// The domain that holds the largest contact: under load control the indenter's own, under approach control a square of the
+/// half width found, unless the indenter comes with cells of its own.
+fn contact_domain(indenter: &dyn Indenter, largest: LargestContact, half_width_m: f64) -> Domain {
+    let own = indenter.domain(largest.maximum.max(0.0), largest.compliance_per_pa);
+    match (largest.control, own) {
+        (Control::Approach, Domain::Around { limit_m, .. }) => Domain::Around {
+            half_width_x_m: half_width_m,
+            half_width_y_m: half_width_m,
+            cell_aspect_ratio: 1.0,
+            limit_m,
+        },
+        (_, own) => own,
+    }
+}
+
+/// The least gap on the border of a square about the origin.
+fn lowest_gap_on_square_m(indenter: &dyn Indenter, half_m: f64) -> f64 {
+    const POINTS: usize = 64;
+    let at = |k: usize| half_m * (2.0 * k as f64 / POINTS as f64 - 1.0);
+    let sides = |k: usize| {
+        let along = at(k);
+        let corners = [
+            (along, half_m),
+            (along, -half_m),
+            (half_m, along),
+            (-half_m, along),
+        ];
+        corners.into_iter()
+    };
+    (0..=POINTS)
+        .flat_map(sides)
+        .map(|(x_m, y_m)| indenter.gap_m(x_m, y_m))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The least length (m) from which on `far` holds, to 1e-6 of it, between a picometre and a hundred thousand kilometres.
+fn first_length_m(far: &dyn Fn(f64) -> bool) -> f64 {
+    let (mut low, mut high) = (1e-12, 1e-12);
+    while !far(high) && high < 1e8 {
+        (low, high) = (high, 2.0 * high);
+    }
+    while high - low > 1e-6 * high {
+        let middle = 0.5 * (low + high);
+        if far(middle) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    high
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::indenter::{Cone, FlatPunch, Sphere};
+
+    fn under_approach(approach_m: f64) -> LargestContact {
+        LargestContact {
+            control: Control::Approach,
+            maximum: approach_m,
+            compliance_per_pa: 1.0,
+        }
+    }
+
+    #[test]
+    fn an_approach_bounds_the_contact_by_the_transformed_gap() {
+        let width = |indenter: &dyn Indenter, approach_m| {
+            contact_half_width_m(indenter, under_approach(approach_m))
+        };
+        // a^2/R and (pi/2) a cot(alpha) equal the approach; bisection to 1e-6.
+        let sphere = Sphere::new(0.01).unwrap();
+        assert!((width(&sphere, 1e-6) / 1e-4 - 1.0).abs() < 2e-6);
+        let cone = Cone::new(1.2).unwrap();
+        let expected = 1e-6 * 1.2_f64.tan() / std::f64::consts::FRAC_PI_2;
+        assert!((width(&cone, 1e-6) / expected - 1.0).abs() < 2e-6);
+        let punch = FlatPunch::new(0.003).unwrap();
+        assert_eq!(width(&punch, 1e-6), 0.003);
+    }
+
+    #[test]
+    fn without_symmetry_the_contact_lies_where_the_gap_is_below_the_approach() {
+        /// Twice as steep along y as along x.
+        #[derive(Debug)]
+        struct Saddle;
+        impl Indenter for Saddle {
+            fn shape(&self) -> &'static str {
+                "saddle"
+            }
+            fn parameters(&self) -> Vec<indenter::Parameter> {
+                Vec::new()
+            }
+            fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
+                50.0 * (x_m * x_m + 2.0 * y_m * y_m)
+            }
+            fn axisymmetric(&self) -> Option<&dyn indenter::Axisymmetric> {
+                None
+            }
+            fn elastic_half_width_m(&self, _: f64, _: f64) -> f64 {
+                1.0
+            }
+        }
+        let found = contact_half_width_m(&Saddle, under_approach(1e-6));
+        let expected = (1e-6_f64 / 50.0).sqrt();
+        assert!((found / expected - 1.0).abs() < 2e-6);
+    }
+}

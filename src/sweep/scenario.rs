@@ -1,0 +1,128 @@
+//! A scenario as it will be run: one drive history, every default filled in, every value checked; and its resolved text.
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use crate::drive::{Control, Segment, SegmentedDrive};
+use crate::indenter::Indenter;
+use crate::material::Material;
+use crate::quantity::{Dimension, format_si};
+use crate::sweep::plan::SolverPlan;
+use crate::sweep::resolved;
+
+/// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
+#[derive(Debug, Clone)]
+pub struct ScenarioPlan {
+    pub title: String,
+    pub material: Material,
+    pub indenter: Arc<dyn Indenter>,
+    pub drive: SegmentedDrive,
+    /// Time step (s); `None`: chosen from drive and material.
+    pub step_s: Option<f64>,
+    pub output: OutputPlan,
+    pub solver: SolverPlan,
+}
+
+/// What is written beside the history.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct OutputPlan {
+    /// Times (s) at which profiles along a radius, or along the axes of the grid, are kept.
+    pub profiles_at_s: Vec<f64>,
+    /// Times (s) at which whole fields are kept; half-space engine only.
+    pub fields_at_s: Vec<f64>,
+}
+
+/// Files at the top of a scenario's folder that later runs replace; with summary.json, which a sweep has too.
+pub const RESULT_FILES: [&str; 11] = [
+    "history.csv",
+    "history.svg",
+    "history.png",
+    "history@2x.png",
+    "profiles.csv",
+    "profiles.svg",
+    "profiles.png",
+    "profiles@2x.png",
+    "pressure-map.svg",
+    "pressure-map.png",
+    "pressure-map@2x.png",
+];
+
+/// The plan as the text of a scenario file that gives the same plan again; tables are written out.
+pub fn resolved_text(plan: &ScenarioPlan) -> String {
+    let mut text = resolved::opening_text(&plan.title, &plan.material, plan.indenter.as_ref());
+    let control = plan.drive.control();
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "\n[drive]\ncontrol = \"{}\"", control.name());
+    text.push_str("segments = [\n");
+    for segment in plan.drive.segments() {
+        let _ = writeln!(text, "    {{ {} }},", segment_text(segment, control));
+    }
+    text.push_str("]\n");
+    if let Some(step_s) = plan.step_s {
+        let _ = writeln!(text, "\n[time]\nstep = {}", quoted(step_s, Dimension::Time));
+    }
+    text.push_str("\n[output]\n");
+    for (key, times) in [
+        ("profiles_at", &plan.output.profiles_at_s),
+        ("fields_at", &plan.output.fields_at_s),
+    ] {
+        let times: Vec<String> = times.iter().map(|t| quoted(*t, Dimension::Time)).collect();
+        let _ = writeln!(text, "{key} = [{}]", times.join(", "));
+    }
+    text.push('\n');
+    text.push_str(&resolved::solver_text(&plan.solver));
+    text
+}
+
+fn quoted(value: f64, dimension: Dimension) -> String {
+    format!("\"{}\"", format_si(value, dimension))
+}
+
+/// The keys of a segment as they stand within the braces of an inline table.
+fn segment_text(segment: &Segment, control: Control) -> String {
+    let value = |value: f64| quoted(value, resolved::drive_dimension(control));
+    let time = |time_s: f64| quoted(time_s, Dimension::Time);
+    // `{:?}` writes a float as TOML reads it, with a point or an exponent, and loses no bit.
+    let list = |values: &[f64]| {
+        let numbers: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
+        format!("[{}]", numbers.join(", "))
+    };
+    match segment {
+        Segment::Step { to, duration_s } => format!(
+            "kind = \"step\", to = {}, duration = {}",
+            value(*to),
+            time(*duration_s)
+        ),
+        Segment::Ramp { to, duration_s } => format!(
+            "kind = \"ramp\", to = {}, duration = {}",
+            value(*to),
+            time(*duration_s)
+        ),
+        Segment::Polynomial {
+            coefficients,
+            duration_s,
+        } => format!(
+            "kind = \"polynomial\", coefficients = {}, duration = {}",
+            list(coefficients),
+            time(*duration_s)
+        ),
+        Segment::Sine {
+            mean,
+            amplitude,
+            angular_frequency_rad_per_s,
+            phase_rad,
+            cycles,
+        } => format!(
+            "kind = \"sine\", mean = {}, amplitude = {}, angular_frequency = {}, phase = {}, cycles = {cycles:?}",
+            value(*mean),
+            value(*amplitude),
+            quoted(*angular_frequency_rad_per_s, Dimension::AngularFrequency),
+            quoted(*phase_rad, Dimension::Angle)
+        ),
+        Segment::Table { times_s, values } => format!(
+            "kind = \"table\", times = {}, values = {}",
+            list(times_s),
+            list(values)
+        ),
+    }
+}

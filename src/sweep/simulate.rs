@@ -1,0 +1,463 @@
+//! One drive history from its beginning to its end: the march, and what is kept of it.
+//!
+//! # Out of contact
+//!
+//! Under a load of zero, or with the indenter retracted beyond the surface, there is no contact: no pressure, contact radius
+//! 0, and the surface recovers freely until it is met again, where it may still be deformed. Under load control the indenter
+//! may then be anywhere clear of the surface, and its approach is undefined (`None`). One case is different: where a drive
+//! that does not jump touches zero load at a single instant, the approach has a limit there, that at which the indenter just
+//! touches the surface. Both engines return it, and it is reported for exactly these instants; those at which the history
+//! begins or ends count, provided that the load is above zero on the other side.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::contact::surface::Surface;
+use crate::contact::{ContactError, Engine, Prescribed, Solution};
+use crate::drive::{Control, Moment, Schedule, ScheduleError, Steps};
+use crate::history::March;
+use crate::material::{Creep, Material, MaterialError};
+use crate::quantity::{Dimension, format_human};
+use crate::sweep::engines::{self, AsContactError, EngineBuilder, EngineError, LargestContact};
+use crate::sweep::scenario::ScenarioPlan;
+
+/// Why a simulation cannot be set up.
+#[derive(Debug, Clone, thiserror::Error)]
+pub enum SimulationError {
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    #[error(transparent)]
+    Schedule(#[from] ScheduleError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(
+        "fields need the half-space engine (set solver.engine = \"half-space\"); the axisymmetric engine knows profiles alone"
+    )]
+    FieldsOfRevolution,
+}
+
+/// A scenario, ready to run.
+pub struct Simulation {
+    plan: ScenarioPlan,
+    compliance: Creep,
+    schedule: Schedule,
+    /// Per moment, whether the approach is undefined.
+    floating: Vec<bool>,
+    engines: EngineBuilder,
+}
+
+/// One row of the history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HistoryRow {
+    pub time_s: f64,
+    pub load_n: f64,
+    /// `None` where the indenter is clear of the surface under load control.
+    pub approach_m: Option<f64>,
+    pub contact_radius_m: f64,
+    /// `None` where the indenter's shape makes the pressure unbounded.
+    pub peak_pressure_pa: Option<f64>,
+}
+
+/// The surface at a requested time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceRecord {
+    pub row: HistoryRow,
+    pub surface: Surface,
+    /// Gap between indenter and surface per point, infinite where there is no indenter; `None` where the approach is
+    /// undefined.
+    pub gap_m: Option<Vec<f64>>,
+}
+
+/// What a simulation came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulationOutcome {
+    /// One row per moment; two with the same time at a jump.
+    pub rows: Vec<HistoryRow>,
+    /// At the requested times, in the order in which they were requested, as far as the march came.
+    pub profiles: Vec<SurfaceRecord>,
+    pub fields: Vec<SurfaceRecord>,
+    /// Half width of the computational domain (m) and how often it had to be enlarged.
+    pub domain_half_width_m: f64,
+    pub domain_enlarged: usize,
+    /// Contact iterations over all moments.
+    pub iterations: u64,
+    /// Whether every time step was damped, not just those after a joint; see [`Simulation::run`].
+    pub damped_throughout: bool,
+    pub ended: SimulationEnd,
+}
+
+/// How a simulation ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SimulationEnd {
+    Done,
+    /// It was stopped from outside.
+    Interrupted,
+    /// The next moment could not be solved.
+    Failed(String),
+}
+
+/// Hears of progress: moments done, moments in all.
+pub type Progress<'p> = dyn Fn(usize, usize) + 'p;
+
+/// Why a march ended early.
+#[derive(Debug, thiserror::Error)]
+enum MarchError {
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl AsContactError for MarchError {
+    fn as_contact_error(&self) -> Option<&ContactError> {
+        match self {
+            Self::Contact(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl MarchError {
+    /// Whether the contact does not look like a disc.
+    fn is_of_a_disc(&self) -> bool {
+        matches!(
+            self,
+            Self::Contact(ContactError::NotADisc { .. } | ContactError::Ring { .. })
+        )
+    }
+}
+
+impl Simulation {
+    /// Checks the plan against the physics, lays out the time steps and sizes the domain.
+    ///
+    /// # Errors
+    /// [`SimulationError`] where the material cannot make a contact, a requested time lies outside the history, or the engine
+    /// cannot treat the indenter or give what is asked for.
+    pub fn new(plan: ScenarioPlan) -> Result<Self, SimulationError> {
+        let compliance = plan.material.contact_compliance()?;
+        let steps = match plan.step_s {
+            Some(step_s) => Steps::Given { step_s },
+            None => Steps::Chosen {
+                shortest_time_s: shortest_time_s(&plan.material),
+            },
+        };
+        let output = &plan.output;
+        if !output.fields_at_s.is_empty() && !plan.solver.engine.has_fields() {
+            return Err(SimulationError::FieldsOfRevolution);
+        }
+        let requested_s = [&output.profiles_at_s[..], &output.fields_at_s[..]].concat();
+        let schedule = Schedule::new(&plan.drive, steps, &requested_s)?;
+        // A solid or fluid meets no more than its compliance at the end, and no more than the largest load.
+        let largest = LargestContact {
+            control: plan.drive.control(),
+            maximum: plan.drive.maximum(),
+            compliance_per_pa: compliance.compliance(plan.drive.duration_s()),
+        };
+        Ok(Self {
+            floating: floating(plan.drive.control(), &schedule.moments),
+            engines: EngineBuilder::new(plan.indenter.clone(), plan.solver, largest)?,
+            compliance,
+            schedule,
+            plan,
+        })
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &ScenarioPlan {
+        &self.plan
+    }
+
+    /// The time steps.
+    pub fn schedule(&self) -> &Schedule {
+        &self.schedule
+    }
+
+    /// Runs the history, on larger domains where the contact reaches the edge. An instant that cannot be solved ends it, as
+    /// does `interrupt`; what came before is in the outcome either way.
+    ///
+    /// Where the pressure comes out negative, either the contact is no disc or time steps far longer than the body's shortest
+    /// relaxation time have made newly met springs ring ([`crate::history::StepWeights::settling`]). To tell the two apart,
+    /// the history is run once more with damped steps throughout, which do not ring but are less exact.
+    pub fn run(&self, interrupt: &AtomicBool, progress: &Progress<'_>) -> SimulationOutcome {
+        let mut outcome = SimulationOutcome {
+            rows: Vec::new(),
+            profiles: Vec::new(),
+            fields: Vec::new(),
+            domain_half_width_m: self.engines.half_width_m(),
+            domain_enlarged: 0,
+            iterations: 0,
+            damped_throughout: false,
+            ended: SimulationEnd::Done,
+        };
+        let mut domain = (outcome.domain_half_width_m, 0);
+        let mut marched = |outcome: &mut SimulationOutcome| {
+            self.engines.on_a_large_enough_domain(
+                |half_width_m, growths| domain = (half_width_m, growths),
+                |engine| self.march(engine, outcome, interrupt, progress),
+            )
+        };
+        let mut ended = marched(&mut outcome);
+        if ended.as_ref().is_err_and(MarchError::is_of_a_disc) {
+            outcome.damped_throughout = true;
+            ended = marched(&mut outcome);
+        }
+        (outcome.domain_half_width_m, outcome.domain_enlarged) = domain;
+        match ended {
+            Ok(()) => {}
+            Err(MarchError::Interrupted) => outcome.ended = SimulationEnd::Interrupted,
+            Err(error) => outcome.ended = SimulationEnd::Failed(self.place(&outcome, &error)),
+        }
+        outcome
+    }
+
+    /// An error with the time and segment at which it arose: those of the first moment without a row.
+    fn place(&self, outcome: &SimulationOutcome, error: &MarchError) -> String {
+        match self.schedule.moments.get(outcome.rows.len()) {
+            Some(moment) => format!(
+                "at {}, in segment {} of the drive: {error}",
+                format_human(moment.time_s, Dimension::Time, 6),
+                moment.segment + 1
+            ),
+            None => error.to_string(),
+        }
+    }
+
+    fn march(
+        &self,
+        engine: &mut dyn Engine,
+        outcome: &mut SimulationOutcome,
+        interrupt: &AtomicBool,
+        progress: &Progress<'_>,
+    ) -> Result<(), MarchError> {
+        outcome.rows.clear();
+        let damped_throughout = outcome.damped_throughout;
+        let (profiles, fields) = self
+            .schedule
+            .requested
+            .split_at(self.plan.output.profiles_at_s.len());
+        let (mut kept_profiles, mut kept_fields) = (Kept::new(profiles), Kept::new(fields));
+        let rule = self.plan.solver.time_rule;
+        let mut march = March::new(engine, self.compliance.clone(), rule);
+        let moments = &self.schedule.moments;
+        let mut marched = || {
+            for (index, moment) in moments.iter().enumerate() {
+                if interrupt.load(Ordering::Relaxed) {
+                    return Err(MarchError::Interrupted);
+                }
+                let damped = damped_throughout || moment.is_settling;
+                let mut row = self.step(&mut march, moment, damped, self.floating[index])?;
+                if index == 0 && moment.value == 0.0 {
+                    // First touch of an undisturbed body: zero by definition, whatever node lies nearest to the axis.
+                    row.approach_m = Some(0.0);
+                }
+                for kept in [&mut kept_profiles, &mut kept_fields] {
+                    if kept.wants(index)
+                        && let Some(surface) = march.surface()?
+                    {
+                        kept.keep(index, self.surface_record(row, surface));
+                    }
+                }
+                outcome.rows.push(row);
+                progress(index + 1, moments.len());
+            }
+            Ok(())
+        };
+        let ended = marched();
+        outcome.iterations = march.iterations();
+        outcome.profiles = kept_profiles.finish();
+        outcome.fields = kept_fields.finish();
+        ended
+    }
+
+    /// Moves on to a moment; its row.
+    fn step(
+        &self,
+        march: &mut March<'_>,
+        moment: &Moment,
+        damped: bool,
+        floating: bool,
+    ) -> Result<HistoryRow, ContactError> {
+        let weights = if damped {
+            march.settling_weights(moment.step_s)
+        } else {
+            march.weights(moment.step_s)
+        };
+        let prescribed = engines::prescribed(self.plan.drive.control(), moment.value);
+        let solution = march.step(&weights, prescribed)?;
+        march.check_assumptions()?;
+        let mut peak_pressure_pa = None;
+        march.observe(&mut |engine, pressure, solution| {
+            peak_pressure_pa = engine.peak_pressure_pa(pressure, solution)?;
+            Ok(())
+        })?;
+        if solution.load_n == 0.0 {
+            peak_pressure_pa = Some(0.0);
+        }
+        let Solution {
+            load_n,
+            approach_m,
+            contact_radius_m,
+            ..
+        } = solution;
+        Ok(HistoryRow {
+            time_s: moment.time_s,
+            // What was prescribed, without the rounding of the sum over the nodes.
+            load_n: match prescribed {
+                Prescribed::LoadN(load_n) => load_n,
+                Prescribed::ApproachM(_) => load_n,
+            },
+            approach_m: (!floating).then_some(approach_m),
+            contact_radius_m,
+            peak_pressure_pa,
+        })
+    }
+
+    fn surface_record(&self, row: HistoryRow, surface: Surface) -> SurfaceRecord {
+        let indenter = self.plan.indenter.as_ref();
+        let gap_m = row.approach_m.map(|approach_m| match &surface {
+            Surface::Radial(radial) => {
+                let points = radial.radius_m.iter().zip(&radial.displacement_m);
+                points
+                    .map(|(r, u)| indenter.gap_m(*r, 0.0) + u - approach_m)
+                    .collect()
+            }
+            Surface::Cells(cells) => {
+                let points = cells.displacement_m.iter().enumerate();
+                points
+                    .map(|(cell, u)| {
+                        let (x_m, y_m) = cells.grid.center(cell);
+                        indenter.gap_m(x_m, y_m) + u - approach_m
+                    })
+                    .collect()
+            }
+        });
+        SurfaceRecord {
+            row,
+            surface,
+            gap_m,
+        }
+    }
+}
+
+impl HistoryRow {
+    /// Contact area (m^2).
+    pub fn contact_area_m2(&self) -> f64 {
+        std::f64::consts::PI * self.contact_radius_m * self.contact_radius_m
+    }
+}
+
+/// Surfaces wanted at some moments, in the order of the wishes.
+struct Kept<'a> {
+    moments: &'a [usize],
+    records: Vec<Option<SurfaceRecord>>,
+}
+
+impl<'a> Kept<'a> {
+    fn new(moments: &'a [usize]) -> Self {
+        Self {
+            moments,
+            records: vec![None; moments.len()],
+        }
+    }
+
+    fn wants(&self, moment: usize) -> bool {
+        self.moments.contains(&moment)
+    }
+
+    fn keep(&mut self, moment: usize, record: SurfaceRecord) {
+        for (wanted, slot) in self.moments.iter().zip(&mut self.records) {
+            if *wanted == moment {
+                *slot = Some(record.clone());
+            }
+        }
+    }
+
+    fn finish(self) -> Vec<SurfaceRecord> {
+        self.records.into_iter().flatten().collect()
+    }
+}
+
+/// The shortest time (s) on which the body answers: retardation under a load, relaxation under an approach. `None` for an
+/// elastic body.
+fn shortest_time_s(material: &Material) -> Option<f64> {
+    let retardation = material.creep().branches().iter().map(|b| b.time_s);
+    let relaxation = material.relaxation().into_iter();
+    let relaxation = relaxation.flat_map(|r| r.branches().iter().map(|b| b.time_s));
+    retardation.chain(relaxation).min_by(f64::total_cmp)
+}
+
+/// Per moment, whether the indenter is clear of the surface at a place that the drive does not say.
+fn floating(control: Control, moments: &[Moment]) -> Vec<bool> {
+    if control == Control::Approach {
+        return vec![false; moments.len()];
+    }
+    let is_loaded = |moment: &Moment| moment.value > 0.0;
+    let is_touch = |index: usize| {
+        let before = index.checked_sub(1).and_then(|i| moments.get(i));
+        let after = moments.get(index + 1);
+        let jumps = (index > 0 && moments[index].is_jump()) || after.is_some_and(Moment::is_jump);
+        let neighbours = [before, after];
+        !jumps && neighbours.into_iter().flatten().all(is_loaded)
+    };
+    moments
+        .iter()
+        .enumerate()
+        .map(|(index, moment)| !is_loaded(moment) && !is_touch(index))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drive::{Segment, SegmentedDrive};
+
+    /// (time, whether the approach is undefined) at every unloaded moment.
+    fn unloaded(segments: Vec<Segment>) -> Vec<(f64, bool)> {
+        let drive = SegmentedDrive::new(Control::Load, segments).unwrap();
+        let schedule = Schedule::new(&drive, Steps::Given { step_s: 1.0 }, &[]).unwrap();
+        let floating = floating(Control::Load, &schedule.moments);
+        let moments = schedule.moments.iter().zip(floating);
+        moments
+            .filter(|(m, _)| m.value == 0.0)
+            .map(|(m, floating)| (m.time_s, floating))
+            .collect()
+    }
+
+    fn ramp(to: f64, duration_s: f64) -> Segment {
+        Segment::Ramp { to, duration_s }
+    }
+
+    #[test]
+    fn a_single_touch_of_a_continuous_drive_has_an_approach_and_a_rest_out_of_contact_has_none() {
+        let up_and_down = [ramp(1.0, 2.0), ramp(0.0, 2.0)];
+        let twice = [up_and_down.to_vec(), up_and_down.to_vec()].concat();
+        assert_eq!(unloaded(twice), [(0.0, false), (4.0, false), (8.0, false)]);
+        let rest = [up_and_down.to_vec(), vec![ramp(0.0, 2.0), ramp(1.0, 1.0)]].concat();
+        assert_eq!(
+            unloaded(rest),
+            [(0.0, false), (4.0, true), (5.0, true), (6.0, true)]
+        );
+    }
+
+    #[test]
+    fn a_load_that_jumps_to_or_from_zero_leaves_the_indenter_anywhere() {
+        let step = |to| Segment::Step {
+            to,
+            duration_s: 1.0,
+        };
+        assert_eq!(
+            unloaded(vec![step(1.0), ramp(0.0, 1.0), step(1.0)]),
+            [(2.0, true)]
+        );
+        assert_eq!(
+            unloaded(vec![step(1.0), step(0.0), ramp(1.0, 1.0)]),
+            [(1.0, true), (2.0, true)]
+        );
+        let table = Segment::Table {
+            times_s: vec![0.0, 1.0, 1.0, 2.0],
+            values: vec![1.0, 1.0, 0.0, 1.0],
+        };
+        assert_eq!(unloaded(vec![table]), [(1.0, true)]);
+    }
+}

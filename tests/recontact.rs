@@ -1,0 +1,476 @@
+//! Contacts that open and close again: both engines, under either control.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
+use contact_dma::contact::half_space::convolution::Convolution;
+use contact_dma::contact::half_space::grid::Grid;
+use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
+use contact_dma::contact::surface::Surface;
+use contact_dma::contact::{ContactError, Engine, Instant, Prescribed};
+use contact_dma::history::{March, TimeRule};
+use contact_dma::material::{Creep, CreepBranch};
+
+/// Radius of the sphere (m), load (N), instantaneous contact compliance (1/Pa) and characteristic time (s) of the unloading
+/// and cycling tests.
+const RADIUS_M: f64 = 0.01;
+const LOAD_N: f64 = 1.0;
+const COMPLIANCE: f64 = 2.5e-7;
+const TAU_S: f64 = 3.0;
+
+/// C = C_0 (1 + t/tau).
+fn maxwell() -> Creep {
+    Creep::new(COMPLIANCE, Vec::new(), Some(TAU_S / COMPLIANCE)).unwrap()
+}
+
+/// C = C_0 (2 - exp(-t/tau)): equal springs.
+fn zener() -> Creep {
+    let branch = CreepBranch {
+        compliance_per_pa: COMPLIANCE,
+        time_s: TAU_S,
+    };
+    Creep::new(COMPLIANCE, vec![branch], None).unwrap()
+}
+
+/// A strongly relaxing solid (1/Pa): glassy modulus 100 MPa, relaxed to 2 MPa by two branches.
+fn soft() -> Creep {
+    let branch = |compliance_per_pa, time_s| CreepBranch {
+        compliance_per_pa,
+        time_s,
+    };
+    Creep::new(1e-8, vec![branch(9e-8, 0.3), branch(4e-7, 20.0)], None).unwrap()
+}
+
+fn springs(count: usize, half_width_m: f64) -> Axisymmetric {
+    let width = half_width_m / count as f64;
+    let gap = |i| ((i as f64 + 0.5) * width).powi(2) / RADIUS_M;
+    Axisymmetric::new(width, (0..count).map(gap).collect(), Edge::Open, true)
+}
+
+fn sphere_gaps(grid: &Grid) -> Vec<f64> {
+    let gap = |cell| {
+        let (x, y) = grid.center(cell);
+        (x * x + y * y) / (2.0 * RADIUS_M)
+    };
+    (0..grid.cells()).map(gap).collect()
+}
+
+fn cells(per_side: usize, half_width_m: f64) -> HalfSpace {
+    let grid = Grid::square(per_side, 2.0 * half_width_m / per_side as f64).unwrap();
+    let operator = Arc::new(Convolution::new(grid).unwrap());
+    HalfSpace::new(
+        operator,
+        sphere_gaps(&grid),
+        true,
+        SolverSettings::default(),
+    )
+}
+
+/// Numbers in [0, 1) that look random and are the same in every run (Knuth's MMIX generator).
+fn random(state: &mut u64) -> f64 {
+    *state = state
+        .wrapping_mul(6_364_136_223_846_793_005)
+        .wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1_u64 << 53) as f64
+}
+
+/// Hertz: a^3 = (3/4) W R C.
+fn hertz_radius_m(load_n: f64, compliance_per_pa: f64) -> f64 {
+    (0.75 * load_n * RADIUS_M * compliance_per_pa).cbrt()
+}
+
+/// p >= 0, no penetration, and no gap under pressure, for the instant last solved.
+fn check_contact_conditions(march: &mut March<'_>, what: &str) {
+    let solution = march.solution().unwrap();
+    let Some(Surface::Cells(surface)) = march.surface().unwrap() else {
+        panic!("not a half-space");
+    };
+    let gaps = sphere_gaps(&surface.grid);
+    let gaps = gaps.iter().zip(&surface.displacement_m);
+    let gaps: Vec<f64> = gaps.map(|(g, u)| g + u - solution.approach_m).collect();
+    let largest_m = surface
+        .displacement_m
+        .iter()
+        .fold(0.0_f64, |a, u| a.max(*u));
+    let sum: f64 = surface.pressure_pa.iter().sum();
+    let misfit: f64 = gaps
+        .iter()
+        .zip(&surface.pressure_pa)
+        .map(|(h, p)| h.abs() * p)
+        .sum();
+    let deepest = gaps.iter().fold(0.0_f64, |deepest, h| deepest.min(*h));
+    assert!(surface.pressure_pa.iter().all(|&p| p >= 0.0), "{what}");
+    // The solver's tolerance is 1e-8 of the displacement by the instant's own pressure, plus rounding of all of it.
+    assert!(
+        -deepest <= 2e-8 * largest_m,
+        "{what}: {deepest:e} of {largest_m:e}"
+    );
+    assert!(misfit <= 2e-8 * largest_m * sum, "{what}: {misfit:e}");
+}
+
+#[test]
+fn any_history_of_loads_and_approaches_is_solved_on_the_half_space() {
+    let (largest_n, creep) = (10.0, soft());
+    let half_width_m = 1.2 * hertz_radius_m(largest_n, creep.compliance(1e9));
+    let approach_m = half_width_m.powi(2) / 1.44 / RADIUS_M;
+    for (seed, per_side) in [(1, 24), (2, 25), (3, 32), (4, 33)] {
+        let mut engine = cells(per_side, half_width_m);
+        let mut march = March::new(&mut engine, creep.clone(), TimeRule::Linear);
+        let mut state = seed;
+        for instant in 0..40 {
+            let size = random(&mut state);
+            let prescribed = match (10.0 * random(&mut state)) as u32 {
+                0 | 1 => Prescribed::LoadN(0.0),
+                // Loads down to rounding of the largest.
+                2 | 3 => Prescribed::LoadN(largest_n * 10_f64.powf(-16.0 * size)),
+                4 | 5 => Prescribed::LoadN(largest_n * size),
+                6 => Prescribed::ApproachM(-approach_m * size),
+                7 => Prescribed::ApproachM(approach_m * 10_f64.powf(-16.0 * size)),
+                _ => Prescribed::ApproachM(approach_m * size),
+            };
+            let duration_s = 10_f64.powf(4.0 * random(&mut state) - 3.0);
+            let marched = march.jump(prescribed).and_then(|solution| {
+                march.hold(duration_s, prescribed)?;
+                Ok(solution)
+            });
+            let solution =
+                marched.unwrap_or_else(|e| panic!("{seed}, {instant}, {prescribed:?}: {e}"));
+            match prescribed {
+                Prescribed::LoadN(load) => {
+                    assert!((solution.load_n - load).abs() <= 1e-12 * load);
+                }
+                Prescribed::ApproachM(approach) => assert_eq!(solution.approach_m, approach),
+            }
+            assert!(solution.iterations < 300, "{prescribed:?}: {solution:?}");
+            check_contact_conditions(&mut march, &format!("{seed}, {instant}, {prescribed:?}"));
+        }
+    }
+}
+
+/// The surface (r or x >= 0 through the centre, displacement) of a march, whichever its engine.
+fn radial_profile(march: &mut March<'_>) -> Vec<(f64, f64)> {
+    match march.surface().unwrap().unwrap() {
+        Surface::Radial(surface) => {
+            let points = surface.radius_m.iter().zip(&surface.displacement_m);
+            points.map(|(r, u)| (*r, *u)).collect()
+        }
+        Surface::Cells(surface) => {
+            let grid = surface.grid;
+            let middle = grid.cells_y() / 2;
+            let row = middle * grid.cells_x()..(middle + 1) * grid.cells_x();
+            let cells = row.filter(|cell| grid.center(*cell).0 >= 0.0);
+            cells
+                .map(|cell| {
+                    let (x, y) = grid.center(cell);
+                    (x.hypot(y), surface.displacement_m[cell])
+                })
+                .collect()
+        }
+    }
+}
+
+/// Step load on a sphere, taken off at 2 tau: the springs' shortening q(x, t) at and after 2 tau, from Lee and Radok's
+/// contact radius while the load is on. `relaxation` is 1/C_0 at time zero.
+struct Unloading {
+    creep: Creep,
+    relaxation: fn(f64) -> f64,
+    /// What is left of the delayed shortening a time after the load was taken off.
+    left: fn(f64) -> f64,
+}
+
+impl Unloading {
+    fn maxwell() -> Self {
+        Self {
+            creep: maxwell(),
+            relaxation: |t| (-t / TAU_S).exp() / COMPLIANCE,
+            left: |_| 1.0,
+        }
+    }
+
+    fn zener() -> Self {
+        Self {
+            creep: zener(),
+            relaxation: |t| 0.5 * (1.0 + (-2.0 * t / TAU_S).exp()) / COMPLIANCE,
+            left: |t| (-t / TAU_S).exp(),
+        }
+    }
+
+    /// a(t), with a^3 = (3/4) R W C(t).
+    fn contact_radius_m(&self, time_s: f64) -> f64 {
+        hertz_radius_m(LOAD_N, self.creep.compliance(time_s))
+    }
+
+    fn approach_m(&self, time_s: f64) -> f64 {
+        self.contact_radius_m(time_s).powi(2) / RADIUS_M
+    }
+
+    /// f(x, 2 tau) = integral of psi(2 tau - s) d(delta(s) - x^2/R) from when the spring is reached.
+    fn force(&self, x_m: f64) -> f64 {
+        let end_s = 2.0 * TAU_S;
+        let gap_m = x_m * x_m / RADIUS_M;
+        let first = (self.approach_m(0.0) - gap_m).max(0.0) * (self.relaxation)(end_s);
+        // When delta(t) = G: bisection.
+        let (mut low, mut high) = (0.0, end_s);
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if self.approach_m(middle) < gap_m {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let steps = 200;
+        let step_s = (end_s - low) / f64::from(steps);
+        let jump = |k: i32| {
+            let at = |part: f64| low + (f64::from(k) + part) * step_s;
+            (self.relaxation)(end_s - at(0.5))
+                * (self.approach_m(at(1.0)) - self.approach_m(at(0.0)))
+        };
+        first + (0..steps).map(jump).sum::<f64>()
+    }
+
+    /// Displacement at r a time after the load was taken off: (2/pi) times the integral of q(r sin(theta)) over theta.
+    fn displacement_m(&self, r_m: f64, since_s: f64) -> f64 {
+        let end_s = 2.0 * TAU_S;
+        let reach = (self.contact_radius_m(end_s) / r_m).min(1.0).asin();
+        let steps = 300;
+        let q = |k: i32| {
+            let x_m = r_m * (reach * (f64::from(k) + 0.5) / f64::from(steps)).sin();
+            self.approach_m(end_s) - x_m * x_m / RADIUS_M - COMPLIANCE * self.force(x_m)
+        };
+        let mean = (0..steps).map(q).sum::<f64>() / f64::from(steps);
+        2.0 / PI * reach * mean * (self.left)(since_s)
+    }
+}
+
+/// Loads a body for two characteristic times and unloads it; returns the largest difference from the closed form over the
+/// surface, relative to the displacement at the centre under load, and the displacements left at the end at centre and rim.
+fn unload(engine: &mut dyn Engine, exact: &Unloading, tolerance: f64) {
+    let mut march = March::new(engine, exact.creep.clone(), TimeRule::Linear);
+    march.jump(Prescribed::LoadN(LOAD_N)).unwrap();
+    let steps = 400;
+    let weights = march.weights(2.0 * TAU_S / f64::from(steps));
+    for _ in 0..steps {
+        march.step(&weights, Prescribed::LoadN(LOAD_N)).unwrap();
+    }
+    let scale_m = exact.approach_m(2.0 * TAU_S);
+    let reached = march.solution().unwrap();
+    assert!((reached.approach_m / scale_m - 1.0).abs() < 5.0 * tolerance);
+    for since_s in [0.0, TAU_S, 20.0 * TAU_S] {
+        let elapsed_s = if since_s == TAU_S {
+            TAU_S
+        } else {
+            since_s - TAU_S
+        };
+        let weights = march.weights(elapsed_s.max(0.0));
+        let solution = march.step(&weights, Prescribed::LoadN(0.0)).unwrap();
+        assert_eq!((solution.load_n, solution.contact_radius_m), (0.0, 0.0));
+        assert!(march.pressure().iter().all(|&p| p == 0.0));
+        for (r_m, u_m) in radial_profile(&mut march).into_iter().step_by(23) {
+            let expected_m = if r_m == 0.0 {
+                exact.displacement_m(1e-12, since_s)
+            } else {
+                exact.displacement_m(r_m, since_s)
+            };
+            let off = (u_m - expected_m).abs() / scale_m;
+            assert!(off < tolerance, "r = {r_m:e}, {since_s} s after: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn an_unloaded_maxwell_body_keeps_its_indentation_and_a_zener_body_recovers_as_calculated() {
+    for (exact, remains) in [(Unloading::maxwell(), true), (Unloading::zener(), false)] {
+        let a = exact.contact_radius_m(2.0 * TAU_S);
+        // In 400 steps: second order in the step length, and in the width of springs and cells.
+        unload(&mut springs(400, 1.1 * a), &exact, 5e-6);
+        unload(&mut cells(64, 1.5 * a), &exact, 3e-4);
+        let left = exact.displacement_m(1e-9, 20.0 * TAU_S) / exact.approach_m(2.0 * TAU_S);
+        assert_eq!(left > 0.3, remains, "{left}");
+        assert_eq!(left < 1e-8, !remains, "{left}");
+    }
+}
+
+/// integral of C from 0 to t.
+fn integrated_compliance(creep: &Creep, t: f64) -> f64 {
+    let branches = creep.branches().iter();
+    let delayed: f64 = branches
+        .map(|b| b.compliance_per_pa * (t + b.time_s * (-t / b.time_s).exp_m1()))
+        .sum();
+    let flow = creep.viscosity_pa_s().map_or(0.0, |eta| 0.5 * t * t / eta);
+    creep.instantaneous_compliance() * t + delayed + flow
+}
+
+#[test]
+fn the_memory_after_opening_and_closing_is_the_hereditary_integral_over_the_recorded_pressures() {
+    let creep = Creep::new(
+        1e-8,
+        vec![CreepBranch {
+            compliance_per_pa: 9e-8,
+            time_s: 0.7,
+        }],
+        Some(3e8),
+    )
+    .unwrap();
+    let a = hertz_radius_m(LOAD_N, creep.compliance(20.0));
+    let mut on_springs = springs(60, 1.1 * a);
+    let mut on_cells = cells(16, 1.2 * a);
+    let engines: [&mut dyn Engine; 2] = [&mut on_springs, &mut on_cells];
+    for engine in engines {
+        let mut march = March::new(engine, creep.clone(), TimeRule::Linear);
+        // (time, nodal pressure), jumps at equal times.
+        let mut recorded: Vec<(f64, Vec<f64>)> = vec![(0.0, vec![0.0; march.pressure().len()])];
+        let mut time_s = 0.0;
+        for instant in 0..60 {
+            let load_n = LOAD_N * (0.6 * f64::from(instant)).sin().max(0.0);
+            let step_s = if instant % 9 == 0 {
+                0.0
+            } else {
+                0.05 * f64::from(instant % 7)
+            };
+            time_s += step_s;
+            let weights = march.weights(step_s);
+            march.step(&weights, Prescribed::LoadN(load_n)).unwrap();
+            recorded.push((time_s, march.pressure().to_vec()));
+        }
+        let found: Vec<f64> = march.hereditary().collect();
+        let largest = found.iter().copied().fold(0.0, f64::max);
+        for (node, q) in found.iter().enumerate() {
+            let part = |pair: &[(f64, Vec<f64>)]| {
+                let (from, to) = (pair[0].0, pair[1].0);
+                let change = pair[1].1[node] - pair[0].1[node];
+                let mean = if to > from {
+                    let earlier = integrated_compliance(&creep, time_s - from);
+                    (earlier - integrated_compliance(&creep, time_s - to)) / (to - from)
+                } else {
+                    creep.compliance(time_s - from)
+                };
+                change * mean
+            };
+            let direct: f64 = recorded.windows(2).map(part).sum();
+            // Sixty sums of rounded terms.
+            assert!((q - direct).abs() < 1e-12 * largest, "node {node}");
+        }
+    }
+}
+
+/// Twenty cycles of W0/2 (1 + sin(2 pi f t/tau + 3 pi/2)), f = 0.4, on the Zener body, from rest: (approach, contact radius)
+/// at every step.
+fn twenty_cycles(engine: &mut dyn Engine, steps: u32) -> Vec<(f64, f64)> {
+    let mut march = March::new(engine, zener(), TimeRule::Linear);
+    let weights = march.weights(TAU_S / 0.4 / f64::from(steps));
+    let mut signals = Vec::new();
+    for step in 0..=20 * steps {
+        let angle = 2.0 * PI * f64::from(step % steps) / f64::from(steps) + 1.5 * PI;
+        let load = if step % steps == 0 {
+            0.0
+        } else {
+            0.5 * LOAD_N * (1.0 + angle.sin())
+        };
+        let solution = match step {
+            0 => march.jump(Prescribed::LoadN(load)),
+            _ => march.step(&weights, Prescribed::LoadN(load)),
+        };
+        march.check_assumptions().unwrap();
+        let solution = solution.unwrap();
+        signals.push((solution.approach_m, solution.contact_radius_m));
+    }
+    signals
+}
+
+#[test]
+fn twenty_cycles_of_a_load_that_falls_to_zero_agree_between_the_engines() {
+    let hertz_m = hertz_radius_m(LOAD_N, COMPLIANCE);
+    let half_width_m = 1.3 * hertz_m;
+    let steps = 50;
+    let exact = twenty_cycles(&mut springs(400, half_width_m), steps);
+    let grid = twenty_cycles(&mut cells(64, half_width_m), steps);
+    let scale_m = hertz_m * hertz_m / RADIUS_M;
+    for (step, (a, b)) in exact.iter().zip(&grid).enumerate() {
+        // 64 cells over 1.3 Hertz radii; the contact radius is known to a cell. Where the load touches zero the approach is
+        // that of the cell that touches, half a cell from the axis.
+        assert!((a.0 - b.0).abs() < 1e-3 * scale_m, "{step}: {a:?} {b:?}");
+        assert!((a.1 - b.1).abs() < 0.02 * hertz_m, "{step}: {a:?} {b:?}");
+    }
+    // The stabilised cycle: largest radius 1.1681 and approach 1.3644 in units of Hertz, from an independent solver.
+    let last = &exact[19 * steps as usize..];
+    let largest = |value: fn(&(f64, f64)) -> f64| last.iter().map(value).fold(0.0, f64::max);
+    // Fifty samples per cycle miss a maximum by up to 1 - cos(pi/50) of the swing.
+    assert!((largest(|s| s.0) / scale_m / 1.3644 - 1.0).abs() < 2e-3);
+    assert!((largest(|s| s.1) / hertz_m / 1.1681 - 1.0).abs() < 2e-3);
+}
+
+/// An indenter that taps a body faster than it recovers: loads at every step.
+fn tapping(engine: &mut dyn Engine, approach_m: f64, steps: u32) -> Vec<f64> {
+    let mut march = March::new(engine, zener(), TimeRule::Linear);
+    let weights = march.weights(TAU_S / f64::from(steps));
+    let loads = (0..=3 * steps).map(|step| {
+        // Retracted by twice as much as pressed in.
+        let angle = 2.0 * PI * f64::from(step) / f64::from(steps);
+        let approach = approach_m * (1.5 * angle.sin() - 0.5);
+        let weights = if step == 0 {
+            march.weights(0.0)
+        } else {
+            weights.clone()
+        };
+        let solution = march
+            .step(&weights, Prescribed::ApproachM(approach))
+            .unwrap();
+        march.check_assumptions().unwrap();
+        assert_eq!(solution.approach_m, approach);
+        if approach <= 0.0 {
+            assert_eq!((solution.load_n, solution.contact_radius_m), (0.0, 0.0));
+        }
+        solution.load_n
+    });
+    loads.collect()
+}
+
+#[test]
+fn a_tapping_indenter_meets_a_surface_that_has_not_recovered_and_both_engines_feel_the_same() {
+    let approach_m = 1e-4;
+    let a = (approach_m * RADIUS_M).sqrt();
+    let steps = 100;
+    let exact = tapping(&mut springs(400, 1.1 * a), approach_m, steps);
+    let grid = tapping(&mut cells(64, 1.1 * a), approach_m, steps);
+    let largest = exact.iter().copied().fold(0.0, f64::max);
+    for (step, (a, b)) in exact.iter().zip(&grid).enumerate() {
+        // 64 cells: of first order at the contact edge, averaged over it.
+        assert!((a - b).abs() < 5e-4 * largest, "{step}: {a} {b}");
+    }
+    // The second tap finds the surface still dented: contact begins later and the load is lower.
+    let (first, second) = exact.split_at(steps as usize);
+    let touched = |loads: &[f64]| loads.iter().position(|w| *w > 0.0).unwrap();
+    assert!(touched(second) > touched(first));
+    let peak = |loads: &[f64]| loads[..steps as usize].iter().copied().fold(0.0, f64::max);
+    assert!(peak(second) < 0.99 * peak(first));
+}
+
+#[test]
+fn an_axisymmetric_contact_that_opens_in_the_middle_is_refused_with_the_advice_to_use_the_half_space()
+ {
+    // A sphere pressed deep and quickly, taken off, and a blunter one put into the dent: it stands on its rim.
+    let creep = maxwell();
+    let a = hertz_radius_m(LOAD_N, creep.compliance(TAU_S));
+    let count = 200;
+    let mut sharp = springs(count, 1.2 * a);
+    let mut march = March::new(&mut sharp, creep, TimeRule::Linear);
+    march.jump(Prescribed::LoadN(LOAD_N)).unwrap();
+    march.hold(TAU_S, Prescribed::LoadN(LOAD_N)).unwrap();
+    march.jump(Prescribed::LoadN(0.0)).unwrap();
+    let dent: Vec<f64> = march.hereditary().collect();
+    let width = 1.2 * a / count as f64;
+    let gap = |i: usize| ((i as f64 + 0.5) * width).powi(2) / (5.0 * RADIUS_M);
+    let mut blunt = Axisymmetric::new(width, (0..count).map(gap).collect(), Edge::Open, true);
+    let mut force = vec![0.0; count];
+    let instant = Instant {
+        history: &dent,
+        compliance_per_pa: COMPLIANCE,
+        prescribed: Prescribed::LoadN(0.01 * LOAD_N),
+    };
+    let solution = blunt.solve(&instant, &mut force).unwrap();
+    let error = blunt.check_assumptions(&force, &solution).unwrap_err();
+    assert!(matches!(error, ContactError::Ring { .. }), "{error}");
+    assert!(error.to_string().contains("solver.engine = \"half-space\""));
+}
