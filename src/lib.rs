@@ -34,12 +34,12 @@
 //! | [`quantity`] | quantities with units |
 //! | [`material`] | relaxation modulus, creep compliance, complex modulus; models, conversion, library |
 //! | [`indenter`] | gap functions |
-//! | [`drive`] | load against time; nothing of contact |
+//! | [`drive`] | load or approach against time, time steps; nothing of contact |
 //! | [`contact`] | one instant, by two engines; a gap field and a compliance number, nothing else |
 //! | [`history`] | viscoelastic memory and time marching |
 //! | [`cycle`] | signals of one cycle; a measured loop is as good as a computed one |
 //! | [`mod@reference`] | closed forms and slow independent solvers; no production room imports it |
-//! | [`sweep`] | plans, cases in parallel, records on disk, peaks |
+//! | [`sweep`] | plans, cases in parallel, records on disk, peaks; single histories |
 //! | [`report`] | tables and figures, from records alone |
 //! | [`cli`] | flags and files to plans |
 //!

@@ -19,9 +19,15 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
         let _ = writeln!(text, "Interrupted: the history was to last {duration}.");
     }
     text.push_str("                  time         load     approach       radius     pressure\n");
-    let larger =
-        |a: &&HistoryRow, b: &&HistoryRow| a.contact_radius_m.total_cmp(&b.contact_radius_m);
-    if let Some(widest) = outcome.rows.iter().max_by(larger) {
+    let wider = |a, b| {
+        let (a, b): (&HistoryRow, &HistoryRow) = (a, b);
+        if b.contact_radius_m > a.contact_radius_m {
+            b
+        } else {
+            a
+        }
+    };
+    if let Some(widest) = outcome.rows.iter().reduce(wider) {
         line(&mut text, "widest", widest);
     }
     line(&mut text, "last", last);

@@ -9,6 +9,7 @@
 //! touches the surface. Both engines return it, and it is reported for exactly these instants; those at which the history
 //! begins or ends count, provided that the load is above zero on the other side.
 
+use std::collections::HashSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::contact::surface::Surface;
@@ -350,6 +351,7 @@ impl HistoryRow {
 /// Surfaces wanted at some moments, in the order of the wishes.
 struct Kept<'a> {
     moments: &'a [usize],
+    wanted: HashSet<usize>,
     records: Vec<Option<SurfaceRecord>>,
 }
 
@@ -357,12 +359,13 @@ impl<'a> Kept<'a> {
     fn new(moments: &'a [usize]) -> Self {
         Self {
             moments,
+            wanted: moments.iter().copied().collect(),
             records: vec![None; moments.len()],
         }
     }
 
     fn wants(&self, moment: usize) -> bool {
-        self.moments.contains(&moment)
+        self.wanted.contains(&moment)
     }
 
     fn keep(&mut self, moment: usize, record: SurfaceRecord) {
@@ -409,8 +412,14 @@ fn floating(control: Control, moments: &[Moment]) -> Vec<bool> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::drive::{Segment, SegmentedDrive};
+    use crate::indenter::{Axisymmetric, Indenter, Parameter};
+    use crate::material::library;
+    use crate::sweep::plan::SolverPlan;
+    use crate::sweep::scenario::OutputPlan;
 
     /// (time, whether the approach is undefined) at every unloaded moment.
     fn unloaded(segments: Vec<Segment>) -> Vec<(f64, bool)> {
@@ -459,5 +468,75 @@ mod tests {
             values: vec![1.0, 1.0, 0.0, 1.0],
         };
         assert_eq!(unloaded(vec![table]), [(1.0, true)]);
+    }
+
+    /// Hollow at its axis: springs some way out are met first, which is no disc.
+    #[derive(Debug)]
+    struct Bowl;
+
+    impl Indenter for Bowl {
+        fn shape(&self) -> &'static str {
+            "bowl"
+        }
+        fn parameters(&self) -> Vec<Parameter> {
+            Vec::new()
+        }
+        fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
+            50.0 * (x_m.hypot(y_m) - 5e-4).powi(2)
+        }
+        fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+            Some(self)
+        }
+        fn elastic_half_width_m(&self, _: f64, _: f64) -> f64 {
+            1e-3
+        }
+    }
+
+    impl Axisymmetric for Bowl {
+        fn transformed_gap_m(&self, x_m: f64) -> f64 {
+            50.0 * (x_m - 5e-4).powi(2)
+        }
+        fn contact_limit_m(&self) -> Option<f64> {
+            None
+        }
+        fn has_bounded_pressure(&self) -> bool {
+            false
+        }
+    }
+
+    #[test]
+    fn a_history_that_cannot_go_on_keeps_what_came_before_and_says_where_it_stopped() {
+        let segments = vec![
+            Segment::Step {
+                to: 0.0,
+                duration_s: 3.0,
+            },
+            ramp(1e-3, 2.0),
+        ];
+        let plan = ScenarioPlan {
+            title: "bowl".to_owned(),
+            material: library::find("pmma").unwrap().material().unwrap(),
+            indenter: Arc::new(Bowl),
+            drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
+            step_s: Some(1.0),
+            output: OutputPlan::default(),
+            solver: SolverPlan::default(),
+        };
+        let simulation = Simulation::new(plan).unwrap();
+        let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});
+        let SimulationEnd::Failed(message) = &outcome.ended else {
+            panic!("{outcome:?}")
+        };
+        for part in ["at 4.00000 s", "segment 2", "ring", "half-space"] {
+            assert!(message.contains(part), "{message}");
+        }
+        let times: Vec<f64> = outcome.rows.iter().map(|row| row.time_s).collect();
+        assert_eq!(times, [0.0, 1.0, 2.0, 3.0]);
+        // An interruption keeps what came before too: here nothing.
+        let outcome = simulation.run(&AtomicBool::new(true), &|_, _| {});
+        assert_eq!(
+            (outcome.ended, outcome.rows.len()),
+            (SimulationEnd::Interrupted, 0)
+        );
     }
 }

@@ -196,6 +196,13 @@ impl Axisymmetric {
             }
             nodes.push(node);
         }
+        if self.is_singular_at_the_axis()
+            && let [(inner_m, inner), (outer_m, outer), ..] = nodes[..]
+        {
+            // Below an apex the shortening has a kink: it goes on straight, not as a parabola.
+            let slope = (outer - inner) / (outer_m - inner_m);
+            nodes.insert(0, (0.0, inner - slope * inner_m));
+        }
         let mut stretches: Vec<Stretch> = nodes
             .windows(2)
             .map(|pair| Stretch::between(pair[0], pair[1]))
@@ -214,7 +221,9 @@ impl Axisymmetric {
 
 /// Inside the first spring the function goes on as the parabola of its neighbours.
 fn continued_to_the_axis(stretches: &mut Vec<Stretch>) {
-    if let Some(&first) = stretches.first() {
+    if let Some(&first) = stretches.first()
+        && first.from_m > 0.0
+    {
         let inner = Stretch {
             from_m: 0.0,
             to_m: first.from_m,
@@ -376,6 +385,15 @@ mod tests {
         let (surface, solution) = elastic(&mut engine, 40.0);
         let a = solution.contact_radius_m;
         assert_eq!(surface.pressure_pa[0], None);
+        // u = delta - g inside the contact; at the apex itself exactly.
+        assert!((surface.displacement_m[0] / solution.approach_m - 1.0).abs() < 1e-12);
+        for (&r, &u) in surface.radius_m.iter().zip(&surface.displacement_m) {
+            let off = u - (solution.approach_m - slope * r);
+            assert!(
+                r > a || off.abs() < 1e-3 * solution.approach_m,
+                "{r}: {off:e}"
+            );
+        }
         for (&r, p) in surface.radius_m.iter().zip(&surface.pressure_pa).skip(12) {
             if r < 0.95 * a {
                 // Love and Sneddon: p = slope acosh(a/r) / (2 C).

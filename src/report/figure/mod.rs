@@ -78,6 +78,9 @@ fn prefix(largest: f64) -> (f64, &'static str) {
         (1e12, "T"),
         (1e15, "P"),
     ];
+    if largest == 0.0 {
+        return (1.0, "");
+    }
     let fits = PREFIXES.iter().rev().find(|(unit, _)| largest >= *unit);
     let (unit, name) = fits.unwrap_or(&PREFIXES[0]);
     (unit.recip(), name)

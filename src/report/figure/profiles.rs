@@ -71,6 +71,7 @@ fn panels(line: &str, curves: &[Curve]) -> [Chart; 2] {
     let (to_pressure, pressure) = prefix(pressures.fold(0.0, f64::max));
     let displacements = all().map(|p| p.displacement_m);
     let (to_displacement, displacement) = prefix(displacements.fold(0.0, f64::max));
+    let digits = telling_digits(curves);
     let family = |value: &dyn Fn(&ProfilePoint) -> Option<f64>, labelled: bool| {
         let curve = |(step, (time_s, points)): (usize, &Curve)| {
             let series = Series::line(
@@ -83,7 +84,7 @@ fn panels(line: &str, curves: &[Curve]) -> [Chart; 2] {
                 of: curves.len(),
             });
             if labelled {
-                series.label(format!("t = {} s", scientific(*time_s, 4)))
+                series.label(format!("t = {} s", scientific(*time_s, digits)))
             } else {
                 series
             }
@@ -115,6 +116,20 @@ fn panels(line: &str, curves: &[Curve]) -> [Chart; 2] {
     [upper, lower]
 }
 
+/// As many digits as it takes to tell the times apart, from four on; times at one instant cannot be.
+fn telling_digits(curves: &[Curve]) -> usize {
+    let labels = |digits| {
+        curves
+            .iter()
+            .map(move |(time_s, _)| scientific(*time_s, digits))
+    };
+    let told_apart = |digits: &usize| {
+        let all: std::collections::BTreeSet<String> = labels(*digits).collect();
+        all.len() == curves.len()
+    };
+    (4..=9).find(told_apart).unwrap_or(4)
+}
+
 fn data(curves: &[Curve]) -> Result<Vec<u8>, ReportError> {
     let columns = ["time_s", "position_m", "pressure_pa", "displacement_m"];
     let mut table = Table::new("profiles.csv", &columns)?;
@@ -129,4 +144,18 @@ fn data(curves: &[Curve]) -> Result<Vec<u8>, ReportError> {
         }
     }
     table.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_close_to_one_another_are_told_apart() {
+        let curves =
+            |times: &[f64]| -> Vec<Curve> { times.iter().map(|t| (*t, Vec::new())).collect() };
+        assert_eq!(telling_digits(&curves(&[0.0, 20.0, 60.0])), 4);
+        assert_eq!(telling_digits(&curves(&[19.999, 20.0])), 5);
+        assert_eq!(telling_digits(&curves(&[20.0, 20.0])), 4);
+    }
 }
