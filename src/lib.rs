@@ -38,6 +38,7 @@
 //! | [`contact`] | one instant, by two engines; a gap field and a compliance number, nothing else |
 //! | [`history`] | viscoelastic memory and time marching |
 //! | [`cycle`] | signals of one cycle; a measured loop is as good as a computed one |
+//! | [`steady`] | the stabilised cycle found directly |
 //! | [`mod@reference`] | closed forms and slow independent solvers; no production room imports it |
 //! | [`sweep`] | plans, cases in parallel, records on disk, peaks; single histories |
 //! | [`report`] | tables and figures, from records alone |
@@ -56,4 +57,5 @@ pub mod material;
 pub mod quantity;
 pub mod reference;
 pub mod report;
+pub mod steady;
 pub mod sweep;

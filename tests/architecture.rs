@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms from top to bottom.
-const ROOMS: [&str; 11] = [
+const ROOMS: [&str; 12] = [
     "quantity",
     "material",
     "indenter",
@@ -12,6 +12,7 @@ const ROOMS: [&str; 11] = [
     "contact",
     "history",
     "cycle",
+    "steady",
     "reference",
     "sweep",
     "report",

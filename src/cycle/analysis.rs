@@ -179,7 +179,7 @@ fn spectrum(samples: &[f64]) -> Result<Vec<Complex<f64>>, LoopError> {
 }
 
 /// Closed integral of W d(delta) by the trapezium rule.
-fn polygon_area(load_n: &[f64], approach_m: &[f64]) -> f64 {
+pub(super) fn polygon_area(load_n: &[f64], approach_m: &[f64]) -> f64 {
     let edges = load_n.windows(2).zip(approach_m.windows(2));
     let open: f64 = edges
         .map(|(w, d)| 0.5 * (w[0] + w[1]) * (d[1] - d[0]))

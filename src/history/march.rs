@@ -185,3 +185,30 @@ impl<'a, M: Hereditary> March<'a, M> {
         self.iterations
     }
 }
+
+/// What only the memory of a series can do.
+impl March<'_> {
+    /// The state after this value was held for ever: every memory variable equals the pressure.
+    ///
+    /// # Errors
+    /// As [`March::step`].
+    pub fn relax(&mut self, prescribed: Prescribed) -> Result<Solution, ContactError> {
+        self.history.fill(0.0);
+        let instant = Instant {
+            history: &self.history,
+            compliance_per_pa: self.memory.relaxed_compliance_per_pa(),
+            prescribed,
+        };
+        let solution = self.engine.solve(&instant, &mut self.pressure)?;
+        self.memory.fill_all_branches(&self.pressure);
+        self.iterations += solution.iterations as u64;
+        self.solution = Some(solution);
+        Ok(solution)
+    }
+
+    /// Goes back to memory variables known from before, branch-major as in [`Memory::variables`]. The pressure stays as the
+    /// guess for the next instant, which must be a jump.
+    pub fn recall(&mut self, variables: &[f64]) {
+        self.memory.recall(variables);
+    }
+}

@@ -190,6 +190,25 @@ impl Memory {
         &self.branches
     }
 
+    /// The compliance after all branches have relaxed, without flow.
+    pub(super) fn relaxed_compliance_per_pa(&self) -> f64 {
+        let branches = self.compliance.branches().iter();
+        let delayed: f64 = branches.map(|b| b.compliance_per_pa).sum();
+        self.compliance.instantaneous_compliance() + delayed
+    }
+
+    /// Every branch remembers this pressure as if it had always been there.
+    pub(super) fn fill_all_branches(&mut self, pressure: &[f64]) {
+        for memory in self.branches.chunks_exact_mut(self.nodes) {
+            memory.copy_from_slice(pressure);
+        }
+    }
+
+    /// Takes over variables as [`Memory::variables`] gave them.
+    pub(super) fn recall(&mut self, variables: &[f64]) {
+        self.branches.copy_from_slice(variables);
+    }
+
     /// First half of a step: ages the memory by everything that is known before the new pressure is, and writes the
     /// hereditary part H (1/Pa times the unit of the pressure) per node.
     pub fn predict(&mut self, weights: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {

@@ -1,0 +1,211 @@
+//! The update of the memory that one cycle suggests: Newton's method per node, coupled by the approach alone.
+//!
+//! A small change dm of a node's memory at the start of the cycle changes its memory at the end by J dm, where J follows from
+//! the times at which the node is in contact: out of contact every branch forgets by itself, d(dm_j)/dt = -dm_j / lambda_j;
+//! in contact the pressure answers, C_0 dp + sum C_j dm_j = D, with D a change of the approach, constant over the cycle. The
+//! fixed point then lies, to first order, at
+//!
+//! ```text
+//! dm = (1 - J)^-1 (m' - m + v D),      D such that the mean load of the cycle does not change
+//! ```
+//!
+//! with v the answer of the memory at the end to a unit of D. Exact are, so, the nodes; the change of the contact's edge and
+//! the elastic coupling of cells through anything but D are left to the acceleration.
+
+use std::collections::HashMap;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::material::Creep;
+
+/// Whether each node is in contact, step by step of a cycle.
+pub(super) struct ContactPattern {
+    nodes: usize,
+    steps: Vec<bool>,
+}
+
+impl ContactPattern {
+    pub(super) fn new(nodes: usize) -> Self {
+        Self {
+            nodes,
+            steps: Vec::new(),
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        self.steps.clear();
+    }
+
+    /// Takes in the pressures at the end of a step.
+    pub(super) fn push(&mut self, pressure: &[f64]) {
+        self.steps.extend(pressure.iter().map(|p| *p > 0.0));
+    }
+
+    /// Lengths of the runs of a node, out of contact and in contact in turn, beginning out of contact.
+    fn runs(&self, node: usize) -> Vec<usize> {
+        let mut runs = vec![0];
+        let mut in_contact = false;
+        for touches in self.steps.iter().skip(node).step_by(self.nodes) {
+            if *touches != in_contact {
+                in_contact = *touches;
+                runs.push(0);
+            }
+            if let Some(last) = runs.last_mut() {
+                *last += 1;
+            }
+        }
+        runs
+    }
+}
+
+/// What a cycle does to a small change of one node's memory.
+struct Answer {
+    /// (1 - J)^-1.
+    inverse: DMatrix<f64>,
+    /// (1 - J)^-1 v.
+    by_approach: DVector<f64>,
+    /// Change of the mean load per change of the memory, and per unit of D with the memory following.
+    load_by_memory: DVector<f64>,
+    load_by_approach: f64,
+}
+
+/// Constants of one compliance, period and number of steps.
+pub(super) struct Correction {
+    /// Root of the compliance per branch: its weight in the least squares.
+    weights: Vec<f64>,
+    /// 1 - exp(-T/lambda) per branch, without cancellation.
+    forgotten: Vec<f64>,
+    /// Powers 0, 1, 2, ... of the answer to one step, out of contact and in contact. State: memory, load, D.
+    free: Vec<DMatrix<f64>>,
+    touching: Vec<DMatrix<f64>>,
+}
+
+impl Correction {
+    pub(super) fn new(compliance: &Creep, period_s: f64, steps: usize) -> Self {
+        let branches = compliance.branches();
+        let count = branches.len();
+        let (load, approach) = (count, count + 1);
+        let step_s = period_s / steps as f64;
+        let instantaneous = compliance.instantaneous_compliance();
+        let mut rates = DMatrix::zeros(count + 2, count + 2);
+        let mut free = DMatrix::identity(count + 2, count + 2);
+        for (i, branch) in branches.iter().enumerate() {
+            free[(i, i)] = (-step_s / branch.time_s).exp();
+            for (j, other) in branches.iter().enumerate() {
+                rates[(i, j)] = -other.compliance_per_pa / (instantaneous * branch.time_s);
+            }
+            rates[(i, i)] -= branch.time_s.recip();
+            // D is counted in units of C_0, which keeps the matrix free of units but for time.
+            rates[(i, approach)] = branch.time_s.recip();
+            rates[(load, i)] = -branch.compliance_per_pa / (instantaneous * step_s);
+        }
+        rates[(load, approach)] = step_s.recip();
+        let touching = (rates * step_s).exp();
+        Self {
+            weights: branches
+                .iter()
+                .map(|b| b.compliance_per_pa.sqrt())
+                .collect(),
+            forgotten: branches
+                .iter()
+                .map(|b| -(-period_s / b.time_s).exp_m1())
+                .collect(),
+            free: powers(&free, steps),
+            touching: powers(&touching, steps),
+        }
+    }
+
+    /// Weight of a branch in the least squares.
+    pub(super) fn weight(&self, branch: usize) -> f64 {
+        self.weights.get(branch).copied().unwrap_or(0.0)
+    }
+
+    /// The change m' - m over the cycle into `update`, branch-major over `nodes`; returns the estimated distance: the largest
+    /// over the branches of the root of the sum of squares of (m' - m)/(1 - E).
+    pub(super) fn distance(
+        &self,
+        start: &[f64],
+        end: &[f64],
+        nodes: usize,
+        update: &mut [f64],
+    ) -> f64 {
+        for ((change, end), start) in update.iter_mut().zip(end).zip(start) {
+            *change = end - start;
+        }
+        let norms = update.chunks_exact(nodes).zip(&self.forgotten);
+        norms
+            .map(|(branch, forgotten)| branch.iter().map(|c| c * c).sum::<f64>().sqrt() / forgotten)
+            .fold(0.0, f64::max)
+    }
+
+    /// Turns m' - m into dm.
+    pub(super) fn apply(&self, pattern: &ContactPattern, keep_mean_load: bool, update: &mut [f64]) {
+        let (nodes, branches) = (pattern.nodes, self.weights.len());
+        let mut answers: HashMap<Vec<usize>, Option<Answer>> = HashMap::new();
+        let keys: Vec<Vec<usize>> = (0..nodes).map(|node| pattern.runs(node)).collect();
+        let (mut load, mut stiffness) = (0.0, 0.0);
+        for (node, key) in keys.iter().enumerate() {
+            let answer = answers
+                .entry(key.clone())
+                .or_insert_with(|| self.answer(key));
+            let Some(answer) = answer else { continue };
+            let change =
+                DVector::from_iterator(branches, (0..branches).map(|j| update[j * nodes + node]));
+            let moved = &answer.inverse * change;
+            load += answer.load_by_memory.dot(&moved);
+            stiffness += answer.load_by_approach;
+            for (j, value) in moved.iter().enumerate() {
+                update[j * nodes + node] = *value;
+            }
+        }
+        if !keep_mean_load || stiffness <= 0.0 {
+            return;
+        }
+        let approach = -load / stiffness;
+        for (node, key) in keys.iter().enumerate() {
+            if let Some(Some(answer)) = answers.get(key) {
+                for (j, value) in answer.by_approach.iter().enumerate() {
+                    update[j * nodes + node] += approach * value;
+                }
+            }
+        }
+    }
+
+    /// The answer of a node with these runs; `None` where it cannot be had, and the change itself must do.
+    fn answer(&self, runs: &[usize]) -> Option<Answer> {
+        let count = self.weights.len();
+        let mut cycle = DMatrix::identity(count + 2, count + 2);
+        for (run, &length) in runs.iter().enumerate() {
+            let powers = if run % 2 == 0 {
+                &self.free
+            } else {
+                &self.touching
+            };
+            cycle = powers.get(length)? * cycle;
+        }
+        let memory = cycle.view((0, 0), (count, count));
+        let by_approach = cycle
+            .view((0, count + 1), (count, 1))
+            .column(0)
+            .into_owned();
+        let load_by_memory = cycle.view((count, 0), (1, count)).row(0).transpose();
+        let inverse = (DMatrix::identity(count, count) - memory).try_inverse()?;
+        let by_approach = &inverse * by_approach;
+        Some(Answer {
+            load_by_approach: cycle[(count, count + 1)] + load_by_memory.dot(&by_approach),
+            inverse,
+            by_approach,
+            load_by_memory,
+        })
+    }
+}
+
+/// Powers 0 to `last` of a matrix.
+fn powers(matrix: &DMatrix<f64>, last: usize) -> Vec<DMatrix<f64>> {
+    let mut powers = vec![DMatrix::identity(matrix.nrows(), matrix.ncols())];
+    for _ in 0..last {
+        let next = powers.last().map(|power| matrix * power);
+        powers.extend(next);
+    }
+    powers
+}

@@ -1,0 +1,194 @@
+//! The stabilised cycle found directly: right to 1e-4 in the loss, in a handful of cycles, whatever the spectrum and the
+//! frequency. Counts of cycles are under test: a search that silently got worse fails.
+
+use contact_dma::contact::Prescribed;
+use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
+use contact_dma::cycle;
+use contact_dma::history::{March, TimeRule};
+use contact_dma::indenter::{Cone, Indenter, Sphere};
+use contact_dma::material::{Creep, Material, ModulusKind, Relaxation, RelaxationBranch, library};
+use contact_dma::steady::{self, Cycle, Steady, SteadySettings};
+
+const MEAN_N: f64 = 10.0;
+const STEPS: usize = 100;
+
+/// Contact compliance of a Prony series: equilibrium (Pa), (modulus, time) of the branches.
+fn series(equilibrium_pa: f64, branches: &[(f64, f64)]) -> Creep {
+    let branch = |&(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s };
+    let relaxation = Relaxation::new(equilibrium_pa, branches.iter().map(branch).collect());
+    Material::from_relaxation(relaxation.unwrap(), ModulusKind::Longitudinal, 0.4)
+        .unwrap()
+        .contact_compliance()
+        .unwrap()
+}
+
+/// Name, compliance, and the time about which the frequencies are spread.
+fn materials() -> [(&'static str, Creep, f64); 3] {
+    let pmma = library::find("pmma").unwrap().material().unwrap();
+    let third = 11e8 / 3.0;
+    [
+        ("PMMA", pmma.contact_compliance().unwrap(), 30.0),
+        (
+            "modulus ratio 12",
+            series(1e8, &[(third, 0.02), (third, 2.0), (third, 300.0)]),
+            2.0,
+        ),
+        (
+            "modulus ratio 1000",
+            series(1e6, &[(333e6, 1e-4), (333e6, 1e-2), (333e6, 1.0)]),
+            1e-2,
+        ),
+    ]
+}
+
+fn springs(indenter: &dyn Indenter, largest_load_n: f64, compliance: &Creep) -> Axisymmetric {
+    const SPRINGS: usize = 300;
+    let relaxed = compliance.equilibrium_compliance().unwrap();
+    let half_width_m = 1.02 * indenter.elastic_half_width_m(largest_load_n, relaxed);
+    let width_m = half_width_m / SPRINGS as f64;
+    let body = indenter.axisymmetric().unwrap();
+    let gap = |i| body.transformed_gap_m((f64::from(i) + 0.5) * width_m);
+    let gaps = (0..SPRINGS as u32).map(gap).collect();
+    Axisymmetric::new(width_m, gaps, Edge::Open, false)
+}
+
+/// One frequency of one contact.
+struct Case<'a> {
+    compliance: &'a Creep,
+    amplitude_n: f64,
+    period_s: f64,
+}
+
+impl Case<'_> {
+    fn load(&self, fraction: f64) -> Prescribed {
+        let load_n = MEAN_N + self.amplitude_n * (std::f64::consts::TAU * fraction).sin();
+        Prescribed::LoadN(if load_n > 1e-13 { load_n } else { 0.0 })
+    }
+
+    fn march<'e>(&self, engine: &'e mut Axisymmetric) -> March<'e> {
+        March::new(engine, self.compliance.clone(), TimeRule::Linear)
+    }
+
+    fn find(&self, march: &mut March<'_>, tolerance: f64) -> Steady {
+        let drive = |fraction| self.load(fraction);
+        let cycle = Cycle {
+            drive: &drive,
+            mean: Prescribed::LoadN(MEAN_N),
+            period_s: self.period_s,
+            steps: STEPS,
+        };
+        let settings = SteadySettings {
+            tolerance,
+            max_cycles: 100,
+        };
+        steady::find(march, &cycle, settings, &|| false).unwrap()
+    }
+
+    /// Loss of the next cycle of a march that stands at the end of one.
+    fn next_loss(&self, march: &mut March<'_>) -> f64 {
+        let weights = march.weights(self.period_s / STEPS as f64);
+        let first = march.solution().unwrap();
+        let (mut load, mut approach) = (vec![first.load_n], vec![first.approach_m]);
+        for step in 1..=STEPS {
+            let load_now = self.load(step as f64 / STEPS as f64);
+            let solution = march.step(&weights, load_now).unwrap();
+            load.push(solution.load_n);
+            approach.push(solution.approach_m);
+        }
+        cycle::analyse(&load, &approach).unwrap().energy_loss_j
+    }
+}
+
+#[test]
+fn three_spectra_over_eight_decades_take_a_handful_of_cycles_to_a_loss_within_1e_4() {
+    let shapes: [Box<dyn Indenter>; 2] = [
+        Box::new(Sphere::new(0.01).unwrap()),
+        Box::new(Cone::new(1.2).unwrap()),
+    ];
+    let mut counts = Vec::new();
+    for (name, compliance, time_s) in &materials() {
+        for shape in &shapes {
+            // Half the mean, and all of it: the load touches zero.
+            for amplitude_n in [5.0, 10.0] {
+                let mut engine = springs(shape.as_ref(), MEAN_N + amplitude_n, compliance);
+                for decade in -4..=4 {
+                    let case = Case {
+                        compliance,
+                        amplitude_n,
+                        period_s: std::f64::consts::TAU * time_s / 10_f64.powi(decade),
+                    };
+                    let mut march = case.march(&mut engine);
+                    let found = case.find(&mut march, 1e-4);
+                    let loss = case.next_loss(&mut march);
+                    let finer = case.find(&mut march, 1e-6);
+                    let limit = case.next_loss(&mut march);
+                    let what = format!("{name}, {}, {amplitude_n} N, 1e{decade}", shape.shape());
+                    assert!(found.converged && finer.converged, "{what}");
+                    assert!((loss / limit - 1.0).abs() < 1e-4, "{what}: {loss} {limit}");
+                    // The recorded cycle is one more.
+                    counts.push((found.cycles + 1, what));
+                }
+            }
+        }
+    }
+    counts.sort();
+    let median = counts[counts.len() / 2].0;
+    let (worst, what) = &counts[counts.len() - 1];
+    // Seen: 5 and 6, the recorded cycle included.
+    assert!(median <= 5, "{median} cycles on the median");
+    assert!(*worst <= 8, "{worst} cycles for {what}");
+}
+
+#[test]
+fn the_cycle_found_directly_is_the_one_that_marching_ends_in() {
+    // PMMA at 0.1 rad/s forgets by exp(-0.47) a cycle: 60 cycles leave 1e-12 of the start.
+    let [(_, compliance, _), ..] = &materials();
+    for amplitude_n in [1.0, 10.0] {
+        let case = Case {
+            compliance,
+            amplitude_n,
+            period_s: std::f64::consts::TAU / 0.1,
+        };
+        let sphere = Sphere::new(0.01).unwrap();
+        let mut engine = springs(&sphere, MEAN_N + amplitude_n, compliance);
+        let mut march = case.march(&mut engine);
+        march.jump(Prescribed::LoadN(MEAN_N)).unwrap();
+        for _ in 0..60 {
+            case.next_loss(&mut march);
+        }
+        let marched = case.next_loss(&mut march);
+        let mut march = case.march(&mut engine);
+        assert!(case.find(&mut march, 1e-9).converged);
+        let direct = case.next_loss(&mut march);
+        // The search stops at 1e-9 of the memory and of the loop's closure.
+        assert!((direct / marched - 1.0).abs() < 3e-9, "{direct} {marched}");
+    }
+}
+
+#[test]
+fn a_search_that_may_not_go_on_says_so() {
+    let [.., (_, compliance, _)] = &materials();
+    let case = Case {
+        compliance,
+        amplitude_n: 10.0,
+        period_s: 1.0,
+    };
+    let sphere = Sphere::new(0.01).unwrap();
+    let mut engine = springs(&sphere, 20.0, compliance);
+    let mut march = case.march(&mut engine);
+    let drive = |fraction| case.load(fraction);
+    let cycle = Cycle {
+        drive: &drive,
+        mean: Prescribed::LoadN(MEAN_N),
+        period_s: case.period_s,
+        steps: STEPS,
+    };
+    let settings = SteadySettings {
+        tolerance: 1e-8,
+        max_cycles: 3,
+    };
+    let found = steady::find(&mut march, &cycle, settings, &|| false).unwrap();
+    assert!(!found.converged && found.cycles == 3 && found.distance > 1e-8);
+    let stopped = steady::find(&mut march, &cycle, settings, &|| true).unwrap();
+    assert!(!stopped.converged && stopped.cycles == 0);
+}
