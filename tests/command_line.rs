@@ -1,11 +1,14 @@
 //! The program as a user meets it: output, messages, exit codes, files.
 
+#[path = "common/program.rs"]
+mod program;
+
+use program::{program, write};
 use std::fs;
 use std::path::Path;
 use std::process::{Command as Process, Stdio};
 use std::time::{Duration, Instant};
 
-use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::contains;
 use tempfile::TempDir;
@@ -33,18 +36,6 @@ steps = 50
 [solver]
 springs = 100
 "#;
-
-fn program() -> Command {
-    let mut command = Command::cargo_bin("contact-dma").unwrap();
-    command.env_remove("CONTACT_DMA_THREADS");
-    command
-}
-
-fn write(folder: &TempDir, name: &str, text: &str) -> String {
-    let path = folder.path().join(name);
-    fs::write(&path, text).unwrap();
-    path.to_str().unwrap().to_owned()
-}
 
 /// Runs a sweep file with one replacement made in it and expects it to be refused as bad input, with nothing written.
 fn refused(from: &str, to: &str, expected: &[&str]) {

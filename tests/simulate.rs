@@ -1,11 +1,14 @@
 //! Single drive histories: scenario files, closed forms, both controls, what is written and what is refused.
 
+#[path = "common/program.rs"]
+mod program;
+
+use program::{program, write};
 use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use assert_cmd::Command;
 use predicates::prelude::PredicateBooleanExt;
 use predicates::str::contains;
 use tempfile::TempDir;
@@ -53,7 +56,7 @@ fn drive(control: &str, segments: &str) -> String {
 
 fn simulation(text: &str) -> Simulation {
     let document = Document::parse("scenario.toml", text).unwrap();
-    let plan = scenario_file::plan(&document, Path::new("")).unwrap_or_else(|e| panic!("{e}"));
+    let plan = scenario_file::plan(&document).unwrap_or_else(|e| panic!("{e}"));
     Simulation::new(plan).unwrap()
 }
 
@@ -471,12 +474,6 @@ fn an_indenter_that_leaves_the_surface_in_each_cycle_has_a_loss_too() {
 // ---------------------------------------------------------------------------------------------------------------------
 // The program
 
-fn program() -> Command {
-    let mut command = Command::cargo_bin("contact-dma").unwrap();
-    command.env_remove("CONTACT_DMA_THREADS");
-    command
-}
-
 const SMALL: &str = r#"title = "small"
 
 [material]
@@ -503,12 +500,6 @@ profiles_at = ["0 s", "25 s"]
 [solver]
 springs = 100
 "#;
-
-fn write(folder: &TempDir, name: &str, text: &str) -> String {
-    let path = folder.path().join(name);
-    fs::write(&path, text).unwrap();
-    path.to_str().unwrap().to_owned()
-}
 
 /// Runs a scenario file with one replacement made in it and expects it to be refused as bad input, with nothing written.
 fn refused(from: &str, to: &str, expected: &[&str]) {

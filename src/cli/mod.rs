@@ -23,12 +23,17 @@ mod table_file;
 use std::ffi::OsString;
 use std::fmt::Display;
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
 use arguments::{Arguments, Command};
 use diagnostic::Diagnostics;
+use document::Document;
+
+use crate::sweep::resolved;
+use crate::sweep::store::{Store, StoreError};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -106,6 +111,31 @@ fn report(failure: Failure) -> ExitCode {
 
 fn error_line(message: &str) -> io::Result<()> {
     writeln!(anstream::stderr(), "error: {message}")
+}
+
+/// A file as changed by the `--set` flags.
+fn open_document(file: &Path, assignments: &[String]) -> Result<Document, Diagnostics> {
+    let mut document = Document::read(file)?;
+    for assignment in assignments {
+        document.set(assignment)?;
+    }
+    Ok(document)
+}
+
+/// The folder for the results of a file: the one asked for, or reports/<name of the file>.
+fn open_store(
+    file: &Path,
+    out: Option<&Path>,
+    resolved: &str,
+    force: bool,
+) -> Result<Store, Failure> {
+    let stem = file.file_stem().unwrap_or_default();
+    let default = Path::new("reports").join(stem);
+    let hash = resolved::hash(resolved);
+    Store::open(out.unwrap_or(&default), resolved, &hash, force).map_err(|error| match error {
+        StoreError::OtherSweep { .. } => Failure::input(error),
+        other => Failure::run(other),
+    })
 }
 
 /// Prints to standard output. A reader that has seen enough (`| head`) is no error.

@@ -1,7 +1,5 @@
 //! Scenario files: from a document to a finished plan of one drive history.
 
-use std::path::Path;
-
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Located, TableReader};
 use super::sweep_file::{default_solver, optional, solver};
@@ -15,11 +13,11 @@ use crate::sweep::scenario::{OutputPlan, ScenarioPlan};
 /// More surfaces than this fill memory and disk before they are looked at.
 const MAX_SURFACES: usize = 10_000;
 
-/// The plan that a scenario file asks for. Names of files in it are relative to `folder`.
+/// The plan that a scenario file asks for.
 ///
 /// # Errors
 /// Everything that is wrong with the file, at once, each problem with its place and what to write instead.
-pub fn plan(document: &Document, folder: &Path) -> Result<ScenarioPlan, Diagnostics> {
+pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let title = root.string("title");
@@ -27,10 +25,10 @@ pub fn plan(document: &Document, folder: &Path) -> Result<ScenarioPlan, Diagnost
         material_block::read(&mut root, &problems).and_then(|m| for_contact(&problems, m));
     let indenter = root
         .table("indenter")
-        .and_then(|t| indenter_block::read(t, folder, &problems));
+        .and_then(|t| indenter_block::read(t, document.folder(), &problems));
     let drive = root
         .table("drive")
-        .and_then(|t| segments_block::read(t, folder, &problems));
+        .and_then(|t| segments_block::read(t, document.folder(), &problems));
     let step_s = optional(&mut root, "time", None, |t| time(t, &problems));
     let default = default_solver(indenter.as_deref());
     let solver = optional(&mut root, "solver", default, |t| {

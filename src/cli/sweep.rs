@@ -1,29 +1,25 @@
 //! `contact-dma sweep`: from a sweep file to the folder of results.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::arguments::SweepFlags;
-use super::document::Document;
 use super::progress::Shown;
-use super::{Ended, Failure, print, sweep_file};
+use super::{Ended, Failure, open_document, open_store, print, sweep_file};
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
 use crate::sweep::record::Status;
 use crate::sweep::resolved;
 use crate::sweep::run::{self, Outcome};
-use crate::sweep::store::{Store, StoreError};
 
 /// Runs the command.
 pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
-    let mut document = Document::read(&flags.file)?;
-    for assignment in &flags.set {
-        document.set(assignment)?;
-    }
+    let document = open_document(&flags.file, &flags.set)?;
     let plan = sweep_file::plan(&document)?;
     let setup = Setup::new(plan).map_err(Failure::input)?;
-    let store = open_store(flags, &setup)?;
+    let resolved = resolved::resolved_text(setup.plan());
+    let store = open_store(&flags.file, flags.out.as_deref(), &resolved, flags.force)?;
     let interrupt = interrupt_flag()?;
     let threads = match flags.threads {
         Some(threads) => threads.get(),
@@ -39,19 +35,6 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
         print(&text(&setup, &outcome, &left_out, store.folder()))?;
     }
     Ok(ended(&outcome))
-}
-
-fn open_store(flags: &SweepFlags, setup: &Setup) -> Result<Store, Failure> {
-    let resolved = resolved::resolved_text(setup.plan());
-    let hash = resolved::hash(&resolved);
-    let folder = flags.out.clone().unwrap_or_else(|| {
-        let stem = flags.file.file_stem().unwrap_or_default();
-        PathBuf::from("reports").join(stem)
-    });
-    Store::open(&folder, &resolved, &hash, flags.force).map_err(|error| match error {
-        StoreError::OtherSweep { .. } => Failure::input(error),
-        other => Failure::run(other),
-    })
 }
 
 /// A flag that Ctrl-C, SIGTERM and SIGHUP set. A second signal ends the program at once; every file is whole even then.

@@ -286,10 +286,5 @@ fn summary(
         program_version: env!("CARGO_PKG_VERSION"),
         scenario_hash,
     };
-    let mut bytes = serde_json::to_vec_pretty(&summary).map_err(|error| ReportError::Table {
-        name: "summary.json",
-        reason: error.to_string(),
-    })?;
-    bytes.push(b'\n');
-    Ok(bytes)
+    super::summary::json(&summary)
 }

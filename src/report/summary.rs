@@ -54,7 +54,12 @@ pub fn summary(
         program_version: env!("CARGO_PKG_VERSION"),
         sweep_hash,
     };
-    let mut bytes = serde_json::to_vec_pretty(&summary).map_err(|error| ReportError::Table {
+    json(&summary)
+}
+
+/// A `summary.json`: indented, with a line end.
+pub(super) fn json(summary: &impl Serialize) -> Result<Vec<u8>, ReportError> {
+    let mut bytes = serde_json::to_vec_pretty(summary).map_err(|error| ReportError::Table {
         name: "summary.json",
         reason: error.to_string(),
     })?;

@@ -21,8 +21,8 @@ pub struct Cycle<'a> {
 /// When the search ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SteadySettings {
-    /// Largest distance to the stabilised cycle: of the memory relative to the largest pressure, and of the loop to a closed
-    /// one relative to its area.
+    /// Largest distance to the stabilised cycle: of the memory, root of the sum of squares over the nodes relative to that of
+    /// the pressure at its largest, and of the loop to a closed one relative to its area.
     pub tolerance: f64,
     /// Cycles after which the search has failed.
     pub max_cycles: usize,
