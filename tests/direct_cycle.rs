@@ -81,7 +81,7 @@ impl Case<'_> {
             tolerance,
             max_cycles: 100,
         };
-        steady::find(march, &cycle, settings, &|| false).unwrap()
+        steady::find(march, &cycle, None, settings, &|| false).unwrap()
     }
 
     /// Loss of the next cycle of a march that stands at the end of one.
@@ -187,8 +187,8 @@ fn a_search_that_may_not_go_on_says_so() {
         tolerance: 1e-8,
         max_cycles: 3,
     };
-    let found = steady::find(&mut march, &cycle, settings, &|| false).unwrap();
+    let found = steady::find(&mut march, &cycle, None, settings, &|| false).unwrap();
     assert!(!found.converged && found.cycles == 3 && found.distance > 1e-8);
-    let stopped = steady::find(&mut march, &cycle, settings, &|| true).unwrap();
+    let stopped = steady::find(&mut march, &cycle, None, settings, &|| true).unwrap();
     assert!(!stopped.converged && stopped.cycles == 0);
 }

@@ -33,7 +33,7 @@ fn relative(found: f64, expected: f64) -> f64 {
     (found / expected - 1.0).abs()
 }
 
-/// Rounding differs between processors and mathematical libraries; the marching stops at a distance of 1e-4, but at the same
+/// Rounding differs between processors and mathematical libraries; the search stops at a distance of 1e-4, but at the same
 /// cycle everywhere unless a distance falls within rounding of it. One part in a million is far below the discretisation
 /// error and far above rounding.
 const SAME: f64 = 1e-6;

@@ -630,7 +630,9 @@ fn setup(folder: &Path, indenter: &str, solver: &str) -> Setup {
 
 fn run(folder: &Path, indenter: &str, solver: &str) -> CaseRecord {
     let setup = setup(folder, indenter, solver);
-    setup.run(0, 0.01, &AtomicBool::new(false)).unwrap()
+    setup
+        .run(&setup.plan().cases()[0], &AtomicBool::new(false))
+        .unwrap()
 }
 
 /// The plan's problems, as printed.
@@ -688,7 +690,9 @@ fn the_same_height_map_comes_from_a_matrix_from_points_and_from_npy() {
     let approach = |block: &str| {
         let setup = setup(folder.path(), block, "tolerance = 1e-9");
         let indenter = &setup.plan().indenter;
-        let record = setup.run(0, 0.01, &AtomicBool::new(false)).unwrap();
+        let record = setup
+            .run(&setup.plan().cases()[0], &AtomicBool::new(false))
+            .unwrap();
         assert_eq!(record.status, Status::Converged, "{:?}", record.message);
         let gaps: Vec<f64> = (0..24)
             .map(|x| indenter.gap_m((f64::from(x) - 11.5) * spacing, 0.5 * spacing))

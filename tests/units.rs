@@ -171,8 +171,9 @@ fn compare(engine: EngineKind, tolerance: f64, iterations: f64) {
 
 #[test]
 fn the_axisymmetric_engine_does_not_know_the_units() {
-    // Roundings over a thousand instants: 5e-14 was seen. Newton's method ends exactly, after as many passes.
-    compare(EngineKind::Axisymmetric, 2e-13, 0.0);
+    // Roundings over a thousand instants: 5e-14 was seen. Newton's method ends exactly; the start that the search gives it
+    // differs by rounding, which was seen to save one pass of 787.
+    compare(EngineKind::Axisymmetric, 2e-13, 4e-3);
 }
 
 #[test]

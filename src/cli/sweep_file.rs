@@ -3,11 +3,12 @@
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Form, Located, TableReader};
 use super::{harmonic_block, indenter_block, material_block};
+use crate::drive::HarmonicDrive;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::Dimension;
-use crate::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 
 /// Frequencies, steps, cycles and nodes beyond these are a slip of the pen rather than a wish.
 const MAX_POINTS: usize = 100_000;
@@ -32,7 +33,9 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let drive = root
         .table("drive")
         .and_then(|t| harmonic_block::read(t, &problems));
-    let frequencies = root.table("sweep").and_then(|t| frequencies(t, &problems));
+    let sweep = root
+        .table("sweep")
+        .and_then(|t| axes(t, drive.as_ref(), &problems));
     let cycle = optional(&mut root, "cycle", CyclePlan::default(), |t| {
         cycle(t, &problems)
     });
@@ -42,12 +45,15 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     });
     root.finish();
     let plan = (|| {
+        let axes = sweep?;
         Some(SweepPlan {
             title: title?.value,
             material: material?,
             indenter: indenter?,
             drive: drive?,
-            angular_frequencies_rad_per_s: frequencies?,
+            angular_frequencies_rad_per_s: axes.angular_frequencies_rad_per_s,
+            axis: axes.drives,
+            refine: axes.refine,
             cycle: cycle?,
             solver: solver?,
         })
@@ -102,18 +108,92 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
     }
 }
 
+/// The `[sweep]` block.
+struct Axes {
+    angular_frequencies_rad_per_s: Vec<f64>,
+    drives: Option<DriveAxis>,
+    refine: bool,
+}
+
+fn axes(
+    mut table: TableReader<'_>,
+    drive: Option<&HarmonicDrive>,
+    problems: &Problems,
+) -> Option<Axes> {
+    let frequencies = frequencies(&mut table, problems);
+    let refine = table.boolean_or("refine", false);
+    let varied = match table.has("drive") {
+        true => Some(
+            table
+                .table("drive")
+                .and_then(|t| varied(t, drive?, problems)),
+        ),
+        false => None,
+    };
+    table.finish();
+    let drives = match varied {
+        Some(axis) => Some(axis?),
+        None => None,
+    };
+    Some(Axes {
+        angular_frequencies_rad_per_s: frequencies?,
+        drives,
+        refine: refine?.value,
+    })
+}
+
+/// The drives of a second axis: `drive.amplitude` or `drive.mean`, as a list or a range.
+fn varied(
+    mut table: TableReader<'_>,
+    drive: &HarmonicDrive,
+    problems: &Problems,
+) -> Option<DriveAxis> {
+    let key = table.one_of(&["amplitude", "mean"])?;
+    let dimension = harmonic_block::dimension(drive.control());
+    let location = table.key_location(key);
+    let values = match table.form(key) {
+        Some(Form::Table) => table
+            .table(key)
+            .and_then(|t| range(t, problems, key, dimension)),
+        _ => list(&mut table, problems, key, dimension),
+    };
+    table.finish();
+    let (values, location) = (values?, location?);
+    let varied = match key {
+        "amplitude" => Varied::Amplitude,
+        _ => Varied::Mean,
+    };
+    let mut drives = Vec::with_capacity(values.len());
+    for value in values {
+        let (mean, amplitude) = match varied {
+            Varied::Amplitude => (drive.mean(), value),
+            Varied::Mean => (value, drive.amplitude()),
+        };
+        let (phase_rad, hold_s) = (drive.phase_rad(), drive.hold_s());
+        match HarmonicDrive::new(drive.control(), mean, amplitude, phase_rad, hold_s) {
+            Ok(drive) => drives.push(drive),
+            Err(error) => {
+                problems.at(&location, error.to_string());
+                return None;
+            }
+        }
+    }
+    Some(DriveAxis { varied, drives })
+}
+
 /// Angular frequencies in rad/s, ascending.
-fn frequencies(mut table: TableReader<'_>, problems: &Problems) -> Option<Vec<f64>> {
+fn frequencies(table: &mut TableReader<'_>, problems: &Problems) -> Option<Vec<f64>> {
     let key = table.one_of(&["angular_frequency", "frequency"])?;
     let (dimension, to_angular) = match key {
         "frequency" => (Dimension::Frequency, std::f64::consts::TAU),
         _ => (Dimension::AngularFrequency, 1.0),
     };
     let values = match table.form(key) {
-        Some(Form::Table) => table.table(key).and_then(|t| range(t, problems, dimension)),
-        _ => list(&mut table, problems, key, dimension),
+        Some(Form::Table) => table
+            .table(key)
+            .and_then(|t| range(t, problems, key, dimension)),
+        _ => list(table, problems, key, dimension),
     };
-    table.finish();
     Some(
         values?
             .into_iter()
@@ -128,37 +208,44 @@ fn list(
     key: &str,
     dimension: Dimension,
 ) -> Option<Vec<f64>> {
+    let what = spoken(key);
     let mut list = table.quantities(key, dimension)?;
     if list.value.is_empty() || list.value.len() > MAX_POINTS {
         let message = if list.value.is_empty() {
             "the sweep is empty".to_owned()
         } else {
-            format!("a sweep has at most {MAX_POINTS} frequencies")
+            format!("a sweep has at most {MAX_POINTS} points")
         };
         let example = format!("{key} = [\"{}\"]", dimension.example());
-        problems.at(&list, message).help(format!(
-            "give at least one frequency, for example {example}"
-        ));
+        problems
+            .at(&list, message)
+            .help(format!("give at least one {what}, for example {example}"));
         return None;
     }
     let mut fine = true;
     for value in list.value.iter().filter(|v| v.value <= 0.0) {
-        problems.at(value, "a frequency must be above zero");
+        problems.at(value, format!("every {what} must be above zero"));
         fine = false;
     }
     list.value.sort_by(|a, b| a.value.total_cmp(&b.value));
     for pair in list.value.windows(2).filter(|p| p[0].value == p[1].value) {
         problems
-            .at(&pair[1], "this frequency is listed twice")
+            .at(&pair[1], format!("this {what} is listed twice"))
             .label(&pair[0], "the other one");
         fine = false;
     }
     fine.then(|| list.value.into_iter().map(|v| v.value).collect())
 }
 
+/// A key as a word of a sentence.
+fn spoken(key: &str) -> String {
+    key.replace('_', " ")
+}
+
 fn range(
     mut table: TableReader<'_>,
     problems: &Problems,
+    key: &str,
     dimension: Dimension,
 ) -> Option<Vec<f64>> {
     let from = table.quantity("from", dimension);
@@ -167,8 +254,9 @@ fn range(
     let spacing = table.choice_or("spacing", &["log", "linear"], "log");
     table.finish();
     let (from, to, points, spacing) = (from?, to?, points?, spacing?);
+    let what = spoken(key);
     if from.value <= 0.0 {
-        problems.at(&from, "a frequency must be above zero");
+        problems.at(&from, format!("every {what} must be above zero"));
         return None;
     }
     if points.value == 1 && to.value == from.value {
@@ -177,14 +265,14 @@ fn range(
     if to.value <= from.value {
         problems
             .at(&to, "the sweep ends before it begins")
-            .because("not above the first frequency")
-            .label(&from, "the first frequency");
+            .because("not above the first point")
+            .label(&from, "its first point");
         return None;
     }
     if points.value < 2 {
         problems
             .at(&points, "a range needs at least 2 points, its two ends")
-            .help("for one frequency write a list with one entry");
+            .help("for one point write a list with one entry");
         return None;
     }
     Some(spaced(
@@ -213,14 +301,27 @@ fn spaced(from: f64, to: f64, points: usize, logarithmic: bool) -> Vec<f64> {
 fn cycle(mut table: TableReader<'_>, problems: &Problems) -> Option<CyclePlan> {
     let default = CyclePlan::default();
     let steps = table.positive_integer_or("steps", STEPS, default.steps);
-    table.choice_or("method", &["march"], "march");
+    let methods = [Method::Direct, Method::March].map(|m| (m.name(), m));
+    let method = table.choice_of_or("method", &methods, default.method);
     let tolerance = tolerance(&mut table, problems, default.tolerance);
     let max_cycles = table.positive_integer_or("max_cycles", CYCLES, default.max_cycles);
+    let error_bars = table.boolean_or("error_bars", default.error_bars);
+    let accuracy = match table.has("accuracy") {
+        true => Some(accuracy(&mut table, problems)),
+        false => None,
+    };
     table.finish();
+    let accuracy = match accuracy {
+        Some(accuracy) => Some(accuracy?),
+        None => default.accuracy,
+    };
     Some(CyclePlan {
         steps: steps?.value,
+        method: method?.value,
         tolerance: tolerance?,
         max_cycles: max_cycles?.value,
+        error_bars: error_bars?.value,
+        accuracy,
     })
 }
 
@@ -247,6 +348,18 @@ pub(super) fn solver(
         cells: cells?.value,
         tolerance: tolerance?,
     })
+}
+
+/// A relative accuracy of the loss: below 1, and above what the finest resolution could reach.
+fn accuracy(table: &mut TableReader<'_>, problems: &Problems) -> Option<f64> {
+    let accuracy = table.number("accuracy")?;
+    if accuracy.value >= 1e-8 && accuracy.value < 1.0 {
+        return Some(accuracy.value);
+    }
+    problems
+        .at(&accuracy, "an accuracy lies between 1e-8 and 1")
+        .help("for example accuracy = 1e-3, a thousandth of the loss");
+    None
 }
 
 /// A relative tolerance: below 1, and above what rounding leaves.

@@ -109,7 +109,7 @@ pub trait Engine: Send {
     /// The largest contact pressure (Pa); `None` where the indenter's shape makes it unbounded. 0 out of contact.
     ///
     /// # Errors
-    /// [`ContactError::NotADisc`] where the engine finds that its own assumption fails.
+    /// [`ContactError`] where the pressure cannot be computed.
     fn peak_pressure_pa(
         &mut self,
         pressure: &[f64],
@@ -127,6 +127,20 @@ pub trait Engine: Send {
     ) -> Result<(), ContactError> {
         Ok(())
     }
+
+    /// B p: the displacement per node that this nodal pressure makes, per unit of compliance.
+    ///
+    /// # Errors
+    /// [`ContactError::Operator`], for slices of the wrong length alone.
+    fn elastic_displacement(
+        &mut self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+    ) -> Result<(), ContactError>;
+
+    /// What the sum of the nodal pressures is multiplied by to give the load; and the sum of the products of nodal pressures
+    /// and displacements, to give an energy.
+    fn load_per_nodal_pressure(&self) -> f64;
 
     /// Pressure and displacement of the surface, inside and outside the contact.
     ///

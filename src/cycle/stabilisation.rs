@@ -12,16 +12,19 @@
 pub struct BranchChange {
     /// Retardation time of the branch (s).
     pub retardation_time_s: f64,
-    /// Largest change over the nodes between the two ends of the cycle, in the unit of the scale.
-    pub largest_change: f64,
+    /// Root of the sum over the nodes of the squared changes between the two ends of the cycle, in the unit of the scale.
+    ///
+    /// Not the largest change: a node at the edge of the contact may come and go with the discretisation for ever, without
+    /// any weight in the loss.
+    pub change: f64,
 }
 
-/// Estimated distance to the stabilised cycle, relative to `scale` (the largest nodal pressure of the cycle): the largest
-/// over the branches of |change| / (1 - exp(-T/lambda)). `None` where there is no scale to compare with.
+/// Estimated distance to the stabilised cycle, relative to `scale` (the largest root over the cycle of the sum of the squared
+/// nodal pressures): the largest over the branches of change / (1 - exp(-T/lambda)). `None` where there is no scale to
+/// compare with.
 pub fn steady_distance(changes: &[BranchChange], period_s: f64, scale: f64) -> Option<f64> {
-    let remaining = |change: &BranchChange| {
-        change.largest_change / -(-period_s / change.retardation_time_s).exp_m1()
-    };
+    let remaining =
+        |change: &BranchChange| change.change / -(-period_s / change.retardation_time_s).exp_m1();
     let distance = changes.iter().map(remaining).fold(0.0, f64::max) / scale;
     (scale > 0.0 && distance.is_finite()).then_some(distance)
 }
@@ -87,7 +90,7 @@ mod tests {
             let memory = |cycle: f64| -(-cycle * period_over_lambda).exp_m1();
             let change = BranchChange {
                 retardation_time_s: 3.0,
-                largest_change: memory(8.0) - memory(7.0),
+                change: memory(8.0) - memory(7.0),
             };
             let distance = steady_distance(&[change], 3.0 * period_over_lambda, 2.0);
             let left = 0.5 * (1.0 - memory(7.0));

@@ -2,7 +2,7 @@
 
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
-use crate::history::{Hereditary, Memory, TimeRule};
+use crate::history::{Dissipation, Hereditary, Memory, StepWeights, TimeRule};
 use crate::material::Creep;
 
 /// A contact moving through time, its past kept as memory variables or, as [`DirectMemory`](super::DirectMemory), in full.
@@ -188,6 +188,43 @@ impl<'a, M: Hereditary> March<'a, M> {
 
 /// What only the memory of a series can do.
 impl March<'_> {
+    /// A step as [`March::step`] takes it, whose dissipation is added up.
+    ///
+    /// # Errors
+    /// As [`March::step`].
+    pub fn step_dissipating(
+        &mut self,
+        weights: &StepWeights,
+        prescribed: Prescribed,
+        dissipation: &mut Dissipation,
+    ) -> Result<Solution, ContactError> {
+        dissipation.before(&self.memory, &self.pressure);
+        let start = self.solution;
+        let end = self.step(weights, prescribed)?;
+        let start = start.unwrap_or(end);
+        dissipation.after(self.engine, &self.pressure, (&start, &end))?;
+        Ok(end)
+    }
+
+    /// The density over the surface of what adds up over the nodes like a pressure, such as
+    /// [`Dissipation::nodal_work`]; nothing of it lies beyond `radius_m`.
+    ///
+    /// # Errors
+    /// As [`Engine::surface`].
+    pub fn surface_density(
+        &mut self,
+        nodal: &[f64],
+        radius_m: f64,
+    ) -> Result<Surface, ContactError> {
+        let undisturbed = vec![0.0; nodal.len()];
+        self.engine.surface(&Response {
+            pressure: nodal,
+            history: &undisturbed,
+            compliance_per_pa: 0.0,
+            contact_radius_m: radius_m,
+        })
+    }
+
     /// The state after this value was held for ever: every memory variable equals the pressure.
     ///
     /// # Errors

@@ -12,11 +12,13 @@
 //! once per instant; it knows neither indenters nor what drives the load.
 
 mod direct;
+mod dissipation;
 mod hereditary;
 mod march;
 mod memory;
 
 pub use direct::{ComplianceFunction, DirectMemory, DirectStep, Quadrature};
+pub use dissipation::Dissipation;
 pub use hereditary::Hereditary;
 pub use march::{March, Observer};
 pub use memory::{Memory, StepWeights, TimeRule};

@@ -41,7 +41,8 @@ pub fn write_sweep(
     plan: &SweepPlan,
     outcome: &Outcome,
 ) -> Result<Vec<String>, ReportError> {
-    store.write("sweep.csv", &table::sweep(&outcome.records)?)?;
+    let branches = outcome.branches();
+    store.write("sweep.csv", &table::sweep(&outcome.records, branches)?)?;
     for record in &outcome.records {
         if let Some(result) = &record.result {
             let name = format!("loops/{}.csv", record.index);

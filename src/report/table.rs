@@ -2,7 +2,8 @@
 
 use super::ReportError;
 use crate::cycle::Loop;
-use crate::sweep::record::CaseRecord;
+use crate::sweep::error_bars::Quantity;
+use crate::sweep::record::{CaseRecord, CaseResult};
 
 /// A table being written.
 pub struct Table {
@@ -58,12 +59,27 @@ impl Table {
     }
 }
 
-/// `sweep.csv`: one row per case, ascending frequency.
-pub fn sweep(records: &[CaseRecord]) -> Result<Vec<u8>, ReportError> {
-    let columns: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
+/// `sweep.csv`: one row per case, in the order given. `branches` is how many the material's creep compliance has.
+pub fn sweep(records: &[CaseRecord], branches: usize) -> Result<Vec<u8>, ReportError> {
+    let mut columns: Vec<String> = FIRST.iter().map(|(name, _)| (*name).to_owned()).collect();
+    for (value, error) in Quantity::ALL.map(Quantity::columns) {
+        columns.extend([value.to_owned(), error.to_owned()]);
+    }
+    columns.extend((1..=branches).map(|k| format!("branch_{k}_loss_j")));
+    columns.extend(LAST.iter().map(|(name, _)| (*name).to_owned()));
+    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
     let mut table = Table::new("sweep.csv", &columns)?;
     for record in records {
-        let cells: Vec<String> = COLUMNS.iter().map(|(_, cell)| cell(record)).collect();
+        let mut cells: Vec<String> = FIRST.iter().map(|(_, cell)| cell(record)).collect();
+        let result = record.result.as_ref();
+        let errors = result.and_then(|r| r.errors.as_ref());
+        for quantity in Quantity::ALL {
+            cells.push(optional(result.and_then(|r| quantity.of(r))));
+            cells.push(optional(errors.and_then(|e| e.of(quantity))));
+        }
+        let branch = |k: usize| Some(result?.branches.get(k)?.energy_loss_j);
+        cells.extend((0..branches).map(|k| optional(branch(k))));
+        cells.extend(LAST.iter().map(|(_, cell)| cell(record)));
         table.row(&cells)?;
     }
     table.finish()
@@ -71,53 +87,38 @@ pub fn sweep(records: &[CaseRecord]) -> Result<Vec<u8>, ReportError> {
 
 type Column = (&'static str, fn(&CaseRecord) -> String);
 
-const COLUMNS: [Column; 23] = [
+/// Which case it is.
+const FIRST: [Column; 4] = [
     ("angular_frequency_rad_per_s", |r| {
         number(r.angular_frequency_rad_per_s)
     }),
     ("frequency_hz", |r| number(r.frequency_hz())),
-    ("energy_loss_j", |r| optional(r.energy_loss_j())),
-    // Empty until the discretisation error is estimated.
-    ("energy_loss_error_j", |_| String::new()),
-    ("phase_lag_rad", |r| {
-        optional(r.result.as_ref().map(|c| c.analysis.phase_lag_rad))
+    ("drive_mean", |r| number(r.drive_mean)),
+    ("drive_amplitude", |r| number(r.drive_amplitude)),
+];
+
+/// What has no error bar, and how the numbers came about.
+const LAST: [Column; 15] = [
+    ("dissipated_j", |r| {
+        optional(r.result.as_ref().map(CaseResult::dissipated_j))
     }),
-    ("storage_modulus_pa", |r| {
-        optional(r.result.as_ref().and_then(|c| c.storage_modulus_pa))
+    ("energy_imbalance", |r| {
+        optional(r.result.as_ref().and_then(CaseResult::energy_imbalance))
     }),
-    ("loss_modulus_pa", |r| {
-        optional(r.result.as_ref().and_then(|c| c.loss_modulus_pa))
-    }),
-    ("approach_min_m", |r| {
-        optional(r.result.as_ref().map(|c| c.approach_m.minimum))
-    }),
-    ("approach_max_m", |r| {
-        optional(r.result.as_ref().map(|c| c.approach_m.maximum))
-    }),
-    ("contact_radius_min_m", |r| {
-        optional(r.result.as_ref().map(|c| c.contact_radius_m.minimum))
-    }),
-    ("contact_radius_max_m", |r| {
-        optional(r.result.as_ref().map(|c| c.contact_radius_m.maximum))
-    }),
-    ("peak_pressure_min_pa", |r| {
-        let peaks = r.result.as_ref().and_then(|c| c.peak_pressure_pa);
-        optional(peaks.map(|p| p.minimum))
-    }),
-    ("peak_pressure_max_pa", |r| {
-        let peaks = r.result.as_ref().and_then(|c| c.peak_pressure_pa);
-        optional(peaks.map(|p| p.maximum))
-    }),
-    ("harmonic_2", |r| optional(harmonic(r, 2))),
-    ("harmonic_3", |r| optional(harmonic(r, 3))),
-    ("harmonic_4", |r| optional(harmonic(r, 4))),
-    ("harmonic_5", |r| optional(harmonic(r, 5))),
     ("polygon_loss_j", |r| {
         optional(r.result.as_ref().map(|c| c.analysis.polygon_loss_j))
     }),
+    ("harmonic_4", |r| optional(harmonic(r, 4))),
+    ("harmonic_5", |r| optional(harmonic(r, 5))),
+    // The number in the names of its loop and its record.
+    ("index", |r| r.index.to_string()),
+    ("method", |r| r.method.name().to_owned()),
+    ("steps", |r| r.steps.to_string()),
+    ("nodes", |r| r.nodes.to_string()),
     ("cycles", |r| r.cycles.to_string()),
     ("steady_distance", |r| optional(r.steady_distance)),
     ("domain_half_width_m", |r| number(r.domain_half_width_m)),
+    ("iterations", |r| r.iterations.to_string()),
     ("status", |r| r.status.name().to_owned()),
     ("message", |r| r.message.clone().unwrap_or_default()),
 ];

@@ -45,19 +45,27 @@ const DEPTH: usize = 12;
 /// By what factor a distance may exceed the best so far before the acceleration starts anew from the best.
 const SETBACK: f64 = 30.0;
 
-/// Searches the memory that one cycle of the drive leaves as it found it. `stop` is asked before every cycle.
+/// Searches the memory that one cycle of the drive leaves as it found it, from `start` (branch-major, as
+/// [`crate::history::Memory::variables`]; of the same cycle in other steps, say) or from the body relaxed under the mean.
+/// `stop` is asked before every time step.
 ///
 /// # Errors
 /// [`ContactError`] of the instant that could not be solved.
 pub fn find(
     march: &mut March<'_>,
     cycle: &Cycle<'_>,
+    start: Option<Vec<f64>>,
     settings: SteadySettings,
     stop: &dyn Fn() -> bool,
 ) -> Result<Steady, ContactError> {
     let correction = Correction::new(march.memory().compliance(), cycle.period_s, cycle.steps);
-    march.relax(cycle.mean)?;
-    let mut start = march.memory().variables().to_vec();
+    let mut start = match start {
+        Some(start) => start,
+        None => {
+            march.relax(cycle.mean)?;
+            march.memory().variables().to_vec()
+        }
+    };
     let nodes = march.pressure().len();
     let mut run = Run::new(march, cycle);
     let mut update = vec![0.0; start.len()];
@@ -69,9 +77,11 @@ pub fn find(
         cycles: 0,
         distance: f64::INFINITY,
     };
-    while steady.cycles < settings.max_cycles && !stop() {
+    while steady.cycles < settings.max_cycles {
         march.recall(&start);
-        run.cycle(march, cycle)?;
+        if !run.cycle(march, cycle, stop)? {
+            break;
+        }
         steady.cycles += 1;
         let end = march.memory().variables();
         let memory = correction.distance(&start, end, nodes, &mut update) / run.scale;
@@ -126,8 +136,13 @@ impl Run {
     }
 
     /// Solves one cycle from the memory the march holds. Its first instant is a jump: the pressure that belongs to the
-    /// memory and to the drive's value there.
-    fn cycle(&mut self, march: &mut March<'_>, cycle: &Cycle<'_>) -> Result<(), ContactError> {
+    /// memory and to the drive's value there. Says whether it came to its end.
+    fn cycle(
+        &mut self,
+        march: &mut March<'_>,
+        cycle: &Cycle<'_>,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<bool, ContactError> {
         self.contact.clear();
         self.scale = 0.0;
         self.load_n.clear();
@@ -136,13 +151,16 @@ impl Run {
         let first = march.jump((cycle.drive)(0.0))?;
         self.sample(&first);
         for step in 1..=cycle.steps {
+            if stop() {
+                return Ok(false);
+            }
             let solution = march.step(&self.weights, (cycle.drive)(step as f64 * share))?;
             self.sample(&solution);
             self.contact.push(march.pressure());
             let squares: f64 = march.pressure().iter().map(|p| p * p).sum();
             self.scale = self.scale.max(squares.sqrt());
         }
-        Ok(())
+        Ok(true)
     }
 
     fn sample(&mut self, solution: &Solution) {

@@ -1,14 +1,17 @@
-//! One case of a sweep: hold, march to the stabilised cycle, record it.
+//! One case of a sweep: the stabilised cycle at the resolution asked for, and at coarser ones for its error bars.
 
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::collections::HashMap;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex};
 
-use crate::contact::{ContactError, Engine, Prescribed};
-use crate::cycle::{self, BranchChange, Extrema, Loop, LoopError};
-use crate::history::{March, StepWeights};
+use crate::contact::ContactError;
+use crate::drive::HarmonicDrive;
 use crate::material::{Creep, MaterialError};
-use crate::sweep::engines::{self, AsContactError, EngineBuilder, EngineError, LargestContact};
-use crate::sweep::plan::SweepPlan;
+use crate::sweep::engines::{AsContactError, EngineBuilder, EngineError, LargestContact};
+use crate::sweep::error_bars::{ErrorBars, Ladder, Pair, Quantity};
+use crate::sweep::plan::{Case, EngineKind, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
+use crate::sweep::stabilise::{Contact, CycleError, Stabilised};
 
 /// Why a sweep cannot be set up.
 #[derive(Debug, Clone, thiserror::Error)]
@@ -28,30 +31,54 @@ pub enum SetupError {
 pub struct Setup {
     plan: SweepPlan,
     compliance: Creep,
-    engines: EngineBuilder,
+    relaxed_compliance_per_pa: f64,
+    engines: Mutex<HashMap<EngineKey, Arc<EngineBuilder>>>,
 }
+
+/// What engines differ in: the largest value of the drive, bit for bit, and the number of springs or cells.
+type EngineKey = (u64, usize);
 
 /// How a case ended early, other than by a record.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 enum CaseError {
     #[error(transparent)]
-    Contact(#[from] ContactError),
+    Cycle(#[from] CycleError),
     #[error(transparent)]
     Engine(#[from] EngineError),
-    #[error(transparent)]
-    Loop(#[from] LoopError),
-    #[error("interrupted")]
-    Interrupted,
 }
 
 impl AsContactError for CaseError {
     fn as_contact_error(&self) -> Option<&ContactError> {
         match self {
-            Self::Contact(error) => Some(error),
+            Self::Cycle(CycleError::Contact(error)) => Some(error),
             _ => None,
         }
     }
 }
+
+/// Steps per cycle, and springs or cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Resolution {
+    steps: usize,
+    nodes: usize,
+}
+
+/// Results on one number of nodes, by the number of steps: the finest last.
+struct Solved {
+    nodes: usize,
+    cycles: Vec<(usize, Stabilised)>,
+}
+
+/// The domain last tried: half width (m), and how often it was enlarged.
+#[derive(Debug, Clone, Copy, Default)]
+struct Domain {
+    half_width_m: f64,
+    growths: usize,
+}
+
+/// Fewest steps and nodes that a coarser resolution may have: below, a cycle has no shape, and its error says nothing.
+const FEWEST_STEPS: usize = 8;
+const FEWEST_NODES: usize = 16;
 
 impl Setup {
     /// Checks the plan against the physics and prepares what the cases share.
@@ -61,20 +88,19 @@ impl Setup {
     /// indenter.
     pub fn new(plan: SweepPlan) -> Result<Self, SetupError> {
         let compliance = plan.material.contact_compliance()?;
-        let relaxed = compliance
+        let relaxed_compliance_per_pa = compliance
             .equilibrium_compliance()
             .ok_or(SetupError::Fluid)?;
-        // No history within the drive's range makes a larger contact than its maximum held for ever.
-        let largest = LargestContact {
-            control: plan.drive.control(),
-            maximum: plan.drive.maximum(),
-            compliance_per_pa: relaxed,
-        };
-        Ok(Self {
-            engines: EngineBuilder::new(plan.indenter.clone(), plan.solver, largest)?,
+        let setup = Self {
+            relaxed_compliance_per_pa,
             compliance,
+            engines: Mutex::default(),
             plan,
-        })
+        };
+        for drive in setup.plan.drives() {
+            setup.engines(drive, setup.plan.solver.nodes())?;
+        }
+        Ok(setup)
     }
 
     /// The plan.
@@ -82,208 +108,360 @@ impl Setup {
         &self.plan
     }
 
-    /// Predicted cost of a case, in cycles: a high frequency needs many to forget the start.
-    pub fn predicted_cycles(&self, angular_frequency_rad_per_s: f64) -> f64 {
+    /// The contact compliance C(t).
+    pub fn compliance(&self) -> &Creep {
+        &self.compliance
+    }
+
+    /// Engines for a drive with so many springs or cells, built once.
+    fn engines(
+        &self,
+        drive: &HarmonicDrive,
+        nodes: usize,
+    ) -> Result<Arc<EngineBuilder>, EngineError> {
+        let key = (drive.maximum().to_bits(), nodes);
+        // A builder is whole or absent, whatever became of the thread that built it.
+        let mut engines = match self.engines.lock() {
+            Ok(engines) => engines,
+            Err(poisoned) => poisoned.into_inner(),
+        };
+        if let Some(builder) = engines.get(&key) {
+            return Ok(Arc::clone(builder));
+        }
+        // No history within the drive's range makes a larger contact than its maximum held for ever.
+        let largest = LargestContact {
+            control: drive.control(),
+            maximum: drive.maximum(),
+            compliance_per_pa: self.relaxed_compliance_per_pa,
+        };
+        let solver = self.plan.solver.with_nodes(nodes);
+        let builder = Arc::new(EngineBuilder::new(
+            self.plan.indenter.clone(),
+            solver,
+            largest,
+        )?);
+        engines.insert(key, Arc::clone(&builder));
+        Ok(builder)
+    }
+
+    /// Predicted cost of a case, in cycles: marching at a high frequency needs many to forget the start.
+    pub fn predicted_cycles(&self, case: &Case) -> f64 {
+        use crate::sweep::plan::Method;
         let slowest_s = self
             .compliance
             .branches()
             .iter()
             .map(|b| b.time_s)
             .fold(0.0, f64::max);
-        let cycles_to_forget = slowest_s * angular_frequency_rad_per_s / std::f64::consts::TAU;
+        let cycles_to_forget = slowest_s * case.angular_frequency_rad_per_s / std::f64::consts::TAU;
         let to_tolerance = -self.plan.cycle.tolerance.ln();
-        (2.0 + cycles_to_forget * to_tolerance).min(self.plan.cycle.max_cycles as f64)
+        match self.plan.cycle.method {
+            Method::Direct => 6.0,
+            Method::March => {
+                (2.0 + cycles_to_forget * to_tolerance).min(self.plan.cycle.max_cycles as f64)
+            }
+        }
     }
 
     /// Runs one case to its record; `None` where it was interrupted.
-    pub fn run(
-        &self,
-        index: usize,
-        angular_frequency_rad_per_s: f64,
-        interrupt: &AtomicBool,
-    ) -> Option<CaseRecord> {
+    pub fn run(&self, case: &Case, interrupt: &AtomicBool) -> Option<CaseRecord> {
+        let cycle = self.plan.cycle;
         let mut record = CaseRecord {
-            index,
-            angular_frequency_rad_per_s,
+            index: case.index,
+            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
+            drive_mean: case.drive.mean(),
+            drive_amplitude: case.drive.amplitude(),
             status: Status::Failed,
             message: None,
+            method: cycle.method,
+            steps: cycle.steps,
+            nodes: self.plan.solver.nodes(),
             cycles: 0,
             steady_distance: None,
-            domain_half_width_m: self.engines.half_width_m(),
+            domain_half_width_m: 0.0,
             domain_enlarged: 0,
             iterations: 0,
             result: None,
         };
-        let mut domain = (record.domain_half_width_m, 0);
-        let ended = self.engines.on_a_large_enough_domain(
-            |half_width_m, growths| domain = (half_width_m, growths),
-            |engine| self.march(engine, &mut record, interrupt),
-        );
-        (record.domain_half_width_m, record.domain_enlarged) = domain;
+        let contact = Contact {
+            compliance: &self.compliance,
+            poisson_ratio: self.plan.material.poisson_ratio(),
+            drive: case.drive,
+            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
+            time_rule: self.plan.solver.time_rule,
+            cycle,
+            interrupt,
+        };
+        let ended = match cycle.accuracy {
+            Some(accuracy) => self.to_accuracy(&contact, accuracy, &mut record),
+            None => self.at_resolution(&contact, &mut record),
+        };
         match ended {
             Ok(()) => {}
-            Err(CaseError::Interrupted) => return None,
-            Err(error) => record.message = Some(error.to_string()),
+            Err(CaseError::Cycle(CycleError::Interrupted)) => return None,
+            Err(error) => {
+                record.result = None;
+                record.status = Status::Failed;
+                record.message = Some(error.to_string());
+            }
         }
         Some(record)
     }
 
-    fn march(
+    /// Solves at the record's own resolution, and at coarser ones where error bars are wanted.
+    fn at_resolution(
         &self,
-        engine: &mut dyn Engine,
+        contact: &Contact<'_>,
         record: &mut CaseRecord,
-        interrupt: &AtomicBool,
     ) -> Result<(), CaseError> {
-        let SweepPlan { drive, cycle, .. } = &self.plan;
-        let rule = self.plan.solver.time_rule;
-        let mut march = March::new(engine, self.compliance.clone(), rule);
-        let mean = engines::prescribed(drive.control(), drive.mean());
-        march.jump(mean)?;
-        march.hold(drive.hold_s(), mean)?;
-        march.jump(self.prescribed(0.0))?;
-
-        let period_s = std::f64::consts::TAU / record.angular_frequency_rad_per_s;
-        let mut cycles = Cycles {
-            setup: self,
-            weights: march.weights(period_s / cycle.steps as f64),
-            period_s,
-            start: Vec::new(),
+        let fine = Resolution {
+            steps: record.steps,
+            nodes: record.nodes,
         };
-        record.cycles = 0;
-        while record.cycles < cycle.max_cycles {
-            record.cycles += 1;
-            let distance = cycles.run(&mut march, interrupt, None)?;
-            record.steady_distance = distance;
-            if distance.is_some_and(|d| d <= cycle.tolerance) {
-                let mut samples = Loop::default();
-                record.cycles += 1;
-                record.steady_distance = cycles.run(&mut march, interrupt, Some(&mut samples))?;
-                record.result = Some(self.result(samples)?);
-                record.status = Status::Converged;
-                record.iterations = march.iterations();
+        let bars = contact.cycle.error_bars && self.can_be_coarsened(contact, fine)?;
+        let mut steps = vec![fine.steps];
+        if bars {
+            // From coarse to fine: each number of steps starts the next from its memory.
+            steps.insert(0, fine.steps / 2);
+            if self.plan.solver.engine == EngineKind::Axisymmetric {
+                steps.insert(0, fine.steps / 4);
+            }
+        }
+        let mut domain = Domain::default();
+        let solved = self.solve(contact, fine.nodes, &steps, &mut domain);
+        (record.domain_half_width_m, record.domain_enlarged) =
+            (domain.half_width_m, domain.growths);
+        let mut solved = solved?;
+        record.take(&mut solved);
+        if record.result.is_none() || !bars {
+            return Ok(());
+        }
+        let coarse =
+            |nodes, steps: &[usize]| self.solve(contact, nodes, steps, &mut Domain::default());
+        let half = coarse(fine.nodes / 2, &self.steps_of_coarse(fine))?;
+        let quarter = match fine.nodes / 4 >= FEWEST_NODES {
+            true => Some(coarse(fine.nodes / 4, &[fine.steps / 2])?),
+            false => None,
+        };
+        for solved in std::iter::once(&half).chain(&quarter) {
+            record.iterations += solved.iterations();
+        }
+        if let Some(result) = &mut record.result {
+            let distance = record.steady_distance.unwrap_or(0.0);
+            result.errors = error_bars(result, fine, distance, [&solved, &half], quarter.as_ref());
+            if result.errors.is_none() {
+                record.message.get_or_insert_with(|| {
+                    "no error bars: a coarser resolution did not stabilise".to_owned()
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Steps on half the nodes: as many as the difference between the two needs, and those that tell the order in the steps
+    /// where the full number of nodes is too dear for it.
+    fn steps_of_coarse(&self, fine: Resolution) -> Vec<usize> {
+        match self.plan.solver.engine {
+            EngineKind::Axisymmetric => vec![fine.steps / 2],
+            EngineKind::HalfSpace => vec![fine.steps / 4, fine.steps / 2],
+        }
+    }
+
+    /// Whether a coarser resolution exists and means the same contact: an indenter on its own cells has no coarser one.
+    fn can_be_coarsened(
+        &self,
+        contact: &Contact<'_>,
+        fine: Resolution,
+    ) -> Result<bool, EngineError> {
+        let engines = self.engines(&contact.drive, fine.nodes)?;
+        Ok(fine.steps / 4 >= FEWEST_STEPS
+            && fine.nodes / 2 >= FEWEST_NODES
+            && !engines.has_cells_of_its_own())
+    }
+
+    /// Chooses steps and nodes such that the error of the loss stays below `accuracy` of it, at the least cost.
+    fn to_accuracy(
+        &self,
+        contact: &Contact<'_>,
+        accuracy: f64,
+        record: &mut CaseRecord,
+    ) -> Result<(), CaseError> {
+        /// Each refinement is foretold from the last one's error; where an error falls more slowly than foretold, it takes more.
+        const ROUNDS: usize = 8;
+        (record.steps, record.nodes) = match self.plan.solver.engine {
+            EngineKind::Axisymmetric => (64, 64),
+            EngineKind::HalfSpace => (48, 64),
+        };
+        let mut contact = *contact;
+        contact.cycle.error_bars = true;
+        contact.cycle.tolerance = contact.cycle.tolerance.min(0.1 * accuracy);
+        let mut iterations = 0;
+        for _ in 0..ROUNDS {
+            self.at_resolution(&contact, record)?;
+            iterations += record.iterations;
+            record.iterations = iterations;
+            let Some(result) = &record.result else {
+                return Ok(());
+            };
+            let bar = result
+                .errors
+                .as_ref()
+                .and_then(|e| e.bar(Quantity::EnergyLoss));
+            let Some(bar) = bar else {
+                record.miss("no error could be estimated");
+                return Ok(());
+            };
+            let allowed_j = accuracy * result.analysis.energy_loss_j.abs();
+            if bar.total() <= allowed_j {
                 return Ok(());
             }
+            // Half of what is allowed for each, of which the distance to the stabilised cycle takes its part from both.
+            let share_j = (0.5 * (allowed_j - bar.steady)).max(0.1 * allowed_j);
+            let next = Resolution {
+                steps: finer(record.steps, bar.steps, share_j),
+                nodes: finer(record.nodes, bar.nodes, share_j),
+            };
+            let limit = self.finest();
+            if next.steps > limit.steps || next.nodes > limit.nodes {
+                break;
+            }
+            (record.steps, record.nodes) = (next.steps, next.nodes);
         }
-        record.iterations = march.iterations();
-        record.status = Status::NotConverged;
-        record.message = Some(match record.steady_distance {
-            Some(distance) => format!(
-                "after {} cycles the estimated distance to the stabilised cycle is {distance:.1e}, above the tolerance {:.1e}",
-                record.cycles, cycle.tolerance
-            ),
-            None => format!("no pressure arose in {} cycles", record.cycles),
-        });
+        let reached = record.energy_loss_error_j().zip(record.energy_loss_j());
+        let reached = reached.map_or(f64::INFINITY, |(error, loss)| (error / loss).abs());
+        record.miss(&format!(
+            "the error of the loss is {reached:.1e} of it at {} steps and {} nodes, above the accuracy {accuracy:.1e}",
+            record.steps, record.nodes
+        ));
         Ok(())
     }
 
-    /// What the drive asks for at this fraction of a cycle.
-    fn prescribed(&self, cycle_fraction: f64) -> Prescribed {
-        let drive = &self.plan.drive;
-        engines::prescribed(drive.control(), drive.value(cycle_fraction))
+    /// Beyond this an accuracy counts as out of reach.
+    fn finest(&self) -> Resolution {
+        match self.plan.solver.engine {
+            EngineKind::Axisymmetric => Resolution {
+                steps: 20_000,
+                nodes: 6_400,
+            },
+            EngineKind::HalfSpace => Resolution {
+                steps: 4_000,
+                nodes: 1_024,
+            },
+        }
     }
 
-    fn result(&self, samples: Loop) -> Result<CaseResult, LoopError> {
-        let analysis = cycle::analyse(&samples.load_n, &samples.approach_m)?;
-        let radii = &samples.contact_radius_m;
-        // The mean over the period counts the seam once.
-        let mean_radius_m =
-            radii.iter().skip(1).sum::<f64>() / radii.len().saturating_sub(1).max(1) as f64;
-        let moduli =
-            analysis.equivalent_moduli_pa(mean_radius_m, self.plan.material.poisson_ratio());
-        let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
-        let extrema = |signal: &[f64]| {
-            Extrema::of(signal).ok_or(LoopError::TooFewSamples {
-                samples: 0,
-                needed: 1,
-            })
+    /// The case on so many nodes, in each of the numbers of steps, every one started from the memory of the last.
+    fn solve(
+        &self,
+        contact: &Contact<'_>,
+        nodes: usize,
+        steps: &[usize],
+        domain: &mut Domain,
+    ) -> Result<Solved, CaseError> {
+        let engines = self.engines(&contact.drive, nodes)?;
+        let cycles = engines.on_a_large_enough_domain(
+            |half_width_m, growths| {
+                *domain = Domain {
+                    half_width_m,
+                    growths,
+                }
+            },
+            |engine| {
+                let mut solved: Vec<(usize, Stabilised)> = Vec::with_capacity(steps.len());
+                for &steps in steps {
+                    let start = solved.last().map(|(_, coarser)| coarser.memory.clone());
+                    solved.push((steps, contact.stabilise(engine, steps, start)?));
+                }
+                Ok::<_, CaseError>(solved)
+            },
+        )?;
+        Ok(Solved { nodes, cycles })
+    }
+}
+
+impl Solved {
+    /// The result in so many steps.
+    fn result(&self, steps: usize) -> Option<&CaseResult> {
+        let (_, cycle) = self.cycles.iter().find(|(s, _)| *s == steps)?;
+        cycle.result.as_ref()
+    }
+
+    fn iterations(&self) -> u64 {
+        self.cycles.iter().map(|(_, cycle)| cycle.iterations).sum()
+    }
+}
+
+impl CaseRecord {
+    /// Takes over what was found in the most steps; leaves the coarser results where they are.
+    fn take(&mut self, solved: &mut Solved) {
+        self.iterations = solved.iterations();
+        let Some((_, finest)) = solved.cycles.last_mut() else {
+            return;
         };
-        Ok(CaseResult {
-            storage_modulus_pa: moduli.map(|m| m.0),
-            loss_modulus_pa: moduli.map(|m| m.1),
-            approach_m: extrema(&samples.approach_m)?,
-            contact_radius_m: not_negative(extrema(&samples.contact_radius_m)?),
-            peak_pressure_pa: peaks.as_deref().and_then(Extrema::of).map(not_negative),
-            analysis,
-            samples,
-        })
+        self.method = finest.method;
+        self.cycles = finest.cycles;
+        self.steady_distance = finest.distance;
+        self.message = finest.message.take();
+        self.result = finest.result.take();
+        self.status = match self.result {
+            Some(_) => Status::Converged,
+            None => Status::NotConverged,
+        };
+    }
+
+    /// There is no result of the accuracy asked for, and so no result.
+    fn miss(&mut self, why: &str) {
+        self.result = None;
+        self.status = Status::NotConverged;
+        self.message = Some(why.to_owned());
     }
 }
 
-/// Extrema of what cannot be negative: where a contact opens or closes, a parabola through samples may go below zero.
-fn not_negative(extrema: Extrema) -> Extrema {
-    Extrema {
-        minimum: extrema.minimum.max(0.0),
-        ..extrema
+/// Nodes or steps that bring an error of second order down to what is allowed, with a little to spare; divisible by four, as
+/// coarser ones are halves and quarters.
+fn finer(now: usize, error: f64, allowed: f64) -> usize {
+    const SPARE: f64 = 1.1;
+    let factor = SPARE * (error / allowed).sqrt();
+    if factor <= 1.0 {
+        return now;
     }
+    // One foretelling is not trusted further than this.
+    const LARGEST: f64 = 8.0;
+    let wanted = now as f64 * factor.min(LARGEST);
+    4 * (wanted / 4.0).ceil() as usize
 }
 
-/// Cycles of one case.
-struct Cycles<'a> {
-    setup: &'a Setup,
-    weights: StepWeights,
-    period_s: f64,
-    /// Memory variables at the start of the cycle.
-    start: Vec<f64>,
-}
-
-impl Cycles<'_> {
-    /// Marches one cycle; samples it where asked to. Returns the estimated distance to the stabilised cycle.
-    fn run(
-        &mut self,
-        march: &mut March<'_>,
-        interrupt: &AtomicBool,
-        mut samples: Option<&mut Loop>,
-    ) -> Result<Option<f64>, CaseError> {
-        let steps = self.setup.plan.cycle.steps;
-        self.start.clear();
-        self.start.extend_from_slice(march.memory().variables());
-        let mut scale = 0.0_f64;
-        if let Some(samples) = samples.as_deref_mut() {
-            sample(march, samples, 0.0)?;
-        }
-        for step in 1..=steps {
-            if interrupt.load(Ordering::Relaxed) {
-                return Err(CaseError::Interrupted);
-            }
-            let fraction = step as f64 / steps as f64;
-            march.step(&self.weights, self.setup.prescribed(fraction))?;
-            scale = march.pressure().iter().fold(scale, |s, &p| s.max(p));
-            if let Some(samples) = samples.as_deref_mut() {
-                sample(march, samples, fraction * self.period_s)?;
-            }
-        }
-        let changes = self.changes(march);
-        Ok(cycle::steady_distance(&changes, self.period_s, scale))
-    }
-
-    fn changes(&self, march: &March<'_>) -> Vec<BranchChange> {
-        let nodes = march.pressure().len();
-        let end = march.memory().variables();
-        let chunks = self.start.chunks_exact(nodes).zip(end.chunks_exact(nodes));
-        chunks
-            .zip(march.memory().compliance().branches())
-            .map(|((before, after), branch)| BranchChange {
-                retardation_time_s: branch.time_s,
-                largest_change: before
-                    .iter()
-                    .zip(after)
-                    .fold(0.0, |largest: f64, (b, a)| largest.max((a - b).abs())),
-            })
-            .collect()
-    }
-}
-
-/// Appends the present instant to a loop.
-fn sample(march: &mut March<'_>, samples: &mut Loop, time_s: f64) -> Result<(), ContactError> {
-    march.observe(&mut |engine, pressure, solution| {
-        engine.check_assumptions(pressure, solution)?;
-        samples.time_s.push(time_s);
-        samples.load_n.push(solution.load_n);
-        samples.approach_m.push(solution.approach_m);
-        samples.contact_radius_m.push(solution.contact_radius_m);
-        samples
-            .peak_pressure_pa
-            .push(engine.peak_pressure_pa(pressure, solution)?);
-        Ok(())
-    })
+/// Error bars of the finest result, from what is coarser in steps on the same nodes and coarser in nodes at the same steps.
+/// `None` where one of them has no result.
+fn error_bars(
+    result: &CaseResult,
+    fine: Resolution,
+    distance: f64,
+    [solved, half]: [&Solved; 2],
+    quarter: Option<&Solved>,
+) -> Option<ErrorBars> {
+    let (middle, coarsest) = (fine.steps / 2, fine.steps / 4);
+    let pair = |finer, coarser, [fine, coarse]: [usize; 2]| Pair {
+        finer,
+        coarser,
+        ratio: fine as f64 / coarse as f64,
+    };
+    // Where the fewest steps were not taken on all nodes, they were on half of them.
+    let second = [solved, half].into_iter().find_map(|on| {
+        let results = on.result(middle).zip(on.result(coarsest));
+        results.map(|(m, c)| pair(m, c, [middle, coarsest]))
+    });
+    let steps = Ladder {
+        first: pair(result, solved.result(middle)?, [fine.steps, middle]),
+        second,
+    };
+    let on_half = half.result(middle)?;
+    let nodes = Ladder {
+        first: pair(solved.result(middle)?, on_half, [solved.nodes, half.nodes]),
+        second: quarter.and_then(|quarter| {
+            let on_quarter = quarter.result(middle)?;
+            Some(pair(on_half, on_quarter, [half.nodes, quarter.nodes]))
+        }),
+    };
+    Some(ErrorBars::estimate(result, &steps, &nodes, distance))
 }

@@ -85,6 +85,11 @@ impl EngineBuilder {
         Ok(builder)
     }
 
+    /// Whether the cells are those of the indenter, whatever number of them was asked for.
+    pub fn has_cells_of_its_own(&self) -> bool {
+        self.solver.engine == EngineKind::HalfSpace && matches!(self.domain, Domain::Cells { .. })
+    }
+
     /// Half width of the domain before it is enlarged (m).
     pub fn half_width_m(&self) -> f64 {
         self.enlarged_half_width_m(0).0

@@ -3,11 +3,14 @@
 pub mod case;
 pub mod domain;
 pub mod engines;
+pub mod error_bars;
 pub mod peak;
 pub mod plan;
 pub mod record;
+pub mod refine;
 pub mod resolved;
 pub mod run;
 pub mod scenario;
 pub mod simulate;
+mod stabilise;
 pub mod store;

@@ -8,8 +8,15 @@ use serde::{Deserialize, Serialize};
 pub struct Peak {
     pub angular_frequency_rad_per_s: f64,
     pub energy_loss_j: f64,
-    /// By how much (rad/s) the last refinement moved the frequency.
+    /// By how much (rad/s) the last refinement and the error bars of the losses move the frequency.
     pub angular_frequency_uncertainty_rad_per_s: f64,
+    /// Error (J) of the loss there, where the losses have error bars.
+    pub energy_loss_error_j: Option<f64>,
+    /// Mean and amplitude of the drive (N or m), where the sweep varies one of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drive_mean: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub drive_amplitude: Option<f64>,
 }
 
 /// A point of the curve: angular frequency (rad/s), energy loss (J).
@@ -33,8 +40,11 @@ pub enum PeakError {
     Interrupted,
 }
 
-/// Computes the losses (J) at several frequencies (rad/s).
-pub type Losses<'a> = dyn Fn(&[f64]) -> Result<Vec<f64>, PeakError> + 'a;
+/// A loss and its error (J), where it has one.
+pub type Loss = (f64, Option<f64>);
+
+/// Computes the losses at several frequencies (rad/s).
+pub type Losses<'a> = dyn Fn(&[f64]) -> Result<Vec<Loss>, PeakError> + 'a;
 
 /// Accuracy to which a peak's frequency is located, relative.
 pub const RELATIVE_ACCURACY: f64 = 1e-3;
@@ -71,7 +81,8 @@ pub fn refine(bracket: &[Point; 3], losses: &Losses<'_>) -> Result<Peak, PeakErr
             .map(|i| centre + half_width * (2.0 * i as f64 / (STENCIL - 1) as f64 - 1.0))
             .collect();
         let omegas: Vec<f64> = abscissae.iter().map(|x| x.exp()).collect();
-        let values = losses(&omegas)?;
+        let computed = losses(&omegas)?;
+        let values: Vec<f64> = computed.iter().map(|(loss, _)| *loss).collect();
         let Some((next, loss)) = vertex(&abscissae, &values) else {
             // No maximum inside the stencil: move to its best point and look again.
             let best = (0..STENCIL).max_by(|&a, &b| values[a].total_cmp(&values[b]));
@@ -82,10 +93,14 @@ pub fn refine(bracket: &[Point; 3], losses: &Losses<'_>) -> Result<Peak, PeakErr
         centre = next;
         if moved < 0.5 * RELATIVE_ACCURACY {
             let omega = next.exp();
+            let (shift, error) = of_errors(&abscissae, &computed, next);
             return Ok(Peak {
                 angular_frequency_rad_per_s: omega,
                 energy_loss_j: loss,
-                angular_frequency_uncertainty_rad_per_s: omega * moved,
+                angular_frequency_uncertainty_rad_per_s: omega * (moved + shift),
+                energy_loss_error_j: error,
+                drive_mean: None,
+                drive_amplitude: None,
             });
         }
         half_width = (0.5 * half_width).max(0.1);
@@ -93,6 +108,25 @@ pub fn refine(bracket: &[Point; 3], losses: &Losses<'_>) -> Result<Peak, PeakErr
     Err(PeakError::NotSettled {
         angular_frequency_rad_per_s: centre.exp(),
     })
+}
+
+/// By how much the errors move a vertex found at `at`, and the error of the loss there. Errors of one discretisation vary
+/// slowly over frequency: it is their slope that moves the vertex, up or down.
+fn of_errors(abscissae: &[f64], computed: &[Loss], at: f64) -> (f64, Option<f64>) {
+    let Some(errors) = computed
+        .iter()
+        .map(|(_, e)| *e)
+        .collect::<Option<Vec<f64>>>()
+    else {
+        return (0.0, None);
+    };
+    let largest = errors.iter().copied().fold(0.0, f64::max);
+    let shifted = |sign: f64| {
+        let values = computed.iter().zip(&errors);
+        let values: Vec<f64> = values.map(|((loss, _), e)| loss + sign * e).collect();
+        vertex(abscissae, &values).map_or(0.0, |(x, _)| (x - at).abs())
+    };
+    (shifted(1.0).max(shifted(-1.0)), Some(largest))
 }
 
 /// Maximum (position, value) of the polynomial through the points, where it lies between the outer ones.
@@ -165,7 +199,7 @@ mod tests {
             for ratio in [1.2, 10f64.powf(0.1), 2.0, 4.0] {
                 let brackets = brackets(&sampled(start, ratio, 60));
                 assert_eq!(brackets.len(), 1);
-                let exact = |omegas: &[f64]| Ok(omegas.iter().map(|&o| loss(o)).collect());
+                let exact = |omegas: &[f64]| Ok(omegas.iter().map(|&o| (loss(o), None)).collect());
                 let peak = refine(&brackets[0], &exact).unwrap();
                 let relative = peak.angular_frequency_rad_per_s / low - 1.0;
                 assert!(relative.abs() < RELATIVE_ACCURACY, "{relative}");
@@ -176,10 +210,13 @@ mod tests {
 
     #[test]
     fn noise_of_a_millionth_in_the_losses_does_not_move_the_peak_beyond_the_accuracy() {
-        let clean = |omegas: &[f64]| Ok(omegas.iter().map(|&o| loss(o)).collect());
+        let clean = |omegas: &[f64]| Ok(omegas.iter().map(|&o| (loss(o), None)).collect());
         let noisy = |omegas: &[f64]| {
             let jitter = |o: f64| 1.0 + 1e-6 * (1e9 * o).sin();
-            Ok(omegas.iter().map(|&o| loss(o) * jitter(o)).collect())
+            Ok(omegas
+                .iter()
+                .map(|&o| (loss(o) * jitter(o), None))
+                .collect())
         };
         let bracket = brackets(&sampled(1e-4, 10f64.powf(0.1), 41))[0];
         let (a, b) = (
@@ -188,6 +225,28 @@ mod tests {
         );
         let moved = a.angular_frequency_rad_per_s / b.angular_frequency_rad_per_s - 1.0;
         assert!(moved.abs() < RELATIVE_ACCURACY);
+    }
+
+    #[test]
+    fn errors_of_the_losses_become_an_uncertainty_of_the_peak() {
+        // A true curve that lies above the computed one by a part that grows with frequency.
+        let part = |omega: f64| 1e-3 * (omega / 0.01).sqrt();
+        let computed = |omegas: &[f64]| {
+            let point = |&o: &f64| (loss(o), Some(part(o) * loss(o)));
+            Ok(omegas.iter().map(point).collect())
+        };
+        let truth = |omegas: &[f64]| {
+            let point = |&o: &f64| (loss(o) * (1.0 + part(o)), None);
+            Ok(omegas.iter().map(point).collect())
+        };
+        let bracket = brackets(&sampled(1e-4, 10f64.powf(0.1), 41))[0];
+        let found = refine(&bracket, &computed).unwrap();
+        let exact = refine(&bracket, &truth).unwrap();
+        let away = (found.angular_frequency_rad_per_s - exact.angular_frequency_rad_per_s).abs();
+        assert!(away > 0.0 && away <= found.angular_frequency_uncertainty_rad_per_s);
+        let error_j = found.energy_loss_error_j.unwrap();
+        assert!((found.energy_loss_j - exact.energy_loss_j).abs() <= error_j);
+        assert_eq!(exact.energy_loss_error_j, None);
     }
 
     #[test]

@@ -14,21 +14,121 @@ pub struct SweepPlan {
     pub material: Material,
     pub indenter: Arc<dyn Indenter>,
     pub drive: HarmonicDrive,
+    /// The second axis of the sweep, where there is one: every frequency is then solved under each of these drives.
+    pub axis: Option<DriveAxis>,
     /// Ascending, in rad/s.
     pub angular_frequencies_rad_per_s: Vec<f64>,
+    /// Whether frequencies are added where these do not resolve the curve of the loss.
+    pub refine: bool,
     pub cycle: CyclePlan,
     pub solver: SolverPlan,
+}
+
+/// Drives that differ in one of their numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DriveAxis {
+    pub varied: Varied,
+    /// In the order of the varied number, ascending; the first, with the frequencies, makes the first cases.
+    pub drives: Vec<HarmonicDrive>,
+}
+
+/// What differs between the drives of a [`DriveAxis`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Varied {
+    Amplitude,
+    Mean,
+}
+
+impl Varied {
+    /// The key of `[drive]`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Amplitude => "amplitude",
+            Self::Mean => "mean",
+        }
+    }
+
+    /// The varied number of a drive, in the unit of its control.
+    pub fn value(self, drive: &HarmonicDrive) -> f64 {
+        match self {
+            Self::Amplitude => drive.amplitude(),
+            Self::Mean => drive.mean(),
+        }
+    }
+}
+
+/// One frequency under one drive.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Case {
+    /// Position in the sweep, from 0: drive after drive, and ascending frequency within each.
+    pub index: usize,
+    pub angular_frequency_rad_per_s: f64,
+    pub drive: HarmonicDrive,
+}
+
+impl SweepPlan {
+    /// The drives: one, but for a sweep of two axes.
+    pub fn drives(&self) -> &[HarmonicDrive] {
+        match &self.axis {
+            Some(axis) => &axis.drives,
+            None => std::slice::from_ref(&self.drive),
+        }
+    }
+
+    /// Every case, in order.
+    pub fn cases(&self) -> Vec<Case> {
+        let omegas = &self.angular_frequencies_rad_per_s;
+        let pairs = self
+            .drives()
+            .iter()
+            .flat_map(|drive| omegas.iter().map(move |omega| (*drive, *omega)));
+        pairs
+            .enumerate()
+            .map(|(index, (drive, angular_frequency_rad_per_s))| Case {
+                index,
+                angular_frequency_rad_per_s,
+                drive,
+            })
+            .collect()
+    }
 }
 
 /// How a cycle is resolved and when it counts as stabilised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CyclePlan {
-    /// Time steps per cycle.
+    /// Time steps per cycle; where an accuracy is asked for, at least.
     pub steps: usize,
-    /// Largest allowed estimated distance to the stabilised cycle, relative to the largest pressure.
+    /// How the stabilised cycle is reached.
+    pub method: Method,
+    /// Largest allowed estimated distance to the stabilised cycle: of the memory relative to the pressure, and of the loop to a
+    /// closed one relative to its area.
     pub tolerance: f64,
-    /// Cycles after which a frequency counts as not converged.
+    /// Cycles of marching after which a frequency counts as not converged.
     pub max_cycles: usize,
+    /// Whether every result is to be computed on coarser resolutions too, which gives its error.
+    pub error_bars: bool,
+    /// Largest allowed error of the loss, relative: steps and nodes are then chosen to reach it.
+    pub accuracy: Option<f64>,
+}
+
+/// How the stabilised cycle is reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Searched: see [`crate::steady`].
+    Direct,
+    /// Waited for, cycle after cycle.
+    March,
+}
+
+impl Method {
+    /// The name as written in a sweep file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Direct => "direct",
+            Self::March => "march",
+        }
+    }
 }
 
 /// Which engine, and how fine.
@@ -66,12 +166,40 @@ impl EngineKind {
     }
 }
 
+impl SolverPlan {
+    /// Nodes along the contact's radius (springs) or the domain's longer side (cells), whichever the engine has.
+    pub fn nodes(&self) -> usize {
+        match self.engine {
+            EngineKind::Axisymmetric => self.springs,
+            EngineKind::HalfSpace => self.cells,
+        }
+    }
+
+    /// The same engine with another number of them.
+    #[must_use]
+    pub fn with_nodes(self, nodes: usize) -> Self {
+        match self.engine {
+            EngineKind::Axisymmetric => Self {
+                springs: nodes,
+                ..self
+            },
+            EngineKind::HalfSpace => Self {
+                cells: nodes,
+                ..self
+            },
+        }
+    }
+}
+
 impl Default for CyclePlan {
     fn default() -> Self {
         Self {
             steps: 200,
+            method: Method::Direct,
             tolerance: 1e-4,
             max_cycles: 1000,
+            error_bars: true,
+            accuracy: None,
         }
     }
 }

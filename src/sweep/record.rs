@@ -3,6 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::cycle::{Extrema, Loop, LoopAnalysis};
+use crate::drive::HarmonicDrive;
+use crate::sweep::error_bars::ErrorBars;
+use crate::sweep::plan::Method;
 
 /// How a case ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -10,7 +13,7 @@ use crate::cycle::{Extrema, Loop, LoopAnalysis};
 pub enum Status {
     /// The stabilised cycle was reached within the tolerance.
     Converged,
-    /// `max_cycles` passed before the cycle was stabilised: there is no result.
+    /// The cycle was not stabilised, or not to the accuracy asked for, before the limits were met: there is no result.
     NotConverged,
     /// An instant could not be solved: there is no result.
     Failed,
@@ -33,17 +36,25 @@ pub struct CaseRecord {
     /// Position in the sweep, from 0, in ascending frequency.
     pub index: usize,
     pub angular_frequency_rad_per_s: f64,
+    /// Mean and amplitude of the drive (N or m).
+    pub drive_mean: f64,
+    pub drive_amplitude: f64,
     pub status: Status,
     /// Why there is no result, or what else a reader should know.
     pub message: Option<String>,
-    /// Cycles marched, the recorded one included.
+    /// How the cycle was reached in the end.
+    pub method: Method,
+    /// Time steps per cycle, and springs or cells, of the result.
+    pub steps: usize,
+    pub nodes: usize,
+    /// Cycles solved at this resolution, the recorded one included.
     pub cycles: usize,
-    /// Estimated distance of the last cycle to the stabilised one, relative to the largest pressure.
+    /// Estimated distance of the recorded cycle to the stabilised one.
     pub steady_distance: Option<f64>,
     /// Half width of the computational domain (m) and how often it had to be enlarged.
     pub domain_half_width_m: f64,
     pub domain_enlarged: usize,
-    /// Contact iterations over all instants.
+    /// Contact iterations over all instants, of coarser resolutions too.
     pub iterations: u64,
     /// Only for a converged case.
     pub result: Option<CaseResult>,
@@ -60,8 +71,43 @@ pub struct CaseResult {
     pub contact_radius_m: Extrema,
     /// `None` where the indenter's shape makes the pressure unbounded.
     pub peak_pressure_pa: Option<Extrema>,
+    /// Errors of the numbers above; `None` where they were not asked for or could not be estimated.
+    pub errors: Option<ErrorBars>,
+    /// Energy (J) that each branch of the creep compliance dissipates over the cycle, shortest retardation time first.
+    pub branches: Vec<BranchLoss>,
+    /// Where the energy goes in.
+    pub surface_loss: SurfaceLoss,
     /// The cycle itself.
     pub samples: Loop,
+}
+
+/// What one branch dissipates over a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BranchLoss {
+    pub retardation_time_s: f64,
+    pub energy_loss_j: f64,
+}
+
+/// Density over the surface (J/m2) of the work that the indenter does on it over a cycle, the integral of p d(delta): its
+/// integral over the surface is the energy loss.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum SurfaceLoss {
+    /// Along a radius, axis first; `None` where it is unbounded, at an apex.
+    Radial {
+        radius_m: Vec<f64>,
+        density_j_per_m2: Vec<Option<f64>>,
+    },
+    /// At the centres of cells, row by row, of the smallest rectangle that holds all contact of the cycle.
+    Cells {
+        /// Centre of the first cell, and spacing (m).
+        first_x_m: f64,
+        first_y_m: f64,
+        spacing_x_m: f64,
+        spacing_y_m: f64,
+        cells_x: usize,
+        /// Single precision: seven digits are more than the grid resolves.
+        density_j_per_m2: Vec<f32>,
+    },
 }
 
 impl CaseRecord {
@@ -70,8 +116,33 @@ impl CaseRecord {
         self.result.as_ref().map(|r| r.analysis.energy_loss_j)
     }
 
+    /// Its estimated error (J).
+    pub fn energy_loss_error_j(&self) -> Option<f64> {
+        use crate::sweep::error_bars::Quantity::EnergyLoss;
+        self.result.as_ref()?.errors.as_ref()?.of(EnergyLoss)
+    }
+
+    /// Whether the case ran under this drive.
+    pub fn is_under(&self, drive: &HarmonicDrive) -> bool {
+        self.drive_mean == drive.mean() && self.drive_amplitude == drive.amplitude()
+    }
+
     /// Load frequency (Hz).
     pub fn frequency_hz(&self) -> f64 {
         self.angular_frequency_rad_per_s / std::f64::consts::TAU
+    }
+}
+
+impl CaseResult {
+    /// Energy (J) dissipated by all branches.
+    pub fn dissipated_j(&self) -> f64 {
+        self.branches.iter().map(|b| b.energy_loss_j).sum()
+    }
+
+    /// By how much the dissipation differs from the area of the loop, relative to it: zero but for discretisation.
+    /// `None` for a loop without area.
+    pub fn energy_imbalance(&self) -> Option<f64> {
+        let loss = self.analysis.energy_loss_j;
+        (loss != 0.0).then(|| self.dissipated_j() / loss - 1.0)
     }
 }

@@ -36,7 +36,17 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         "hold = {}",
         quantity(drive.hold_s(), Dimension::Time)
     ));
-    line("\n[sweep]\nangular_frequency = [");
+    line("\n[sweep]");
+    if let Some(axis) = &plan.axis {
+        let values = axis.drives.iter().map(|drive| axis.varied.value(drive));
+        let values: Vec<String> = values.map(|value| quantity(value, dimension)).collect();
+        let list = values.join(", ");
+        line(&format!("drive.{} = [{list}]", axis.varied.name()));
+    }
+    if plan.refine {
+        line("refine = true");
+    }
+    line("angular_frequency = [");
     for &omega in &plan.angular_frequencies_rad_per_s {
         line(&format!(
             "    {},",
@@ -45,9 +55,13 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     }
     line("]\n\n[cycle]");
     line(&format!("steps = {}", plan.cycle.steps));
-    line("method = \"march\"");
+    line(&format!("method = \"{}\"", plan.cycle.method.name()));
     line(&format!("tolerance = {:e}", plan.cycle.tolerance));
     line(&format!("max_cycles = {}", plan.cycle.max_cycles));
+    line(&format!("error_bars = {}", plan.cycle.error_bars));
+    if let Some(accuracy) = plan.cycle.accuracy {
+        line(&format!("accuracy = {accuracy:e}"));
+    }
     line("");
     text.push_str(&solver_text(&plan.solver));
     text

@@ -15,7 +15,7 @@ use contact_dma::indenter::Indenter;
 use contact_dma::material::classical::{Maxwell, Zener};
 use contact_dma::material::{Creep, Material, library};
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{CyclePlan, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::{Case, CyclePlan, SolverPlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 
 /// The axisymmetric engine for this indenter: so many springs over the half width.
@@ -140,8 +140,14 @@ pub fn sweep_plan(
         drive: HarmonicLoad::new(mean_n, amplitude_n, 0.0, 0.0)
             .unwrap()
             .into(),
+        axis: None,
         angular_frequencies_rad_per_s: Vec::new(),
-        cycle: CyclePlan::default(),
+        refine: false,
+        // Tests that look at error bars ask for them.
+        cycle: CyclePlan {
+            error_bars: false,
+            ..CyclePlan::default()
+        },
         solver: SolverPlan::default(),
     }
 }
@@ -150,9 +156,12 @@ pub fn sweep_plan(
 pub fn run_case(plan: &SweepPlan, angular_frequency_rad_per_s: f64) -> CaseRecord {
     let setup = Setup::new(plan.clone()).unwrap();
     let interrupt = AtomicBool::new(false);
-    setup
-        .run(0, angular_frequency_rad_per_s, &interrupt)
-        .unwrap()
+    let case = Case {
+        index: 0,
+        angular_frequency_rad_per_s,
+        drive: plan.drive,
+    };
+    setup.run(&case, &interrupt).unwrap()
 }
 
 /// Order p of errors that fall like n^-p: the slope of a straight line through (ln n, ln error).

@@ -474,6 +474,21 @@ impl Engine for HalfSpace {
         Ok(self.bounded_pressure.then_some(peak))
     }
 
+    fn elastic_displacement(
+        &mut self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+    ) -> Result<(), ContactError> {
+        self.operator
+            .apply(pressure, displacement, &mut self.scratch)?;
+        self.convolutions += 1;
+        Ok(())
+    }
+
+    fn load_per_nodal_pressure(&self) -> f64 {
+        self.operator.grid().cell_area_m2()
+    }
+
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
         let nodes = response.pressure.iter().zip(response.history);
         let hereditary: Vec<f64> = nodes

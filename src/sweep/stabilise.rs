@@ -1,0 +1,409 @@
+//! The stabilised cycle of one case on one engine, in one number of steps: searched directly or marched, then recorded.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::contact::surface::Surface;
+use crate::contact::{ContactError, Engine, Prescribed};
+use crate::cycle::{self, BranchChange, Extrema, Loop, LoopError};
+use crate::drive::HarmonicDrive;
+use crate::history::{Dissipation, March, StepWeights, TimeRule};
+use crate::material::Creep;
+use crate::steady::{self, SteadySettings};
+use crate::sweep::plan::{CyclePlan, Method};
+use crate::sweep::record::{BranchLoss, CaseResult, SurfaceLoss};
+
+/// Cycles after which a direct search is given up for marching: twice what the hardest spectrum known needed.
+const SEARCH_CYCLES: usize = 40;
+
+/// What has to be known of a case, whatever its resolution.
+#[derive(Clone, Copy)]
+pub(super) struct Contact<'a> {
+    pub compliance: &'a Creep,
+    pub poisson_ratio: f64,
+    pub drive: HarmonicDrive,
+    pub angular_frequency_rad_per_s: f64,
+    pub time_rule: TimeRule,
+    pub cycle: CyclePlan,
+    pub interrupt: &'a AtomicBool,
+}
+
+/// A cycle's end.
+pub(super) struct Stabilised {
+    pub method: Method,
+    pub cycles: usize,
+    pub iterations: u64,
+    pub distance: Option<f64>,
+    /// What a reader should know of how it came about, or of why there is no result.
+    pub message: Option<String>,
+    /// Memory at the start of the recorded cycle, to start a finer one from.
+    pub memory: Vec<f64>,
+    pub result: Option<CaseResult>,
+}
+
+/// Why there is neither a result nor the finding that the cycle does not stabilise.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(super) enum CycleError {
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    #[error(transparent)]
+    Loop(#[from] LoopError),
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl Contact<'_> {
+    fn period_s(&self) -> f64 {
+        std::f64::consts::TAU / self.angular_frequency_rad_per_s
+    }
+
+    /// What the drive asks for at this fraction of a cycle.
+    fn prescribed(&self, cycle_fraction: f64) -> Prescribed {
+        super::engines::prescribed(self.drive.control(), self.drive.value(cycle_fraction))
+    }
+
+    fn mean(&self) -> Prescribed {
+        super::engines::prescribed(self.drive.control(), self.drive.mean())
+    }
+
+    fn interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
+    }
+
+    /// The stabilised cycle in `steps` steps, searched from `start` where one is given.
+    pub(super) fn stabilise(
+        &self,
+        engine: &mut dyn Engine,
+        steps: usize,
+        start: Option<Vec<f64>>,
+    ) -> Result<Stabilised, CycleError> {
+        if self.cycle.method == Method::March {
+            return self.march(engine, steps);
+        }
+        let (direct, why) = match self.search(engine, steps, start) {
+            Ok(stabilised) if stabilised.result.is_some() => return Ok(stabilised),
+            Ok(stabilised) => {
+                let message = stabilised.message.unwrap_or_default();
+                (stabilised.cycles, message)
+            }
+            Err(CycleError::Contact(error @ ContactError::NotConverged { .. })) => {
+                (0, error.to_string())
+            }
+            Err(error) => return Err(error),
+        };
+        let mut marched = self.march(engine, steps)?;
+        marched.cycles += direct;
+        let also = marched.message.map(|m| format!("; {m}"));
+        marched.message = Some(format!(
+            "the direct search failed ({why}), so the cycle was marched{}",
+            also.unwrap_or_default()
+        ));
+        Ok(marched)
+    }
+
+    fn search(
+        &self,
+        engine: &mut dyn Engine,
+        steps: usize,
+        start: Option<Vec<f64>>,
+    ) -> Result<Stabilised, CycleError> {
+        let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
+        let drive = |fraction| self.prescribed(fraction);
+        let cycle = steady::Cycle {
+            drive: &drive,
+            mean: self.mean(),
+            period_s: self.period_s(),
+            steps,
+        };
+        let settings = SteadySettings {
+            tolerance: self.cycle.tolerance,
+            max_cycles: SEARCH_CYCLES.min(self.cycle.max_cycles),
+        };
+        let found = steady::find(&mut march, &cycle, start, settings, &|| self.interrupted())?;
+        if self.interrupted() {
+            return Err(CycleError::Interrupted);
+        }
+        let mut cycles = Cycles::new(self, &march, steps);
+        cycles.count = found.cycles;
+        cycles.distance = found.distance.is_finite().then_some(found.distance);
+        if !found.converged {
+            return Ok(cycles.ended(Method::Direct, &march, None));
+        }
+        // The recorded cycle starts from where the search ended, and is nearer still.
+        let recorded = cycles.record(&mut march)?;
+        Ok(cycles.ended(Method::Direct, &march, recorded))
+    }
+
+    fn march(&self, engine: &mut dyn Engine, steps: usize) -> Result<Stabilised, CycleError> {
+        let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
+        march.jump(self.mean())?;
+        march.hold(self.drive.hold_s(), self.mean())?;
+        march.jump(self.prescribed(0.0))?;
+        let mut cycles = Cycles::new(self, &march, steps);
+        while cycles.count < self.cycle.max_cycles {
+            cycles.run(&mut march, None)?;
+            if cycles.is_within_tolerance()
+                && let Some(result) = cycles.record(&mut march)?
+            {
+                return Ok(cycles.ended(Method::March, &march, Some(result)));
+            }
+        }
+        Ok(cycles.ended(Method::March, &march, None))
+    }
+}
+
+/// What a recorded cycle is watched for.
+struct Recording {
+    samples: Loop,
+    dissipation: Dissipation,
+}
+
+/// Cycles of one case in one number of steps.
+struct Cycles<'a> {
+    contact: &'a Contact<'a>,
+    weights: StepWeights,
+    steps: usize,
+    /// Memory variables at the start of the cycle.
+    start: Vec<f64>,
+    load_n: Vec<f64>,
+    approach_m: Vec<f64>,
+    count: usize,
+    distance: Option<f64>,
+}
+
+impl<'a> Cycles<'a> {
+    fn new(contact: &'a Contact<'a>, march: &March<'_>, steps: usize) -> Self {
+        Self {
+            contact,
+            weights: march.weights(contact.period_s() / steps as f64),
+            steps,
+            start: Vec::new(),
+            load_n: Vec::with_capacity(steps + 1),
+            approach_m: Vec::with_capacity(steps + 1),
+            count: 0,
+            distance: None,
+        }
+    }
+
+    fn is_within_tolerance(&self) -> bool {
+        self.distance
+            .is_some_and(|distance| distance <= self.contact.cycle.tolerance)
+    }
+
+    /// Solves one cycle, recorded where asked to, and estimates its distance to the stabilised one.
+    fn run(
+        &mut self,
+        march: &mut March<'_>,
+        mut recording: Option<&mut Recording>,
+    ) -> Result<(), CycleError> {
+        self.start.clear();
+        self.start.extend_from_slice(march.memory().variables());
+        self.load_n.clear();
+        self.approach_m.clear();
+        self.see(march);
+        let mut scale = 0.0_f64;
+        if let Some(recording) = recording.as_deref_mut() {
+            sample(march, &mut recording.samples, 0.0)?;
+        }
+        for step in 1..=self.steps {
+            if self.contact.interrupted() {
+                return Err(CycleError::Interrupted);
+            }
+            let fraction = step as f64 / self.steps as f64;
+            let prescribed = self.contact.prescribed(fraction);
+            match recording.as_deref_mut() {
+                None => march.step(&self.weights, prescribed)?,
+                Some(recording) => {
+                    let dissipation = &mut recording.dissipation;
+                    let solution =
+                        march.step_dissipating(&self.weights, prescribed, dissipation)?;
+                    let time_s = fraction * self.contact.period_s();
+                    sample(march, &mut recording.samples, time_s)?;
+                    solution
+                }
+            };
+            self.see(march);
+            scale = scale.max(march.pressure().iter().map(|p| p * p).sum());
+        }
+        self.count += 1;
+        self.distance = self.estimate(march, scale.sqrt());
+        Ok(())
+    }
+
+    fn see(&mut self, march: &March<'_>) {
+        if let Some(solution) = march.solution() {
+            self.load_n.push(solution.load_n);
+            self.approach_m.push(solution.approach_m);
+        }
+    }
+
+    fn estimate(&self, march: &March<'_>, scale: f64) -> Option<f64> {
+        let memory = cycle::steady_distance(&self.changes(march), self.contact.period_s(), scale)?;
+        let closure = cycle::closure_error(&self.load_n, &self.approach_m)?;
+        Some(memory.max(closure))
+    }
+
+    fn changes(&self, march: &March<'_>) -> Vec<BranchChange> {
+        let nodes = march.pressure().len();
+        let end = march.memory().variables();
+        let chunks = self.start.chunks_exact(nodes).zip(end.chunks_exact(nodes));
+        let squares = |before: &[f64], after: &[f64]| -> f64 {
+            let pairs = before.iter().zip(after);
+            pairs.map(|(b, a)| (a - b) * (a - b)).sum()
+        };
+        chunks
+            .zip(march.memory().compliance().branches())
+            .map(|((before, after), branch)| BranchChange {
+                retardation_time_s: branch.time_s,
+                change: squares(before, after).sqrt(),
+            })
+            .collect()
+    }
+
+    /// Solves and records one more cycle; `None` where it turns out to be too far from the stabilised one after all.
+    fn record(&mut self, march: &mut March<'_>) -> Result<Option<CaseResult>, CycleError> {
+        let contact = self.contact;
+        let step_s = contact.period_s() / self.steps as f64;
+        let nodes = march.pressure().len();
+        let mut recording = Recording {
+            samples: Loop::default(),
+            dissipation: Dissipation::new(contact.compliance, nodes, step_s, contact.time_rule),
+        };
+        self.run(march, Some(&mut recording))?;
+        if !self.is_within_tolerance() {
+            return Ok(None);
+        }
+        contact.result(march, recording).map(Some)
+    }
+
+    fn ended(self, method: Method, march: &March<'_>, result: Option<CaseResult>) -> Stabilised {
+        let message = match (&result, self.distance) {
+            (Some(_), _) => None,
+            (None, Some(distance)) => Some(format!(
+                "after {} cycles the estimated distance to the stabilised cycle is {distance:.1e}, above the tolerance {:.1e}",
+                self.count, self.contact.cycle.tolerance
+            )),
+            (None, None) => Some(format!("no pressure arose in {} cycles", self.count)),
+        };
+        Stabilised {
+            method,
+            cycles: self.count,
+            iterations: march.iterations(),
+            distance: self.distance,
+            message,
+            memory: self.start,
+            result,
+        }
+    }
+}
+
+impl Contact<'_> {
+    fn result(
+        &self,
+        march: &mut March<'_>,
+        recording: Recording,
+    ) -> Result<CaseResult, CycleError> {
+        let Recording {
+            samples,
+            dissipation,
+        } = recording;
+        let analysis = cycle::analyse(&samples.load_n, &samples.approach_m)?;
+        let radii = &samples.contact_radius_m;
+        // The mean over the period counts the seam once.
+        let mean_radius_m =
+            radii.iter().skip(1).sum::<f64>() / radii.len().saturating_sub(1).max(1) as f64;
+        let moduli = analysis.equivalent_moduli_pa(mean_radius_m, self.poisson_ratio);
+        let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
+        let extrema = |signal: &[f64]| {
+            Extrema::of(signal).ok_or(LoopError::TooFewSamples {
+                samples: 0,
+                needed: 1,
+            })
+        };
+        let largest_radius_m = radii.iter().copied().fold(0.0, f64::max);
+        let surface = march.surface_density(dissipation.nodal_work(), largest_radius_m)?;
+        let energies = dissipation.branch_energies_j();
+        let branches = self.compliance.branches().iter().zip(energies);
+        Ok(CaseResult {
+            storage_modulus_pa: moduli.map(|m| m.0),
+            loss_modulus_pa: moduli.map(|m| m.1),
+            approach_m: extrema(&samples.approach_m)?,
+            contact_radius_m: not_negative(extrema(&samples.contact_radius_m)?),
+            peak_pressure_pa: peaks.as_deref().and_then(Extrema::of).map(not_negative),
+            errors: None,
+            branches: branches
+                .map(|(branch, energy_loss_j)| BranchLoss {
+                    retardation_time_s: branch.time_s,
+                    energy_loss_j,
+                })
+                .collect(),
+            surface_loss: surface_loss(surface),
+            analysis,
+            samples,
+        })
+    }
+}
+
+/// Extrema of what cannot be negative: where a contact opens or closes, a parabola through samples may go below zero.
+fn not_negative(extrema: Extrema) -> Extrema {
+    Extrema {
+        minimum: extrema.minimum.max(0.0),
+        ..extrema
+    }
+}
+
+/// The surface's "pressure" is the density; beyond the contact there is nothing, and nothing is stored.
+fn surface_loss(surface: Surface) -> SurfaceLoss {
+    match surface {
+        Surface::Radial(mut radial) => {
+            let inside = radial.pressure_pa.iter().rposition(|d| *d != Some(0.0));
+            let kept = inside.map_or(0, |last| last + 2);
+            radial.radius_m.truncate(kept);
+            radial.pressure_pa.truncate(kept);
+            SurfaceLoss::Radial {
+                radius_m: radial.radius_m,
+                density_j_per_m2: radial.pressure_pa,
+            }
+        }
+        Surface::Cells(cells) => {
+            let grid = cells.grid;
+            let (nx, ny) = (grid.cells_x(), grid.cells_y());
+            let (mut x, mut y) = ((nx, 0), (ny, 0));
+            for (cell, _) in cells
+                .pressure_pa
+                .iter()
+                .enumerate()
+                .filter(|(_, density)| **density != 0.0)
+            {
+                x = (x.0.min(cell % nx), x.1.max(cell % nx + 1));
+                y = (y.0.min(cell / nx), y.1.max(cell / nx + 1));
+            }
+            let rows = (y.0..y.1).flat_map(|row| {
+                let start = row * nx;
+                &cells.pressure_pa[start + x.0..start + x.1]
+            });
+            SurfaceLoss::Cells {
+                first_x_m: grid.x_m(x.0.min(nx - 1)),
+                first_y_m: grid.y_m(y.0.min(ny - 1)),
+                spacing_x_m: grid.spacing_x_m(),
+                spacing_y_m: grid.spacing_y_m(),
+                cells_x: x.1.saturating_sub(x.0),
+                density_j_per_m2: rows.map(|density| *density as f32).collect(),
+            }
+        }
+    }
+}
+
+/// Appends the present instant to a loop.
+fn sample(march: &mut March<'_>, samples: &mut Loop, time_s: f64) -> Result<(), ContactError> {
+    march.observe(&mut |engine, pressure, solution| {
+        engine.check_assumptions(pressure, solution)?;
+        samples.time_s.push(time_s);
+        samples.load_n.push(solution.load_n);
+        samples.approach_m.push(solution.approach_m);
+        samples.contact_radius_m.push(solution.contact_radius_m);
+        samples
+            .peak_pressure_pa
+            .push(engine.peak_pressure_pa(pressure, solution)?);
+        Ok(())
+    })
+}
