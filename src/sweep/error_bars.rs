@@ -2,8 +2,8 @@
 //!
 //! With values Q at step h and q at step r h, an error of order p leaves (Q - q)/(r^p - 1) of the difference
 //! (L. F. Richardson, Phil. Trans. R. Soc. A 210 (1911) 307). Where a third, coarser value is at hand it gives the order
-//! observed, which is trusted between 1 and 2 alone, and guards against a difference that vanishes by accident. Steps and
-//! nodes are coarsened apart from each other, so that their errors cannot hide each other.
+//! observed, which is trusted up to 2 alone, and guards against a difference that vanishes by accident. Steps and nodes are
+//! coarsened apart from each other, so that their errors cannot hide each other.
 
 use std::collections::BTreeMap;
 
@@ -82,6 +82,26 @@ impl Quantity {
         }
     }
 
+    /// The lowest and the highest order in the nodes that are believed. What is read off at the edge of the contact, or at its
+    /// middle, jumps about with the place of the edge between two nodes, and seems to converge faster than it does; a pressure
+    /// at an apex may converge very slowly.
+    fn orders(self) -> (f64, f64) {
+        match self {
+            Self::EnergyLoss
+            | Self::PhaseLag
+            | Self::ApproachMin
+            | Self::ApproachMax
+            | Self::Harmonic2
+            | Self::Harmonic3 => STEP_ORDERS,
+            Self::StorageModulus
+            | Self::LossModulus
+            | Self::ContactRadiusMin
+            | Self::ContactRadiusMax
+            | Self::PeakPressureMin
+            | Self::PeakPressureMax => (0.3, 1.0),
+        }
+    }
+
     /// What a distance to the stabilised cycle is relative to: a phase and harmonics are relative already.
     fn scale(self, result: &CaseResult) -> Option<f64> {
         let value = self.of(result)?;
@@ -145,6 +165,12 @@ pub struct Ladder<'a> {
 /// (`tests/error_bars.rs`), without making the bar useless.
 const SAFETY: f64 = 1.5;
 
+/// What rounding leaves over the instants of a cycle, relative.
+const ROUNDING: f64 = 1e-12;
+
+/// Orders in the time steps that are believed: first for the constant rule, second for the linear one.
+const STEP_ORDERS: (f64, f64) = (1.0, 2.0);
+
 impl ErrorBars {
     /// Errors of `result` from its coarser versions in steps and in nodes, and from its distance to the stabilised cycle.
     pub fn estimate(
@@ -155,9 +181,9 @@ impl ErrorBars {
     ) -> Self {
         let bar = |quantity: Quantity| {
             Some(Bar {
-                steps: SAFETY * error(quantity, steps)?,
-                nodes: SAFETY * error(quantity, nodes)?,
-                steady: steady_distance * quantity.scale(result)?,
+                steps: SAFETY * error(quantity, steps, STEP_ORDERS)?,
+                nodes: SAFETY * error(quantity, nodes, quantity.orders())?,
+                steady: (steady_distance + ROUNDING) * quantity.scale(result)?,
             })
         };
         let bars = Quantity::ALL
@@ -179,7 +205,7 @@ impl ErrorBars {
 }
 
 /// Error of the finest value of a ladder; `None` where a value is absent.
-fn error(quantity: Quantity, ladder: &Ladder<'_>) -> Option<f64> {
+fn error(quantity: Quantity, ladder: &Ladder<'_>, orders: (f64, f64)) -> Option<f64> {
     let difference = |pair: &Pair<'_>| {
         let (finer, coarser) = (quantity.of(pair.finer)?, quantity.of(pair.coarser)?);
         Some((finer - coarser).abs())
@@ -189,20 +215,25 @@ fn error(quantity: Quantity, ladder: &Ladder<'_>) -> Option<f64> {
         Some(pair) => Some((difference(pair)?, pair.ratio)),
         None => None,
     };
-    Some(richardson(first, ladder.first.ratio, second))
+    Some(richardson(first, ladder.first.ratio, second, orders))
 }
 
 /// What is left of an error of which refining `ratio` times took `first` away, and `second.1` times `second.0` before.
-fn richardson(first: f64, ratio: f64, second: Option<(f64, f64)>) -> f64 {
+fn richardson(
+    first: f64,
+    ratio: f64,
+    second: Option<(f64, f64)>,
+    (lowest, highest): (f64, f64),
+) -> f64 {
     let Some((second, second_ratio)) = second else {
-        return first / (ratio.powi(2) - 1.0);
+        return first / (ratio.powf(highest) - 1.0);
     };
     if first == 0.0 && second == 0.0 {
         return 0.0;
     }
-    let order = ((second / first).ln() / second_ratio.ln()).clamp(1.0, 2.0);
+    let order = ((second / first).ln() / second_ratio.ln()).clamp(lowest, highest);
     // Where the finer difference vanishes by accident, the coarser one says what to expect.
-    let expected = second / (second_ratio.powi(2) - 1.0) / ratio.powi(2);
+    let expected = second / (second_ratio.powf(highest) - 1.0) / ratio.powf(highest);
     (first / (ratio.powf(order) - 1.0)).max(expected)
 }
 
@@ -215,12 +246,15 @@ mod tests {
         let value = |h: f64| 1.0 + h.powf(order);
         let first = value(2.0 * h) - value(h);
         let second = value(4.0 * h) - value(2.0 * h);
-        (h.powf(order), richardson(first, 2.0, Some((second, 2.0))))
+        (
+            h.powf(order),
+            richardson(first, 2.0, Some((second, 2.0)), (0.3, 2.0)),
+        )
     }
 
     #[test]
-    fn an_error_of_first_or_second_order_is_told_exactly() {
-        for order in [1.0, 1.5, 2.0] {
+    fn an_error_of_any_order_up_to_the_second_is_told_exactly() {
+        for order in [0.4, 1.0, 1.5, 2.0] {
             let (error, estimate) = estimate(order, 1e-2);
             // Differences of numbers near 1.
             assert!((estimate / error - 1.0).abs() < 1e-9, "{order}");
@@ -228,18 +262,16 @@ mod tests {
     }
 
     #[test]
-    fn orders_below_one_are_told_too_small_and_above_two_too_large() {
-        let (error, low) = estimate(0.5, 1e-2);
-        assert!(low < error && low > 0.4 * error);
+    fn an_error_of_higher_order_is_told_too_large() {
         let (error, high) = estimate(3.0, 1e-2);
         assert!(high > error);
     }
 
     #[test]
     fn a_difference_that_vanishes_by_accident_does_not_make_the_error_vanish() {
-        let estimate = richardson(0.0, 2.0, Some((1e-3, 2.0)));
+        let estimate = richardson(0.0, 2.0, Some((1e-3, 2.0)), STEP_ORDERS);
         assert!((estimate - 1e-3 / 12.0).abs() < 1e-18);
-        assert_eq!(richardson(0.0, 2.0, Some((0.0, 2.0))), 0.0);
-        assert_eq!(richardson(3.0, 2.0, None), 1.0);
+        assert_eq!(richardson(0.0, 2.0, Some((0.0, 2.0)), STEP_ORDERS), 0.0);
+        assert_eq!(richardson(3.0, 2.0, None, STEP_ORDERS), 1.0);
     }
 }
