@@ -857,7 +857,7 @@ fn what_is_wrong_with_an_indenter_is_said_at_its_place() {
             vec![
                 "sweep.toml:6:8",
                 "cannot be read",
-                "folder of the sweep file",
+                "folder of the file it is written in",
             ],
         ),
         (map("map.csv", ""), vec!["missing key `indenter.spacing`"]),

@@ -105,6 +105,25 @@ impl<T> Located<T> {
     }
 }
 
+impl Located<String> {
+    /// The file that this value names: from `folder`, where the document lies; for a value set by a flag, from the working
+    /// folder, as for any path on a command line.
+    pub fn path_from(&self, folder: &Path) -> PathBuf {
+        match self.location.source().is_flag() {
+            true => PathBuf::from(&self.value),
+            false => folder.join(&self.value),
+        }
+    }
+
+    /// Where [`Located::path_from`] starts from, for messages.
+    pub fn path_rule(&self) -> &'static str {
+        match self.location.source().is_flag() {
+            true => "a path in a flag starts from the working folder",
+            false => "the path starts from the folder of the file it is written in",
+        }
+    }
+}
+
 impl<T> AsRef<Location> for Located<T> {
     fn as_ref(&self) -> &Location {
         &self.location

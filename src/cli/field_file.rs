@@ -132,7 +132,7 @@ impl FieldFileError {
     /// What to do about it.
     pub fn help(&self) -> &'static str {
         match &self.problem {
-            FieldProblem::Read(_) => "check the path: it starts from the folder of the sweep file",
+            FieldProblem::Read(_) => "check the path",
             FieldProblem::TooLarge => "save the map as .npy, or with fewer points",
             FieldProblem::NotUtf8 => "save it as UTF-8 text; a NumPy file begins with its own mark",
             FieldProblem::Empty => "give one line of numbers per row of the map, or per point",
@@ -467,7 +467,7 @@ mod tests {
         let error = read_bytes(Path::new("no/such/map.csv"), "map.csv").unwrap_err();
         let text = error.to_string();
         assert!(text.starts_with("`map.csv`: cannot be read: "), "{text}");
-        assert!(error.help().contains("folder of the sweep file"));
+        assert!(error.help().contains("check the path"));
     }
 
     #[test]

@@ -16,14 +16,14 @@
 //! offset = ["1 um", "0 um"]                                       moves any of them
 //! ```
 //!
-//! Paths start from the folder of the sweep file. `sha256` beside a `file` makes sure that it is still the same one.
+//! Paths start from the folder of the sweep file, in a flag from the working folder. `sha256` beside a `file` makes sure that it is still the same one.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use super::diagnostic::Problems;
 use super::document::{Form, Located, TableReader};
-use super::field_file::{self, FieldFileError};
+use super::field_file::{self, FieldFileError, FieldProblem};
 use crate::indenter::{
     Asperities, Asperity, Cone, DataFile, Ellipsoid, FlatPunch, HeightMap, Indenter, IndenterError,
     MapEdge, MapQuantity, PowerLaw, Profile, Rough, Roughness, Shifted, Sphere,
@@ -270,7 +270,7 @@ impl Block<'_> {
             false => None,
         };
         let file = file?;
-        let path = self.folder.join(&file.value);
+        let path = file.path_from(self.folder);
         let name = path.display().to_string();
         let bytes = self.read(&file, field_file::read_bytes(&path, &name))?;
         let hash = resolved::hash_of_bytes(&bytes);
@@ -307,8 +307,11 @@ impl Block<'_> {
         match read {
             Ok(data) => Some(data),
             Err(error) => {
-                let report = self.problems.at(file, error.to_string());
-                report.help(error.help());
+                let help = match error.problem {
+                    FieldProblem::Read(_) => file.path_rule(),
+                    _ => error.help(),
+                };
+                self.problems.at(file, error.to_string()).help(help);
                 None
             }
         }

@@ -66,7 +66,7 @@ fn load(name: &str) -> Result<(Material, String), Failure> {
     let document = Document::read(path)?;
     let problems = Problems::new();
     let mut root = document.root(&problems);
-    let material = material_block::read(&mut root, &problems);
+    let material = material_block::read(&mut root, document.folder(), &problems);
     let material = problems.into_result(material)?.value;
     let title = material.name().unwrap_or("Material").to_owned();
     let fit = material.fit().map(report::fit::text).unwrap_or_default();

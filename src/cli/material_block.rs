@@ -1,6 +1,6 @@
 //! The `[material]` block of a sweep file.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::diagnostic::Problems;
 use super::document::{Located, TableReader};
@@ -31,8 +31,12 @@ const KINDS: [(&str, ModulusKind); 2] = [
 /// More branches than any fit resolves are a mistake in the file.
 const MAX_BRANCHES: usize = 1000;
 
-/// Reads the block; `None` where a problem was reported.
-pub(super) fn read(root: &mut TableReader<'_>, problems: &Problems) -> Option<Located<Material>> {
+/// Reads the block; files are looked for in `folder`. `None` where a problem was reported.
+pub(super) fn read(
+    root: &mut TableReader<'_>,
+    folder: &Path,
+    problems: &Problems,
+) -> Option<Located<Material>> {
     let mut block = root.table("material")?;
     let name = block.optional_string("name");
     let poisson_ratio = block.optional_number("poisson_ratio");
@@ -49,7 +53,7 @@ pub(super) fn read(root: &mut TableReader<'_>, problems: &Problems) -> Option<Lo
     let material = match chosen {
         Some("library") => from_library(&mut block, problems, poisson_ratio.map(|nu| nu.value)),
         Some(key) => {
-            let material = from_block(&mut block, problems, key);
+            let material = from_block(&mut block, folder, problems, key);
             match (material, &poisson_ratio) {
                 (Some(build), Some(nu)) => at_block(&mut block, problems, key, build(nu.value)),
                 (_, None) if !asked_for_nu => {
@@ -108,12 +112,17 @@ fn from_library(
 /// A material but for its Poisson ratio.
 type Build = Box<dyn FnOnce(f64) -> Result<Material, MaterialError>>;
 
-fn from_block(block: &mut TableReader<'_>, problems: &Problems, key: &str) -> Option<Build> {
+fn from_block(
+    block: &mut TableReader<'_>,
+    folder: &Path,
+    problems: &Problems,
+    key: &str,
+) -> Option<Build> {
     let mut table = block.table(key)?;
     let build: Option<Build> = match key {
         "relaxation" => relaxation(&mut table, problems),
         "creep" => creep(&mut table, problems),
-        "table" => tabulated(&mut table, problems),
+        "table" => tabulated(&mut table, folder, problems),
         "maxwell" => pair(&mut table, problems, "modulus").map(|[modulus, time]| -> Build {
             Box::new(move |nu| Maxwell::new(modulus, time)?.material(nu))
         }),
@@ -188,18 +197,18 @@ fn creep(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
 }
 
 /// A table of data, fitted: the material carries the report of the fit with it.
-fn tabulated(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
+fn tabulated(table: &mut TableReader<'_>, folder: &Path, problems: &Problems) -> Option<Build> {
     let file = table.string("file");
     let face = table.choice_of("quantity", &table_file::QUANTITIES);
     let kind = table.choice_of("modulus", &KINDS);
     let (file, face, kind) = (file?, face?.value, kind?.value);
-    let path = beside(&file);
+    let path = file.path_from(folder);
     let bytes = match table_file::load(&path) {
         Ok(bytes) => bytes,
         Err(error) => {
             problems
                 .at(&file, format!("cannot read `{}`: {error}", path.display()))
-                .help("the path starts from the folder of the file it is written in");
+                .help(file.path_rule());
             return None;
         }
     };
@@ -211,16 +220,6 @@ fn tabulated(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> 
             problems.at(&file, error.to_string());
             None
         }
-    }
-}
-
-/// A path as its writer meant it: from the folder of the file it stands in; in a flag, from the working folder.
-fn beside(file: &Located<String>) -> PathBuf {
-    let source = file.location.source();
-    let folder = Path::new(source.name()).parent();
-    match folder {
-        Some(folder) if !source.is_flag() => folder.join(&file.value),
-        _ => PathBuf::from(&file.value),
     }
 }
 

@@ -21,8 +21,8 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let title = root.string("title");
-    let material =
-        material_block::read(&mut root, &problems).and_then(|m| for_contact(&problems, m));
+    let material = material_block::read(&mut root, document.folder(), &problems)
+        .and_then(|m| for_contact(&problems, m));
     let indenter = root
         .table("indenter")
         .and_then(|t| indenter_block::read(t, document.folder(), &problems));

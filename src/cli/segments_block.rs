@@ -20,7 +20,7 @@ struct Placed {
     place: Location,
 }
 
-/// Reads the block; `None` where a problem was reported. Names of files are relative to `folder`.
+/// Reads the block; `None` where a problem was reported. Files are looked for in `folder`.
 pub(super) fn read(
     mut table: TableReader<'_>,
     folder: &Path,
@@ -187,7 +187,7 @@ impl Reader<'_> {
             Control::Load => "load_n",
             Control::Approach => "approach_m",
         };
-        match drive_table::read(&self.folder.join(&file.value), column) {
+        match drive_table::read(&file.path_from(self.folder), column) {
             Ok(columns) => Some(Placed {
                 segment: Segment::Table {
                     times_s: columns.times_s,
@@ -197,8 +197,9 @@ impl Reader<'_> {
             }),
             Err(message) => {
                 self.problems.at(&file, message).help(format!(
-                    "a table is a CSV file with the columns {} and {column}; its name is relative to this file",
-                    drive_table::TIME_COLUMN
+                    "a table is a CSV file with the columns {} and {column}; {}",
+                    drive_table::TIME_COLUMN,
+                    file.path_rule()
                 ));
                 None
             }

@@ -1,5 +1,7 @@
 //! The program as the tests run it, and files for it.
 
+#![allow(dead_code)] // Each test file uses its own part.
+
 use std::fs;
 
 use assert_cmd::Command;
