@@ -7,7 +7,7 @@ mod program;
 use std::fs;
 use std::path::Path;
 
-use program::program;
+use program::{program, write};
 use tempfile::TempDir;
 
 /// The keys that name files: the flag, and what the file says.
@@ -58,7 +58,7 @@ fn project() -> TempDir {
     let folder = TempDir::new().unwrap();
     write_data(&folder.path().join("project/data"));
     write_data(&folder.path().join("flag"));
-    fs::write(folder.path().join("project/scenario.toml"), SCENARIO).unwrap();
+    write(&folder, "project/scenario.toml", SCENARIO);
     folder
 }
 
@@ -129,8 +129,7 @@ fn sweeps_and_the_material_command_have_the_same_rule() {
     let folder = project();
     let start = SCENARIO.split("[drive]").next().unwrap();
     let sweep = "[drive]\nmean = 1\namplitude = 0.5\n[sweep]\nangular_frequency = [0.1]\n[solver]\nsprings = 50\n";
-    let file = folder.path().join("project/sweep.toml");
-    fs::write(file, format!("{start}{sweep}")).unwrap();
+    write(&folder, "project/sweep.toml", &format!("{start}{sweep}"));
     let run = |arguments: &[&str]| {
         let mut command = program();
         command.current_dir(folder.path()).args(arguments).assert()

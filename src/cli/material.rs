@@ -5,6 +5,7 @@ use std::path::Path;
 use super::arguments::{MaterialCommand, ShowFlags};
 use super::diagnostic::Problems;
 use super::document::Document;
+use super::material_table::DirectSum;
 use super::{Ended, Failure, material_block, material_fit, print};
 use crate::material::{Material, library};
 use crate::report::{self, figure, material::MaterialReport};
@@ -66,7 +67,7 @@ fn load(name: &str) -> Result<(Material, String), Failure> {
     let document = Document::read(path)?;
     let problems = Problems::new();
     let mut root = document.root(&problems);
-    let material = material_block::read(&mut root, document.folder(), &problems);
+    let material = material_block::read(&mut root, document.folder(), DirectSum::Fitted, &problems);
     let material = problems.into_result(material)?.value;
     let title = material.name().unwrap_or("Material").to_owned();
     let fit = material.fit().map(report::fit::text).unwrap_or_default();

@@ -4,13 +4,14 @@ use std::path::Path;
 
 use super::diagnostic::Problems;
 use super::document::{Located, TableReader};
-use super::table_file;
+use super::material_table::{self, DirectSum, TableMaterial};
 use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
-use crate::material::fit;
+use crate::material::sampled::Sampled;
 use crate::material::{
     Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch, library,
 };
 use crate::quantity::Dimension;
+use crate::sweep::body_material::BodyMaterial;
 
 /// The ways to give a material; exactly one of them.
 const BLOCKS: [&str; 7] = [
@@ -23,7 +24,7 @@ const BLOCKS: [&str; 7] = [
     "table",
 ];
 
-const KINDS: [(&str, ModulusKind); 2] = [
+pub(super) const KINDS: [(&str, ModulusKind); 2] = [
     ("longitudinal", ModulusKind::Longitudinal),
     ("shear", ModulusKind::Shear),
 ];
@@ -31,12 +32,26 @@ const KINDS: [(&str, ModulusKind); 2] = [
 /// More branches than any fit resolves are a mistake in the file.
 const MAX_BRANCHES: usize = 1000;
 
-/// Reads the block; files are looked for in `folder`. `None` where a problem was reported.
+/// Reads the block as a series, which every material but samples used directly is; files are looked for in `folder`. `None`
+/// where a problem was reported.
 pub(super) fn read(
     root: &mut TableReader<'_>,
     folder: &Path,
+    direct_sum: DirectSum,
     problems: &Problems,
 ) -> Option<Located<Material>> {
+    let body = read_body(root, folder, direct_sum, problems)?;
+    let series = body.value.series().cloned()?;
+    Some(body.map(|_| series))
+}
+
+/// Reads the block; files are looked for in `folder`. `None` where a problem was reported.
+pub(super) fn read_body(
+    root: &mut TableReader<'_>,
+    folder: &Path,
+    direct_sum: DirectSum,
+    problems: &Problems,
+) -> Option<Located<BodyMaterial>> {
     let mut block = root.table("material")?;
     let name = block.optional_string("name");
     let poisson_ratio = block.optional_number("poisson_ratio");
@@ -51,9 +66,12 @@ pub(super) fn read(
     let asked_for_nu = block.has("poisson_ratio");
     let chosen = block.one_of(&BLOCKS);
     let material = match chosen {
-        Some("library") => from_library(&mut block, problems, poisson_ratio.map(|nu| nu.value)),
+        Some("library") => {
+            let nu = poisson_ratio.map(|nu| nu.value);
+            from_library(&mut block, problems, nu).map(BodyMaterial::from)
+        }
         Some(key) => {
-            let material = from_block(&mut block, folder, problems, key);
+            let material = from_block(&mut block, folder, direct_sum, problems, key);
             match (material, &poisson_ratio) {
                 (Some(build), Some(nu)) => at_block(&mut block, problems, key, build(nu.value)),
                 (_, None) if !asked_for_nu => {
@@ -110,11 +128,12 @@ fn from_library(
 }
 
 /// A material but for its Poisson ratio.
-type Build = Box<dyn FnOnce(f64) -> Result<Material, MaterialError>>;
+type Build = Box<dyn FnOnce(f64) -> Result<BodyMaterial, MaterialError>>;
 
 fn from_block(
     block: &mut TableReader<'_>,
     folder: &Path,
+    direct_sum: DirectSum,
     problems: &Problems,
     key: &str,
 ) -> Option<Build> {
@@ -122,17 +141,30 @@ fn from_block(
     let build: Option<Build> = match key {
         "relaxation" => relaxation(&mut table, problems),
         "creep" => creep(&mut table, problems),
-        "table" => tabulated(&mut table, folder, problems),
+        "table" => material_table::read(&mut table, folder, direct_sum, problems).map(of_table),
         "maxwell" => pair(&mut table, problems, "modulus").map(|[modulus, time]| -> Build {
-            Box::new(move |nu| Maxwell::new(modulus, time)?.material(nu))
+            Box::new(move |nu| series(Maxwell::new(modulus, time)?.material(nu)))
         }),
         "kelvin_voigt" => pair(&mut table, problems, "spring").map(|[spring, time]| -> Build {
-            Box::new(move |nu| KelvinVoigt::new(spring, time)?.material(nu))
+            Box::new(move |nu| series(KelvinVoigt::new(spring, time)?.material(nu)))
         }),
         _ => zener(&mut table, problems),
     };
     table.finish();
     build
+}
+
+fn series(material: Result<Material, MaterialError>) -> Result<BodyMaterial, MaterialError> {
+    material.map(BodyMaterial::from)
+}
+
+fn of_table(table: TableMaterial) -> Build {
+    match table {
+        TableMaterial::Fitted(fit) => Box::new(move |nu| series(fit.material(nu))),
+        TableMaterial::Direct(data) => {
+            Box::new(move |nu| Sampled::new(data, nu).map(BodyMaterial::from))
+        }
+    }
 }
 
 /// A modulus under this key, and a time.
@@ -155,7 +187,7 @@ fn zener(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
     let [kelvin_spring, time] = pair(table, problems, "kelvin_spring")?;
     let spring = spring?;
     Some(Box::new(move |nu| {
-        Zener::new(spring, kelvin_spring, time)?.material(nu)
+        series(Zener::new(spring, kelvin_spring, time)?.material(nu))
     }))
 }
 
@@ -170,7 +202,8 @@ fn relaxation(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build>
             .into_iter()
             .map(|(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s })
             .collect();
-        Material::from_relaxation(Relaxation::new(equilibrium, branches)?, kind, nu)
+        let relaxation = Relaxation::new(equilibrium, branches)?;
+        series(Material::from_relaxation(relaxation, kind, nu))
     }))
 }
 
@@ -192,35 +225,9 @@ fn creep(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
                 time_s,
             })
             .collect();
-        Material::from_creep(Creep::new(instantaneous, branches, viscosity)?, kind, nu)
+        let creep = Creep::new(instantaneous, branches, viscosity)?;
+        series(Material::from_creep(creep, kind, nu))
     }))
-}
-
-/// A table of data, fitted: the material carries the report of the fit with it.
-fn tabulated(table: &mut TableReader<'_>, folder: &Path, problems: &Problems) -> Option<Build> {
-    let file = table.string("file");
-    let face = table.choice_of("quantity", &table_file::QUANTITIES);
-    let kind = table.choice_of("modulus", &KINDS);
-    let (file, face, kind) = (file?, face?.value, kind?.value);
-    let path = file.path_from(folder);
-    let bytes = match table_file::load(&path) {
-        Ok(bytes) => bytes,
-        Err(error) => {
-            problems
-                .at(&file, format!("cannot read `{}`: {error}", path.display()))
-                .help(file.path_rule());
-            return None;
-        }
-    };
-    let data = table_file::parse(&path.display().to_string(), &bytes, face, kind);
-    let data = data.map_err(|refused| problems.extend(refused)).ok()?;
-    match fit::fit(&data) {
-        Ok(fit) => Some(Box::new(move |nu| fit.material(nu))),
-        Err(error) => {
-            problems.at(&file, error.to_string());
-            None
-        }
-    }
 }
 
 /// The `branches` of a series: (modulus or compliance, time).
@@ -276,12 +283,12 @@ fn not_negative(problems: &Problems, value: Option<Located<f64>>, what: &str) ->
 }
 
 /// What the material room refuses, reported at the block it came from.
-fn at_block(
+fn at_block<M>(
     block: &mut TableReader<'_>,
     problems: &Problems,
     key: &str,
-    material: Result<Material, MaterialError>,
-) -> Option<Material> {
+    material: Result<M, MaterialError>,
+) -> Option<M> {
     match material {
         Ok(material) => Some(material),
         Err(error) => {

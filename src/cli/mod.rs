@@ -12,6 +12,7 @@ mod indenter_block;
 mod material;
 mod material_block;
 mod material_fit;
+mod material_table;
 mod progress;
 pub mod scenario_file;
 mod segments_block;

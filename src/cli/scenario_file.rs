@@ -2,11 +2,12 @@
 
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Located, TableReader};
+use super::material_table::DirectSum;
 use super::sweep_file::{default_solver, optional, solver};
 use super::{indenter_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
-use crate::material::Material;
 use crate::quantity::{Dimension, format_human};
+use crate::sweep::body_material::BodyMaterial;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::scenario::{OutputPlan, ScenarioPlan};
 
@@ -21,8 +22,9 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let title = root.string("title");
-    let material = material_block::read(&mut root, document.folder(), &problems)
-        .and_then(|m| for_contact(&problems, m));
+    let material =
+        material_block::read_body(&mut root, document.folder(), DirectSum::Taken, &problems)
+            .and_then(|m| for_contact(&problems, m));
     let indenter = root
         .table("indenter")
         .and_then(|t| indenter_block::read(t, document.folder(), &problems));
@@ -53,9 +55,9 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
 }
 
 /// Refuses materials that cannot be in contact. A fluid can: a history ends before its creep does.
-fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Material> {
-    match material.value.contact_compliance() {
-        Ok(_) => Some(material.value),
+fn for_contact(problems: &Problems, material: Located<BodyMaterial>) -> Option<BodyMaterial> {
+    match material.value.check_contact() {
+        Ok(()) => Some(material.value),
         Err(error) => {
             problems.at(&material, error.to_string());
             None

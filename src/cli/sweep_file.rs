@@ -2,6 +2,7 @@
 
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Form, Located, TableReader};
+use super::material_table::DirectSum;
 use super::{harmonic_block, indenter_block, material_block};
 use crate::drive::HarmonicDrive;
 use crate::history::TimeRule;
@@ -25,8 +26,9 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let title = root.string("title");
-    let material = material_block::read(&mut root, document.folder(), &problems)
-        .and_then(|m| for_contact(&problems, m));
+    let material =
+        material_block::read(&mut root, document.folder(), DirectSum::Refused, &problems)
+            .and_then(|m| for_contact(&problems, m));
     let indenter = root
         .table("indenter")
         .and_then(|t| indenter_block::read(t, document.folder(), &problems));

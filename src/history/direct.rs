@@ -10,7 +10,8 @@
 //! ```
 //!
 //! The first is exact for a pressure linear within every step, and of second order otherwise; the second is the rule of
-//! S. Spinu, Advances in Tribology 2018, 9432894, and of first order. A jump of the drive is a step of length zero.
+//! S. Spinu, Advances in Tribology 2018, 9432894, and of first order. A jump of the drive is a step of length zero. In a
+//! damped step ([`Hereditary::settling`]) part of the increment comes at the step's begin, where it counts with C(t_n - t_(k-1)).
 
 use super::hereditary::Hereditary;
 use super::memory::TimeRule;
@@ -121,6 +122,23 @@ pub struct DirectStep {
     step_s: f64,
     rule: TimeRule,
     compliance_per_pa: f64,
+    /// The part of the increment that comes at the step's begin.
+    at_once: f64,
+}
+
+impl DirectStep {
+    /// What a unit increment of this step has become (1/Pa) when `lag_s` have passed since the step's end.
+    fn weight_per_pa(&self, compliance: &impl ComplianceFunction, lag_s: f64) -> f64 {
+        let begun_s = lag_s + self.step_s;
+        let by_rule = match self.rule {
+            TimeRule::Linear => compliance.mean_per_pa(lag_s, begun_s),
+            TimeRule::Constant => compliance.compliance_per_pa(lag_s),
+        };
+        if self.at_once == 0.0 {
+            return by_rule;
+        }
+        by_rule + self.at_once * (compliance.compliance_per_pa(begun_s) - by_rule)
+    }
 }
 
 /// The whole past of every node.
@@ -168,14 +186,29 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
     type Step = DirectStep;
 
     fn weights(&self, step_s: f64, rule: TimeRule) -> DirectStep {
-        let compliance_per_pa = match rule {
-            TimeRule::Linear => self.compliance.mean_per_pa(0.0, step_s),
-            TimeRule::Constant => self.compliance.compliance_per_pa(0.0),
-        };
-        DirectStep {
+        let mut step = DirectStep {
             step_s,
             rule,
-            compliance_per_pa,
+            compliance_per_pa: 0.0,
+            at_once: 0.0,
+        };
+        step.compliance_per_pa = step.weight_per_pa(&self.compliance, 0.0);
+        step
+    }
+
+    /// As [`StepWeights::settling`](super::StepWeights::settling): what a step leaves of the old pressure is kept below half
+    /// of what the new one does at once.
+    fn settling(&self, step: DirectStep) -> DirectStep {
+        let old = self.compliance.compliance_per_pa(step.step_s) - step.compliance_per_pa;
+        let allowed = 0.5 * self.compliance.compliance_per_pa(0.0);
+        if old <= allowed {
+            return step;
+        }
+        let at_once = 1.0 - allowed / old;
+        DirectStep {
+            at_once,
+            compliance_per_pa: step.compliance_per_pa + at_once * old,
+            ..step
         }
     }
 
@@ -193,15 +226,11 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
         let mut lag_s = step.step_s;
         let past = self.increments.chunks_exact(self.nodes.max(1));
         for (increment, taken) in past.zip(&self.steps).rev() {
-            let begun_s = lag_s + taken.step_s;
-            let weight = match taken.rule {
-                TimeRule::Linear => self.compliance.mean_per_pa(lag_s, begun_s),
-                TimeRule::Constant => self.compliance.compliance_per_pa(lag_s),
-            };
+            let weight = taken.weight_per_pa(&self.compliance, lag_s);
             for (h, &dp) in history.iter_mut().zip(increment) {
                 *h += weight * dp;
             }
-            lag_s = begun_s;
+            lag_s += taken.step_s;
         }
     }
 
@@ -228,7 +257,16 @@ mod tests {
     }
 
     /// q at every instant, of three nodes whose pressures rise, oscillate and jump.
-    fn march<M: Hereditary>(mut memory: M, rule: TimeRule, steps: &[f64]) -> Vec<f64> {
+    fn march<M: Hereditary>(memory: M, rule: TimeRule, steps: &[f64]) -> Vec<f64> {
+        march_damped(memory, rule, steps, false)
+    }
+
+    fn march_damped<M: Hereditary>(
+        mut memory: M,
+        rule: TimeRule,
+        steps: &[f64],
+        damped: bool,
+    ) -> Vec<f64> {
         let pressure = |time: f64, jumps: f64| {
             [
                 time,
@@ -240,7 +278,10 @@ mod tests {
         let mut p = [0.0; 3];
         let mut q = Vec::new();
         for &step in steps {
-            let weights = memory.weights(step, rule);
+            let mut weights = memory.weights(step, rule);
+            if damped {
+                weights = memory.settling(weights);
+            }
             let mut history = [f64::NAN; 3];
             memory.predict(&weights, &p, &mut history);
             time += step;
@@ -281,6 +322,30 @@ mod tests {
                     // 200 steps of a few roundings each.
                     assert!(difference < 1e-13, "{rule:?} {difference:e}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn damped_steps_of_a_body_that_relaxes_strongly_agree_with_the_recursion_too() {
+        let branch = |compliance_per_pa, time_s| CreepBranch {
+            compliance_per_pa,
+            time_s,
+        };
+        let branches = vec![branch(5e-9, 0.02), branch(4e-7, 3.0)];
+        let creep = Creep::new(1e-9, branches, None).unwrap();
+        for steps in step_lists() {
+            for rule in [TimeRule::Linear, TimeRule::Constant] {
+                let direct = DirectMemory::new(creep.clone(), 3);
+                let damped = march_damped(direct.clone(), rule, &steps, true);
+                let recursive = Memory::new(creep.clone(), 3);
+                let recursive = march_damped(recursive, rule, &steps, true);
+                // 200 steps of a few roundings each.
+                let off = largest_difference(&damped, &recursive);
+                assert!(off < 1e-13, "{rule:?} {off:e}");
+                // The damping does something.
+                let plain = march(direct, rule, &steps);
+                assert!(largest_difference(&damped, &plain) > 1e-4, "{rule:?}");
             }
         }
     }

@@ -21,6 +21,7 @@ pub mod fit;
 pub mod interpolant;
 pub mod library;
 pub mod nnls;
+pub mod sampled;
 pub mod tabulated;
 
 mod conversion;

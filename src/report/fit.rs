@@ -58,7 +58,7 @@ pub fn branches(fit: &Fit) -> String {
 }
 
 /// One line broken between words, what follows the first set in by two.
-fn wrapped(line: &str) -> String {
+pub(super) fn wrapped(line: &str) -> String {
     let mut text = String::new();
     let mut column = 0;
     for word in line.split(' ') {

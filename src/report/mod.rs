@@ -5,6 +5,7 @@ pub mod figure;
 pub mod fit;
 pub mod material;
 pub mod npy;
+pub mod samples;
 pub mod scenario;
 pub mod summary;
 pub mod table;

@@ -7,6 +7,7 @@ use serde::Serialize;
 use super::table::{Table, number, optional};
 use super::{ReportError, figure, npy, vti};
 use crate::contact::surface::{CellSurface, Surface};
+use crate::sweep::body_material::BodyMaterial;
 use crate::sweep::scenario::ScenarioPlan;
 use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::store::Store;
@@ -242,6 +243,8 @@ struct Summary<'a> {
     largest_contact_radius_m: f64,
     largest_peak_pressure_pa: Option<f64>,
     engine: &'a str,
+    /// series | fitted series | direct sum: how the body's past is kept.
+    hereditary_integral: &'a str,
     domain_half_width_m: f64,
     domain_enlarged: usize,
     iterations: u64,
@@ -278,6 +281,11 @@ fn summary(
         largest_contact_radius_m: radii.fold(0.0, f64::max),
         largest_peak_pressure_pa: peaks.map(|peaks| peaks.into_iter().fold(0.0, f64::max)),
         engine: plan.solver.engine.name(),
+        hereditary_integral: match &plan.material {
+            BodyMaterial::Series(material) if material.fit().is_some() => "fitted series",
+            BodyMaterial::Series(_) => "series",
+            BodyMaterial::Samples(_) => "direct sum",
+        },
         domain_half_width_m: outcome.domain_half_width_m,
         domain_enlarged: outcome.domain_enlarged,
         iterations: outcome.iterations,

@@ -3,12 +3,21 @@
 use std::fmt::Write;
 
 use crate::quantity::{Dimension, format_human};
+use crate::report::{fit, samples};
+use crate::sweep::body_material::BodyMaterial;
 use crate::sweep::scenario::ScenarioPlan;
 use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome};
 
-/// Title, extent of the history, its largest contact and its end.
+/// Title, material where it comes from a table, extent of the history, its largest contact and its end.
 pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
     let mut text = format!("{}\n\n", plan.title);
+    let material = match &plan.material {
+        BodyMaterial::Series(material) => material.fit().map(fit::text),
+        BodyMaterial::Samples(sampled) => Some(samples::text(sampled, plan.drive.duration_s())),
+    };
+    if let Some(material) = material {
+        let _ = writeln!(text, "{material}");
+    }
     let Some(last) = outcome.rows.last() else {
         text.push_str("Interrupted before the first time step.\n");
         return text;

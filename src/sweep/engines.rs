@@ -90,6 +90,14 @@ impl EngineBuilder {
         self.solver.engine == EngineKind::HalfSpace && matches!(self.domain, Domain::Cells { .. })
     }
 
+    /// Number of nodes of an engine, on a domain of any size.
+    pub fn nodes(&self) -> usize {
+        match &self.operator {
+            Some(operator) => operator.grid().cells(),
+            None => self.solver.springs,
+        }
+    }
+
     /// Half width of the domain before it is enlarged (m).
     pub fn half_width_m(&self) -> f64 {
         self.enlarged_half_width_m(0).0

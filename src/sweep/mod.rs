@@ -1,5 +1,6 @@
 //! Frequency sweeps: what to compute, cases in parallel, records on disk, peak search; and single drive histories.
 
+pub mod body_material;
 pub mod case;
 pub mod domain;
 pub mod engines;

@@ -13,7 +13,11 @@ use crate::sweep::plan::{SolverPlan, SweepPlan};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {
-    let mut text = opening_text(&plan.title, &plan.material, plan.indenter.as_ref());
+    let mut text = opening_text(
+        &plan.title,
+        &material_text(&plan.material),
+        plan.indenter.as_ref(),
+    );
     let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
     let mut line = |content: &str| {
         text.push_str(content);
@@ -68,13 +72,12 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
 }
 
 /// What sweeps and scenarios have in common at their beginning: title, material, indenter.
-pub(super) fn opening_text(title: &str, material: &Material, indenter: &dyn Indenter) -> String {
-    let mut text = format!("title = {}\n\n", toml_string(title));
+pub(super) fn opening_text(title: &str, material: &str, indenter: &dyn Indenter) -> String {
+    let mut text = format!("title = {}\n\n{material}", toml_string(title));
     let mut line = |content: &str| {
         text.push_str(content);
         text.push('\n');
     };
-    material_lines(material, &mut line);
     line("\n[indenter]");
     line(&format!("shape = \"{}\"", indenter.shape()));
     for parameter in indenter.parameters() {
@@ -207,6 +210,6 @@ fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
 }
 
 /// A TOML basic string.
-fn toml_string(text: &str) -> String {
+pub(super) fn toml_string(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }

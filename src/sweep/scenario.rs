@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
-use crate::material::Material;
 use crate::quantity::{Dimension, format_si};
+use crate::sweep::body_material::BodyMaterial;
 use crate::sweep::plan::SolverPlan;
 use crate::sweep::resolved;
 
@@ -14,7 +14,7 @@ use crate::sweep::resolved;
 #[derive(Debug, Clone)]
 pub struct ScenarioPlan {
     pub title: String,
-    pub material: Material,
+    pub material: BodyMaterial,
     pub indenter: Arc<dyn Indenter>,
     pub drive: SegmentedDrive,
     /// Time step (s); `None`: chosen from drive and material.
@@ -49,7 +49,8 @@ pub const RESULT_FILES: [&str; 11] = [
 
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
-    let mut text = resolved::opening_text(&plan.title, &plan.material, plan.indenter.as_ref());
+    let mut text =
+        resolved::opening_text(&plan.title, &plan.material.text(), plan.indenter.as_ref());
     let control = plan.drive.control();
     // Writing to a String cannot fail.
     let _ = writeln!(text, "\n[drive]\ncontrol = \"{}\"", control.name());

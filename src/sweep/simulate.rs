@@ -15,9 +15,10 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::drive::{Control, Moment, Schedule, ScheduleError, Steps};
-use crate::history::March;
-use crate::material::{Creep, Material, MaterialError};
+use crate::history::{DirectMemory, Hereditary, March};
+use crate::material::MaterialError;
 use crate::quantity::{Dimension, format_human};
+use crate::sweep::body_material::Compliance;
 use crate::sweep::engines::{self, AsContactError, EngineBuilder, EngineError, LargestContact};
 use crate::sweep::scenario::ScenarioPlan;
 
@@ -34,12 +35,24 @@ pub enum SimulationError {
         "fields need the half-space engine (set solver.engine = \"half-space\"); the axisymmetric engine knows profiles alone"
     )]
     FieldsOfRevolution,
+    #[error(
+        "{steps} time steps on {nodes} nodes are too many for the direct sum, which keeps the pressure of every step (at most \
+         {MAX_DIRECT_STEPS} steps and {} GB) and whose cost grows with their square: set a longer [time] step, fewer cells, \
+         or material.table.evaluation = \"fit\"",
+        MAX_DIRECT_BYTES / 1_000_000_000
+    )]
+    DirectSum { steps: usize, nodes: usize },
 }
+
+/// Steps of a direct sum: half of their square are evaluations of the compliance, a minute for as many as this.
+const MAX_DIRECT_STEPS: usize = 20_000;
+/// Memory of a direct sum, bytes.
+const MAX_DIRECT_BYTES: usize = 2_000_000_000;
 
 /// A scenario, ready to run.
 pub struct Simulation {
     plan: ScenarioPlan,
-    compliance: Creep,
+    compliance: Compliance,
     schedule: Schedule,
     /// Per moment, whether the approach is undefined.
     floating: Vec<bool>,
@@ -136,11 +149,11 @@ impl Simulation {
     /// [`SimulationError`] where the material cannot make a contact, a requested time lies outside the history, or the engine
     /// cannot treat the indenter or give what is asked for.
     pub fn new(plan: ScenarioPlan) -> Result<Self, SimulationError> {
-        let compliance = plan.material.contact_compliance()?;
+        let compliance = plan.material.compliance()?;
         let steps = match plan.step_s {
             Some(step_s) => Steps::Given { step_s },
             None => Steps::Chosen {
-                shortest_time_s: shortest_time_s(&plan.material),
+                shortest_time_s: plan.material.shortest_time_s(),
             },
         };
         let output = &plan.output;
@@ -153,11 +166,19 @@ impl Simulation {
         let largest = LargestContact {
             control: plan.drive.control(),
             maximum: plan.drive.maximum(),
-            compliance_per_pa: compliance.compliance(plan.drive.duration_s()),
+            compliance_per_pa: compliance.largest_per_pa(plan.drive.duration_s()),
         };
+        let engines = EngineBuilder::new(plan.indenter.clone(), plan.solver, largest)?;
+        let (steps, nodes) = (schedule.moments.len(), engines.nodes());
+        let bytes = steps.saturating_mul(nodes).saturating_mul(size_of::<f64>());
+        if matches!(compliance, Compliance::Samples(_))
+            && (steps > MAX_DIRECT_STEPS || bytes > MAX_DIRECT_BYTES)
+        {
+            return Err(SimulationError::DirectSum { steps, nodes });
+        }
         Ok(Self {
             floating: floating(plan.drive.control(), &schedule.moments),
-            engines: EngineBuilder::new(plan.indenter.clone(), plan.solver, largest)?,
+            engines,
             compliance,
             schedule,
             plan,
@@ -231,6 +252,29 @@ impl Simulation {
         interrupt: &AtomicBool,
         progress: &Progress<'_>,
     ) -> Result<(), MarchError> {
+        let rule = self.plan.solver.time_rule;
+        match &self.compliance {
+            Compliance::Series(creep) => {
+                let march = March::new(engine, creep.clone(), rule);
+                self.follow(march, outcome, interrupt, progress)
+            }
+            Compliance::Samples(curve) => {
+                let steps = self.schedule.moments.len();
+                let memory = DirectMemory::with_room_for(curve.clone(), engine.nodes(), steps);
+                let march = March::with_memory(engine, memory, rule);
+                self.follow(march, outcome, interrupt, progress)
+            }
+        }
+    }
+
+    /// Marches from moment to moment, and keeps what is asked for.
+    fn follow<M: Hereditary>(
+        &self,
+        mut march: March<'_, M>,
+        outcome: &mut SimulationOutcome,
+        interrupt: &AtomicBool,
+        progress: &Progress<'_>,
+    ) -> Result<(), MarchError> {
         outcome.rows.clear();
         let damped_throughout = outcome.damped_throughout;
         let (profiles, fields) = self
@@ -238,8 +282,6 @@ impl Simulation {
             .requested
             .split_at(self.plan.output.profiles_at_s.len());
         let (mut kept_profiles, mut kept_fields) = (Kept::new(profiles), Kept::new(fields));
-        let rule = self.plan.solver.time_rule;
-        let mut march = March::new(engine, self.compliance.clone(), rule);
         let moments = &self.schedule.moments;
         let mut marched = || {
             for (index, moment) in moments.iter().enumerate() {
@@ -272,9 +314,9 @@ impl Simulation {
     }
 
     /// Moves on to a moment; its row.
-    fn step(
+    fn step<M: Hereditary>(
         &self,
-        march: &mut March<'_>,
+        march: &mut March<'_, M>,
         moment: &Moment,
         damped: bool,
         floating: bool,
@@ -379,15 +421,6 @@ impl<'a> Kept<'a> {
     fn finish(self) -> Vec<SurfaceRecord> {
         self.records.into_iter().flatten().collect()
     }
-}
-
-/// The shortest time (s) on which the body answers: retardation under a load, relaxation under an approach. `None` for an
-/// elastic body.
-fn shortest_time_s(material: &Material) -> Option<f64> {
-    let retardation = material.creep().branches().iter().map(|b| b.time_s);
-    let relaxation = material.relaxation().into_iter();
-    let relaxation = relaxation.flat_map(|r| r.branches().iter().map(|b| b.time_s));
-    retardation.chain(relaxation).min_by(f64::total_cmp)
 }
 
 /// Per moment, whether the indenter is clear of the surface at a place that the drive does not say.
@@ -515,7 +548,7 @@ mod tests {
         ];
         let plan = ScenarioPlan {
             title: "bowl".to_owned(),
-            material: library::find("pmma").unwrap().material().unwrap(),
+            material: library::find("pmma").unwrap().material().unwrap().into(),
             indenter: Arc::new(Bowl),
             drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
             step_s: Some(1.0),
