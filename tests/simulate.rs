@@ -801,9 +801,9 @@ fn outputs_and_steps_out_of_place_are_shown_where_they_stand() {
     );
     refused("\"25 s\"]", "\"-1 s\"]", &["bad.toml:22:23", "not within"]);
     refused(
-        "profiles_at = [\"0 s\", \"25 s\"]",
-        "fields_at = [\"1 s\"]",
-        &["bad.toml:22:1", "half-space", "profiles_at"],
+        "[output]\nprofiles_at = [\"0 s\", \"25 s\"]\n\n[solver]",
+        "[output]\nfields_at = [\"1 s\"]\nfield_cells = 64\n\n[solver]\nengine = \"half-space\"",
+        &["bad.toml:23:1", "its own cells", "solver.cells"],
     );
     refused(
         "step = \"1 s\"",

@@ -3,7 +3,7 @@
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Located, TableReader};
 use super::material_table::DirectSum;
-use super::sweep_file::{default_solver, optional, solver};
+use super::sweep_file::{CELLS, default_solver, optional, solver};
 use super::{indenter_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::quantity::{Dimension, format_human};
@@ -89,28 +89,28 @@ fn output(
     drive: Option<&SegmentedDrive>,
     solver: Option<&SolverPlan>,
 ) -> Option<OutputPlan> {
-    let place = table.key_location("fields_at");
     let profiles = times(&mut table, problems, "profiles_at", drive);
     let fields = times(&mut table, problems, "fields_at", drive);
+    let place = table.key_location("field_cells");
+    let default = OutputPlan::default().field_cells;
+    let field_cells = table.positive_integer_or("field_cells", CELLS, default);
     table.finish();
-    let plan = OutputPlan {
-        profiles_at_s: profiles?,
-        fields_at_s: fields?,
-    };
     if let (Some(solver), Some(place)) = (solver, place)
-        && !plan.fields_at_s.is_empty()
-        && !solver.engine.has_fields()
+        && solver.engine == EngineKind::HalfSpace
     {
         problems
-            .at(&place, "fields need the half-space engine")
-            .because(format!(
-                "the engine is \"{}\", which knows profiles along a radius alone",
-                EngineKind::Axisymmetric.name()
-            ))
-            .help("set solver.engine = \"half-space\", or ask for profiles_at instead");
+            .at(
+                &place,
+                "the half-space engine gives fields on its own cells",
+            )
+            .help("remove `field_cells`, and set solver.cells");
         return None;
     }
-    Some(plan)
+    Some(OutputPlan {
+        profiles_at_s: profiles?,
+        fields_at_s: fields?,
+        field_cells: field_cells?.value,
+    })
 }
 
 /// Times within the history, in the order in which they are written.

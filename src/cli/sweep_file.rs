@@ -16,7 +16,7 @@ const MAX_POINTS: usize = 100_000;
 const STEPS: std::ops::RangeInclusive<usize> = 8..=1_000_000;
 const CYCLES: std::ops::RangeInclusive<usize> = 1..=100_000_000;
 const SPRINGS: std::ops::RangeInclusive<usize> = 10..=10_000;
-const CELLS: std::ops::RangeInclusive<usize> = 8..=4096;
+pub(super) const CELLS: std::ops::RangeInclusive<usize> = 8..=4096;
 
 /// The plan that a sweep file asks for.
 ///

@@ -14,6 +14,7 @@
 
 mod profile;
 
+use super::half_space::grid::Grid;
 use super::surface::{Response, Surface};
 use super::{ContactError, Engine, Instant, Prescribed, Solution};
 
@@ -275,6 +276,10 @@ impl Engine for Axisymmetric {
 
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
         Ok(Surface::Radial(self.radial_surface(response)))
+    }
+
+    fn field(&mut self, response: &Response<'_>, grid: &Grid) -> Result<Surface, ContactError> {
+        Ok(Surface::Cells(self.revolved_surface(response, grid)))
     }
 }
 

@@ -20,6 +20,7 @@ pub mod axisymmetric;
 pub mod half_space;
 pub mod surface;
 
+use half_space::grid::Grid;
 use surface::{Response, Surface};
 
 /// The quantity that the drive imposes at an instant.
@@ -147,6 +148,14 @@ pub trait Engine: Send {
     /// # Errors
     /// [`ContactError::Operator`], for slices of the wrong length alone.
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError>;
+
+    /// The same over cells: the engine's own, or, of an engine that has none, those of `grid`.
+    ///
+    /// # Errors
+    /// As [`Engine::surface`].
+    fn field(&mut self, response: &Response<'_>, _grid: &Grid) -> Result<Surface, ContactError> {
+        self.surface(response)
+    }
 }
 
 impl Prescribed {

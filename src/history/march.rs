@@ -1,5 +1,6 @@
 //! Time marching: one engine, its memory, and the last pressure, moved from instant to instant.
 
+use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use crate::history::{Dissipation, Hereditary, Memory, StepWeights, TimeRule};
@@ -147,6 +148,21 @@ impl<'a, M: Hereditary> March<'a, M> {
     /// # Errors
     /// As [`Engine::surface`].
     pub fn surface(&mut self) -> Result<Option<Surface>, ContactError> {
+        self.responded(|engine, response| engine.surface(response))
+    }
+
+    /// The surface at the present instant over cells, those of `grid` where the engine has none; `None` before the first.
+    ///
+    /// # Errors
+    /// As [`Engine::field`].
+    pub fn field(&mut self, grid: &Grid) -> Result<Option<Surface>, ContactError> {
+        self.responded(|engine, response| engine.field(response, grid))
+    }
+
+    fn responded<T>(
+        &mut self,
+        ask: impl FnOnce(&mut dyn Engine, &Response<'_>) -> Result<T, ContactError>,
+    ) -> Result<Option<T>, ContactError> {
         let Some(solution) = &self.solution else {
             return Ok(None);
         };
@@ -156,7 +172,7 @@ impl<'a, M: Hereditary> March<'a, M> {
             compliance_per_pa: self.compliance_per_pa,
             contact_radius_m: solution.contact_radius_m,
         };
-        self.engine.surface(&response).map(Some)
+        ask(&mut *self.engine, &response).map(Some)
     }
 
     /// The hereditary integral q of the present instant per node: what the operator turns into displacement.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::contact::axisymmetric::{self, Axisymmetric};
 use crate::contact::half_space::convolution::Convolution;
+use crate::contact::half_space::grid::Grid;
 use crate::contact::half_space::{HalfSpace, SolverSettings};
 use crate::contact::{ContactError, Engine, Prescribed};
 use crate::drive::Control;
@@ -119,6 +120,15 @@ impl EngineBuilder {
         }
     }
 
+    /// The cells of fields: the grid that the half-space engine would have on a domain enlarged `growths` times, with this
+    /// many cells per side.
+    ///
+    /// # Errors
+    /// [`EngineError::Grid`].
+    pub fn field_grid(&self, cells: usize, growths: usize) -> Result<Grid, EngineError> {
+        domain::grid(&self.domain, cells, growths).map_err(|e| EngineError::Grid(e.to_string()))
+    }
+
     /// An engine on a domain enlarged `growths` times.
     ///
     /// # Errors
@@ -205,8 +215,7 @@ impl EngineBuilder {
     }
 
     fn new_operator(&self, growths: usize) -> Result<Convolution, EngineError> {
-        let grid = domain::grid(&self.domain, self.solver.cells, growths);
-        let grid = grid.map_err(|e| EngineError::Grid(e.to_string()))?;
+        let grid = self.field_grid(self.solver.cells, growths)?;
         Convolution::new(grid).map_err(|e| EngineError::Grid(e.to_string()))
     }
 }

@@ -159,11 +159,6 @@ impl EngineKind {
             Self::HalfSpace => "half-space",
         }
     }
-
-    /// Whether the engine knows the surface as a field, not just along a radius.
-    pub fn has_fields(self) -> bool {
-        self == Self::HalfSpace
-    }
 }
 
 impl SolverPlan {

@@ -7,7 +7,7 @@ use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::body_material::BodyMaterial;
-use crate::sweep::plan::SolverPlan;
+use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::resolved;
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
@@ -24,12 +24,24 @@ pub struct ScenarioPlan {
 }
 
 /// What is written beside the history.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct OutputPlan {
     /// Times (s) at which profiles along a radius, or along the axes of the grid, are kept.
     pub profiles_at_s: Vec<f64>,
-    /// Times (s) at which whole fields are kept; half-space engine only.
+    /// Times (s) at which whole fields are kept.
     pub fields_at_s: Vec<f64>,
+    /// Axisymmetric engine: cells per side of the square on which fields are given; the half-space engine has its own.
+    pub field_cells: usize,
+}
+
+impl Default for OutputPlan {
+    fn default() -> Self {
+        Self {
+            profiles_at_s: Vec::new(),
+            fields_at_s: Vec::new(),
+            field_cells: 128,
+        }
+    }
 }
 
 /// Files at the top of a scenario's folder that later runs replace; with summary.json, which a sweep has too.
@@ -69,6 +81,9 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
     ] {
         let times: Vec<String> = times.iter().map(|t| quoted(*t, Dimension::Time)).collect();
         let _ = writeln!(text, "{key} = [{}]", times.join(", "));
+    }
+    if plan.solver.engine == EngineKind::Axisymmetric {
+        let _ = writeln!(text, "field_cells = {}", plan.output.field_cells);
     }
     text.push('\n');
     text.push_str(&resolved::solver_text(&plan.solver));

@@ -9,9 +9,11 @@
 //! touches the surface. Both engines return it, and it is reported for exactly these instants; those at which the history
 //! begins or ends count, provided that the load is above zero on the other side.
 
+use std::cell::Cell;
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::drive::{Control, Moment, Schedule, ScheduleError, Steps};
@@ -31,10 +33,6 @@ pub enum SimulationError {
     Schedule(#[from] ScheduleError),
     #[error(transparent)]
     Engine(#[from] EngineError),
-    #[error(
-        "fields need the half-space engine (set solver.engine = \"half-space\"); the axisymmetric engine knows profiles alone"
-    )]
-    FieldsOfRevolution,
     #[error(
         "{steps} time steps on {nodes} nodes are too many for the direct sum, which keeps the pressure of every step (at most \
          {MAX_DIRECT_STEPS} steps and {} GB) and whose cost grows with their square: set a longer [time] step, fewer cells, \
@@ -157,9 +155,6 @@ impl Simulation {
             },
         };
         let output = &plan.output;
-        if !output.fields_at_s.is_empty() && !plan.solver.engine.has_fields() {
-            return Err(SimulationError::FieldsOfRevolution);
-        }
         let requested_s = [&output.profiles_at_s[..], &output.fields_at_s[..]].concat();
         let schedule = Schedule::new(&plan.drive, steps, &requested_s)?;
         // A solid or fluid meets no more than its compliance at the end, and no more than the largest load.
@@ -212,11 +207,15 @@ impl Simulation {
             damped_throughout: false,
             ended: SimulationEnd::Done,
         };
-        let mut domain = (outcome.domain_half_width_m, 0);
-        let mut marched = |outcome: &mut SimulationOutcome| {
+        let domain = Cell::new((outcome.domain_half_width_m, 0));
+        let marched = |outcome: &mut SimulationOutcome| {
             self.engines.on_a_large_enough_domain(
-                |half_width_m, growths| domain = (half_width_m, growths),
-                |engine| self.march(engine, outcome, interrupt, progress),
+                |half_width_m, growths| domain.set((half_width_m, growths)),
+                |engine| {
+                    let cells = self.plan.output.field_cells;
+                    let grid = self.engines.field_grid(cells, domain.get().1)?;
+                    self.march(engine, &grid, outcome, interrupt, progress)
+                },
             )
         };
         let mut ended = marched(&mut outcome);
@@ -224,7 +223,7 @@ impl Simulation {
             outcome.damped_throughout = true;
             ended = marched(&mut outcome);
         }
-        (outcome.domain_half_width_m, outcome.domain_enlarged) = domain;
+        (outcome.domain_half_width_m, outcome.domain_enlarged) = domain.get();
         match ended {
             Ok(()) => {}
             Err(MarchError::Interrupted) => outcome.ended = SimulationEnd::Interrupted,
@@ -248,6 +247,7 @@ impl Simulation {
     fn march(
         &self,
         engine: &mut dyn Engine,
+        field_grid: &Grid,
         outcome: &mut SimulationOutcome,
         interrupt: &AtomicBool,
         progress: &Progress<'_>,
@@ -256,13 +256,13 @@ impl Simulation {
         match &self.compliance {
             Compliance::Series(creep) => {
                 let march = March::new(engine, creep.clone(), rule);
-                self.follow(march, outcome, interrupt, progress)
+                self.follow(march, field_grid, outcome, interrupt, progress)
             }
             Compliance::Samples(curve) => {
                 let steps = self.schedule.moments.len();
                 let memory = DirectMemory::with_room_for(curve.clone(), engine.nodes(), steps);
                 let march = March::with_memory(engine, memory, rule);
-                self.follow(march, outcome, interrupt, progress)
+                self.follow(march, field_grid, outcome, interrupt, progress)
             }
         }
     }
@@ -271,6 +271,7 @@ impl Simulation {
     fn follow<M: Hereditary>(
         &self,
         mut march: March<'_, M>,
+        field_grid: &Grid,
         outcome: &mut SimulationOutcome,
         interrupt: &AtomicBool,
         progress: &Progress<'_>,
@@ -294,12 +295,15 @@ impl Simulation {
                     // First touch of an undisturbed body: zero by definition, whatever node lies nearest to the axis.
                     row.approach_m = Some(0.0);
                 }
-                for kept in [&mut kept_profiles, &mut kept_fields] {
-                    if kept.wants(index)
-                        && let Some(surface) = march.surface()?
-                    {
-                        kept.keep(index, self.surface_record(row, surface));
-                    }
+                if kept_profiles.wants(index)
+                    && let Some(surface) = march.surface()?
+                {
+                    kept_profiles.keep(index, self.surface_record(row, surface));
+                }
+                if kept_fields.wants(index)
+                    && let Some(surface) = march.field(field_grid)?
+                {
+                    kept_fields.keep(index, self.surface_record(row, surface));
                 }
                 outcome.rows.push(row);
                 progress(index + 1, moments.len());

@@ -18,10 +18,14 @@ use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
 
 use super::{Axisymmetric, DISC_TOLERANCE, Edge};
 use crate::contact::ContactError;
-use crate::contact::surface::{RadialSurface, Response};
+use crate::contact::half_space::grid::Grid;
+use crate::contact::surface::{CellSurface, RadialSurface, Response};
 
 /// How far the profile reaches, in lengths of the row of springs.
 const REACH: usize = 2;
+/// Below an apex the pressure goes with -ln(r), whose mean over a disc of radius R is its value at R exp(-1/2); the disc of the
+/// area of a square has R = side / sqrt(pi).
+const MEAN_RADIUS: f64 = 0.342_198_280_312_215_9;
 /// Differences of spring lengths below this part of them are rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -51,6 +55,33 @@ impl Stretch {
     }
 }
 
+/// What both transforms need at one instant.
+struct Meridian {
+    force: Vec<Stretch>,
+    rim_force: f64,
+    shortening: Vec<Stretch>,
+    contact_radius_m: f64,
+    is_singular_at_the_axis: bool,
+}
+
+impl Meridian {
+    /// p(r) in Pa; `None` where it is unbounded.
+    fn pressure_pa(&self, r_m: f64) -> Option<f64> {
+        if r_m >= self.contact_radius_m {
+            Some(0.0)
+        } else if r_m == 0.0 && self.is_singular_at_the_axis {
+            None
+        } else {
+            Some(pressure_pa(
+                &self.force,
+                self.rim_force,
+                self.contact_radius_m,
+                r_m,
+            ))
+        }
+    }
+}
+
 impl Axisymmetric {
     /// Pressure and displacement at the axis, at every spring, and as far again beyond the row.
     pub(super) fn radial_surface(&self, response: &Response<'_>) -> RadialSurface {
@@ -58,25 +89,62 @@ impl Axisymmetric {
         let radius_m: Vec<f64> = std::iter::once(0.0)
             .chain((0..REACH * springs).map(|i| self.position_m(i)))
             .collect();
-        let force = self.force_stretches(response.pressure, response.contact_radius_m);
-        let rim = self.rim_force(&force, response.contact_radius_m);
-        let pressure = |r_m: f64| {
-            if r_m >= response.contact_radius_m {
-                Some(0.0)
-            } else if r_m == 0.0 && self.is_singular_at_the_axis() {
-                None
-            } else {
-                Some(pressure_pa(&force, rim, response.contact_radius_m, r_m))
-            }
-        };
-        let shortening = self.shortening_stretches(response);
+        let meridian = self.meridian(response);
         RadialSurface {
-            pressure_pa: radius_m.iter().map(|&r| pressure(r)).collect(),
+            pressure_pa: radius_m.iter().map(|&r| meridian.pressure_pa(r)).collect(),
             displacement_m: radius_m
                 .iter()
-                .map(|&r| displacement_m(&shortening, r))
+                .map(|&r| displacement_m(&meridian.shortening, r))
                 .collect(),
             radius_m,
+        }
+    }
+
+    /// Pressure and displacement at the centres of cells. A cell about an apex has its mean pressure, the rest the pressure at
+    /// the centre.
+    pub(super) fn revolved_surface(&self, response: &Response<'_>, grid: &Grid) -> CellSurface {
+        let meridian = self.meridian(response);
+        let mean_radius_m = MEAN_RADIUS * grid.cell_area_m2().sqrt();
+        let cells = 0..grid.cells();
+        let mut places: Vec<(f64, usize)> = cells
+            .map(|cell| {
+                let (x_m, y_m) = grid.center(cell);
+                (x_m.hypot(y_m), cell)
+            })
+            .collect();
+        places.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut surface = CellSurface {
+            grid: *grid,
+            pressure_pa: vec![0.0; grid.cells()],
+            displacement_m: vec![0.0; grid.cells()],
+        };
+        // Cells at equal distance from the axis, eight of them mostly, share one evaluation.
+        for ring in places.chunk_by(|a, b| a.0 == b.0) {
+            let Some(&(r_m, _)) = ring.first() else {
+                continue;
+            };
+            let pressure_pa = meridian
+                .pressure_pa(r_m)
+                .or_else(|| meridian.pressure_pa(mean_radius_m))
+                .unwrap_or(0.0);
+            let displacement_m = displacement_m(&meridian.shortening, r_m);
+            for &(_, cell) in ring {
+                surface.pressure_pa[cell] = pressure_pa;
+                surface.displacement_m[cell] = displacement_m;
+            }
+        }
+        surface
+    }
+
+    fn meridian(&self, response: &Response<'_>) -> Meridian {
+        let contact_radius_m = response.contact_radius_m;
+        let force = self.force_stretches(response.pressure, contact_radius_m);
+        Meridian {
+            rim_force: self.rim_force(&force, contact_radius_m),
+            force,
+            shortening: self.shortening_stretches(response),
+            contact_radius_m,
+            is_singular_at_the_axis: self.is_singular_at_the_axis(),
         }
     }
 
