@@ -232,3 +232,82 @@ fn the_program_writes_revolved_fields_as_it_does_cells() {
     simulate(&["--set", "output.field_cells=20"]);
     assert_eq!(values("fields/0-pressure_pa.npy").len(), 400);
 }
+
+/// Rows of a CSV file as (column name, text).
+fn table(text: &str) -> Vec<std::collections::HashMap<String, String>> {
+    let rows = csv::Reader::from_reader(text.as_bytes());
+    rows.into_deserialize().map(|row| row.unwrap()).collect()
+}
+
+#[test]
+fn profiles_hold_pressure_gap_and_displacement_along_a_radius_or_lines_at_the_times_asked_for() {
+    let folder = TempDir::new().unwrap();
+    let output = "[output]\nprofiles_at = [\"20 s\", 0, \"25 s\"]\n";
+    let file = write(
+        &folder,
+        "profiles.toml",
+        &format!("{ZENER}{SPHERE}{DRIVE}{output}"),
+    );
+    let hertz = Hertz {
+        radius_m: 0.01,
+        load_n: 1.0,
+        compliance_per_pa: 2.5e-7,
+    };
+    let peak_pa = hertz.peak_pressure_pa();
+    // 64 cells: the pressure next to the edge is of first order.
+    for (engine, column, at_edge) in [
+        ("axisymmetric", "radius_m", 0.02),
+        ("half-space", "position_m", 0.1),
+    ] {
+        let out = folder.path().join(engine);
+        program()
+            .args(["simulate", &file, "--quiet", "--set", "solver.cells=64"])
+            .args(["--set", &format!("solver.engine={engine}"), "--out"])
+            .arg(&out)
+            .assert()
+            .success();
+        let read =
+            |name: &str| table(&fs::read_to_string(out.join("profiles").join(name)).unwrap());
+        let times: Vec<f64> = read("index.csv")
+            .iter()
+            .map(|r| r["time_s"].parse().unwrap())
+            .collect();
+        assert_eq!(times, [20.0, 0.0, 25.0]);
+        // At the first moment the contact is elastic.
+        let approach_m: f64 = read("index.csv")[1]["approach_m"].parse().unwrap();
+        assert!((approach_m / hertz.approach_m() - 1.0).abs() < 1e-3);
+        let rows = read("1.csv");
+        assert!(rows.len() > 100);
+        for row in &rows {
+            let value = |name: &str| row[name].parse::<f64>().unwrap();
+            // Lines of an even grid run half a cell beside the centre: along two rows whose mean is given.
+            let r_m = value(column).abs();
+            let near_edge = (r_m / hertz.contact_radius_m() - 1.0).abs() < 0.07;
+            let off_pa = (value("pressure_pa") - hertz.pressure_pa(r_m)).abs() / peak_pa;
+            assert!(
+                off_pa < if near_edge { at_edge } else { 5e-3 },
+                "{r_m:e}: {off_pa:e}"
+            );
+            let off_m = value("displacement_m") - hertz.displacement_m(r_m);
+            assert!(off_m.abs() < 2e-3 * approach_m, "{r_m:e}: {off_m:e}");
+            let gap_m = r_m * r_m / 0.02 + hertz.displacement_m(r_m) - hertz.approach_m();
+            assert!(
+                (value("gap_m") - gap_m).abs() < 3e-3 * approach_m,
+                "{r_m:e}"
+            );
+        }
+        // Held, the contact has crept; unloading, it presses less.
+        let middle = |name: &str| {
+            let rows = read(name);
+            let least = |row: &std::collections::HashMap<String, String>| {
+                row[column].parse::<f64>().unwrap().abs()
+            };
+            let row = rows
+                .iter()
+                .min_by(|a, b| least(a).total_cmp(&least(b)))
+                .unwrap();
+            row["displacement_m"].parse::<f64>().unwrap()
+        };
+        assert!(middle("0.csv") > 1.3 * middle("1.csv") && middle("2.csv") < middle("0.csv"));
+    }
+}

@@ -416,6 +416,41 @@ fn a_rough_contact_on_pmma_is_complementary_and_grows_as_the_body_creeps() {
     assert!(areas[0] < std::f64::consts::PI * smooth.contact_radius_m().powi(2));
 }
 
+#[test]
+fn a_rough_contact_that_creeps_does_not_depend_on_the_order_of_the_cells() {
+    let n = 48;
+    let rough = Rough::new(roughness(n)).unwrap();
+    let transpose = |index: usize| index % n * n + index / n;
+    let flip = |index: usize| index / n * n + (n - 1 - index % n);
+    let same = |index: usize| index;
+    let spacing = (6.4e-5 / n as f64, 6.4e-5 / n as f64);
+    // Pressure and contact radius at the end of a step load on PMMA, in the order of the plain surface.
+    let crept = |order: &dyn Fn(usize) -> usize| {
+        let values = (0..n * n).map(|i| rough.map().gaps_m()[order(i)]).collect();
+        let gap = MapQuantity::Gap;
+        let map = HeightMap::new((n, n), spacing, values, gap, MapEdge::Unknown).unwrap();
+        let mut engine = engine(&map, own_grid(&map), 1e-11);
+        let mut march = March::new(&mut engine, pmma(), TimeRule::Linear);
+        for step_s in [0.0, 3.0, 10.0, 50.0, 200.0] {
+            let weights = march.weights(step_s);
+            march
+                .step(&weights, Prescribed::LoadN(ROUGH_LOAD_N))
+                .unwrap();
+        }
+        let back: Vec<f64> = (0..n * n).map(|i| march.pressure()[order(i)]).collect();
+        (back, march.solution().unwrap().contact_radius_m)
+    };
+    let (plain, radius_m) = crept(&same);
+    let peak = plain.iter().copied().fold(0.0, f64::max);
+    for order in [&transpose as &dyn Fn(usize) -> usize, &flip] {
+        let (other, its_radius_m) = crept(order);
+        let difference = largest_difference(&other, &plain) / peak;
+        // As in the elastic test, through five instants.
+        assert!(difference < 1e-8, "{difference:e}");
+        assert_eq!(its_radius_m, radius_m);
+    }
+}
+
 /// Number of contact patches whose cells join along sides, on a square grid of `n` cells per side.
 fn patches(pressure: &[f64], n: usize) -> usize {
     let mut open: Vec<bool> = pressure.iter().map(|&p| p > 0.0).collect();
