@@ -1,13 +1,19 @@
 //! The stabilised cycle found directly: right to 1e-4 in the loss, in a handful of cycles, whatever the spectrum and the
 //! frequency. Counts of cycles are under test: a search that silently got worse fails.
 
-use contact_dma::contact::Prescribed;
+use std::sync::Arc;
+
 use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
+use contact_dma::contact::half_space::convolution::Convolution;
+use contact_dma::contact::half_space::grid::Grid;
+use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
+use contact_dma::contact::{Engine, Prescribed};
 use contact_dma::cycle;
 use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::{Cone, Indenter, Sphere};
 use contact_dma::material::{Creep, Material, ModulusKind, Relaxation, RelaxationBranch, library};
 use contact_dma::steady::{self, Cycle, Steady, SteadySettings};
+use rayon::prelude::*;
 
 const MEAN_N: f64 = 10.0;
 const STEPS: usize = 100;
@@ -52,6 +58,25 @@ fn springs(indenter: &dyn Indenter, largest_load_n: f64, compliance: &Creep) -> 
     Axisymmetric::new(width_m, gaps, Edge::Open, false)
 }
 
+/// The same contact on 64 cells a side.
+fn cells(indenter: &dyn Indenter, largest_load_n: f64, compliance: &Creep) -> HalfSpace {
+    const CELLS: usize = 64;
+    let relaxed = compliance.equilibrium_compliance().unwrap();
+    let half_width_m = 1.1 * indenter.elastic_half_width_m(largest_load_n, relaxed);
+    let grid = Grid::square(CELLS, 2.0 * half_width_m / CELLS as f64).unwrap();
+    let gaps = (0..grid.cells()).map(|cell| {
+        let (x_m, y_m) = grid.center(cell);
+        indenter.gap_m(x_m, y_m)
+    });
+    let settings = SolverSettings {
+        // The area of the slowest loops is 1e-5 of load times approach, and must close to 1e-5 of that.
+        tolerance: 1e-11,
+        ..SolverSettings::default()
+    };
+    let operator = Arc::new(Convolution::new(grid).unwrap());
+    HalfSpace::new(operator, gaps.collect(), false, settings)
+}
+
 /// One frequency of one contact.
 struct Case<'a> {
     compliance: &'a Creep,
@@ -65,7 +90,7 @@ impl Case<'_> {
         Prescribed::LoadN(if load_n > 1e-13 { load_n } else { 0.0 })
     }
 
-    fn march<'e>(&self, engine: &'e mut Axisymmetric) -> March<'e> {
+    fn march<'e>(&self, engine: &'e mut dyn Engine) -> March<'e> {
         March::new(engine, self.compliance.clone(), TimeRule::Linear)
     }
 
@@ -99,44 +124,81 @@ impl Case<'_> {
     }
 }
 
-#[test]
-fn three_spectra_over_eight_decades_take_a_handful_of_cycles_to_a_loss_within_1e_4() {
-    let shapes: [Box<dyn Indenter>; 2] = [
-        Box::new(Sphere::new(0.01).unwrap()),
-        Box::new(Cone::new(1.2).unwrap()),
-    ];
-    let mut counts = Vec::new();
-    for (name, compliance, time_s) in &materials() {
-        for shape in &shapes {
-            // Half the mean, and all of it: the load touches zero.
-            for amplitude_n in [5.0, 10.0] {
-                let mut engine = springs(shape.as_ref(), MEAN_N + amplitude_n, compliance);
-                for decade in -4..=4 {
-                    let case = Case {
-                        compliance,
-                        amplitude_n,
-                        period_s: std::f64::consts::TAU * time_s / 10_f64.powi(decade),
-                    };
-                    let mut march = case.march(&mut engine);
-                    let found = case.find(&mut march, 1e-4);
-                    let loss = case.next_loss(&mut march);
-                    let finer = case.find(&mut march, 1e-6);
-                    let limit = case.next_loss(&mut march);
-                    let what = format!("{name}, {}, {amplitude_n} N, 1e{decade}", shape.shape());
-                    assert!(found.converged && finer.converged, "{what}");
-                    assert!((loss / limit - 1.0).abs() < 1e-4, "{what}: {loss} {limit}");
-                    // The recorded cycle is one more.
-                    counts.push((found.cycles + 1, what));
-                }
-            }
+/// Cycles (the recorded one included) that every spectrum, shape, amplitude and decade takes to a loss within 1e-4, sorted;
+/// the engine is made for the indenter, the largest load and the compliance.
+fn counts(
+    shapes: &[(Box<dyn Indenter>, f64)],
+    engine: &(dyn Fn(&dyn Indenter, f64, &Creep) -> Box<dyn Engine> + Sync),
+) -> Vec<(usize, String)> {
+    let materials = materials();
+    let mut contacts = Vec::new();
+    for material in &materials {
+        for (shape, amplitude_n) in shapes {
+            contacts.extend((-4..=4).map(|decade| (material, shape, *amplitude_n, decade)));
         }
     }
+    let count = |((name, compliance, time_s), shape, amplitude_n, decade): &(
+        &(&str, Creep, f64),
+        &Box<dyn Indenter>,
+        f64,
+        i32,
+    )| {
+        let case = Case {
+            compliance,
+            amplitude_n: *amplitude_n,
+            period_s: std::f64::consts::TAU * time_s / 10_f64.powi(*decade),
+        };
+        let mut engine = engine(shape.as_ref(), MEAN_N + amplitude_n, compliance);
+        let mut march = case.march(engine.as_mut());
+        let found = case.find(&mut march, 1e-4);
+        let loss = case.next_loss(&mut march);
+        let finer = case.find(&mut march, 1e-6);
+        let limit = case.next_loss(&mut march);
+        let what = format!("{name}, {}, {amplitude_n} N, 1e{decade}", shape.shape());
+        assert!(found.converged && finer.converged, "{what}");
+        assert!((loss / limit - 1.0).abs() < 1e-4, "{what}: {loss} {limit}");
+        // The recorded cycle is one more.
+        (found.cycles + 1, what)
+    };
+    let mut counts: Vec<_> = contacts.par_iter().map(count).collect();
     counts.sort();
+    counts
+}
+
+#[test]
+fn three_spectra_over_eight_decades_take_a_handful_of_cycles_to_a_loss_within_1e_4() {
+    // Half the mean, and all of it: the load touches zero.
+    let shapes: Vec<(Box<dyn Indenter>, f64)> = vec![
+        (Box::new(Sphere::new(0.01).unwrap()), 5.0),
+        (Box::new(Sphere::new(0.01).unwrap()), 10.0),
+        (Box::new(Cone::new(1.2).unwrap()), 5.0),
+        (Box::new(Cone::new(1.2).unwrap()), 10.0),
+    ];
+    let counts = counts(&shapes, &|indenter, load_n, compliance| {
+        Box::new(springs(indenter, load_n, compliance))
+    });
     let median = counts[counts.len() / 2].0;
     let (worst, what) = &counts[counts.len() - 1];
     // Seen: 5 and 6, the recorded cycle included.
     assert!(median <= 5, "{median} cycles on the median");
     assert!(*worst <= 8, "{worst} cycles for {what}");
+}
+
+#[test]
+fn on_cells_it_takes_half_as_many_again_at_most() {
+    let shapes: Vec<(Box<dyn Indenter>, f64)> = vec![
+        (Box::new(Sphere::new(0.01).unwrap()), 5.0),
+        (Box::new(Sphere::new(0.01).unwrap()), 10.0),
+        (Box::new(Cone::new(1.2).unwrap()), 5.0),
+    ];
+    let counts = counts(&shapes, &|indenter, load_n, compliance| {
+        Box::new(cells(indenter, load_n, compliance))
+    });
+    let median = counts[counts.len() / 2].0;
+    let (worst, what) = &counts[counts.len() - 1];
+    println!("{counts:?}");
+    assert!(median <= 9, "{median} cycles on the median");
+    assert!(*worst <= 22, "{worst} cycles for {what}");
 }
 
 #[test]

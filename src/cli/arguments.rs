@@ -65,6 +65,10 @@ pub(super) struct SweepFlags {
     /// Change one key of the sweep file, for example drive.amplitude='2 N'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
+    /// Choose steps and nodes such that the error of every loss is below this part of it; the same as
+    /// --set cycle.accuracy=X
+    #[arg(long, value_name = "X")]
+    pub(super) accuracy: Option<f64>,
     /// Replace the results of a different sweep in the output folder
     #[arg(long)]
     pub(super) force: bool,

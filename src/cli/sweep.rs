@@ -15,7 +15,9 @@ use crate::sweep::run::{self, Outcome};
 
 /// Runs the command.
 pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
-    let document = open_document(&flags.file, &flags.set)?;
+    let accuracy = flags.accuracy.map(|a| format!("cycle.accuracy={a:?}"));
+    let set: Vec<String> = flags.set.iter().cloned().chain(accuracy).collect();
+    let document = open_document(&flags.file, &set)?;
     let plan = sweep_file::plan(&document)?;
     let setup = Setup::new(plan).map_err(Failure::input)?;
     let resolved = resolved::resolved_text(setup.plan());
@@ -25,7 +27,7 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
         Some(threads) => threads.get(),
         None => std::thread::available_parallelism().map_or(1, usize::from),
     };
-    let cases = setup.plan().angular_frequencies_rad_per_s.len();
+    let cases = setup.plan().cases().len();
     let progress = Shown::new(cases, flags.quiet);
     let outcome = run::run(&setup, &store, threads, &interrupt, &progress);
     progress.finish();
@@ -83,7 +85,7 @@ fn text(setup: &Setup, outcome: &Outcome, left_out: &[String], folder: &Path) ->
         text.push_str(&format!(
             "\nInterrupted: {} of {} cases are done.\n",
             outcome.records.len(),
-            plan.angular_frequencies_rad_per_s.len()
+            plan.cases().len()
         ));
     }
     text.push_str(&format!("\nResults in {}\n", folder.display()));

@@ -42,7 +42,7 @@ pub fn write_sweep(
     plan: &SweepPlan,
     outcome: &Outcome,
 ) -> Result<Vec<String>, ReportError> {
-    let branches = outcome.branches();
+    let branches = outcome.retardation_times_s().len();
     store.write("sweep.csv", &table::sweep(&outcome.records, branches)?)?;
     for record in &outcome.records {
         if let Some(result) = &record.result {

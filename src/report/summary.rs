@@ -14,6 +14,8 @@ struct Summary<'a> {
     peaks: &'a [Peak],
     peak_relative_accuracy: f64,
     peak_problems: &'a [String],
+    /// Retardation times (s) of the branches whose losses `sweep.csv` lists, in its order.
+    retardation_times_s: Vec<f64>,
     cases: Cases,
     interrupted: bool,
     engine: &'a str,
@@ -42,8 +44,9 @@ pub fn summary(
         peaks: &outcome.peaks,
         peak_relative_accuracy: RELATIVE_ACCURACY,
         peak_problems: &outcome.peak_problems,
+        retardation_times_s: outcome.retardation_times_s(),
         cases: Cases {
-            planned: plan.angular_frequencies_rad_per_s.len(),
+            planned: plan.cases().len(),
             converged: outcome.count(Status::Converged),
             not_converged: outcome.count(Status::NotConverged),
             failed: outcome.count(Status::Failed),

@@ -262,10 +262,11 @@ fn curve_of(records: &[CaseRecord], drive: &HarmonicDrive) -> Vec<Point> {
 }
 
 impl Outcome {
-    /// How many branches the material's creep compliance has, as far as the results tell.
-    pub fn branches(&self) -> usize {
-        let results = self.records.iter().filter_map(|r| r.result.as_ref());
-        results.map(|r| r.branches.len()).max().unwrap_or(0)
+    /// Retardation times (s) of the material's creep compliance, as the results list its branches; none without a result.
+    pub fn retardation_times_s(&self) -> Vec<f64> {
+        let result = self.records.iter().find_map(|r| r.result.as_ref());
+        let branches = result.map_or(&[][..], |r| &r.branches);
+        branches.iter().map(|b| b.retardation_time_s).collect()
     }
 
     /// Number of cases with this status.
