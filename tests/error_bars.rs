@@ -133,3 +133,50 @@ fn the_true_error_lies_inside_the_bar_and_the_bar_is_not_much_larger() {
         }
     }
 }
+
+#[test]
+fn an_accuracy_asked_for_is_reached_and_not_much_exceeded() {
+    let mut plan = sweep_plan(
+        common::pmma_material(),
+        Arc::new(Sphere::new(0.01).unwrap()),
+        10.0,
+        5.0,
+    );
+    for omega in [1e-3, 0.0084, 0.5] {
+        let exact = solved(&plan, omega, (3200, 3200), 1e-8, false).unwrap();
+        let mut work = Vec::new();
+        for accuracy in [1e-2, 1e-3, 1e-4] {
+            plan.cycle.accuracy = Some(accuracy);
+            let record = run_case(&plan, omega);
+            let loss_j = record.energy_loss_j().unwrap();
+            let bar = record.energy_loss_error_j().unwrap() / loss_j;
+            let error = (loss_j / exact.analysis.energy_loss_j - 1.0).abs();
+            println!(
+                "{omega} rad/s: {accuracy:e} asked, bar {bar:.1e}, error {error:.1e}, {} steps, {} springs",
+                record.steps, record.nodes
+            );
+            assert!(bar <= accuracy && error <= bar);
+            work.push(record.steps * record.nodes);
+        }
+        plan.cycle.accuracy = None;
+        // Two orders of accuracy cost one order of steps and one of springs at second order, times the factor that the
+        // foretelling may be off by; never less for more.
+        assert!(work[0] <= work[1] && work[1] < work[2]);
+        assert!(work[2] < 200 * work[0], "{work:?}");
+    }
+}
+
+#[test]
+fn an_accuracy_out_of_reach_gives_no_number() {
+    let mut plan = sweep_plan(
+        common::pmma_material(),
+        Arc::new(Sphere::new(0.01).unwrap()),
+        10.0,
+        5.0,
+    );
+    plan.cycle.accuracy = Some(1e-8);
+    let record = run_case(&plan, 0.0084);
+    assert_eq!(record.status, Status::NotConverged);
+    assert!(record.result.is_none());
+    assert!(record.message.unwrap().contains("above the accuracy"));
+}
