@@ -73,10 +73,16 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
             .filter_map(|(point, error)| {
                 let ((x, y), error) = ((*point)?, (*error)?);
                 error_bar(x, y, error, layout)
-            });
+            })
+            .filter(|bar| series.marker.is_none() || !hidden(bar));
         curve.error_bars.extend(bars);
     }
     curve
+}
+
+/// Whether a marker covers the bar: then its caps would stick out as stumps that say nothing.
+fn hidden(bar: &ErrorBar) -> bool {
+    bar.bottom - bar.top <= 2.0 * (MARKER_RADIUS + MARKER_EDGE)
 }
 
 fn error_bar(x: f64, y: f64, error: f64, layout: &Layout) -> Option<ErrorBar> {

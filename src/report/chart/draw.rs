@@ -99,7 +99,7 @@ fn paint(chart: &Chart, arrangement: &Arrangement, canvas: &Canvas<'_>) -> Resul
     grid(layout, canvas)?;
     for (series, curve) in chart.series.iter().zip(curves) {
         for fill in &curve.fills {
-            canvas.polygon(fill, series.color, FILL_OPACITY)?;
+            canvas.polygon(fill, series.color, opacity(series))?;
         }
     }
     mark_lines(chart, layout, canvas)?;
@@ -116,7 +116,7 @@ fn paint(chart: &Chart, arrangement: &Arrangement, canvas: &Canvas<'_>) -> Resul
         markers(series, &curve.points, canvas)?;
     }
     if let Some(legend) = legend {
-        draw_legend(chart, legend, canvas)?;
+        draw_legend(chart, curves, legend, canvas)?;
     }
     for label in labels {
         mark_label(chart, label, canvas)?;
@@ -316,7 +316,12 @@ fn mark_label(chart: &Chart, label: &PlacedLabel, canvas: &Canvas<'_>) -> Result
     )
 }
 
-fn draw_legend(chart: &Chart, legend: &Legend, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn draw_legend(
+    chart: &Chart,
+    curves: &[Curve],
+    legend: &Legend,
+    canvas: &Canvas<'_>,
+) -> Result<(), ChartError> {
     if legend.framed {
         let Rect {
             left,
@@ -341,12 +346,12 @@ fn draw_legend(chart: &Chart, legend: &Legend, canvas: &Canvas<'_>) -> Result<()
         let end = (at.0 + LEGEND_SAMPLE, at.1);
         let middle = (at.0 + LEGEND_SAMPLE / 2.0, at.1);
         if series.fill_to.is_some() {
-            let height = 0.5 * LEGEND_ROW;
-            let swatch = Rect::at(at.0, at.1, LEGEND_SAMPLE, height / 2.0);
-            canvas.rect(&swatch, series.color, FILL_OPACITY)?;
+            canvas.rect(&swatch(series, at), series.color, opacity(series))?;
         }
         line(series, &[vec![at, end]], canvas)?;
-        if series.error.is_some() {
+        // Bars that all hide behind their markers are not explained either.
+        let has_bars = |curve: &Curve| !curve.error_bars.is_empty();
+        if curves.get(place).is_some_and(has_bars) {
             let bar = ErrorBar {
                 x: middle.0,
                 top: at.1 - 8.0,
@@ -370,6 +375,21 @@ fn draw_legend(chart: &Chart, legend: &Legend, canvas: &Canvas<'_>) -> Result<()
         )?;
     }
     Ok(())
+}
+
+/// How much of its colour an area has.
+fn opacity(series: &Series) -> f64 {
+    if series.solid_fill { 1.0 } else { FILL_OPACITY }
+}
+
+/// The sample of an area in the legend: below its line, or, where it has none, about the middle of the row.
+fn swatch(series: &Series, at: Point) -> Rect {
+    let height = 0.5 * LEGEND_ROW;
+    if series.line.is_some() {
+        Rect::at(at.0, at.1, LEGEND_SAMPLE, height / 2.0)
+    } else {
+        Rect::at(at.0, at.1 - height / 2.0, LEGEND_SAMPLE, height)
+    }
 }
 
 #[cfg(test)]

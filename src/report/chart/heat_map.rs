@@ -1,4 +1,5 @@
-//! A heat map: values on a grid of cells as colours, with a colour bar. Lengths along both axes are to one scale.
+//! A heat map: values on a grid of cells as colours, with a colour bar. Over a surface, lengths along both axes are to one
+//! scale; elsewhere axes and colours may be logarithmic, with contour lines at the labels of the colour bar.
 //!
 //! Thousands of cells as single shapes would make a picture of megabytes, in which seams show between the shapes. So cells of
 //! one colour side by side are one box, all boxes of a colour are one path, and edges are not smoothed. Frame, ticks and
@@ -6,20 +7,30 @@
 
 use std::fmt::Write;
 
-use super::canvas::{Anchor, Canvas, Direction, at_real_size};
+use super::canvas::{Canvas, at_real_size};
 use super::check::check;
+use super::color_bar::Bar;
 use super::color_map::{LEVELS, color, level};
+use super::contour;
 use super::draw::{axes, texts};
-use super::geometry::Rect;
-use super::layout::{Layout, Reserve, Widths, crisp, lay_out, ranges};
+use super::geometry::{Point, Rect};
+use super::layout::{Layout, Reserve, Widths, lay_out, ranges};
 use super::look::*;
 use super::render::finished;
 use super::scale::AxisMap;
-use super::text::{ASCENT_EM, CAPITAL_EM, DESCENT_EM, widths_em};
-use super::ticks::{self, Ticks};
-use super::{Axis, Chart, ChartError, Scale, Series};
+use super::ticks::Ticks;
+use super::{Axis, Chart, ChartError, Color, Scale, Series};
 
-/// Values on a grid of equal cells.
+/// The shape of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MapShape {
+    /// Lengths along y are to the scale of those along x.
+    ToScale,
+    /// The picture is this high.
+    HeightPx(u32),
+}
+
+/// Values on a grid of cells that are equal on the scales of the axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeatMap {
     /// Drawn above the frame.
@@ -30,6 +41,8 @@ pub struct HeatMap {
     /// Where the grid begins and ends along x and y, in the units of the labels.
     pub x_range: (f64, f64),
     pub y_range: (f64, f64),
+    pub x_scale: Scale,
+    pub y_scale: Scale,
     pub columns: usize,
     pub rows: usize,
     /// Row by row, x fastest, the row of least y first; `None` leaves a cell blank.
@@ -38,15 +51,20 @@ pub struct HeatMap {
     pub value_label: String,
     /// The values at the two ends of the colour bar; `None`: from zero or the least value to the largest.
     pub value_range: Option<(f64, f64)>,
-    /// Width of the picture at scale 1; its height follows from the shape of the grid.
+    pub value_scale: Scale,
+    /// Whether lines are drawn where the values are those labelled at the colour bar.
+    pub contours: bool,
+    /// Where something was computed, if the cells between are interpolated: drawn as dots.
+    pub points: Vec<(f64, f64)>,
+    /// What is pointed out: drawn as rings.
+    pub rings: Vec<(f64, f64)>,
+    /// Width of the picture at scale 1.
     pub width_px: u32,
+    pub shape: MapShape,
 }
 
 /// More cells per side than this are not seen in a picture: blocks of cells are averaged.
 const MOST_CELLS: usize = 256;
-/// From the frame to the colour bar, and its width.
-const BAR_GAP: f64 = 22.0;
-const BAR_WIDTH: f64 = 20.0;
 
 /// The map as SVG that needs no font and refers to no other file.
 ///
@@ -57,7 +75,7 @@ pub fn heat_map_to_svg(map: &HeatMap) -> Result<String, ChartError> {
     let chart = map.chart();
     check(&chart)?;
     let bar = Bar::new(map, range)?;
-    let (chart, layout) = to_scale(map, chart, &bar)?;
+    let (chart, layout) = shaped(map, chart, &bar)?;
     let bar_map = bar.along(&layout.frame);
     let mut svg = String::new();
     let canvas = Canvas::new(&mut svg, chart.size);
@@ -74,6 +92,7 @@ pub fn heat_map_to_svg(map: &HeatMap) -> Result<String, ChartError> {
         FRAME,
     )?;
     bar.draw(map, &layout.frame, &bar_map, &canvas)?;
+    dots(map, &layout, range, &canvas)?;
     texts(&layout, &canvas)?;
     canvas.finish()?;
     let title = map.title.clone();
@@ -84,8 +103,9 @@ pub fn heat_map_to_svg(map: &HeatMap) -> Result<String, ChartError> {
         reason: "the picture has no title".to_owned(),
     })?;
     let colours = cells(map, &layout, range) + &strips(&bar.rect(&layout.frame));
+    let lines = contours(map, &layout, range, &bar.ticks);
     Ok(format!(
-        "{head}</title>\n <g shape-rendering=\"crispEdges\">\n{colours} </g>{ink}"
+        "{head}</title>\n <g shape-rendering=\"crispEdges\">\n{colours} </g>\n{lines}{ink}"
     ))
 }
 
@@ -125,7 +145,17 @@ impl HeatMap {
                 reason: "every cell is blank",
             });
         };
-        let (low, high) = self.value_range.unwrap_or((least.min(0.0), largest));
+        if self.value_scale == Scale::Log && self.value_range.map_or(least, |r| r.0) <= 0.0 {
+            return Err(ChartError::Map {
+                map: self.subject(),
+                reason: "colours on a logarithmic scale begin above zero",
+            });
+        }
+        let from = match self.value_scale {
+            Scale::Linear => least.min(0.0),
+            Scale::Log => least,
+        };
+        let (low, high) = self.value_range.unwrap_or((from, largest));
         if low < high && (high - low).is_finite() {
             return Ok((low, high));
         }
@@ -140,16 +170,27 @@ impl HeatMap {
         })
     }
 
+    /// The level of a value's colour.
+    fn level(&self, value: f64, (low, high): (f64, f64)) -> usize {
+        match self.value_scale {
+            Scale::Linear => level(value, (low, high)),
+            Scale::Log => level(value.log10(), (low.log10(), high.log10())),
+        }
+    }
+
     /// A chart with the axes of the map; what it shows is not drawn.
     fn chart(&self) -> Chart {
         let corners = [
             (self.x_range.0, self.y_range.0),
             (self.x_range.1, self.y_range.1),
         ];
-        let axis = |label: &str, (low, high)| Axis::linear(label).range(low, high);
+        let axis = |label: &str, (low, high), scale| Axis {
+            scale,
+            ..Axis::linear(label).range(low, high)
+        };
         let chart = Chart::new(
-            axis(&self.x_label, self.x_range),
-            axis(&self.y_label, self.y_range),
+            axis(&self.x_label, self.x_range, self.x_scale),
+            axis(&self.y_label, self.y_range, self.y_scale),
         )
         .series(Series::line(corners))
         .legend(None)
@@ -161,13 +202,18 @@ impl HeatMap {
     }
 }
 
-/// Lays the chart out so high that lengths along y are to the scale of those along x.
-fn to_scale(map: &HeatMap, chart: Chart, bar: &Bar) -> Result<(Chart, Layout), ChartError> {
+/// Lays the chart out as high as asked for, or so high that lengths along y are to the scale of those along x.
+fn shaped(map: &HeatMap, chart: Chart, bar: &Bar) -> Result<(Chart, Layout), ChartError> {
     let reserve = Reserve {
         right: bar.total_width(),
         ..Reserve::default()
     };
     let laid = |chart: &Chart| lay_out(chart, &ranges(chart)?, &Widths::measure(chart)?, reserve);
+    if let MapShape::HeightPx(height) = map.shape {
+        let chart = chart.size(map.width_px, height);
+        let layout = laid(&chart)?;
+        return Ok((chart, layout));
+    }
     let layout = laid(&chart)?;
     let shape = (map.y_range.1 - map.y_range.0) / (map.x_range.1 - map.x_range.0);
     let around = f64::from(chart.size.height_px) - layout.frame.height();
@@ -175,106 +221,6 @@ fn to_scale(map: &HeatMap, chart: Chart, bar: &Bar) -> Result<(Chart, Layout), C
     let chart = chart.size(map.width_px, height.round().max(1.0) as u32);
     let layout = laid(&chart)?;
     Ok((chart, layout))
-}
-
-/// The colour bar, right of the frame.
-struct Bar {
-    low: f64,
-    high: f64,
-    ticks: Ticks,
-    widest_label: f64,
-    label_em: f64,
-}
-
-impl Bar {
-    fn new(map: &HeatMap, (low, high): (f64, f64)) -> Result<Self, ChartError> {
-        // Labels every fortieth of a picture apart at least; the frame's height is not known yet.
-        let apart = (high - low) / 9.0;
-        let ticks = ticks::choose(Scale::Linear, low, high, |ticks| {
-            ticks
-                .windows(2)
-                .all(|pair| pair[1].value - pair[0].value >= apart)
-        });
-        let widths = widths_em(ticks.major.iter().map(|tick| tick.label.as_str()))?;
-        let label_em = widths_em([map.value_label.as_str()])?;
-        Ok(Self {
-            low,
-            high,
-            widest_label: TICK_TEXT * widths.into_iter().fold(0.0, f64::max),
-            label_em: label_em.first().copied().unwrap_or(0.0),
-            ticks,
-        })
-    }
-
-    fn total_width(&self) -> f64 {
-        let label = LABEL_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP;
-        BAR_GAP + BAR_WIDTH + MAJOR_TICK + TICK_GAP + self.widest_label + label
-    }
-
-    fn rect(&self, frame: &Rect) -> Rect {
-        Rect {
-            left: crisp(frame.right + BAR_GAP),
-            right: crisp(frame.right + BAR_GAP + BAR_WIDTH),
-            ..*frame
-        }
-    }
-
-    fn along(&self, frame: &Rect) -> AxisMap {
-        AxisMap {
-            scale: Scale::Linear,
-            low: self.low,
-            high: self.high,
-            from_px: frame.bottom,
-            to_px: frame.top,
-        }
-    }
-
-    fn draw(
-        &self,
-        map: &HeatMap,
-        frame: &Rect,
-        along: &AxisMap,
-        canvas: &Canvas<'_>,
-    ) -> Result<(), ChartError> {
-        let Rect {
-            left,
-            top,
-            right,
-            bottom,
-        } = self.rect(frame);
-        let outline = [
-            (left, top),
-            (right, top),
-            (right, bottom),
-            (left, bottom),
-            (left, top),
-        ];
-        canvas.line(&outline, FRAME_STROKE, FRAME)?;
-        for &value in &self.ticks.minor {
-            let y = crisp(along.px(value));
-            canvas.line(&[(right, y), (right + MINOR_TICK, y)], FRAME_STROKE, FRAME)?;
-        }
-        let level = (Anchor::Start, Direction::Level);
-        for tick in &self.ticks.major {
-            let y = crisp(along.px(tick.value));
-            canvas.line(&[(right, y), (right + MAJOR_TICK, y)], FRAME_STROKE, FRAME)?;
-            let at = (
-                right + MAJOR_TICK + TICK_GAP,
-                along.px(tick.value) + CAPITAL_EM / 2.0 * TICK_TEXT,
-            );
-            canvas.text(&tick.label, at, TICK_TEXT, TEXT, level)?;
-        }
-        // A label too long for the picture is set smaller rather than cut off.
-        let room = frame.bottom - frame.top + LABEL_TEXT;
-        let size = LABEL_TEXT.min(room / self.label_em.max(1e-9));
-        let beside = right + MAJOR_TICK + TICK_GAP + self.widest_label + LABEL_GAP;
-        let at = (
-            beside + LABEL_TEXT * ASCENT_EM,
-            (frame.top + frame.bottom) / 2.0,
-        );
-        let upwards = (Anchor::Middle, Direction::Upwards);
-        canvas.text(&map.value_label, at, size, TEXT, upwards)
-    }
 }
 
 /// One path per colour: its boxes, given in px.
@@ -322,15 +268,20 @@ impl Paths {
 fn cells(map: &HeatMap, layout: &Layout, range: (f64, f64)) -> String {
     let block = map.columns.max(map.rows).div_ceil(MOST_CELLS).max(1);
     let (columns, rows) = (map.columns.div_ceil(block), map.rows.div_ceil(block));
-    let edge = |axis: &AxisMap, (low, high): (f64, f64), cell: usize, count: usize| {
-        let part = (cell * block).min(count) as f64 / count as f64;
-        axis.px(low + (high - low) * part)
+    let x = |column: usize| {
+        along(
+            &layout.x,
+            (column * block).min(map.columns) as f64,
+            map.columns,
+        )
     };
-    let x = |column| edge(&layout.x, map.x_range, column, map.columns);
-    let y = |row| edge(&layout.y, map.y_range, row, map.rows);
+    let y = |row: usize| along(&layout.y, (row * block).min(map.rows) as f64, map.rows);
     let mut paths = Paths::new();
     for row in 0..rows {
-        let at = |column| block_mean(map, block, column, row).map(|value| level(value, range));
+        let at = |column| {
+            let value = block_mean(map, block, column, row)?;
+            Some(map.level(value, range))
+        };
         let mut column = 0;
         while column < columns {
             let here = at(column);
@@ -350,6 +301,81 @@ fn cells(map: &HeatMap, layout: &Layout, range: (f64, f64)) -> String {
         }
     }
     paths.finish()
+}
+
+/// So many of `count` cells along an axis, in px.
+fn along(axis: &AxisMap, cells: f64, count: usize) -> f64 {
+    axis.from_px + (axis.to_px - axis.from_px) * cells / count as f64
+}
+
+/// What stands out against a colour of the map.
+fn contrast(level: usize) -> Color {
+    if level < 5 * LEVELS / 8 { WHITE } else { FRAME }
+}
+
+/// The contour lines, one path for each labelled value.
+fn contours(map: &HeatMap, layout: &Layout, range: (f64, f64), ticks: &Ticks) -> String {
+    let mut text = String::new();
+    if !map.contours {
+        return text;
+    }
+    // On the scale of the colours the values are closer to linear between the cells.
+    let scaled = |value: f64| match map.value_scale {
+        Scale::Linear => value,
+        Scale::Log => value.log10(),
+    };
+    let values: Vec<Option<f64>> = map.values.iter().map(|v| v.map(scaled)).collect();
+    let px = |(x, y): Point| {
+        let x = along(&layout.x, x, map.columns);
+        (x, along(&layout.y, y, map.rows))
+    };
+    for tick in &ticks.major {
+        let segments = contour::segments(&values, map.columns, scaled(tick.value));
+        if segments.is_empty() {
+            continue;
+        }
+        let [red, green, blue] = contrast(map.level(tick.value, range)).rgb();
+        let _ = write!(
+            text,
+            " <path fill=\"none\" stroke=\"#{red:02x}{green:02x}{blue:02x}\" stroke-width=\"{MARK_STROKE}\" stroke-linecap=\"round\" d=\""
+        );
+        for (from, to) in segments {
+            let (from, to) = (px(from), px(to));
+            let _ = write!(text, "M{:.2} {:.2}L{:.2} {:.2}", from.0, from.1, to.0, to.1);
+        }
+        text.push_str("\"/>\n");
+    }
+    text
+}
+
+/// Dots and rings, in what stands out against the cells below them.
+fn dots(
+    map: &HeatMap,
+    layout: &Layout,
+    range: (f64, f64),
+    canvas: &Canvas<'_>,
+) -> Result<(), ChartError> {
+    const DOT: f64 = 1.6;
+    let frame = &layout.frame;
+    let below = |(x, y): Point| {
+        let part =
+            |value: f64, count: usize| ((value * count as f64) as usize).min(count.max(1) - 1);
+        let column = part((x - frame.left) / frame.width(), map.columns);
+        let row = part((frame.bottom - y) / frame.height(), map.rows);
+        let value = map
+            .values
+            .get(row * map.columns + column)
+            .copied()
+            .flatten();
+        value.map_or(FRAME, |value| contrast(map.level(value, range)))
+    };
+    for at in map.points.iter().map(|&point| layout.px(point)) {
+        canvas.disc(at, DOT, below(at))?;
+    }
+    for at in map.rings.iter().map(|&point| layout.px(point)) {
+        canvas.circle(at, 0.6 * MARK_RING, MARK_STROKE, below(at))?;
+    }
+    Ok(())
 }
 
 /// The mean over the values of a block of cells; `None` where all are blank.
@@ -399,12 +425,19 @@ mod tests {
             y_label: "y / µm".to_owned(),
             x_range: (-400.0, 400.0),
             y_range: (-200.0, 200.0),
+            x_scale: Scale::Linear,
+            y_scale: Scale::Linear,
             columns,
             rows,
             values: (0..columns * rows).map(value).collect(),
             value_label: "pressure p / MPa".to_owned(),
             value_range: None,
+            value_scale: Scale::Linear,
+            contours: false,
+            points: Vec::new(),
+            rings: Vec::new(),
             width_px: 800,
+            shape: MapShape::ToScale,
         }
     }
 
@@ -413,7 +446,7 @@ mod tests {
         let map = dome(20, 10);
         let range = map.checked_range().unwrap();
         let bar = Bar::new(&map, range).unwrap();
-        let (_, layout) = to_scale(&map, map.chart(), &bar).unwrap();
+        let (_, layout) = shaped(&map, map.chart(), &bar).unwrap();
         let ratio = layout.frame.width() / layout.frame.height();
         // Whole pixels: one in 300.
         assert!((ratio - 2.0).abs() < 0.01, "{ratio}");
@@ -438,12 +471,32 @@ mod tests {
         map.values = vec![Some(0.0), Some(8.0)];
         map.value_range = Some((0.0, 8.0));
         let range = map.checked_range().unwrap();
-        let (_, layout) = to_scale(&map, map.chart(), &Bar::new(&map, range).unwrap()).unwrap();
+        let (_, layout) = shaped(&map, map.chart(), &Bar::new(&map, range).unwrap()).unwrap();
         let painted = cells(&map, &layout, range);
         assert_eq!(painted.matches("<path").count(), 2);
         assert!(painted.contains("#440154") && painted.contains("#fde725"));
         map.values[0] = None;
         assert_eq!(cells(&map, &layout, range).matches("<path").count(), 1);
+    }
+
+    #[test]
+    fn on_logarithmic_scales_equal_ratios_are_equal_steps_of_place_and_colour() {
+        let mut map = dome(3, 1);
+        (map.x_range, map.x_scale) = ((1e-2, 1e4), Scale::Log);
+        (map.values, map.value_scale) = (vec![Some(1.0), Some(10.0), Some(100.0)], Scale::Log);
+        (map.shape, map.contours) = (MapShape::HeightPx(500), true);
+        map.points = vec![(10.0, 0.0)];
+        let range = map.checked_range().unwrap();
+        assert_eq!(range, (1.0, 100.0));
+        assert_eq!(map.level(10.0, range), LEVELS / 2);
+        let bar = Bar::new(&map, range).unwrap();
+        let (chart, layout) = shaped(&map, map.chart(), &bar).unwrap();
+        assert_eq!(chart.size.height_px, 500);
+        let middle = 0.5 * (layout.frame.left + layout.frame.right);
+        assert!((layout.x.px(10.0) - middle).abs() < 1e-9); // rounding
+        assert!(heat_map_to_svg(&map).is_ok());
+        map.values[1] = Some(0.0);
+        assert!(matches!(heat_map_to_svg(&map), Err(ChartError::Map { .. })));
     }
 
     #[test]

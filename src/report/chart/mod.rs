@@ -18,7 +18,9 @@
 
 mod canvas;
 mod check;
+mod color_bar;
 mod color_map;
+mod contour;
 mod curves;
 mod draw;
 mod error;
@@ -38,7 +40,7 @@ mod text;
 mod ticks;
 
 pub use error::{AxisName, ChartError};
-pub use heat_map::{HeatMap, heat_map_to_svg};
+pub use heat_map::{HeatMap, MapShape, heat_map_to_svg};
 pub use palette::Color;
 pub use render::{to_png, to_svg};
 pub use stack::stack_to_svg;
@@ -177,6 +179,8 @@ pub struct Series {
     pub color: Color,
     /// Fills the area between the curve and this y.
     pub fill_to: Option<f64>,
+    /// Whether the area is filled with the full colour, as in a stack of areas, or with a tint that shows what lies behind.
+    pub solid_fill: bool,
     /// Symmetric error bars in units of y, one entry per entry of `points`.
     pub error: Option<Vec<Option<f64>>>,
 }
@@ -191,6 +195,7 @@ impl Series {
             marker: None,
             color: Color::Palette(0),
             fill_to: None,
+            solid_fill: false,
             error: None,
         }
     }
@@ -232,6 +237,16 @@ impl Series {
     #[must_use]
     pub fn fill_to(mut self, y: f64) -> Self {
         self.fill_to = Some(y);
+        self
+    }
+
+    /// An area in full colour between the points and this y, without a line. Later series lie on top: a stack is drawn from
+    /// its total downwards.
+    #[must_use]
+    pub fn area_to(mut self, y: f64) -> Self {
+        self.fill_to = Some(y);
+        self.solid_fill = true;
+        self.line = None;
         self
     }
 

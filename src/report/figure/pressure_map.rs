@@ -3,7 +3,7 @@
 use super::{WriteFile, prefix, scientific, write_picture};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::report::ReportError;
-use crate::report::chart::{HeatMap, heat_map_to_svg};
+use crate::report::chart::{HeatMap, MapShape, Scale, heat_map_to_svg};
 use crate::sweep::simulate::SurfaceRecord;
 
 const NAME: &str = "pressure-map";
@@ -76,11 +76,18 @@ fn map(time_s: f64, cells: &CellSurface, peak_pa: f64) -> HeatMap {
         y_label: format!("y / {length}m"),
         x_range: (-to_length * half.0, to_length * half.0),
         y_range: (-to_length * half.1, to_length * half.1),
+        x_scale: Scale::Linear,
+        y_scale: Scale::Linear,
         columns: grid.cells_x(),
         rows: grid.cells_y(),
         values: cells.pressure_pa.iter().map(value).collect(),
         value_label: format!("pressure p / {pressure}Pa"),
         value_range: Some((0.0, to_pressure * peak_pa)),
+        value_scale: Scale::Linear,
+        contours: false,
+        points: Vec::new(),
+        rings: Vec::new(),
         width_px: WIDTH_PX,
+        shape: MapShape::ToScale,
     }
 }
