@@ -51,7 +51,7 @@ Examples:
   contact-dma sweep sweeps/pmma.toml --set solver.engine=half-space --threads 2
 
 Written to the output folder: sweep.csv (one row per frequency), loops/ (the stabilised
-cycles), summary.json (peaks, counts), energy-loss and loops as SVG and PNG with their data
+cycles), summary.json (peaks, counts), figures as SVG and PNG with their data
 as CSV, records/ (everything, for later), resolved.toml (the sweep with every default).")]
 pub(super) struct SweepFlags {
     /// The sweep file (TOML)

@@ -13,6 +13,7 @@ pub mod terminal;
 pub mod terminal_simulation;
 pub mod vti;
 
+use crate::sweep::files;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::run::Outcome;
 use crate::sweep::store::{Store, StoreError};
@@ -52,15 +53,14 @@ pub fn write_sweep(
     }
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
     store.write("summary.json", &summary)?;
-    if outcome.records.iter().all(|r| r.result.is_none()) {
-        return Ok(vec![
-            "no figures: no case converged, so there is nothing to draw".to_owned(),
-        ]);
-    }
-    let figures = [
-        figure::energy_loss::figure(outcome)?,
-        figure::loops::figure(&outcome.records)?,
-    ];
+    let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
     figure::write_all(&figures, &|name, bytes| store.write(name, bytes))?;
-    Ok(Vec::new())
+    // An earlier run of the same sweep, which came further, may have left figures that this one has not.
+    let has = |name: &str| figures.iter().any(|figure| figure.name == name);
+    for name in files::FIGURES.into_iter().filter(|name| !has(name)) {
+        for file in files::of_figure(name) {
+            store.remove(&file)?;
+        }
+    }
+    Ok(left_out)
 }

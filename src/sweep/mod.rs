@@ -5,6 +5,7 @@ pub mod case;
 pub mod domain;
 pub mod engines;
 pub mod error_bars;
+pub mod files;
 pub mod peak;
 pub mod plan;
 pub mod record;

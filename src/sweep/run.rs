@@ -41,20 +41,6 @@ pub trait Progress: Sync {
     fn locating_peaks(&self, brackets: usize);
 }
 
-/// Files at the top of a sweep's folder that later runs replace.
-pub const SUMMARY_FILES: [&str; 10] = [
-    "sweep.csv",
-    "summary.json",
-    "energy-loss.csv",
-    "energy-loss.svg",
-    "energy-loss.png",
-    "energy-loss@2x.png",
-    "loops.csv",
-    "loops.svg",
-    "loops.png",
-    "loops@2x.png",
-];
-
 /// Runs every case of the sweep on `threads` threads and stores each record as it is finished.
 ///
 /// The result does not depend on the number of threads: a case shares nothing that changes with another. `interrupt` stops

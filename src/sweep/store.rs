@@ -129,15 +129,25 @@ impl Store {
                 fs::remove_dir_all(&path).map_err(failed(path.clone()))?;
             }
         }
-        let of_sweeps = crate::sweep::run::SUMMARY_FILES;
-        let of_scenarios = crate::sweep::scenario::RESULT_FILES;
-        for name in of_sweeps.into_iter().chain(of_scenarios) {
-            let path = self.folder.join(name);
-            if path.is_file() {
-                fs::remove_file(&path).map_err(failed(path.clone()))?;
-            }
+        let of_scenarios = crate::sweep::scenario::RESULT_FILES.map(str::to_owned);
+        for name in crate::sweep::files::of_sweep().chain(of_scenarios) {
+            self.remove(&name)?;
         }
         Ok(())
+    }
+
+    /// Removes a file of the folder, where there is one.
+    ///
+    /// # Errors
+    /// [`StoreError::Write`] with the path.
+    pub fn remove(&self, name: &str) -> Result<(), StoreError> {
+        let path = self.folder.join(name);
+        match fs::remove_file(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                Err(StoreError::Write { path, source })
+            }
+            _ => Ok(()),
+        }
     }
 }
 

@@ -96,7 +96,7 @@ fn curves(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
         .series(Series::line(curve).label("fit").color(1));
     Ok(Figure {
         name: "fit",
-        chart,
+        picture: chart.into(),
         data: data_table(table, fit)?,
     })
 }
@@ -117,7 +117,7 @@ fn residual(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
     }
     Ok(Figure {
         name: "fit-residual",
-        chart,
+        picture: chart.into(),
         data: data.finish()?,
     })
 }
@@ -143,7 +143,7 @@ fn data_table(table: &Tabulated, fit: &Fit) -> Result<Vec<u8>, ReportError> {
 mod tests {
     use super::*;
     use crate::material::fit::fit;
-    use crate::report::chart;
+    use crate::report::figure::Picture;
 
     fn table(count: i32) -> Tabulated {
         let times: Vec<f64> = (0..count).map(|i| f64::from(i) * 0.5).collect();
@@ -162,10 +162,17 @@ mod tests {
         assert_eq!(symbols[0].0, 0.5);
         assert_eq!(symbols.last().unwrap().0, 1000.0);
         let figures = figures(&table, &fit(&table).unwrap()).unwrap();
-        let label = figures[0].chart.series[0].label.clone().unwrap();
+        let label = chart_of(&figures[0]).series[0].label.clone().unwrap();
         assert!(label.starts_with("data (") && label.contains("of 2001 samples"));
         let few = table_figures(20);
-        assert_eq!(few[0].chart.series[0].label.as_deref(), Some("data"));
+        assert_eq!(chart_of(&few[0]).series[0].label.as_deref(), Some("data"));
+    }
+
+    fn chart_of(figure: &Figure) -> &Chart {
+        match &figure.picture {
+            Picture::Chart(chart) => chart,
+            _ => panic!("{} is no chart", figure.name),
+        }
     }
 
     fn table_figures(count: i32) -> Vec<Figure> {
@@ -179,7 +186,7 @@ mod tests {
             let rows = String::from_utf8(figure.data).unwrap();
             assert_eq!(rows.lines().count(), 21);
             assert!(rows.lines().nth(1).unwrap().starts_with("0e0,"));
-            assert!(chart::to_svg(&figure.chart).is_ok());
+            assert!(figure.picture.to_svg().is_ok());
         }
     }
 }

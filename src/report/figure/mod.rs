@@ -1,25 +1,80 @@
 //! Figures, one file each: a chart and the data behind it. Every figure is written as SVG and as PNG in two resolutions.
 
+pub mod cole_cole;
+pub mod curve;
+pub mod dissipation;
+pub mod dissipation_map;
+pub mod dissipation_profile;
+pub mod drive_map;
 pub mod energy_loss;
+pub mod equivalent;
 pub mod fit;
+pub mod harmonic_map;
 pub mod history;
 pub mod loops;
+pub mod loss_map;
+pub mod loss_tangent;
 pub mod moduli;
+pub mod moduli_error;
+pub mod of_sweep;
 pub mod pressure_map;
 pub mod profiles;
 pub mod relaxation;
+pub mod van_gurp_palmen;
 
 use rayon::prelude::*;
 
 use super::ReportError;
-use super::chart::{self, Chart};
+use super::chart::{self, Chart, ChartError, HeatMap};
 use crate::sweep::store::StoreError;
 
-/// A chart, the name of its files, and its data as CSV.
+/// A picture, the name of its files, and its data as CSV.
 pub struct Figure {
     pub name: &'static str,
-    pub chart: Chart,
+    pub picture: Picture,
     pub data: Vec<u8>,
+}
+
+/// What a figure shows.
+pub enum Picture {
+    Chart(Box<Chart>),
+    /// Charts one above another.
+    Stack(Vec<Chart>),
+    Map(Box<HeatMap>),
+}
+
+impl From<Chart> for Picture {
+    fn from(chart: Chart) -> Self {
+        Self::Chart(Box::new(chart))
+    }
+}
+
+impl From<HeatMap> for Picture {
+    fn from(map: HeatMap) -> Self {
+        Self::Map(Box::new(map))
+    }
+}
+
+impl Picture {
+    fn to_svg(&self) -> Result<String, ChartError> {
+        match self {
+            Self::Chart(chart) => chart::to_svg(chart),
+            Self::Stack(charts) => chart::stack_to_svg(charts),
+            Self::Map(map) => chart::heat_map_to_svg(map),
+        }
+    }
+}
+
+/// A figure, or why there is none: an empty frame says less than a sentence.
+pub enum Drawn {
+    Figure(Figure),
+    LeftOut(String),
+}
+
+impl Drawn {
+    fn left_out(why: &str) -> Self {
+        Self::LeftOut(why.to_owned())
+    }
 }
 
 /// Writes one file: its name, its bytes.
@@ -37,7 +92,7 @@ pub fn write_all(figures: &[Figure], write: &WriteFile<'_>) -> Result<(), Report
         let name = figure.name;
         let failed = |source| ReportError::Chart { name, source };
         write(&format!("{name}.csv"), &figure.data)?;
-        let svg = chart::to_svg(&figure.chart).map_err(failed)?;
+        let svg = figure.picture.to_svg().map_err(failed)?;
         write_picture(name, name, &svg, write)
     })
 }

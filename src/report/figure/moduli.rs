@@ -1,9 +1,13 @@
-//! Storage modulus, loss modulus and loss tangent of a material over angular frequency.
+//! Storage modulus and loss modulus over angular frequency: of a material, and beside it what the loops of a sweep give.
 
+use super::equivalent::{self, Equivalent, LoopModulus};
 use super::{Figure, prefix};
 use crate::report::ReportError;
-use crate::report::chart::{Axis, Chart, LineStyle, Series};
+use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
 use crate::report::table::Table;
+use crate::sweep::error_bars::Quantity;
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::run::Outcome;
 
 /// One frequency of a material: rad/s, then Pa, then 1/Pa.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,32 +19,16 @@ pub struct ModulusPoint {
     pub loss_compliance_per_pa: f64,
 }
 
-/// The figure. `symbol` is E for longitudinal and G for shear moduli.
+/// The figure of a material. `symbol` is E for longitudinal and G for shear moduli.
 ///
 /// # Errors
 /// Where the table behind it cannot be made.
 pub fn figure(points: &[ModulusPoint], symbol: char) -> Result<Figure, ReportError> {
-    let largest = points.iter().map(|p| p.storage_modulus_pa);
-    let (factor, unit) = prefix(largest.fold(0.0, f64::max));
-    let series = |value: fn(&ModulusPoint) -> f64| {
-        // A modulus of exactly zero has no place on a log axis.
-        let point = move |p: &ModulusPoint| {
-            let scaled = factor * value(p);
-            (scaled > 0.0).then_some((p.angular_frequency_rad_per_s, scaled))
-        };
-        Series::line(points.iter().map(point))
-    };
-    let chart = Chart::new(
-        Axis::log("angular frequency ω / rad·s⁻¹"),
-        Axis::log(format!("modulus / {unit}Pa")),
-    )
-    .series(series(|p| p.storage_modulus_pa).label(format!("storage modulus {symbol}′")))
-    .series(
-        series(|p| p.loss_modulus_pa)
-            .label(format!("loss modulus {symbol}″"))
-            .style(LineStyle::Dashed)
-            .color(1),
-    );
+    let lines = points.iter().map(|p| {
+        let (storage, loss) = (p.storage_modulus_pa, p.loss_modulus_pa);
+        (p.angular_frequency_rad_per_s, storage, loss)
+    });
+    let (chart, _) = of_material(lines, symbol);
     let columns = [
         "angular_frequency_rad_per_s",
         "storage_modulus_pa",
@@ -62,7 +50,73 @@ pub fn figure(points: &[ModulusPoint], symbol: char) -> Result<Figure, ReportErr
     }
     Ok(Figure {
         name: "moduli",
-        chart,
+        picture: chart.into(),
         data: table.finish()?,
     })
+}
+
+/// The figure of a sweep: the equivalent moduli of the loops as symbols, the material's own as lines.
+///
+/// # Errors
+/// Where the table behind it cannot be made.
+pub fn with_loops(
+    equivalent: &Equivalent<'_>,
+    plan: &SweepPlan,
+    outcome: &Outcome,
+) -> Result<Figure, ReportError> {
+    let own = equivalent.own.iter();
+    let (mut chart, factor) =
+        of_material(own.map(|(w, modulus)| (*w, modulus.re, modulus.im)), 'E');
+    chart.title.clone_from(&equivalent.title);
+    let symbols = |quantity: Quantity, value: fn(&LoopModulus<'_>) -> f64| {
+        let points = equivalent.loops.iter().map(|at| {
+            let scaled = factor * value(at);
+            (scaled > 0.0).then_some((at.omega(), scaled))
+        });
+        let errors = equivalent.loops.iter();
+        let errors = errors.map(|at| Some(factor * at.error_pa(quantity)?));
+        Series::scatter(points).error_bars(errors.collect::<Vec<_>>())
+    };
+    let chart = chart
+        .series(symbols(Quantity::StorageModulus, |at| at.storage_pa).label("E′ from the loop"))
+        .series(
+            symbols(Quantity::LossModulus, |at| at.loss_pa)
+                .label("E″ from the loop")
+                .marker(Marker::Square)
+                .color(1),
+        );
+    Ok(Figure {
+        name: "moduli",
+        picture: chart.into(),
+        data: equivalent::table("moduli.csv", plan, outcome)?,
+    })
+}
+
+/// The lines of a material from (rad/s, Pa, Pa), and the factor from Pa to the unit of the axis.
+fn of_material(
+    points: impl Iterator<Item = (f64, f64, f64)> + Clone,
+    symbol: char,
+) -> (Chart, f64) {
+    let largest = points.clone().map(|(_, storage, _)| storage);
+    let (factor, unit) = prefix(largest.fold(0.0, f64::max));
+    // A modulus of exactly zero has no place on a log axis.
+    let line = |value: fn((f64, f64, f64)) -> f64| {
+        let scaled = points.clone().map(move |p| {
+            let value = factor * value(p);
+            (value > 0.0).then_some((p.0, value))
+        });
+        Series::line(scaled)
+    };
+    let chart = Chart::new(
+        Axis::log("angular frequency ω / rad·s⁻¹"),
+        Axis::log(format!("modulus / {unit}Pa")),
+    )
+    .series(line(|p| p.1).label(format!("storage modulus {symbol}′")))
+    .series(
+        line(|p| p.2)
+            .label(format!("loss modulus {symbol}″"))
+            .style(LineStyle::Dashed)
+            .color(1),
+    );
+    (chart, factor)
 }

@@ -24,7 +24,7 @@ pub fn figure(points: &[(f64, f64, f64)], symbol: char) -> Result<Figure, Report
     }
     Ok(Figure {
         name: "relaxation",
-        chart,
+        picture: chart.into(),
         data: table.finish()?,
     })
 }

@@ -1,0 +1,41 @@
+//! Loss modulus against storage modulus: each relaxation is an arc (K. S. Cole and R. H. Cole, J. Chem. Phys. 9 (1941) 341, for
+//! permittivities).
+
+use num_complex::Complex;
+
+use super::equivalent::{self, Equivalent};
+use super::{Figure, prefix};
+use crate::report::ReportError;
+use crate::report::chart::{Axis, Chart, Series};
+
+/// The figure: loops as symbols, the material as a line.
+///
+/// # Errors
+/// Where the table behind it cannot be made.
+pub fn figure(equivalent: &Equivalent<'_>) -> Result<Figure, ReportError> {
+    let moduli = || equivalent.own_beyond.iter().map(|(_, modulus)| modulus);
+    let (to_storage, storage) = prefix(moduli().fold(0.0, |a, m| a.max(m.re)));
+    let (to_loss, loss) = prefix(moduli().fold(0.0, |a, m| a.max(m.im)));
+    let line = moduli().map(|m| (to_storage * m.re, to_loss * m.im));
+    let loops = equivalent.loops.iter();
+    let loops = loops.map(|at| (to_storage * at.storage_pa, to_loss * at.loss_pa));
+    let mut chart = Chart::new(
+        Axis::linear(format!("storage modulus E′ / {storage}Pa")),
+        Axis::linear(format!("loss modulus E″ / {loss}Pa")),
+    )
+    .series(Series::line(line).label("material"))
+    .series(Series::scatter(loops).label("from the loops").color(1));
+    chart.title.clone_from(&equivalent.title);
+    let pair = |modulus: Complex<f64>| [modulus.re, modulus.im];
+    Ok(Figure {
+        name: "cole-cole",
+        picture: chart.into(),
+        data: equivalent::pairs(
+            "cole-cole.csv",
+            equivalent,
+            &equivalent.own_beyond,
+            ["storage_modulus_pa", "loss_modulus_pa"],
+            pair,
+        )?,
+    })
+}

@@ -1,0 +1,129 @@
+//! The cases of a sweep as curves over frequency: one, or one per drive of a second axis; and which of many are shown.
+
+use super::{prefix, scientific};
+use crate::drive::{Control, HarmonicDrive};
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::record::{CaseRecord, CaseResult};
+use crate::sweep::run::Outcome;
+
+/// The cases under one drive, in ascending frequency.
+pub struct Curve<'a> {
+    pub drive: HarmonicDrive,
+    /// What tells it from other curves; `None` where it is the only one.
+    pub label: Option<String>,
+    pub records: Vec<&'a CaseRecord>,
+}
+
+/// The curves of a sweep, in the order of its drives; those without any case are left out.
+pub fn curves<'a>(plan: &SweepPlan, outcome: &'a Outcome) -> Vec<Curve<'a>> {
+    let curve = |drive: &HarmonicDrive| Curve {
+        drive: *drive,
+        label: plan.axis.as_ref().map(|axis| {
+            let value = axis.varied.value(drive);
+            format!("{} {}", axis.varied.name(), drive_value(drive, value))
+        }),
+        records: outcome
+            .records
+            .iter()
+            .filter(|record| record.is_under(drive))
+            .collect(),
+    };
+    let curves = plan.drives().iter().map(curve);
+    curves.filter(|curve| !curve.records.is_empty()).collect()
+}
+
+/// The curve with the largest loss: what a figure that has room for one curve shows.
+pub fn largest<'a, 'b>(curves: &'b [Curve<'a>]) -> Option<&'b Curve<'a>> {
+    let largest = |curve: &Curve<'_>| {
+        let losses = curve.records.iter().filter_map(|r| r.energy_loss_j());
+        losses.fold(f64::NEG_INFINITY, f64::max)
+    };
+    // Of equals the first.
+    let larger = |a: &&Curve<'_>, b: &&Curve<'_>| largest(a).total_cmp(&largest(b));
+    curves.iter().rev().max_by(larger)
+}
+
+impl<'a> Curve<'a> {
+    /// The cases that have a result.
+    pub fn results(&self) -> Vec<(&'a CaseRecord, &'a CaseResult)> {
+        let results = self.records.iter();
+        results
+            .filter_map(|record| Some((*record, record.result.as_ref()?)))
+            .collect()
+    }
+}
+
+/// A value of the drive to be read: `5 N`, `200 mN`, `1.5 µm`.
+pub fn drive_value(drive: &HarmonicDrive, value: f64) -> String {
+    let (factor, prefix) = prefix(value.abs());
+    let unit = drive_unit(drive.control());
+    format!("{} {prefix}{unit}", scientific(factor * value, 3))
+}
+
+/// The unit of a drive's values.
+pub fn drive_unit(control: Control) -> &'static str {
+    match control {
+        Control::Load => "N",
+        Control::Approach => "m",
+    }
+}
+
+/// An angular frequency as it stands in legends.
+pub fn omega_label(angular_frequency_rad_per_s: f64) -> String {
+    format!("ω = {} rad/s", scientific(angular_frequency_rad_per_s, 3))
+}
+
+/// At most `most` of `count` places, evenly spread with both ends; rather some fewer than unevenly.
+pub fn evenly(count: usize, most: usize) -> Vec<usize> {
+    if count <= most || most < 2 {
+        return (0..count.min(most)).collect();
+    }
+    let even = (most / 2 + 1..=most)
+        .rev()
+        .find(|n| (count - 1).is_multiple_of(n - 1));
+    let chosen = even.unwrap_or(most);
+    (0..chosen)
+        .map(|k| k * (count - 1) / (chosen - 1))
+        .collect()
+}
+
+/// The same, with the largest of the values in place of its nearest neighbour.
+pub fn with_the_largest(values: &[f64], most: usize) -> Vec<usize> {
+    let mut chosen = evenly(values.len(), most);
+    let largest = (0..values.len()).max_by(|&a, &b| values[a].total_cmp(&values[b]));
+    if let Some(largest) = largest
+        && !chosen.contains(&largest)
+        // The ends stay: they show the range.
+        && let Some(nearest) =
+            (1..chosen.len().saturating_sub(1)).min_by_key(|&k| chosen[k].abs_diff(largest))
+    {
+        chosen[nearest] = largest;
+    }
+    chosen
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_chosen_span_the_sweep_and_hold_the_largest() {
+        let losses: Vec<f64> = (0..41).map(|i| -f64::from(i - 19).powi(2)).collect();
+        assert_eq!(with_the_largest(&losses, 5), [0, 10, 19, 30, 40]);
+        assert_eq!(with_the_largest(&losses[..3], 5), [0, 1, 2]);
+        assert_eq!(with_the_largest(&[], 5), Vec::<usize>::new());
+        assert_eq!(evenly(9, 8), [0, 2, 4, 6, 8]);
+        assert_eq!(evenly(10, 8), [0, 1, 2, 3, 5, 6, 7, 9]);
+        assert_eq!(evenly(9, 1), [0]);
+    }
+
+    #[test]
+    fn values_of_a_drive_read_as_in_print() {
+        let drive = HarmonicDrive::new(Control::Load, 10.0, 0.25, 0.0, 0.0).unwrap();
+        assert_eq!(drive_value(&drive, 0.25), "250 mN");
+        assert_eq!(drive_value(&drive, 10.0), "10 N");
+        let drive = HarmonicDrive::new(Control::Approach, 0.0, 1e-6, 0.0, 0.0).unwrap();
+        assert_eq!(drive_value(&drive, 1.5e-6), "1.5 µm");
+        assert_eq!(drive_value(&drive, 0.0), "0 m");
+    }
+}

@@ -1,0 +1,205 @@
+//! Which relaxation branch dissipates: the energy loss over frequency as a stack of the losses of the branches.
+
+use super::curve::Curve;
+use super::{Drawn, Figure, prefix, scientific};
+use crate::quantity::{Dimension, format_human};
+use crate::report::ReportError;
+use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
+use crate::report::table::{Table, number};
+use crate::sweep::record::{CaseRecord, CaseResult};
+
+/// Bands in one figure; more cannot be told apart.
+const BANDS: usize = 8;
+const OTHERS: Color = Color::Rgb(0xC4, 0xC4, 0xC4);
+
+/// The figure, of one curve: bands by retardation time, the longest at the bottom, the area of the loop as a line.
+///
+/// # Errors
+/// Where the table behind it cannot be made.
+pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
+    let results = curve.results();
+    if results.len() < 2 {
+        return Ok(Drawn::left_out(
+            "no dissipation figure: it takes two frequencies with a result",
+        ));
+    }
+    let bands = bands(&results);
+    if bands.is_empty() {
+        return Ok(Drawn::left_out(
+            "no dissipation figure: the material has no relaxation branches",
+        ));
+    }
+    let losses = results.iter().map(|(_, r)| r.analysis.energy_loss_j);
+    let (factor, unit) = prefix(losses.fold(0.0, f64::max));
+    let mut chart = Chart::new(
+        Axis::log("angular frequency ω / rad·s⁻¹"),
+        Axis::linear(format!("energy loss per cycle / {unit}J")),
+    );
+    chart.title.clone_from(&curve.label);
+    // From the total downwards: each area covers the lower part of the one before.
+    let of = bands.iter().filter(|band| !band.is_rest).count();
+    let mut step = 0;
+    for (k, band) in bands.iter().enumerate() {
+        let color = match band.is_rest {
+            true => OTHERS,
+            false => {
+                step += 1;
+                Color::Ramp {
+                    step: of - step,
+                    of,
+                }
+            }
+        };
+        let points = curve.records.iter().map(|record| {
+            let place = results.iter().position(|(r, _)| r.index == record.index)?;
+            let below = bands[k..].iter().filter_map(|b| b.losses_j.get(place));
+            Some((
+                record.angular_frequency_rad_per_s,
+                factor * below.sum::<f64>(),
+            ))
+        });
+        let area = Series::line(points).area_to(0.0);
+        chart = chart.series(area.label(band.label.clone()).color(color));
+    }
+    let total = curve
+        .records
+        .iter()
+        .map(|r| Some((r.angular_frequency_rad_per_s, factor * r.energy_loss_j()?)));
+    chart = chart
+        .series(
+            Series::line(total)
+                .label("area of the loop")
+                .color(Color::Rgb(0, 0, 0)),
+        )
+        .legend(LegendPlace::Auto);
+    Ok(Drawn::Figure(Figure {
+        name: "dissipation",
+        picture: chart.into(),
+        data: data(&results)?,
+    }))
+}
+
+/// One band of the stack.
+#[derive(Debug, PartialEq)]
+struct Band {
+    label: String,
+    /// One per result.
+    losses_j: Vec<f64>,
+    /// Whether it stands for what is too small to be shown by itself.
+    is_rest: bool,
+}
+
+/// The branches, shortest retardation time first; of many, by decades, and of many decades the largest and the rest.
+fn bands(results: &[(&CaseRecord, &CaseResult)]) -> Vec<Band> {
+    let Some((_, first)) = results.first() else {
+        return Vec::new();
+    };
+    let times: Vec<f64> = first
+        .branches
+        .iter()
+        .map(|b| b.retardation_time_s)
+        .collect();
+    let loss =
+        |result: &CaseResult, k: usize| result.branches.get(k).map_or(0.0, |b| b.energy_loss_j);
+    let band = |label: String, members: &[usize]| Band {
+        label,
+        losses_j: results
+            .iter()
+            .map(|(_, result)| members.iter().map(|&k| loss(result, k)).sum())
+            .collect(),
+        is_rest: false,
+    };
+    if times.len() <= BANDS {
+        let label = |time_s: f64| format!("λ = {}", format_human(time_s, Dimension::Time, 4));
+        let bands = times.iter().enumerate();
+        return bands
+            .map(|(k, &time_s)| band(label(time_s), &[k]))
+            .collect();
+    }
+    let decade = |time_s: f64| time_s.log10().floor() as i32;
+    let mut decades: Vec<i32> = times.iter().map(|&time_s| decade(time_s)).collect();
+    decades.dedup();
+    let power = |exponent: i32| scientific(10_f64.powi(exponent), 1);
+    let bands: Vec<Band> = decades
+        .iter()
+        .map(|&d| {
+            let members: Vec<usize> = (0..times.len())
+                .filter(|&k| decade(times[k]) == d)
+                .collect();
+            band(format!("λ = {} to {} s", power(d), power(d + 1)), &members)
+        })
+        .collect();
+    with_rest(bands)
+}
+
+/// At most [`BANDS`]: those with the largest losses, and the sum of the others at the top.
+fn with_rest(bands: Vec<Band>) -> Vec<Band> {
+    if bands.len() <= BANDS {
+        return bands;
+    }
+    let largest = |band: &Band| band.losses_j.iter().copied().fold(0.0, f64::max);
+    let mut heights: Vec<f64> = bands.iter().map(largest).collect();
+    heights.sort_by(|a, b| b.total_cmp(a));
+    let least = heights[BANDS - 2];
+    let (kept, rest): (Vec<Band>, Vec<Band>) =
+        bands.into_iter().partition(|band| largest(band) >= least);
+    let places = rest.first().map_or(0, |band| band.losses_j.len());
+    let others = Band {
+        label: "others".to_owned(),
+        losses_j: (0..places)
+            .map(|i| rest.iter().filter_map(|band| band.losses_j.get(i)).sum())
+            .collect(),
+        is_rest: true,
+    };
+    std::iter::once(others).chain(kept).collect()
+}
+
+fn data(results: &[(&CaseRecord, &CaseResult)]) -> Result<Vec<u8>, ReportError> {
+    let columns = [
+        "angular_frequency_rad_per_s",
+        "retardation_time_s",
+        "branch_loss_j",
+        "energy_loss_j",
+    ];
+    let mut table = Table::new("dissipation.csv", &columns)?;
+    for (record, result) in results {
+        for branch in &result.branches {
+            table.row(&[
+                number(record.angular_frequency_rad_per_s),
+                number(branch.retardation_time_s),
+                number(branch.energy_loss_j),
+                number(result.analysis.energy_loss_j),
+            ])?;
+        }
+    }
+    table.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn band(label: &str, loss_j: f64) -> Band {
+        Band {
+            label: label.to_owned(),
+            losses_j: vec![loss_j, 0.0],
+            is_rest: false,
+        }
+    }
+
+    #[test]
+    fn of_many_bands_the_smallest_are_added_up_at_the_top() {
+        let few: Vec<Band> = (0..8).map(|k| band("", f64::from(k))).collect();
+        assert_eq!(with_rest(few).len(), 8);
+        let many: Vec<Band> = (0..20)
+            .map(|k| band(&k.to_string(), f64::from(k)))
+            .collect();
+        let merged = with_rest(many);
+        assert_eq!(merged.len(), BANDS);
+        assert!(merged[0].is_rest);
+        // 0 + 1 + ... + 12, exact in doubles.
+        assert_eq!(merged[0].losses_j, [78.0, 0.0]);
+        assert_eq!(merged[1].label, "13");
+        assert_eq!(merged[7].label, "19");
+    }
+}

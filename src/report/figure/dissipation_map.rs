@@ -1,0 +1,207 @@
+//! Where the energy goes in, over the surface: the work per cycle and area at the frequency of the largest loss.
+
+use super::curve::{Curve, omega_label};
+use super::{Drawn, Figure, prefix};
+use crate::report::ReportError;
+use crate::report::chart::{HeatMap, MapShape, Scale};
+use crate::report::table::{Table, number, optional};
+use crate::sweep::record::{CaseResult, SurfaceLoss};
+
+const WIDTH_PX: u32 = 800;
+/// Cells along the diameter of what is revolved.
+const REVOLVED: usize = 128;
+
+/// The figure, of one curve.
+///
+/// # Errors
+/// Where the table behind it cannot be made.
+pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
+    let loss = |result: &CaseResult| result.analysis.energy_loss_j;
+    let results = curve.results();
+    let largest = results
+        .iter()
+        .max_by(|a, b| loss(a.1).total_cmp(&loss(b.1)));
+    let field = largest.and_then(|(record, result)| {
+        let field = Field::of(&result.surface_loss)?;
+        Some((record, result, field))
+    });
+    let Some((record, result, field)) = field else {
+        return Ok(Drawn::left_out("no dissipation map: nothing is dissipated"));
+    };
+    let omega = omega_label(record.angular_frequency_rad_per_s);
+    let title = match &curve.label {
+        Some(label) => format!("{omega}, {label}"),
+        None => omega,
+    };
+    Ok(Drawn::Figure(Figure {
+        name: "dissipation-map",
+        picture: field.map(title).into(),
+        data: data(&result.surface_loss)?,
+    }))
+}
+
+/// Densities (J/m2) on a grid of cells.
+struct Field {
+    x_range_m: (f64, f64),
+    y_range_m: (f64, f64),
+    columns: usize,
+    rows: usize,
+    density: Vec<Option<f64>>,
+}
+
+impl Field {
+    /// `None` where there is nothing to be seen.
+    fn of(surface: &SurfaceLoss) -> Option<Self> {
+        let field = match surface {
+            SurfaceLoss::Radial {
+                radius_m,
+                density_j_per_m2,
+            } => Self::revolved(radius_m, density_j_per_m2)?,
+            SurfaceLoss::Cells {
+                first_x_m,
+                first_y_m,
+                spacing_x_m,
+                spacing_y_m,
+                cells_x,
+                density_j_per_m2,
+            } => {
+                let rows = density_j_per_m2.len().checked_div(*cells_x)?;
+                let range = |first_m: f64, spacing_m: f64, cells: usize| {
+                    let start_m = first_m - 0.5 * spacing_m;
+                    (start_m, start_m + cells as f64 * spacing_m)
+                };
+                Self {
+                    x_range_m: range(*first_x_m, *spacing_x_m, *cells_x),
+                    y_range_m: range(*first_y_m, *spacing_y_m, rows),
+                    columns: *cells_x,
+                    rows,
+                    density: density_j_per_m2
+                        .iter()
+                        // Cells of the rectangle that were never in contact.
+                        .map(|density| (*density != 0.0).then_some(f64::from(*density)))
+                        .collect(),
+                }
+            }
+        };
+        let seen = field
+            .density
+            .iter()
+            .flatten()
+            .any(|density| *density != 0.0);
+        seen.then_some(field)
+    }
+
+    /// A profile along a radius, turned about the axis.
+    fn revolved(radius_m: &[f64], density: &[Option<f64>]) -> Option<Self> {
+        let outer_m = radius_m.last().copied().filter(|outer_m| *outer_m > 0.0)?;
+        let range = (-outer_m, outer_m);
+        let centre = |k: usize| outer_m * ((2 * k + 1) as f64 / REVOLVED as f64 - 1.0);
+        let at = |cell: usize| {
+            let r_m = centre(cell % REVOLVED).hypot(centre(cell / REVOLVED));
+            let outer = radius_m.partition_point(|&r| r < r_m);
+            let inner = outer.saturating_sub(1);
+            let (from_m, to_m) = (*radius_m.get(inner)?, *radius_m.get(outer)?);
+            let (from, to) = ((*density.get(inner)?)?, (*density.get(outer)?)?);
+            let part = match to_m > from_m {
+                true => (r_m - from_m) / (to_m - from_m),
+                false => 0.0,
+            };
+            Some(from + part * (to - from))
+        };
+        Some(Self {
+            x_range_m: range,
+            y_range_m: range,
+            columns: REVOLVED,
+            rows: REVOLVED,
+            density: (0..REVOLVED * REVOLVED).map(at).collect(),
+        })
+    }
+
+    fn map(self, title: String) -> HeatMap {
+        let [(left, right), (low, high)] = [self.x_range_m, self.y_range_m];
+        let reach = [left, right, low, high].map(f64::abs);
+        let (to_length, length) = prefix(reach.into_iter().fold(0.0, f64::max));
+        let densities = self.density.iter().flatten();
+        let (to_density, unit) = prefix(densities.fold(0.0, |a, d| a.max(d.abs())));
+        let scaled = |density: &Option<f64>| Some(to_density * (*density)?);
+        HeatMap {
+            title: Some(title),
+            x_label: format!("x / {length}m"),
+            y_label: format!("y / {length}m"),
+            x_range: (to_length * left, to_length * right),
+            y_range: (to_length * low, to_length * high),
+            x_scale: Scale::Linear,
+            y_scale: Scale::Linear,
+            columns: self.columns,
+            rows: self.rows,
+            values: self.density.iter().map(scaled).collect(),
+            value_label: format!("work per cycle and area / {unit}J·m⁻²"),
+            value_range: None,
+            value_scale: Scale::Linear,
+            contours: false,
+            points: Vec::new(),
+            rings: Vec::new(),
+            width_px: WIDTH_PX,
+            shape: MapShape::ToScale,
+        }
+    }
+}
+
+/// The field as it was computed: along a radius, or cell by cell.
+fn data(surface: &SurfaceLoss) -> Result<Vec<u8>, ReportError> {
+    let name = "dissipation-map.csv";
+    match surface {
+        SurfaceLoss::Radial {
+            radius_m,
+            density_j_per_m2,
+        } => {
+            let mut table = Table::new(name, &["radius_m", "work_j_per_m2"])?;
+            for (r_m, density) in radius_m.iter().zip(density_j_per_m2) {
+                table.row(&[number(*r_m), optional(*density)])?;
+            }
+            table.finish()
+        }
+        SurfaceLoss::Cells {
+            first_x_m,
+            first_y_m,
+            spacing_x_m,
+            spacing_y_m,
+            cells_x,
+            density_j_per_m2,
+        } => {
+            let mut table = Table::new(name, &["x_m", "y_m", "work_j_per_m2"])?;
+            let columns = (*cells_x).max(1);
+            for (cell, density) in density_j_per_m2.iter().enumerate() {
+                table.row(&[
+                    number(first_x_m + (cell % columns) as f64 * spacing_x_m),
+                    number(first_y_m + (cell / columns) as f64 * spacing_y_m),
+                    format!("{density:e}"),
+                ])?;
+            }
+            table.finish()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_revolved_profile_has_the_values_of_its_radius_and_nothing_beyond() {
+        let radius: Vec<f64> = (0..=50).map(|k| f64::from(k) * 1e-6).collect();
+        let density: Vec<_> = radius.iter().map(|r| Some(3.0 - 2e4 * r)).collect();
+        let field = Field::revolved(&radius, &density).unwrap();
+        let cell = 100.0e-6 / REVOLVED as f64;
+        for (k, value) in field.density.iter().enumerate() {
+            let place = |k: usize| (k as f64 + 0.5) * cell - 50.0e-6;
+            let r = place(k % REVOLVED).hypot(place(k / REVOLVED));
+            match value {
+                // Linear in r, which linear interpolation reproduces but for rounding.
+                Some(value) => assert!((value - (3.0 - 2e4 * r)).abs() < 1e-12),
+                None => assert!(r > 50.0e-6),
+            }
+        }
+        assert!(Field::revolved(&[], &[]).is_none());
+    }
+}

@@ -1,0 +1,235 @@
+//! A quantity over both axes of a sweep, frequency and drive, as a map: coloured between the cases, which are dots.
+
+use super::curve::{Curve, drive_unit};
+use super::moduli_error::WIDE;
+use super::prefix;
+use crate::report::ReportError;
+use crate::report::chart::{HeatMap, MapShape, Scale};
+use crate::report::table::{Table, number, optional};
+use crate::sweep::plan::{DriveAxis, SweepPlan};
+use crate::sweep::record::CaseRecord;
+
+const WIDTH_PX: u32 = 800;
+const HEIGHT_PX: u32 = 600;
+/// Cells that are coloured.
+const COLUMNS: usize = 128;
+const ROWS: usize = 96;
+/// Values that vary by more than this have colours on a logarithmic scale.
+const WIDE_COLOURS: f64 = 30.0;
+
+/// What is mapped.
+pub struct Mapped<'a> {
+    pub value: &'a dyn Fn(&CaseRecord) -> Option<f64>,
+    pub label: String,
+    /// (angular frequency, value of the drive) of what is pointed out.
+    pub rings: Vec<(f64, f64)>,
+}
+
+/// The map; `None` where there are not two frequencies under each of two drives to colour between.
+pub fn map(
+    plan: &SweepPlan,
+    axis: &DriveAxis,
+    curves: &[Curve<'_>],
+    mapped: Mapped<'_>,
+) -> Option<HeatMap> {
+    let values = || {
+        let records = curves.iter().flat_map(|curve| &curve.records);
+        records.filter_map(|record| (mapped.value)(record))
+    };
+    let (least, largest) = (
+        values().fold(f64::INFINITY, f64::min),
+        values().fold(f64::NEG_INFINITY, f64::max),
+    );
+    let value_scale = scale(least, largest, WIDE_COLOURS);
+    let drives = || curves.iter().map(|curve| axis.varied.value(&curve.drive));
+    let (low, high) = (drives().next()?, drives().next_back()?);
+    let (to_unit, unit_prefix) = prefix(low.abs().max(high.abs()));
+    let y_scale = scale(low, high, WIDE);
+    let omegas = || {
+        let records = curves.iter().flat_map(|curve| &curve.records);
+        records.map(|record| record.angular_frequency_rad_per_s)
+    };
+    let x_range = (
+        omegas().fold(f64::INFINITY, f64::min),
+        omegas().fold(0.0, f64::max),
+    );
+    if x_range.0 >= x_range.1 || low >= high {
+        return None;
+    }
+    let grid = Grid {
+        rows: curves
+            .iter()
+            .map(|curve| row(curve, axis, y_scale, value_scale, mapped.value))
+            .collect(),
+    };
+    let centre = |(from, to): (f64, f64), k: usize, count: usize| {
+        from + (to - from) * (k as f64 + 0.5) / count as f64
+    };
+    let (x, y) = (
+        (x_range.0.log10(), x_range.1.log10()),
+        (on(y_scale, low), on(y_scale, high)),
+    );
+    let cell = |i: usize| {
+        let value = grid.at(
+            centre(x, i % COLUMNS, COLUMNS),
+            centre(y, i / COLUMNS, ROWS),
+        )?;
+        Some(match value_scale {
+            Scale::Linear => value,
+            Scale::Log => 10_f64.powf(value),
+        })
+    };
+    let coloured: Vec<Option<f64>> = (0..COLUMNS * ROWS).map(cell).collect();
+    coloured.iter().any(Option::is_some).then_some(())?;
+    let points = curves.iter().flat_map(|curve| {
+        let value = to_unit * axis.varied.value(&curve.drive);
+        let there = curve.records.iter().filter(|r| (mapped.value)(r).is_some());
+        there.map(move |record| (record.angular_frequency_rad_per_s, value))
+    });
+    let control = plan.drive.control();
+    let (name, unit) = (axis.varied.name(), drive_unit(control));
+    Some(HeatMap {
+        title: None,
+        x_label: "angular frequency ω / rad·s⁻¹".to_owned(),
+        y_label: format!("{} {name} / {unit_prefix}{unit}", control.name()),
+        x_range,
+        y_range: (to_unit * low, to_unit * high),
+        x_scale: Scale::Log,
+        y_scale,
+        columns: COLUMNS,
+        rows: ROWS,
+        values: coloured,
+        value_label: mapped.label,
+        value_range: None,
+        value_scale,
+        contours: true,
+        points: points.collect(),
+        rings: mapped
+            .rings
+            .iter()
+            .map(|(x, y)| (*x, to_unit * y))
+            .collect(),
+        width_px: WIDTH_PX,
+        shape: MapShape::HeightPx(HEIGHT_PX),
+    })
+}
+
+fn scale(least: f64, largest: f64, wide: f64) -> Scale {
+    if least > 0.0 && largest > wide * least {
+        Scale::Log
+    } else {
+        Scale::Linear
+    }
+}
+
+/// A number on a scale.
+fn on(scale: Scale, value: f64) -> f64 {
+    match scale {
+        Scale::Linear => value,
+        Scale::Log => value.log10(),
+    }
+}
+
+/// Values on their scale, drive by drive, each along its own frequencies.
+struct Grid {
+    rows: Vec<Row>,
+}
+
+/// One drive: its value, and (logarithm of the frequency, value or `None`), ascending.
+struct Row {
+    drive: f64,
+    cases: Vec<(f64, Option<f64>)>,
+}
+
+fn row(
+    curve: &Curve<'_>,
+    axis: &DriveAxis,
+    y_scale: Scale,
+    value_scale: Scale,
+    value: &dyn Fn(&CaseRecord) -> Option<f64>,
+) -> Row {
+    let case = |record: &&CaseRecord| {
+        let value = value(record).map(|value| on(value_scale, value));
+        (record.angular_frequency_rad_per_s.log10(), value)
+    };
+    Row {
+        drive: on(y_scale, axis.varied.value(&curve.drive)),
+        cases: curve.records.iter().map(case).collect(),
+    }
+}
+
+impl Grid {
+    /// Linear between the neighbours; `None` beside a case without a value.
+    fn at(&self, x: f64, y: f64) -> Option<f64> {
+        let above = self.rows.partition_point(|row| row.drive < y).max(1);
+        let (low, high) = (self.rows.get(above - 1)?, self.rows.get(above)?);
+        let part = (y - low.drive) / (high.drive - low.drive);
+        let (from, to) = (low.at(x)?, high.at(x)?);
+        Some(from + part * (to - from))
+    }
+}
+
+impl Row {
+    fn at(&self, x: f64) -> Option<f64> {
+        let right = self.cases.partition_point(|case| case.0 < x).max(1);
+        let (left, right) = (self.cases.get(right - 1)?, self.cases.get(right)?);
+        let part = (x - left.0) / (right.0 - left.0);
+        let (from, to) = (left.1?, right.1?);
+        Some(from + part * (to - from))
+    }
+}
+
+/// A column of a table: its name, and its value for a case.
+pub type Column<'a> = (&'a str, &'a dyn Fn(&CaseRecord) -> Option<f64>);
+
+/// The table behind a map: the cases.
+///
+/// # Errors
+/// Where the table cannot be made.
+pub fn data(
+    name: &'static str,
+    curves: &[Curve<'_>],
+    columns: &[Column<'_>],
+) -> Result<Vec<u8>, ReportError> {
+    let mut names = vec![
+        "drive_mean",
+        "drive_amplitude",
+        "angular_frequency_rad_per_s",
+    ];
+    names.extend(columns.iter().map(|(name, _)| *name));
+    let mut table = Table::new(name, &names)?;
+    for record in curves.iter().flat_map(|curve| &curve.records) {
+        let mut cells = vec![
+            number(record.drive_mean),
+            number(record.drive_amplitude),
+            number(record.angular_frequency_rad_per_s),
+        ];
+        cells.extend(columns.iter().map(|(_, value)| optional(value(record))));
+        table.row(&cells)?;
+    }
+    table.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn between_the_cases_a_bilinear_function_is_reproduced_and_beside_a_gap_is_nothing() {
+        let f = |x: f64, y: f64| 1.0 + 2.0 * x - 3.0 * y + 0.5 * x * y;
+        let row = |y: f64, xs: &[f64]| Row {
+            drive: y,
+            cases: xs.iter().map(|&x| (x, Some(f(x, y)))).collect(),
+        };
+        let mut grid = Grid {
+            // Each drive has frequencies of its own.
+            rows: vec![row(0.0, &[0.0, 1.0, 4.0]), row(2.0, &[0.0, 2.0, 4.0])],
+        };
+        for (x, y) in [(0.3, 0.1), (1.7, 1.9), (3.9, 1.0), (0.0, 0.0), (4.0, 2.0)] {
+            assert!((grid.at(x, y).unwrap() - f(x, y)).abs() < 1e-14);
+        }
+        assert_eq!(grid.at(4.1, 1.0), None);
+        grid.rows[0].cases[1].1 = None;
+        assert_eq!(grid.at(0.3, 0.1), None);
+    }
+}

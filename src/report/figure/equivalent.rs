@@ -1,0 +1,166 @@
+//! The equivalent moduli of the loops beside the material's own: the data of four figures.
+
+use num_complex::Complex;
+
+use super::curve::{Curve, curves};
+use crate::material::Material;
+use crate::report::ReportError;
+use crate::report::table::{Table, number, optional};
+use crate::sweep::error_bars::Quantity;
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::record::CaseRecord;
+use crate::sweep::run::Outcome;
+
+/// What indentation reads from one loop, and what it stands for.
+#[derive(Debug, Clone, Copy)]
+pub struct LoopModulus<'a> {
+    pub record: &'a CaseRecord,
+    pub storage_pa: f64,
+    pub loss_pa: f64,
+    /// The material's longitudinal complex modulus (Pa).
+    pub own_pa: Complex<f64>,
+}
+
+/// Frequency (rad/s) and complex modulus (Pa).
+pub type Line = Vec<(f64, Complex<f64>)>;
+
+/// One curve with the material's own moduli.
+pub struct Equivalent<'a> {
+    pub loops: Vec<LoopModulus<'a>>,
+    /// Over the frequencies of the loops.
+    pub own: Line,
+    /// Two decades further on both sides.
+    pub own_beyond: Line,
+    pub title: Option<String>,
+}
+
+impl<'a> Equivalent<'a> {
+    /// `None` where fewer than two loops have moduli.
+    pub fn of(material: &Material, curve: &Curve<'a>) -> Option<Self> {
+        let loops = of_loops(material, curve);
+        let first = loops.first()?.record.angular_frequency_rad_per_s;
+        let last = loops.last()?.record.angular_frequency_rad_per_s;
+        (loops.len() > 1 && last > first).then(|| Self {
+            own: line(material, first, last),
+            own_beyond: line(material, 1e-2 * first, 1e2 * last),
+            title: curve.label.clone(),
+            loops,
+        })
+    }
+}
+
+/// The moduli of the loops of a curve, as far as they have any.
+pub fn of_loops<'a>(material: &Material, curve: &Curve<'a>) -> Vec<LoopModulus<'a>> {
+    let records = curve.records.iter();
+    records
+        .filter_map(|&record| {
+            let result = record.result.as_ref()?;
+            let omega = record.angular_frequency_rad_per_s;
+            Some(LoopModulus {
+                record,
+                storage_pa: result.storage_modulus_pa?,
+                loss_pa: result.loss_modulus_pa?,
+                own_pa: material.longitudinal_complex_modulus(omega),
+            })
+        })
+        .collect()
+}
+
+fn line(material: &Material, first: f64, last: f64) -> Line {
+    let count = (30.0 * (last / first).log10()).ceil().clamp(100.0, 1000.0) as usize;
+    (0..=count)
+        .map(|k| first * (last / first).powf(k as f64 / count as f64))
+        .map(|omega| (omega, material.longitudinal_complex_modulus(omega)))
+        .collect()
+}
+
+impl LoopModulus<'_> {
+    /// Angular frequency (rad/s).
+    pub fn omega(&self) -> f64 {
+        self.record.angular_frequency_rad_per_s
+    }
+
+    /// Estimated error (Pa) of one of the moduli.
+    pub fn error_pa(&self, quantity: Quantity) -> Option<f64> {
+        let result = self.record.result.as_ref()?;
+        result.errors.as_ref()?.of(quantity)
+    }
+
+    /// By how much the storage modulus of the loop differs from the material's, relative to it.
+    pub fn storage_difference(&self) -> f64 {
+        self.storage_pa / self.own_pa.re - 1.0
+    }
+
+    /// The same of the loss modulus; `None` where the material has none.
+    pub fn loss_difference(&self) -> Option<f64> {
+        (self.own_pa.im > 0.0).then(|| self.loss_pa / self.own_pa.im - 1.0)
+    }
+}
+
+/// The table behind the moduli: all loops of a sweep, under all drives.
+///
+/// # Errors
+/// Where the table cannot be made.
+pub fn table(
+    name: &'static str,
+    plan: &SweepPlan,
+    outcome: &Outcome,
+) -> Result<Vec<u8>, ReportError> {
+    let columns = [
+        "drive_mean",
+        "drive_amplitude",
+        "angular_frequency_rad_per_s",
+        "storage_modulus_pa",
+        "storage_modulus_error_pa",
+        "loss_modulus_pa",
+        "loss_modulus_error_pa",
+        "material_storage_modulus_pa",
+        "material_loss_modulus_pa",
+        "storage_relative_difference",
+        "loss_relative_difference",
+    ];
+    let mut table = Table::new(name, &columns)?;
+    for curve in curves(plan, outcome) {
+        for at in of_loops(&plan.material, &curve) {
+            table.row(&[
+                number(at.record.drive_mean),
+                number(at.record.drive_amplitude),
+                number(at.omega()),
+                number(at.storage_pa),
+                optional(at.error_pa(Quantity::StorageModulus)),
+                number(at.loss_pa),
+                optional(at.error_pa(Quantity::LossModulus)),
+                number(at.own_pa.re),
+                number(at.own_pa.im),
+                number(at.storage_difference()),
+                optional(at.loss_difference()),
+            ])?;
+        }
+    }
+    table.finish()
+}
+
+/// The table behind a figure that draws loops beside the material's line: of both, these two numbers.
+///
+/// # Errors
+/// Where the table cannot be made.
+pub fn pairs(
+    name: &'static str,
+    equivalent: &Equivalent<'_>,
+    own: &Line,
+    columns: [&str; 2],
+    pair: impl Fn(Complex<f64>) -> [f64; 2],
+) -> Result<Vec<u8>, ReportError> {
+    let [x, y] = columns;
+    let mut table = Table::new(name, &["kind", "angular_frequency_rad_per_s", x, y])?;
+    let loops = equivalent.loops.iter();
+    let loops = loops.map(|at| ("loop", at.omega(), Complex::new(at.storage_pa, at.loss_pa)));
+    let own = own
+        .iter()
+        .map(|(omega, modulus)| ("material", *omega, *modulus));
+    for (kind, omega, modulus) in loops.chain(own) {
+        let [x, y] = pair(modulus);
+        table.row(&[kind.to_owned(), number(omega), number(x), number(y)])?;
+    }
+    table.finish()
+}

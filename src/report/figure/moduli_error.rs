@@ -1,0 +1,104 @@
+//! What the indentation formula gets wrong: the relative difference of the equivalent moduli from the material's own, over the
+//! amplitude or the mean of the drive.
+
+use super::curve::{Curve, drive_unit, evenly, omega_label};
+use super::equivalent::{self, LoopModulus, of_loops};
+use super::{Drawn, Figure, Picture, prefix};
+use crate::report::ReportError;
+use crate::report::chart::{Axis, Chart, Color, LegendPlace, Marker, Series};
+use crate::sweep::plan::{DriveAxis, SweepPlan};
+use crate::sweep::run::Outcome;
+
+/// Frequencies in one figure; more cannot be told apart.
+const FREQUENCIES: usize = 5;
+/// Values of the drive that vary by more than this have a logarithmic axis.
+pub(super) const WIDE: f64 = 5.0;
+
+/// One frequency: (value of the drive, what the loop there gives), where it gives anything.
+type Row<'a> = Vec<(f64, Option<LoopModulus<'a>>)>;
+
+/// The figure: storage modulus above, loss modulus below, one curve per frequency.
+///
+/// # Errors
+/// Where the table behind it cannot be made.
+pub fn figure(
+    plan: &SweepPlan,
+    outcome: &Outcome,
+    axis: &DriveAxis,
+    curves: &[Curve<'_>],
+) -> Result<Drawn, ReportError> {
+    let rows = rows(plan, axis, curves);
+    let loops = rows.iter().flat_map(|(_, row)| row);
+    if loops.filter_map(|(_, at)| *at).count() < 2 {
+        return Ok(Drawn::left_out(
+            "no figure of the error of the moduli: too few loops have moduli",
+        ));
+    }
+    let unit = drive_unit(plan.drive.control());
+    let values = || curves.iter().map(|curve| axis.varied.value(&curve.drive));
+    let (factor, prefix) = prefix(values().fold(0.0, |a, v| a.max(v.abs())));
+    let (least, largest) = (
+        values().fold(f64::INFINITY, f64::min),
+        values().fold(0.0, f64::max),
+    );
+    let name = format!("{} {}", plan.drive.control().name(), axis.varied.name());
+    let label = format!("{name} / {prefix}{unit}");
+    let x_axis = |label: String| match least > 0.0 && largest > WIDE * least {
+        true => Axis::log(label),
+        false => Axis::linear(label),
+    };
+    let series = |difference: fn(&LoopModulus<'_>) -> Option<f64>| {
+        let of = rows.len();
+        let series = rows.iter().enumerate().map(move |(step, (omega, row))| {
+            let points = row.iter().map(|(value, at)| {
+                let percent = 100.0 * difference(at.as_ref()?)?;
+                Some((factor * value, percent))
+            });
+            Series::line(points)
+                .marker(Marker::nth(step))
+                .color(Color::Ramp { step, of })
+                .label(omega_label(*omega))
+        });
+        series.collect::<Vec<_>>()
+    };
+    let storage = Chart::new(
+        x_axis(String::new()),
+        Axis::linear("error of E′ from the loop / %"),
+    )
+    .all_series(series(|at| Some(at.storage_difference())))
+    .legend(LegendPlace::Above)
+    .size(800, 380);
+    let loss = Chart::new(x_axis(label), Axis::linear("error of E″ from the loop / %"))
+        .all_series(series(|at| at.loss_difference()))
+        .legend(None)
+        .size(800, 360);
+    Ok(Drawn::Figure(Figure {
+        name: "moduli-error",
+        picture: Picture::Stack(vec![storage, loss]),
+        data: equivalent::table("moduli-error.csv", plan, outcome)?,
+    }))
+}
+
+/// Some of the planned frequencies, each over the drives.
+fn rows<'a>(plan: &SweepPlan, axis: &DriveAxis, curves: &[Curve<'a>]) -> Vec<(f64, Row<'a>)> {
+    let loops: Vec<(f64, Vec<LoopModulus<'a>>)> = curves
+        .iter()
+        .map(|curve| {
+            (
+                axis.varied.value(&curve.drive),
+                of_loops(&plan.material, curve),
+            )
+        })
+        .collect();
+    let planned = &plan.angular_frequencies_rad_per_s;
+    evenly(planned.len(), FREQUENCIES)
+        .into_iter()
+        .filter_map(|k| planned.get(k))
+        .map(|&omega| {
+            let at =
+                |loops: &[LoopModulus<'a>]| loops.iter().find(|at| at.omega() == omega).copied();
+            let row = loops.iter().map(|(value, loops)| (*value, at(loops)));
+            (omega, row.collect())
+        })
+        .collect()
+}

@@ -1,0 +1,31 @@
+//! What a sweep leaves at the top of its folder: known here, so that another sweep that takes the folder can clear it.
+
+/// Every figure a sweep may have; which of them it has depends on its axes, its material and its results.
+pub const FIGURES: [&str; 12] = [
+    "energy-loss",
+    "loops",
+    "dissipation",
+    "dissipation-profile",
+    "dissipation-map",
+    "moduli",
+    "cole-cole",
+    "van-gurp-palmen",
+    "loss-tangent",
+    "loss-map",
+    "harmonic-2-map",
+    "moduli-error",
+];
+
+/// Table and summary.
+const TABLES: [&str; 2] = ["sweep.csv", "summary.json"];
+
+/// The files of a figure: its data, and the picture in three forms.
+pub fn of_figure(name: &str) -> [String; 4] {
+    [".csv", ".svg", ".png", "@2x.png"].map(|ending| format!("{name}{ending}"))
+}
+
+/// All files at the top of a sweep's folder that later runs replace.
+pub fn of_sweep() -> impl Iterator<Item = String> {
+    let tables = TABLES.into_iter().map(str::to_owned);
+    tables.chain(FIGURES.into_iter().flat_map(of_figure))
+}
