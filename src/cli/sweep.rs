@@ -70,7 +70,7 @@ fn text(setup: &Setup, outcome: &Outcome, left_out: &[String], folder: &Path) ->
         text.push_str(&report::fit::text(fit));
         text.push('\n');
     }
-    text.push_str(&terminal::table(&outcome.records));
+    text.push_str(&terminal::table(plan, outcome));
     for part in [
         terminal::peaks(plan, outcome),
         terminal::problems(outcome),

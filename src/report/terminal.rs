@@ -1,27 +1,36 @@
 //! What a sweep prints at its end: the table, the peaks, and what went wrong. At most 80 columns.
 
-use std::fmt::Write;
+use std::fmt::{self, Write};
 
+use super::figure;
 use crate::quantity::{Dimension, format_human};
-use crate::sweep::plan::SweepPlan;
+use crate::sweep::peak::Peak;
+use crate::sweep::plan::{DriveAxis, SweepPlan, Varied};
 use crate::sweep::record::{CaseRecord, Status};
 use crate::sweep::run::Outcome;
 
-/// One line per case: frequency, loss, phase, cycles, status; an absent value is a dash.
-pub fn table(records: &[CaseRecord]) -> String {
-    let mut text = String::from(" ω / rad/s   loss / cycle   phase / deg   cycles   status\n");
+/// One line per case: frequency, loss with its error, phase, cycles, status; an absent value is a dash. A sweep of two axes
+/// has one line per drive instead: its cases are too many to be read.
+pub fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
+    match &plan.axis {
+        Some(axis) => drives(plan, axis, outcome),
+        None => cases(&outcome.records),
+    }
+}
+
+fn cases(records: &[CaseRecord]) -> String {
+    let mut text =
+        String::from(" ω / rad/s   loss / cycle              phase / deg   cycles   status\n");
     for record in records {
+        let loss = Measured::loss(record.energy_loss_j(), record.energy_loss_error_j());
         let analysis = record.result.as_ref().map(|r| &r.analysis);
-        let loss = analysis.map(|a| format_human(a.energy_loss_j, Dimension::Energy, 4));
         let phase = analysis.map(|a| format!("{:.4}", a.phase_lag_rad.to_degrees()));
-        let dash = || "-".to_owned();
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{:>10}   {:>12}   {:>11}   {:>6}   {}",
+            "{:>10}   {loss}   {:>11}   {:>6}   {}",
             frequency(record.angular_frequency_rad_per_s),
-            loss.unwrap_or_else(dash),
-            phase.unwrap_or_else(dash),
+            phase.unwrap_or_else(|| "-".to_owned()),
             record.cycles,
             record.status.name()
         );
@@ -29,20 +38,133 @@ pub fn table(records: &[CaseRecord]) -> String {
     text
 }
 
-/// Peaks, largest first; where there are none, why.
-pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
-    let mut text = String::new();
-    for (rank, peak) in outcome.peaks.iter().enumerate() {
-        let what = if rank == 0 { "Peak" } else { "Lower peak" };
+/// Each drive with its highest peak.
+fn drives(plan: &SweepPlan, axis: &DriveAxis, outcome: &Outcome) -> String {
+    let name = axis.varied.name();
+    let mut text = format!("{name:>10}   converged    loss / cycle, peak           ω / rad/s\n");
+    for curve in figure::curve::curves(plan, outcome) {
+        let value = figure::curve::drive_value(&curve.drive, axis.varied.value(&curve.drive));
+        let of_curve = |peak: &&Peak| {
+            peak.drive_mean == Some(curve.drive.mean())
+                && peak.drive_amplitude == Some(curve.drive.amplitude())
+        };
+        // The peaks are in order, the largest first.
+        let peak = outcome.peaks.iter().find(of_curve);
+        let loss = Measured::loss(
+            peak.map(|p| p.energy_loss_j),
+            peak.and_then(|p| p.energy_loss_error_j),
+        );
+        let at = peak.map(|p| frequency(p.angular_frequency_rad_per_s));
+        let count = format!("{} of {}", curve.results().len(), curve.records.len());
         let _ = writeln!(
             text,
-            "{what}: {} at ω = {}",
-            format_human(peak.energy_loss_j, Dimension::Energy, 4),
-            format_human(
+            "{value:>10}   {count:>9}   {loss}     {:>10}",
+            at.unwrap_or_else(|| "-".to_owned())
+        );
+    }
+    text
+}
+
+/// A number with its error, as two columns to be read together: `3.5090 µJ ± 0.0003`.
+struct Measured {
+    value: Option<String>,
+    error: Option<String>,
+}
+
+impl Measured {
+    fn loss(loss_j: Option<f64>, error_j: Option<f64>) -> Self {
+        Self::new(loss_j, error_j, Dimension::Energy)
+    }
+
+    /// With as many digits as the error leaves certain, but at least three and at most seven.
+    fn new(value: Option<f64>, error: Option<f64>, dimension: Dimension) -> Self {
+        let (Some(value), Some(error)) = (value, error.filter(|error| *error > 0.0)) else {
+            let value = value.map(|value| format_human(value, dimension, 4));
+            return Self { value, error: None };
+        };
+        let power = |number: f64| (number.abs() * (1.0 + 1e-9)).log10().floor();
+        let digits = power(value) - power(one_digit(error)) + 1.0;
+        let digits = digits.clamp(3.0, 7.0) as usize;
+        let text = format_human(value, dimension, digits);
+        // The unit with its prefix is what makes the number of the value.
+        let number = text.split(' ').next().and_then(|n| n.parse::<f64>().ok());
+        let unit = number.map_or(1.0, |number| value / number);
+        Self {
+            error: Some(rounded_up(error / unit)),
+            value: Some(text),
+        }
+    }
+}
+
+/// One digit, never less than the number itself.
+fn one_digit(error: f64) -> f64 {
+    let unit = 10_f64.powf(error.log10().floor());
+    (error / unit * (1.0 - 1e-9)).ceil() * unit
+}
+
+/// The number so rounded, in fixed notation where that takes no more than six decimals.
+fn rounded_up(error: f64) -> String {
+    let error = one_digit(error);
+    // The rounded number may lie a rounding below its power of ten.
+    let power = (error * (1.0 + 1e-9)).log10().floor();
+    match power {
+        p if p >= 0.0 => format!("{error:.0}"),
+        p if p >= -6.0 => format!("{error:.*}", -p as usize),
+        _ => format!("{error:.0e}"),
+    }
+}
+
+impl fmt::Display for Measured {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let value = self.value.as_deref().unwrap_or("-");
+        match &self.error {
+            Some(error) => write!(f, "{value:>12} ± {error:<8}"),
+            None => write!(f, "{value:>12}{:11}", ""),
+        }
+    }
+}
+
+/// The same in running text.
+fn spoken(value: f64, error: Option<f64>, dimension: Dimension) -> String {
+    let measured = Measured::new(Some(value), error, dimension);
+    let value = measured.value.unwrap_or_default();
+    match measured.error {
+        Some(error) => format!("{value} ± {error}"),
+        None => value,
+    }
+}
+
+/// Peaks, largest first; where there are none, why. Of a sweep of two axes the largest alone: each drive has its own.
+pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
+    let mut text = String::new();
+    let shown = match plan.axis {
+        Some(_) => outcome.peaks.len().min(1),
+        None => outcome.peaks.len(),
+    };
+    for (rank, peak) in outcome.peaks.iter().take(shown).enumerate() {
+        let what = if rank == 0 { "Peak" } else { "Lower peak" };
+        let under = plan.axis.as_ref().and_then(|axis| {
+            let value = match axis.varied {
+                Varied::Amplitude => peak.drive_amplitude?,
+                Varied::Mean => peak.drive_mean?,
+            };
+            let value = figure::curve::drive_value(&plan.drive, value);
+            Some(format!(", {} {value}", axis.varied.name()))
+        });
+        let _ = writeln!(
+            text,
+            "{what}: {} at ω = {}{}",
+            spoken(
+                peak.energy_loss_j,
+                peak.energy_loss_error_j,
+                Dimension::Energy
+            ),
+            spoken(
                 peak.angular_frequency_rad_per_s,
+                Some(peak.angular_frequency_uncertainty_rad_per_s),
                 Dimension::AngularFrequency,
-                4
-            )
+            ),
+            under.unwrap_or_default()
         );
     }
     for problem in &outcome.peak_problems {
@@ -90,5 +212,38 @@ pub fn frequency(value: f64) -> String {
         )
     } else {
         format!("{value:.3e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_number_has_the_digits_that_its_error_leaves_it() {
+        let joule = |value, error| spoken(value, error, Dimension::Energy);
+        assert_eq!(joule(3.50901e-6, Some(2.8e-10)), "3.5090 µJ ± 0.0003");
+        assert_eq!(joule(3.50901e-6, Some(2.8e-9)), "3.509 µJ ± 0.003");
+        assert_eq!(joule(91.47e-9, Some(9.6e-11)), "91.5 nJ ± 0.1");
+        assert_eq!(joule(91.47e-9, None), "91.47 nJ");
+        assert_eq!(joule(91.47e-9, Some(0.0)), "91.47 nJ");
+        // Beyond seven digits the error is told with an exponent.
+        assert_eq!(joule(3.50901e-6, Some(2.8e-15)), "3.509010 µJ ± 3e-9");
+        assert_eq!(joule(3.5e-6, Some(5e-6)), "3.50 µJ ± 5");
+        let omega = spoken(8.4398e-3, Some(1.3e-6), Dimension::AngularFrequency);
+        assert_eq!(omega, "8.440e-3 rad/s ± 0.000002");
+    }
+
+    #[test]
+    fn errors_are_rounded_up_never_down() {
+        for (error, text) in [
+            (0.31, "0.4"),
+            (0.3, "0.3"),
+            (0.91, "1"),
+            (12.0, "20"),
+            (9.5e-8, "1e-7"),
+        ] {
+            assert_eq!(rounded_up(error), text);
+        }
     }
 }
