@@ -227,6 +227,7 @@ impl Engine for Axisymmetric {
             approach_m,
             contact_radius_m: self.contact_radius(approach_m)?,
             iterations,
+            convolutions: 0,
         })
     }
 

@@ -54,6 +54,8 @@ pub struct Solution {
     pub contact_radius_m: f64,
     /// Iterations the solver took.
     pub iterations: usize,
+    /// Convolutions with the elastic operator that took; 0 from an engine without one.
+    pub convolutions: usize,
 }
 
 /// Why an instant could not be solved.
@@ -96,6 +98,11 @@ pub enum ContactError {
 pub trait Engine: Send {
     /// Number of nodes: the length of every nodal slice.
     fn nodes(&self) -> usize;
+
+    /// Whether a starting guess nearer to the answer saves this engine work.
+    fn starts_from_guess(&self) -> bool {
+        false
+    }
 
     /// Solves one instant. `pressure` holds the starting guess and receives the answer.
     ///

@@ -216,6 +216,10 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
         step.compliance_per_pa
     }
 
+    fn step_s(step: &DirectStep) -> f64 {
+        step.step_s
+    }
+
     fn predict(&mut self, step: &DirectStep, old_pressure: &[f64], history: &mut [f64]) {
         self.last.copy_from_slice(old_pressure);
         // The new increment is the new pressure, which A multiplies, less the old one.

@@ -21,6 +21,9 @@ pub trait Hereditary {
     /// A (1/Pa) of a step.
     fn compliance_per_pa(step: &Self::Step) -> f64;
 
+    /// Length (s) of a step.
+    fn step_s(step: &Self::Step) -> f64;
+
     /// First half of a step: writes H (1/Pa times the unit of the pressure) per node.
     fn predict(&mut self, step: &Self::Step, old_pressure: &[f64], history: &mut [f64]);
 
@@ -44,6 +47,10 @@ impl Hereditary for Memory {
 
     fn compliance_per_pa(step: &StepWeights) -> f64 {
         step.compliance_per_pa()
+    }
+
+    fn step_s(step: &StepWeights) -> f64 {
+        step.step_s()
     }
 
     fn predict(&mut self, step: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {

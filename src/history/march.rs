@@ -3,6 +3,7 @@
 use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
+use crate::history::extrapolation::Extrapolation;
 use crate::history::{Dissipation, Hereditary, Memory, StepWeights, TimeRule};
 use crate::material::Creep;
 
@@ -12,11 +13,14 @@ pub struct March<'a, M = Memory> {
     memory: M,
     rule: TimeRule,
     pressure: Vec<f64>,
+    /// The pressure before an instant is solved is only a guess; `None` for an engine that does not ask for one.
+    extrapolation: Option<Extrapolation>,
     history: Vec<f64>,
     /// A of the instant last solved (1/Pa).
     compliance_per_pa: f64,
     solution: Option<Solution>,
     iterations: u64,
+    convolutions: u64,
 }
 
 /// Sees every instant of a march: the engine, the nodal pressure and the solution.
@@ -36,6 +40,7 @@ impl<'a, M: Hereditary> March<'a, M> {
     pub fn with_memory(engine: &'a mut dyn Engine, memory: M, rule: TimeRule) -> Self {
         let nodes = engine.nodes();
         Self {
+            extrapolation: engine.starts_from_guess().then(Extrapolation::default),
             engine,
             memory,
             rule,
@@ -44,6 +49,7 @@ impl<'a, M: Hereditary> March<'a, M> {
             compliance_per_pa: 0.0,
             solution: None,
             iterations: 0,
+            convolutions: 0,
         }
     }
 
@@ -73,12 +79,20 @@ impl<'a, M: Hereditary> March<'a, M> {
             compliance_per_pa: M::compliance_per_pa(weights),
             prescribed,
         };
+        if let Some(extrapolation) = &mut self.extrapolation {
+            extrapolation.guess(M::step_s(weights), &mut self.pressure);
+        }
         let solution = self.engine.solve(&instant, &mut self.pressure)?;
         self.memory.commit(weights, &self.pressure);
         self.compliance_per_pa = M::compliance_per_pa(weights);
+        Ok(self.count(solution))
+    }
+
+    fn count(&mut self, solution: Solution) -> Solution {
         self.iterations += solution.iterations as u64;
+        self.convolutions += solution.convolutions as u64;
         self.solution = Some(solution);
-        Ok(solution)
+        solution
     }
 
     /// A jump of the drive: two states at one instant.
@@ -200,6 +214,11 @@ impl<'a, M: Hereditary> March<'a, M> {
     pub fn iterations(&self) -> u64 {
         self.iterations
     }
+
+    /// Convolutions since the march began: the work of an engine that convolves.
+    pub fn convolutions(&self) -> u64 {
+        self.convolutions
+    }
 }
 
 /// What only the memory of a series can do.
@@ -246,6 +265,7 @@ impl March<'_> {
     /// # Errors
     /// As [`March::step`].
     pub fn relax(&mut self, prescribed: Prescribed) -> Result<Solution, ContactError> {
+        self.forget_course();
         self.history.fill(0.0);
         let instant = Instant {
             history: &self.history,
@@ -254,14 +274,19 @@ impl March<'_> {
         };
         let solution = self.engine.solve(&instant, &mut self.pressure)?;
         self.memory.fill_all_branches(&self.pressure);
-        self.iterations += solution.iterations as u64;
-        self.solution = Some(solution);
-        Ok(solution)
+        Ok(self.count(solution))
     }
 
     /// Goes back to memory variables known from before, branch-major as in [`Memory::variables`]. The pressure stays as the
     /// guess for the next instant, which must be a jump.
     pub fn recall(&mut self, variables: &[f64]) {
         self.memory.recall(variables);
+        self.forget_course();
+    }
+
+    fn forget_course(&mut self) {
+        if let Some(extrapolation) = &mut self.extrapolation {
+            extrapolation.forget();
+        }
     }
 }

@@ -24,6 +24,7 @@ struct BranchWeights {
 /// What a step of one length does to the memory; computed once per step length, used for every node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepWeights {
+    step_s: f64,
     branches: Vec<BranchWeights>,
     flow_old_s: f64,
     flow_new_s: f64,
@@ -56,6 +57,7 @@ impl StepWeights {
             .viscosity_pa_s()
             .map_or(0.0, |eta| flow_new_s / eta);
         Self {
+            step_s,
             branches,
             flow_old_s,
             flow_new_s,
@@ -93,6 +95,11 @@ impl StepWeights {
         self.flow_new_s += shift_s;
         self.compliance_per_pa += shifted * (delayed + flow);
         self
+    }
+
+    /// Length of the step (s).
+    pub fn step_s(&self) -> f64 {
+        self.step_s
     }
 
     /// A (1/Pa): the compliance that multiplies the pressure at the end of the step.

@@ -13,6 +13,7 @@
 
 mod direct;
 mod dissipation;
+mod extrapolation;
 mod hereditary;
 mod march;
 mod memory;

@@ -15,27 +15,23 @@
 mod kernel_spectrum;
 mod length;
 mod padded_row;
+mod periodic_row;
+mod spectral;
+mod window;
 
 use std::fmt;
-use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use num_complex::Complex;
 use realfft::FftError;
-use rustfft::{Fft, FftPlanner};
 use thiserror::Error;
 
 use super::grid::Grid;
 use super::influence::Influence;
-use length::{COLUMN_COST_OF_ODD_FACTOR, conflict_free_stride, fast_length};
+pub(super) use length::window_length;
 use padded_row::PaddedRow;
-
-const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
-
-/// Side of the tiles in which rows are turned into columns: four complex numbers fill a cache line.
-const TILE: usize = 4;
-/// Columns transformed together: one tile. Wider blocks were measured to be no faster, and need more cache.
-const BLOCK_COLUMNS: usize = TILE;
+pub use spectral::Scratch;
+use spectral::{Row, Shape, SpectralProduct};
+pub use window::{Preconditioner, WindowOperators};
 
 /// Why a convolution cannot be set up or applied.
 #[derive(Debug, Error)]
@@ -73,67 +69,17 @@ pub enum ConvolutionError {
     Transform(#[from] FftError),
 }
 
-/// Sizes of the padded grid and of the buffers on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Shape {
-    cells_x: usize,
-    cells_y: usize,
-    /// Frequencies kept per row, that is columns.
-    columns: usize,
-    /// Length of a padded column.
-    column_length: usize,
-    /// Elements from one row of the spectra to the next.
-    row_stride: usize,
-    /// Elements from one column of a block to the next.
-    column_stride: usize,
-    /// Rows of the spectra: those of the grid, filled up to whole tiles.
-    rows: usize,
-}
-
-impl Shape {
-    fn new(grid: &Grid, columns: usize) -> Self {
-        let rows = grid.cells_y().next_multiple_of(TILE);
-        let column_length = fast_length(2 * grid.cells_y() - 1, COLUMN_COST_OF_ODD_FACTOR);
-        Self {
-            cells_x: grid.cells_x(),
-            cells_y: grid.cells_y(),
-            columns,
-            column_length,
-            row_stride: conflict_free_stride(columns.next_multiple_of(BLOCK_COLUMNS)),
-            column_stride: conflict_free_stride(column_length.max(rows)),
-            rows,
-        }
-    }
-
-    fn cells(&self) -> usize {
-        self.cells_x * self.cells_y
-    }
-}
-
 /// The half-space operator of one grid: plans and spectrum, to be built once and shared.
 pub struct Convolution {
     grid: Grid,
-    shape: Shape,
-    row: PaddedRow,
-    column_forward: Arc<dyn Fft<f64>>,
-    column_inverse: Arc<dyn Fft<f64>>,
-    /// Spectrum of the influence coefficients, `column_length / 2 + 1` values per column.
-    spectrum: Vec<f64>,
+    product: SpectralProduct<PaddedRow>,
+    /// Operators of windows of this grid, by their cells along x and y, built when first asked for.
+    windows: Mutex<Vec<Window>>,
+    /// The operator of cells twice as long, built when first asked for.
+    coarse: OnceLock<Arc<Convolution>>,
 }
 
-/// Work space of one thread for one shape of grid; from [`Convolution::scratch`].
-#[derive(Clone)]
-pub struct Scratch {
-    shape: Shape,
-    /// The transformed rows, row by row.
-    spectra: Vec<Complex<f64>>,
-    /// The columns being transformed, column by column.
-    block: Vec<Complex<f64>>,
-    /// One padded row.
-    real: Vec<f64>,
-    /// What the transforms themselves ask for.
-    work: Vec<Complex<f64>>,
-}
+type Window = ((usize, usize), Arc<WindowOperators>);
 
 impl Convolution {
     /// Plans the transforms of this grid and computes the spectrum of its influence coefficients. Takes about as long as
@@ -144,15 +90,12 @@ impl Convolution {
     pub fn new(grid: Grid) -> Result<Self, ConvolutionError> {
         let row = PaddedRow::new(grid.cells_x());
         let shape = Shape::new(&grid, row.bins());
-        let mut planner = FftPlanner::new();
         let spectrum = kernel_spectrum::columns(&Influence::new(&grid), &row, shape.column_length)?;
         Ok(Self {
             grid,
-            shape,
-            column_forward: planner.plan_fft_forward(shape.column_length),
-            column_inverse: planner.plan_fft_inverse(shape.column_length),
-            row,
-            spectrum,
+            product: SpectralProduct::new(shape, row, spectrum),
+            windows: Mutex::new(Vec::new()),
+            coarse: OnceLock::new(),
         })
     }
 
@@ -163,24 +106,64 @@ impl Convolution {
 
     /// Cells per row and per column of the padded grid on which the transforms run.
     pub fn padded_cells(&self) -> (usize, usize) {
-        (self.row.padded_length(), self.shape.column_length)
+        (self.product.row.period(), self.product.shape.column_length)
     }
 
     /// Work space for one thread.
     pub fn scratch(&self) -> Scratch {
-        let shape = self.shape;
-        let work = self
-            .row
-            .work_length()
-            .max(self.column_forward.get_inplace_scratch_len())
-            .max(self.column_inverse.get_inplace_scratch_len());
-        Scratch {
-            shape,
-            spectra: vec![ZERO; shape.rows * shape.row_stride],
-            block: vec![ZERO; BLOCK_COLUMNS * shape.column_stride],
-            real: vec![0.0; self.row.buffer_length()],
-            work: vec![ZERO; work],
+        self.product.scratch()
+    }
+
+    /// Makes work space of any shape fit this grid; allocates only what it never held before.
+    pub fn fit(&self, scratch: &mut Scratch) {
+        self.product.fit(scratch);
+    }
+
+    /// Bytes of the spectra, those of windows and coarser grids included.
+    pub fn bytes(&self) -> usize {
+        let windows = self.windows.lock().unwrap_or_else(PoisonError::into_inner);
+        self.product.bytes()
+            + windows
+                .iter()
+                .map(|(_, window)| window.bytes())
+                .sum::<usize>()
+    }
+
+    /// The operators of a window of so many cells of this grid, at most the grid itself. Built when first asked for, then
+    /// shared by all who hold this operator: what they compute does not depend on who asked first.
+    ///
+    /// # Errors
+    /// As [`Convolution::new`].
+    pub fn window(
+        &self,
+        cells_x: usize,
+        cells_y: usize,
+    ) -> Result<Arc<WindowOperators>, ConvolutionError> {
+        let whole = (self.grid.cells_x(), self.grid.cells_y());
+        let cells = (cells_x.clamp(1, whole.0), cells_y.clamp(1, whole.1));
+        let mut windows = self.windows.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, operators)) = windows.iter().find(|(size, _)| *size == cells) {
+            return Ok(Arc::clone(operators));
         }
+        let operators = Arc::new(WindowOperators::new(
+            &self.grid.part(cells.0, cells.1),
+            cells == whole,
+        )?);
+        windows.push((cells, Arc::clone(&operators)));
+        Ok(operators)
+    }
+
+    /// The operator of the grid whose cells are twice as long, so that each holds two by two of this one's. Built when first
+    /// asked for, then shared.
+    ///
+    /// # Errors
+    /// As [`Convolution::new`].
+    pub fn coarse(&self) -> Result<Arc<Convolution>, ConvolutionError> {
+        if let Some(coarse) = self.coarse.get() {
+            return Ok(Arc::clone(coarse));
+        }
+        let coarse = Arc::new(Self::new(self.grid.coarse())?);
+        Ok(Arc::clone(self.coarse.get_or_init(|| coarse)))
     }
 
     /// Displacement of every cell's centre, in m per 1/Pa of contact compliance, by `pressure` (Pa), both row by row
@@ -198,114 +181,47 @@ impl Convolution {
         displacement: &mut [f64],
         scratch: &mut Scratch,
     ) -> Result<(), ConvolutionError> {
-        self.check(pressure, displacement, scratch)?;
-        let Some(loaded) = loaded_rows(pressure, self.shape.cells_x) else {
-            displacement.fill(0.0);
-            return Ok(());
-        };
-        self.transform_rows(pressure, loaded.clone(), scratch)?;
-        self.convolve_columns(loaded, scratch);
-        self.recover_rows(displacement, scratch)
-    }
-
-    fn check(
-        &self,
-        pressure: &[f64],
-        displacement: &[f64],
-        scratch: &Scratch,
-    ) -> Result<(), ConvolutionError> {
-        let expected = self.shape.cells();
-        if pressure.len() != expected {
-            let found = pressure.len();
-            return Err(ConvolutionError::PressureLength { found, expected });
-        }
-        if displacement.len() != expected {
-            let found = displacement.len();
-            return Err(ConvolutionError::DisplacementLength { found, expected });
-        }
-        if scratch.shape != self.shape {
+        check_lengths(&self.product.shape, pressure, displacement)?;
+        if scratch.shape != self.product.shape {
             return Err(ConvolutionError::ForeignScratch);
         }
-        Ok(())
+        let rows = 0..self.product.shape.cells_y;
+        Ok(self.product.apply(pressure, displacement, rows, scratch)?)
     }
+}
 
-    /// Transforms the loaded rows of the pressure into the spectra.
-    fn transform_rows(
-        &self,
-        pressure: &[f64],
-        loaded: Range<usize>,
-        scratch: &mut Scratch,
-    ) -> Result<(), ConvolutionError> {
-        let rows = pressure.chunks_exact(self.shape.cells_x);
-        let spectra = scratch.spectra.chunks_exact_mut(self.shape.row_stride);
-        for (row, bins) in rows.zip(spectra).take(loaded.end).skip(loaded.start) {
-            let bins = &mut bins[..self.shape.columns];
-            self.row
-                .forward(row, bins, &mut scratch.real, &mut scratch.work)?;
-        }
-        Ok(())
-    }
+/// Bytes that the operator of a square grid takes with all that belongs to it: spectra with and without padding, those of
+/// coarser grids, and work space of one thread.
+pub(super) fn predicted_bytes(cells: usize) -> usize {
+    let periodic = 2 * length::fast_row_half(cells);
+    let column = length::fast_column(cells);
+    let (padded, padded_column) = (
+        2 * length::fast_row_half(cells),
+        length::fast_column(2 * cells - 1),
+    );
+    let spectra = (padded + 1) * (padded_column / 2 + 1) + (periodic / 2 + 1) * (column / 2 + 1);
+    // Complex numbers, twice as long: all rows of the grid, at half the frequencies.
+    let scratch = 2 * cells * (padded + periodic / 2 + 2);
+    // A fourth of the cells, a sixteenth and so on: a third of the spectra.
+    size_of::<f64>() * (spectra + spectra / 3 + scratch)
+}
 
-    /// Multiplies the two-dimensional spectrum by that of the influence coefficients, block by block of columns: the
-    /// spectra enter with the loaded rows only and leave with all rows of the grid.
-    fn convolve_columns(&self, loaded: Range<usize>, scratch: &mut Scratch) {
-        let shape = &self.shape;
-        let half_length = shape.column_length / 2 + 1;
-        let (spectra, block) = (&mut scratch.spectra[..], &mut scratch.block[..]);
-        let kernels = self.spectrum.chunks(BLOCK_COLUMNS * half_length);
-        let first_tile = loaded.start / TILE * TILE;
-        for (first, kernels) in (0..).step_by(BLOCK_COLUMNS).zip(kernels) {
-            for row in (first_tile..loaded.end).step_by(TILE) {
-                let at = row * shape.row_stride + first;
-                transpose_tile(
-                    spectra,
-                    at,
-                    shape.row_stride,
-                    block,
-                    row,
-                    shape.column_stride,
-                );
-            }
-            let columns = block.chunks_exact_mut(shape.column_stride);
-            for (column, kernel) in columns.zip(kernels.chunks_exact(half_length)) {
-                let column = &mut column[..shape.column_length];
-                column[..loaded.start].fill(ZERO);
-                column[loaded.end..].fill(ZERO);
-                self.column_forward
-                    .process_with_scratch(column, &mut scratch.work);
-                multiply_by_even(column, kernel);
-                self.column_inverse
-                    .process_with_scratch(column, &mut scratch.work);
-            }
-            for row in (0..shape.rows).step_by(TILE) {
-                let at = row * shape.row_stride + first;
-                transpose_tile(
-                    block,
-                    row,
-                    shape.column_stride,
-                    spectra,
-                    at,
-                    shape.row_stride,
-                );
-            }
-        }
+/// Refuses fields that do not have one value per cell.
+fn check_lengths(
+    shape: &Shape,
+    pressure: &[f64],
+    displacement: &[f64],
+) -> Result<(), ConvolutionError> {
+    let expected = shape.cells();
+    if pressure.len() != expected {
+        let found = pressure.len();
+        return Err(ConvolutionError::PressureLength { found, expected });
     }
-
-    /// Transforms the rows of the grid back into the displacement.
-    fn recover_rows(
-        &self,
-        displacement: &mut [f64],
-        scratch: &mut Scratch,
-    ) -> Result<(), ConvolutionError> {
-        let rows = displacement.chunks_exact_mut(self.shape.cells_x);
-        let spectra = scratch.spectra.chunks_exact_mut(self.shape.row_stride);
-        for (row, bins) in rows.zip(spectra) {
-            let bins = &mut bins[..self.shape.columns];
-            self.row
-                .inverse(bins, row, &mut scratch.real, &mut scratch.work)?;
-        }
-        Ok(())
+    if displacement.len() != expected {
+        let found = displacement.len();
+        return Err(ConvolutionError::DisplacementLength { found, expected });
     }
+    Ok(())
 }
 
 impl fmt::Debug for Convolution {
@@ -317,72 +233,11 @@ impl fmt::Debug for Convolution {
     }
 }
 
-impl fmt::Debug for Scratch {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Scratch")
-            .field("shape", &self.shape)
-            .finish_non_exhaustive()
-    }
-}
-
-/// First to last row with a value other than zero; `None` if there is none. NaN counts as a value, so it is not lost.
-fn loaded_rows(pressure: &[f64], cells_x: usize) -> Option<Range<usize>> {
-    let loaded = |row: &[f64]| row.iter().any(|&value| value != 0.0);
-    let first = pressure.chunks_exact(cells_x).position(loaded)?;
-    let last = pressure.chunks_exact(cells_x).rposition(loaded)?;
-    Some(first..last + 1)
-}
-
-/// Copies the tile at `from[at]`, whose lines lie `stride` apart, transposed to `to[to_at]`. Whole tiles, because writing
-/// full cache lines is what keeps the transposition cheap.
-#[inline(always)]
-fn transpose_tile(
-    from: &[Complex<f64>],
-    at: usize,
-    stride: usize,
-    to: &mut [Complex<f64>],
-    to_at: usize,
-    to_stride: usize,
-) {
-    let mut tile = [[ZERO; TILE]; TILE];
-    for (line, values) in tile.iter_mut().enumerate() {
-        let start = at + line * stride;
-        values.copy_from_slice(&from[start..start + TILE]);
-    }
-    let transposed: [[Complex<f64>; TILE]; TILE] =
-        std::array::from_fn(|line| std::array::from_fn(|k| tile[k][line]));
-    for (line, values) in transposed.iter().enumerate() {
-        let start = to_at + line * to_stride;
-        to[start..start + TILE].copy_from_slice(values);
-    }
-}
-
-/// Multiplies frequency `k` and its mirror image `length - k` by `even[k]`.
-fn multiply_by_even(column: &mut [Complex<f64>], even: &[f64]) {
-    let (Some((zero, others)), Some((even_zero, even))) =
-        (column.split_first_mut(), even.split_first())
-    else {
-        return;
-    };
-    *zero *= even_zero;
-    let pairs = others.len() / 2;
-    let (lower, upper) = others.split_at_mut(pairs);
-    let mirrored = upper.iter_mut().rev();
-    for ((a, b), factor) in lower.iter_mut().zip(mirrored).zip(even) {
-        *a *= factor;
-        *b *= factor;
-    }
-    // An even length has one frequency that is its own mirror image; `upper` is then one longer than `lower`.
-    if upper.len() > pairs
-        && let (Some(middle), Some(factor)) = (upper.first_mut(), even.get(pairs))
-    {
-        *middle *= factor;
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
+
+    use num_complex::Complex;
 
     use super::super::influence::rectangle_displacement_m;
     use super::*;
@@ -738,7 +593,7 @@ mod tests {
         for cells in 1..300 {
             let convolution_shape = Shape::new(&Grid::new(1, cells, 1.0, 1.0).unwrap(), 3);
             assert!(convolution_shape.column_length >= 2 * cells - 1);
-            assert!(PaddedRow::new(cells).padded_length() >= 2 * cells - 1);
+            assert!(PaddedRow::new(cells).period() >= 2 * cells - 1);
         }
     }
 }

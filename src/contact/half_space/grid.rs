@@ -134,6 +134,25 @@ impl Grid {
         self.spacing_x_m * self.spacing_y_m
     }
 
+    /// So many of its cells along either side, at most all, as a grid of their own.
+    pub(super) fn part(&self, cells_x: usize, cells_y: usize) -> Self {
+        Self {
+            cells_x: cells_x.clamp(1, self.cells_x),
+            cells_y: cells_y.clamp(1, self.cells_y),
+            ..*self
+        }
+    }
+
+    /// Cells twice as long, each in place of two by two; the last ones reach beyond an odd grid.
+    pub(super) fn coarse(&self) -> Self {
+        Self {
+            cells_x: self.cells_x.div_ceil(2),
+            cells_y: self.cells_y.div_ceil(2),
+            spacing_x_m: 2.0 * self.spacing_x_m,
+            spacing_y_m: 2.0 * self.spacing_y_m,
+        }
+    }
+
     /// x of the centres of column `ix`, m. Columns outside the grid continue it.
     pub fn x_m(&self, ix: usize) -> f64 {
         centred(ix, self.cells_x) * self.spacing_x_m

@@ -9,16 +9,16 @@ use num_complex::Complex;
 use realfft::{FftError, RealFftPlanner, RealToComplex};
 
 use super::super::influence::Influence;
-use super::padded_row::PaddedRow;
+use super::spectral::Row;
 
 /// The spectrum in the order in which it is used: for every bin of `row`, the frequencies `0..=column_length / 2` along
 /// the column, scaled so that the inverse transforms need no scaling of their own.
 pub(super) fn columns(
     influence: &Influence,
-    row: &PaddedRow,
+    row: &impl Row,
     column_length: usize,
 ) -> Result<Vec<f64>, FftError> {
-    let row_length = row.padded_length();
+    let row_length = row.period();
     let (row_half, column_half) = (row_length / 2 + 1, column_length / 2 + 1);
     let mut planner = RealFftPlanner::new();
 

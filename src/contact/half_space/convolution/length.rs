@@ -5,15 +5,15 @@
 const ODD_FACTORS: [usize; 6] = [3, 5, 7, 9, 11, 27];
 
 /// Cost of a column per point if its length has an odd factor, relative to a power of two: measured around 400 points.
-pub(super) const COLUMN_COST_OF_ODD_FACTOR: f64 = 1.15;
+const COLUMN_COST_OF_ODD_FACTOR: f64 = 1.15;
 
 /// The same for a row. Its length is also the number of columns, whose transforms take three quarters of the time and cost
 /// the same however many there are, so a long row is not worth its faster transform.
-pub(super) const ROW_COST_OF_ODD_FACTOR: f64 = 1.06;
+const ROW_COST_OF_ODD_FACTOR: f64 = 1.06;
 
 /// The length of at least `minimum` that is cheapest, if a length with an odd factor costs `cost_of_odd_factor` times as
 /// much per point as a power of two.
-pub(super) fn fast_length(minimum: usize, cost_of_odd_factor: f64) -> usize {
+fn fast_length(minimum: usize, cost_of_odd_factor: f64) -> usize {
     let mut best = minimum.next_power_of_two();
     let mut best_cost = best as f64;
     for factor in ODD_FACTORS {
@@ -24,6 +24,37 @@ pub(super) fn fast_length(minimum: usize, cost_of_odd_factor: f64) -> usize {
         }
     }
     best
+}
+
+/// Half the length of a row of so many cells before padding.
+pub(super) fn fast_row_half(cells: usize) -> usize {
+    fast_length(cells.div_ceil(2), ROW_COST_OF_ODD_FACTOR)
+}
+
+/// Length of a column of at least so many values.
+pub(super) fn fast_column(minimum: usize) -> usize {
+    fast_length(minimum, COLUMN_COST_OF_ODD_FACTOR)
+}
+
+/// The least side of a window, in cells.
+const LEAST_WINDOW: usize = 16;
+
+/// The side of the window of a grid of `cells` per side that holds at least `needed`: one of few lengths, at most an eighth
+/// apart, whose transforms run fast with and without padding; the whole grid where it is hardly larger.
+pub(in super::super) fn window_length(needed: usize, cells: usize) -> usize {
+    let needed = needed.max(LEAST_WINDOW);
+    let fast = |factor: &usize| {
+        let length = 2 * factor * needed.div_ceil(2 * factor).next_power_of_two();
+        (length >= needed).then_some(length)
+    };
+    let best = std::iter::once(&1)
+        .chain(&ODD_FACTORS)
+        .filter_map(fast)
+        .min();
+    match best {
+        Some(length) if length + length / 16 < cells => length,
+        _ => cells,
+    }
 }
 
 /// The number of complex elements, at least `length`, by which to space parallel lines in memory: whole cache lines, but

@@ -18,7 +18,8 @@ use num_complex::Complex;
 use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
-use super::length::{ROW_COST_OF_ODD_FACTOR, fast_length};
+use super::length::fast_row_half;
+use super::spectral::Row;
 
 /// Plans for rows of one length. Immutable; buffers are the caller's.
 pub(super) struct PaddedRow {
@@ -35,7 +36,7 @@ pub(super) struct PaddedRow {
 impl PaddedRow {
     /// Plans for rows of `cells` values, padded to at least twice that.
     pub(super) fn new(cells: usize) -> Self {
-        let quarter = fast_length(cells.div_ceil(2), ROW_COST_OF_ODD_FACTOR);
+        let quarter = fast_row_half(cells);
         let half = 2 * quarter;
         let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();
@@ -51,36 +52,38 @@ impl PaddedRow {
                 .collect(),
         }
     }
+}
 
+impl Row for PaddedRow {
     /// Length of the padded row, `2m`.
-    pub(super) fn padded_length(&self) -> usize {
+    fn period(&self) -> usize {
         4 * self.quarter
     }
 
     /// Number of frequencies kept: `m/2 + 1` even ones, then `m/2` odd ones.
-    pub(super) fn bins(&self) -> usize {
+    fn bins(&self) -> usize {
         2 * self.quarter + 1
     }
 
     /// Frequency of a bin as a real even function sees it, that is between 0 and `m`, and how often it occurs in the sum
     /// of the inverse transform as this type takes it.
-    pub(super) fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {
+    fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {
         match bin.checked_sub(self.quarter + 1) {
             None => (2 * bin, 1.0),
             Some(l) => {
                 let frequency = 4 * l + 1;
-                (frequency.min(self.padded_length() - frequency), 2.0)
+                (frequency.min(self.period() - frequency), 2.0)
             }
         }
     }
 
     /// Length of the buffer for one real row.
-    pub(super) fn buffer_length(&self) -> usize {
+    fn buffer_length(&self) -> usize {
         2 * self.quarter
     }
 
     /// Length of the work space of the transforms.
-    pub(super) fn work_length(&self) -> usize {
+    fn work_length(&self) -> usize {
         self.even_forward
             .get_scratch_len()
             .max(self.even_inverse.get_scratch_len())
@@ -89,7 +92,7 @@ impl PaddedRow {
     }
 
     /// Transforms `row` into `bins`, not scaled.
-    pub(super) fn forward(
+    fn forward(
         &self,
         row: &[f64],
         bins: &mut [Complex<f64>],
@@ -111,7 +114,7 @@ impl PaddedRow {
 
     /// Transforms `bins`, which it overwrites, back into `row`. The sum over frequencies is not divided by their number,
     /// and the odd ones must have been multiplied by their weight.
-    pub(super) fn inverse(
+    fn inverse(
         &self,
         bins: &mut [Complex<f64>],
         row: &mut [f64],
@@ -168,10 +171,10 @@ mod tests {
         for cells in LENGTHS {
             let plan = PaddedRow::new(cells);
             let row = row(cells);
-            assert!(plan.padded_length() >= 2 * cells);
+            assert!(plan.period() >= 2 * cells);
             for (bin, found) in transformed(&plan, &row).into_iter().enumerate() {
                 let (frequency, weight) = plan.frequency_and_weight(bin);
-                let step = -2.0 * PI * frequency as f64 / plan.padded_length() as f64;
+                let step = -2.0 * PI * frequency as f64 / plan.period() as f64;
                 let sum: Complex<f64> = (0..cells)
                     .map(|j| row[j] * Complex::cis(step * j as f64))
                     .sum();
@@ -194,7 +197,7 @@ mod tests {
             let row = row(cells);
             let mut bins = transformed(&plan, &row);
             for (bin, value) in bins.iter_mut().enumerate() {
-                *value *= plan.frequency_and_weight(bin).1 / plan.padded_length() as f64;
+                *value *= plan.frequency_and_weight(bin).1 / plan.period() as f64;
             }
             let mut back = vec![f64::NAN; cells];
             let mut buffer = vec![f64::NAN; plan.buffer_length()];

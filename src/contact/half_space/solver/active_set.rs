@@ -1,0 +1,458 @@
+//! The fast way to solve an instant in a window: preconditioned conjugate gradients on the contact, between changes of it.
+//!
+//! Inside the contact the gap must vanish, which is a linear problem for its pressure; conjugate gradients solve it in a few
+//! steps when preconditioned with [`Preconditioner`](super::super::convolution::Preconditioner). Cells whose pressure turns
+//! negative leave the contact at once, at the price of a convolution. Cells that penetrate outside join it, without a
+//! convolution, once that is what matters more than the gaps inside. Under load control the pressures' sum stays what it is:
+//! directions are projected as the preconditioner's own metric asks for.
+//!
+//! Changes of the contact are not proved to end, so the number of steps without progress is bounded; what is then left to do
+//! is done by [`super::polonsky_keer`], which descends.
+
+use super::super::convolution::{Convolution, Scratch, WindowOperators};
+use super::frame::Frame;
+use super::outside::Moments;
+use super::spans::Spans;
+use super::sums::{dot, least, sum, sums};
+use crate::contact::ContactError;
+
+/// What a window's problem is, apart from its fields.
+#[derive(Clone, Copy)]
+pub(super) struct Problem<'a> {
+    pub(super) whole: &'a Convolution,
+    pub(super) operators: &'a WindowOperators,
+    pub(super) frame: Frame,
+    pub(super) compliance_per_pa: f64,
+    /// Sum of the pressures, where the load is prescribed.
+    pub(super) target_sum: Option<f64>,
+    pub(super) approach_m: Option<f64>,
+    pub(super) tolerance: f64,
+    /// What rounding leaves in a gap (m).
+    pub(super) noise_m: f64,
+}
+
+/// How it ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Ending {
+    /// To the tolerance.
+    Converged,
+    /// Too little progress: not the way for this problem.
+    Stalled,
+    /// No steps are left.
+    OutOfSteps,
+}
+
+/// Where a pressure stands.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct State {
+    pub(super) cells: usize,
+    pub(super) approach_m: f64,
+    pub(super) pressure_sum: f64,
+    /// What the tolerance bounds.
+    pub(super) residual: f64,
+    /// Length to which gaps are relative (m).
+    pub(super) reference_m: f64,
+}
+
+/// Work space of the two operators: apart, so that neither has to be made to fit again and again.
+#[derive(Debug, Clone)]
+pub(super) struct Scratches {
+    pub(super) convolution: Scratch,
+    pub(super) preconditioner: Scratch,
+}
+
+impl Scratches {
+    pub(super) fn new() -> Self {
+        Self {
+            convolution: Scratch::empty(),
+            preconditioner: Scratch::empty(),
+        }
+    }
+}
+
+/// Work counted.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Work {
+    pub(super) steps: usize,
+    pub(super) convolutions: usize,
+    /// Steps since the gap was last computed afresh.
+    pub(super) carried: usize,
+}
+
+/// Steps after which the residual must have halved.
+const PATIENCE: usize = 40;
+/// Steps on one contact at most.
+const STEPS_PER_CONTACT: usize = 50;
+/// Gaps inside must shrink to this share before penetration outside changes the contact.
+const SHARE_BEFORE_JOINING: f64 = 0.2;
+/// Cells join that penetrate by this share of what the tolerance allows.
+const JOINING: f64 = 0.3;
+
+/// Fields of a window.
+#[derive(Debug, Default)]
+pub(super) struct ActiveSet {
+    pub(super) pressure: Vec<f64>,
+    /// Gap before the approach is taken off: g + B (A p + H) (m).
+    pub(super) gap_m: Vec<f64>,
+    /// What an operator is applied to, and what comes of it.
+    pub(super) field: Vec<f64>,
+    pub(super) image: Vec<f64>,
+    contact: Spans,
+    /// On the contact alone, without gaps: the residual, preconditioned, that of the step before, direction, and the
+    /// preconditioned constant.
+    residual: Vec<f64>,
+    preconditioned: Vec<f64>,
+    last: Vec<f64>,
+    direction: Vec<f64>,
+    constant: Vec<f64>,
+}
+
+/// What the last step along a direction did.
+struct Moved {
+    emptied: bool,
+    /// Least gap outside the contact (m), before the approach is taken off.
+    least_outside_m: f64,
+}
+
+impl ActiveSet {
+    /// Makes the fields fit so many cells. Allocates only what was never needed before.
+    pub(super) fn fit(&mut self, cells: usize) {
+        for field in [
+            &mut self.pressure,
+            &mut self.gap_m,
+            &mut self.field,
+            &mut self.image,
+        ] {
+            field.resize(cells, 0.0);
+        }
+    }
+
+    /// Solves from the pressure and gap given, until the residual is below the tolerance or `steps` are counted.
+    pub(super) fn solve(
+        &mut self,
+        problem: &Problem<'_>,
+        steps: usize,
+        scratch: &mut Scratches,
+        work: &mut Work,
+    ) -> Result<(State, Ending), ContactError> {
+        let (mut best, mut best_at) = (f64::INFINITY, work.steps);
+        loop {
+            let state = self.assess(problem);
+            if state.residual <= problem.tolerance {
+                return Ok((state, Ending::Converged));
+            }
+            if work.steps >= steps {
+                return Ok((state, Ending::OutOfSteps));
+            }
+            if state.residual < 0.5 * best {
+                (best, best_at) = (state.residual, work.steps);
+            }
+            if work.steps > best_at + PATIENCE || self.contact.cells() == 0 {
+                return Ok((state, Ending::Stalled));
+            }
+            if !self.solve_on_contact(problem, &state, steps, scratch, work)? {
+                return Ok((state, Ending::Stalled));
+            }
+        }
+    }
+
+    /// Gaps, penetration and contact: the cells with pressure, and those that penetrate.
+    fn assess(&mut self, problem: &Problem<'_>) -> State {
+        let cells_x = problem.frame.cells_x;
+        let grid = problem.whole.grid();
+        let step_y = grid.spacing_y_m() / grid.spacing_x_m();
+        let mut moments = Moments::default();
+        let mut lifted = 0.0;
+        let rows = self.pressure.chunks_exact(cells_x);
+        for (iy, (pressure, gap_m)) in rows.zip(self.gap_m.chunks_exact(cells_x)).enumerate() {
+            moments.add_row(pressure, 0.0, iy as f64 * step_y);
+            // Where there is no indenter the gap is infinite and the pressure zero.
+            lifted += sums(pressure, gap_m, |p, gap| {
+                [if p > 0.0 { p * gap } else { 0.0 }]
+            })[0];
+        }
+        let mut state = State {
+            pressure_sum: moments.sum(),
+            ..State::default()
+        };
+        let loaded = state.pressure_sum > 0.0;
+        let mean = if loaded {
+            lifted / state.pressure_sum
+        } else {
+            0.0
+        };
+        state.approach_m = problem.approach_m.unwrap_or(mean);
+        let own_m = match loaded {
+            true => moments.least_own_displacement(step_y) * grid.spacing_y_m(),
+            false => 0.0,
+        };
+        state.reference_m = problem.compliance_per_pa * own_m + problem.noise_m / problem.tolerance;
+        let joining_m = -JOINING * problem.tolerance * state.reference_m;
+        let (mut misfit, mut lowest_m) = (0.0, 0.0_f64);
+        self.contact.clear();
+        for (cell, (&p, &gap)) in self.pressure.iter().zip(&self.gap_m).enumerate() {
+            let gap_m = gap - state.approach_m;
+            if p > 0.0 {
+                misfit += p * gap_m.abs();
+                state.cells += 1;
+                self.contact.push(cell);
+            } else if gap_m < joining_m {
+                lowest_m = lowest_m.min(gap_m);
+                self.contact.push(cell);
+            } else {
+                lowest_m = lowest_m.min(gap_m);
+            }
+        }
+        let inside_m = if loaded {
+            misfit / state.pressure_sum
+        } else {
+            0.0
+        };
+        let worst_m = inside_m.max(-lowest_m);
+        state.residual = if worst_m > 0.0 {
+            worst_m / state.reference_m
+        } else {
+            0.0
+        };
+        state
+    }
+
+    /// Conjugate gradients on the contact as it is. False where there is no way down.
+    fn solve_on_contact(
+        &mut self,
+        problem: &Problem<'_>,
+        state: &State,
+        steps: usize,
+        scratch: &mut Scratches,
+        work: &mut Work,
+    ) -> Result<bool, ContactError> {
+        let cells = self.contact.cells();
+        for values in [
+            &mut self.residual,
+            &mut self.preconditioned,
+            &mut self.last,
+            &mut self.direction,
+            &mut self.constant,
+        ] {
+            values.clear();
+            values.resize(cells, 0.0);
+        }
+        self.field.fill(0.0);
+        let constant_sum = self.precondition_constant(problem, scratch)?;
+        let (mut previous, mut first_misfit, mut least_outside_m) = (0.0, 0.0, f64::INFINITY);
+        for inner in 0..STEPS_PER_CONTACT {
+            let (misfit, approach_m) = self.update_residual(problem);
+            let misfit = misfit / state.reference_m;
+            if inner == 0 {
+                first_misfit = misfit;
+            } else {
+                let penetration = (approach_m - least_outside_m) / state.reference_m;
+                let enough = misfit < SHARE_BEFORE_JOINING * first_misfit && penetration > misfit;
+                if enough || misfit < 0.7 * problem.tolerance || work.steps >= steps {
+                    return Ok(true);
+                }
+            }
+            let product = self.precondition(problem, constant_sum, scratch)?;
+            let beta = if inner == 0 {
+                0.0
+            } else {
+                (product.1 / previous).max(0.0)
+            };
+            previous = product.0;
+            let Some(step) = self.step_length(problem, beta, scratch)? else {
+                return Ok(false);
+            };
+            work.steps += 1;
+            work.carried += 1;
+            work.convolutions += 1;
+            let moved = self.advance(problem.compliance_per_pa, step);
+            least_outside_m = moved.least_outside_m;
+            if moved.emptied {
+                self.empty_negative(problem, scratch)?;
+                work.carried += 1;
+                work.convolutions += 1;
+                return Ok(true);
+            }
+        }
+        Ok(true)
+    }
+
+    /// The preconditioned constant under load control, and its sum.
+    fn precondition_constant(
+        &mut self,
+        problem: &Problem<'_>,
+        scratch: &mut Scratches,
+    ) -> Result<Option<f64>, ContactError> {
+        if problem.target_sum.is_none() {
+            return Ok(None);
+        }
+        self.constant.fill(1.0);
+        self.contact.scatter(&self.constant, &mut self.field);
+        let rows = self.contact.rows(problem.frame.cells_x);
+        let preconditioner = problem.operators.preconditioner();
+        preconditioner.apply(
+            &self.field,
+            &mut self.image,
+            rows,
+            &mut scratch.preconditioner,
+        )?;
+        self.contact.gather(&self.image, &mut self.constant);
+        Ok(Some(sum(&self.constant)))
+    }
+
+    /// The residual: the approach, or under load control the mean over the contact of the gap before it, less that gap.
+    /// Returns the pressure-weighted mean of the gap's size (m), and the approach of which it is the gap.
+    fn update_residual(&mut self, problem: &Problem<'_>) -> (f64, f64) {
+        let (mut gaps, mut pressures, mut lifted) = (0.0, 0.0, 0.0);
+        for (run, _) in self.contact.runs() {
+            let terms = |p: f64, gap: f64| [gap, p, p * gap];
+            let run = sums(&self.pressure[run.clone()], &self.gap_m[run], terms);
+            gaps += run[0];
+            pressures += run[1];
+            lifted += run[2];
+        }
+        let level_m = problem
+            .approach_m
+            .unwrap_or(gaps / self.contact.cells().max(1) as f64);
+        let loaded = pressures > 0.0;
+        let approach_m = match problem.approach_m {
+            Some(approach_m) => approach_m,
+            None if loaded => lifted / pressures,
+            None => level_m,
+        };
+        let mut misfit = 0.0;
+        for (run, at) in self.contact.runs() {
+            let (pressure, gap_m) = (&self.pressure[run.clone()], &self.gap_m[run.clone()]);
+            misfit += sums(pressure, gap_m, |p, gap| [p * (gap - approach_m).abs()])[0];
+            for (r, gap) in self.residual[at.clone()].iter_mut().zip(gap_m) {
+                *r = level_m - gap;
+            }
+            self.field[run].copy_from_slice(&self.residual[at]);
+        }
+        let mean_m = if loaded {
+            misfit / pressures
+        } else {
+            f64::INFINITY
+        };
+        (mean_m, approach_m)
+    }
+
+    /// Preconditions the residual, which is in `field`; under load control the sum of the result is nil. Returns its product
+    /// with the residual, and with the change of the residual's preconditioned form since the last step.
+    fn precondition(
+        &mut self,
+        problem: &Problem<'_>,
+        constant_sum: Option<f64>,
+        scratch: &mut Scratches,
+    ) -> Result<(f64, f64), ContactError> {
+        std::mem::swap(&mut self.preconditioned, &mut self.last);
+        let rows = self.contact.rows(problem.frame.cells_x);
+        let preconditioner = problem.operators.preconditioner();
+        preconditioner.apply(
+            &self.field,
+            &mut self.image,
+            rows,
+            &mut scratch.preconditioner,
+        )?;
+        self.contact.gather(&self.image, &mut self.preconditioned);
+        if let Some(constant_sum) = constant_sum {
+            let share = sum(&self.preconditioned) / constant_sum;
+            for (z, one) in self.preconditioned.iter_mut().zip(&self.constant) {
+                *z -= share * one;
+            }
+        }
+        let product = dot(&self.residual, &self.preconditioned);
+        let last = dot(&self.residual, &self.last);
+        Ok((product, product - last))
+    }
+
+    /// Turns the direction, and finds how far to go along it; its displacement is then in `image`. `None` where it leads
+    /// nowhere.
+    fn step_length(
+        &mut self,
+        problem: &Problem<'_>,
+        beta: f64,
+        scratch: &mut Scratches,
+    ) -> Result<Option<f64>, ContactError> {
+        for (t, z) in self.direction.iter_mut().zip(&self.preconditioned) {
+            *t = z + beta * *t;
+        }
+        self.contact.scatter(&self.direction, &mut self.field);
+        convolve(problem, &self.field, &mut self.image, scratch)?;
+        let mut curvature = 0.0;
+        for (run, at) in self.contact.runs() {
+            curvature += dot(&self.direction[at], &self.image[run]);
+        }
+        curvature *= problem.compliance_per_pa;
+        let slope = dot(&self.residual, &self.direction);
+        let step = slope / curvature;
+        Ok((curvature > 0.0 && step.is_finite()).then_some(step))
+    }
+
+    /// Moves pressure and gap along the direction.
+    fn advance(&mut self, compliance_per_pa: f64, step: f64) -> Moved {
+        let lift = step * compliance_per_pa;
+        for (gap, image) in self.gap_m.iter_mut().zip(&self.image) {
+            *gap += lift * image;
+        }
+        let mut lowest = f64::INFINITY;
+        for (run, at) in self.contact.runs() {
+            let pressure = &mut self.pressure[run];
+            for (p, t) in pressure.iter_mut().zip(&self.direction[at]) {
+                *p += step * t;
+            }
+            lowest = lowest.min(least(pressure));
+        }
+        let others = self.contact.others(self.gap_m.len());
+        let outside = others.map(|cells| least(&self.gap_m[cells]));
+        Moved {
+            emptied: lowest < 0.0,
+            least_outside_m: outside.fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    /// Takes cells of negative pressure out of the contact, keeping the load, and follows with the gap.
+    fn empty_negative(
+        &mut self,
+        problem: &Problem<'_>,
+        scratch: &mut Scratches,
+    ) -> Result<(), ContactError> {
+        let scale = match problem.target_sum {
+            None => 1.0,
+            Some(target) => {
+                let kept = |p: f64, _| [p.max(0.0)];
+                let runs = self.contact.runs();
+                let kept = runs.map(|(run, _)| {
+                    let pressure = &self.pressure[run];
+                    sums(pressure, pressure, kept)[0]
+                });
+                target / kept.sum::<f64>()
+            }
+        };
+        for (run, _) in self.contact.runs() {
+            let pressures = self.pressure[run.clone()].iter_mut();
+            for (p, change) in pressures.zip(&mut self.field[run]) {
+                let kept = scale * p.max(0.0);
+                *change = kept - *p;
+                *p = kept;
+            }
+        }
+        convolve(problem, &self.field, &mut self.image, scratch)?;
+        for (gap, image) in self.gap_m.iter_mut().zip(&self.image) {
+            *gap += problem.compliance_per_pa * image;
+        }
+        Ok(())
+    }
+}
+
+fn convolve(
+    problem: &Problem<'_>,
+    field: &[f64],
+    image: &mut [f64],
+    scratch: &mut Scratches,
+) -> Result<(), ContactError> {
+    let convolution = problem.operators.convolution(problem.whole);
+    let scratch = &mut scratch.convolution;
+    convolution.fit(scratch);
+    Ok(convolution.apply(field, image, scratch)?)
+}

@@ -1,0 +1,275 @@
+//! Rectangular parts of a grid: where a field has values, and the window in which an instant is solved.
+
+use std::ops::Range;
+
+use super::super::convolution::window_length;
+use super::super::grid::Grid;
+
+/// The smallest rectangle of cells that holds all values of a field that are not zero.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Bounds {
+    pub(super) x: Range<usize>,
+    pub(super) y: Range<usize>,
+}
+
+impl Bounds {
+    /// Of a field of rows of `cells_x` values; `None` for zero everywhere.
+    pub(super) fn of(field: &[f64], cells_x: usize) -> Option<Self> {
+        Self::of_cells(field, cells_x, |value| value != 0.0)
+    }
+
+    /// Of the cells whose value is chosen.
+    pub(super) fn of_cells(
+        field: &[f64],
+        cells_x: usize,
+        chosen: impl Fn(f64) -> bool,
+    ) -> Option<Self> {
+        let mut bounds: Option<Self> = None;
+        for (iy, row) in field.chunks_exact(cells_x).enumerate() {
+            let Some(first) = row.iter().position(|&value| chosen(value)) else {
+                continue;
+            };
+            // Only what lies beyond the bounds so far can widen them.
+            let known = bounds
+                .as_ref()
+                .map_or(first + 1, |b| b.x.end.max(first + 1));
+            let beyond = row[known..].iter().rposition(|&value| chosen(value));
+            let end = beyond.map_or(known, |at| known + at + 1);
+            let start = bounds.as_ref().map_or(first, |b| b.x.start.min(first));
+            let top = bounds.as_ref().map_or(iy, |b| b.y.start);
+            bounds = Some(Self {
+                x: start..end,
+                y: top..iy + 1,
+            });
+        }
+        bounds
+    }
+
+    /// The smallest rectangle that holds both.
+    pub(super) fn union(self, other: Option<Self>) -> Self {
+        let Some(other) = other else { return self };
+        let join = |a: Range<usize>, b: Range<usize>| a.start.min(b.start)..a.end.max(b.end);
+        Self {
+            x: join(self.x, other.x),
+            y: join(self.y, other.y),
+        }
+    }
+
+    /// The same rectangle in a grid in which the field's first cell is that of `frame`.
+    pub(super) fn moved(self, frame: &Frame) -> Self {
+        let moved = |range: Range<usize>, by: usize| range.start + by..range.end + by;
+        Self {
+            x: moved(self.x, frame.x),
+            y: moved(self.y, frame.y),
+        }
+    }
+}
+
+/// A window of the grid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Frame {
+    pub(super) x: usize,
+    pub(super) y: usize,
+    pub(super) cells_x: usize,
+    pub(super) cells_y: usize,
+}
+
+/// Room in a window on either side of the contact: as a share of its width, so that what lies beyond is seldom in doubt (see
+/// [`super::outside`]), and in cells.
+const ROOM_SHARE: f64 = 0.1;
+const ROOM_CELLS: usize = 3;
+
+impl Frame {
+    pub(super) fn whole(grid: &Grid) -> Self {
+        Self {
+            x: 0,
+            y: 0,
+            cells_x: grid.cells_x(),
+            cells_y: grid.cells_y(),
+        }
+    }
+
+    /// A window with room about a contact.
+    pub(super) fn with_room(contact: &Bounds, grid: &Grid) -> Self {
+        let needed = |range: &Range<usize>| {
+            let room = (ROOM_SHARE * range.len() as f64).ceil() as usize;
+            range.len() + 2 * room.max(ROOM_CELLS)
+        };
+        Self::around(contact, needed(&contact.x), needed(&contact.y), grid)
+    }
+
+    /// The smallest window that holds this one and these bounds.
+    pub(super) fn holding(&self, bounds: Option<Bounds>, grid: &Grid) -> Self {
+        let all = self.bounds().union(bounds);
+        if all == self.bounds() {
+            return *self;
+        }
+        Self::around(&all, all.x.len(), all.y.len(), grid)
+    }
+
+    fn around(bounds: &Bounds, needed_x: usize, needed_y: usize, grid: &Grid) -> Self {
+        let place = |range: &Range<usize>, needed: usize, cells: usize| {
+            let length = window_length(needed.min(cells), cells);
+            let start = (range.start + range.end).saturating_sub(length) / 2;
+            (start.min(cells - length), length)
+        };
+        let (x, cells_x) = place(&bounds.x, needed_x, grid.cells_x());
+        let (y, cells_y) = place(&bounds.y, needed_y, grid.cells_y());
+        Self {
+            x,
+            y,
+            cells_x,
+            cells_y,
+        }
+    }
+
+    pub(super) fn cells(&self) -> usize {
+        self.cells_x * self.cells_y
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds {
+            x: self.x..self.x + self.cells_x,
+            y: self.y..self.y + self.cells_y,
+        }
+    }
+
+    /// Whether these bounds come to within a cell of a side beyond which the grid goes on.
+    pub(super) fn is_touched_by(&self, bounds: &Bounds, grid: &Grid) -> bool {
+        let touched = |frame: Range<usize>, inner: &Range<usize>, cells: usize| {
+            (frame.start > 0 && inner.start <= frame.start)
+                || (frame.end < cells && inner.end >= frame.end)
+        };
+        let own = self.bounds();
+        touched(own.x, &bounds.x, grid.cells_x()) || touched(own.y, &bounds.y, grid.cells_y())
+    }
+
+    /// Rows of this window within a field on the grid.
+    fn rows<'a>(&self, field: &'a [f64], grid_cells_x: usize) -> impl Iterator<Item = &'a [f64]> {
+        let (x, cells_x) = (self.x, self.cells_x);
+        let rows = field.chunks_exact(grid_cells_x);
+        let rows = rows.skip(self.y).take(self.cells_y);
+        rows.map(move |row| &row[x..x + cells_x])
+    }
+
+    /// Copies this window out of a field of rows of `grid_cells_x` values.
+    pub(super) fn gather(&self, field: &[f64], grid_cells_x: usize, part: &mut [f64]) {
+        let rows = self.rows(field, grid_cells_x);
+        for (part, row) in part.chunks_exact_mut(self.cells_x).zip(rows) {
+            part.copy_from_slice(row);
+        }
+    }
+
+    /// Copies this window back into such a field.
+    pub(super) fn scatter(&self, part: &[f64], grid_cells_x: usize, field: &mut [f64]) {
+        let rows = field.chunks_exact_mut(grid_cells_x);
+        let rows = rows.skip(self.y).take(self.cells_y);
+        for (part, row) in part.chunks_exact(self.cells_x).zip(rows) {
+            row[self.x..self.x + self.cells_x].copy_from_slice(part);
+        }
+    }
+
+    /// Adds a part of this window's size, times a factor, to a field of rows of `cells_x` values.
+    pub(super) fn add_scaled(&self, part: &[f64], factor: f64, cells_x: usize, field: &mut [f64]) {
+        let rows = field.chunks_exact_mut(cells_x);
+        let rows = rows.skip(self.y).take(self.cells_y);
+        for (part, row) in part.chunks_exact(self.cells_x).zip(rows) {
+            for (value, part) in row[self.x..].iter_mut().zip(part) {
+                *value += factor * part;
+            }
+        }
+    }
+
+    /// Adds this window of a field of rows of `cells_x` values to a part of the window's size.
+    pub(super) fn add_part(&self, field: &[f64], cells_x: usize, part: &mut [f64]) {
+        let rows = self.rows(field, cells_x);
+        for (part, row) in part.chunks_exact_mut(self.cells_x).zip(rows) {
+            for (part, value) in part.iter_mut().zip(row) {
+                *part += value;
+            }
+        }
+    }
+
+    /// The window `inner` of the same grid, as a window of this one.
+    pub(super) fn part(&self, inner: &Self) -> Self {
+        Self {
+            x: inner.x - self.x,
+            y: inner.y - self.y,
+            ..*inner
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bounds_hold_every_value_and_no_more() {
+        let mut field = vec![0.0; 7 * 5];
+        assert_eq!(Bounds::of(&field, 7), None);
+        for (cells, expected) in [
+            (&[(3, 2)][..], (3..4, 2..3)),
+            (&[(5, 1), (1, 4)], (1..6, 1..5)),
+            (&[(2, 3), (6, 0), (0, 4)], (0..7, 0..5)),
+        ] {
+            field.fill(0.0);
+            for (x, y) in cells {
+                field[y * 7 + x] = 1.0;
+            }
+            let found = Bounds::of(&field, 7).unwrap();
+            assert_eq!((found.x, found.y), expected);
+        }
+    }
+
+    #[test]
+    fn a_window_holds_the_contact_with_room_wherever_it_lies() {
+        let grid = Grid::new(200, 90, 1.0, 1.0).unwrap();
+        for x in [0, 1, 50, 180, 199] {
+            for y in [0, 40, 89] {
+                for length in [1, 7, 40, 200] {
+                    let contact = Bounds {
+                        x: x..(x + length).min(200),
+                        y: y..(y + length).min(90),
+                    };
+                    let frame = Frame::with_room(&contact, &grid);
+                    let own = frame.bounds();
+                    assert!(own.x.end <= 200 && own.y.end <= 90);
+                    assert_eq!(own.clone().union(Some(contact.clone())), own);
+                    assert!(
+                        !frame.is_touched_by(&contact, &grid),
+                        "{contact:?} {frame:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_window_taken_out_and_put_back_leaves_the_field_as_it_was() {
+        let grid = Grid::new(40, 30, 1.0, 1.0).unwrap();
+        let field: Vec<f64> = (0..grid.cells()).map(|i| i as f64).collect();
+        let frame = Frame {
+            x: 3,
+            y: 5,
+            cells_x: 20,
+            cells_y: 18,
+        };
+        let mut part = vec![0.0; frame.cells()];
+        frame.gather(&field, 40, &mut part);
+        assert_eq!(part[0], (5 * 40 + 3) as f64);
+        let mut back = field.clone();
+        back.iter_mut().for_each(|value| *value += 0.0);
+        frame.scatter(&part, 40, &mut back);
+        assert_eq!(back, field);
+        let inner = Frame {
+            x: 10,
+            y: 9,
+            cells_x: 4,
+            cells_y: 4,
+        };
+        let mut small = vec![0.0; inner.cells()];
+        frame.part(&inner).gather(&part, frame.cells_x, &mut small);
+        assert_eq!(small[0], (9 * 40 + 10) as f64);
+    }
+}

@@ -1,0 +1,315 @@
+//! The safe way to solve an instant, on the whole grid: conjugate gradients with contact-set updates (I. A. Polonsky and
+//! L. M. Keer, Wear 231 (1999) 206; the approach-controlled variant without mean-gap correction and load rescaling is that of
+//! S. Spinu, Advances in Tribology 2018, 9432894, figure 2).
+//!
+//! The iteration minimises the complementary energy over p >= 0. While no cell enters or leaves the contact, the displacement
+//! follows the pressure by the product already computed for the search direction, so that an iteration costs one convolution;
+//! where the contact changes, it costs two.
+
+use super::super::convolution::{Convolution, Scratch};
+use super::residual::{Fields, Residual};
+use super::{Imposed, ROUNDING, SolverSettings, start};
+use crate::contact::ContactError;
+
+/// Fields of the whole grid.
+pub(super) struct PolonskyKeer {
+    scratch: Scratch,
+    /// g + B H: the gap under no pressure, before the approach is taken off.
+    free_gap_m: Vec<f64>,
+    /// B p, without the compliance.
+    displacement: Vec<f64>,
+    /// B t.
+    response: Vec<f64>,
+    direction: Vec<f64>,
+    /// What rounding leaves in a gap (m).
+    noise_m: f64,
+    /// Convolutions computed so far.
+    pub(super) convolutions: usize,
+}
+
+/// What does not change during an instant.
+#[derive(Clone, Copy)]
+pub(super) struct Given<'a> {
+    pub(super) operator: &'a Convolution,
+    pub(super) settings: SolverSettings,
+    pub(super) gap_m: &'a [f64],
+    pub(super) compliance: f64,
+    pub(super) imposed: Imposed,
+}
+
+/// The state of the iteration between two passes.
+struct Progress {
+    previous_squared_gap: f64,
+    /// Whether the next direction may be conjugate to the last.
+    conjugate: bool,
+    /// Whether the displacement is a fresh convolution rather than carried along by recursion.
+    exact: bool,
+}
+
+impl PolonskyKeer {
+    pub(super) fn new(operator: &Convolution) -> Self {
+        let cells = operator.grid().cells();
+        Self {
+            scratch: operator.scratch(),
+            free_gap_m: vec![0.0; cells],
+            displacement: vec![0.0; cells],
+            response: vec![0.0; cells],
+            direction: vec![0.0; cells],
+            noise_m: 0.0,
+            convolutions: 0,
+        }
+    }
+
+    /// Solves from the pressure given, after `taken` iterations of another kind. Returns the residual at the end and all
+    /// iterations; `None` where no pressure at all is the solution.
+    pub(super) fn solve(
+        &mut self,
+        given: &Given<'_>,
+        history: &[f64],
+        pressure: &mut [f64],
+        taken: usize,
+    ) -> Result<Option<(Residual, usize)>, ContactError> {
+        self.prepare_free_gap(given, history)?;
+        // Where the free surface is clear of the indenter, no pressure is the solution, whatever the guess.
+        if let Imposed::ApproachM(approach_m) = given.imposed
+            && self.free_gap_m.iter().all(|&free| free >= approach_m)
+        {
+            return Ok(None);
+        }
+        self.iterate(given, pressure, taken).map(Some)
+    }
+
+    /// free gap = g + B H.
+    fn prepare_free_gap(&mut self, given: &Given<'_>, history: &[f64]) -> Result<(), ContactError> {
+        given
+            .operator
+            .apply(history, &mut self.free_gap_m, &mut self.scratch)?;
+        self.convolutions += 1;
+        let mut largest_m = 0.0_f64;
+        for (free, gap) in self.free_gap_m.iter_mut().zip(given.gap_m) {
+            largest_m = largest_m.max(free.abs());
+            *free += gap;
+        }
+        self.noise_m = ROUNDING * largest_m;
+        Ok(())
+    }
+
+    fn refresh_displacement(
+        &mut self,
+        operator: &Convolution,
+        pressure: &[f64],
+    ) -> Result<(), ContactError> {
+        operator.apply(pressure, &mut self.displacement, &mut self.scratch)?;
+        self.convolutions += 1;
+        Ok(())
+    }
+
+    /// Conjugate direction t = gap + beta t inside the contact, 0 outside; returns the sum of gap * t.
+    fn update_direction(
+        &mut self,
+        compliance: f64,
+        residual: &Residual,
+        beta: f64,
+        pressure: &[f64],
+    ) -> f64 {
+        let mut product = 0.0;
+        let fields = self.free_gap_m.iter().zip(&self.displacement);
+        for ((t, &p), (&free, &u)) in self.direction.iter_mut().zip(pressure).zip(fields) {
+            *t = if p > 0.0 {
+                let gap = free + compliance * u - residual.approach_m;
+                let next = gap + beta * *t;
+                product += gap * next;
+                next
+            } else {
+                0.0
+            };
+        }
+        product
+    }
+
+    /// The direction of the cells that penetrate without carrying pressure; returns the sum of gap * t.
+    fn penetrating_direction(
+        &mut self,
+        compliance: f64,
+        residual: &Residual,
+        pressure: &[f64],
+    ) -> f64 {
+        let mut product = 0.0;
+        let fields = self.free_gap_m.iter().zip(&self.displacement);
+        for ((t, &p), (&free, &u)) in self.direction.iter_mut().zip(pressure).zip(fields) {
+            *t = if p > 0.0 {
+                0.0
+            } else {
+                (free + compliance * u - residual.approach_m).min(0.0)
+            };
+            product += *t * *t;
+        }
+        product
+    }
+
+    /// Step length along the direction: sum(gap t) / sum(r t), with r = A B t less, under load control, its mean over the
+    /// contact. `None` where there is no curvature.
+    fn step_length(
+        &mut self,
+        given: &Given<'_>,
+        product: f64,
+        load_controlled: bool,
+        pressure: &[f64],
+    ) -> Result<Option<f64>, ContactError> {
+        let operator = given.operator;
+        operator.apply(&self.direction, &mut self.response, &mut self.scratch)?;
+        self.convolutions += 1;
+        let (mut sum, mut weighted, mut total, mut cells) = (0.0, 0.0, 0.0, 0usize);
+        for ((&t, &r), &p) in self.direction.iter().zip(&self.response).zip(pressure) {
+            weighted += r * t;
+            if p > 0.0 {
+                sum += r;
+                total += t;
+                cells += 1;
+            }
+        }
+        let mean = if load_controlled {
+            sum / cells.max(1) as f64
+        } else {
+            0.0
+        };
+        let curvature = given.compliance * (weighted - mean * total);
+        Ok((curvature > 0.0).then(|| product / curvature))
+    }
+
+    /// p <- p - step t, clipped at 0; penetrating cells outside join the contact. Returns whether any joined, whether any left.
+    fn move_pressure(
+        &mut self,
+        compliance: f64,
+        approach_m: f64,
+        step: f64,
+        pressure: &mut [f64],
+    ) -> (bool, bool) {
+        let (mut joined, mut left) = (false, false);
+        let fields = self.free_gap_m.iter().zip(&self.displacement);
+        for ((p, &t), (&free, &u)) in pressure.iter_mut().zip(&self.direction).zip(fields) {
+            if *p > 0.0 {
+                *p -= step * t;
+                if *p <= 0.0 {
+                    *p = 0.0;
+                    left = true;
+                }
+            } else {
+                let gap = free + compliance * u - approach_m;
+                if gap < 0.0 {
+                    *p = -step * gap;
+                    joined = true;
+                }
+            }
+        }
+        (joined, left)
+    }
+
+    /// One pass: direction, step, projection, load. False where the direction has no curvature, and nothing moved.
+    fn advance(
+        &mut self,
+        given: &Given<'_>,
+        residual: &Residual,
+        progress: &mut Progress,
+        pressure: &mut [f64],
+    ) -> Result<bool, ContactError> {
+        let compliance = given.compliance;
+        let target_sum = given.imposed.target_sum();
+        let beta = if progress.conjugate {
+            residual.squared_gap / progress.previous_squared_gap
+        } else {
+            0.0
+        };
+        let mut product = self.update_direction(compliance, residual, beta, pressure);
+        progress.previous_squared_gap = residual.squared_gap;
+        let mut step = self.step_length(given, product, target_sum.is_some(), pressure)?;
+        if step.is_none() && residual.penetration_m > 0.0 {
+            // Nothing is in contact, or the contact is settled (a single cell that carries the load always is) while others
+            // penetrate: these show the way.
+            product = self.penetrating_direction(compliance, residual, pressure);
+            step = self.step_length(given, product, false, pressure)?;
+        }
+        let Some(step) = step else {
+            return Ok(false);
+        };
+        let (joined, left) = self.move_pressure(compliance, residual.approach_m, step, pressure);
+        let scale = rescale(target_sum, pressure);
+        if joined || left {
+            self.refresh_displacement(given.operator, pressure)?;
+        } else {
+            for (u, r) in self.displacement.iter_mut().zip(&self.response) {
+                *u = scale * (*u - step * r);
+            }
+        }
+        progress.exact = joined || left;
+        progress.conjugate = !joined;
+        Ok(true)
+    }
+
+    /// The iteration. Returns the residual at the end and the iterations taken.
+    fn iterate(
+        &mut self,
+        given: &Given<'_>,
+        pressure: &mut [f64],
+        taken: usize,
+    ) -> Result<(Residual, usize), ContactError> {
+        let operator = given.operator;
+        start(given.imposed.target_sum(), given.gap_m, pressure);
+        self.refresh_displacement(operator, pressure)?;
+        self.direction.fill(0.0);
+        let mut progress = Progress {
+            previous_squared_gap: 1.0,
+            conjugate: false,
+            exact: true,
+        };
+        let tolerance = given.settings.tolerance;
+        let (mut relative, mut iterations) = (f64::INFINITY, taken);
+        for iteration in taken..given.settings.max_iterations {
+            let fields = Fields {
+                pressure,
+                free_gap_m: &self.free_gap_m,
+                displacement: &self.displacement,
+            };
+            let residual = Residual::of(&fields, given.compliance, given.imposed.approach_m());
+            if residual.cells == 0 && given.imposed.target_sum().is_some() {
+                // A step has emptied the contact, which has a load to carry: begin again.
+                start(given.imposed.target_sum(), given.gap_m, pressure);
+                self.refresh_displacement(operator, pressure)?;
+                (progress.exact, progress.conjugate) = (true, false);
+                continue;
+            }
+            let noise_m = self.noise_m + ROUNDING * residual.approach_m.abs();
+            relative = residual.relative(tolerance, noise_m);
+            if relative <= tolerance {
+                if progress.exact {
+                    return Ok((residual, iteration));
+                }
+                // Rounding piles up in a displacement carried along by recursion: judge a fresh one.
+                self.refresh_displacement(operator, pressure)?;
+                progress.exact = true;
+                continue;
+            }
+            iterations = iteration + 1;
+            if !self.advance(given, &residual, &mut progress, pressure)? {
+                break;
+            }
+        }
+        Err(ContactError::NotConverged {
+            iterations,
+            residual: relative,
+            tolerance,
+        })
+    }
+}
+
+/// Scales the pressure to the prescribed sum; returns the factor, 1 where nothing is prescribed.
+fn rescale(target_sum: Option<f64>, pressure: &mut [f64]) -> f64 {
+    let Some(target) = target_sum else { return 1.0 };
+    let sum: f64 = pressure.iter().sum();
+    if sum <= 0.0 {
+        return 1.0;
+    }
+    let scale = target / sum;
+    pressure.iter_mut().for_each(|p| *p *= scale);
+    scale
+}

@@ -1,0 +1,241 @@
+//! An instant in windows of the grid: the contact's, which grows until it holds all of it, and that of what moves the surface.
+
+use std::sync::Arc;
+
+use super::active_set::{Ending, Problem, State, Work};
+use super::frame::{Bounds, Frame};
+use super::outside::{Moments, Rings};
+use super::{Found, HalfSpace, Imposed, ROUNDING, start, sums};
+use crate::contact::{ContactError, Instant};
+
+/// Where an instant is solved, and where its sources of displacement are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Windows {
+    pub(super) contact: Frame,
+    pub(super) source: Frame,
+}
+
+/// Steps over which a gap may be carried along by recursion before rounding has piled up in it.
+const FRESH_STEPS: usize = 20;
+
+/// Windows whose surroundings are remembered.
+const REMEMBERED_RINGS: usize = 32;
+
+impl HalfSpace {
+    /// Solves in windows about the contact. `None` where the fast way leads nowhere.
+    pub(super) fn solve_in_windows(
+        &mut self,
+        instant: &Instant<'_>,
+        imposed: Imposed,
+        pressure: &mut [f64],
+        work: &mut Work,
+    ) -> Result<Option<Found>, ContactError> {
+        let grid = *self.operator.grid();
+        let row = grid.cells_x();
+        if pressure.iter().all(|&p| p <= 0.0) {
+            pressure.fill(0.0);
+            self.guess_from_coarse(instant, imposed, pressure, work)?;
+        }
+        start(imposed.target_sum(), &self.gap_m, pressure);
+        let history = Bounds::of(instant.history, row);
+        let mut contact = match Bounds::of(pressure, row) {
+            Some(bounds) => Frame::with_room(&bounds, &grid),
+            None => Frame::whole(&grid),
+        };
+        loop {
+            self.enter(instant, contact, history.clone(), pressure);
+            let (state, ending) = self.solve_in_window(instant, imposed, work)?;
+            contact.scatter(&self.fields.pressure, row, pressure);
+            match ending {
+                Ending::Converged => {}
+                Ending::Stalled => return Ok(None),
+                Ending::OutOfSteps => {
+                    return Err(ContactError::NotConverged {
+                        iterations: work.steps,
+                        residual: state.residual,
+                        tolerance: self.settings.tolerance,
+                    });
+                }
+            }
+            let loaded = Bounds::of(&self.fields.pressure, contact.cells_x);
+            let loaded = loaded.map(|bounds| bounds.moved(&contact));
+            let touched = loaded.filter(|bounds| contact.is_touched_by(bounds, &grid));
+            let beyond = match touched {
+                Some(bounds) => Some(Frame::with_room(&bounds, &grid).bounds()),
+                None => self.penetration_beyond(instant.compliance_per_pa, &state, work)?,
+            };
+            let wider = contact.holding(beyond, &grid);
+            if wider == contact {
+                return Ok(Some(Found {
+                    cells: state.cells,
+                    approach_m: state.approach_m,
+                    pressure_sum: state.pressure_sum,
+                    steps: work.steps,
+                }));
+            }
+            contact = wider;
+        }
+    }
+
+    /// Takes pressure and history into the windows.
+    pub(super) fn enter(
+        &mut self,
+        instant: &Instant<'_>,
+        contact: Frame,
+        history: Option<Bounds>,
+        pressure: &[f64],
+    ) {
+        let grid = self.operator.grid();
+        let row = grid.cells_x();
+        let source = contact.holding(history, grid);
+        self.fields.fit(contact.cells());
+        contact.gather(pressure, row, &mut self.fields.pressure);
+        for field in [&mut self.history, &mut self.source, &mut self.lift_m] {
+            field.resize(source.cells(), 0.0);
+        }
+        source.gather(instant.history, row, &mut self.history);
+        self.windows = Some(Windows { contact, source });
+    }
+
+    /// Solves in the window entered.
+    fn solve_in_window(
+        &mut self,
+        instant: &Instant<'_>,
+        imposed: Imposed,
+        work: &mut Work,
+    ) -> Result<(State, Ending), ContactError> {
+        let Some(Windows { contact, .. }) = self.windows else {
+            return Ok((State::default(), Ending::Stalled));
+        };
+        let operator = Arc::clone(&self.operator);
+        let operators = operator.window(contact.cells_x, contact.cells_y)?;
+        loop {
+            let largest_m = self.lift_gap(instant.compliance_per_pa)?;
+            work.convolutions += 1;
+            work.carried = 0;
+            let level_m = imposed.approach_m().unwrap_or(largest_m).abs();
+            let problem = Problem {
+                whole: &operator,
+                operators: &operators,
+                frame: contact,
+                compliance_per_pa: instant.compliance_per_pa,
+                target_sum: imposed.target_sum(),
+                approach_m: imposed.approach_m(),
+                tolerance: self.settings.tolerance,
+                noise_m: ROUNDING * (largest_m + level_m),
+            };
+            let steps = self.settings.max_iterations;
+            let ended = self
+                .fields
+                .solve(&problem, steps, &mut self.scratches, work)?;
+            if ended.1 != Ending::Converged || work.carried <= FRESH_STEPS {
+                return Ok(ended);
+            }
+            // Rounding has piled up in a gap carried along by recursion: judge a fresh one.
+        }
+    }
+
+    /// Gap before the approach is taken off in the window of the contact, g + B (A p + H). Returns the largest displacement (m).
+    pub(super) fn lift_gap(&mut self, compliance_per_pa: f64) -> Result<f64, ContactError> {
+        let Some(Windows { contact, source }) = self.windows else {
+            return Ok(0.0);
+        };
+        self.gather_source(compliance_per_pa);
+        let operators = self.operator.window(source.cells_x, source.cells_y)?;
+        let convolution = operators.convolution(&self.operator);
+        let scratch = &mut self.scratches.convolution;
+        convolution.fit(scratch);
+        convolution.apply(&self.source, &mut self.lift_m, scratch)?;
+        let largest_m = -sums::least_of(&self.lift_m, |u| -u.abs());
+        let part = source.part(&contact);
+        let gap_m = &mut self.fields.gap_m;
+        contact.gather(&self.gap_m, self.operator.grid().cells_x(), gap_m);
+        part.add_part(&self.lift_m, source.cells_x, gap_m);
+        Ok(largest_m)
+    }
+
+    /// A p + H in the window of the sources.
+    fn gather_source(&mut self, compliance_per_pa: f64) {
+        let Some(Windows { contact, source }) = self.windows else {
+            return;
+        };
+        self.source.copy_from_slice(&self.history);
+        let part = source.part(&contact);
+        let pressure = &self.fields.pressure;
+        part.add_scaled(
+            pressure,
+            compliance_per_pa,
+            source.cells_x,
+            &mut self.source,
+        );
+    }
+
+    /// Where cells beyond the window of the contact penetrate; `None` where none does.
+    fn penetration_beyond(
+        &mut self,
+        compliance_per_pa: f64,
+        state: &State,
+        work: &mut Work,
+    ) -> Result<Option<Bounds>, ContactError> {
+        let grid = *self.operator.grid();
+        let Some(Windows { contact, source }) = self.windows else {
+            return Ok(None);
+        };
+        if contact == Frame::whole(&grid) {
+            return Ok(None);
+        }
+        self.gather_source(compliance_per_pa);
+        if self.is_clear_beyond(contact, source, state.approach_m) {
+            return Ok(None);
+        }
+        let mut gap_m = vec![0.0; grid.cells()];
+        self.whole_gap(source, &mut gap_m)?;
+        work.convolutions += 1;
+        let allowed_m = state.approach_m - self.settings.tolerance * state.reference_m;
+        Ok(Bounds::of_cells(&gap_m, grid.cells_x(), |gap| {
+            gap < allowed_m
+        }))
+    }
+
+    /// Whether the sources certainly keep the surface beyond a window below the indenter at this approach.
+    pub(super) fn is_clear_beyond(
+        &mut self,
+        window: Frame,
+        source: Frame,
+        approach_m: f64,
+    ) -> bool {
+        let grid = self.operator.grid();
+        let step_y = grid.spacing_y_m() / grid.spacing_x_m();
+        let mut moments = Moments::default();
+        for (iy, row) in self.source.chunks_exact(source.cells_x).enumerate() {
+            moments.add_row(row, source.x as f64, (source.y + iy) as f64 * step_y);
+        }
+        let known = self.rings.iter().position(|r| *r.frame() == window);
+        let at = known.unwrap_or_else(|| {
+            if self.rings.len() >= REMEMBERED_RINGS {
+                self.rings.clear();
+            }
+            self.rings.push(Rings::new(grid, &self.gap_m, window));
+            self.rings.len() - 1
+        });
+        self.rings[at].are_clear(&moments, approach_m, grid)
+    }
+
+    /// The gap before the approach is taken off, of the whole grid.
+    pub(super) fn whole_gap(
+        &mut self,
+        source: Frame,
+        gap_m: &mut [f64],
+    ) -> Result<(), ContactError> {
+        let row = self.operator.grid().cells_x();
+        let mut sources = vec![0.0; gap_m.len()];
+        source.scatter(&self.source, row, &mut sources);
+        let scratch = &mut self.scratches.convolution;
+        self.operator.fit(scratch);
+        self.operator.apply(&sources, gap_m, scratch)?;
+        for (gap, own) in gap_m.iter_mut().zip(&self.gap_m) {
+            *gap += own;
+        }
+        Ok(())
+    }
+}
