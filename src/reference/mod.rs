@@ -6,4 +6,5 @@ pub mod elastic;
 pub mod elliptic;
 pub mod power_law;
 pub mod steady;
+pub mod step_load;
 pub mod transient;
