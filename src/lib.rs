@@ -39,9 +39,10 @@
 //! | [`history`] | viscoelastic memory and time marching |
 //! | [`cycle`] | signals of one cycle; a measured loop is as good as a computed one |
 //! | [`steady`] | the stabilised cycle found directly |
-//! | [`mod@reference`] | closed forms and slow independent solvers; no production room imports it |
+//! | [`mod@reference`] | closed forms and slow independent solvers; no production room imports it, but for `reproduction` |
 //! | [`sweep`] | plans, cases in parallel, records on disk, peaks; single histories |
 //! | [`report`] | tables and figures, from records alone |
+//! | [`reproduction`] | the base paper, figure by figure; knows `reference` too, to draw closed forms and compare with them |
 //! | [`cli`] | flags and files to plans |
 //!
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
@@ -57,5 +58,6 @@ pub mod material;
 pub mod quantity;
 pub mod reference;
 pub mod report;
+pub mod reproduction;
 pub mod steady;
 pub mod sweep;

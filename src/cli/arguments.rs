@@ -30,6 +30,8 @@ pub(super) enum Command {
     Sweep(SweepFlags),
     /// Follow one drive history: load or approach against time, from a scenario file
     Simulate(SimulateFlags),
+    /// Make the computed figures of the base paper, with every number held against its exact value
+    Reproduce(super::reproduce::ReproduceFlags),
     /// Look at materials: their series, moduli over frequency, sources
     #[command(subcommand)]
     Material(MaterialCommand),

@@ -14,6 +14,7 @@ mod material_block;
 mod material_fit;
 mod material_table;
 mod progress;
+mod reproduce;
 pub mod scenario_file;
 mod segments_block;
 mod simulate;
@@ -83,6 +84,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let ended = match arguments.command {
         Command::Sweep(flags) => sweep::run(&flags),
         Command::Simulate(flags) => simulate::run(&flags),
+        Command::Reproduce(flags) => reproduce::run(&flags),
         Command::Material(command) => material::run(&command),
         Command::Completions { shell } => {
             let mut text = Vec::new();

@@ -1,0 +1,155 @@
+//! `contact-dma reproduce`: the computed figures of the base paper, from the files that are built into the program.
+
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use super::document::Document;
+use super::sweep::interrupt_flag;
+use super::{Ended, Failure, print, scenario_file, sweep_file};
+use crate::reproduction::{
+    self, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
+};
+
+const DEFAULT_FOLDER: &str = "reports/spinu-2018";
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma reproduce
+  contact-dma reproduce --figure 12 --figure 13 --out /tmp/two
+
+The figures are those of S. Spinu, Advances in Tribology 2018, 9432894: 1 and 4 to 13.
+Written to the output folder: figure-NN as SVG and PNG with the data as CSV, claims.csv
+(every number, as the paper states it, exact, and by both engines) and README.md with all
+of it. The scenarios and sweeps behind them are in sweeps/spinu-2018/ of the repository.")]
+pub(super) struct ReproduceFlags {
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", default_value = DEFAULT_FOLDER)]
+    pub(super) out: PathBuf,
+    /// Make this figure alone; may be repeated
+    #[arg(long = "figure", value_name = "N", value_parser = figure_number)]
+    pub(super) figures: Vec<u8>,
+    /// Number of threads [default: one per processor]; the results do not depend on it
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS")]
+    pub(super) threads: Option<NonZeroUsize>,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+/// The number of a figure that is computed.
+fn figure_number(text: &str) -> Result<u8, String> {
+    let number = text.trim().parse().ok();
+    if let Some(number) = number.filter(|number| FIGURES.contains(number)) {
+        return Ok(number);
+    }
+    let why = match number {
+        Some(2 | 3) => "it is a flowchart; ",
+        Some(_) => "the paper has figures 1 to 13; ",
+        None => "",
+    };
+    let computed = FIGURES.map(|number| number.to_string()).join(", ");
+    Err(format!("{why}the computed figures are {computed}"))
+}
+
+/// Runs the command.
+pub(super) fn run(flags: &ReproduceFlags) -> Result<Ended, Failure> {
+    let plans = plans()?;
+    let wanted = if flags.figures.is_empty() {
+        FIGURES.to_vec()
+    } else {
+        flags.figures.clone()
+    };
+    let threads = flags.threads.map_or_else(
+        || std::thread::available_parallelism().map_or(1, usize::from),
+        NonZeroUsize::get,
+    );
+    let interrupt = interrupt_flag()?;
+    let finished = |number: u8| {
+        if !flags.quiet {
+            // A closed standard error is no reason to stop.
+            let _ = writeln!(std::io::stderr(), "figure {number}");
+        }
+    };
+    let made = match reproduction::make(&plans, &wanted, threads, &interrupt, &finished) {
+        Err(ReproductionError::Interrupted) => return Ok(Ended::Interrupted),
+        made => made.map_err(Failure::run)?,
+    };
+    reproduction::write(&made, &flags.out).map_err(Failure::run)?;
+    if !flags.quiet {
+        print(&text(&made, &flags.out))?;
+    }
+    Ok(Ended::Done)
+}
+
+/// The plans of the files built into the program.
+fn plans() -> Result<Plans, Failure> {
+    let mut plans = Plans::default();
+    for (name, text) in SCENARIOS {
+        let document = Document::parse(&format!("{name}.toml"), text)?;
+        plans
+            .scenarios
+            .insert(name, scenario_file::plan(&document)?);
+    }
+    for (name, text) in SWEEPS {
+        let document = Document::parse(&format!("{name}.toml"), text)?;
+        plans.sweeps.insert(name, sweep_file::plan(&document)?);
+    }
+    Ok(plans)
+}
+
+/// What is printed at the end.
+fn text(made: &[Figure], folder: &Path) -> String {
+    let claims = || made.iter().flat_map(|figure| &figure.claims);
+    let count = |verdict| claims().filter(|claim| claim.verdict == verdict).count();
+    let mut text = format!(
+        "{} figures, {} claims: {} agree with the paper, {} disagree, {} are not stated there\n",
+        made.len(),
+        claims().count(),
+        count(Verdict::Agrees),
+        count(Verdict::Disagrees),
+        count(Verdict::NotStated)
+    );
+    for claim in claims().filter(|claim| claim.verdict == Verdict::Disagrees) {
+        text.push_str(&format!(
+            "  figure {}, {}: {} here, {} in the paper\n",
+            claim.figure,
+            claim.quantity,
+            claim.exact_text(),
+            claim.paper
+        ));
+    }
+    text.push_str(&format!("\nResults in {}\n", folder.display()));
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_computed_figures_can_be_asked_for() {
+        for number in FIGURES {
+            assert_eq!(figure_number(&number.to_string()), Ok(number));
+        }
+        for (wrong, why) in [
+            ("2", "flowchart"),
+            ("14", "1 to 13"),
+            ("x", "computed"),
+            ("-1", "computed"),
+        ] {
+            let message = figure_number(wrong).unwrap_err();
+            assert!(message.contains(why), "{message}");
+            assert!(message.contains("1, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13"));
+        }
+    }
+
+    #[test]
+    fn every_file_built_in_is_a_plan() {
+        let plans = plans().unwrap_or_else(|_| panic!("a file is no plan"));
+        assert_eq!((plans.scenarios.len(), plans.sweeps.len()), (12, 5));
+    }
+}

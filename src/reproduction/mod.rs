@@ -1,0 +1,249 @@
+//! The computed figures of S. Spinu, *Viscoelastic Contact Simulation under Harmonic Cyclic Load*, Advances in Tribology
+//! 2018, 9432894: each as a picture with its data, and every number that can be read from the paper or worked out for it as
+//! a claim, computed by both engines and held against its exact value.
+//!
+//! The scenarios and sweeps are the files of `sweeps/spinu-2018/`, built into the program; they come in as finished plans,
+//! because reading files is another room's business. Everything is in the paper's normalised units ([`Scale`]). This room
+//! alone among those that serve users knows [`mod@crate::reference`]: it draws closed forms as lines and compares with them,
+//! and computes nothing from them.
+//!
+//! What is written must be the same bytes wherever and whenever it is made. Numbers are therefore printed to five
+//! significant digits, and differences below what the computation resolves as "< 1e-9" ([`number`]).
+
+mod by_engine;
+mod claim;
+mod cycles;
+mod figure_01;
+mod figure_04_05;
+mod figure_06;
+mod figure_07;
+mod figure_08_09;
+mod figure_10_12;
+mod figure_13;
+mod look;
+pub mod number;
+mod page;
+mod scale;
+mod stabilised;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use rayon::prelude::*;
+
+pub use claim::{Claim, Measure, Verdict};
+pub use scale::Scale;
+
+use crate::contact::ContactError;
+use crate::cycle::LoopError;
+use crate::material::MaterialError;
+use crate::report::ReportError;
+use crate::report::chart::{self, Chart, ChartError};
+use crate::sweep::case::SetupError;
+use crate::sweep::engines::{AsContactError, EngineError};
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::scenario::ScenarioPlan;
+use crate::sweep::simulate::SimulationError;
+use crate::sweep::store::{StoreError, write_atomically};
+
+/// The figures of the paper that show computed results; 2 and 3 are flowcharts.
+pub const FIGURES: [u8; 11] = [1, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13];
+
+macro_rules! files {
+    ($($name:literal),* $(,)?) => {
+        [$(($name, include_str!(concat!("../../sweeps/spinu-2018/", $name, ".toml")))),*]
+    };
+}
+
+/// Scenario files by name.
+pub const SCENARIOS: [(&str, &str); 12] = files![
+    "figure-01",
+    "figure-04",
+    "figure-05",
+    "figure-06-case-1",
+    "figure-06-case-2",
+    "figure-06-case-3",
+    "figure-07-maxwell",
+    "figure-07-zener",
+    "figure-08-a",
+    "figure-08-b",
+    "figure-09",
+    "figure-13-first-touch",
+];
+
+/// Sweep files by name.
+pub const SWEEPS: [(&str, &str); 5] = files![
+    "figure-10",
+    "figure-11",
+    "figure-12",
+    "figure-12-peak",
+    "figure-13",
+];
+
+/// The plans that the files ask for.
+#[derive(Debug, Clone, Default)]
+pub struct Plans {
+    pub scenarios: BTreeMap<&'static str, ScenarioPlan>,
+    pub sweeps: BTreeMap<&'static str, SweepPlan>,
+}
+
+/// Why a figure cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub enum ReproductionError {
+    #[error("there is no plan named {0}")]
+    NoPlan(&'static str),
+    #[error("{0}")]
+    Unfit(String),
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
+    Contact(#[from] ContactError),
+    #[error(transparent)]
+    Loop(#[from] LoopError),
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    #[error(transparent)]
+    Chart(#[from] ChartError),
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    #[error("cannot start {threads} threads: {reason}")]
+    Threads { threads: usize, reason: String },
+    #[error("interrupted")]
+    Interrupted,
+}
+
+impl AsContactError for ReproductionError {
+    fn as_contact_error(&self) -> Option<&ContactError> {
+        match self {
+            Self::Contact(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+/// One figure, finished.
+#[derive(Debug, Clone)]
+pub struct Figure {
+    pub number: u8,
+    /// What is to be seen, for the page.
+    pub caption: String,
+    /// The panels from top to bottom.
+    pub panels: Vec<Chart>,
+    /// The data behind it, as CSV.
+    pub data: Vec<u8>,
+    pub claims: Vec<Claim>,
+}
+
+impl Figure {
+    /// The name of its files, without ending.
+    pub fn name(&self) -> String {
+        format!("figure-{:02}", self.number)
+    }
+}
+
+impl Plans {
+    fn scenario(&self, name: &'static str) -> Result<&ScenarioPlan, ReproductionError> {
+        let plan = self.scenarios.get(name);
+        plan.ok_or(ReproductionError::NoPlan(name))
+    }
+
+    fn sweep(&self, name: &'static str) -> Result<&SweepPlan, ReproductionError> {
+        self.sweeps.get(name).ok_or(ReproductionError::NoPlan(name))
+    }
+}
+
+/// What makes figures: one of them, or several from the same computations.
+type Maker = fn(&Plans, &AtomicBool) -> Result<Vec<Figure>, ReproductionError>;
+
+/// The longest first, so that threads end together.
+const MAKERS: [(&[u8], Maker); 7] = [
+    (&[8, 9, 10, 11, 12], cycles::figures),
+    (&[13], figure_13::figures),
+    (&[6], figure_06::figures),
+    (&[5], figure_04_05::figure_5),
+    (&[7], figure_07::figures),
+    (&[4], figure_04_05::figure_4),
+    (&[1], figure_01::figures),
+];
+
+/// Makes these figures, in their order in the paper, on so many threads; the result does not depend on the number.
+/// `finished` hears of every figure.
+///
+/// # Errors
+/// [`ReproductionError`] of the first that cannot be made.
+pub fn make(
+    plans: &Plans,
+    figures: &[u8],
+    threads: usize,
+    interrupt: &AtomicBool,
+    finished: &(dyn Fn(u8) + Sync),
+) -> Result<Vec<Figure>, ReproductionError> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|error| ReproductionError::Threads {
+            threads,
+            reason: error.to_string(),
+        })?;
+    let wanted = |numbers: &[u8]| numbers.iter().any(|number| figures.contains(number));
+    let made: Vec<Vec<Figure>> = pool.install(|| {
+        let makers = MAKERS.par_iter().with_max_len(1);
+        let made = makers
+            .filter(|(numbers, _)| wanted(numbers))
+            .map(|(_, maker)| {
+                let mut made = maker(plans, interrupt)?;
+                made.retain(|figure| figures.contains(&figure.number));
+                made.iter().for_each(|figure| finished(figure.number));
+                Ok(made)
+            });
+        made.collect::<Result<_, ReproductionError>>()
+    })?;
+    let mut made: Vec<Figure> = made.into_iter().flatten().collect();
+    made.sort_by_key(|figure| figure.number);
+    Ok(made)
+}
+
+/// Everything that is written: names and bytes. Pictures and data of each figure, the claims as table, and a page with all.
+///
+/// # Errors
+/// [`ReproductionError`] where a picture cannot be drawn.
+pub fn files(figures: &[Figure]) -> Result<Vec<(String, Vec<u8>)>, ReproductionError> {
+    let drawn: Vec<[(String, Vec<u8>); 3]> = figures
+        .par_iter()
+        .map(|figure| {
+            let name = figure.name();
+            let svg = match &figure.panels[..] {
+                [chart] => chart::to_svg(chart)?,
+                panels => chart::stack_to_svg(panels)?,
+            };
+            let png = chart::to_png(&svg, 1.0)?;
+            Ok([
+                (format!("{name}.csv"), figure.data.clone()),
+                (format!("{name}.svg"), svg.into_bytes()),
+                (format!("{name}.png"), png),
+            ])
+        })
+        .collect::<Result<_, ReproductionError>>()?;
+    let mut files: Vec<(String, Vec<u8>)> = drawn.into_iter().flatten().collect();
+    files.push(("claims.csv".to_owned(), claim::table(figures)?));
+    files.push(("README.md".to_owned(), page::text(figures).into_bytes()));
+    Ok(files)
+}
+
+/// Writes all files into a folder.
+///
+/// # Errors
+/// [`ReproductionError`] naming the file.
+pub fn write(figures: &[Figure], folder: &Path) -> Result<(), ReproductionError> {
+    for (name, bytes) in files(figures)? {
+        write_atomically(&folder.join(name), &bytes)?;
+    }
+    Ok(())
+}
