@@ -1,6 +1,6 @@
 //! Stabilised cycles of one engine, with the surface at the quarters of the cycle, and cycles marched from rest.
 //!
-//! On many cells a cycle is dear. Its memory is therefore found on a quarter as many per side, carried over, and one cycle
+//! On many cells a cycle is dear. Its memory is therefore found on half as many per side, carried over, and one cycle
 //! marched: what the coarse memory was wrong by is a part of the discretisation error, and decays in that cycle.
 
 use std::f64::consts::TAU;
@@ -75,14 +75,14 @@ pub(super) fn stabilised(
     let start = match engine {
         EngineKind::Axisymmetric => search(plan, omega, fine.as_mut(), steps, interrupt)?,
         EngineKind::HalfSpace => {
-            let side = solver.cells / 4;
+            let side = solver.cells / 2;
             let coarse = SolverPlan {
                 cells: side,
                 ..solver
             };
             let mut engine = self::builder(plan, coarse)?.engine(0)?;
             let memory = search(plan, omega, engine.as_mut(), steps, interrupt)?;
-            doubled(&doubled(&memory, side), 2 * side)
+            doubled(&memory, side)
         }
     };
     let parts = match engine {
@@ -158,7 +158,7 @@ fn search(
     interrupt: &AtomicBool,
 ) -> Result<Vec<f64>, ReproductionError> {
     const SETTINGS: SteadySettings = SteadySettings {
-        tolerance: 1e-4,
+        tolerance: 3e-5,
         max_cycles: 40,
     };
     let compliance = plan.material.contact_compliance()?;
