@@ -1,10 +1,14 @@
 //! A guess of the next pressure from the last three: nothing but work depends on it.
 
+use super::loaded::Loaded;
+
 /// Pressures of the last instants, and the steps between them.
 #[derive(Debug, Default)]
 pub(super) struct Extrapolation {
     /// The pressures one and two instants before the last.
     before: [Vec<f64>; 2],
+    /// Where any of them is not zero.
+    loaded: Loaded,
     /// How many of them belong to the present course of the drive.
     known: usize,
     /// The step (s) that led to the last pressure, and the one before it.
@@ -27,14 +31,14 @@ impl Extrapolation {
         std::mem::swap(one, two);
         one.resize(pressure.len(), 0.0);
         two.resize(pressure.len(), 0.0);
+        self.loaded.extend(pressure);
+        let loaded = self.loaded.range();
         // `one` is now the older of the two, and makes room for the last pressure once it has been used.
-        let older = one.iter_mut().zip(two.iter());
-        for (p, (older, old)) in pressure.iter_mut().zip(older) {
+        let older = one[loaded.clone()].iter_mut().zip(&two[loaded.clone()]);
+        for (p, (older, old)) in pressure[loaded].iter_mut().zip(older) {
             let last = *p;
-            if last > 0.0 {
-                let guess = weights[0] * last + weights[1] * old + weights[2] * *older;
-                *p = guess.max(0.0);
-            }
+            let guess = weights[0] * last + weights[1] * old + weights[2] * *older;
+            *p = if last > 0.0 { guess.max(0.0) } else { last };
             *older = last;
         }
         self.known = (self.known + 1).min(2);

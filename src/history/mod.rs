@@ -15,6 +15,7 @@ mod direct;
 mod dissipation;
 mod extrapolation;
 mod hereditary;
+mod loaded;
 mod march;
 mod memory;
 

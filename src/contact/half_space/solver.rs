@@ -95,6 +95,7 @@ pub struct HalfSpace {
     /// The windows of pressure and history of the instant last solved.
     windows: Option<Windows>,
     convolutions: u64,
+    safeguarded: u64,
 }
 
 /// An instant solved.
@@ -134,6 +135,7 @@ impl HalfSpace {
             safeguard: None,
             windows: None,
             convolutions: 0,
+            safeguarded: 0,
             operator,
             gap_m,
         }
@@ -168,6 +170,11 @@ impl HalfSpace {
         self.convolutions
     }
 
+    /// Instants that the slow, safe way had to solve.
+    pub fn safeguarded_instants(&self) -> u64 {
+        self.safeguarded
+    }
+
     /// The surface displacement u = B (A p + H) in metres of the instant last solved, one value per cell.
     pub fn displacement_m(&self, compliance_per_pa: f64) -> impl Iterator<Item = f64> + '_ {
         let grid = self.operator.grid();
@@ -198,6 +205,7 @@ impl HalfSpace {
         pressure: &mut [f64],
         work: &mut Work,
     ) -> Result<Found, ContactError> {
+        self.safeguarded += 1;
         let mut safeguard = match self.safeguard.take() {
             Some(safeguard) => safeguard,
             None => Box::new(PolonskyKeer::new(&self.operator)),

@@ -104,6 +104,25 @@ mod tests {
     }
 
     #[test]
+    fn windows_are_few_hold_what_they_must_and_are_hardly_larger() {
+        let mut lengths: Vec<usize> = (1..2000)
+            .map(|needed| window_length(needed, 4096))
+            .collect();
+        for (needed, &length) in (1..2000).zip(&lengths) {
+            assert!(
+                length >= needed && length <= needed.max(16) * 5 / 4,
+                "{needed}: {length}"
+            );
+        }
+        lengths.dedup();
+        assert!(lengths.len() < 50, "{}", lengths.len());
+        // Near the size of the grid, or beyond it, the grid itself.
+        assert_eq!(window_length(95, 100), 100);
+        assert_eq!(window_length(100, 100), 100);
+        assert_eq!(window_length(5, 10), 10);
+    }
+
+    #[test]
     fn strides_are_whole_cache_lines_and_no_large_power_of_two() {
         for length in 1..2000 {
             let stride = conflict_free_stride(length);

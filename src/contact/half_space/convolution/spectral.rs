@@ -152,7 +152,7 @@ pub(super) struct SpectralProduct<R> {
     column_forward: Arc<dyn Fft<f64>>,
     column_inverse: Arc<dyn Fft<f64>>,
     /// `column_length / 2 + 1` values per column.
-    spectrum: Vec<f64>,
+    pub(super) spectrum: Vec<f64>,
 }
 
 impl<R: Row> SpectralProduct<R> {

@@ -90,3 +90,100 @@ impl WindowOperators {
         own + self.preconditioner.product.bytes()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Windows from one cell to long strips, with square and oblong cells.
+    const SHAPES: [(usize, usize, f64, f64); 9] = [
+        (1, 1, 1.0, 1.0),
+        (2, 7, 1.0, 1.0),
+        (16, 16, 1.0e-6, 1.0e-6),
+        (45, 31, 1.0, 1.7),
+        (64, 48, 3.0, 1.0),
+        (16, 512, 1.0, 1.0),
+        (300, 16, 1.0, 1.0),
+        (32, 32, 1.0, 1000.0),
+        (40, 40, 1000.0, 1.0),
+    ];
+
+    #[test]
+    fn the_preconditioner_is_positive_whatever_the_window() {
+        for (cells_x, cells_y, spacing_x, spacing_y) in SHAPES {
+            let grid = Grid::new(cells_x, cells_y, spacing_x, spacing_y).unwrap();
+            let preconditioner = Preconditioner::new(&grid).unwrap();
+            let spectrum = &preconditioner.product.spectrum;
+            assert!(
+                spectrum.iter().all(|v| *v > 0.0 && v.is_finite()),
+                "{grid:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn it_nearly_inverts_the_operator_inside_a_window() {
+        // A smooth load in the middle of the window: what comes back is the load, but for what the window cuts off.
+        let grid = Grid::square(96, 1.0).unwrap();
+        let load = |cell| {
+            let (x, y) = grid.center(cell);
+            (-(x * x + y * y) / 72.0).exp()
+        };
+        let pressure: Vec<f64> = (0..grid.cells()).map(load).collect();
+        let convolution = Convolution::new(grid).unwrap();
+        let mut displacement = vec![0.0; grid.cells()];
+        let mut scratch = convolution.scratch();
+        convolution
+            .apply(&pressure, &mut displacement, &mut scratch)
+            .unwrap();
+        let preconditioner = Preconditioner::new(&grid).unwrap();
+        let mut back = vec![0.0; grid.cells()];
+        preconditioner
+            .apply(&displacement, &mut back, 0..96, &mut scratch)
+            .unwrap();
+        for iy in 40..56 {
+            let cell = iy * 96 + 48;
+            // The periodic images, a hundred cells away, change the displacement by a tenth.
+            assert!(
+                (back[cell] - pressure[cell]).abs() < 0.1,
+                "{} {}",
+                back[cell],
+                pressure[cell]
+            );
+        }
+    }
+
+    #[test]
+    fn only_the_rows_wanted_are_written() {
+        let grid = Grid::new(20, 30, 1.0, 1.0).unwrap();
+        let preconditioner = Preconditioner::new(&grid).unwrap();
+        let residual: Vec<f64> = (0..grid.cells()).map(|i| (i % 7) as f64).collect();
+        let mut scratch = Scratch::empty();
+        let mut whole = vec![0.0; grid.cells()];
+        preconditioner
+            .apply(&residual, &mut whole, 0..30, &mut scratch)
+            .unwrap();
+        let mut part = vec![-1.0; grid.cells()];
+        preconditioner
+            .apply(&residual, &mut part, 9..14, &mut scratch)
+            .unwrap();
+        for (cell, value) in part.iter().enumerate() {
+            let wanted = (9..14).contains(&(cell / 20));
+            assert_eq!(*value, if wanted { whole[cell] } else { -1.0 });
+        }
+    }
+
+    #[test]
+    fn a_window_is_built_once_and_never_larger_than_the_grid() {
+        let grid = Grid::new(50, 40, 1.0, 1.0).unwrap();
+        let whole = Convolution::new(grid).unwrap();
+        let window = whole.window(32, 28).unwrap();
+        assert_eq!(window.convolution(&whole).grid().cells(), 32 * 28);
+        assert!(std::sync::Arc::ptr_eq(
+            &window,
+            &whole.window(32, 28).unwrap()
+        ));
+        let all = whole.window(80, 80).unwrap();
+        assert!(std::ptr::eq(all.convolution(&whole), &whole));
+    }
+}

@@ -188,21 +188,7 @@ impl ActiveSet {
         };
         state.reference_m = problem.compliance_per_pa * own_m + problem.noise_m / problem.tolerance;
         let joining_m = -JOINING * problem.tolerance * state.reference_m;
-        let (mut misfit, mut lowest_m) = (0.0, 0.0_f64);
-        self.contact.clear();
-        for (cell, (&p, &gap)) in self.pressure.iter().zip(&self.gap_m).enumerate() {
-            let gap_m = gap - state.approach_m;
-            if p > 0.0 {
-                misfit += p * gap_m.abs();
-                state.cells += 1;
-                self.contact.push(cell);
-            } else if gap_m < joining_m {
-                lowest_m = lowest_m.min(gap_m);
-                self.contact.push(cell);
-            } else {
-                lowest_m = lowest_m.min(gap_m);
-            }
-        }
+        let (misfit, lowest_m) = self.find_contact(problem, &mut state, joining_m);
         let inside_m = if loaded {
             misfit / state.pressure_sum
         } else {
@@ -215,6 +201,41 @@ impl ActiveSet {
             0.0
         };
         state
+    }
+
+    /// Finds the contact: the cells with pressure, and those that penetrate by more than `joining_m` allows. Returns the sum of
+    /// p |gap|, and the lowest gap outside, at most 0 (m).
+    fn find_contact(
+        &mut self,
+        problem: &Problem<'_>,
+        state: &mut State,
+        joining_m: f64,
+    ) -> (f64, f64) {
+        let (mut misfit, mut lowest_m) = (0.0, 0.0_f64);
+        let cells_x = problem.frame.cells_x;
+        self.contact.clear();
+        let rows = self.pressure.chunks_exact(cells_x);
+        for (iy, (pressure, gaps_m)) in rows.zip(self.gap_m.chunks_exact(cells_x)).enumerate() {
+            let least_m = least(gaps_m) - state.approach_m;
+            if least_m >= joining_m && sum(pressure) == 0.0 {
+                lowest_m = lowest_m.min(least_m);
+                continue;
+            }
+            for (ix, (&p, &gap)) in pressure.iter().zip(gaps_m).enumerate() {
+                let gap_m = gap - state.approach_m;
+                if p > 0.0 {
+                    misfit += p * gap_m.abs();
+                    state.cells += 1;
+                } else {
+                    lowest_m = lowest_m.min(gap_m);
+                    if gap_m >= joining_m {
+                        continue;
+                    }
+                }
+                self.contact.push(iy * cells_x + ix);
+            }
+        }
+        (misfit, lowest_m)
     }
 
     /// Conjugate gradients on the contact as it is. False where there is no way down.

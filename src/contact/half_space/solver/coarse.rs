@@ -13,8 +13,8 @@ const FEWEST_CELLS: usize = 32;
 const TOLERANCE: f64 = 1e-3;
 
 impl HalfSpace {
-    /// Fills `pressure`, which has no guess yet, with one from a coarser grid where that saves work. Leaves it at zero where a
-    /// coarser grid has no answer.
+    /// Fills `pressure`, zero so far, with a guess from a coarser grid where that saves work. Leaves it as it is
+    /// where a coarser grid has no answer.
     pub(super) fn guess_from_coarse(
         &self,
         instant: &Instant<'_>,

@@ -32,11 +32,15 @@ impl HalfSpace {
     ) -> Result<Option<Found>, ContactError> {
         let grid = *self.operator.grid();
         let row = grid.cells_x();
-        if pressure.iter().all(|&p| p <= 0.0) {
-            pressure.fill(0.0);
+        let mut guess = Bounds::of(pressure, row);
+        if guess.is_none() {
             self.guess_from_coarse(instant, imposed, pressure, work)?;
+            guess = Bounds::of(pressure, row);
         }
-        start(imposed.target_sum(), &self.gap_m, pressure);
+        let rows = guess.map_or(0..grid.cells_y(), |bounds| bounds.y);
+        let loaded = rows.start * row..rows.end * row;
+        let gap_m = &self.gap_m[loaded.clone()];
+        start(imposed.target_sum(), gap_m, &mut pressure[loaded]);
         let history = Bounds::of(instant.history, row);
         let mut contact = match Bounds::of(pressure, row) {
             Some(bounds) => Frame::with_room(&bounds, &grid),
