@@ -82,6 +82,7 @@ struct Case<'a> {
     compliance: &'a Creep,
     amplitude_n: f64,
     period_s: f64,
+    steps: usize,
 }
 
 impl Case<'_> {
@@ -100,7 +101,7 @@ impl Case<'_> {
             drive: &drive,
             mean: Prescribed::LoadN(MEAN_N),
             period_s: self.period_s,
-            steps: STEPS,
+            steps: self.steps,
         };
         let settings = SteadySettings {
             tolerance,
@@ -111,11 +112,11 @@ impl Case<'_> {
 
     /// Loss of the next cycle of a march that stands at the end of one.
     fn next_loss(&self, march: &mut March<'_>) -> f64 {
-        let weights = march.weights(self.period_s / STEPS as f64);
+        let weights = march.weights(self.period_s / self.steps as f64);
         let first = march.solution().unwrap();
         let (mut load, mut approach) = (vec![first.load_n], vec![first.approach_m]);
-        for step in 1..=STEPS {
-            let load_now = self.load(step as f64 / STEPS as f64);
+        for step in 1..=self.steps {
+            let load_now = self.load(step as f64 / self.steps as f64);
             let solution = march.step(&weights, load_now).unwrap();
             load.push(solution.load_n);
             approach.push(solution.approach_m);
@@ -128,6 +129,7 @@ impl Case<'_> {
 /// the engine is made for the indenter, the largest load and the compliance.
 fn counts(
     shapes: &[(Box<dyn Indenter>, f64)],
+    steps: usize,
     engine: &(dyn Fn(&dyn Indenter, f64, &Creep) -> Box<dyn Engine> + Sync),
 ) -> Vec<(usize, String)> {
     let materials = materials();
@@ -147,6 +149,7 @@ fn counts(
             compliance,
             amplitude_n: *amplitude_n,
             period_s: std::f64::consts::TAU * time_s / 10_f64.powi(*decade),
+            steps,
         };
         let mut engine = engine(shape.as_ref(), MEAN_N + amplitude_n, compliance);
         let mut march = case.march(engine.as_mut());
@@ -174,7 +177,7 @@ fn three_spectra_over_eight_decades_take_a_handful_of_cycles_to_a_loss_within_1e
         (Box::new(Cone::new(1.2).unwrap()), 5.0),
         (Box::new(Cone::new(1.2).unwrap()), 10.0),
     ];
-    let counts = counts(&shapes, &|indenter, load_n, compliance| {
+    let counts = counts(&shapes, STEPS, &|indenter, load_n, compliance| {
         Box::new(springs(indenter, load_n, compliance))
     });
     let median = counts[counts.len() / 2].0;
@@ -191,12 +194,12 @@ fn on_cells_it_takes_half_as_many_again_at_most() {
         (Box::new(Sphere::new(0.01).unwrap()), 10.0),
         (Box::new(Cone::new(1.2).unwrap()), 5.0),
     ];
-    let counts = counts(&shapes, &|indenter, load_n, compliance| {
+    let counts = counts(&shapes, STEPS / 2, &|indenter, load_n, compliance| {
         Box::new(cells(indenter, load_n, compliance))
     });
     let median = counts[counts.len() / 2].0;
     let (worst, what) = &counts[counts.len() - 1];
-    println!("{counts:?}");
+    // Seen: 6 and 17, in 100 steps, of which half have to do here.
     assert!(median <= 9, "{median} cycles on the median");
     assert!(*worst <= 22, "{worst} cycles for {what}");
 }
@@ -210,6 +213,7 @@ fn the_cycle_found_directly_is_the_one_that_marching_ends_in() {
             compliance,
             amplitude_n,
             period_s: std::f64::consts::TAU / 0.1,
+            steps: STEPS,
         };
         let sphere = Sphere::new(0.01).unwrap();
         let mut engine = springs(&sphere, MEAN_N + amplitude_n, compliance);
@@ -234,6 +238,7 @@ fn a_search_that_may_not_go_on_says_so() {
         compliance,
         amplitude_n: 10.0,
         period_s: 1.0,
+        steps: STEPS,
     };
     let sphere = Sphere::new(0.01).unwrap();
     let mut engine = springs(&sphere, 20.0, compliance);

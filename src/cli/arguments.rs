@@ -5,7 +5,10 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
+use super::compare;
 use crate::material::{GivenFace, ModulusKind};
+use crate::sweep::checkpoint;
+use crate::sweep::shard::Shard;
 
 /// Dynamic mechanical analysis by contact: what a viscoelastic half-space dissipates under an oscillating indenter.
 #[derive(Debug, Parser)]
@@ -22,12 +25,21 @@ Exit codes:
   1  could not run
   2  bad usage or bad input
   3  done, but some cases have no result (they are named, and absent from the curve)
+  4  the results compared differ by more than the tolerances
   130  interrupted; what was finished is kept";
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Compute the energy loss per cycle over the load frequencies of a sweep file
     Sweep(SweepFlags),
+    /// Print the cases of a sweep file and about what they cost, and compute nothing
+    Plan(PlanFlags),
+    /// Join the shards of a sweep that have folders of their own
+    Merge(MergeFlags),
+    /// Draw tables and figures again from stored records, without solving
+    Report(ReportFlags),
+    /// Say whether two results of a sweep are the same, and where they differ
+    Compare(CompareFlags),
     /// Follow one drive history: load or approach against time, from a scenario file
     Simulate(SimulateFlags),
     /// Make the computed figures of the base paper, with every number held against its exact value
@@ -51,6 +63,10 @@ Examples:
   contact-dma sweep sweeps/pmma.toml
   contact-dma sweep sweeps/pmma.toml --set indenter.radius='5 mm' --out reports/small
   contact-dma sweep sweeps/pmma.toml --set solver.engine=half-space --threads 2
+  contact-dma sweep sweeps/pmma.toml --shard 2/8
+
+The same command again goes on where it was stopped: cases with intact records are read, not
+computed, and a long case goes on from its last checkpoint.
 
 Written to the output folder: sweep.csv (one row per frequency), loops/ (the stabilised
 cycles), summary.json (peaks, counts), figures as SVG and PNG with their data
@@ -71,9 +87,96 @@ pub(super) struct SweepFlags {
     /// --set cycle.accuracy=X
     #[arg(long, value_name = "X")]
     pub(super) accuracy: Option<f64>,
+    /// Compute only the part K of N; `merge` joins parts in separate folders
+    #[arg(long, value_name = "K/N")]
+    pub(super) shard: Option<Shard>,
+    /// Print what would be computed and about what it costs, and compute nothing
+    #[arg(long)]
+    pub(super) dry_run: bool,
+    /// Seconds between two checkpoints of a case that takes long
+    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY.as_secs())]
+    pub(super) checkpoint_every: u64,
+    /// Replace the results of a different sweep, or of a newer program, in the output folder
+    #[arg(long)]
+    pub(super) force: bool,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct PlanFlags {
+    /// The sweep file (TOML)
+    pub(super) file: PathBuf,
+    /// Change one key of the sweep file; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(super) set: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  contact-dma sweep sweeps/pmma.toml --shard 1/2 --out reports/part-1   # on one machine
+  contact-dma sweep sweeps/pmma.toml --shard 2/2 --out reports/part-2   # on another
+  contact-dma merge reports/part-1 reports/part-2 --out reports/pmma
+
+The records of all cases are brought together; then the curve is refined where the sweep asks
+for it and the peaks are located, which is solver work, and tables and figures are written. The
+result is that of one process, bit for bit.")]
+pub(super) struct MergeFlags {
+    /// Folders of the parts
+    #[arg(required = true, value_name = "DIR")]
+    pub(super) parts: Vec<PathBuf>,
+    /// Folder for the whole
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: PathBuf,
+    /// Number of threads [default: one per processor]
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS")]
+    pub(super) threads: Option<std::num::NonZeroUsize>,
     /// Replace the results of a different sweep in the output folder
     #[arg(long)]
     pub(super) force: bool,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ReportFlags {
+    /// Folder of a sweep
+    #[arg(value_name = "DIR")]
+    pub(super) folder: PathBuf,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma compare reports/baseline/pmma reports/pmma
+  contact-dma compare a/sweep.csv b/sweep.csv --relative 1e-3 --tolerance peak_pressure_max_pa=1e-2
+
+Cases are matched by drive and frequency, peaks by frequency. Values on the same steps and nodes
+are the same within --relative and --absolute; on different ones, within their error bars too.
+With --out, both curves of the loss and their difference are drawn as SVG and PNG, with data.")]
+pub(super) struct CompareFlags {
+    /// Folder of a sweep, or a sweep.csv
+    pub(super) baseline: PathBuf,
+    /// The same of what is compared with it
+    pub(super) new: PathBuf,
+    /// Relative difference allowed
+    #[arg(long, value_name = "R", default_value = "1e-6", value_parser = compare::tolerance)]
+    pub(super) relative: f64,
+    /// Absolute difference allowed, in SI units, on top
+    #[arg(long, value_name = "A", default_value = "0", value_parser = compare::tolerance)]
+    pub(super) absolute: f64,
+    /// Relative difference allowed in one column; may be repeated
+    #[arg(long, value_name = "COLUMN=R", value_parser = compare::column_tolerance)]
+    pub(super) tolerance: Vec<(String, f64)>,
+    /// Folder for a figure of both
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
     /// Print nothing but errors
     #[arg(long, short)]
     pub(super) quiet: bool,

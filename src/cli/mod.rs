@@ -1,8 +1,10 @@
 //! The command line: flags and files to plans, outcomes to text and exit codes. The only room that knows flags.
 //!
-//! Exit codes: 0 done; 1 could not run; 2 bad usage or bad input; 3 done, but some cases did not converge; 130 interrupted.
+//! Exit codes: 0 done; 1 could not run; 2 bad usage or bad input; 3 done, but some cases did not converge; 4 results differ (`compare`);
+//! 130 interrupted.
 
 mod arguments;
+mod compare;
 pub mod diagnostic;
 pub mod document;
 mod drive_table;
@@ -13,11 +15,13 @@ mod material;
 mod material_block;
 mod material_fit;
 mod material_table;
+mod plan;
 mod progress;
 mod reproduce;
 pub mod scenario_file;
 mod segments_block;
 mod simulate;
+mod stored;
 mod sweep;
 pub mod sweep_file;
 mod table_file;
@@ -43,6 +47,7 @@ enum Ended {
     Done,
     SomeCasesWithoutResult,
     Interrupted,
+    Differs,
 }
 
 /// Why a command did not run to its end.
@@ -83,6 +88,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     let ended = match arguments.command {
         Command::Sweep(flags) => sweep::run(&flags),
+        Command::Plan(flags) => plan::run(&flags),
+        Command::Merge(flags) => stored::merge(&flags),
+        Command::Report(flags) => stored::report(&flags),
+        Command::Compare(flags) => compare::run(&flags),
         Command::Simulate(flags) => simulate::run(&flags),
         Command::Reproduce(flags) => reproduce::run(&flags),
         Command::Material(command) => material::run(&command),
@@ -95,6 +104,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     match ended {
         Ok(Ended::Done) => ExitCode::SUCCESS,
         Ok(Ended::SomeCasesWithoutResult) => ExitCode::from(3),
+        Ok(Ended::Differs) => ExitCode::from(4),
         Ok(Ended::Interrupted) => ExitCode::from(130),
         Err(failure) => report(failure),
     }

@@ -13,6 +13,7 @@ use crate::sweep::run::Progress;
 pub(super) struct Shown {
     total: usize,
     done: AtomicUsize,
+    found: AtomicUsize,
     how: How,
 }
 
@@ -34,8 +35,14 @@ impl Shown {
         Self {
             total,
             done: AtomicUsize::new(0),
+            found: AtomicUsize::new(0),
             how,
         }
+    }
+
+    /// How many cases had records before.
+    pub(super) fn found(&self) -> usize {
+        self.found.load(Ordering::Relaxed)
     }
 
     /// Takes the bar away, so that the table stands alone.
@@ -73,6 +80,28 @@ impl Progress for Shown {
                 record.status.name(),
                 record.cycles
             )),
+            How::Silent => {}
+        }
+    }
+
+    fn cases_found(&self, done: usize, of: usize) {
+        self.done.fetch_add(done, Ordering::Relaxed);
+        self.found.store(done, Ordering::Relaxed);
+        let text = format!("{done} of {of} cases were already done");
+        match &self.how {
+            How::Bar(bar) => {
+                bar.set_position(done as u64);
+                bar.suspend(|| line(&text));
+            }
+            How::Lines => line(&text),
+            How::Silent => {}
+        }
+    }
+
+    fn told(&self, what: &str) {
+        match &self.how {
+            How::Bar(bar) => bar.suspend(|| line(what)),
+            How::Lines => line(what),
             How::Silent => {}
         }
     }

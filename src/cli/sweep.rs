@@ -1,42 +1,159 @@
 //! `contact-dma sweep`: from a sweep file to the folder of results.
 
+use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use super::arguments::SweepFlags;
 use super::progress::Shown;
 use super::{Ended, Failure, open_document, open_store, print, sweep_file};
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
+use crate::sweep::provenance::{Circumstances, Stopwatch};
 use crate::sweep::record::Status;
 use crate::sweep::resolved;
-use crate::sweep::run::{self, Outcome};
+use crate::sweep::run::{self, Options, Outcome, RunError};
+use crate::sweep::shard::{self, Shard};
+use crate::sweep::store::{Store, StoreError};
 
 /// Runs the command.
 pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
+    let clock = Stopwatch::start();
     let accuracy = flags.accuracy.map(|a| format!("cycle.accuracy={a:?}"));
     let set: Vec<String> = flags.set.iter().cloned().chain(accuracy).collect();
     let document = open_document(&flags.file, &set)?;
     let plan = sweep_file::plan(&document)?;
     let setup = Setup::new(plan).map_err(Failure::input)?;
+    if flags.dry_run {
+        return super::plan::show(&setup);
+    }
     let resolved = resolved::resolved_text(setup.plan());
     let store = open_store(&flags.file, flags.out.as_deref(), &resolved, flags.force)?;
     let interrupt = interrupt_flag()?;
-    let threads = match flags.threads {
+    let setup = setup.interrupted_by(Arc::clone(&interrupt));
+    let options = Options {
+        threads: threads(flags.threads),
+        checkpoint_every: Duration::from_secs(flags.checkpoint_every),
+    };
+    let mut job = Job {
+        setup: &setup,
+        store: &store,
+        quiet: flags.quiet,
+        command: "sweep",
+        clock,
+        threads: options.threads,
+        found: 0,
+    };
+    if let Some(shard) = flags.shard {
+        return run_shard(job, shard, &options, &interrupt);
+    }
+    let progress = Shown::new(setup.plan().cases().len(), flags.quiet);
+    let outcome = run::run_with(&setup, &store, &options, &interrupt, &progress);
+    progress.finish();
+    job.found = progress.found();
+    job.finish(&outcome.map_err(failure)?)
+}
+
+/// The number of threads asked for, or one per processor.
+pub(super) fn threads(asked: Option<NonZeroUsize>) -> usize {
+    match asked {
         Some(threads) => threads.get(),
         None => std::thread::available_parallelism().map_or(1, usize::from),
-    };
-    let cases = setup.plan().cases().len();
-    let progress = Shown::new(cases, flags.quiet);
-    let outcome = run::run(&setup, &store, threads, &interrupt, &progress);
-    progress.finish();
-    let outcome = outcome.map_err(Failure::run)?;
-    let left_out = report::write_sweep(&store, setup.plan(), &outcome).map_err(Failure::run)?;
-    if !flags.quiet {
-        print(&text(&setup, &outcome, &left_out, store.folder()))?;
     }
-    Ok(ended(&outcome))
+}
+
+/// A folder whose contents must not be used is an input that is wrong; anything else that stops a run is not.
+pub(super) fn failure(error: RunError) -> Failure {
+    match error {
+        RunError::Store(
+            StoreError::NewerProgram { .. }
+            | StoreError::OtherSweep { .. }
+            | StoreError::NoSweep { .. },
+        ) => Failure::input(error),
+        other => Failure::run(other),
+    }
+}
+
+/// A run that has come to its end, and what it takes to tell of it.
+pub(super) struct Job<'a> {
+    pub(super) setup: &'a Setup,
+    pub(super) store: &'a Store,
+    pub(super) quiet: bool,
+    pub(super) command: &'static str,
+    pub(super) clock: Stopwatch,
+    pub(super) threads: usize,
+    /// Cases that had records before.
+    pub(super) found: usize,
+}
+
+impl Job<'_> {
+    /// Writes tables, figures and where they come from, and prints the result.
+    pub(super) fn finish(&self, outcome: &Outcome) -> Result<Ended, Failure> {
+        let plan = self.setup.plan();
+        let left_out = report::write_sweep(self.store, plan, outcome).map_err(Failure::run)?;
+        self.sign(outcome.records.len(), outcome.interrupted, None)?;
+        if !self.quiet {
+            let folder = self.store.folder();
+            print(&text(self.setup, outcome, &left_out, folder))?;
+        }
+        Ok(ended(outcome))
+    }
+
+    /// Writes run.json.
+    fn sign(&self, records: usize, interrupted: bool, shard: Option<Shard>) -> Result<(), Failure> {
+        let circumstances = Circumstances {
+            command: self.command,
+            threads: self.threads,
+            shard: shard.map(|shard| shard.to_string()),
+            cases_computed: records.saturating_sub(self.found),
+            cases_found: self.found,
+            interrupted,
+        };
+        let plan = self.setup.plan();
+        let written = self.clock.write(self.store, plan, &circumstances);
+        written.map_err(Failure::run)
+    }
+}
+
+fn run_shard(
+    mut job: Job<'_>,
+    shard: Shard,
+    options: &Options,
+    interrupt: &AtomicBool,
+) -> Result<Ended, Failure> {
+    let own = shard::cases(job.setup, shard).len();
+    let progress = Shown::new(own, job.quiet);
+    let part = run::run_shard(job.setup, job.store, shard, options, interrupt, &progress);
+    progress.finish();
+    let part = part.map_err(failure)?;
+    job.found = progress.found();
+    let done = part.records.len();
+    job.sign(done, part.interrupted, Some(shard))?;
+    if let Some(whole) = &part.whole {
+        return job.finish(whole);
+    }
+    if !job.quiet {
+        let folder = job.store.folder().display();
+        let next = match part.interrupted {
+            true => "Interrupted: the same command goes on from here.".to_owned(),
+            false => format!(
+                "{} cases of the other shards are missing in this folder. The process that ends last locates the peaks and \
+                 draws the\nfigures; where the shards have folders of their own, `contact-dma merge` does.",
+                part.missing
+            ),
+        };
+        print(&format!(
+            "Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}\n"
+        ))?;
+    }
+    let without_result = part.records.iter().any(|r| r.status != Status::Converged);
+    Ok(match (part.interrupted, without_result) {
+        (true, _) => Ended::Interrupted,
+        (false, true) => Ended::SomeCasesWithoutResult,
+        (false, false) => Ended::Done,
+    })
 }
 
 /// A flag that Ctrl-C, SIGTERM and SIGHUP set. A second signal ends the program at once; every file is whole even then.

@@ -257,6 +257,10 @@ impl Engine for Axisymmetric {
         self.check_disc(force, solution.approach_m, solution.contact_radius_m)
     }
 
+    fn resume_from(&mut self, last: &Solution) {
+        self.approach_m = last.approach_m;
+    }
+
     fn elastic_displacement(
         &mut self,
         force: &[f64],

@@ -20,6 +20,9 @@ pub mod axisymmetric;
 pub mod half_space;
 pub mod surface;
 
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
 use half_space::grid::Grid;
 use surface::{Response, Surface};
 
@@ -83,6 +86,8 @@ pub enum ContactError {
          longer a disc, which only the half-space engine can treat (set solver.engine = \"half-space\")"
     )]
     Ring { radius_m: f64 },
+    #[error("interrupted")]
+    Interrupted,
     #[error("{reason}")]
     Operator { reason: String },
     #[error("the prescribed {what} is {value}: it must be finite{also}")]
@@ -135,6 +140,14 @@ pub trait Engine: Send {
     ) -> Result<(), ContactError> {
         Ok(())
     }
+
+    /// Gives the engine a flag that ends an instant under way with [`ContactError::Interrupted`]; engines whose instants are
+    /// short need none.
+    fn interrupted_by(&mut self, _flag: Arc<AtomicBool>) {}
+
+    /// Makes the engine what it was after the instant that came to `last`: what it carries from one instant to the next, which
+    /// may only speed up the next, is then the same, and so is every bit and count of what follows.
+    fn resume_from(&mut self, _last: &Solution) {}
 
     /// B p: the displacement per node that this nodal pressure makes, per unit of compliance.
     ///

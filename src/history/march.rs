@@ -23,6 +23,18 @@ pub struct March<'a, M = Memory> {
     convolutions: u64,
 }
 
+/// A march at one of its instants: enough to go on from there, bit for bit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MarchState {
+    /// As [`Memory::variables`].
+    pub variables: Vec<f64>,
+    /// Nodal pressure of the instant, the guess for the next.
+    pub pressure: Vec<f64>,
+    pub solution: Option<Solution>,
+    pub iterations: u64,
+    pub convolutions: u64,
+}
+
 /// Sees every instant of a march: the engine, the nodal pressure and the solution.
 pub type Observer<'o> =
     dyn FnMut(&mut dyn Engine, &[f64], &Solution) -> Result<(), ContactError> + 'o;
@@ -277,6 +289,36 @@ impl March<'_> {
         Ok(self.count(solution))
     }
 
+    /// Where the march stands, for [`March::restore`]; a fluid's flow is not part of it.
+    pub fn state(&self) -> MarchState {
+        MarchState {
+            variables: self.memory.variables().to_vec(),
+            pressure: self.pressure.clone(),
+            solution: self.solution,
+            iterations: self.iterations,
+            convolutions: self.convolutions,
+        }
+    }
+
+    /// Goes back to where a march of the same engine and compliance stood. False, and nothing done, where the state is one
+    /// of other nodes or branches.
+    pub fn restore(&mut self, state: &MarchState) -> bool {
+        let fits = state.variables.len() == self.memory.variables().len()
+            && state.pressure.len() == self.pressure.len();
+        if fits {
+            self.memory.recall(&state.variables);
+            self.pressure.copy_from_slice(&state.pressure);
+            self.solution = state.solution;
+            if let Some(last) = &state.solution {
+                self.engine.resume_from(last);
+            }
+            self.iterations = state.iterations;
+            self.convolutions = state.convolutions;
+            self.forget_course();
+        }
+        fits
+    }
+
     /// Goes back to memory variables known from before, branch-major as in [`Memory::variables`]. The pressure stays as the
     /// guess for the next instant, which must be a jump.
     pub fn recall(&mut self, variables: &[f64]) {
@@ -284,7 +326,9 @@ impl March<'_> {
         self.forget_course();
     }
 
-    fn forget_course(&mut self) {
+    /// Lets the next instant start from the last pressure alone, as after [`March::restore`]: a march that forgets its course
+    /// wherever it might be stopped goes on from there with the same bits.
+    pub fn forget_course(&mut self) {
         if let Some(extrapolation) = &mut self.extrapolation {
             extrapolation.forget();
         }

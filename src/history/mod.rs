@@ -22,5 +22,5 @@ mod memory;
 pub use direct::{ComplianceFunction, DirectMemory, DirectStep, Quadrature};
 pub use dissipation::Dissipation;
 pub use hereditary::Hereditary;
-pub use march::{March, Observer};
+pub use march::{March, MarchState, Observer};
 pub use memory::{Memory, StepWeights, TimeRule};

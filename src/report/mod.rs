@@ -1,12 +1,14 @@
 //! Tables and figures, from records alone: nothing here solves anything.
 
 pub mod chart;
+pub mod comparison;
 pub mod figure;
 pub mod fit;
 pub mod material;
 pub mod npy;
 pub mod samples;
 pub mod scenario;
+pub mod stamp;
 pub mod summary;
 pub mod table;
 pub mod terminal;
@@ -18,6 +20,7 @@ use crate::sweep::plan::SweepPlan;
 use crate::sweep::run::Outcome;
 use crate::sweep::store::{Store, StoreError};
 use chart::ChartError;
+use stamp::Stamp;
 
 /// Why a report cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -54,7 +57,10 @@ pub fn write_sweep(
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
     store.write("summary.json", &summary)?;
     let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
-    figure::write_all(&figures, &|name, bytes| store.write(name, bytes))?;
+    let stamp = Stamp::of(store.sweep_hash());
+    figure::write_all(&figures, &|name, bytes| {
+        store.write(name, &stamp.on(name, bytes))
+    })?;
     // An earlier run of the same sweep, which came further, may have left figures that this one has not.
     let has = |name: &str| figures.iter().any(|figure| figure.name == name);
     for name in files::FIGURES.into_iter().filter(|name| !has(name)) {

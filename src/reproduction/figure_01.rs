@@ -6,7 +6,7 @@ use super::by_engine::{By, simulate};
 use super::claim::Value;
 use super::look::{Member, SPRINGS, cells_label, evenly, spread};
 use super::number::datum;
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Verdict};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Verdict, series_of};
 use crate::material::Material;
 use crate::report::chart::{Axis, Chart, LegendPlace};
 use crate::report::table::Table;
@@ -20,8 +20,8 @@ pub(super) fn figures(
     interrupt: &AtomicBool,
 ) -> Result<Vec<Figure>, ReproductionError> {
     let plan = plans.scenario("figure-01")?;
-    let relaxation = plan
-        .material
+    let material = series_of(plan)?;
+    let relaxation = material
         .relaxation()
         .ok_or_else(|| ReproductionError::Unfit("PMMA has a relaxation modulus".to_owned()))?;
     let modulus = |time_s: f64| MEGA * relaxation.modulus(time_s);
@@ -66,7 +66,7 @@ pub(super) fn figures(
             .to_owned(),
         panels: vec![chart],
         data: table.finish()?,
-        claims: claims(&plan.material, &modulus, &springs, &cells)?,
+        claims: claims(material, &modulus, &springs, &cells)?,
     }])
 }
 

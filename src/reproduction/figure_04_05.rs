@@ -8,7 +8,7 @@ use super::claim::Value;
 use super::look::{Member, evenly, spread};
 use super::number::datum;
 use super::scale::{ProfilePoint, at};
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict, series_of};
 use crate::contact::Prescribed;
 use crate::contact::surface::Surface;
 use crate::drive::Control;
@@ -68,7 +68,7 @@ fn there_and_back(
 ) -> Result<(SimulationOutcome, f64), ReproductionError> {
     let simulation = Simulation::new(plan.clone())?;
     let outcome = by_engine::run(&simulation, interrupt)?;
-    let compliance = plan.material.contact_compliance()?;
+    let compliance = series_of(plan)?.contact_compliance()?;
     let largest = LargestContact {
         control: Control::Load,
         maximum: plan.drive.maximum(),
@@ -147,7 +147,7 @@ impl StepFigure {
         mut simulate: impl FnMut(By) -> Result<SimulationOutcome, ReproductionError>,
     ) -> Result<Self, ReproductionError> {
         let load_n = plan.drive.maximum();
-        let scale = Scale::new(&plan.material, plan.indenter.as_ref(), load_n)?;
+        let scale = Scale::new(series_of(plan)?, plan.indenter.as_ref(), load_n)?;
         let springs = simulate(By::Springs)?;
         let on_cells = simulate(By::Cells)?;
         Ok(Self {

@@ -7,7 +7,7 @@ use super::by_engine::{By, cell_m, simulate};
 use super::claim::Value;
 use super::look::{Member, spread};
 use super::number::datum;
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict, series_of};
 use crate::reference::step_load::maxwell_falling_ramp_cubed_radius;
 use crate::reference::transient::maxwell_half_sine_cubed_radius;
 use crate::report::chart::{Axis, Chart, LegendPlace, Series};
@@ -162,7 +162,11 @@ fn compute(
     interrupt: &AtomicBool,
 ) -> Result<Computed, ReproductionError> {
     let plan = plans.scenario(case.file)?;
-    let scale = Scale::new(&plan.material, plan.indenter.as_ref(), plan.drive.maximum())?;
+    let scale = Scale::new(
+        series_of(plan)?,
+        plan.indenter.as_ref(),
+        plan.drive.maximum(),
+    )?;
     let hertz_m = scale.contact_radius_m;
     let signal = |by| -> Result<(Signal, f64), ReproductionError> {
         let outcome = simulate(plan, by, interrupt)?;

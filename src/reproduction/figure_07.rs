@@ -8,7 +8,7 @@ use super::claim::Value;
 use super::look::{Member, evenly, spread};
 use super::number::datum;
 use super::scale::{ProfilePoint, at};
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict, series_of};
 use crate::reference::step_load::StepLoad;
 use crate::report::chart::{Axis, Chart, LegendPlace, Series};
 use crate::report::table::Table;
@@ -80,7 +80,7 @@ fn body(
 ) -> Result<Body, ReproductionError> {
     let plan = plans.scenario(file)?;
     let load_n = plan.drive.maximum();
-    let scale = Scale::new(&plan.material, plan.indenter.as_ref(), load_n)?;
+    let scale = Scale::new(series_of(plan)?, plan.indenter.as_ref(), load_n)?;
     Ok(Body {
         name,
         part,

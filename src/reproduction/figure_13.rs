@@ -139,8 +139,8 @@ fn largest(
         let losses = omegas
             .iter()
             .map(|&omega| by_sweep(plan, omega, 1, interrupt));
-        let losses: Result<Vec<f64>, _> = losses
-            .map(|r| Ok::<_, ReproductionError>(r?.analysis.energy_loss_j))
+        let losses: Result<Vec<search::Loss>, _> = losses
+            .map(|r| Ok::<_, ReproductionError>((r?.analysis.energy_loss_j, None)))
             .collect();
         losses.map_err(|error| search::PeakError::Case {
             angular_frequency_rad_per_s: bracket[1].0,

@@ -37,6 +37,7 @@ pub use scale::Scale;
 
 use crate::contact::ContactError;
 use crate::cycle::LoopError;
+use crate::material::Material;
 use crate::material::MaterialError;
 use crate::report::ReportError;
 use crate::report::chart::{self, Chart, ChartError};
@@ -157,6 +158,12 @@ impl Plans {
     fn sweep(&self, name: &'static str) -> Result<&SweepPlan, ReproductionError> {
         self.sweeps.get(name).ok_or(ReproductionError::NoPlan(name))
     }
+}
+
+/// The material of a scenario as the series that the closed forms need.
+fn series_of(plan: &ScenarioPlan) -> Result<&Material, ReproductionError> {
+    let unfit = || ReproductionError::Unfit("the scenario's material is no series".to_owned());
+    plan.material.series().ok_or_else(unfit)
 }
 
 /// What makes figures: one of them, or several from the same computations.

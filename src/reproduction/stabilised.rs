@@ -14,7 +14,7 @@ use crate::history::March;
 use crate::steady::{self, SteadySettings};
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::engines::{EngineBuilder, LargestContact, prescribed};
-use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::plan::{Case, EngineKind, SolverPlan, SweepPlan};
 use crate::sweep::record::CaseResult;
 
 /// A stabilised cycle with its surfaces.
@@ -49,8 +49,14 @@ pub(super) fn by_sweep(
         plan.solver.springs *= 2;
         plan.cycle.tolerance *= 0.1;
     }
+    plan.cycle.error_bars = false;
+    let case = Case {
+        index: 0,
+        angular_frequency_rad_per_s: omega,
+        drive: plan.drive,
+    };
     let record = Setup::new(plan)?
-        .run(0, omega, interrupt)
+        .run(&case, interrupt)
         .ok_or(ReproductionError::Interrupted)?;
     let message = record.message;
     record.result.ok_or_else(|| {
@@ -172,7 +178,7 @@ fn search(
         steps,
     };
     let stop = || interrupt.load(Ordering::Relaxed);
-    let found = steady::find(&mut march, &cycle, SETTINGS, &stop)?;
+    let found = steady::find(&mut march, &cycle, None, SETTINGS, &stop)?;
     if stop() {
         return Err(ReproductionError::Interrupted);
     }

@@ -24,6 +24,27 @@ impl Anderson {
         }
     }
 
+    /// Everything it looks back on: iterate, update, then the changes of both in turn, oldest first.
+    pub(super) fn state(&self) -> Vec<Vec<f64>> {
+        let mut state = vec![self.iterate.clone(), self.update.clone()];
+        for (moved, changed) in &self.changes {
+            state.extend([moved.clone(), changed.clone()]);
+        }
+        state
+    }
+
+    /// Looks back on what [`Anderson::state`] gave. Without it, forgets everything.
+    pub(super) fn restore(&mut self, state: &[Vec<f64>]) {
+        self.reset();
+        if let [iterate, update, changes @ ..] = state {
+            self.iterate.clone_from(iterate);
+            self.update.clone_from(update);
+            let pairs = changes.chunks_exact(2);
+            self.changes
+                .extend(pairs.map(|pair| (pair[0].clone(), pair[1].clone())));
+        }
+    }
+
     /// Forgets everything: the next step is plain.
     pub(super) fn reset(&mut self) {
         self.iterate.clear();

@@ -4,7 +4,7 @@ use super::anderson::Anderson;
 use super::correction::{ContactPattern, Correction};
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::cycle;
-use crate::history::{March, StepWeights};
+use crate::history::{March, MarchState, StepWeights};
 
 /// One cycle of the drive.
 pub struct Cycle<'a> {
@@ -39,6 +39,48 @@ pub struct Steady {
     pub distance: f64,
 }
 
+/// Where a search begins.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Begin {
+    /// From a memory (branch-major, as [`crate::history::Memory::variables`]; of the same cycle in other steps, say), or from
+    /// the body relaxed under the mean.
+    Memory(Option<Vec<f64>>),
+    /// Where a search of the same cycle stood.
+    State(Box<SearchState>),
+}
+
+/// Where a search stands between two cycles: enough to go on from there, bit for bit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SearchState {
+    /// Memory from which the next cycle starts.
+    pub start: Vec<f64>,
+    pub march: MarchState,
+    /// The best memory so far: its distance, itself, its update.
+    pub best: (f64, Vec<f64>, Vec<f64>),
+    /// What the acceleration looks back on.
+    pub anderson: Vec<Vec<f64>>,
+    pub cycles: usize,
+    pub distance: f64,
+}
+
+impl SearchState {
+    /// Whether this is a state of so many memory variables.
+    fn fits(&self, variables: usize) -> bool {
+        let vectors = [&self.start, &self.best.1, &self.best.2];
+        let anderson = self.anderson.iter().filter(|v| !v.is_empty());
+        let mut all = vectors.into_iter().chain(anderson);
+        all.all(|vector| vector.len() == variables)
+    }
+}
+
+/// Looks over a search.
+pub struct Watch<'a> {
+    /// Asked before every time step whether to stop.
+    pub stop: &'a dyn Fn() -> bool,
+    /// Told before every cycle but the first; what it is handed makes the state.
+    pub between_cycles: &'a dyn Fn(&dyn Fn() -> SearchState),
+}
+
 /// Past updates that the acceleration looks back on.
 const DEPTH: usize = 12;
 
@@ -58,60 +100,138 @@ pub fn find(
     settings: SteadySettings,
     stop: &dyn Fn() -> bool,
 ) -> Result<Steady, ContactError> {
-    let correction = Correction::new(march.memory().compliance(), cycle.period_s, cycle.steps);
-    let mut start = match start {
-        Some(start) => start,
-        None => {
-            march.relax(cycle.mean)?;
-            march.memory().variables().to_vec()
-        }
+    let watch = Watch {
+        stop,
+        between_cycles: &|_| {},
     };
+    find_from(march, cycle, Begin::Memory(start), settings, &watch)
+}
+
+/// As [`find`], from wherever a search may begin, and watched. A state that is not one of this march is passed over.
+///
+/// # Errors
+/// As [`find`].
+pub fn find_from(
+    march: &mut March<'_>,
+    cycle: &Cycle<'_>,
+    begin: Begin,
+    settings: SteadySettings,
+    watch: &Watch<'_>,
+) -> Result<Steady, ContactError> {
+    let correction = Correction::new(march.memory().compliance(), cycle.period_s, cycle.steps);
+    let mut search = Search::begin(march, cycle, begin)?;
     let nodes = march.pressure().len();
     let mut run = Run::new(march, cycle);
-    let mut update = vec![0.0; start.len()];
-    let mut anderson = Anderson::new(DEPTH);
-    let mut best = (f64::INFINITY, start.clone(), update.clone());
+    let mut update = vec![0.0; search.start.len()];
     let keep_mean_load = matches!(cycle.mean, Prescribed::LoadN(_));
-    let mut steady = Steady {
-        converged: false,
-        cycles: 0,
-        distance: f64::INFINITY,
-    };
-    while steady.cycles < settings.max_cycles {
-        march.recall(&start);
-        if !run.cycle(march, cycle, stop)? {
+    while search.steady.cycles < settings.max_cycles {
+        if search.steady.cycles > 0 {
+            (watch.between_cycles)(&|| search.state(march));
+        }
+        march.recall(&search.start);
+        if !run.cycle(march, cycle, watch.stop)? {
             break;
         }
-        steady.cycles += 1;
+        search.steady.cycles += 1;
         let end = march.memory().variables();
-        let memory = correction.distance(&start, end, nodes, &mut update) / run.scale;
+        let memory = correction.distance(&search.start, end, nodes, &mut update) / run.scale;
         let closure = cycle::closure_error(&run.load_n, &run.approach_m);
-        steady.distance = match closure {
+        search.steady.distance = match closure {
             Some(closure) if memory.is_finite() => memory.max(closure),
             _ => f64::INFINITY,
         };
-        if steady.distance <= settings.tolerance {
-            steady.converged = true;
+        if search.steady.distance <= settings.tolerance {
+            search.steady.converged = true;
             break;
         }
         correction.apply(&run.contact, keep_mean_load, &mut update);
-        if memory > SETBACK * best.0 {
+        search.advance(memory, &update, &|i| correction.weight(i / nodes));
+    }
+    Ok(search.steady)
+}
+
+/// What a search carries from cycle to cycle.
+struct Search {
+    start: Vec<f64>,
+    /// The best memory so far: its distance, itself, its update.
+    best: (f64, Vec<f64>, Vec<f64>),
+    anderson: Anderson,
+    steady: Steady,
+}
+
+impl Search {
+    fn begin(march: &mut March<'_>, cycle: &Cycle<'_>, begin: Begin) -> Result<Self, ContactError> {
+        let variables = march.memory().variables().len();
+        let memory = match begin {
+            Begin::State(state) if state.fits(variables) && march.restore(&state.march) => {
+                return Ok(Self::resumed(*state));
+            }
+            Begin::State(_) => None,
+            Begin::Memory(memory) => memory,
+        };
+        let start = match memory {
+            Some(memory) => memory,
+            None => {
+                march.relax(cycle.mean)?;
+                march.memory().variables().to_vec()
+            }
+        };
+        Ok(Self {
+            best: (f64::INFINITY, start.clone(), vec![0.0; start.len()]),
+            start,
+            anderson: Anderson::new(DEPTH),
+            steady: Steady {
+                converged: false,
+                cycles: 0,
+                distance: f64::INFINITY,
+            },
+        })
+    }
+
+    fn resumed(state: SearchState) -> Self {
+        let mut anderson = Anderson::new(DEPTH);
+        anderson.restore(&state.anderson);
+        Self {
+            start: state.start,
+            best: state.best,
+            anderson,
+            steady: Steady {
+                converged: false,
+                cycles: state.cycles,
+                distance: state.distance,
+            },
+        }
+    }
+
+    fn state(&self, march: &March<'_>) -> SearchState {
+        SearchState {
+            start: self.start.clone(),
+            march: march.state(),
+            best: self.best.clone(),
+            anderson: self.anderson.state(),
+            cycles: self.steady.cycles,
+            distance: self.steady.distance,
+        }
+    }
+
+    /// The memory to start the next cycle from, after one at distance `memory` that suggests `update`.
+    fn advance(&mut self, memory: f64, update: &[f64], weight: &dyn Fn(usize) -> f64) {
+        if memory > SETBACK * self.best.0 {
             // The acceleration went astray: back to the best memory, by half its own update.
-            anderson.reset();
-            start.copy_from_slice(&best.1);
-            for (m, dm) in start.iter_mut().zip(&best.2) {
+            self.anderson.reset();
+            self.start.copy_from_slice(&self.best.1);
+            for (m, dm) in self.start.iter_mut().zip(&self.best.2) {
                 *m += 0.5 * dm;
             }
-            continue;
+            return;
         }
-        if memory < best.0 {
-            best.0 = memory;
-            best.1.copy_from_slice(&start);
-            best.2.copy_from_slice(&update);
+        if memory < self.best.0 {
+            self.best.0 = memory;
+            self.best.1.copy_from_slice(&self.start);
+            self.best.2.copy_from_slice(update);
         }
-        anderson.advance(&mut start, &update, &|i| correction.weight(i / nodes));
+        self.anderson.advance(&mut self.start, update, weight);
     }
-    Ok(steady)
 }
 
 /// One cycle and what the search wants to know of it.

@@ -11,4 +11,4 @@ mod anderson;
 mod correction;
 mod iteration;
 
-pub use iteration::{Cycle, Steady, SteadySettings, find};
+pub use iteration::{Begin, Cycle, SearchState, Steady, SteadySettings, Watch, find, find_from};

@@ -4,9 +4,10 @@ use std::collections::HashMap;
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 
-use crate::contact::ContactError;
+use crate::contact::{ContactError, Engine};
 use crate::drive::HarmonicDrive;
 use crate::material::{Creep, MaterialError};
+use crate::sweep::checkpoint::Checkpoints;
 use crate::sweep::engines::{AsContactError, EngineBuilder, EngineError, LargestContact};
 use crate::sweep::error_bars::{ErrorBars, Ladder, Pair, Quantity};
 use crate::sweep::plan::{Case, EngineKind, SweepPlan};
@@ -33,6 +34,8 @@ pub struct Setup {
     compliance: Creep,
     relaxed_compliance_per_pa: f64,
     engines: Mutex<HashMap<EngineKey, Arc<EngineBuilder>>>,
+    /// Ends an instant under way, where the engine's instants are long.
+    interrupt: Option<Arc<AtomicBool>>,
 }
 
 /// What engines differ in: the largest value of the drive, bit for bit, and the number of springs or cells.
@@ -95,12 +98,20 @@ impl Setup {
             relaxed_compliance_per_pa,
             compliance,
             engines: Mutex::default(),
+            interrupt: None,
             plan,
         };
         for drive in setup.plan.drives() {
             setup.engines(drive, setup.plan.solver.nodes())?;
         }
         Ok(setup)
+    }
+
+    /// The same, with the flag handed to [`Setup::run`] known to the engines too, so that it is heard within an instant.
+    #[must_use]
+    pub fn interrupted_by(mut self, flag: Arc<AtomicBool>) -> Self {
+        self.interrupt = Some(flag);
+        self
     }
 
     /// The plan.
@@ -144,6 +155,15 @@ impl Setup {
         Ok(builder)
     }
 
+    /// An engine of its own for a drive with so many springs or cells, on the domain before it is enlarged.
+    pub(super) fn engine(
+        &self,
+        drive: &HarmonicDrive,
+        nodes: usize,
+    ) -> Result<Box<dyn Engine>, EngineError> {
+        self.engines(drive, nodes)?.engine(0)
+    }
+
     /// Predicted cost of a case, in cycles: marching at a high frequency needs many to forget the start.
     pub fn predicted_cycles(&self, case: &Case) -> f64 {
         use crate::sweep::plan::Method;
@@ -165,6 +185,17 @@ impl Setup {
 
     /// Runs one case to its record; `None` where it was interrupted.
     pub fn run(&self, case: &Case, interrupt: &AtomicBool) -> Option<CaseRecord> {
+        self.run_from(&Checkpoints::none(), case, interrupt)
+    }
+
+    /// As [`Setup::run`], from the checkpoints that an earlier run of the same case has left; the record is the same, bit for
+    /// bit. An interruption leaves new ones.
+    pub fn run_from(
+        &self,
+        checkpoints: &Checkpoints,
+        case: &Case,
+        interrupt: &AtomicBool,
+    ) -> Option<CaseRecord> {
         let cycle = self.plan.cycle;
         let mut record = CaseRecord {
             index: case.index,
@@ -191,6 +222,7 @@ impl Setup {
             time_rule: self.plan.solver.time_rule,
             cycle,
             interrupt,
+            checkpoints,
         };
         let ended = match cycle.accuracy {
             Some(accuracy) => self.to_accuracy(&contact, accuracy, &mut record),
@@ -198,7 +230,10 @@ impl Setup {
         };
         match ended {
             Ok(()) => {}
-            Err(CaseError::Cycle(CycleError::Interrupted)) => return None,
+            Err(CaseError::Cycle(CycleError::Interrupted)) => {
+                checkpoints.flush();
+                return None;
+            }
             Err(error) => {
                 record.result = None;
                 record.status = Status::Failed;
@@ -367,6 +402,9 @@ impl Setup {
                 }
             },
             |engine| {
+                if let Some(flag) = &self.interrupt {
+                    engine.interrupted_by(Arc::clone(flag));
+                }
                 let mut solved: Vec<(usize, Stabilised)> = Vec::with_capacity(steps.len());
                 for &steps in steps {
                     let start = solved.last().map(|(_, coarser)| coarser.memory.clone());

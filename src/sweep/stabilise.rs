@@ -3,12 +3,13 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::contact::surface::Surface;
-use crate::contact::{ContactError, Engine, Prescribed};
+use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::{self, BranchChange, Extrema, Loop, LoopError};
 use crate::drive::HarmonicDrive;
 use crate::history::{Dissipation, March, StepWeights, TimeRule};
 use crate::material::Creep;
-use crate::steady::{self, SteadySettings};
+use crate::steady::{self, Begin, SteadySettings};
+use crate::sweep::checkpoint::{Checkpoints, Level, Progress};
 use crate::sweep::plan::{CyclePlan, Method};
 use crate::sweep::record::{BranchLoss, CaseResult, SurfaceLoss};
 
@@ -25,6 +26,7 @@ pub(super) struct Contact<'a> {
     pub time_rule: TimeRule,
     pub cycle: CyclePlan,
     pub interrupt: &'a AtomicBool,
+    pub checkpoints: &'a Checkpoints,
 }
 
 /// A cycle's end.
@@ -37,6 +39,8 @@ pub(super) struct Stabilised {
     pub message: Option<String>,
     /// Memory at the start of the recorded cycle, to start a finer one from.
     pub memory: Vec<f64>,
+    /// The last instant, which the engine goes on from.
+    pub last: Option<Solution>,
     pub result: Option<CaseResult>,
 }
 
@@ -44,11 +48,20 @@ pub(super) struct Stabilised {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(super) enum CycleError {
     #[error(transparent)]
-    Contact(#[from] ContactError),
+    Contact(ContactError),
     #[error(transparent)]
     Loop(#[from] LoopError),
     #[error("interrupted")]
     Interrupted,
+}
+
+impl From<ContactError> for CycleError {
+    fn from(error: ContactError) -> Self {
+        match error {
+            ContactError::Interrupted => Self::Interrupted,
+            other => Self::Contact(other),
+        }
+    }
 }
 
 impl Contact<'_> {
@@ -76,10 +89,36 @@ impl Contact<'_> {
         steps: usize,
         start: Option<Vec<f64>>,
     ) -> Result<Stabilised, CycleError> {
-        if self.cycle.method == Method::March {
-            return self.march(engine, steps);
+        let level = self.checkpoints.begin(engine.nodes(), steps);
+        if let Some(finished) = self.checkpoints.finished(&level) {
+            if let Some(last) = &finished.last {
+                engine.resume_from(last);
+            }
+            return Ok(finished);
         }
-        let (direct, why) = match self.search(engine, steps, start) {
+        let ended = self.on_level(&level, engine, steps, start)?;
+        self.checkpoints.finish(&level, &ended);
+        Ok(ended)
+    }
+
+    fn on_level(
+        &self,
+        level: &Level,
+        engine: &mut dyn Engine,
+        steps: usize,
+        start: Option<Vec<f64>>,
+    ) -> Result<Stabilised, CycleError> {
+        let begin = match self.checkpoints.progress(level) {
+            Some(marching @ Progress::Marching { .. }) => {
+                return self.march(level, engine, steps, marching);
+            }
+            Some(Progress::Searching(state)) => Begin::State(state),
+            None => Begin::Memory(start),
+        };
+        if self.cycle.method == Method::March {
+            return self.march(level, engine, steps, Progress::unmarched(None));
+        }
+        let (direct, why) = match self.search(level, engine, steps, begin) {
             Ok(stabilised) if stabilised.result.is_some() => return Ok(stabilised),
             Ok(stabilised) => {
                 let message = stabilised.message.unwrap_or_default();
@@ -90,21 +129,16 @@ impl Contact<'_> {
             }
             Err(error) => return Err(error),
         };
-        let mut marched = self.march(engine, steps)?;
-        marched.cycles += direct;
-        let also = marched.message.map(|m| format!("; {m}"));
-        marched.message = Some(format!(
-            "the direct search failed ({why}), so the cycle was marched{}",
-            also.unwrap_or_default()
-        ));
-        Ok(marched)
+        let unmarched = Progress::unmarched(Some((direct, why)));
+        self.march(level, engine, steps, unmarched)
     }
 
     fn search(
         &self,
+        level: &Level,
         engine: &mut dyn Engine,
         steps: usize,
-        start: Option<Vec<f64>>,
+        begin: Begin,
     ) -> Result<Stabilised, CycleError> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
         let drive = |fraction| self.prescribed(fraction);
@@ -118,7 +152,16 @@ impl Contact<'_> {
             tolerance: self.cycle.tolerance,
             max_cycles: SEARCH_CYCLES.min(self.cycle.max_cycles),
         };
-        let found = steady::find(&mut march, &cycle, start, settings, &|| self.interrupted())?;
+        let watch = steady::Watch {
+            stop: &|| self.interrupted(),
+            between_cycles: &|state| {
+                if self.checkpoints.is_wanted() {
+                    let state = Progress::Searching(Box::new(state()));
+                    self.checkpoints.keep(level, state);
+                }
+            },
+        };
+        let found = steady::find_from(&mut march, &cycle, begin, settings, &watch)?;
         if self.interrupted() {
             return Err(CycleError::Interrupted);
         }
@@ -133,21 +176,61 @@ impl Contact<'_> {
         Ok(cycles.ended(Method::Direct, &march, recorded))
     }
 
-    fn march(&self, engine: &mut dyn Engine, steps: usize) -> Result<Stabilised, CycleError> {
+    /// Marches on from where the level stands, until a cycle is within the tolerance.
+    fn march(
+        &self,
+        level: &Level,
+        engine: &mut dyn Engine,
+        steps: usize,
+        progress: Progress,
+    ) -> Result<Stabilised, CycleError> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
-        march.jump(self.mean())?;
-        march.hold(self.drive.hold_s(), self.mean())?;
-        march.jump(self.prescribed(0.0))?;
         let mut cycles = Cycles::new(self, &march, steps);
-        while cycles.count < self.cycle.max_cycles {
+        let after_search = match progress {
+            Progress::Marching {
+                after_search,
+                cycles: count,
+                distance,
+                march: state,
+            } => {
+                if count > 0 && march.restore(&state) {
+                    (cycles.count, cycles.distance) = (count, distance);
+                }
+                after_search
+            }
+            Progress::Searching(_) => None,
+        };
+        if cycles.count == 0 {
+            march.jump(self.mean())?;
+            march.hold(self.drive.hold_s(), self.mean())?;
+            march.jump(self.prescribed(0.0))?;
+        }
+        let mut result = None;
+        while result.is_none() && cycles.count < self.cycle.max_cycles {
+            if cycles.count > 0 && self.checkpoints.is_wanted() {
+                let marching = Progress::Marching {
+                    after_search: after_search.clone(),
+                    cycles: cycles.count,
+                    distance: cycles.distance,
+                    march: march.state(),
+                };
+                self.checkpoints.keep(level, marching);
+            }
             cycles.run(&mut march, None)?;
-            if cycles.is_within_tolerance()
-                && let Some(result) = cycles.record(&mut march)?
-            {
-                return Ok(cycles.ended(Method::March, &march, Some(result)));
+            if cycles.is_within_tolerance() {
+                result = cycles.record(&mut march)?;
             }
         }
-        Ok(cycles.ended(Method::March, &march, None))
+        let mut marched = cycles.ended(Method::March, &march, result);
+        if let Some((direct, why)) = after_search {
+            marched.cycles += direct;
+            let also = marched.message.map(|m| format!("; {m}"));
+            marched.message = Some(format!(
+                "the direct search failed ({why}), so the cycle was marched{}",
+                also.unwrap_or_default()
+            ));
+        }
+        Ok(marched)
     }
 }
 
@@ -195,6 +278,8 @@ impl<'a> Cycles<'a> {
         march: &mut March<'_>,
         mut recording: Option<&mut Recording>,
     ) -> Result<(), CycleError> {
+        // A checkpoint may lie here.
+        march.forget_course();
         self.start.clear();
         self.start.extend_from_slice(march.memory().variables());
         self.load_n.clear();
@@ -291,6 +376,7 @@ impl<'a> Cycles<'a> {
             distance: self.distance,
             message,
             memory: self.start,
+            last: march.solution(),
             result,
         }
     }

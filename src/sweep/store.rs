@@ -5,9 +5,9 @@ use std::io::{self, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
-
-use crate::sweep::record::CaseRecord;
+use crate::sweep::checkpoint;
+use crate::sweep::difference;
+use crate::sweep::resolved::hash;
 
 /// Why the folder cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -21,31 +21,38 @@ pub enum StoreError {
     #[error("cannot encode {path}: {reason}")]
     Encode { path: PathBuf, reason: String },
     #[error(
-        "{path} holds results of a different sweep or scenario; choose another folder with --out, or replace them with --force"
+        "{path} holds results of a different sweep or scenario; choose another folder with --out, or replace them with --force\n\
+         {difference}"
     )]
-    OtherSweep { path: PathBuf },
+    OtherSweep { path: PathBuf, difference: String },
+    #[error(
+        "{path} was written by version {version} of the program, newer than this one ({}): use that version, choose another \
+         folder with --out, or compute again with --force",
+        env!("CARGO_PKG_VERSION")
+    )]
+    NewerProgram { path: PathBuf, version: String },
+    #[error("{path} is no folder of a sweep: {reason}")]
+    NoSweep { path: PathBuf, reason: String },
 }
 
 /// A folder that holds the results of one sweep.
 #[derive(Debug, Clone)]
 pub struct Store {
-    folder: PathBuf,
-    sweep_hash: String,
-}
-
-/// A record as stored, with what it takes to know that it belongs to the sweep.
-#[derive(Serialize, Deserialize)]
-struct Stored<'a> {
-    program_version: &'a str,
-    sweep_hash: &'a str,
-    case: std::borrow::Cow<'a, CaseRecord>,
+    pub(super) folder: PathBuf,
+    pub(super) sweep_hash: String,
+    /// Whether records of a newer program may be replaced.
+    pub(super) force: bool,
 }
 
 /// The resolved sweep file inside the folder.
 pub const RESOLVED: &str = "resolved.toml";
 
 /// What a sweep leaves in its folder besides single files: folders with one file per case.
-const CASE_FOLDERS: [&str; 2] = ["records", "loops"];
+const CASE_FOLDERS: [&str; 4] = ["records", "loops", "peaks", "checkpoints"];
+/// How many changed lines of a resolved sweep a message shows.
+const LINES_SHOWN: usize = 12;
+/// How the names of files begin that have not taken their own name yet.
+const TEMPORARY: &str = ".contact-dma-";
 /// The same of a scenario: folders with one file per requested time.
 const SURFACE_FOLDERS: [&str; 2] = ["profiles", "fields"];
 
@@ -67,21 +74,49 @@ impl Store {
         let store = Self {
             folder: folder.to_path_buf(),
             sweep_hash: sweep_hash.to_owned(),
+            force,
         };
         let path = folder.join(RESOLVED);
         match fs::read(&path) {
             Ok(existing) if existing == resolved.as_bytes() => {}
-            Ok(_) if !force => {
+            Ok(existing) if !force => {
+                let existing = String::from_utf8_lossy(&existing);
                 return Err(StoreError::OtherSweep {
                     path: folder.to_path_buf(),
+                    difference: difference::lines(&existing, resolved, LINES_SHOWN),
                 });
             }
             Ok(_) => store.clear()?,
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(source) => return Err(StoreError::Read { path, source }),
         }
+        store.sweep_out();
         store.write(RESOLVED, resolved.as_bytes())?;
         Ok(store)
+    }
+
+    /// Opens a folder in which a sweep has been computed; the resolved sweep is returned with it.
+    ///
+    /// # Errors
+    /// [`StoreError`] where the folder holds none.
+    pub fn reopen(folder: &Path) -> Result<(Self, String), StoreError> {
+        let path = folder.join(RESOLVED);
+        let resolved = match fs::read_to_string(&path) {
+            Ok(resolved) => resolved,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Err(StoreError::NoSweep {
+                    path: folder.to_path_buf(),
+                    reason: format!("it has no {RESOLVED}"),
+                });
+            }
+            Err(source) => return Err(StoreError::Read { path, source }),
+        };
+        let store = Self {
+            folder: folder.to_path_buf(),
+            sweep_hash: hash(&resolved),
+            force: false,
+        };
+        Ok((store, resolved))
     }
 
     /// The folder.
@@ -102,22 +137,26 @@ impl Store {
         write_atomically(&self.folder.join(name), bytes)
     }
 
-    /// Stores the record of a finished case.
-    ///
-    /// # Errors
-    /// [`StoreError`] with the path.
-    pub fn save_case(&self, record: &CaseRecord) -> Result<(), StoreError> {
-        let name = Path::new(CASE_FOLDERS[0]).join(format!("{:04}.json", record.index));
-        let stored = Stored {
-            program_version: env!("CARGO_PKG_VERSION"),
-            sweep_hash: &self.sweep_hash,
-            case: std::borrow::Cow::Borrowed(record),
-        };
-        let text = serde_json::to_vec(&stored).map_err(|error| StoreError::Encode {
-            path: self.folder.join(&name),
-            reason: error.to_string(),
-        })?;
-        self.write(name, &text)
+    /// Removes the checkpoints of all cases.
+    pub(super) fn remove_checkpoints(&self) {
+        // There are none, most often.
+        let _ = fs::remove_dir_all(self.folder.join(checkpoint::FOLDER));
+    }
+
+    /// Removes what a process that was killed has left half-written. A process that is still writing there writes again.
+    fn sweep_out(&self) {
+        let folders = CASE_FOLDERS.iter().map(|name| self.folder.join(name));
+        for folder in std::iter::once(self.folder.clone()).chain(folders) {
+            let Ok(entries) = fs::read_dir(folder) else {
+                continue;
+            };
+            for entry in entries.flatten() {
+                if entry.file_name().to_string_lossy().starts_with(TEMPORARY) {
+                    // Gone already, or not ours to remove: no reason to stop.
+                    let _ = fs::remove_file(entry.path());
+                }
+            }
+        }
     }
 
     /// Removes what an earlier sweep left, before another takes the folder.
@@ -161,18 +200,36 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
         path: folder.to_path_buf(),
         source,
     })?;
-    let write = || -> io::Result<()> {
-        // tempfile's own default is readable by the owner alone.
-        let mut file = tempfile::Builder::new()
-            .permissions(Permissions::from_mode(0o666))
-            .tempfile_in(folder)?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        file.persist(path)?;
-        Ok(())
-    };
-    write().map_err(|source| StoreError::Write {
+    let failed = |source| StoreError::Write {
         path: path.to_path_buf(),
         source,
-    })
+    };
+    for _ in 0..ATTEMPTS {
+        match write_once(folder, path, bytes) {
+            Err(error) if was_swept_out(&error) && folder.is_dir() => {}
+            ended => return ended.map_err(failed),
+        }
+    }
+    write_once(folder, path, bytes).map_err(failed)
+}
+
+/// How often a file is written anew whose unfinished form another process took for a left-over.
+const ATTEMPTS: usize = 20;
+
+fn write_once(folder: &Path, path: &Path, bytes: &[u8]) -> io::Result<()> {
+    // tempfile's own default is readable by the owner alone.
+    let mut file = tempfile::Builder::new()
+        .prefix(TEMPORARY)
+        .permissions(Permissions::from_mode(0o666))
+        .tempfile_in(folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    file.persist(path)?;
+    Ok(())
+}
+
+/// Whether the temporary file is gone: by its name, or on a network file system by its handle.
+fn was_swept_out(error: &io::Error) -> bool {
+    const STALE_FILE_HANDLE: i32 = 116;
+    error.kind() == io::ErrorKind::NotFound || error.raw_os_error() == Some(STALE_FILE_HANDLE)
 }

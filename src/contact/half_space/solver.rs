@@ -18,6 +18,7 @@ mod sums;
 mod windows;
 
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use active_set::{ActiveSet, Scratches, Work};
 use frame::{Bounds, Frame};
@@ -96,6 +97,7 @@ pub struct HalfSpace {
     windows: Option<Windows>,
     convolutions: u64,
     safeguarded: u64,
+    interrupt: Option<Arc<AtomicBool>>,
 }
 
 /// An instant solved.
@@ -136,6 +138,7 @@ impl HalfSpace {
             windows: None,
             convolutions: 0,
             safeguarded: 0,
+            interrupt: None,
             operator,
             gap_m,
         }
@@ -217,6 +220,7 @@ impl HalfSpace {
             gap_m: &self.gap_m,
             compliance: instant.compliance_per_pa,
             imposed,
+            work,
         };
         let solved = safeguard.solve(&given, instant.history, pressure, work.steps);
         work.convolutions += safeguard.convolutions;
@@ -351,13 +355,20 @@ impl Engine for HalfSpace {
         true
     }
 
+    fn interrupted_by(&mut self, flag: Arc<AtomicBool>) {
+        self.interrupt = Some(flag);
+    }
+
     fn solve(
         &mut self,
         instant: &Instant<'_>,
         pressure: &mut [f64],
     ) -> Result<Solution, ContactError> {
         let prescribed = instant.prescribed.check()?;
-        let mut work = Work::default();
+        let mut work = Work {
+            interrupt: self.interrupt.clone(),
+            ..Work::default()
+        };
         let found = self.find(instant, prescribed, pressure, &mut work);
         self.convolutions += work.convolutions as u64;
         let found = found?;

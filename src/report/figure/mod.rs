@@ -1,6 +1,7 @@
 //! Figures, one file each: a chart and the data behind it. Every figure is written as SVG and as PNG in two resolutions.
 
 pub mod cole_cole;
+pub mod comparison;
 pub mod curve;
 pub mod dissipation;
 pub mod dissipation_map;

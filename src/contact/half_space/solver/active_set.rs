@@ -9,6 +9,9 @@
 //! Changes of the contact are not proved to end, so the number of steps without progress is bounded; what is then left to do
 //! is done by [`super::polonsky_keer`], which descends.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use super::super::convolution::{Convolution, Scratch, WindowOperators};
 use super::frame::Frame;
 use super::outside::Moments;
@@ -70,13 +73,26 @@ impl Scratches {
     }
 }
 
-/// Work counted.
-#[derive(Debug, Clone, Copy, Default)]
+/// Work counted, and whether to go on with it.
+#[derive(Debug, Clone, Default)]
 pub(super) struct Work {
     pub(super) steps: usize,
     pub(super) convolutions: usize,
     /// Steps since the gap was last computed afresh.
     pub(super) carried: usize,
+    /// Set from outside to end the instant.
+    pub(super) interrupt: Option<Arc<AtomicBool>>,
+}
+
+impl Work {
+    /// [`ContactError::Interrupted`] where the instant is to end.
+    pub(super) fn go_on(&self) -> Result<(), ContactError> {
+        let asked = self.interrupt.as_deref();
+        match asked.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            true => Err(ContactError::Interrupted),
+            false => Ok(()),
+        }
+    }
 }
 
 /// Steps after which the residual must have halved.
@@ -262,6 +278,7 @@ impl ActiveSet {
         let constant_sum = self.precondition_constant(problem, scratch)?;
         let (mut previous, mut first_misfit, mut least_outside_m) = (0.0, 0.0, f64::INFINITY);
         for inner in 0..STEPS_PER_CONTACT {
+            work.go_on()?;
             let (misfit, approach_m) = self.update_residual(problem);
             let misfit = misfit / state.reference_m;
             if inner == 0 {

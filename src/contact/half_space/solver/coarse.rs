@@ -45,7 +45,10 @@ impl HalfSpace {
             Imposed::PressureSum(sum) => Imposed::PressureSum(0.25 * sum),
             approach => approach,
         };
-        let mut coarse_work = Work::default();
+        let mut coarse_work = Work {
+            interrupt: work.interrupt.clone(),
+            ..Work::default()
+        };
         let solved = engine.solve_in_windows(&coarse, imposed, &mut guess, &mut coarse_work);
         work.convolutions += coarse_work.convolutions;
         if matches!(solved, Ok(Some(_))) {

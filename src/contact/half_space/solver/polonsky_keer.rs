@@ -7,6 +7,7 @@
 //! where the contact changes, it costs two.
 
 use super::super::convolution::{Convolution, Scratch};
+use super::active_set::Work;
 use super::residual::{Fields, Residual};
 use super::{Imposed, ROUNDING, SolverSettings, start};
 use crate::contact::ContactError;
@@ -35,6 +36,7 @@ pub(super) struct Given<'a> {
     pub(super) gap_m: &'a [f64],
     pub(super) compliance: f64,
     pub(super) imposed: Imposed,
+    pub(super) work: &'a Work,
 }
 
 /// The state of the iteration between two passes.
@@ -265,6 +267,7 @@ impl PolonskyKeer {
         let tolerance = given.settings.tolerance;
         let (mut relative, mut iterations) = (f64::INFINITY, taken);
         for iteration in taken..given.settings.max_iterations {
+            given.work.go_on()?;
             let fields = Fields {
                 pressure,
                 free_gap_m: &self.free_gap_m,

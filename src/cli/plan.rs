@@ -1,0 +1,94 @@
+//! `contact-dma plan`: what a sweep file would compute, and about what that costs.
+
+use std::fmt::Write;
+
+use super::arguments::PlanFlags;
+use super::{Ended, Failure, open_document, print, sweep_file};
+use crate::quantity::{Dimension, format_human};
+use crate::report::terminal::frequency;
+use crate::sweep::case::Setup;
+use crate::sweep::cost::Cost;
+use crate::sweep::plan::EngineKind;
+
+/// Cases listed before the rest is counted.
+const LISTED: usize = 100;
+
+/// Runs the command.
+pub(super) fn run(flags: &PlanFlags) -> Result<Ended, Failure> {
+    let document = open_document(&flags.file, &flags.set)?;
+    let plan = sweep_file::plan(&document)?;
+    show(&Setup::new(plan).map_err(Failure::input)?)
+}
+
+/// Prints cases and cost of a sweep.
+pub(super) fn show(setup: &Setup) -> Result<Ended, Failure> {
+    let cost = Cost::of(setup).map_err(Failure::input)?;
+    print(&text(setup, &cost))
+}
+
+fn text(setup: &Setup, cost: &Cost) -> String {
+    let plan = setup.plan();
+    let memory = format!("{} MB", two_digits(cost.memory_bytes / 1e6));
+    let mut text = format!("{}\n\n", plan.title);
+    text.push_str(" case    ω / rad/s   drive mean   amplitude   cycles     about   memory\n");
+    for case in cost.cases.iter().take(LISTED) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            text,
+            "{:>5}   {:>10}   {:>10}   {:>9}   {:>6.0}   {:>7}   {memory}",
+            case.case.index,
+            frequency(case.case.angular_frequency_rad_per_s),
+            case.case.drive.mean(),
+            case.case.drive.amplitude(),
+            case.cycles.ceil(),
+            spoken(case.time_s),
+        );
+    }
+    if cost.cases.len() > LISTED {
+        let _ = writeln!(text, "  and {} more", cost.cases.len() - LISTED);
+    }
+    let nodes = match plan.solver.engine {
+        EngineKind::Axisymmetric => format!("{} springs", plan.solver.springs),
+        EngineKind::HalfSpace => format!("{0} x {0} cells", plan.solver.cells),
+    };
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let _ = write!(
+        text,
+        "\n{} cases on {} ({} engine), {} steps per cycle.\n\
+         Time: about {} on one thread, about {} on {processors}, from {} per step measured here;\n\
+         peaks and refinement come on top, about ten cases for every peak.\n\
+         Memory: about {memory} for every thread.\n\
+         Shards: {} (below about ten minutes each, more of them gain little).\n",
+        cost.cases.len(),
+        nodes,
+        plan.solver.engine.name(),
+        plan.cycle.steps,
+        spoken(cost.time_s()),
+        spoken(cost.time_s() / processors.min(cost.cases.len().max(1)) as f64),
+        spoken(cost.step_s),
+        cost.shards(),
+    );
+    text
+}
+
+/// A time in the unit that people would use for it.
+fn spoken(time_s: f64) -> String {
+    const MINUTE_S: f64 = 60.0;
+    const HOUR_S: f64 = 3600.0;
+    const DAY_S: f64 = 24.0 * HOUR_S;
+    if time_s < 2.0 * MINUTE_S {
+        format_human(time_s, Dimension::Time, 2)
+    } else if time_s < 2.0 * HOUR_S {
+        format!("{} min", two_digits(time_s / MINUTE_S))
+    } else if time_s < 2.0 * DAY_S {
+        format!("{} h", two_digits(time_s / HOUR_S))
+    } else {
+        format!("{} days", two_digits(time_s / DAY_S))
+    }
+}
+
+/// Two significant digits of a positive number, without an exponent.
+fn two_digits(value: f64) -> String {
+    let decimals = (1.0 - value.log10().floor()).clamp(0.0, 6.0) as usize;
+    format!("{value:.decimals$}")
+}

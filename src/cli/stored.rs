@@ -1,0 +1,137 @@
+//! Sweeps that are in a folder already: `contact-dma merge` and `contact-dma report`.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::arguments::{MergeFlags, ReportFlags};
+use super::document::Document;
+use super::progress::Shown;
+use super::sweep::{Job, failure, interrupt_flag, threads};
+use super::{Ended, Failure, sweep_file};
+use crate::sweep::case::Setup;
+use crate::sweep::difference;
+use crate::sweep::merge;
+use crate::sweep::plan::Case;
+use crate::sweep::provenance::Stopwatch;
+use crate::sweep::resolved;
+use crate::sweep::run::{self, Options, Progress, RunError};
+use crate::sweep::store::{RESOLVED, Store};
+
+/// Names of cases in a message before the rest is counted.
+const NAMED: usize = 10;
+
+/// Joins the parts and does what is left to do.
+pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
+    let clock = Stopwatch::start();
+    let mut parts = Vec::new();
+    for folder in &flags.parts {
+        parts.push(Store::reopen(folder).map_err(|e| failure(RunError::Store(e)))?);
+    }
+    let Some((_, resolved)) = parts.first() else {
+        return Err(Failure::Input("there is nothing to merge".to_owned()));
+    };
+    for (part, other) in &parts {
+        if other != resolved {
+            return Err(Failure::Input(format!(
+                "{} holds a part of another sweep than {}:\n{}",
+                part.folder().display(),
+                flags.parts[0].display(),
+                difference::lines(resolved, other, 12)
+            )));
+        }
+    }
+    let setup = setup_of(&flags.parts[0], resolved)?;
+    let hash = resolved::hash(resolved);
+    let out = Store::open(&flags.out, resolved, &hash, flags.force);
+    let out = out.map_err(|error| failure(RunError::Store(error)))?;
+    let cases = setup.plan().cases();
+    let progress = Shown::new(cases.len(), flags.quiet);
+    let parts: Vec<Store> = parts.into_iter().map(|(part, _)| part).collect();
+    let missing = merge::gather(&parts, &out, &cases, &|what| progress.told(what));
+    let missing = missing.map_err(|error| failure(RunError::Store(error)))?;
+    if !missing.is_empty() {
+        return Err(Failure::Run(lacking(&missing, cases.len(), &out)));
+    }
+    let interrupt = interrupt_flag()?;
+    let setup = setup.interrupted_by(Arc::clone(&interrupt));
+    let options = Options::on_threads(threads(flags.threads));
+    let outcome = run::run_with(&setup, &out, &options, &interrupt, &progress);
+    progress.finish();
+    let job = Job {
+        setup: &setup,
+        store: &out,
+        quiet: flags.quiet,
+        command: "merge",
+        clock,
+        threads: options.threads,
+        found: progress.found(),
+    };
+    job.finish(&outcome.map_err(failure)?)
+}
+
+/// Draws tables and figures of a folder again.
+pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
+    let clock = Stopwatch::start();
+    let store = Store::reopen(&flags.folder).map_err(|e| failure(RunError::Store(e)))?;
+    let (store, resolved) = store;
+    let setup = setup_of(&flags.folder, &resolved)?;
+    let progress = Shown::new(setup.plan().cases().len(), flags.quiet);
+    let outcome = run::collect(&setup, &store, &progress).map_err(failure)?;
+    progress.finish();
+    if outcome.records.is_empty() {
+        return Err(Failure::Input(format!(
+            "{} holds no usable record of the sweep: run `contact-dma sweep` first",
+            flags.folder.display()
+        )));
+    }
+    let job = Job {
+        setup: &setup,
+        store: &store,
+        quiet: flags.quiet,
+        command: "report",
+        clock,
+        threads: 1,
+        found: outcome.records.len(),
+    };
+    Ok(match job.finish(&outcome)? {
+        Ended::Interrupted => Ended::SomeCasesWithoutResult,
+        ended => ended,
+    })
+}
+
+/// The sweep that a folder says it holds.
+fn setup_of(folder: &Path, text: &str) -> Result<Setup, Failure> {
+    let name = folder.join(RESOLVED).display().to_string();
+    let document = Document::parse(&name, text)?.in_folder(folder);
+    let plan = sweep_file::plan(&document)?;
+    if resolved::resolved_text(&plan) != text {
+        return Err(Failure::Input(format!(
+            "{name} is not as this version of the program would write it: run the sweep again"
+        )));
+    }
+    Setup::new(plan).map_err(Failure::input)
+}
+
+fn lacking(missing: &[Case], of: usize, out: &Store) -> String {
+    let mut text = format!(
+        "{} of {of} cases are in none of the parts:\n",
+        missing.len()
+    );
+    for case in missing.iter().take(NAMED) {
+        text.push_str(&format!(
+            "  case {}: ω = {:e} rad/s (mean {}, amplitude {})\n",
+            case.index,
+            case.angular_frequency_rad_per_s,
+            case.drive.mean(),
+            case.drive.amplitude()
+        ));
+    }
+    if missing.len() > NAMED {
+        text.push_str(&format!("  and {} more\n", missing.len() - NAMED));
+    }
+    text.push_str(&format!(
+        "What there is has been copied to {}: merge again with the rest, or run the sweep there",
+        out.folder().display()
+    ));
+    text
+}

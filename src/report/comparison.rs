@@ -1,0 +1,429 @@
+//! Two results of a sweep against each other: case by case, column by column, peak by peak.
+//!
+//! Cases are matched by drive and frequency. Two values are the same where they differ by at most `absolute` + `relative`
+//! times the larger of them. Where two cases were solved on different steps or nodes, values that differ by no more than the
+//! sum of their error bars count as the same too; on the same steps and nodes, where the errors are the same, they do not,
+//! but are reported as being within the bars.
+
+mod result;
+mod text;
+
+pub use result::{ComparisonError, SweepTable};
+
+use result::Row;
+
+use crate::sweep::error_bars::Quantity;
+use crate::sweep::peak::Peak;
+
+/// How much two values may differ.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tolerances {
+    pub relative: f64,
+    pub absolute: f64,
+    /// Relative tolerances of single columns, which are then compared even where they otherwise would not be.
+    pub columns: Vec<(String, f64)>,
+}
+
+impl Default for Tolerances {
+    fn default() -> Self {
+        Self {
+            relative: 1e-6,
+            absolute: 0.0,
+            columns: Vec::new(),
+        }
+    }
+}
+
+/// Which case: mean and amplitude of the drive, angular frequency (rad/s).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    pub drive_mean: f64,
+    pub drive_amplitude: f64,
+    pub angular_frequency_rad_per_s: f64,
+}
+
+/// What the comparison found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Comparison {
+    /// Cases in both results.
+    pub compared: usize,
+    /// Cases of the baseline that the new result lacks, and the other way round.
+    pub missing: Vec<Place>,
+    pub added: Vec<Place>,
+    /// Columns that only the baseline has, and only the new result has.
+    pub missing_columns: Vec<String>,
+    pub added_columns: Vec<String>,
+    /// Cases that ended differently: the statuses.
+    pub statuses: Vec<(Place, String, String)>,
+    pub columns: Vec<ColumnComparison>,
+    pub peaks: Vec<PeakComparison>,
+    /// The curves of the energy loss.
+    pub curve: Vec<CurvePoint>,
+}
+
+/// One column over all cases in both results.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ColumnComparison {
+    pub name: String,
+    /// Largest difference relative to the larger value, and where; `None` where nothing differs.
+    pub largest: Option<(f64, Place)>,
+    /// Cases beyond the tolerance, and how many of these lie within the error bars.
+    pub beyond: usize,
+    pub within_bars: usize,
+    /// Cases in which one of the two has no value.
+    pub absent: usize,
+    /// Cases that count as different.
+    pub different: usize,
+}
+
+/// A peak of the baseline and the nearest of the new result, or one that stands alone.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PeakComparison {
+    pub baseline: Option<Peak>,
+    pub new: Option<Peak>,
+    pub differs: bool,
+}
+
+/// The loss of a case in both results.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CurvePoint {
+    pub place: Place,
+    pub baseline_j: Option<f64>,
+    pub new_j: Option<f64>,
+    /// Sum of the two error bars.
+    pub error_j: Option<f64>,
+}
+
+/// Ratio of frequencies beyond which two peaks are not the same one.
+const SAME_PEAK: f64 = 1.3;
+
+impl Comparison {
+    /// Compares two results.
+    ///
+    /// # Errors
+    /// [`ComparisonError`] where a cell is no number, or a column with a tolerance of its own does not exist.
+    pub fn of(
+        baseline: &SweepTable,
+        new: &SweepTable,
+        tolerances: &Tolerances,
+    ) -> Result<Self, ComparisonError> {
+        let pairs: Vec<(&Row, &Row)> = baseline
+            .rows
+            .iter()
+            .filter_map(|row| Some((row, new.row(row.place)?)))
+            .collect();
+        let alone = |one: &SweepTable, other: &SweepTable| -> Vec<Place> {
+            let rows = one.rows.iter().map(|row| row.place);
+            rows.filter(|place| other.row(*place).is_none()).collect()
+        };
+        let names = compared_columns(baseline, new, tolerances)?;
+        let (shared, single): (Vec<String>, Vec<String>) = names
+            .into_iter()
+            .partition(|name| baseline.has(name) && new.has(name));
+        let (missing_columns, added_columns) =
+            single.into_iter().partition(|name| baseline.has(name));
+        let mut columns = Vec::with_capacity(shared.len());
+        for name in shared {
+            columns.push(column(name, baseline, new, &pairs, tolerances)?);
+        }
+        let statuses = pairs.iter().filter(|(a, b)| a.status != b.status);
+        Ok(Self {
+            compared: pairs.len(),
+            missing: alone(baseline, new),
+            added: alone(new, baseline),
+            missing_columns,
+            added_columns,
+            statuses: statuses
+                .map(|(a, b)| (a.place, a.status.clone(), b.status.clone()))
+                .collect(),
+            columns,
+            peaks: peaks(baseline, new, tolerances),
+            curve: curve(baseline, new)?,
+        })
+    }
+
+    /// Whether the results differ by more than the tolerances allow. Columns that only the new result has do not count.
+    pub fn differs(&self) -> bool {
+        let all_there = self.missing.is_empty()
+            && self.added.is_empty()
+            && self.missing_columns.is_empty()
+            && self.statuses.is_empty();
+        !all_there
+            || self.columns.iter().any(|column| column.different > 0)
+            || self.peaks.iter().any(|peak| peak.differs)
+    }
+}
+
+/// Physical quantities; not how they came about, nor their error bars, nor differences of nearly equal numbers.
+fn compared_columns(
+    baseline: &SweepTable,
+    new: &SweepTable,
+    tolerances: &Tolerances,
+) -> Result<Vec<String>, ComparisonError> {
+    let mut names: Vec<String> = Vec::new();
+    for column in baseline.columns.iter().chain(&new.columns) {
+        let is_quantity = Quantity::ALL.iter().any(|q| q.columns().0 == column);
+        let is_other = ["dissipated_j", "polygon_loss_j", "harmonic_4", "harmonic_5"]
+            .contains(&column.as_str());
+        let is_branch = column.starts_with("branch_") && column.ends_with("_loss_j");
+        if (is_quantity || is_other || is_branch) && !names.contains(column) {
+            names.push(column.clone());
+        }
+    }
+    for (column, _) in &tolerances.columns {
+        if !(baseline.has(column) || new.has(column)) {
+            return Err(ComparisonError::NoColumn {
+                column: column.clone(),
+            });
+        }
+        if !names.contains(column) {
+            names.push(column.clone());
+        }
+    }
+    Ok(names)
+}
+
+fn column(
+    name: String,
+    baseline: &SweepTable,
+    new: &SweepTable,
+    pairs: &[(&Row, &Row)],
+    tolerances: &Tolerances,
+) -> Result<ColumnComparison, ComparisonError> {
+    let own = tolerances
+        .columns
+        .iter()
+        .find(|(column, _)| *column == name);
+    let relative = own.map_or(tolerances.relative, |(_, relative)| *relative);
+    // Harmonics are amplitudes relative to the first already: a share of a small one is a share of nothing.
+    let is_harmonic = name.starts_with("harmonic_");
+    let bars = Quantity::ALL.map(Quantity::columns);
+    let bar = bars.iter().find(|(value, _)| *value == name);
+    let mut found = ColumnComparison {
+        name,
+        largest: None,
+        beyond: 0,
+        within_bars: 0,
+        absent: 0,
+        different: 0,
+    };
+    for (old_row, new_row) in pairs {
+        let value = |table: &SweepTable, row| table.number(row, &found.name);
+        let (a, b) = match (value(baseline, old_row)?, value(new, new_row)?) {
+            (Some(a), Some(b)) => (a, b),
+            (None, None) => continue,
+            _ => {
+                found.absent += 1;
+                found.different += 1;
+                continue;
+            }
+        };
+        let scale = if is_harmonic {
+            1.0
+        } else {
+            a.abs().max(b.abs())
+        };
+        let difference = (a - b).abs();
+        if difference > 0.0 {
+            let share = difference / scale;
+            if found.largest.is_none_or(|(largest, _)| share > largest) {
+                found.largest = Some((share, old_row.place));
+            }
+        }
+        if difference <= tolerances.absolute + relative * scale {
+            continue;
+        }
+        found.beyond += 1;
+        let error = match bar {
+            Some((_, error)) => baseline
+                .number(old_row, error)?
+                .zip(new.number(new_row, error)?),
+            None => None,
+        };
+        let within = error.is_some_and(|(a, b)| difference <= a + b);
+        found.within_bars += usize::from(within);
+        let same_discretisation = old_row.discretisation == new_row.discretisation;
+        found.different += usize::from(!within || same_discretisation);
+    }
+    Ok(found)
+}
+
+/// Peaks of both, each matched with the nearest of the same drive.
+fn peaks(baseline: &SweepTable, new: &SweepTable, tolerances: &Tolerances) -> Vec<PeakComparison> {
+    let (Some(old), Some(new)) = (&baseline.peaks, &new.peaks) else {
+        return Vec::new();
+    };
+    let mut left: Vec<Peak> = new.clone();
+    let distance = |a: &Peak, b: &Peak| {
+        (a.angular_frequency_rad_per_s / b.angular_frequency_rad_per_s)
+            .ln()
+            .abs()
+    };
+    let mut found = Vec::new();
+    for peak in old {
+        let drive = |p: &Peak| (p.drive_mean, p.drive_amplitude);
+        let nearest = (0..left.len())
+            .filter(|&i| drive(&left[i]) == drive(peak))
+            .filter(|&i| distance(&left[i], peak) < SAME_PEAK.ln())
+            .min_by(|&i, &j| distance(&left[i], peak).total_cmp(&distance(&left[j], peak)));
+        let matched = nearest.map(|i| left.remove(i));
+        found.push(PeakComparison {
+            differs: matched.is_none_or(|new| peak_differs(peak, &new, tolerances)),
+            baseline: Some(*peak),
+            new: matched,
+        });
+    }
+    found.extend(left.into_iter().map(|peak| PeakComparison {
+        baseline: None,
+        new: Some(peak),
+        differs: true,
+    }));
+    found
+}
+
+/// A peak is located no better than its uncertainty says, whatever the tolerance.
+fn peak_differs(a: &Peak, b: &Peak, tolerances: &Tolerances) -> bool {
+    let omegas = [a, b].map(|p| p.angular_frequency_rad_per_s);
+    let located = [a, b].map(|p| p.angular_frequency_uncertainty_rad_per_s);
+    let losses = [a, b].map(|p| p.energy_loss_j);
+    let allowed = tolerances.relative * omegas[0].max(omegas[1]) + located[0] + located[1];
+    let own = tolerances
+        .columns
+        .iter()
+        .find(|(c, _)| c == "energy_loss_j");
+    let relative = own.map_or(tolerances.relative, |(_, relative)| *relative);
+    let bars = a.energy_loss_error_j.zip(b.energy_loss_error_j);
+    let bars_j = match bars {
+        // Equal bars are those of equal discretisations, whose errors are equal too.
+        Some((a, b)) if (a - b).abs() > 1e-3 * a.max(b) => a + b,
+        _ => 0.0,
+    };
+    let allowed_j = tolerances.absolute + relative * losses[0].abs().max(losses[1].abs()) + bars_j;
+    (omegas[0] - omegas[1]).abs() > allowed || (losses[0] - losses[1]).abs() > allowed_j
+}
+
+fn curve(baseline: &SweepTable, new: &SweepTable) -> Result<Vec<CurvePoint>, ComparisonError> {
+    let loss = |table: &SweepTable, row: Option<&Row>, column| match row {
+        Some(row) => table.number(row, column),
+        None => Ok(None),
+    };
+    let mut curve = Vec::new();
+    let added = new.rows.iter().filter(|r| baseline.row(r.place).is_none());
+    for row in baseline.rows.iter().chain(added) {
+        let place = row.place;
+        let (a, b) = (baseline.row(place), new.row(place));
+        let errors =
+            loss(baseline, a, "energy_loss_error_j")?.zip(loss(new, b, "energy_loss_error_j")?);
+        curve.push(CurvePoint {
+            place,
+            baseline_j: loss(baseline, a, "energy_loss_j")?,
+            new_j: loss(new, b, "energy_loss_j")?,
+            error_j: errors.map(|(a, b)| a + b),
+        });
+    }
+    curve.sort_by(|a, b| {
+        let key = |p: &Place| {
+            [
+                p.drive_mean,
+                p.drive_amplitude,
+                p.angular_frequency_rad_per_s,
+            ]
+        };
+        key(&a.place)
+            .partial_cmp(&key(&b.place))
+            .unwrap_or(std::cmp::Ordering::Equal)
+    });
+    Ok(curve)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const HEAD: &str = "angular_frequency_rad_per_s,drive_mean,drive_amplitude,energy_loss_j,energy_loss_error_j,harmonic_2,steps,nodes,status\n";
+
+    fn table(rows: &[(f64, f64, usize)]) -> SweepTable {
+        let rows: String = rows
+            .iter()
+            .map(|(omega, loss, steps)| {
+                format!("{omega},10,5,{loss},1e-3,1e-9,{steps},400,converged\n")
+            })
+            .collect();
+        SweepTable::parse("t.csv", format!("{HEAD}{rows}").as_bytes(), None).unwrap()
+    }
+
+    fn compare(a: &SweepTable, b: &SweepTable) -> Comparison {
+        Comparison::of(a, b, &Tolerances::default()).unwrap()
+    }
+
+    #[test]
+    fn a_result_is_the_same_as_itself_and_a_missing_case_is_named() {
+        let all = table(&[(1.0, 2.0, 200), (2.0, 3.0, 200)]);
+        assert!(!compare(&all, &all).differs());
+        let one = table(&[(1.0, 2.0, 200)]);
+        let found = compare(&all, &one);
+        assert!(found.differs());
+        assert_eq!(found.missing[0].angular_frequency_rad_per_s, 2.0);
+        assert!(found.text().contains("missing"), "{}", found.text());
+        assert_eq!(compare(&one, &all).added.len(), 1);
+    }
+
+    #[test]
+    fn bars_excuse_a_difference_between_discretisations_but_not_on_the_same_one() {
+        let coarse = table(&[(1.0, 2.0, 200)]);
+        let same = compare(&coarse, &table(&[(1.0, 2.0015, 200)]));
+        assert!(same.differs());
+        assert_eq!(
+            (same.columns[0].beyond, same.columns[0].within_bars),
+            (1, 1)
+        );
+        assert!(!compare(&coarse, &table(&[(1.0, 2.0015, 400)])).differs());
+        assert!(compare(&coarse, &table(&[(1.0, 2.0025, 400)])).differs());
+    }
+
+    #[test]
+    fn tolerances_may_be_given_for_a_column() {
+        let (a, b) = (table(&[(1.0, 2.0, 200)]), table(&[(1.0, 2.001, 200)]));
+        let with = |column: &str| Tolerances {
+            columns: vec![(column.to_owned(), 1e-2)],
+            ..Tolerances::default()
+        };
+        assert!(
+            !Comparison::of(&a, &b, &with("energy_loss_j"))
+                .unwrap()
+                .differs()
+        );
+        assert!(Comparison::of(&a, &b, &with("steps")).unwrap().differs());
+        assert!(Comparison::of(&a, &b, &with("energy")).is_err());
+    }
+
+    #[test]
+    fn a_peak_that_moved_by_more_than_its_uncertainty_differs() {
+        let with_peak = |omega: f64| {
+            let summary = format!(
+                "{{\"peaks\":[{{\"angular_frequency_rad_per_s\":{omega},\"energy_loss_j\":3.0,\
+                 \"angular_frequency_uncertainty_rad_per_s\":1e-4,\"energy_loss_error_j\":null}}]}}"
+            );
+            let rows = format!("{HEAD}1,10,5,2,1e-3,0,200,400,converged\n");
+            SweepTable::parse("t.csv", rows.as_bytes(), Some(summary.as_bytes())).unwrap()
+        };
+        assert!(!compare(&with_peak(1.0), &with_peak(1.000_15)).differs());
+        assert!(compare(&with_peak(1.0), &with_peak(1.003)).differs());
+        let far = compare(&with_peak(1.0), &with_peak(2.0));
+        assert_eq!(far.peaks.len(), 2);
+        assert!(far.peaks.iter().all(|peak| peak.differs));
+    }
+
+    #[test]
+    fn a_value_that_is_gone_differs_and_nonsense_is_refused_with_its_line() {
+        let a = table(&[(1.0, 2.0, 200)]);
+        let row = format!("{HEAD}1,10,5,,,0,200,400,converged\n");
+        let gone = SweepTable::parse("t.csv", row.as_bytes(), None).unwrap();
+        let found = compare(&a, &gone);
+        assert_eq!((found.columns[0].absent, found.differs()), (1, true));
+        let row = format!("{HEAD}1,10,5,many,,0,200,400,converged\n");
+        let nonsense = SweepTable::parse("t.csv", row.as_bytes(), None).unwrap();
+        let error = Comparison::of(&a, &nonsense, &Tolerances::default()).unwrap_err();
+        assert!(error.to_string().contains("line 2") && error.to_string().contains("many"));
+    }
+}

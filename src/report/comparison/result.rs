@@ -1,0 +1,165 @@
+//! A result as read from `sweep.csv` and `summary.json`.
+
+use std::collections::HashMap;
+
+use serde::Deserialize;
+
+use super::Place;
+use crate::sweep::peak::Peak;
+
+/// Why a result cannot be compared.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ComparisonError {
+    #[error("{name}: {reason}")]
+    Table { name: String, reason: String },
+    #[error("{name}, line {line}: `{cell}` under {column} is no number")]
+    Number {
+        name: String,
+        line: usize,
+        column: String,
+        cell: String,
+    },
+    #[error("there is no column {column} in either table")]
+    NoColumn { column: String },
+}
+
+/// The table of a sweep, and its peaks where they are known.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepTable {
+    name: String,
+    pub(super) columns: Vec<String>,
+    places: HashMap<String, usize>,
+    pub(super) rows: Vec<Row>,
+    pub(super) peaks: Option<Vec<Peak>>,
+}
+
+/// One case.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Row {
+    line: usize,
+    cells: Vec<String>,
+    pub(super) place: Place,
+    pub(super) status: String,
+    /// Steps and nodes, as written.
+    pub(super) discretisation: (String, String),
+}
+
+#[derive(Deserialize)]
+struct Summary {
+    peaks: Vec<Peak>,
+}
+
+const FREQUENCY: &str = "angular_frequency_rad_per_s";
+/// Frequencies and drives closer than this, relatively, are the same: what is left of a number written and read elsewhere.
+const SAME: f64 = 1e-9;
+
+impl SweepTable {
+    /// Reads a `sweep.csv` that messages call `name`, and a `summary.json` where there is one.
+    ///
+    /// # Errors
+    /// [`ComparisonError`] where these are not what a sweep writes.
+    pub fn parse(
+        name: &str,
+        table: &[u8],
+        summary: Option<&[u8]>,
+    ) -> Result<Self, ComparisonError> {
+        let wrong = |reason: String| ComparisonError::Table {
+            name: name.to_owned(),
+            reason,
+        };
+        let mut reader = csv::Reader::from_reader(table);
+        let header = reader.headers().map_err(|e| wrong(e.to_string()))?;
+        let columns: Vec<String> = header.iter().map(str::to_owned).collect();
+        let places = columns.iter().cloned().zip(0..).collect();
+        let peaks = match summary {
+            Some(bytes) => {
+                let summary: Summary = serde_json::from_slice(bytes)
+                    .map_err(|e| wrong(format!("the summary.json beside it: {e}")))?;
+                Some(summary.peaks)
+            }
+            None => None,
+        };
+        let mut result = Self {
+            name: name.to_owned(),
+            columns,
+            places,
+            rows: Vec::new(),
+            peaks,
+        };
+        if !result.has(FREQUENCY) {
+            return Err(wrong(format!(
+                "no column {FREQUENCY}: this is not the sweep.csv of a sweep"
+            )));
+        }
+        for record in reader.records() {
+            let record = record.map_err(|e| wrong(e.to_string()))?;
+            let line = record.position().map_or(0, |p| p.line() as usize);
+            let cells = record.iter().map(str::to_owned).collect();
+            let row = result.row_of(line, cells)?;
+            result.rows.push(row);
+        }
+        Ok(result)
+    }
+
+    fn row_of(&self, line: usize, cells: Vec<String>) -> Result<Row, ComparisonError> {
+        let mut row = Row {
+            line,
+            cells,
+            place: Place {
+                drive_mean: 0.0,
+                drive_amplitude: 0.0,
+                angular_frequency_rad_per_s: 0.0,
+            },
+            status: String::new(),
+            discretisation: (String::new(), String::new()),
+        };
+        let number = |column| Ok(self.number(&row, column)?.unwrap_or(0.0));
+        let text = |column| self.cell(&row, column).unwrap_or_default().to_owned();
+        let place = Place {
+            drive_mean: number("drive_mean")?,
+            drive_amplitude: number("drive_amplitude")?,
+            angular_frequency_rad_per_s: number(FREQUENCY)?,
+        };
+        let (status, discretisation) = (text("status"), (text("steps"), text("nodes")));
+        row.place = place;
+        (row.status, row.discretisation) = (status, discretisation);
+        Ok(row)
+    }
+
+    pub(super) fn has(&self, column: &str) -> bool {
+        self.places.contains_key(column)
+    }
+
+    fn cell<'a>(&self, row: &'a Row, column: &str) -> Option<&'a str> {
+        row.cells.get(*self.places.get(column)?).map(String::as_str)
+    }
+
+    /// The number in a cell; `None` where the cell is empty or the column absent.
+    pub(super) fn number(&self, row: &Row, column: &str) -> Result<Option<f64>, ComparisonError> {
+        match self.cell(row, column) {
+            None | Some("") => Ok(None),
+            Some(cell) => match cell.parse::<f64>() {
+                Ok(number) if number.is_finite() => Ok(Some(number)),
+                _ => Err(ComparisonError::Number {
+                    name: self.name.clone(),
+                    line: row.line,
+                    column: column.to_owned(),
+                    cell: cell.to_owned(),
+                }),
+            },
+        }
+    }
+
+    /// The case at this place.
+    pub(super) fn row(&self, place: Place) -> Option<&Row> {
+        let near = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+        self.rows.iter().find(|row| {
+            let other = row.place;
+            near(
+                other.angular_frequency_rad_per_s,
+                place.angular_frequency_rad_per_s,
+            ) && near(other.drive_mean, place.drive_mean)
+                && near(other.drive_amplitude, place.drive_amplitude)
+        })
+    }
+}

@@ -1,0 +1,136 @@
+//! What a comparison says on the terminal and in a table.
+
+use std::fmt::Write;
+
+use super::{Comparison, PeakComparison, Place};
+use crate::report::ReportError;
+use crate::report::table::{Table, number, optional};
+use crate::report::terminal::frequency;
+use crate::sweep::peak::Peak;
+
+/// Names of cases shown before the rest is counted.
+const NAMED: usize = 10;
+
+impl Comparison {
+    /// The whole finding, as text of at most about a hundred columns.
+    pub fn text(&self) -> String {
+        let mut text = format!("{} cases in both results\n", self.compared);
+        named(&mut text, "missing in the new result", &self.missing);
+        named(&mut text, "only in the new result", &self.added);
+        for (what, columns) in [
+            ("missing in the new result", &self.missing_columns),
+            ("only in the new result", &self.added_columns),
+        ] {
+            if !columns.is_empty() {
+                let _ = writeln!(text, "columns {what}: {}", columns.join(", "));
+            }
+        }
+        for (place, old, new) in self.statuses.iter().take(NAMED) {
+            let _ = writeln!(text, "{}: {old} before, {new} now", words(place));
+        }
+        text.push_str("\n column                  largest difference   beyond   within bars\n");
+        for column in &self.columns {
+            let largest = match &column.largest {
+                Some((share, place)) => format!(
+                    "{share:.1e} at ω = {}",
+                    frequency(place.angular_frequency_rad_per_s)
+                ),
+                None => "none".to_owned(),
+            };
+            let absent = match column.absent {
+                0 => String::new(),
+                absent => format!("   {absent} without a value in one of the two"),
+            };
+            let _ = writeln!(
+                text,
+                " {:<23} {largest:<20} {:>6}   {:>11}{absent}",
+                column.name, column.beyond, column.within_bars
+            );
+        }
+        for peak in &self.peaks {
+            let _ = writeln!(text, "{}", peak_words(peak));
+        }
+        text
+    }
+
+    /// `comparison.csv`: the curves of the energy loss and their difference.
+    ///
+    /// # Errors
+    /// Where the table cannot be made.
+    pub fn table(&self) -> Result<Vec<u8>, ReportError> {
+        let columns = [
+            "drive_mean",
+            "drive_amplitude",
+            "angular_frequency_rad_per_s",
+            "baseline_energy_loss_j",
+            "new_energy_loss_j",
+            "relative_difference",
+            "error_bars_j",
+        ];
+        let mut table = Table::new("comparison.csv", &columns)?;
+        for point in &self.curve {
+            table.row(&[
+                number(point.place.drive_mean),
+                number(point.place.drive_amplitude),
+                number(point.place.angular_frequency_rad_per_s),
+                optional(point.baseline_j),
+                optional(point.new_j),
+                optional(point.relative_difference()),
+                optional(point.error_j),
+            ])?;
+        }
+        table.finish()
+    }
+}
+
+impl super::CurvePoint {
+    /// By what share of the baseline the new loss is larger.
+    pub fn relative_difference(&self) -> Option<f64> {
+        let (old, new) = self.baseline_j.zip(self.new_j)?;
+        (old != 0.0).then(|| new / old - 1.0)
+    }
+}
+
+fn words(place: &Place) -> String {
+    format!(
+        "ω = {} rad/s (mean {}, amplitude {})",
+        frequency(place.angular_frequency_rad_per_s),
+        place.drive_mean,
+        place.drive_amplitude
+    )
+}
+
+fn named(text: &mut String, what: &str, places: &[Place]) {
+    if places.is_empty() {
+        return;
+    }
+    let _ = writeln!(text, "{} cases {what}:", places.len());
+    for place in places.iter().take(NAMED) {
+        let _ = writeln!(text, "  {}", words(place));
+    }
+    if places.len() > NAMED {
+        let _ = writeln!(text, "  and {} more", places.len() - NAMED);
+    }
+}
+
+fn peak_words(peak: &PeakComparison) -> String {
+    let omega = |peak: &Peak| format!("{} rad/s", frequency(peak.angular_frequency_rad_per_s));
+    match (&peak.baseline, &peak.new) {
+        (Some(old), Some(new)) => {
+            let ratio = |a: f64, b: f64| 100.0 * (b / a - 1.0);
+            format!(
+                "peak at {}: moved by {:+.1e} %, its loss by {:+.1e} %{}",
+                omega(old),
+                ratio(
+                    old.angular_frequency_rad_per_s,
+                    new.angular_frequency_rad_per_s
+                ),
+                ratio(old.energy_loss_j, new.energy_loss_j),
+                if peak.differs { ": differs" } else { "" }
+            )
+        }
+        (Some(old), None) => format!("peak at {}: missing in the new result", omega(old)),
+        (None, Some(new)) => format!("peak at {}: only in the new result", omega(new)),
+        (None, None) => String::new(),
+    }
+}

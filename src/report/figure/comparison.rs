@@ -1,0 +1,82 @@
+//! The loss of two results over frequency, and below it by how much they differ.
+
+use super::{WriteFile, prefix, write_picture};
+use crate::report::ReportError;
+use crate::report::chart::{self, Axis, Chart, LineStyle, Marker, Series};
+use crate::report::comparison::{Comparison, CurvePoint, Place};
+
+const NAME: &str = "comparison";
+const WIDTH_PX: u32 = 800;
+const CURVES_PX: u32 = 450;
+const DIFFERENCE_PX: u32 = 300;
+
+/// Writes the figure and the data behind it. Returns why where it cannot be drawn.
+///
+/// # Errors
+/// [`ReportError`] naming the figure.
+pub fn write(
+    comparison: &Comparison,
+    write: &WriteFile<'_>,
+) -> Result<Option<String>, ReportError> {
+    write("comparison.csv", &comparison.table()?)?;
+    let curve = &comparison.curve;
+    let has_difference = curve.iter().any(|p| p.relative_difference().is_some());
+    if !has_difference {
+        return Ok(Some(
+            "no figure: no case has a loss in both results".to_owned(),
+        ));
+    }
+    let svg = chart::stack_to_svg(&[losses(curve), differences(curve)])
+        .map_err(|source| ReportError::Chart { name: NAME, source })?;
+    write_picture(NAME, NAME, &svg, write)?;
+    Ok(None)
+}
+
+fn drive(place: &Place) -> (f64, f64) {
+    (place.drive_mean, place.drive_amplitude)
+}
+
+/// Points, broken where the drive changes.
+fn points(
+    curve: &[CurvePoint],
+    value: impl Fn(&CurvePoint) -> Option<f64>,
+) -> Vec<Option<(f64, f64)>> {
+    let mut points = Vec::with_capacity(curve.len());
+    let mut last = None;
+    for point in curve {
+        if last.is_some_and(|last| last != drive(&point.place)) {
+            points.push(None);
+        }
+        last = Some(drive(&point.place));
+        points.push(value(point).map(|v| (point.place.angular_frequency_rad_per_s, v)));
+    }
+    points
+}
+
+fn losses(curve: &[CurvePoint]) -> Chart {
+    let all = curve.iter().flat_map(|p| [p.baseline_j, p.new_j]).flatten();
+    let (factor, unit) = prefix(all.fold(0.0, f64::max));
+    let scaled = |loss: Option<f64>| loss.map(|j| factor * j);
+    Chart::new(
+        Axis::log(""),
+        Axis::linear(format!("energy loss per cycle / {unit}J")),
+    )
+    .series(Series::line(points(curve, |p| scaled(p.baseline_j))).label("baseline"))
+    .series(
+        Series::line(points(curve, |p| scaled(p.new_j)))
+            .label("new")
+            .style(LineStyle::Dashed)
+            .color(1),
+    )
+    .size(WIDTH_PX, CURVES_PX)
+}
+
+fn differences(curve: &[CurvePoint]) -> Chart {
+    let percent = |p: &CurvePoint| p.relative_difference().map(|d| 100.0 * d);
+    Chart::new(
+        Axis::log("angular frequency ω / rad·s⁻¹"),
+        Axis::linear("new − baseline / %"),
+    )
+    .series(Series::line(points(curve, percent)).marker(Marker::Disc))
+    .size(WIDTH_PX, DIFFERENCE_PX)
+}

@@ -1,0 +1,505 @@
+//! Checkpoints inside a case, from which an interrupted case goes on and ends with the very same bits.
+//!
+//! A case solves several stabilised cycles one after another: its levels, by steps and nodes. A checkpoint holds a finished
+//! level whole, and of the level under way everything that its next cycle depends on: the memory, the pressure (the guess of
+//! the next instant), and what the acceleration of the search looks back on. What a thread carries besides is made anew.
+//!
+//! One file per level, `checkpoints/<case>/<level>.finished` or `.cycle`, little endian: eight bytes of mark, 32 bytes that
+//! say what it belongs to (SHA-256 of program version, sweep, case and level), the length of a JSON text and the text, the
+//! number of arrays, of each its length and its f64s; at the end the SHA-256 of all that. Files are written at most every
+//! few seconds and at an interruption, and removed with the case. One that cannot be written costs nothing but the time it
+//! would have saved, and one that does not belong or is damaged is passed over.
+
+use std::cell::RefCell;
+use std::fs;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+use serde::{Deserialize, Serialize};
+use sha2::{Digest, Sha256};
+
+use crate::contact::Solution;
+use crate::history::MarchState;
+use crate::steady::SearchState;
+use crate::sweep::archive::{Purpose, case_name};
+use crate::sweep::plan::{Case, Method};
+use crate::sweep::record::CaseResult;
+use crate::sweep::stabilise::Stabilised;
+use crate::sweep::store::{Store, write_atomically};
+
+/// Time between two writes, unless told otherwise.
+pub const EVERY: Duration = Duration::from_secs(10);
+
+/// A case that has run for less than this is sooner computed again than read.
+const WORTH_KEEPING: Duration = Duration::from_secs(1);
+
+const MARK: &[u8; 8] = b"CDMACHK\x01";
+const HASH_BYTES: usize = 32;
+
+/// The checkpoints of one case, in the hands of the thread that solves it.
+pub struct Checkpoints {
+    /// `None`: nothing is kept.
+    folder: Option<PathBuf>,
+    /// What they belong to, but for the level.
+    owner: String,
+    every: Duration,
+    state: RefCell<State>,
+}
+
+struct State {
+    levels: usize,
+    began: Instant,
+    written: Instant,
+    /// Finished levels that are not on disk yet: name and bytes.
+    pending: Vec<(String, Vec<u8>)>,
+    /// The level under way at its last cycle: name, key, state; made into bytes only where it is written.
+    latest: Option<(String, [u8; HASH_BYTES], Progress)>,
+}
+
+/// One stabilised cycle to be found within a case.
+pub(super) struct Level {
+    ordinal: usize,
+    key: [u8; HASH_BYTES],
+}
+
+/// Where the level under way stands.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Progress {
+    Searching(Box<SearchState>),
+    Marching {
+        /// Cycles of a direct search that failed before, and why.
+        after_search: Option<(usize, String)>,
+        cycles: usize,
+        distance: Option<f64>,
+        march: MarchState,
+    },
+}
+
+impl Checkpoints {
+    /// Keeps nothing.
+    pub fn none() -> Self {
+        Self::new(None, String::new(), EVERY)
+    }
+
+    /// Those of a case in the folder of its sweep.
+    pub fn of(store: &Store, purpose: Purpose, case: &Case, every: Duration) -> Self {
+        let name = case_name(purpose, case);
+        let owner = format!(
+            "{}\n{}\n{name}\n{:016x}",
+            env!("CARGO_PKG_VERSION"),
+            store.sweep_hash(),
+            case.angular_frequency_rad_per_s.to_bits()
+        );
+        let folder = store.folder().join(FOLDER).join(name);
+        Self::new(Some(folder), owner, every)
+    }
+
+    fn new(folder: Option<PathBuf>, owner: String, every: Duration) -> Self {
+        let now = Instant::now();
+        Self {
+            folder,
+            owner,
+            every,
+            state: RefCell::new(State {
+                levels: 0,
+                began: now,
+                written: now,
+                pending: Vec::new(),
+                latest: None,
+            }),
+        }
+    }
+
+    /// The next level, on so many nodes and in so many steps.
+    pub(super) fn begin(&self, nodes: usize, steps: usize) -> Level {
+        let mut state = self.state.borrow_mut();
+        state.latest = None;
+        let ordinal = state.levels;
+        state.levels += 1;
+        let key = format!("{}\n{ordinal} {nodes} {steps}", self.owner);
+        Level {
+            ordinal,
+            key: Sha256::digest(key).into(),
+        }
+    }
+
+    fn file(&self, name: &str) -> Option<PathBuf> {
+        Some(self.folder.as_ref()?.join(name))
+    }
+
+    fn read<T: for<'de> Deserialize<'de>>(
+        &self,
+        level: &Level,
+        name: &str,
+    ) -> Option<(T, Vec<Vec<f64>>)> {
+        let bytes = fs::read(self.file(name)?).ok()?;
+        let (text, arrays) = decode(&bytes, &level.key)?;
+        Some((serde_json::from_slice(text).ok()?, arrays))
+    }
+
+    /// The level as it ended before.
+    pub(super) fn finished(&self, level: &Level) -> Option<Stabilised> {
+        let (text, arrays): (FinishedText, _) = self.read(level, &level.finished_name())?;
+        let [memory, last] = <[Vec<f64>; 2]>::try_from(arrays).ok()?;
+        Some(Stabilised {
+            method: text.method,
+            cycles: text.cycles,
+            iterations: text.iterations,
+            distance: text.distance,
+            message: text.message,
+            memory,
+            last: from_numbers(&last, text.last_iterations)?,
+            result: text.result,
+        })
+    }
+
+    /// Where the level stood.
+    pub(super) fn progress(&self, level: &Level) -> Option<Progress> {
+        let (text, arrays): (ProgressText, _) = self.read(level, &level.cycle_name())?;
+        Progress::from_parts(text, arrays)
+    }
+
+    /// Whether the case runs long enough for its state to be worth keeping.
+    pub(super) fn is_wanted(&self) -> bool {
+        let began = self.state.borrow().began;
+        self.folder.is_some() && began.elapsed() >= WORTH_KEEPING.min(self.every)
+    }
+
+    /// Takes in where the level stands between two cycles.
+    pub(super) fn keep(&self, level: &Level, progress: Progress) {
+        self.state.borrow_mut().latest = Some((level.cycle_name(), level.key, progress));
+        self.write_where_due();
+    }
+
+    /// Takes in a finished level.
+    pub(super) fn finish(&self, level: &Level, ended: &Stabilised) {
+        if !self.is_wanted() {
+            return;
+        }
+        let text = FinishedText {
+            method: ended.method,
+            cycles: ended.cycles,
+            iterations: ended.iterations,
+            distance: ended.distance,
+            message: ended.message.clone(),
+            last_iterations: ended.last.map(|last| last.iterations),
+            result: ended.result.clone(),
+        };
+        if let Ok(text) = serde_json::to_vec(&text) {
+            let last = numbers(ended.last);
+            let bytes = encode(&level.key, &text, &[&ended.memory, &last]);
+            let mut state = self.state.borrow_mut();
+            state.pending.push((level.finished_name(), bytes));
+            state.latest = None;
+            drop(state);
+            self.write_where_due();
+        }
+    }
+
+    fn write_where_due(&self) {
+        let written = self.state.borrow().written;
+        if written.elapsed() >= self.every {
+            self.flush();
+        }
+    }
+
+    /// Writes what is not on disk yet.
+    pub(super) fn flush(&self) {
+        let Some(folder) = &self.folder else { return };
+        let mut state = self.state.borrow_mut();
+        let latest = state.latest.take();
+        let latest = latest.and_then(|(name, key, progress)| Some((name, progress.bytes(&key)?)));
+        for (name, bytes) in state.pending.drain(..).chain(latest) {
+            // Without it, this level is solved again.
+            let _ = write_atomically(&folder.join(name), &bytes);
+        }
+        state.written = Instant::now();
+    }
+
+    /// Removes them: the case is done.
+    pub(super) fn remove(&self) {
+        if let Some(folder) = &self.folder {
+            // There is none, most often.
+            let _ = fs::remove_dir_all(folder);
+        }
+    }
+}
+
+/// The folder of all checkpoints.
+pub(super) const FOLDER: &str = "checkpoints";
+
+impl Level {
+    fn finished_name(&self) -> String {
+        format!("{:02}.finished", self.ordinal)
+    }
+
+    fn cycle_name(&self) -> String {
+        format!("{:02}.cycle", self.ordinal)
+    }
+}
+
+#[derive(Serialize, Deserialize)]
+struct FinishedText {
+    method: Method,
+    cycles: usize,
+    iterations: u64,
+    distance: Option<f64>,
+    message: Option<String>,
+    last_iterations: Option<usize>,
+    result: Option<CaseResult>,
+}
+
+/// What is no array. Numbers that may be infinite, which JSON cannot write, are in arrays.
+#[derive(Serialize, Deserialize)]
+struct ProgressText {
+    searching: bool,
+    after_search: Option<(usize, String)>,
+    cycles: usize,
+    iterations: u64,
+    convolutions: u64,
+    solved_iterations: Option<usize>,
+}
+
+impl Progress {
+    /// A march that has not begun.
+    pub(super) fn unmarched(after_search: Option<(usize, String)>) -> Self {
+        Self::Marching {
+            after_search,
+            cycles: 0,
+            distance: None,
+            march: MarchState {
+                variables: Vec::new(),
+                pressure: Vec::new(),
+                solution: None,
+                iterations: 0,
+                convolutions: 0,
+            },
+        }
+    }
+
+    fn bytes(&self, key: &[u8; HASH_BYTES]) -> Option<Vec<u8>> {
+        let (text, arrays) = self.parts();
+        let text = serde_json::to_vec(&text).ok()?;
+        let arrays: Vec<&[f64]> = arrays.iter().map(Vec::as_slice).collect();
+        Some(encode(key, &text, &arrays))
+    }
+
+    /// Arrays: scalars, memory, pressure, solution; of a search then start, best memory, best update, acceleration.
+    fn parts(&self) -> (ProgressText, Vec<Vec<f64>>) {
+        let (march, cycles) = match self {
+            Self::Searching(state) => (&state.march, state.cycles),
+            Self::Marching { march, cycles, .. } => (march, *cycles),
+        };
+        let text = ProgressText {
+            searching: matches!(self, Self::Searching(_)),
+            after_search: match self {
+                Self::Searching(_) => None,
+                Self::Marching { after_search, .. } => after_search.clone(),
+            },
+            cycles,
+            iterations: march.iterations,
+            convolutions: march.convolutions,
+            solved_iterations: march.solution.map(|s| s.iterations),
+        };
+        let scalars = match self {
+            Self::Searching(state) => vec![state.distance, state.best.0],
+            Self::Marching { distance, .. } => distance.iter().copied().collect(),
+        };
+        let mut arrays = vec![
+            scalars,
+            march.variables.clone(),
+            march.pressure.clone(),
+            numbers(march.solution),
+        ];
+        if let Self::Searching(state) = self {
+            let vectors = [&state.start, &state.best.1, &state.best.2];
+            arrays.extend(vectors.into_iter().cloned());
+            arrays.extend(state.anderson.iter().cloned());
+        }
+        (text, arrays)
+    }
+
+    fn from_parts(text: ProgressText, arrays: Vec<Vec<f64>>) -> Option<Self> {
+        let mut arrays = arrays.into_iter();
+        let mut next = || arrays.next();
+        let (scalars, variables, pressure, solution) = (next()?, next()?, next()?, next()?);
+        let march = MarchState {
+            variables,
+            pressure,
+            solution: from_numbers(&solution, text.solved_iterations)?,
+            iterations: text.iterations,
+            convolutions: text.convolutions,
+        };
+        if !text.searching {
+            return Some(Self::Marching {
+                after_search: text.after_search,
+                cycles: text.cycles,
+                distance: scalars.first().copied(),
+                march,
+            });
+        }
+        let &[distance, best] = scalars.as_slice() else {
+            return None;
+        };
+        let (start, best_memory, best_update) = (next()?, next()?, next()?);
+        Some(Self::Searching(Box::new(SearchState {
+            start,
+            march,
+            best: (best, best_memory, best_update),
+            anderson: arrays.collect(),
+            cycles: text.cycles,
+            distance,
+        })))
+    }
+}
+
+/// An instant's numbers but for its iterations; none where there was no instant.
+fn numbers(solution: Option<Solution>) -> Vec<f64> {
+    solution.map_or(Vec::new(), |s| {
+        let convolutions = s.convolutions as f64;
+        vec![s.load_n, s.approach_m, s.contact_radius_m, convolutions]
+    })
+}
+
+/// What [`numbers`] and the iterations were made from; `None` where they were made from nothing alike.
+fn from_numbers(numbers: &[f64], iterations: Option<usize>) -> Option<Option<Solution>> {
+    match (numbers, iterations) {
+        (&[load_n, approach_m, contact_radius_m, convolutions], Some(iterations)) => {
+            Some(Some(Solution {
+                load_n,
+                approach_m,
+                contact_radius_m,
+                iterations,
+                // Written from a whole number far below 2^53.
+                convolutions: convolutions as usize,
+            }))
+        }
+        ([], None) => Some(None),
+        _ => None,
+    }
+}
+
+fn encode(key: &[u8; HASH_BYTES], text: &[u8], arrays: &[&[f64]]) -> Vec<u8> {
+    let values: usize = arrays.iter().map(|array| array.len() + 1).sum();
+    let mut bytes = Vec::with_capacity(2 * HASH_BYTES + 24 + text.len() + 8 * values);
+    let length = |length: usize| (length as u64).to_le_bytes();
+    bytes.extend_from_slice(MARK);
+    bytes.extend_from_slice(key);
+    bytes.extend_from_slice(&length(text.len()));
+    bytes.extend_from_slice(text);
+    bytes.extend_from_slice(&length(arrays.len()));
+    for array in arrays {
+        bytes.extend_from_slice(&length(array.len()));
+        bytes.extend(array.iter().flat_map(|value| value.to_le_bytes()));
+    }
+    let hash = Sha256::digest(&bytes);
+    bytes.extend_from_slice(&hash);
+    bytes
+}
+
+/// The text and the arrays of a checkpoint that is whole and has this key.
+fn decode<'a>(bytes: &'a [u8], key: &[u8; HASH_BYTES]) -> Option<(&'a [u8], Vec<Vec<f64>>)> {
+    let (content, hash) = bytes.split_at_checked(bytes.len().checked_sub(HASH_BYTES)?)?;
+    if Sha256::digest(content).as_slice() != hash {
+        return None;
+    }
+    let mut rest = content.strip_prefix(MARK)?.strip_prefix(key)?;
+    let text_length = take_length(&mut rest)?;
+    let text = take(&mut rest, text_length)?;
+    let count = take_length(&mut rest)?;
+    let mut arrays = Vec::new();
+    for _ in 0..count {
+        let length = take_length(&mut rest)?;
+        let values = take(&mut rest, length.checked_mul(8)?)?;
+        let values = values.chunks_exact(8).map(|value| {
+            let mut bytes = [0; 8];
+            bytes.copy_from_slice(value);
+            f64::from_le_bytes(bytes)
+        });
+        arrays.push(values.collect());
+    }
+    rest.is_empty().then_some((text, arrays))
+}
+
+fn take<'a>(rest: &mut &'a [u8], length: usize) -> Option<&'a [u8]> {
+    let (taken, left) = rest.split_at_checked(length)?;
+    *rest = left;
+    Some(taken)
+}
+
+fn take_length(rest: &mut &[u8]) -> Option<usize> {
+    let bytes: [u8; 8] = take(rest, 8)?.try_into().ok()?;
+    usize::try_from(u64::from_le_bytes(bytes)).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const KEY: [u8; HASH_BYTES] = [7; HASH_BYTES];
+
+    fn march() -> MarchState {
+        MarchState {
+            variables: vec![1.0 / 3.0, -0.0],
+            pressure: vec![2.0],
+            solution: Some(Solution {
+                load_n: 1.0,
+                approach_m: 2.0,
+                contact_radius_m: 3.0,
+                iterations: 4,
+                convolutions: 5,
+            }),
+            iterations: 99,
+            convolutions: 98,
+        }
+    }
+
+    fn there_and_back(progress: &Progress) -> Progress {
+        let bytes = progress.bytes(&KEY).unwrap();
+        let (text, arrays) = decode(&bytes, &KEY).unwrap();
+        Progress::from_parts(serde_json::from_slice(text).unwrap(), arrays).unwrap()
+    }
+
+    #[test]
+    fn progress_comes_back_with_every_bit_infinities_too() {
+        let searching = Progress::Searching(Box::new(SearchState {
+            start: vec![0.1, 0.2],
+            march: march(),
+            best: (f64::INFINITY, vec![1.0, 2.0], vec![3.0, 4.0]),
+            anderson: vec![vec![], vec![1e-300], vec![5.0], vec![6.0]],
+            cycles: 3,
+            distance: f64::INFINITY,
+        }));
+        let marching = Progress::Marching {
+            after_search: Some((40, "no".to_owned())),
+            cycles: 17,
+            distance: None,
+            march: march(),
+        };
+        for progress in [searching, marching] {
+            assert_eq!(there_and_back(&progress), progress);
+        }
+    }
+
+    #[test]
+    fn a_damaged_or_foreign_checkpoint_is_passed_over() {
+        let bytes = encode(&KEY, b"{}", &[&[1.0, 2.0], &[]]);
+        assert!(decode(&bytes, &KEY).is_some());
+        assert!(decode(&bytes, &[8; HASH_BYTES]).is_none());
+        for byte in 0..bytes.len() {
+            let mut damaged = bytes.clone();
+            damaged[byte] ^= 1;
+            assert!(decode(&damaged, &KEY).is_none(), "byte {byte}");
+            assert!(decode(&bytes[..byte], &KEY).is_none(), "cut at {byte}");
+        }
+    }
+
+    #[test]
+    fn lengths_that_lie_are_refused_without_taking_memory() {
+        let mut content = [&MARK[..], &KEY].concat();
+        content.extend_from_slice(&u64::MAX.to_le_bytes());
+        let hash = Sha256::digest(&content);
+        content.extend_from_slice(&hash);
+        assert!(decode(&content, &KEY).is_none());
+    }
+}

@@ -1,0 +1,167 @@
+//! About what a sweep costs: time from steps taken on this machine, memory from what a case keeps.
+
+use std::time::{Duration, Instant};
+
+use crate::history::March;
+use crate::sweep::case::{Setup, SetupError};
+use crate::sweep::engines::prescribed;
+use crate::sweep::plan::{Case, EngineKind, Method, SweepPlan};
+
+/// What a sweep costs; good to a factor of two or so, as the number of cycles and of contact iterations is not known before.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cost {
+    /// Per case, in the order of the sweep.
+    pub cases: Vec<CaseCost>,
+    /// Memory (bytes) of a case under way; every thread has one.
+    pub memory_bytes: f64,
+    /// Time (s) of one step of the full number of nodes, as measured.
+    pub step_s: f64,
+}
+
+/// What a case costs on one thread.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CaseCost {
+    pub case: Case,
+    /// Cycles of the full number of steps and nodes.
+    pub cycles: f64,
+    pub time_s: f64,
+}
+
+/// Cells of the grid on which steps are taken, at most: larger ones are foretold from it.
+const CELLS_MEASURED: usize = 128;
+/// Steps are taken for this long, but no fewer than some.
+const MEASURED: Duration = Duration::from_millis(200);
+const FEWEST_STEPS: u32 = 4;
+/// Time (s) below which a shard is not worth its start.
+const SHARD_S: f64 = 600.0;
+
+impl Cost {
+    /// Measures and foretells.
+    ///
+    /// # Errors
+    /// [`SetupError`] where no engine can be made. Where no step can be taken, the measured time is that of the attempt.
+    pub fn of(setup: &Setup) -> Result<Self, SetupError> {
+        let plan = setup.plan();
+        let step_s = step_s(setup)?;
+        let cases = plan.cases().into_iter().map(|case| {
+            let cycles = setup.predicted_cycles(&case);
+            let work: f64 = levels(plan, cycles)
+                .iter()
+                .map(|level| {
+                    level.cycles * level.steps as f64 * relative_step(plan, level.nodes) * step_s
+                })
+                .sum();
+            CaseCost {
+                case,
+                cycles,
+                time_s: work,
+            }
+        });
+        Ok(Self {
+            cases: cases.collect(),
+            memory_bytes: memory_bytes(setup),
+            step_s,
+        })
+    }
+
+    /// Time (s) of all cases on one thread.
+    pub fn time_s(&self) -> f64 {
+        self.cases.iter().map(|case| case.time_s).sum()
+    }
+
+    /// A sensible number of shards for processes of one thread each: none of them shorter than about ten minutes.
+    pub fn shards(&self) -> usize {
+        let wanted = (self.time_s() / SHARD_S).ceil() as usize;
+        wanted.clamp(1, self.cases.len().max(1))
+    }
+}
+
+/// Cycles on one number of nodes in one number of steps.
+struct Level {
+    nodes: usize,
+    steps: usize,
+    cycles: f64,
+}
+
+/// The levels of a case: its own resolution, and coarser ones for the error bars, each started from the one before.
+fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
+    let (nodes, steps) = (plan.solver.nodes(), plan.cycle.steps);
+    let level = |coarser_nodes, coarser_steps, cycles| Level {
+        nodes: nodes / coarser_nodes,
+        steps: steps / coarser_steps,
+        cycles,
+    };
+    if !plan.cycle.error_bars && plan.cycle.accuracy.is_none() {
+        return vec![level(1, 1, cycles)];
+    }
+    // A search from the memory of coarser steps needs about half as many cycles.
+    let again = match plan.cycle.method {
+        Method::Direct => 0.5 * cycles,
+        Method::March => cycles,
+    };
+    let mut levels = vec![level(1, 1, again), level(1, 2, again)];
+    levels.push(match plan.solver.engine {
+        EngineKind::Axisymmetric => level(1, 4, cycles),
+        EngineKind::HalfSpace => level(2, 4, cycles),
+    });
+    levels.extend([level(2, 2, again), level(4, 2, cycles)]);
+    levels
+}
+
+/// Time of a step on so many nodes, relative to one on the full number.
+fn relative_step(plan: &SweepPlan, nodes: usize) -> f64 {
+    let ratio = nodes as f64 / plan.solver.nodes() as f64;
+    match plan.solver.engine {
+        EngineKind::Axisymmetric => ratio,
+        EngineKind::HalfSpace => ratio * ratio,
+    }
+}
+
+/// Time (s) of one step, from steps of the middle frequency after the body was relaxed under the mean.
+fn step_s(setup: &Setup) -> Result<f64, SetupError> {
+    let plan = setup.plan();
+    let nodes = match plan.solver.engine {
+        EngineKind::Axisymmetric => plan.solver.nodes(),
+        EngineKind::HalfSpace => plan.solver.nodes().min(CELLS_MEASURED),
+    };
+    let drive = plan.drives().first().unwrap_or(&plan.drive);
+    let omegas = &plan.angular_frequencies_rad_per_s;
+    let omega = omegas.get(omegas.len() / 2).copied().unwrap_or(1.0);
+    let mut engine = setup.engine(drive, nodes)?;
+    let compliance = setup.compliance().clone();
+    let mut march = March::new(engine.as_mut(), compliance, plan.solver.time_rule);
+    let steps = plan.cycle.steps as f64;
+    let weights = march.weights(std::f64::consts::TAU / omega / steps);
+    let value = |value| prescribed(drive.control(), value);
+    // A contact that cannot be solved costs what the attempt cost.
+    let relaxed = march.relax(value(drive.mean())).is_ok();
+    let (clock, mut taken) = (Instant::now(), 0_u32);
+    while relaxed && (clock.elapsed() < MEASURED || taken < FEWEST_STEPS) {
+        taken += 1;
+        let fraction = (f64::from(taken) / steps).fract();
+        if march.step(&weights, value(drive.value(fraction))).is_err() {
+            break;
+        }
+    }
+    let measured = clock.elapsed().as_secs_f64() / f64::from(taken.max(1));
+    Ok(measured / relative_step(plan, nodes))
+}
+
+/// What a case under way keeps: fields of the engine and of the convolution, the memory of the body, and what the search looks
+/// back on.
+fn memory_bytes(setup: &Setup) -> f64 {
+    const F64: f64 = 8.0;
+    /// Vectors of nodes in engine and march; vectors of memory variables in a search with its acceleration.
+    const FIELDS: f64 = 12.0;
+    const VARIABLES: f64 = 34.0;
+    let plan = setup.plan();
+    let branches = setup.compliance().branches().len() as f64;
+    let nodes = plan.solver.nodes() as f64;
+    let (nodes, operator) = match plan.solver.engine {
+        // The table of roots of the pressure: half a square.
+        EngineKind::Axisymmetric => (nodes, 0.5 * nodes * nodes),
+        // Spectrum and scratch on a grid padded to twice the side.
+        EngineKind::HalfSpace => (nodes * nodes, 12.0 * nodes * nodes),
+    };
+    F64 * (operator + nodes * (FIELDS + branches * VARIABLES))
+}
