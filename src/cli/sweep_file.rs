@@ -13,6 +13,7 @@ use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, Method, SolverPlan, S
 
 /// Frequencies, steps, cycles and nodes beyond these are a slip of the pen rather than a wish.
 const MAX_POINTS: usize = 100_000;
+const MAX_CASES: usize = 1_000_000;
 const STEPS: std::ops::RangeInclusive<usize> = 8..=1_000_000;
 const CYCLES: std::ops::RangeInclusive<usize> = 1..=100_000_000;
 const SPRINGS: std::ops::RangeInclusive<usize> = 10..=10_000;
@@ -123,6 +124,7 @@ fn axes(
     problems: &Problems,
 ) -> Option<Axes> {
     let frequencies = frequencies(&mut table, problems);
+    let place = table.key_location("drive");
     let refine = table.boolean_or("refine", false);
     let varied = match table.has("drive") {
         true => Some(
@@ -137,8 +139,21 @@ fn axes(
         Some(axis) => Some(axis?),
         None => None,
     };
+    let frequencies = frequencies?;
+    let cases = drives.as_ref().map_or(1, |axis| axis.drives.len()) * frequencies.len();
+    if cases > MAX_CASES
+        && let Some(place) = place
+    {
+        problems
+            .at(
+                &place,
+                format!("{cases} cases are more than a sweep may have, {MAX_CASES}"),
+            )
+            .help("make several sweeps of it");
+        return None;
+    }
     Some(Axes {
-        angular_frequencies_rad_per_s: frequencies?,
+        angular_frequencies_rad_per_s: frequencies,
         drives,
         refine: refine?.value,
     })
