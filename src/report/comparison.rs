@@ -2,8 +2,8 @@
 //!
 //! Cases are matched by drive and frequency. Two values are the same where they differ by at most `absolute` + `relative`
 //! times the larger of them. Where two cases were solved on different steps or nodes, values that differ by no more than the
-//! sum of their error bars count as the same too; on the same steps and nodes, where the errors are the same, they do not,
-//! but are reported as being within the bars.
+//! sum of their error bars count as the same too, and columns without bars are not judged; on the same steps and nodes, where
+//! the errors are the same, bars excuse nothing, but differences within them are reported as such.
 
 mod result;
 mod text;
@@ -230,7 +230,10 @@ fn column(
                 found.largest = Some((share, old_row.place));
             }
         }
-        if difference <= tolerances.absolute + relative * scale {
+        let same_discretisation = old_row.discretisation == new_row.discretisation;
+        // Without an error bar nothing says how far two discretisations may be apart.
+        let is_comparable = same_discretisation || bar.is_some() || own.is_some();
+        if difference <= tolerances.absolute + relative * scale || !is_comparable {
             continue;
         }
         found.beyond += 1;
@@ -242,7 +245,6 @@ fn column(
         };
         let within = error.is_some_and(|(a, b)| difference <= a + b);
         found.within_bars += usize::from(within);
-        let same_discretisation = old_row.discretisation == new_row.discretisation;
         found.different += usize::from(!within || same_discretisation);
     }
     Ok(found)

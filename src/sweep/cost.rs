@@ -76,6 +76,26 @@ impl Cost {
     }
 }
 
+impl Setup {
+    /// Predicted cost of a case, in cycles: marching at a high frequency needs many to forget the start.
+    pub fn predicted_cycles(&self, case: &Case) -> f64 {
+        let slowest_s = self
+            .compliance()
+            .branches()
+            .iter()
+            .map(|b| b.time_s)
+            .fold(0.0, f64::max);
+        let cycles_to_forget = slowest_s * case.angular_frequency_rad_per_s / std::f64::consts::TAU;
+        let to_tolerance = -self.plan().cycle.tolerance.ln();
+        match self.plan().cycle.method {
+            Method::Direct => 6.0,
+            Method::March => {
+                (2.0 + cycles_to_forget * to_tolerance).min(self.plan().cycle.max_cycles as f64)
+            }
+        }
+    }
+}
+
 /// Cycles on one number of nodes in one number of steps.
 struct Level {
     nodes: usize,

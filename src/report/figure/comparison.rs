@@ -53,12 +53,24 @@ fn points(
     points
 }
 
+/// The axis of both panels, with the same ends, where there is more than one frequency.
+fn frequencies(curve: &[CurvePoint], label: &str) -> Axis {
+    let omegas = curve.iter().map(|p| p.place.angular_frequency_rad_per_s);
+    let ends = omegas.fold((f64::INFINITY, 0.0_f64), |(low, high), omega| {
+        (low.min(omega), high.max(omega))
+    });
+    match ends {
+        (low, high) if low < high => Axis::log(label).range(low, high),
+        _ => Axis::log(label),
+    }
+}
+
 fn losses(curve: &[CurvePoint]) -> Chart {
     let all = curve.iter().flat_map(|p| [p.baseline_j, p.new_j]).flatten();
     let (factor, unit) = prefix(all.fold(0.0, f64::max));
     let scaled = |loss: Option<f64>| loss.map(|j| factor * j);
     Chart::new(
-        Axis::log(""),
+        frequencies(curve, ""),
         Axis::linear(format!("energy loss per cycle / {unit}J")),
     )
     .series(Series::line(points(curve, |p| scaled(p.baseline_j))).label("baseline"))
@@ -74,7 +86,7 @@ fn losses(curve: &[CurvePoint]) -> Chart {
 fn differences(curve: &[CurvePoint]) -> Chart {
     let percent = |p: &CurvePoint| p.relative_difference().map(|d| 100.0 * d);
     Chart::new(
-        Axis::log("angular frequency ω / rad·s⁻¹"),
+        frequencies(curve, "angular frequency ω / rad·s⁻¹"),
         Axis::linear("new − baseline / %"),
     )
     .series(Series::line(points(curve, percent)).marker(Marker::Disc))
