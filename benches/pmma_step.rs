@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         radius_error = radius_error.max((found.contact_radius_m / exact_m - 1.0).abs());
     }
     let wall_s = started.elapsed().as_secs_f64();
-    let iterations = march.iterations() as f64 / steps as f64;
+    let iterations = march.work().iterations as f64 / steps as f64;
     let convolutions = engine.convolutions() as f64 / steps as f64;
     println!(
         "{{\"cells\": {cells}, \"steps\": {steps}, \"wall_s\": {wall_s:.3}, \"iterations_per_step\": {iterations:.1}, \

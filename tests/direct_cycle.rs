@@ -125,30 +125,30 @@ impl Case<'_> {
     }
 }
 
-/// Cycles (the recorded one included) that every spectrum, shape, amplitude and decade takes to a loss within 1e-4, sorted;
-/// the engine is made for the indenter, the largest load and the compliance.
-fn counts(
-    shapes: &[(Box<dyn Indenter>, f64)],
-    steps: usize,
-    engine: &(dyn Fn(&dyn Indenter, f64, &Creep) -> Box<dyn Engine> + Sync),
-) -> Vec<(usize, String)> {
+/// An indenter, and the amplitude (N) it is driven with.
+type Contact = (Box<dyn Indenter>, f64);
+
+/// Makes an engine for an indenter, the largest load (N) and the compliance.
+type MakeEngine = dyn Fn(&dyn Indenter, f64, &Creep) -> Box<dyn Engine> + Sync;
+
+/// Cycles (the recorded one included) that every spectrum, shape, amplitude and decade takes to a loss within 1e-4, sorted.
+fn counts(shapes: &[Contact], steps: usize, engine: &MakeEngine) -> Vec<(usize, String)> {
     let materials = materials();
     let mut contacts = Vec::new();
     for material in &materials {
-        for (shape, amplitude_n) in shapes {
-            contacts.extend((-4..=4).map(|decade| (material, shape, *amplitude_n, decade)));
+        for contact in shapes {
+            contacts.extend((-4..=4).map(|decade| (material, contact, decade)));
         }
     }
-    let count = |((name, compliance, time_s), shape, amplitude_n, decade): &(
+    let count = |&((name, compliance, time_s), (shape, amplitude_n), decade): &(
         &(&str, Creep, f64),
-        &Box<dyn Indenter>,
-        f64,
+        &Contact,
         i32,
     )| {
         let case = Case {
             compliance,
             amplitude_n: *amplitude_n,
-            period_s: std::f64::consts::TAU * time_s / 10_f64.powi(*decade),
+            period_s: std::f64::consts::TAU * time_s / 10_f64.powi(decade),
             steps,
         };
         let mut engine = engine(shape.as_ref(), MEAN_N + amplitude_n, compliance);
@@ -171,7 +171,7 @@ fn counts(
 #[test]
 fn three_spectra_over_eight_decades_take_a_handful_of_cycles_to_a_loss_within_1e_4() {
     // Half the mean, and all of it: the load touches zero.
-    let shapes: Vec<(Box<dyn Indenter>, f64)> = vec![
+    let shapes: Vec<Contact> = vec![
         (Box::new(Sphere::new(0.01).unwrap()), 5.0),
         (Box::new(Sphere::new(0.01).unwrap()), 10.0),
         (Box::new(Cone::new(1.2).unwrap()), 5.0),
@@ -189,7 +189,7 @@ fn three_spectra_over_eight_decades_take_a_handful_of_cycles_to_a_loss_within_1e
 
 #[test]
 fn on_cells_it_takes_half_as_many_again_at_most() {
-    let shapes: Vec<(Box<dyn Indenter>, f64)> = vec![
+    let shapes: Vec<Contact> = vec![
         (Box::new(Sphere::new(0.01).unwrap()), 5.0),
         (Box::new(Sphere::new(0.01).unwrap()), 10.0),
         (Box::new(Cone::new(1.2).unwrap()), 5.0),

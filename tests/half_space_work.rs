@@ -52,14 +52,14 @@ fn a_cycle_on_pmma_takes_fewer_than_ten_convolutions_per_step() {
         let mut engine = half_space(&sphere(), half_width_m, 128);
         let mut march = March::new(&mut engine, pmma(), TimeRule::Linear);
         march.jump(Prescribed::LoadN(LOAD_N)).unwrap();
-        let before = march.convolutions();
+        let before = march.work().convolutions;
         let weights = march.weights(TAU / 0.01 / f64::from(steps));
         for step in 1..=steps {
             let angle = TAU * f64::from(step) / f64::from(steps);
             let load = Prescribed::LoadN(LOAD_N * (1.0 + share * angle.sin()));
             march.step(&weights, load).unwrap();
         }
-        let mean = (march.convolutions() - before) as f64 / f64::from(steps);
+        let mean = (march.work().convolutions - before) as f64 / f64::from(steps);
         println!("{steps} steps: {mean:.2} convolutions per step");
         assert!(mean < 10.0 && mean < 1.15 * seen, "{steps} steps: {mean}");
         assert_eq!(engine.safeguarded_instants(), 0);
@@ -75,7 +75,7 @@ fn a_held_load_takes_a_few_convolutions_per_step() {
     for _ in 0..200 {
         march.step(&weights, Prescribed::LoadN(LOAD_N)).unwrap();
     }
-    let mean = (march.convolutions() - first.convolutions as u64) as f64 / 200.0;
+    let mean = (march.work().convolutions - first.convolutions as u64) as f64 / 200.0;
     println!("{mean:.2} convolutions per step after {first:?}");
     // 3.2 were seen. The first instant's are mostly on coarser grids: 31 were seen.
     assert!(mean < 4.0, "{mean}");
@@ -83,7 +83,7 @@ fn a_held_load_takes_a_few_convolutions_per_step() {
         first.convolutions < 40 && first.iterations < 12,
         "{first:?}"
     );
-    assert_eq!(march.convolutions(), engine.convolutions());
+    assert_eq!(march.work().convolutions, engine.convolutions());
 }
 
 // The fast way against the safe one.

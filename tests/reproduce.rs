@@ -2,7 +2,6 @@
 //! committed in `reports/spinu-2018/`; and every claim held to the accuracy it needs.
 
 #[path = "common/program.rs"]
-#[allow(dead_code)] // Nothing has to be written into a file.
 mod program;
 
 use std::collections::BTreeSet;

@@ -52,7 +52,7 @@ fn history(engine: &mut dyn Engine, cycles: usize) -> History {
     History {
         load_n: solutions.iter().map(|s| s.load_n).collect(),
         approach_m: solutions.iter().map(|s| s.approach_m).collect(),
-        iterations: march.iterations(),
+        iterations: march.work().iterations,
     }
 }
 

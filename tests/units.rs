@@ -151,20 +151,24 @@ fn compare(engine: EngineKind, tolerance: f64, iterations: f64) {
             assert!(error.abs() < tolerance, "{name}: {quantity} {error:e}");
             largest = largest.max(error.abs());
         }
-        let work = relative(other.iterations as f64, si.iterations as f64);
+        let work = relative(other.work.iterations as f64, si.work.iterations as f64);
         println!("{engine:?}, {name}: {largest:.1e}, work {work:+.1e}");
         assert!(
             work.abs() <= iterations,
             "{name}: {} not {}",
-            other.iterations,
-            si.iterations
+            other.work.iterations,
+            si.work.iterations
         );
         assert_eq!(
             (other.cycles, other.domain_enlarged),
             (si.cycles, si.domain_enlarged)
         );
         if units.exact {
-            assert_eq!((largest, other.iterations), (0.0, si.iterations), "{name}");
+            assert_eq!(
+                (largest, other.work.iterations),
+                (0.0, si.work.iterations),
+                "{name}"
+            );
         }
     }
 }

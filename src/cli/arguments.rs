@@ -93,6 +93,9 @@ pub(super) struct SweepFlags {
     /// Print what would be computed and about what it costs, and compute nothing
     #[arg(long)]
     pub(super) dry_run: bool,
+    /// Print what was done: instants, iterations and convolutions per instant
+    #[arg(long)]
+    pub(super) stats: bool,
     /// Seconds between two checkpoints of a case that takes long
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY.as_secs())]
     pub(super) checkpoint_every: u64,

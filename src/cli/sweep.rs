@@ -41,6 +41,7 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
         setup: &setup,
         store: &store,
         quiet: flags.quiet,
+        stats: flags.stats,
         command: "sweep",
         clock,
         threads: options.threads,
@@ -81,6 +82,8 @@ pub(super) struct Job<'a> {
     pub(super) setup: &'a Setup,
     pub(super) store: &'a Store,
     pub(super) quiet: bool,
+    /// Whether to print what was done.
+    pub(super) stats: bool,
     pub(super) command: &'static str,
     pub(super) clock: Stopwatch,
     pub(super) threads: usize,
@@ -97,6 +100,9 @@ impl Job<'_> {
         if !self.quiet {
             let folder = self.store.folder();
             print(&text(self.setup, outcome, &left_out, folder))?;
+        }
+        if self.stats {
+            print(&terminal::work(outcome))?;
         }
         Ok(ended(outcome))
     }

@@ -265,14 +265,14 @@ impl Engine for Axisymmetric {
         &mut self,
         force: &[f64],
         displacement: &mut [f64],
-    ) -> Result<(), ContactError> {
+    ) -> Result<usize, ContactError> {
         if force.len() != displacement.len() {
             return Err(ContactError::Operator {
                 reason: format!("{} forces for {} springs", force.len(), displacement.len()),
             });
         }
         displacement.copy_from_slice(force);
-        Ok(())
+        Ok(0)
     }
 
     fn load_per_nodal_pressure(&self) -> f64 {

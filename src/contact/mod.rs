@@ -149,7 +149,8 @@ pub trait Engine: Send {
     /// may only speed up the next, is then the same, and so is every bit and count of what follows.
     fn resume_from(&mut self, _last: &Solution) {}
 
-    /// B p: the displacement per node that this nodal pressure makes, per unit of compliance.
+    /// B p: the displacement per node that this nodal pressure makes, per unit of compliance. Returns the number of
+    /// convolutions it took.
     ///
     /// # Errors
     /// [`ContactError::Operator`], for slices of the wrong length alone.
@@ -157,7 +158,7 @@ pub trait Engine: Send {
         &mut self,
         pressure: &[f64],
         displacement: &mut [f64],
-    ) -> Result<(), ContactError>;
+    ) -> Result<usize, ContactError>;
 
     /// What the sum of the nodal pressures is multiplied by to give the load; and the sum of the products of nodal pressures
     /// and displacements, to give an energy.

@@ -84,13 +84,13 @@ impl Dissipation {
         self.change.copy_from_slice(pressure);
     }
 
-    /// Takes in the state at its end.
+    /// Takes in the state at its end; returns the convolutions that took.
     pub(super) fn after(
         &mut self,
         engine: &mut dyn Engine,
         pressure: &[f64],
         (start, end): (&Solution, &Solution),
-    ) -> Result<(), ContactError> {
+    ) -> Result<usize, ContactError> {
         let travel_m = end.approach_m - start.approach_m;
         for ((work, old), new) in self
             .nodal_work
@@ -105,12 +105,12 @@ impl Dissipation {
                 TimeRule::Constant => 0.0,
             };
         }
-        engine.elastic_displacement(&self.change, &mut self.of_change)?;
+        let mut convolutions = engine.elastic_displacement(&self.change, &mut self.of_change)?;
         let area = engine.load_per_nodal_pressure();
         let changing = dot(&self.change, &self.of_change);
         let deviations = self.deviation.chunks_exact(self.nodes);
         for (branch, deviation) in self.branches.iter_mut().zip(deviations) {
-            engine.elastic_displacement(deviation, &mut self.of_deviation)?;
+            convolutions += engine.elastic_displacement(deviation, &mut self.of_deviation)?;
             let decaying = dot(deviation, &self.of_deviation);
             let mixed = dot(&self.change, &self.of_deviation);
             branch.energy_j += area
@@ -119,7 +119,7 @@ impl Dissipation {
                     + 2.0 * branch.mixed * mixed
                     + branch.growing * changing);
         }
-        Ok(())
+        Ok(convolutions)
     }
 }
 

@@ -4,7 +4,7 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use crate::history::extrapolation::Extrapolation;
-use crate::history::{Dissipation, Hereditary, Memory, StepWeights, TimeRule};
+use crate::history::{Dissipation, Hereditary, Memory, StepWeights, TimeRule, Work};
 use crate::material::Creep;
 
 /// A contact moving through time, its past kept as memory variables or, as [`DirectMemory`](super::DirectMemory), in full.
@@ -19,8 +19,7 @@ pub struct March<'a, M = Memory> {
     /// A of the instant last solved (1/Pa).
     compliance_per_pa: f64,
     solution: Option<Solution>,
-    iterations: u64,
-    convolutions: u64,
+    work: Work,
 }
 
 /// A march at one of its instants: enough to go on from there, bit for bit.
@@ -31,8 +30,7 @@ pub struct MarchState {
     /// Nodal pressure of the instant, the guess for the next.
     pub pressure: Vec<f64>,
     pub solution: Option<Solution>,
-    pub iterations: u64,
-    pub convolutions: u64,
+    pub work: Work,
 }
 
 /// Sees every instant of a march: the engine, the nodal pressure and the solution.
@@ -60,8 +58,7 @@ impl<'a, M: Hereditary> March<'a, M> {
             history: vec![0.0; nodes],
             compliance_per_pa: 0.0,
             solution: None,
-            iterations: 0,
-            convolutions: 0,
+            work: Work::default(),
         }
     }
 
@@ -101,8 +98,11 @@ impl<'a, M: Hereditary> March<'a, M> {
     }
 
     fn count(&mut self, solution: Solution) -> Solution {
-        self.iterations += solution.iterations as u64;
-        self.convolutions += solution.convolutions as u64;
+        self.work += Work {
+            instants: 1,
+            iterations: solution.iterations as u64,
+            convolutions: solution.convolutions as u64,
+        };
         self.solution = Some(solution);
         solution
     }
@@ -222,14 +222,9 @@ impl<'a, M: Hereditary> March<'a, M> {
         &self.memory
     }
 
-    /// Contact iterations since the march began.
-    pub fn iterations(&self) -> u64 {
-        self.iterations
-    }
-
-    /// Convolutions since the march began: the work of an engine that convolves.
-    pub fn convolutions(&self) -> u64 {
-        self.convolutions
+    /// What the march has cost so far.
+    pub fn work(&self) -> Work {
+        self.work
     }
 }
 
@@ -249,7 +244,8 @@ impl March<'_> {
         let start = self.solution;
         let end = self.step(weights, prescribed)?;
         let start = start.unwrap_or(end);
-        dissipation.after(self.engine, &self.pressure, (&start, &end))?;
+        let convolutions = dissipation.after(self.engine, &self.pressure, (&start, &end))?;
+        self.work.convolutions += convolutions as u64;
         Ok(end)
     }
 
@@ -295,8 +291,7 @@ impl March<'_> {
             variables: self.memory.variables().to_vec(),
             pressure: self.pressure.clone(),
             solution: self.solution,
-            iterations: self.iterations,
-            convolutions: self.convolutions,
+            work: self.work,
         }
     }
 
@@ -312,8 +307,7 @@ impl March<'_> {
             if let Some(last) = &state.solution {
                 self.engine.resume_from(last);
             }
-            self.iterations = state.iterations;
-            self.convolutions = state.convolutions;
+            self.work = state.work;
             self.forget_course();
         }
         fits

@@ -18,9 +18,11 @@ mod hereditary;
 mod loaded;
 mod march;
 mod memory;
+mod work;
 
 pub use direct::{ComplianceFunction, DirectMemory, DirectStep, Quadrature};
 pub use dissipation::Dissipation;
 pub use hereditary::Hereditary;
 pub use march::{March, MarchState, Observer};
 pub use memory::{Memory, StepWeights, TimeRule};
+pub use work::Work;

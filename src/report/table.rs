@@ -98,7 +98,7 @@ const FIRST: [Column; 4] = [
 ];
 
 /// What has no error bar, and how the numbers came about.
-const LAST: [Column; 15] = [
+const LAST: [Column; 17] = [
     ("dissipated_j", |r| {
         optional(r.result.as_ref().map(CaseResult::dissipated_j))
     }),
@@ -118,7 +118,9 @@ const LAST: [Column; 15] = [
     ("cycles", |r| r.cycles.to_string()),
     ("steady_distance", |r| optional(r.steady_distance)),
     ("domain_half_width_m", |r| number(r.domain_half_width_m)),
-    ("iterations", |r| r.iterations.to_string()),
+    ("instants", |r| r.work.instants.to_string()),
+    ("iterations", |r| r.work.iterations.to_string()),
+    ("convolutions", |r| r.work.convolutions.to_string()),
     ("status", |r| r.status.name().to_owned()),
     ("message", |r| r.message.clone().unwrap_or_default()),
 ];

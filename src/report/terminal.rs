@@ -3,6 +3,7 @@
 use std::fmt::{self, Write};
 
 use super::figure;
+use crate::history::Work;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::peak::Peak;
 use crate::sweep::plan::{DriveAxis, SweepPlan, Varied};
@@ -185,6 +186,29 @@ fn no_peak(plan: &SweepPlan, outcome: &Outcome) -> &'static str {
     } else {
         "No peak inside the sweep: the loss is largest at one of its ends. Widen the sweep.\n"
     }
+}
+
+/// What the cases of the table cost, coarser resolutions too.
+pub fn work(outcome: &Outcome) -> String {
+    let mut work = Work::default();
+    for record in &outcome.records {
+        work += record.work;
+    }
+    let instants = work.instants.max(1) as f64;
+    let mut text = format!(
+        "Work: {} instants, {:.1} iterations an instant",
+        work.instants,
+        work.iterations as f64 / instants
+    );
+    if work.convolutions > 0 {
+        let _ = write!(
+            text,
+            ", {:.1} convolutions an instant",
+            work.convolutions_per_instant().unwrap_or_default()
+        );
+    }
+    text.push('\n');
+    text
 }
 
 /// Cases without a result, with the reason.

@@ -201,7 +201,11 @@ mod tests {
             steady_distance: Some(1.0 / 3.0),
             domain_half_width_m: 1e-3,
             domain_enlarged: 0,
-            iterations: 12_345,
+            work: crate::history::Work {
+                instants: 1_234,
+                iterations: 12_345,
+                convolutions: 0,
+            },
             result: None,
         }
     }

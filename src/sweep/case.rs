@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex};
 
 use crate::contact::{ContactError, Engine};
 use crate::drive::HarmonicDrive;
+use crate::history::Work;
 use crate::material::{Creep, MaterialError};
 use crate::sweep::checkpoint::Checkpoints;
 use crate::sweep::engines::{AsContactError, EngineBuilder, EngineError, LargestContact};
@@ -192,7 +193,7 @@ impl Setup {
             steady_distance: None,
             domain_half_width_m: 0.0,
             domain_enlarged: 0,
-            iterations: 0,
+            work: Work::default(),
             result: None,
         };
         let contact = Contact {
@@ -260,7 +261,7 @@ impl Setup {
             false => None,
         };
         for solved in std::iter::once(&half).chain(&quarter) {
-            record.iterations += solved.iterations();
+            record.work += solved.work();
         }
         if let Some(result) = &mut record.result {
             let distance = record.steady_distance.unwrap_or(0.0);
@@ -311,11 +312,11 @@ impl Setup {
         let mut contact = *contact;
         contact.cycle.error_bars = true;
         contact.cycle.tolerance = contact.cycle.tolerance.min(0.1 * accuracy);
-        let mut iterations = 0;
+        let mut work = Work::default();
         for _ in 0..ROUNDS {
             self.at_resolution(&contact, record)?;
-            iterations += record.iterations;
-            record.iterations = iterations;
+            work += record.work;
+            record.work = work;
             let Some(result) = &record.result else {
                 return Ok(());
             };
@@ -405,15 +406,19 @@ impl Solved {
         cycle.result.as_ref()
     }
 
-    fn iterations(&self) -> u64 {
-        self.cycles.iter().map(|(_, cycle)| cycle.iterations).sum()
+    fn work(&self) -> Work {
+        let mut work = Work::default();
+        for (_, cycle) in &self.cycles {
+            work += cycle.work;
+        }
+        work
     }
 }
 
 impl CaseRecord {
     /// Takes over what was found in the most steps; leaves the coarser results where they are.
     fn take(&mut self, solved: &mut Solved) {
-        self.iterations = solved.iterations();
+        self.work = solved.work();
         let Some((_, finest)) = solved.cycles.last_mut() else {
             return;
         };

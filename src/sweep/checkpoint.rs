@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::contact::Solution;
-use crate::history::MarchState;
+use crate::history::{MarchState, Work};
 use crate::steady::SearchState;
 use crate::sweep::archive::{Purpose, case_name};
 use crate::sweep::plan::{Case, Method};
@@ -144,7 +144,7 @@ impl Checkpoints {
         Some(Stabilised {
             method: text.method,
             cycles: text.cycles,
-            iterations: text.iterations,
+            work: text.work,
             distance: text.distance,
             message: text.message,
             memory,
@@ -179,7 +179,7 @@ impl Checkpoints {
         let text = FinishedText {
             method: ended.method,
             cycles: ended.cycles,
-            iterations: ended.iterations,
+            work: ended.work,
             distance: ended.distance,
             message: ended.message.clone(),
             last_iterations: ended.last.map(|last| last.iterations),
@@ -242,7 +242,7 @@ impl Level {
 struct FinishedText {
     method: Method,
     cycles: usize,
-    iterations: u64,
+    work: Work,
     distance: Option<f64>,
     message: Option<String>,
     last_iterations: Option<usize>,
@@ -255,8 +255,7 @@ struct ProgressText {
     searching: bool,
     after_search: Option<(usize, String)>,
     cycles: usize,
-    iterations: u64,
-    convolutions: u64,
+    work: Work,
     solved_iterations: Option<usize>,
 }
 
@@ -271,8 +270,7 @@ impl Progress {
                 variables: Vec::new(),
                 pressure: Vec::new(),
                 solution: None,
-                iterations: 0,
-                convolutions: 0,
+                work: Work::default(),
             },
         }
     }
@@ -297,8 +295,7 @@ impl Progress {
                 Self::Marching { after_search, .. } => after_search.clone(),
             },
             cycles,
-            iterations: march.iterations,
-            convolutions: march.convolutions,
+            work: march.work,
             solved_iterations: march.solution.map(|s| s.iterations),
         };
         let scalars = match self {
@@ -327,8 +324,7 @@ impl Progress {
             variables,
             pressure,
             solution: from_numbers(&solution, text.solved_iterations)?,
-            iterations: text.iterations,
-            convolutions: text.convolutions,
+            work: text.work,
         };
         if !text.searching {
             return Some(Self::Marching {
@@ -449,8 +445,11 @@ mod tests {
                 iterations: 4,
                 convolutions: 5,
             }),
-            iterations: 99,
-            convolutions: 98,
+            work: Work {
+                instants: 97,
+                iterations: 99,
+                convolutions: 98,
+            },
         }
     }
 

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cycle::{Extrema, Loop, LoopAnalysis};
 use crate::drive::HarmonicDrive;
+use crate::history::Work;
 use crate::sweep::error_bars::ErrorBars;
 use crate::sweep::plan::Method;
 
@@ -54,8 +55,8 @@ pub struct CaseRecord {
     /// Half width of the computational domain (m) and how often it had to be enlarged.
     pub domain_half_width_m: f64,
     pub domain_enlarged: usize,
-    /// Contact iterations over all instants, of coarser resolutions too.
-    pub iterations: u64,
+    /// What the case cost, coarser resolutions too.
+    pub work: Work,
     /// Only for a converged case.
     pub result: Option<CaseResult>,
 }

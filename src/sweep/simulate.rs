@@ -311,7 +311,7 @@ impl Simulation {
             Ok(())
         };
         let ended = marched();
-        outcome.iterations = march.iterations();
+        outcome.iterations = march.work().iterations;
         outcome.profiles = kept_profiles.finish();
         outcome.fields = kept_fields.finish();
         ended

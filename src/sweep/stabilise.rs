@@ -6,7 +6,7 @@ use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::{self, BranchChange, Extrema, Loop, LoopError};
 use crate::drive::HarmonicDrive;
-use crate::history::{Dissipation, March, StepWeights, TimeRule};
+use crate::history::{Dissipation, March, StepWeights, TimeRule, Work};
 use crate::material::Creep;
 use crate::steady::{self, Begin, SteadySettings};
 use crate::sweep::checkpoint::{Checkpoints, Level, Progress};
@@ -33,7 +33,7 @@ pub(super) struct Contact<'a> {
 pub(super) struct Stabilised {
     pub method: Method,
     pub cycles: usize,
-    pub iterations: u64,
+    pub work: Work,
     pub distance: Option<f64>,
     /// What a reader should know of how it came about, or of why there is no result.
     pub message: Option<String>,
@@ -372,7 +372,7 @@ impl<'a> Cycles<'a> {
         Stabilised {
             method,
             cycles: self.count,
-            iterations: march.iterations(),
+            work: march.work(),
             distance: self.distance,
             message,
             memory: self.start,

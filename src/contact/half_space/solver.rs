@@ -400,12 +400,12 @@ impl Engine for HalfSpace {
         &mut self,
         pressure: &[f64],
         displacement: &mut [f64],
-    ) -> Result<(), ContactError> {
+    ) -> Result<usize, ContactError> {
         let scratch = &mut self.scratches.convolution;
         self.operator.fit(scratch);
         self.operator.apply(pressure, displacement, scratch)?;
         self.convolutions += 1;
-        Ok(())
+        Ok(1)
     }
 
     fn load_per_nodal_pressure(&self) -> f64 {
