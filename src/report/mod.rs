@@ -6,6 +6,7 @@ pub mod figure;
 pub mod fit;
 pub mod material;
 pub mod npy;
+pub mod page;
 pub mod samples;
 pub mod scenario;
 pub mod stamp;
@@ -57,6 +58,8 @@ pub fn write_sweep(
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
     store.write("summary.json", &summary)?;
     let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
+    let page = page::sweep(plan, outcome, &figures, store.sweep_hash())?;
+    store.write("index.html", page.as_bytes())?;
     let stamp = Stamp::of(store.sweep_hash());
     figure::write_all(&figures, &|name, bytes| {
         store.write(name, &stamp.on(name, bytes))

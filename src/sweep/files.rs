@@ -16,8 +16,8 @@ pub const FIGURES: [&str; 12] = [
     "moduli-error",
 ];
 
-/// Where it comes from, table and summary.
-const TABLES: [&str; 3] = ["run.json", "sweep.csv", "summary.json"];
+/// Where it comes from, table, summary and page.
+const TABLES: [&str; 4] = ["run.json", "sweep.csv", "summary.json", "index.html"];
 
 /// The files of a figure: its data, and the picture in three forms.
 pub fn of_figure(name: &str) -> [String; 4] {

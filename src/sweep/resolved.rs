@@ -102,7 +102,7 @@ pub(super) fn solver_text(solver: &SolverPlan) -> String {
 }
 
 /// What kind of quantity a drive's values are.
-pub(super) fn drive_dimension(control: Control) -> Dimension {
+pub fn drive_dimension(control: Control) -> Dimension {
     match control {
         Control::Load => Dimension::Force,
         Control::Approach => Dimension::Length,

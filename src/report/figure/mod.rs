@@ -57,7 +57,7 @@ impl From<HeatMap> for Picture {
 }
 
 impl Picture {
-    fn to_svg(&self) -> Result<String, ChartError> {
+    pub(super) fn to_svg(&self) -> Result<String, ChartError> {
         match self {
             Self::Chart(chart) => chart::to_svg(chart),
             Self::Stack(charts) => chart::stack_to_svg(charts),
@@ -120,7 +120,7 @@ pub fn write_picture(
 }
 
 /// The power of ten and its prefix in which values up to `largest` read well: (factor to multiply by, prefix).
-fn prefix(largest: f64) -> (f64, &'static str) {
+pub(super) fn prefix(largest: f64) -> (f64, &'static str) {
     const PREFIXES: [(f64, &str); 11] = [
         (1e-15, "f"),
         (1e-12, "p"),

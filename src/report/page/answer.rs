@@ -1,0 +1,81 @@
+//! The answer in words: peaks with their uncertainty, and the cases that have none.
+
+use std::fmt::Write;
+
+use super::html::escaped;
+use super::number::{plain, with_error};
+use crate::quantity::Dimension;
+use crate::report::terminal;
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::resolved::drive_dimension;
+use crate::sweep::run::Outcome;
+
+/// Peaks as a list, largest first; where there are none, why.
+pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
+    if outcome.peaks.is_empty() {
+        let why = terminal::peaks(plan, outcome);
+        return format!("<p class=\"peaks\">{}</p>", escaped(why.trim()));
+    }
+    let mut html = String::from("<ul class=\"peaks\">\n");
+    for (rank, peak) in outcome.peaks.iter().enumerate() {
+        let what = if rank == 0 { "Peak" } else { "Lower peak" };
+        let loss = with_error(
+            peak.energy_loss_j,
+            peak.energy_loss_error_j,
+            Dimension::Energy,
+        );
+        let omega = with_error(
+            peak.angular_frequency_rad_per_s,
+            Some(peak.angular_frequency_uncertainty_rad_per_s),
+            Dimension::AngularFrequency,
+        );
+        let varied = plan.axis.as_ref().and_then(|axis| {
+            use crate::sweep::plan::Varied;
+            let value = match axis.varied {
+                Varied::Amplitude => peak.drive_amplitude,
+                Varied::Mean => peak.drive_mean,
+            }?;
+            let value = plain(value, drive_dimension(plan.drive.control()), 4);
+            Some(format!(", {} {value}", axis.varied.name()))
+        });
+        // Writing to a String cannot fail.
+        let _ = writeln!(
+            html,
+            "<li>{what}: <strong>{}</strong> per cycle at ω = <strong>{}</strong>{}</li>",
+            escaped(&loss),
+            escaped(&omega),
+            escaped(&varied.unwrap_or_default())
+        );
+    }
+    html.push_str("</ul>");
+    html
+}
+
+/// What has no result or could not be located, each with its reason; nothing where there is no such thing.
+pub(super) fn problems(outcome: &Outcome) -> String {
+    let cases = outcome.records.iter().filter(|r| r.result.is_none());
+    let cases = cases.map(|r| {
+        format!(
+            "ω = {} rad/s: {}: {}",
+            terminal::frequency(r.angular_frequency_rad_per_s),
+            r.status.name(),
+            r.message.as_deref().unwrap_or("no reason recorded")
+        )
+    });
+    let peaks = outcome.peak_problems.iter();
+    let lines: Vec<String> = cases
+        .chain(peaks.map(|why| format!("A peak was not located: {why}")))
+        .chain(outcome.interrupted.then(|| {
+            "The sweep was interrupted: the cases that are missing here were not computed."
+                .to_owned()
+        }))
+        .map(|line| format!("<li>{}</li>\n", escaped(&line)))
+        .collect();
+    if lines.is_empty() {
+        return String::new();
+    }
+    format!(
+        "<div class=\"problems\">\n<p>Without a result, and so not drawn:</p>\n<ul>\n{}</ul>\n</div>",
+        lines.concat()
+    )
+}

@@ -1,0 +1,106 @@
+// Numbers with units, CSV, files, theme: what every page uses.
+"use strict";
+
+const $ = (id) => document.getElementById(id);
+const escapes = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" };
+const esc = (text) => String(text).replace(/[&<>"']/g, (c) => escapes[c]);
+const raised = (n) => String(n).replace(/-/g, "⁻").replace(/\d/g, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[d]);
+const minus = (text) => text.replace("-", "−");
+
+// Units that take a prefix; others stand as they are.
+const PREFIXED = new Set(["J", "N", "m", "Pa", "J/m²"]);
+const PREFIXES = ["f", "p", "n", "µ", "m", "", "k", "M", "G", "T", "P"];
+
+/** The factor that brings values up to `largest` to everyday size, and the unit they then have. */
+function scaleFor(largest, unit) {
+  if (!PREFIXED.has(unit) || !(largest > 0)) return { factor: 1, unit };
+  const step = Math.max(-5, Math.min(5, Math.floor(Math.log10(largest) / 3 + 1e-9)));
+  return { factor: 10 ** (-3 * step), unit: PREFIXES[step + 5] + unit };
+}
+
+/** A number to so many significant digits, with a power of ten where it is small or large. */
+function significant(value, digits = 4) {
+  if (value === 0) return "0";
+  const [mantissa, power] = value.toExponential(digits - 1).split("e");
+  const exponent = Number(power);
+  if (exponent >= -2 && exponent < 5) return minus(value.toFixed(Math.max(0, digits - 1 - exponent)));
+  return Number(mantissa) === 1 ? `10${raised(exponent)}` : `${minus(mantissa)} × 10${raised(exponent)}`;
+}
+
+/** Without zeros at the end of the decimals. */
+const trimmed = (text) => text.replace(/(\.\d*?)0+(?=$| )/, "$1").replace(/\.(?=$| )/, "");
+
+/** An error in the unit of its value: "± 0.00027 µJ". */
+function errorOf(value, error, unit) {
+  if (error === null || error === undefined) return "";
+  const scale = scaleFor(Math.abs(value), unit);
+  return `± ${significant(error * scale.factor, 2)}${scale.unit === "°" ? "" : " "}${scale.unit}`.trim();
+}
+
+/** A value with its unit: "3.509 µJ". */
+function withUnit(value, unit, digits = 4) {
+  if (value === null || value === undefined) return "none";
+  const scale = scaleFor(Math.abs(value), unit);
+  const joint = scale.unit === "" || scale.unit === "°" ? "" : " ";
+  return significant(value * scale.factor, digits) + joint + scale.unit;
+}
+
+/** Rows of a CSV text as objects: numbers where a cell is one, null where it is empty. */
+function parseCsv(text) {
+  const lines = [[]];
+  const pattern = /("(?:[^"]|"")*"|[^,\n]*)(,|\n|$)/g;
+  for (let match; (match = pattern.exec(text)) && match.index < text.length; ) {
+    const raw = match[1];
+    lines[lines.length - 1].push(raw.startsWith('"') ? raw.slice(1, -1).replace(/""/g, '"') : raw);
+    if (match[2] === "\n") lines.push([]);
+  }
+  const rows = lines.filter((line) => line.length > 1);
+  const columns = rows.shift() || [];
+  const value = (cell) => (cell === "" ? null : /^-?\d/.test(cell) && isFinite(cell) ? Number(cell) : cell);
+  return { columns, rows: rows.map((cells) => ({ cells, ...Object.fromEntries(columns.map((c, i) => [c, value(cells[i])])) })) };
+}
+
+function toCsv(columns, rows) {
+  const cell = (text) => (/[",\n\r]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
+  return [columns, ...rows].map((cells) => cells.map(cell).join(",")).join("\n") + "\n";
+}
+
+function download(name, text, type) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type }));
+  link.download = name;
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    // Where the clipboard is closed to pages, the selection is still copied.
+    const area = document.createElement("textarea");
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand("copy");
+    area.remove();
+    return done;
+  }
+}
+
+function startTheme() {
+  const root = document.documentElement;
+  const button = $("theme");
+  const system = matchMedia("(prefers-color-scheme: dark)");
+  const isDark = () => (root.dataset.theme || (system.matches ? "dark" : "light")) === "dark";
+  const show = () => button.setAttribute("aria-pressed", String(isDark()));
+  button.addEventListener("click", () => {
+    root.dataset.theme = isDark() ? "light" : "dark";
+    show();
+  });
+  system.addEventListener("change", show);
+  show();
+}

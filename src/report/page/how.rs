@@ -1,0 +1,118 @@
+//! How the numbers were obtained: engine, resolution, cycles, errors, energy balance, and every message.
+
+use super::question::Facts;
+use crate::history::TimeRule;
+use crate::report::terminal;
+use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::record::{CaseRecord, CaseResult, Status};
+use crate::sweep::run::Outcome;
+
+/// The section of a sweep.
+pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> String {
+    let mut facts = Facts::default();
+    let records = &outcome.records;
+    let planned = plan.cases().len();
+    facts.add(
+        "cases",
+        &format!(
+            "{} planned, {} converged, {} not converged, {} failed",
+            planned.max(records.len()),
+            outcome.count(Status::Converged),
+            outcome.count(Status::NotConverged),
+            outcome.count(Status::Failed)
+        ),
+    );
+    solver(&mut facts, &plan.solver);
+    facts.add(
+        "stabilised cycle",
+        &format!(
+            "method {}, tolerance {:e}",
+            plan.cycle.method.name(),
+            plan.cycle.tolerance
+        ),
+    );
+    let integer = |value: fn(&CaseRecord) -> f64| range(records.iter().map(value), 0);
+    facts.add("time steps per cycle", &integer(|r| r.steps as f64));
+    facts.add(nodes_name(plan.solver.engine), &integer(|r| r.nodes as f64));
+    facts.add("cycles solved per case", &integer(|r| r.cycles as f64));
+    facts.add(
+        "distance to the stabilised cycle",
+        &range(records.iter().filter_map(|r| r.steady_distance), 2),
+    );
+    let relative = records
+        .iter()
+        .filter_map(|r| Some((r.energy_loss_error_j()? / r.energy_loss_j()?).abs()));
+    facts.add("estimated error of the loss, relative", &range(relative, 2));
+    let imbalance = records
+        .iter()
+        .filter_map(|r| r.result.as_ref().and_then(CaseResult::energy_imbalance));
+    facts.add(
+        "energy balance, branches over loop less one",
+        &range(imbalance.map(f64::abs), 2),
+    );
+    if let Some(accuracy) = plan.cycle.accuracy {
+        facts.add("accuracy asked for", &format!("{accuracy:e}"));
+    }
+    let messages: Vec<String> = records
+        .iter()
+        .filter_map(|r| {
+            let omega = terminal::frequency(r.angular_frequency_rad_per_s);
+            Some(format!("ω = {omega} rad/s: {}", r.message.as_ref()?))
+        })
+        .collect();
+    if messages.is_empty() {
+        facts.add("messages", "none");
+    } else {
+        facts.add_list("messages", &messages);
+    }
+    facts.html()
+}
+
+/// What is told of a solver.
+pub(super) fn solver(facts: &mut Facts, solver: &SolverPlan) {
+    facts.add(
+        "engine",
+        match solver.engine {
+            EngineKind::Axisymmetric => {
+                "axisymmetric: independent springs (method of dimensionality reduction), exact for convex bodies of revolution"
+            }
+            EngineKind::HalfSpace => {
+                "half-space: cells of uniform pressure, Love's influence coefficients, FFT convolution, conjugate gradients"
+            }
+        },
+    );
+    facts.add(
+        "time rule",
+        match solver.time_rule {
+            TimeRule::Linear => "linear between time steps, second order",
+            TimeRule::Constant => "constant over a time step, first order",
+        },
+    );
+}
+
+/// What the nodes of an engine are called.
+pub(super) fn nodes_name(engine: EngineKind) -> &'static str {
+    match engine {
+        EngineKind::Axisymmetric => "springs",
+        EngineKind::HalfSpace => "cells per side",
+    }
+}
+
+/// Smallest and largest of some values; `decimals` 0 prints whole numbers, others that many significant digits.
+fn range(values: impl Iterator<Item = f64>, digits: usize) -> String {
+    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
+        (a.min(v), b.max(v))
+    });
+    if low > high {
+        return "not estimated".to_owned();
+    }
+    let text = |value: f64| match digits {
+        0 => format!("{value:.0}"),
+        _ => crate::report::figure::scientific(value, digits),
+    };
+    if low == high {
+        text(low)
+    } else {
+        format!("{} to {}", text(low), text(high))
+    }
+}

@@ -1,0 +1,286 @@
+// The page of a sweep: the curve, the chosen cycle, loops side by side, the table.
+
+const DEGREES = 180 / Math.PI;
+
+/** Columns with a curve and a place among the numbers: value, error, name, unit, factor. */
+const QUANTITIES = [
+  ["energy_loss_j", "energy_loss_error_j", "energy loss per cycle", "J", 1],
+  ["phase_lag_rad", "phase_lag_error_rad", "phase lag of the approach", "°", DEGREES],
+  ["storage_modulus_pa", "storage_modulus_error_pa", "storage modulus from the loop", "Pa", 1],
+  ["loss_modulus_pa", "loss_modulus_error_pa", "loss modulus from the loop", "Pa", 1],
+  ["approach_min_m", "approach_min_error_m", "smallest approach", "m", 1],
+  ["approach_max_m", "approach_max_error_m", "largest approach", "m", 1],
+  ["contact_radius_min_m", "contact_radius_min_error_m", "smallest contact radius", "m", 1],
+  ["contact_radius_max_m", "contact_radius_max_error_m", "largest contact radius", "m", 1],
+  ["peak_pressure_min_pa", "peak_pressure_min_error_pa", "smallest peak pressure", "Pa", 1],
+  ["peak_pressure_max_pa", "peak_pressure_max_error_pa", "largest peak pressure", "Pa", 1],
+  ["harmonic_2", "harmonic_2_error", "second harmonic of the approach, relative", "", 1],
+  ["harmonic_3", "harmonic_3_error", "third harmonic of the approach, relative", "", 1],
+];
+const OMEGA = { label: "angular frequency ω", name: "ω", unit: "rad/s" };
+
+function startSweep(data) {
+  const { columns, rows } = parseCsv(data.csv);
+  const results = new Map(data.cases.map((c) => [c.index, c]));
+  const omegaText = (row) => `${trimmed(significant(row.angular_frequency_rad_per_s))} rad/s`;
+  const key = (row) => `${row.drive_mean} ${row.drive_amplitude}`;
+  const drives = [...new Map(rows.map((row) => [key(row), row])).values()];
+  const driveText = (row) => `${withUnit(row[`drive_${data.varied}`], data.drive_unit)}`;
+  const rowName = (row) => omegaText(row) + (drives.length > 1 ? `, ${driveText(row)}` : "");
+  const done = rows.filter((row) => results.has(row.index));
+  const loss = (row) => row.energy_loss_j;
+  const best = done.reduce((a, b) => (a && loss(a) >= loss(b) ? a : b), null);
+  const state = { chosen: best, drive: key(best || rows[0] || {}), kept: new Set(spread(done, best)) };
+  const ofDrive = () => done.filter((row) => key(row) === state.drive);
+
+  /** At most five, ends and largest loss among them. */
+  function spread(all, largest) {
+    const some = all.filter((row) => !largest || key(row) === key(largest));
+    if (some.length <= 5) return some.map((row) => row.index);
+    const at = [0, 1, 2, 3, 4].map((k) => Math.round((k * (some.length - 1)) / 4));
+    const place = some.indexOf(largest);
+    if (place >= 0 && !at.includes(place)) {
+      const near = [1, 2, 3].reduce((a, b) => (Math.abs(at[a] - place) <= Math.abs(at[b] - place) ? a : b));
+      at[near] = place;
+    }
+    return at.map((i) => some[i].index);
+  }
+
+  function choose(row) {
+    state.chosen = row;
+    state.drive = key(row);
+    $("drive").value = state.drive;
+    fillCases();
+    drawCurve();
+    drawCycle();
+    drawLoops();
+  }
+
+  function step(by) {
+    const list = ofDrive();
+    const at = list.indexOf(state.chosen) + by;
+    if (list.length) choose(list[Math.max(0, Math.min(list.length - 1, at))]);
+  }
+
+  // ---- the curve
+  function drawCurve() {
+    const [column, error, name, unit, factor] = QUANTITIES[$("quantity").value];
+    const times = (v) => (v === null ? null : v * factor);
+    const shown = drives.map((drive) => rows.filter((row) => key(row) === key(drive)));
+    const series = shown.map((list, k) => ({
+      name: drives.length > 1 ? driveText(list[0]) : name,
+      x: list.map((row) => row.angular_frequency_rad_per_s),
+      y: list.map((row) => times(row[column])),
+      err: key(list[0]) === state.drive ? list.map((row) => times(row[error])) : undefined,
+      marker: key(list[0]) === state.drive ? 3 : 0,
+      faint: key(list[0]) !== state.drive,
+      colour: k,
+    }));
+    const at = shown.findIndex((list) => list.includes(state.chosen));
+    const isLoss = column === "energy_loss_j";
+    plot($("curve"), {
+      label: `${name} over angular frequency`, slider: true, series, height: Math.min(420, Math.max(260, innerHeight * 0.5)),
+      x: { ...OMEGA, log: $("log-x").checked }, y: { label: name, unit, log: $("log-y").checked, zero: isLoss },
+      marks: isLoss ? data.peaks.map((p) => ({ x: p.angular_frequency_rad_per_s, y: p.energy_loss_j })) : [],
+      chosen: state.chosen && at >= 0 ? { series: at, i: shown[at].indexOf(state.chosen) } : null,
+      none: "No case has a result: there is nothing to draw.",
+      byArea: drives.length > 1,
+      onPick: (k, i) => results.has(shown[k][i].index) && choose(shown[k][i]),
+    });
+    const bars = rows.filter((row) => row[error] !== null && row[column]).map((row) => Math.abs(row[error] / row[column]));
+    $("bars").textContent = bars.length
+      ? `Error bars are drawn on every point: estimated errors are ${trimmed(significant(100 * Math.min(...bars), 2))} % to ${trimmed(significant(100 * Math.max(...bars), 2))} % of the value.`
+      : "There are no error bars: none were asked for, or none could be estimated.";
+    const host = $("curve"), list = ofDrive();
+    if (!state.chosen) return;
+    host.setAttribute("aria-valuemax", String(Math.max(0, list.length - 1)));
+    host.setAttribute("aria-valuenow", String(list.indexOf(state.chosen)));
+    host.setAttribute("aria-valuetext", `${omegaText(state.chosen)}: ${name} ${withUnit(times(state.chosen[column]), unit)}`);
+  }
+
+  function fillCases() {
+    const some = rows.filter((row) => key(row) === state.drive);
+    $("case").innerHTML = some.map((row) => {
+      const has = results.has(row.index);
+      const why = has ? withUnit(loss(row), "J") : `no result: ${row.message || row.status}`;
+      return `<option value="${row.index}"${has ? "" : " disabled"}${row === state.chosen ? " selected" : ""}>${esc(`${omegaText(row)} (${why})`)}</option>`;
+    }).join("");
+    for (const line of document.querySelectorAll("#cases tbody tr")) {
+      const isChosen = state.chosen && Number(line.dataset.index) === state.chosen.index;
+      line.classList.toggle("chosen", Boolean(isChosen));
+      if (isChosen) line.setAttribute("aria-current", "true");
+      else line.removeAttribute("aria-current");
+    }
+  }
+
+  // ---- the chosen cycle
+  function drawCycle() {
+    const row = state.chosen;
+    if (!row) return;
+    const cycle = results.get(row.index);
+    $("spoken").textContent = `${rowName(row)}: energy loss ${withUnit(loss(row), "J")}, phase lag ${withUnit(row.phase_lag_rad * DEGREES, "°")}`;
+    const period = cycle.time_s[cycle.time_s.length - 1];
+    const part = cycle.time_s.map((t) => t / period);
+    const over = { label: "time / period", name: "t/T" };
+    plot($("loop"), {
+      label: `Load against approach at ${rowName(row)}`, byArea: true,
+      x: { label: "approach δ", name: "δ", unit: "m" }, y: { label: "load W", name: "W", unit: "N" },
+      series: [{ name: "loop", x: cycle.approach_m, y: cycle.load_n }],
+    });
+    const signal = (values) => {
+      const low = Math.min(...values), high = Math.max(...values);
+      return values.map((v) => (high > low ? (2 * (v - low)) / (high - low) - 1 : 0));
+    };
+    plot($("phase"), {
+      label: `Load and approach over the cycle, each between its extremes; the approach lags by ${withUnit(row.phase_lag_rad * DEGREES, "°")}`,
+      x: over, y: { label: "between extremes", name: "value" },
+      series: [{ name: "load", x: part, y: signal(cycle.load_n) }, { name: "approach", x: part, y: signal(cycle.approach_m), dash: 1 }],
+    });
+    plot($("radius"), { label: "Contact radius over the cycle", x: over, y: { label: "contact radius a", name: "a", unit: "m" }, series: [{ name: "contact radius", x: part, y: cycle.contact_radius_m, colour: 2 }] });
+    plot($("pressure"), {
+      label: "Peak pressure over the cycle", x: over, y: { label: "peak pressure", name: "p", unit: "Pa" },
+      series: [{ name: "peak pressure", x: part, y: cycle.peak_pressure_pa, colour: 3 }], none: "unbounded: the indenter has an apex or a sharp edge",
+    });
+    const relative = (k) => cycle.harmonics.map((h) => (cycle.harmonics[0][k] > 0 ? h[k] / cycle.harmonics[0][k] : null)).slice(1);
+    const orders = cycle.harmonics.map((_, n) => n + 1).slice(1);
+    plot($("harmonics"), {
+      label: "Amplitudes of harmonics 2 to 5 relative to the first", byArea: true, legend: true,
+      x: { label: "harmonic", name: "n" }, y: { label: "relative amplitude", name: "amplitude", zero: true },
+      series: [
+        { name: "approach", x: orders.map((n) => n - 0.07), y: relative(1), stem: true, marker: 4 },
+        { name: "load", x: orders.map((n) => n + 0.07), y: relative(0), stem: true, marker: 4 },
+      ],
+    });
+    drawSurface(cycle.surface);
+    drawFacts(row);
+  }
+
+  function drawSurface(surface) {
+    const host = $("surface");
+    if (surface.values) {
+      heat(host, surface, { label: "Work of the indenter on the surface per area and cycle", name: "work density", unit: "J/m²" });
+      return;
+    }
+    if (!host.drawing) host.replaceChildren();
+    plot(host, {
+      label: "Work of the indenter on the surface per area and cycle, along a radius",
+      x: { label: "distance from the axis r", name: "r", unit: "m" }, y: { label: "work density", unit: "J/m²", zero: true },
+      series: [{ name: "work density", x: surface.radius_m, y: surface.density_j_per_m2, colour: 1 }],
+    });
+  }
+
+  function drawFacts(row) {
+    const line = (name, value, error) => `<tr><th scope="row">${esc(name)}</th><td>${esc(value)}</td><td>${esc(error || "")}</td></tr>`;
+    const lines = QUANTITIES.map(([value, error, name, unit, factor]) =>
+      line(name, row[value] === null ? "undefined" : withUnit(row[value] * factor, unit, 6), row[error] === null ? "" : errorOf(row[value] * factor, row[error] * factor, unit)));
+    data.retardation_times_s.forEach((time, k) => {
+      const part = row[`branch_${k + 1}_loss_j`];
+      lines.push(line(`dissipated by the branch of ${withUnit(time, "s")}`, `${withUnit(part, "J", 6)} (${significant((100 * part) / row.dissipated_j, 3)} %)`));
+    });
+    const plain = [["energy balance: branches over loop, less one", "energy_imbalance"], ["distance to the stabilised cycle", "steady_distance"]];
+    for (const [name, column] of plain) lines.push(line(name, row[column] === null ? "undefined" : significant(row[column], 3)));
+    lines.push(line("method", `${row.method}, ${row.cycles} cycles, ${row.steps} steps per cycle, ${row.nodes} ${data.node_name}`));
+    if (row.message) lines.push(line("message", row.message));
+    document.querySelector("#facts tbody").innerHTML = lines.join("");
+  }
+
+  // ---- loops side by side
+  function drawLoops() {
+    const shown = done.filter((row) => state.kept.has(row.index) || row === state.chosen);
+    const normalised = $("normalised").checked;
+    const middle = (values) => (Math.max(...values) + Math.min(...values)) / 2;
+    const half = (values) => (Math.max(...values) - Math.min(...values)) / 2;
+    const cycles = shown.map((row) => results.get(row.index));
+    const largest = (signal) => Math.max(...cycles.map((c) => half(c[signal])), 1e-300);
+    const series = shown.map((row, k) => {
+      const cycle = cycles[k];
+      const of = (signal) => (normalised ? cycle[signal].map((v) => (v - middle(cycle[signal])) / largest(signal)) : cycle[signal]);
+      return { name: rowName(row) + (row === state.chosen ? " (chosen)" : ""), x: of("approach_m"), y: of("load_n") };
+    });
+    plot($("loops"), {
+      label: "Hysteresis loops overlaid: load against approach", byArea: true, legend: true, series, height: Math.min(420, Math.max(260, innerHeight * 0.5)),
+      x: { label: normalised ? "approach, centred and scaled" : "approach δ", name: "δ", unit: normalised ? "" : "m" },
+      y: { label: normalised ? "load, centred and scaled" : "load W", name: "W", unit: normalised ? "" : "N" },
+      none: "No loop is kept.",
+    });
+    $("kept").innerHTML = done.filter((row) => state.kept.has(row.index)).map((row) => `<li><button type="button" data-index="${row.index}">${esc(rowName(row))} <span aria-hidden="true">×</span><span class="sr"> remove</span></button></li>`).join("");
+    $("kept").hidden = !state.kept.size;
+  }
+
+  function drawBranches() {
+    const list = rows.filter((row) => key(row) === state.drive);
+    const count = data.retardation_times_s.length;
+    $("branches-section").hidden = !count || !done.length;
+    if (!count) return;
+    const x = list.map((row) => row.angular_frequency_rad_per_s);
+    plot($("branches"), {
+      label: "Energy dissipated per cycle by each branch over angular frequency", legend: true,
+      x: { ...OMEGA, log: $("log-x").checked }, y: { label: "dissipated per cycle", unit: "J", zero: true, log: $("log-y").checked },
+      series: [
+        ...data.retardation_times_s.map((time, k) => ({ name: `branch of ${withUnit(time, "s")}`, x, y: list.map((row) => row[`branch_${k + 1}_loss_j`]), marker: 2 })),
+        ...(count > 1 ? [{ name: "all", x, y: list.map((row) => row.dissipated_j), colour: 6, dash: 1 }] : []),
+      ],
+    });
+  }
+
+  function drawMaterial() {
+    const m = data.material, x = m.angular_frequency_rad_per_s, s = m.symbol;
+    plot($("moduli"), {
+      label: `Storage modulus ${s}′ and loss modulus ${s}″ over angular frequency`, height: 230, x: { ...OMEGA, log: true }, y: { label: "modulus", unit: "Pa", log: true },
+      series: [{ name: `storage modulus ${s}′`, x, y: m.storage_modulus_pa }, { name: `loss modulus ${s}″`, x, y: m.loss_modulus_pa, dash: 1 }],
+    });
+    plot($("tangent"), {
+      label: "Loss tangent over angular frequency", height: 230, legend: true, x: { ...OMEGA, log: true }, y: { label: "tan δ", zero: true },
+      series: [{ name: "tan δ", x, y: m.storage_modulus_pa.map((e, i) => (e > 0 ? m.loss_modulus_pa[i] / e : null)), colour: 2 }],
+    });
+  }
+
+  // ---- controls
+  $("quantity").innerHTML = QUANTITIES.map(([column, , name], k) => (done.some((row) => row[column] !== null) || !k ? `<option value="${k}">${esc(name)}</option>` : "")).join("");
+  $("drive").innerHTML = drives.map((row) => `<option value="${key(row)}">${esc(driveText(row))}</option>`).join("");
+  $("drive-choice").hidden = drives.length < 2;
+  for (const id of ["quantity", "log-x", "log-y"]) $(id).addEventListener("change", () => { drawCurve(); drawBranches(); });
+  $("normalised").addEventListener("change", drawLoops);
+  $("drive").addEventListener("change", () => {
+    state.drive = $("drive").value;
+    const omega = state.chosen ? state.chosen.angular_frequency_rad_per_s : 0;
+    const away = (row) => Math.abs(Math.log(row.angular_frequency_rad_per_s / omega));
+    const list = ofDrive();
+    if (list.length) choose(list.reduce((a, b) => (away(a) <= away(b) ? a : b)));
+    else { fillCases(); drawCurve(); }
+    drawBranches();
+  });
+  $("case").addEventListener("change", () => choose(rows.find((row) => row.index === Number($("case").value))));
+  $("previous").addEventListener("click", () => step(-1));
+  $("next").addEventListener("click", () => step(1));
+  $("keep").addEventListener("click", () => { if (state.chosen) { state.kept.add(state.chosen.index); drawLoops(); } });
+  $("clear").addEventListener("click", () => { state.kept.clear(); drawLoops(); });
+  $("kept").addEventListener("click", (event) => {
+    const button = event.target.closest("button");
+    if (!button) return;
+    state.kept.delete(Number(button.dataset.index));
+    drawLoops();
+  });
+  const curve = $("curve");
+  if (done.length) {
+    curve.tabIndex = 0;
+    curve.setAttribute("role", "slider");
+    curve.setAttribute("aria-label", "Angular frequency");
+    curve.setAttribute("aria-valuemin", "0");
+    const moves = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageDown: -5, PageUp: 5, Home: -1e9, End: 1e9 };
+    curve.addEventListener("keydown", (event) => {
+      if (!(event.key in moves) || event.ctrlKey || event.altKey || event.metaKey) return;
+      event.preventDefault();
+      step(moves[event.key]);
+    });
+  } else {
+    $("cycle").hidden = true;
+  }
+  startTable(columns, rows, (index) => results.has(index) && choose(rows.find((row) => row.index === index)));
+  fillCases();
+  drawCurve();
+  drawCycle();
+  drawLoops();
+  drawBranches();
+  drawMaterial();
+}

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Drives the pages in a real browser. Where the browser or the packages cannot be had it says so and succeeds: the tests in
+# Rust hold the pages to everything that takes no browser.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+work=$PWD/target/browser
+here=$PWD/tests/browser
+mkdir -p "$work"
+
+skip() {
+    echo "browser tests not run: $1"
+    exit 0
+}
+
+command -v node >/dev/null && command -v npm >/dev/null || skip "no node and npm here"
+chromium=$(command -v chromium || command -v chromium-browser || true)
+if [ -z "$chromium" ]; then
+    { apt-get update && apt-get install -y --no-install-recommends chromium; } >"$work/apt.log" 2>&1 || skip "no chromium, and apt-get gives none (target/browser/apt.log)"
+    chromium=$(command -v chromium) || skip "no chromium"
+fi
+cp "$here/package.json" "$here/package-lock.json" "$here"/*.mjs "$here/htmlvalidate.json" "$work/"
+(cd "$work" && npm ci --no-audit --no-fund) >"$work/npm.log" 2>&1 || skip "npm gives no packages (target/browser/npm.log)"
+
+cargo build --quiet
+program=$PWD/target/debug/contact-dma
+for input in "$here"/*.toml; do
+    name=$(basename "$input" .toml)
+    rm -rf "${work:?}/$name"
+    command=sweep
+    grep -q '^\[sweep\]' "$input" || command=simulate
+    # Code 3: some cases have no result, which is what one of the inputs is for.
+    "$program" "$command" "$input" --quiet --out "$work/$name" || [ $? = 3 ]
+    (cd "$work" && npx --no-install html-validate --config htmlvalidate.json "$name/index.html")
+    echo "html-validate: $name/index.html passes"
+done
+cd "$work"
+CHROMIUM=$chromium PROGRAM=$program node --test --test-reporter=spec drive.mjs
