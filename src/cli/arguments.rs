@@ -68,9 +68,10 @@ Examples:
 The same command again goes on where it was stopped: cases with intact records are read, not
 computed, and a long case goes on from its last checkpoint.
 
-Written to the output folder: sweep.csv (one row per frequency), loops/ (the stabilised
-cycles), summary.json (peaks, counts), figures as SVG and PNG with their data
-as CSV, records/ (everything, for later), resolved.toml (the sweep with every default).")]
+Written to the output folder: index.html (one page of everything, to look at or to send),
+sweep.csv (one row per frequency), loops/ (the stabilised cycles), summary.json (peaks,
+counts), figures as SVG and PNG with their data as CSV, records/ (everything, for later),
+resolved.toml (the sweep with every default).")]
 pub(super) struct SweepFlags {
     /// The sweep file (TOML)
     pub(super) file: PathBuf,
@@ -87,6 +88,9 @@ pub(super) struct SweepFlags {
     /// --set cycle.accuracy=X
     #[arg(long, value_name = "X")]
     pub(super) accuracy: Option<f64>,
+    /// What to print at the end; json: the summary and every case with all columns, with --quiet too
+    #[arg(long, value_name = "FORMAT", default_value = "text")]
+    pub(super) format: OutputFormat,
     /// Compute only the part K of N; `merge` joins parts in separate folders
     #[arg(long, value_name = "K/N")]
     pub(super) shard: Option<Shard>,
@@ -144,6 +148,15 @@ pub(super) struct MergeFlags {
     pub(super) quiet: bool,
 }
 
+/// What a sweep prints at its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum OutputFormat {
+    /// A table and the peaks, to be read
+    Text,
+    /// For other programs
+    Json,
+}
+
 #[derive(Debug, Args)]
 pub(super) struct ReportFlags {
     /// Folder of a sweep
@@ -192,9 +205,10 @@ Examples:
   contact-dma simulate sweeps/zener-unloading.toml --set solver.engine=half-space \\
       --set output.fields_at='[\"4 s\"]' --out reports/fields
 
-Written to the output folder: history.csv (one row per time step, two at a jump), profiles/
-and fields/ at the times asked for (CSV; NumPy .npy and ParaView .vti), history, profiles and
-pressure-map as SVG and PNG, summary.json, resolved.toml (the scenario with every default).")]
+Written to the output folder: index.html (one page of everything, to look at or to send),
+history.csv (one row per time step, two at a jump), profiles/ and fields/ at the times asked
+for (CSV; NumPy .npy and ParaView .vti), history, profiles and pressure-map as SVG and PNG,
+summary.json, resolved.toml (the scenario with every default).")]
 pub(super) struct SimulateFlags {
     /// The scenario file (TOML)
     pub(super) file: PathBuf,

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use super::arguments::{MergeFlags, ReportFlags};
+use super::arguments::{MergeFlags, OutputFormat, ReportFlags};
 use super::document::Document;
 use super::progress::Shown;
 use super::sweep::{Job, failure, interrupt_flag, threads};
@@ -61,6 +61,7 @@ pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
         setup: &setup,
         store: &out,
         quiet: flags.quiet,
+        format: OutputFormat::Text,
         stats: false,
         command: "merge",
         clock,
@@ -89,6 +90,7 @@ pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
         setup: &setup,
         store: &store,
         quiet: flags.quiet,
+        format: OutputFormat::Text,
         stats: false,
         command: "report",
         clock,

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use super::arguments::SweepFlags;
+use super::arguments::{OutputFormat, SweepFlags};
 use super::progress::Shown;
 use super::{Ended, Failure, open_document, open_store, print, sweep_file};
 use crate::report::{self, terminal};
@@ -41,6 +41,7 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
         setup: &setup,
         store: &store,
         quiet: flags.quiet,
+        format: flags.format,
         stats: flags.stats,
         command: "sweep",
         clock,
@@ -82,6 +83,7 @@ pub(super) struct Job<'a> {
     pub(super) setup: &'a Setup,
     pub(super) store: &'a Store,
     pub(super) quiet: bool,
+    pub(super) format: OutputFormat,
     /// Whether to print what was done.
     pub(super) stats: bool,
     pub(super) command: &'static str,
@@ -97,6 +99,11 @@ impl Job<'_> {
         let plan = self.setup.plan();
         let left_out = report::write_sweep(self.store, plan, outcome).map_err(Failure::run)?;
         self.sign(outcome.records.len(), outcome.interrupted, None)?;
+        if self.format == OutputFormat::Json {
+            let hash = self.store.sweep_hash();
+            print(&report::machine::sweep(plan, outcome, hash).map_err(Failure::run)?)?;
+            return Ok(ended(outcome));
+        }
         if !self.quiet {
             let folder = self.store.folder();
             print(&text(self.setup, outcome, &left_out, folder))?;

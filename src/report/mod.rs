@@ -4,6 +4,7 @@ pub mod chart;
 pub mod comparison;
 pub mod figure;
 pub mod fit;
+pub mod machine;
 pub mod material;
 pub mod npy;
 pub mod page;
