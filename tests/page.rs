@@ -1,4 +1,4 @@
-//! The page of a sweep: its size, what it loads, what it holds against the files beside it, its nesting.
+//! The pages of sweeps and scenarios: their size, what it loads, what it holds against the files beside it, its nesting.
 
 #[path = "common/program.rs"]
 mod program;
@@ -19,13 +19,18 @@ fn sweep_file(title: &str, frequencies: &str, more: &str) -> String {
     )
 }
 
-/// Runs a sweep; the page it leaves. The folder must live on for the files beside it.
+/// Runs a sweep or a scenario; the page it leaves. The folder must live on for the files beside it.
 fn page(folder: &TempDir, text: &str, code: i32) -> String {
-    let file = write(folder, "sweep.toml", text);
+    let command = if text.contains("[sweep]") {
+        "sweep"
+    } else {
+        "simulate"
+    };
+    let file = write(folder, "input.toml", text);
     let out = folder.path().join("out");
-    let mut command = program();
-    command.args(["sweep", &file, "--quiet", "--out"]).arg(&out);
-    command.assert().code(code);
+    let mut run = program();
+    run.args([command, &file, "--quiet", "--out"]).arg(&out);
+    run.assert().code(code);
     read(folder.path(), "index.html")
 }
 
@@ -236,4 +241,38 @@ fn a_sweep_of_two_axes_names_its_drives() {
     assert_eq!(data["varied"], "amplitude");
     assert_eq!(data["cases"].as_array().unwrap().len(), 6);
     assert!(page.contains(", amplitude 2 N</li>") && page.contains(", amplitude 5 N</li>"));
+}
+
+#[test]
+fn a_page_of_a_history_holds_its_signals_profiles_and_fields() {
+    let folder = TempDir::new().unwrap();
+    let text = "title = \"<script>\"\n[material]\nlibrary = \"pmma\"\n[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n\
+                [drive]\ncontrol = \"load\"\nsegments = [{ kind = \"step\", to = \"10 N\", duration = \"50 s\" }, \
+                { kind = \"step\", to = \"2 N\", duration = \"50 s\" }]\n\
+                [output]\nprofiles_at = [\"10 s\", \"60 s\"]\nfields_at = [\"10 s\", \"60 s\"]\nfield_cells = 100\n";
+    let page = page(&folder, text, 0);
+    assert_eq!(nesting_problems(&page), Vec::<String>::new());
+    assert_eq!(page.matches("<script").count(), 2);
+    let data = data(&page);
+    let table = read(folder.path(), "history.csv");
+    let loads: Vec<f64> = table
+        .lines()
+        .skip(1)
+        .map(|line| line.split(',').nth(1).unwrap().parse().unwrap())
+        .collect();
+    let shown = data["history"]["load_n"].as_array().unwrap();
+    // Short enough to be on the page as it is, both sides of the jumps too.
+    let shown: Vec<f64> = shown.iter().map(|v| v.as_f64().unwrap()).collect();
+    assert_eq!(shown, loads);
+    assert_eq!(data["profiles"].as_array().unwrap().len(), 2);
+    for field in data["fields"].as_array().unwrap() {
+        assert_eq!(field["cells_x"], 50);
+        assert_eq!(field["pressure_pa"].as_array().unwrap().len(), 2500);
+    }
+    let shown = between(
+        &page,
+        "aria-labelledby=\"file-heading\"><code>",
+        "</code></pre>",
+    );
+    assert_eq!(unescaped(shown), read(folder.path(), "resolved.toml"));
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::table::{Table, number, optional};
-use super::{ReportError, figure, npy, vti};
+use super::{ReportError, figure, npy, page, vti};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::sweep::body_material::BodyMaterial;
 use crate::sweep::scenario::ScenarioPlan;
@@ -23,6 +23,8 @@ pub fn write(
 ) -> Result<Vec<String>, ReportError> {
     store.write("history.csv", &history(&outcome.rows)?)?;
     store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
+    let page = page::simulation(plan, outcome, store.sweep_hash())?;
+    store.write("index.html", page.as_bytes())?;
     if !outcome.profiles.is_empty() {
         store.write("profiles/index.csv", &index(&outcome.profiles)?)?;
         for (k, record) in outcome.profiles.iter().enumerate() {

@@ -157,7 +157,26 @@ test("a sweep of two axes lets its drive be chosen, and shows maps", () => open(
   assert.match(await page.locator("#surface .readout").innerText(), /work density = /);
 }));
 
-const pages = ["sixty", "missing", "two-axes"];
+test("a history shows its signals, profiles by time, and fields by a slider", () => open("history", {}, async (page) => {
+  const history = table(`${here}/history/history.csv`);
+  const drawn = await page.evaluate(() => document.querySelector("#load").spec.series[0]);
+  assert.deepEqual(drawn.y, history.map((row) => Number(row.load_n)));
+  const profile = table(`${here}/history/profiles/2.csv`);
+  await page.selectOption("#profile", "2");
+  await page.click("#all-profiles");
+  const shown = await page.evaluate(() => document.querySelector("#profile-pressure").spec.series);
+  assert.equal(shown.length, 1);
+  assert.equal(shown[0].y[0], Number(Number(profile[0].pressure_pa).toPrecision(6)));
+  const said = () => page.locator("#field-spoken").innerText();
+  assert.equal(await said(), "10 s, load 10.00 N");
+  await page.locator("#field-time").focus();
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await said(), "60 s, load 2.000 N");
+  await page.locator("#map canvas").hover();
+  assert.match(await page.locator("#map .readout").innerText(), /pressure = .*Pa/);
+}));
+
+const pages = ["sixty", "missing", "two-axes", "history"];
 for (const colorScheme of ["light", "dark"]) {
   for (const width of [360, 1400]) {
     test(`nothing is cut off and axe finds nothing serious at ${width} px, ${colorScheme}`, async () => {
@@ -185,7 +204,7 @@ test("the theme is switched by its button", () => open("sixty", {}, async (page)
 }));
 
 test("without script there are curve, loops, table and input", async () => {
-  for (const name of pages) {
+  for (const name of pages.filter((name) => name !== "history")) {
     await open(name, { javaScriptEnabled: false, viewport: { width: 360, height: 800 } }, async (page) => {
       assert.equal(await page.locator("figure.static svg:visible").count(), 2);
       assert.equal(await page.locator("#cases tbody tr:visible").count(), rows(name).length);

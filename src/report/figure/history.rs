@@ -21,17 +21,28 @@ pub fn write(
     outcome: &SimulationOutcome,
     write: &WriteFile<'_>,
 ) -> Result<Option<String>, ReportError> {
-    let rows = &outcome.rows;
-    let has_span = matches!((rows.first(), rows.last()), (Some(a), Some(b)) if b.time_s > a.time_s);
-    if !has_span {
+    let Some(svg) = svg(outcome)? else {
         return Ok(Some(
             "no figure of the history: it has no two times".to_owned(),
         ));
+    };
+    write_picture(NAME, NAME, &svg, write)?;
+    Ok(None)
+}
+
+/// The picture, where the history has two times.
+///
+/// # Errors
+/// [`ReportError`] naming the figure.
+pub fn svg(outcome: &SimulationOutcome) -> Result<Option<String>, ReportError> {
+    let rows = &outcome.rows;
+    let has_span = matches!((rows.first(), rows.last()), (Some(a), Some(b)) if b.time_s > a.time_s);
+    if !has_span {
+        return Ok(None);
     }
     let svg = chart::stack_to_svg(&panels(rows))
         .map_err(|source| ReportError::Chart { name: NAME, source })?;
-    write_picture(NAME, NAME, &svg, write)?;
-    Ok(None)
+    Ok(Some(svg))
 }
 
 type Signal = fn(&HistoryRow) -> Option<f64>;

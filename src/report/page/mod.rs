@@ -8,6 +8,7 @@ mod how;
 mod html;
 mod number;
 mod question;
+mod simulation;
 mod sweep_data;
 
 use super::ReportError;
@@ -17,19 +18,24 @@ use crate::report::table;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::resolved;
 use crate::sweep::run::Outcome;
+use crate::sweep::scenario::{self, ScenarioPlan};
+use crate::sweep::simulate::SimulationOutcome;
 use html::{data_link, escaped, filled, inline_figure, json_for_script};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
 const SWEEP: &str = include_str!("sweep.html");
+const SIMULATION: &str = include_str!("simulation.html");
 
 /// The script, in the order in which its parts use each other.
-const SCRIPT: [&str; 6] = [
+const SCRIPT: [&str; 8] = [
     include_str!("core.js"),
     include_str!("plot.js"),
     include_str!("heat.js"),
     include_str!("table.js"),
+    include_str!("material.js"),
     include_str!("sweep.js"),
+    include_str!("simulation.js"),
     include_str!("start.js"),
 ];
 
@@ -112,6 +118,43 @@ pub fn sweep(
         file_text: "The sweep file with every default written out. <code>contact-dma sweep resolved.toml</code> gives these \
                     results again, under the same hash.",
         data: json_for_script(&data)?,
+    };
+    frame.page()
+}
+
+/// The page of one history.
+///
+/// # Errors
+/// [`ReportError`] naming the part that could not be made.
+pub fn simulation(
+    plan: &ScenarioPlan,
+    outcome: &SimulationOutcome,
+    hash: &str,
+) -> Result<String, ReportError> {
+    let figure = match super::figure::history::svg(outcome)? {
+        Some(svg) => inline_figure(&svg, "history"),
+        None => "<p>The history has no two times: there is nothing to draw.</p>".to_owned(),
+    };
+    let main = filled(
+        SIMULATION,
+        &[
+            ("answer", &simulation::answer(outcome)),
+            ("problems", &simulation::problems(outcome)),
+            ("figure", &figure),
+            ("question", &simulation::question(plan)),
+            ("how", &simulation::how(plan, outcome)),
+        ],
+    )?;
+    let frame = Frame {
+        title: &plan.title,
+        asked: simulation::line(plan),
+        main,
+        file: &scenario::resolved_text(plan),
+        file_name: "resolved.toml",
+        hash,
+        file_text: "The scenario with every default written out. <code>contact-dma simulate resolved.toml</code> gives these \
+                    results again, under the same hash.",
+        data: json_for_script(&simulation::SimulationData::new(plan, outcome))?,
     };
     frame.page()
 }

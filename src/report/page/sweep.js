@@ -25,7 +25,7 @@ function startSweep(data) {
   const omegaText = (row) => `${trimmed(significant(row.angular_frequency_rad_per_s))} rad/s`;
   const key = (row) => `${row.drive_mean} ${row.drive_amplitude}`;
   const drives = [...new Map(rows.map((row) => [key(row), row])).values()];
-  const driveText = (row) => `${withUnit(row[`drive_${data.varied}`], data.drive_unit)}`;
+  const driveText = (row) => trimmed(withUnit(row[`drive_${data.varied}`], data.drive_unit));
   const rowName = (row) => omegaText(row) + (drives.length > 1 ? `, ${driveText(row)}` : "");
   const done = rows.filter((row) => results.has(row.index));
   const loss = (row) => row.energy_loss_j;
@@ -223,18 +223,6 @@ function startSweep(data) {
     });
   }
 
-  function drawMaterial() {
-    const m = data.material, x = m.angular_frequency_rad_per_s, s = m.symbol;
-    plot($("moduli"), {
-      label: `Storage modulus ${s}′ and loss modulus ${s}″ over angular frequency`, height: 230, x: { ...OMEGA, log: true }, y: { label: "modulus", unit: "Pa", log: true },
-      series: [{ name: `storage modulus ${s}′`, x, y: m.storage_modulus_pa }, { name: `loss modulus ${s}″`, x, y: m.loss_modulus_pa, dash: 1 }],
-    });
-    plot($("tangent"), {
-      label: "Loss tangent over angular frequency", height: 230, legend: true, x: { ...OMEGA, log: true }, y: { label: "tan δ", zero: true },
-      series: [{ name: "tan δ", x, y: m.storage_modulus_pa.map((e, i) => (e > 0 ? m.loss_modulus_pa[i] / e : null)), colour: 2 }],
-    });
-  }
-
   // ---- controls
   $("quantity").innerHTML = QUANTITIES.map(([column, , name], k) => (done.some((row) => row[column] !== null) || !k ? `<option value="${k}">${esc(name)}</option>` : "")).join("");
   $("drive").innerHTML = drives.map((row) => `<option value="${key(row)}">${esc(driveText(row))}</option>`).join("");
@@ -282,5 +270,5 @@ function startSweep(data) {
   drawCycle();
   drawLoops();
   drawBranches();
-  drawMaterial();
+  drawMaterial(data.material);
 }

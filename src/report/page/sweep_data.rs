@@ -4,7 +4,8 @@ use serde::Serialize;
 
 use super::compact::{all_rounded, coarse, picked, picked_optional, rounded, spread};
 use super::how::nodes_name;
-use crate::material::ModulusKind;
+use crate::material::{Material, ModulusKind};
+use crate::report::figure::moduli::ModulusPoint;
 use crate::report::material::MaterialReport;
 use crate::sweep::peak::Peak;
 use crate::sweep::plan::SweepPlan;
@@ -29,7 +30,7 @@ pub(super) struct SweepData<'a> {
 
 /// Moduli over frequency.
 #[derive(Serialize)]
-struct MaterialData {
+pub(super) struct MaterialData {
     symbol: char,
     angular_frequency_rad_per_s: Vec<f64>,
     storage_modulus_pa: Vec<f64>,
@@ -99,7 +100,7 @@ impl<'a> SweepData<'a> {
             varied: plan.axis.as_ref().map(|axis| axis.varied.name()),
             drive_unit: plan.drive.control().unit(),
             node_name: nodes_name(plan.solver.engine),
-            material: material(plan),
+            material: MaterialData::of(&plan.material),
             cases: cases
                 .filter_map(|r| Some(case(r, r.result.as_ref()?, &fineness)))
                 .collect(),
@@ -107,22 +108,21 @@ impl<'a> SweepData<'a> {
     }
 }
 
-fn material(plan: &SweepPlan) -> MaterialData {
-    let points = MaterialReport::new(&plan.material).moduli(10);
-    MaterialData {
-        symbol: match plan.material.kind() {
-            ModulusKind::Longitudinal => 'E',
-            ModulusKind::Shear => 'G',
-        },
-        angular_frequency_rad_per_s: points
-            .iter()
-            .map(|p| rounded(p.angular_frequency_rad_per_s))
-            .collect(),
-        storage_modulus_pa: points
-            .iter()
-            .map(|p| rounded(p.storage_modulus_pa))
-            .collect(),
-        loss_modulus_pa: points.iter().map(|p| rounded(p.loss_modulus_pa)).collect(),
+impl MaterialData {
+    /// Ten points a decade.
+    pub(super) fn of(material: &Material) -> Self {
+        let points = MaterialReport::new(material).moduli(10);
+        let numbers =
+            |value: fn(&ModulusPoint) -> f64| points.iter().map(value).map(rounded).collect();
+        Self {
+            symbol: match material.kind() {
+                ModulusKind::Longitudinal => 'E',
+                ModulusKind::Shear => 'G',
+            },
+            angular_frequency_rad_per_s: numbers(|p| p.angular_frequency_rad_per_s),
+            storage_modulus_pa: numbers(|p| p.storage_modulus_pa),
+            loss_modulus_pa: numbers(|p| p.loss_modulus_pa),
+        }
     }
 }
 

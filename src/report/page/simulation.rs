@@ -1,0 +1,264 @@
+//! The page of one history: what it carries for its script, and what it says without.
+
+use serde::Serialize;
+
+use super::compact::{coarse, picked, picked_optional, rounded, spread};
+use super::how;
+use super::html::escaped;
+use super::number::plain;
+use super::question::{self, Facts};
+use super::sweep_data::MaterialData;
+use crate::contact::surface::{CellSurface, Surface};
+use crate::quantity::Dimension;
+use crate::report::scenario::lines;
+use crate::sweep::body_material::BodyMaterial;
+use crate::sweep::resolved::drive_dimension;
+use crate::sweep::scenario::ScenarioPlan;
+use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
+
+/// Moments of the history that the page carries.
+const MOMENTS: usize = 1500;
+/// Points of a profile, and cells along a side of a map.
+const POINTS: usize = 160;
+const CELLS: usize = 64;
+
+/// Everything the script of the page knows.
+#[derive(Serialize)]
+pub(super) struct SimulationData {
+    kind: &'static str,
+    history: History,
+    /// What profiles run along: r or x.
+    line: &'static str,
+    profiles: Vec<Profile>,
+    fields: Vec<Field>,
+    material: Option<MaterialData>,
+}
+
+#[derive(Serialize)]
+struct History {
+    time_s: Vec<f64>,
+    load_n: Vec<f64>,
+    approach_m: Vec<Option<f64>>,
+    contact_radius_m: Vec<f64>,
+    peak_pressure_pa: Vec<Option<f64>>,
+}
+
+#[derive(Serialize)]
+struct Profile {
+    time_s: f64,
+    position_m: Vec<f64>,
+    pressure_pa: Vec<Option<f64>>,
+    displacement_m: Vec<f64>,
+}
+
+#[derive(Serialize)]
+struct Field {
+    time_s: f64,
+    load_n: f64,
+    first_x_m: f64,
+    first_y_m: f64,
+    spacing_x_m: f64,
+    spacing_y_m: f64,
+    cells_x: usize,
+    pressure_pa: Vec<Option<f64>>,
+    displacement_m: Vec<Option<f64>>,
+}
+
+impl SimulationData {
+    /// The data of a history, as far as it came.
+    pub(super) fn new(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Self {
+        let first = outcome.profiles.first();
+        Self {
+            kind: "simulation",
+            history: history(&outcome.rows),
+            line: first
+                .and_then(|record| Some(lines(record).first()?.0))
+                .unwrap_or("r"),
+            profiles: outcome.profiles.iter().filter_map(profile).collect(),
+            fields: outcome.fields.iter().filter_map(field).collect(),
+            material: plan.material.series().map(MaterialData::of),
+        }
+    }
+}
+
+fn history(rows: &[HistoryRow]) -> History {
+    // Both sides of a jump stay: a spread may pass one of them over.
+    let mut places = spread(rows.len(), MOMENTS);
+    for (i, pair) in rows.windows(2).enumerate() {
+        if pair[0].time_s == pair[1].time_s {
+            places.extend([i, i + 1]);
+        }
+    }
+    places.sort_unstable();
+    places.dedup();
+    let numbers = |value: fn(&HistoryRow) -> f64| {
+        picked(&rows.iter().map(value).collect::<Vec<_>>(), &places)
+    };
+    let optional = |value: fn(&HistoryRow) -> Option<f64>| {
+        picked_optional(&rows.iter().map(value).collect::<Vec<_>>(), &places)
+    };
+    History {
+        time_s: numbers(|row| row.time_s),
+        load_n: numbers(|row| row.load_n),
+        approach_m: optional(|row| row.approach_m),
+        contact_radius_m: numbers(|row| row.contact_radius_m),
+        peak_pressure_pa: optional(|row| row.peak_pressure_pa),
+    }
+}
+
+fn profile(record: &SurfaceRecord) -> Option<Profile> {
+    let (_, points) = lines(record).into_iter().next()?;
+    let places = spread(points.len(), POINTS);
+    let kept = || places.iter().filter_map(|&i| points.get(i));
+    Some(Profile {
+        time_s: record.row.time_s,
+        position_m: kept().map(|p| rounded(p.position_m)).collect(),
+        pressure_pa: kept().map(|p| p.pressure_pa.map(rounded)).collect(),
+        displacement_m: kept().map(|p| rounded(p.displacement_m)).collect(),
+    })
+}
+
+fn field(record: &SurfaceRecord) -> Option<Field> {
+    let Surface::Cells(CellSurface {
+        grid,
+        pressure_pa,
+        displacement_m,
+    }) = &record.surface
+    else {
+        return None;
+    };
+    let of = |values: &[f64]| {
+        coarse(
+            grid.cells_x(),
+            values.len(),
+            |i| values.get(i).copied(),
+            CELLS,
+        )
+    };
+    let (pressure, displacement) = (of(pressure_pa), of(displacement_m));
+    let factor = pressure.factor as f64;
+    // The centre of a coarse cell lies between those of the cells in it.
+    let shift = 0.5 * (factor - 1.0);
+    Some(Field {
+        time_s: record.row.time_s,
+        load_n: rounded(record.row.load_n),
+        first_x_m: rounded(grid.x_m(0) + shift * grid.spacing_x_m()),
+        first_y_m: rounded(grid.y_m(0) + shift * grid.spacing_y_m()),
+        spacing_x_m: rounded(factor * grid.spacing_x_m()),
+        spacing_y_m: rounded(factor * grid.spacing_y_m()),
+        cells_x: pressure.cells_x,
+        pressure_pa: pressure.values,
+        displacement_m: displacement.values,
+    })
+}
+
+/// One line: material, indenter, drive.
+pub(super) fn line(plan: &ScenarioPlan) -> String {
+    let name = plan.material.series().and_then(|material| material.name());
+    format!(
+        "{}, under a {}; {} over {}",
+        name.unwrap_or("A material of its own"),
+        plan.indenter.shape(),
+        plan.drive.control().name(),
+        plain(plan.drive.duration_s(), Dimension::Time, 5)
+    )
+}
+
+/// The largest values, as a list.
+pub(super) fn answer(outcome: &SimulationOutcome) -> String {
+    let largest = |value: fn(&HistoryRow) -> Option<f64>| {
+        let values = outcome.rows.iter().filter_map(value);
+        values.reduce(f64::max)
+    };
+    let mut facts = Facts::default();
+    let mut add = |name, value: Option<f64>, dimension| {
+        let text = value.map_or("nowhere defined".to_owned(), |v| plain(v, dimension, 5));
+        facts.add(name, &text);
+    };
+    add(
+        "largest load",
+        largest(|r| Some(r.load_n)),
+        Dimension::Force,
+    );
+    add(
+        "largest approach",
+        largest(|r| r.approach_m),
+        Dimension::Length,
+    );
+    add(
+        "largest contact radius",
+        largest(|r| Some(r.contact_radius_m)),
+        Dimension::Length,
+    );
+    add(
+        "largest peak pressure",
+        largest(|r| r.peak_pressure_pa),
+        Dimension::Stress,
+    );
+    add(
+        "end",
+        outcome.rows.last().map(|r| r.time_s),
+        Dimension::Time,
+    );
+    facts.html()
+}
+
+/// Why the history is not whole; nothing where it is.
+pub(super) fn problems(outcome: &SimulationOutcome) -> String {
+    let why = match &outcome.ended {
+        SimulationEnd::Done => return String::new(),
+        SimulationEnd::Interrupted => "The history was interrupted.".to_owned(),
+        SimulationEnd::Failed(message) => format!("The history ends early: {message}"),
+    };
+    format!("<div class=\"problems\"><p>{}</p></div>", escaped(&why))
+}
+
+/// What was asked.
+pub(super) fn question(plan: &ScenarioPlan) -> String {
+    let material = match &plan.material {
+        BodyMaterial::Series(material) => question::material(material),
+        BodyMaterial::Samples(_) => {
+            "<p>Samples of a measured function, taken as they are: see the input below.</p>\n"
+                .to_owned()
+        }
+    };
+    let mut drive = Facts::default();
+    drive.add("control", plan.drive.control().name());
+    drive.add("segments", &plan.drive.segments().len().to_string());
+    drive.add(
+        "duration",
+        &plain(plan.drive.duration_s(), Dimension::Time, 6),
+    );
+    let dimension = drive_dimension(plan.drive.control());
+    drive.add("largest value", &plain(plan.drive.maximum(), dimension, 6));
+    format!(
+        "<h3>Material</h3>\n{material}<h3>Indenter</h3>\n{}<h3>Drive</h3>\n{}",
+        question::indenter(plan.indenter.as_ref()),
+        drive.html()
+    )
+}
+
+/// How the numbers were obtained.
+pub(super) fn how(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
+    let mut facts = Facts::default();
+    how::solver(&mut facts, &plan.solver);
+    facts.add(
+        how::nodes_name(plan.solver.engine),
+        &plan.solver.nodes().to_string(),
+    );
+    facts.add("time steps", &outcome.rows.len().to_string());
+    facts.add("contact iterations", &outcome.iterations.to_string());
+    facts.add(
+        "half width of the domain",
+        &plain(outcome.domain_half_width_m, Dimension::Length, 4),
+    );
+    facts.add(
+        "damping",
+        if outcome.damped_throughout {
+            "every step: steps were long beside the shortest relaxation time"
+        } else {
+            "after jumps alone"
+        },
+    );
+    facts.html()
+}
