@@ -276,3 +276,50 @@ fn a_page_of_a_history_holds_its_signals_profiles_and_fields() {
     );
     assert_eq!(unescaped(shown), read(folder.path(), "resolved.toml"));
 }
+
+#[test]
+fn materials_and_fits_have_pages_with_the_block_that_gives_them_again() {
+    let folder = TempDir::new().unwrap();
+    let table: String = (0..40)
+        .map(|k| 10_f64.powf(-1.0 + 0.1 * f64::from(k)))
+        .map(|t| format!("{t:e},{:e}\n", 1e-9 * (2.0 - (-t / 5.0).exp())))
+        .collect();
+    let file = write(
+        &folder,
+        "creep.csv",
+        &format!("time_s,creep_compliance_per_pa\n{table}"),
+    );
+    let out = folder.path().join("out");
+    let fit = [
+        "material",
+        "fit",
+        &file,
+        "--quantity",
+        "creep",
+        "--modulus",
+        "shear",
+        "--poisson-ratio",
+        "0.4",
+    ];
+    for (arguments, curves) in [(&["material", "show", "pmma"][..], 1), (&fit[..], 2)] {
+        program()
+            .args(arguments)
+            .arg("--out")
+            .arg(&out)
+            .assert()
+            .success();
+        let page = read(folder.path(), "index.html");
+        assert_eq!(nesting_problems(&page), Vec::<String>::new());
+        assert_eq!(data(&page)["curves"].as_array().unwrap().len(), curves);
+        let block = unescaped(between(
+            &page,
+            "aria-labelledby=\"file-heading\"><code>",
+            "</code></pre>",
+        ));
+        let again = write(&folder, "material.toml", &block);
+        program()
+            .args(["material", "show", &again])
+            .assert()
+            .success();
+    }
+}

@@ -238,7 +238,7 @@ Examples:
   contact-dma material show sweeps/pmma.toml
 
 With --out, the moduli over frequency and the relaxation modulus over time are written as
-SVG, PNG and CSV.")]
+SVG, PNG and CSV, and index.html, one page of everything.")]
     Show(ShowFlags),
     /// Fit a series to measured creep compliance or relaxation modulus
     #[command(after_help = "\
@@ -258,7 +258,7 @@ a sweep file names the table:
   quantity = \"creep\"
   modulus = \"shear\"
 
-With --out, that block and figures of data, fit and difference are written.")]
+With --out, that block, figures of data, fit and difference, and index.html are written.")]
     Fit(FitFlags),
 }
 

@@ -4,6 +4,7 @@ use super::arguments::FitFlags;
 use super::{Ended, Failure, print, table_file};
 use crate::material::Material;
 use crate::material::fit;
+use crate::report::page::{self, material::About};
 use crate::report::{self, figure};
 use crate::sweep::resolved;
 use crate::sweep::store::write_atomically;
@@ -26,6 +27,18 @@ pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     write("material.toml", block.as_bytes()).map_err(Failure::run)?;
     figure::write_all(&figures, &write).map_err(Failure::run)?;
+    if let Some(figure) = figures.first() {
+        let name = flags.data.file_name().unwrap_or_default();
+        let about = About {
+            title: &format!("Fit to {}", name.display()),
+            text: &report::fit::text(fit.report()),
+            block: &block,
+            figure,
+            fit: Some((&table, &fit)),
+        };
+        let page = page::material::page(&material, &about).map_err(Failure::run)?;
+        write("index.html", page.as_bytes()).map_err(Failure::run)?;
+    }
     print(&format!("\nMaterial and figures in {}\n", folder.display()))
 }
 

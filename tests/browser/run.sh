@@ -33,5 +33,8 @@ for input in "$here"/*.toml; do
     (cd "$work" && npx --no-install html-validate --config htmlvalidate.json "$name/index.html")
     echo "html-validate: $name/index.html passes"
 done
+rm -rf "$work/material"
+"$program" material show pmma --out "$work/material" >/dev/null
+(cd "$work" && npx --no-install html-validate --config htmlvalidate.json material/index.html)
 cd "$work"
 CHROMIUM=$chromium PROGRAM=$program node --test --test-reporter=spec drive.mjs

@@ -12,3 +12,16 @@ function drawMaterial(m) {
     series: [{ name: "tan δ", x, y: m.storage_modulus_pa.map((e, i) => (e > 0 ? m.loss_modulus_pa[i] / e : null)), colour: 2 }],
   });
 }
+
+/** The page of a material alone. */
+function startMaterial(data) {
+  drawMaterial(data.material);
+  const draw = () =>
+    plot($("over-time"), {
+      label: `${data.label} over time`, legend: true, byArea: data.curves.length > 1, height: 320,
+      x: { label: "time t", name: "t", unit: "s", log: $("log-x").checked }, y: { label: data.label, unit: data.unit, log: $("log-y").checked },
+      series: data.curves.map((c, k) => ({ name: c.name, x: c.time_s, y: c.values, line: !c.scatter, marker: c.scatter ? 2.5 : 0, colour: k })),
+    });
+  for (const id of ["log-x", "log-y"]) $(id).addEventListener("change", draw);
+  draw();
+}

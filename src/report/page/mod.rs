@@ -6,6 +6,7 @@ mod cases_table;
 mod compact;
 mod how;
 mod html;
+pub mod material;
 mod number;
 mod question;
 mod simulation;

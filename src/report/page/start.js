@@ -5,5 +5,6 @@ startTheme();
 {
   const data = JSON.parse($("data").textContent);
   if (data.kind === "sweep") startSweep(data);
-  else startSimulation(data);
+  else if (data.kind === "simulation") startSimulation(data);
+  else startMaterial(data);
 }

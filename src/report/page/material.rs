@@ -1,0 +1,147 @@
+//! The page of a material: its moduli over frequency, its function over time, and, where it was fitted, the data.
+
+use serde::Serialize;
+
+use super::compact::{picked, rounded, spread};
+use super::html::{escaped, inline_figure, json_for_script};
+use super::sweep_data::MaterialData;
+use super::{Frame, filled, question};
+use crate::material::fit::Fit;
+use crate::material::tabulated::Tabulated;
+use crate::material::{GivenFace, Material};
+use crate::report::ReportError;
+use crate::report::chart;
+use crate::report::figure::Figure;
+use crate::sweep::resolved;
+
+const MATERIAL: &str = include_str!("material.html");
+/// Points of a curve over time, and samples shown at most.
+const POINTS: usize = 200;
+const SAMPLES: usize = 1000;
+
+#[derive(Serialize)]
+struct Data {
+    kind: &'static str,
+    material: MaterialData,
+    label: &'static str,
+    unit: &'static str,
+    curves: Vec<Curve>,
+}
+
+#[derive(Serialize)]
+struct Curve {
+    name: &'static str,
+    /// Points that no line joins.
+    scatter: bool,
+    time_s: Vec<f64>,
+    values: Vec<f64>,
+}
+
+/// What a page says of a material besides what the material itself knows.
+pub struct About<'a> {
+    pub title: &'a str,
+    /// Where it comes from.
+    pub text: &'a str,
+    /// The `[material]` block that gives it again.
+    pub block: &'a str,
+    /// Drawn for a reader without script.
+    pub figure: &'a Figure,
+    /// The data it was fitted to.
+    pub fit: Option<(&'a Tabulated, &'a Fit)>,
+}
+
+/// The page.
+///
+/// # Errors
+/// [`ReportError`] naming the part that could not be made.
+pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportError> {
+    let svg = chart::to_svg(&about.figure.chart).map_err(|source| ReportError::Chart {
+        name: about.figure.name,
+        source,
+    })?;
+    let main = filled(
+        MATERIAL,
+        &[
+            ("about", &format!("<p>{}</p>", escaped(about.text))),
+            ("question", &question::material(material)),
+            ("figure", &inline_figure(&svg, about.figure.name)),
+        ],
+    )?;
+    let face = match about.fit {
+        Some((table, _)) => table.face(),
+        None => material.given(),
+    };
+    let (label, unit) = match face {
+        GivenFace::Relaxation => ("relaxation modulus", "Pa"),
+        GivenFace::Creep => ("creep compliance", "1/Pa"),
+    };
+    let frame = Frame {
+        title: about.title,
+        asked: format!("{label} over time, complex modulus over frequency"),
+        main,
+        file: about.block,
+        file_name: "material.toml",
+        hash: &resolved::hash(about.block),
+        file_text: "The material as a block of a sweep file, every number exact. \
+                    <code>contact-dma material show material.toml</code> shows it again.",
+        data: json_for_script(&Data {
+            kind: "material",
+            material: MaterialData::of(material),
+            label,
+            unit,
+            curves: curves(material, about.fit),
+        })?,
+    };
+    frame.page()
+}
+
+/// The data and their fit, or the function alone, at times evenly spread in their logarithm.
+fn curves(material: &Material, fit: Option<(&Tabulated, &Fit)>) -> Vec<Curve> {
+    let times = |from: f64, to: f64| -> Vec<f64> {
+        let step = (to / from).ln() / POINTS as f64;
+        (0..=POINTS)
+            .map(|k| from * (step * k as f64).exp())
+            .collect()
+    };
+    let curve = |name, times: Vec<f64>, value: &dyn Fn(f64) -> f64| Curve {
+        name,
+        scatter: false,
+        values: times.iter().map(|t| rounded(value(*t))).collect(),
+        time_s: times.into_iter().map(rounded).collect(),
+    };
+    if let Some((table, fit)) = fit {
+        let places = spread(table.times_s().len(), SAMPLES);
+        let data = Curve {
+            name: "data",
+            scatter: true,
+            time_s: picked(table.times_s(), &places),
+            values: picked(table.values(), &places),
+        };
+        let positive = || table.times_s().iter().copied().filter(|t| *t > 0.0);
+        let from = positive().fold(f64::INFINITY, f64::min);
+        let to = positive().fold(from, f64::max);
+        let fitted = curve("fit", times(from, to), &|t| fit.series().value(t));
+        return vec![data, fitted];
+    }
+    let relaxation = material.relaxation();
+    let branches = relaxation.map(|r| r.branches()).unwrap_or_default();
+    let branch_times = branches.iter().map(|b| b.time_s);
+    let branch_times = branch_times.chain(material.creep().branches().iter().map(|b| b.time_s));
+    let (shortest, longest) =
+        branch_times.fold((f64::INFINITY, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
+    let (shortest, longest) = match longest > 0.0 {
+        true => (shortest, longest),
+        false => (1.0, 1.0),
+    };
+    let times = times(0.01 * shortest, 100.0 * longest);
+    match (material.given(), relaxation) {
+        (GivenFace::Relaxation, Some(relaxation)) => {
+            vec![curve("relaxation modulus", times, &|t| {
+                relaxation.modulus(t)
+            })]
+        }
+        _ => vec![curve("creep compliance", times, &|t| {
+            material.creep().compliance(t)
+        })],
+    }
+}
