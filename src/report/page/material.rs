@@ -10,7 +10,6 @@ use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::material::{GivenFace, Material};
 use crate::report::ReportError;
-use crate::report::chart;
 use crate::report::figure::Figure;
 use crate::sweep::resolved;
 
@@ -55,10 +54,14 @@ pub struct About<'a> {
 /// # Errors
 /// [`ReportError`] naming the part that could not be made.
 pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportError> {
-    let svg = chart::to_svg(&about.figure.chart).map_err(|source| ReportError::Chart {
-        name: about.figure.name,
-        source,
-    })?;
+    let svg = about
+        .figure
+        .picture
+        .to_svg()
+        .map_err(|source| ReportError::Chart {
+            name: about.figure.name,
+            source,
+        })?;
     let main = filled(
         MATERIAL,
         &[
