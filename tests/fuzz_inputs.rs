@@ -202,7 +202,10 @@ fn measured_tables_become_materials_or_are_refused() {
     let table = format!("time_s,creep_compliance_per_pa\n{rows}");
     // A table lies beside the file that names it.
     let name = folder.path().join("t.toml").display().to_string();
-    let document = || Document::parse(&name, &sweep).unwrap();
+    let document = || {
+        let document = Document::parse(&name, &sweep).unwrap();
+        document.in_folder(folder.path())
+    };
     fs::write(&path, &table).unwrap();
     let plan = sweep_file::plan(&document());
     assert!(plan.is_ok(), "{}", plan.unwrap_err());

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Runs the same work in this program and in its peers, in turn, and prints a table of ratios.
+
+    python3 benches/peers/run.py [--cells 128] [--pairs 3] [--once 256] [--steps 200] [--out FILE]
+
+Makes a virtual environment per peer under target/peers the first time (needs the network), and builds the benches. CPU time
+is each process's own count; pairs alternate, so that what else the machine does falls on both.
+"""
+
+import argparse
+import json
+import os
+import statistics
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+PEERS = {
+    "tamaas 2.9.0": (["tamaas==2.9.0", "numpy"], "tamaas_step.py"),
+    "ContactMechanics 1.8.3": (["ContactMechanics==1.8.3"], "contactmechanics_sphere.py"),
+}
+
+
+def python_of(packages):
+    folder = ROOT / "target" / "peers" / packages[0]
+    python = folder / "bin" / "python"
+    if not python.exists():
+        venv.create(folder, with_pip=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", *packages], check=True)
+    return str(python)
+
+
+def last_line(command):
+    environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1")
+    done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{command} failed:\n{done.stderr}")
+    return json.loads(done.stdout.strip().splitlines()[-1])
+
+
+def bench(name):
+    build = ["cargo", "bench", "--no-run", "--bench", name, "--message-format", "json"]
+    done = subprocess.run(build, cwd=ROOT, stdout=subprocess.PIPE, text=True, check=True)
+    messages = (json.loads(line) for line in done.stdout.splitlines())
+    programs = [m["executable"] for m in messages if m.get("target", {}).get("name") == name and m.get("executable")]
+    return programs[-1]
+
+
+def compare(title, peer, ours, arguments, pairs, rows):
+    packages, script = PEERS[peer]
+    theirs = [python_of(packages), str(HERE / script)]
+    results = []
+    for pair in range(pairs):
+        both = (last_line([ours, *arguments]), last_line([*theirs, *arguments]))
+        results.append(both)
+        print(f"{title}, pair {pair + 1}: {json.dumps(both)}", file=sys.stderr, flush=True)
+    ratios = [theirs["cpu_s"] / ours["cpu_s"] for ours, theirs in results]
+    middle = lambda side, key: statistics.median(result[side][key] for result in results)
+    error = "mean_relative_radius_error" if "mean_relative_radius_error" in results[0][0] else "relative_radius_error"
+    rows.append(
+        f"| {title} | {peer} | {pairs} | {middle(0, 'cpu_s'):.3g} s | {middle(1, 'cpu_s'):.3g} s "
+        f"| {statistics.median(ratios):.0f} ({min(ratios):.0f} to {max(ratios):.0f}) "
+        f"| {middle(0, 'peak_mib'):.0f} / {middle(1, 'peak_mib'):.0f} MiB "
+        f"| {middle(0, error):.1e} / {middle(1, error):.1e} |"
+    )
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--cells", type=int, default=128)
+    parser.add_argument("--pairs", type=int, default=3)
+    parser.add_argument("--once", type=int, default=256, help="cells of a single, longer pair; 0 for none")
+    parser.add_argument("--steps", type=int, default=200)
+    parser.add_argument("--out", type=Path)
+    options = parser.parse_args()
+    step, sphere = bench("pmma_step"), bench("elastic_sphere")
+    rows = [
+        "| work | peer | pairs | this program, CPU | peer, CPU | ratio | peak memory, this / peer | error of the radius, this / peer |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
+    for cells, pairs in [(options.cells, options.pairs), (options.once, 1)]:
+        if cells:
+            title = f"PMMA, step load, {options.steps} steps, {cells} x {cells} cells"
+            compare(title, "tamaas 2.9.0", step, [str(cells), str(options.steps)], pairs, rows)
+    compare(
+        "elastic sphere, 512 x 512 cells", "ContactMechanics 1.8.3", sphere, ["512"], options.pairs, rows
+    )
+    table = "\n".join(rows) + "\n"
+    print(table)
+    if options.out:
+        options.out.write_text(table)
+
+
+main()
