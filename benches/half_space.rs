@@ -91,8 +91,13 @@ fn case_s(cells: usize) -> f64 {
         drive: HarmonicLoad::new(LOAD_N, 0.5 * LOAD_N, 0.0, 0.0)
             .expect("a valid drive")
             .into(),
-        angular_frequencies_rad_per_s: Vec::new(),
-        cycle: CyclePlan::default(),
+        axis: None,
+        angular_frequencies_rad_per_s: vec![0.01],
+        refine: false,
+        cycle: CyclePlan {
+            error_bars: false,
+            ..CyclePlan::default()
+        },
         solver: SolverPlan {
             engine: EngineKind::HalfSpace,
             cells,
@@ -100,7 +105,10 @@ fn case_s(cells: usize) -> f64 {
         },
     };
     let setup = Setup::new(plan).expect("a valid plan");
-    let (seconds, record) = timed(|| setup.run(0, 0.01, &AtomicBool::new(false)));
+    let [case] = setup.plan().cases()[..] else {
+        panic!("one frequency")
+    };
+    let (seconds, record) = timed(|| setup.run(&case, &AtomicBool::new(false)));
     record.expect("not interrupted");
     seconds
 }

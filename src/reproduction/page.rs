@@ -26,8 +26,8 @@ p_H, loads in W₀, times in τ, all Hertz values at W₀ and the instantaneous 
 **Exact** values are closed forms where there are any (Hertz; Lee and Radok; Ting; the stabilised maxima of radius and
 approach), elsewhere the axisymmetric engine refined: twice the springs, and half to a quarter of the time steps.
 **Axisymmetric** are 800 to 1600 springs and time steps a tenth of those of the half-space engine, or 400 springs and 200 steps
-per cycle. **Half-space** are 256 × 256 cells for figures 4 to 7. A cycle of 64 steps on as many cells is dear: figures 10 to 13
-stand on 128 × 128 cells, histories from rest (figures 8 and 9, first touch in 13) on 64 × 64, cycle counts on 32 × 32.
+per cycle. **Half-space** are 256 × 256 cells; long histories from rest (figures 1, 8 and 9, first touch in 13) stand on
+128 × 128, and the many cycles that a count of cycles takes on 64 × 64.
 Errors are relative for losses and energies, otherwise in the unit of the quantity. Required are: pressures within 0.01 p_H
 but within two cells of the edge of the contact, radii within half a cell, losses within 0.2 %; a test asserts it for
 every row.
