@@ -3,27 +3,18 @@
 #[path = "common/program.rs"]
 mod program;
 
-use program::{program, write};
+use program::{pmma_sweep, program, write};
 use serde_json::Value;
 use tempfile::TempDir;
 
-const SMALL: &str = r#"title = "small"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-mean = "10 N"
-amplitude = "5 N"
-[sweep]
+const THREE: &str = r#"[sweep]
 angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]
 "#;
 
 #[test]
 fn json_holds_the_summary_and_every_column_of_every_case() {
     let folder = TempDir::new().unwrap();
-    let file = write(&folder, "small.toml", SMALL);
+    let file = write(&folder, "small.toml", &pmma_sweep(THREE));
     let out = folder.path().join("out");
     for quiet in [None, Some("--quiet")] {
         let mut command = program();
@@ -60,8 +51,12 @@ fn json_holds_the_summary_and_every_column_of_every_case() {
 #[test]
 fn nothing_that_is_piped_or_asked_to_be_plain_is_coloured() {
     let folder = TempDir::new().unwrap();
-    let good = write(&folder, "small.toml", SMALL);
-    let bad = write(&folder, "bad.toml", &SMALL.replace("radius", "raduis"));
+    let good = write(&folder, "small.toml", &pmma_sweep(THREE));
+    let bad = write(
+        &folder,
+        "bad.toml",
+        &pmma_sweep(THREE).replace("radius", "raduis"),
+    );
     for file in [good, bad] {
         for no_color in [None, Some("1")] {
             let mut command = program();

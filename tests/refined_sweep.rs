@@ -1,24 +1,15 @@
 //! A sweep that adds frequencies where its own do not resolve the curve, and a sweep of two axes.
 
 use std::collections::HashMap;
-use std::fs;
 
 #[path = "common/program.rs"]
 mod program;
 
-use program::program;
+use program::{pmma_sweep, program, write};
 use tempfile::TempDir;
 
-const SWEEP: &str = r#"title = "few frequencies"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-mean = "10 N"
-amplitude = "5 N"
-[sweep]
+/// Six points over five decades.
+const FEW: &str = r#"[sweep]
 angular_frequency = { from = "1e-4 rad/s", to = "10 rad/s", points = 6 }
 [cycle]
 steps = 64
@@ -29,10 +20,9 @@ springs = 100
 /// Rows of the sweep's table after a run with these keys changed.
 fn rows(set: &[&str]) -> Vec<HashMap<String, String>> {
     let folder = TempDir::new().unwrap();
-    let file = folder.path().join("few.toml");
-    fs::write(&file, SWEEP).unwrap();
+    let file = write(&folder, "few.toml", &pmma_sweep(FEW));
     let mut command = program();
-    command.args(["sweep", &file.display().to_string(), "--quiet", "--out"]);
+    command.args(["sweep", &file, "--quiet", "--out"]);
     command.arg(folder.path().join("out"));
     for key in set {
         command.args(["--set", key]);

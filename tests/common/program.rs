@@ -20,3 +20,18 @@ pub fn write(folder: &TempDir, name: &str, text: &str) -> String {
     fs::write(&path, text).unwrap();
     path.to_str().unwrap().to_owned()
 }
+
+/// A sweep file: PMMA under a sphere of 10 mm, 10 N with 5 N about it, and the rest as given, from `[sweep]` on.
+pub fn pmma_sweep(rest: &str) -> String {
+    let question = r#"title = "PMMA under a sphere"
+[material]
+library = "pmma"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+mean = "10 N"
+amplitude = "5 N"
+"#;
+    format!("{question}{rest}")
+}
