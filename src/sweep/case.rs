@@ -8,6 +8,7 @@ use crate::contact::{ContactError, Engine};
 use crate::drive::HarmonicDrive;
 use crate::history::Work;
 use crate::material::{Creep, MaterialError};
+use crate::sweep::archive::Purpose;
 use crate::sweep::checkpoint::Checkpoints;
 use crate::sweep::engines::{AsContactError, EngineBuilder, EngineError, LargestContact};
 use crate::sweep::error_bars::{ErrorBars, Ladder, Pair, Quantity};
@@ -62,9 +63,28 @@ impl AsContactError for CaseError {
 
 /// Steps per cycle, and springs or cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Resolution {
-    steps: usize,
-    nodes: usize,
+pub(super) struct Resolution {
+    pub steps: usize,
+    pub nodes: usize,
+}
+
+/// What a case is solved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Aim {
+    /// All that the sweep's plan asks for.
+    Plan,
+    /// The loss alone, as this resolution gives it, between cases whose error bars hold for it too.
+    Loss(Resolution),
+}
+
+impl Aim {
+    /// Where the record belongs.
+    pub fn purpose(self) -> Purpose {
+        match self {
+            Self::Plan => Purpose::Sweep,
+            Self::Loss(_) => Purpose::Peak,
+        }
+    }
 }
 
 /// Results on one number of nodes, by the number of steps: the finest last.
@@ -167,18 +187,27 @@ impl Setup {
 
     /// Runs one case to its record; `None` where it was interrupted.
     pub fn run(&self, case: &Case, interrupt: &AtomicBool) -> Option<CaseRecord> {
-        self.run_from(&Checkpoints::none(), case, interrupt)
+        self.run_from(&Checkpoints::none(), case, Aim::Plan, interrupt)
     }
 
     /// As [`Setup::run`], from the checkpoints that an earlier run of the same case has left; the record is the same, bit for
     /// bit. An interruption leaves new ones.
-    pub fn run_from(
+    pub(super) fn run_from(
         &self,
         checkpoints: &Checkpoints,
         case: &Case,
+        aim: Aim,
         interrupt: &AtomicBool,
     ) -> Option<CaseRecord> {
-        let cycle = self.plan.cycle;
+        let mut cycle = self.plan.cycle;
+        let mut nodes = self.plan.solver.nodes();
+        if let Some(accuracy) = cycle.accuracy {
+            cycle.tolerance = cycle.tolerance.min(0.1 * accuracy);
+        }
+        if let Aim::Loss(at) = aim {
+            (cycle.steps, nodes) = (at.steps, at.nodes);
+            (cycle.error_bars, cycle.accuracy) = (false, None);
+        }
         let mut record = CaseRecord {
             index: case.index,
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
@@ -188,7 +217,7 @@ impl Setup {
             message: None,
             method: cycle.method,
             steps: cycle.steps,
-            nodes: self.plan.solver.nodes(),
+            nodes,
             cycles: 0,
             steady_distance: None,
             domain_half_width_m: 0.0,
@@ -311,7 +340,6 @@ impl Setup {
         };
         let mut contact = *contact;
         contact.cycle.error_bars = true;
-        contact.cycle.tolerance = contact.cycle.tolerance.min(0.1 * accuracy);
         let mut work = Work::default();
         for _ in 0..ROUNDS {
             self.at_resolution(&contact, record)?;
