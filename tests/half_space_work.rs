@@ -229,6 +229,24 @@ fn both_ways_follow_any_history_alike_on_any_shape() {
     }
 }
 
+#[test]
+fn where_the_fast_way_is_left_within_an_instant_the_safe_one_ends_it_alike() {
+    let grid = Grid::new(48, 43, 3.3e-5, 3.9e-5).unwrap();
+    let safe = random_history(&mut engine_on(&pair(), grid).by_safeguard_alone(), 5);
+    let largest = |of: fn(&(f64, f64)) -> f64| safe.iter().map(of).fold(0.0, f64::max);
+    let (load_n, approach_m) = (largest(|s| s.0), largest(|s| s.1));
+    for steps in [1, 2, 4] {
+        let mut engine = engine_on(&pair(), grid).by_safeguard_after(steps);
+        let left = random_history(&mut engine, 5);
+        assert!(engine.safeguarded_instants() > 20, "{steps} steps");
+        for (left, safe) in left.iter().zip(&safe) {
+            // As above: the tolerance of 1e-8, now and in what history remembers.
+            assert!((left.0 - safe.0).abs() < 1e-7 * load_n, "{steps} steps");
+            assert!((left.1 - safe.1).abs() < 1e-7 * approach_m, "{steps} steps");
+        }
+    }
+}
+
 // Windows.
 
 #[test]

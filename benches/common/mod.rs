@@ -51,9 +51,11 @@ pub fn hertz_radius_m(load_n: f64, compliance_per_pa: f64) -> f64 {
     (0.75 * load_n * RADIUS_M * compliance_per_pa).cbrt()
 }
 
-/// The half-space engine under the sphere on a square domain of so many cells.
+/// The half-space engine under the sphere on a square domain of so many cells, of which it needs a quarter, as it has in the
+/// program.
 pub fn engine(cells: usize, width_m: f64) -> HalfSpace {
     let grid = Grid::square(cells, width_m / cells as f64).expect("a valid grid");
+    let grid = grid.quarter().unwrap_or(grid);
     let operator = Arc::new(Convolution::new(grid).expect("plannable"));
     let sphere = Sphere::new(RADIUS_M).expect("a positive radius");
     let gap = |cell| {

@@ -28,7 +28,11 @@ pub(super) fn show(setup: &Setup) -> Result<Ended, Failure> {
 
 fn text(setup: &Setup, cost: &Cost) -> String {
     let plan = setup.plan();
-    let memory = format!("{} MB", two_digits(cost.memory_bytes / 1e6));
+    let memory = megabytes(cost.memory_bytes);
+    let free = match super::memory::free_bytes() {
+        Some(free) => format!("; {} are free here", megabytes(free)),
+        None => String::new(),
+    };
     let mut text = format!("{}\n\n", plan.title);
     text.push_str(" case    ω / rad/s   drive mean   amplitude   cycles     about   memory\n");
     for case in cost.cases.iter().take(LISTED) {
@@ -57,7 +61,7 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         "\n{} cases on {} ({} engine), {} steps per cycle.\n\
          Time: about {} on one thread, about {} on {processors}, from {} per step measured here;\n\
          peaks and refinement come on top, about ten cases for every peak.\n\
-         Memory: about {memory} for every thread.\n\
+         Memory: about {memory} for every thread{free}.\n\
          Shards: {} (below about ten minutes each, more of them gain little).\n",
         cost.cases.len(),
         nodes,
@@ -69,6 +73,14 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         cost.shards(),
     );
     text
+}
+
+/// Bytes in the unit that people would use for them.
+pub(super) fn megabytes(bytes: u64) -> String {
+    match bytes as f64 / 1e6 {
+        mega if mega < 1e3 => format!("{} MB", two_digits(mega)),
+        mega => format!("{} GB", two_digits(mega / 1e3)),
+    }
 }
 
 /// A time in the unit that people would use for it.

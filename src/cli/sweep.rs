@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use super::arguments::{OutputFormat, SweepFlags};
 use super::progress::Shown;
-use super::{Ended, Failure, open_document, open_store, print, sweep_file};
+use super::{Ended, Failure, memory, open_document, open_store, print, sweep_file};
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
 use crate::sweep::provenance::{Circumstances, Stopwatch};
@@ -37,6 +37,7 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
         threads: threads(flags.threads),
         checkpoint_every: Duration::from_secs(flags.checkpoint_every),
     };
+    memory::warn_if_short(setup.predicted_memory_bytes(), options.threads);
     let mut job = Job {
         setup: &setup,
         store: &store,

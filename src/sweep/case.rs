@@ -146,7 +146,7 @@ impl Setup {
     }
 
     /// Engines for a drive with so many springs or cells, built once.
-    fn engines(
+    pub(super) fn engines(
         &self,
         drive: &HarmonicDrive,
         nodes: usize,

@@ -13,7 +13,7 @@ pub struct Cost {
     /// Per case, in the order of the sweep.
     pub cases: Vec<CaseCost>,
     /// Memory (bytes) of a case under way; every thread has one.
-    pub memory_bytes: f64,
+    pub memory_bytes: u64,
     /// Time (s) of one step of the full number of nodes, as measured.
     pub step_s: f64,
 }
@@ -59,7 +59,7 @@ impl Cost {
         });
         Ok(Self {
             cases: cases.collect(),
-            memory_bytes: memory_bytes(setup),
+            memory_bytes: setup.predicted_memory_bytes(),
             step_s,
         })
     }
@@ -167,21 +167,24 @@ fn step_s(setup: &Setup) -> Result<f64, SetupError> {
     Ok(measured / relative_step(plan, nodes))
 }
 
-/// What a case under way keeps: fields of the engine and of the convolution, the memory of the body, and what the search looks
-/// back on.
-fn memory_bytes(setup: &Setup) -> f64 {
-    const F64: f64 = 8.0;
-    /// Vectors of nodes in engine and march; vectors of memory variables in a search with its acceleration.
-    const FIELDS: f64 = 12.0;
-    const VARIABLES: f64 = 34.0;
-    let plan = setup.plan();
-    let branches = setup.compliance().branches().len() as f64;
-    let nodes = plan.solver.nodes() as f64;
-    let (nodes, operator) = match plan.solver.engine {
-        // The table of roots of the pressure: half a square.
-        EngineKind::Axisymmetric => (nodes, 0.5 * nodes * nodes),
-        // Spectrum and scratch on a grid padded to twice the side.
-        EngineKind::HalfSpace => (nodes * nodes, 12.0 * nodes * nodes),
-    };
-    F64 * (operator + nodes * (FIELDS + branches * VARIABLES))
+impl Setup {
+    /// Memory (bytes) that a case under way takes: engine and march, what the search for the stabilised cycle looks back on, and
+    /// where it was in contact at which step. Within 20 % where that is much and the contact stays inside its domain.
+    pub fn predicted_memory_bytes(&self) -> u64 {
+        /// Memories of the body that a search keeps after the usual number of cycles, those of the recorded cycle included.
+        const MEMORIES: usize = 16;
+        let plan = self.plan();
+        let branches = self.compliance().branches().len();
+        let drives = plan.drives().iter();
+        let of_engine = |drive| {
+            let engines = self.engines(drive, plan.solver.nodes()).ok()?;
+            Some((engines.predicted_memory_bytes(branches), engines.nodes()))
+        };
+        let (engine, nodes) = drives.filter_map(of_engine).max().unwrap_or_default();
+        let searched = match plan.cycle.method {
+            Method::Direct => nodes * plan.cycle.steps,
+            Method::March => 0,
+        };
+        engine + (nodes * branches * MEMORIES * size_of::<f64>() + searched) as u64
+    }
 }

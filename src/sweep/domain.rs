@@ -84,6 +84,18 @@ pub fn gaps_m(indenter: &dyn Indenter, grid: &Grid) -> Vec<f64> {
     (0..grid.cells()).map(gap).collect()
 }
 
+/// The quarter of the grid, where the gap on it says everything: even in x and in y, to the last bit.
+pub fn quarter_of(indenter: &dyn Indenter, grid: &Grid) -> Option<Grid> {
+    let quarter = grid.quarter()?;
+    let even = (0..quarter.cells()).all(|cell| {
+        let (x_m, y_m) = quarter.center(cell);
+        let gap_m = indenter.gap_m(x_m, y_m);
+        let images = [(-x_m, y_m), (x_m, -y_m), (-x_m, -y_m)];
+        images.iter().all(|&(x, y)| indenter.gap_m(x, y) == gap_m)
+    });
+    even.then_some(quarter)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

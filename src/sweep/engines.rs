@@ -1,12 +1,12 @@
 //! Engines on a domain: how large it must be, the operator all engines share, and a larger one where the contact reaches the
 //! edge after all.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::contact::axisymmetric::{self, Axisymmetric};
 use crate::contact::half_space::convolution::Convolution;
 use crate::contact::half_space::grid::Grid;
-use crate::contact::half_space::{HalfSpace, SolverSettings};
+use crate::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes_on};
 use crate::contact::{ContactError, Engine, Prescribed};
 use crate::drive::Control;
 use crate::indenter::{self, Domain, Indenter};
@@ -51,8 +51,9 @@ pub struct EngineBuilder {
     /// Half width of the largest contact (m), with room for springs.
     half_width_m: f64,
     domain: Domain,
-    /// The operator of the domain before it is enlarged.
-    operator: Option<Arc<Convolution>>,
+    /// The cells of the domain before it is enlarged, where the engine has any, and their operator once it is needed.
+    grid: Option<Grid>,
+    operator: Mutex<Option<Arc<Convolution>>>,
 }
 
 impl EngineBuilder {
@@ -71,7 +72,8 @@ impl EngineBuilder {
             indenter,
             solver,
             half_width_m,
-            operator: None,
+            grid: None,
+            operator: Mutex::new(None),
         };
         match solver.engine {
             EngineKind::Axisymmetric => {
@@ -80,7 +82,7 @@ impl EngineBuilder {
                 }
             }
             EngineKind::HalfSpace => {
-                builder.operator = Some(Arc::new(builder.new_operator(0)?));
+                builder.grid = Some(builder.grid(0)?);
             }
         }
         Ok(builder)
@@ -93,9 +95,25 @@ impl EngineBuilder {
 
     /// Number of nodes of an engine, on a domain of any size.
     pub fn nodes(&self) -> usize {
-        match &self.operator {
-            Some(operator) => operator.grid().cells(),
+        match &self.grid {
+            Some(grid) => grid.cells(),
             None => self.solver.springs,
+        }
+    }
+
+    /// Memory (bytes) that a march of an engine takes with so many memory variables per node; that of springs is a guess on the
+    /// safe side.
+    pub fn predicted_memory_bytes(&self, branches: usize) -> u64 {
+        /// Fields of springs in engine and march.
+        const FIELDS: usize = 12;
+        match &self.grid {
+            Some(grid) => predicted_memory_bytes_on(grid, branches),
+            None => {
+                let springs = self.solver.springs;
+                // The table of roots of the pressure: half a square.
+                let numbers = springs * springs / 2 + springs * (FIELDS + branches);
+                (size_of::<f64>() * numbers) as u64
+            }
         }
     }
 
@@ -196,10 +214,7 @@ impl EngineBuilder {
     }
 
     fn half_space(&self, growths: usize) -> Result<HalfSpace, EngineError> {
-        let operator = match &self.operator {
-            Some(shared) if growths == 0 => Arc::clone(shared),
-            _ => Arc::new(self.new_operator(growths)?),
-        };
+        let operator = self.operator(growths)?;
         let gaps = domain::gaps_m(self.indenter.as_ref(), operator.grid());
         let settings = SolverSettings {
             tolerance: self.solver.tolerance,
@@ -214,9 +229,26 @@ impl EngineBuilder {
         })
     }
 
-    fn new_operator(&self, growths: usize) -> Result<Convolution, EngineError> {
+    /// The cells that the engine solves for: a quarter of the domain where that holds all of it.
+    fn grid(&self, growths: usize) -> Result<Grid, EngineError> {
         let grid = self.field_grid(self.solver.cells, growths)?;
-        Convolution::new(grid).map_err(|e| EngineError::Grid(e.to_string()))
+        Ok(domain::quarter_of(self.indenter.as_ref(), &grid).unwrap_or(grid))
+    }
+
+    /// The operator on a domain enlarged `growths` times; before it is enlarged, one for all engines.
+    fn operator(&self, growths: usize) -> Result<Arc<Convolution>, EngineError> {
+        let built = |grid| Convolution::new(grid).map_err(|e| EngineError::Grid(e.to_string()));
+        match self.grid {
+            Some(grid) if growths == 0 => {
+                let mut shared = self.operator.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some(operator) = &*shared {
+                    return Ok(Arc::clone(operator));
+                }
+                let operator = Arc::new(built(grid)?);
+                Ok(Arc::clone(shared.insert(operator)))
+            }
+            _ => Ok(Arc::new(built(self.grid(growths)?)?)),
+        }
     }
 }
 

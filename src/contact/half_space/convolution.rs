@@ -9,13 +9,19 @@
 //! spectrum of `B` is real because `B` is even, is stored for half the frequencies, and carries the scale of the inverse
 //! transform; only the rows of the grid proper are transformed back.
 //!
+//! On a mirrored grid the transforms are cosine transforms of a quarter of the cells ([`mirrored_row`], [`mirrored_column`]).
+//!
 //! A [`Convolution`] is immutable and shared between threads, a [`Scratch`] belongs to one thread. A result depends on
 //! the pressure alone, never on what the scratch held before.
 
+mod even_column;
 mod kernel_spectrum;
 mod length;
+mod mirrored_column;
+mod mirrored_row;
 mod padded_row;
 mod periodic_row;
+mod shared;
 mod spectral;
 mod window;
 
@@ -27,10 +33,13 @@ use thiserror::Error;
 
 use super::grid::Grid;
 use super::influence::Influence;
+use even_column::EvenColumn;
 pub(super) use length::window_length;
+use mirrored_column::MirroredColumn;
+use mirrored_row::MirroredRow;
 use padded_row::PaddedRow;
 pub use spectral::Scratch;
-use spectral::{Row, Shape, SpectralProduct};
+use spectral::{Column, Product, Shape, SpectralProduct};
 pub use window::{Preconditioner, WindowOperators};
 
 /// Why a convolution cannot be set up or applied.
@@ -72,7 +81,7 @@ pub enum ConvolutionError {
 /// The half-space operator of one grid: plans and spectrum, to be built once and shared.
 pub struct Convolution {
     grid: Grid,
-    product: SpectralProduct<PaddedRow>,
+    product: Box<dyn Product>,
     /// Operators of windows of this grid, by their cells along x and y, built when first asked for.
     windows: Mutex<Vec<Window>>,
     /// The operator of cells twice as long, built when first asked for.
@@ -88,12 +97,9 @@ impl Convolution {
     /// # Errors
     /// [`ConvolutionError::Transform`] if a planned transform refuses its own buffers, which would be a defect.
     pub fn new(grid: Grid) -> Result<Self, ConvolutionError> {
-        let row = PaddedRow::new(grid.cells_x());
-        let shape = Shape::new(&grid, row.bins());
-        let spectrum = kernel_spectrum::columns(&Influence::new(&grid), &row, shape.column_length)?;
         Ok(Self {
             grid,
-            product: SpectralProduct::new(shape, row, spectrum),
+            product: free_space(&grid)?,
             windows: Mutex::new(Vec::new()),
             coarse: OnceLock::new(),
         })
@@ -106,12 +112,14 @@ impl Convolution {
 
     /// Cells per row and per column of the padded grid on which the transforms run.
     pub fn padded_cells(&self) -> (usize, usize) {
-        (self.product.row.period(), self.product.shape.column_length)
+        self.product.periods()
     }
 
-    /// Work space for one thread.
+    /// Work space, for one thread that asks and those of its pool that help it.
     pub fn scratch(&self) -> Scratch {
-        self.product.scratch()
+        let mut scratch = Scratch::empty();
+        self.product.fit(&mut scratch);
+        scratch
     }
 
     /// Makes work space of any shape fit this grid; allocates only what it never held before.
@@ -122,7 +130,7 @@ impl Convolution {
     /// Bytes of the spectra, those of windows and coarser grids included.
     pub fn bytes(&self) -> usize {
         let windows = self.windows.lock().unwrap_or_else(PoisonError::into_inner);
-        self.product.bytes()
+        size_of_val(self.product.spectrum())
             + windows
                 .iter()
                 .map(|(_, window)| window.bytes())
@@ -181,27 +189,59 @@ impl Convolution {
         displacement: &mut [f64],
         scratch: &mut Scratch,
     ) -> Result<(), ConvolutionError> {
-        check_lengths(&self.product.shape, pressure, displacement)?;
-        if scratch.shape != self.product.shape {
+        let shape = self.product.shape();
+        check_lengths(shape, pressure, displacement)?;
+        if scratch.shape != *shape {
             return Err(ConvolutionError::ForeignScratch);
         }
-        let rows = 0..self.product.shape.cells_y;
+        let rows = 0..shape.cells_y;
         Ok(self.product.apply(pressure, displacement, rows, scratch)?)
     }
 }
 
-/// Bytes that the operator of a square grid takes with all that belongs to it: spectra with and without padding, those of
-/// coarser grids, and work space of one thread.
-pub(super) fn predicted_bytes(cells: usize) -> usize {
-    let periodic = 2 * length::fast_row_half(cells);
-    let column = length::fast_column(cells);
-    let (padded, padded_column) = (
-        2 * length::fast_row_half(cells),
-        length::fast_column(2 * cells - 1),
-    );
-    let spectra = (padded + 1) * (padded_column / 2 + 1) + (periodic / 2 + 1) * (column / 2 + 1);
-    // Complex numbers, twice as long: all rows of the grid, at half the frequencies.
-    let scratch = 2 * cells * (padded + periodic / 2 + 2);
+/// The product with the spectrum of the influence coefficients, far enough from its periodic images.
+fn free_space(grid: &Grid) -> Result<Box<dyn Product>, FftError> {
+    let influence = Influence::new(grid);
+    if grid.is_mirrored() {
+        let (x, y) = (2 * grid.cells_x(), 2 * grid.cells_y());
+        return mirrored(grid, &influence, (x, y), |value| value);
+    }
+    let row = PaddedRow::new(grid.cells_x());
+    let column = EvenColumn::new(length::fast_column(2 * grid.cells_y() - 1));
+    let spectrum = kernel_spectrum::columns(&influence, &row, column.length())?;
+    Ok(Box::new(SpectralProduct::new(grid, row, column, spectrum)))
+}
+
+/// The product with a function of the spectrum of the influence coefficients on a mirrored grid, filled up with zeros to at
+/// least so many cells along x and y.
+fn mirrored(
+    grid: &Grid,
+    influence: &Influence,
+    (cells_x, cells_y): (usize, usize),
+    function: impl Fn(f64) -> f64,
+) -> Result<Box<dyn Product>, FftError> {
+    let row = MirroredRow::new(2 * length::fast_row_half(cells_x));
+    let column = MirroredColumn::new(2 * length::fast_row_half(cells_y));
+    let spectrum = mirrored_column::spectrum(influence, &row, &column, function)?;
+    Ok(Box::new(SpectralProduct::new(grid, row, column, spectrum)))
+}
+
+/// Bytes that the operator of a grid takes with all that belongs to it: spectra with and without padding, those of coarser
+/// grids, and work space of one thread.
+pub(super) fn predicted_bytes(grid: &Grid) -> usize {
+    let (x, y) = (grid.cells_x(), grid.cells_y());
+    let row = |cells: usize| 2 * length::fast_row_half(cells);
+    let (spectra, scratch) = if grid.is_mirrored() {
+        let (padded, periodic) = (row(2 * x), row(x));
+        let spectra = padded * row(2 * y) + periodic * row(y);
+        // Complex numbers at half the frequencies.
+        (spectra, y * (padded + periodic))
+    } else {
+        let (half, column) = (row(x), length::fast_column(y));
+        let padded_column = length::fast_column(2 * y - 1);
+        let spectra = (half + 1) * (padded_column / 2 + 1) + (half / 2 + 1) * (column / 2 + 1);
+        (spectra, 2 * y * (half + half / 2 + 2))
+    };
     // A fourth of the cells, a sixteenth and so on: a third of the spectra.
     size_of::<f64>() * (spectra + spectra / 3 + scratch)
 }
@@ -236,8 +276,6 @@ impl fmt::Debug for Convolution {
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
-
-    use num_complex::Complex;
 
     use super::super::influence::rectangle_displacement_m;
     use super::*;
@@ -364,6 +402,81 @@ mod tests {
                     (found[index] - expected).abs() < 2e-14 * expected,
                     "{shape:?}, {index}"
                 );
+            }
+        }
+    }
+
+    /// A mirrored grid of so many cells, with a field, and both unfolded.
+    fn quarter_and_whole(
+        (cells_x, cells_y, spacing_x, spacing_y): (usize, usize, f64, f64),
+    ) -> (Grid, Vec<f64>, Grid, Vec<f64>) {
+        let whole = Grid::new(2 * cells_x, 2 * cells_y, spacing_x, spacing_y).unwrap();
+        let quarter = whole.quarter().unwrap();
+        let field = random(quarter.cells(), 11);
+        let unfolded = quarter.unfolded(&field);
+        (quarter, field, whole, unfolded)
+    }
+
+    #[test]
+    fn threads_that_share_a_product_do_not_change_a_bit_of_it() {
+        for grid in [
+            Grid::new(150, 131, 1.0, 1.2).unwrap(),
+            Grid::new(300, 262, 1.0, 1.2).unwrap().quarter().unwrap(),
+        ] {
+            let convolution = Convolution::new(grid).unwrap();
+            let pressure = random(grid.cells(), 7);
+            let alone = displacement(&convolution, &pressure);
+            for threads in [1, 2, 3, 12] {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+                let shared = (pool.build().unwrap()).install(|| {
+                    assert!(convolution.scratch().lanes() == threads.min(shared::PANELS));
+                    displacement(&convolution, &pressure)
+                });
+                assert_eq!(bits(&shared), bits(&alone), "{threads} threads");
+            }
+        }
+    }
+
+    #[test]
+    fn on_a_mirrored_grid_a_quarter_of_the_cells_has_the_displacement_of_the_whole() {
+        for shape in SHAPES {
+            let (quarter, mut field, whole, _) = quarter_and_whole(shape);
+            // Rows without load at either end, as in a window about a ring.
+            for row in [0, quarter.cells_y() - 1] {
+                if quarter.cells_y() > 4 {
+                    field[row * quarter.cells_x()..][..quarter.cells_x()].fill(0.0);
+                }
+            }
+            let own = displacement(&Convolution::new(quarter).unwrap(), &field);
+            let expected = Convolution::new(whole).unwrap();
+            let expected = displacement(&expected, &quarter.unfolded(&field));
+            let largest = expected.iter().fold(0.0_f64, |l, u| l.max(u.abs()));
+            for (a, b) in quarter.unfolded(&own).iter().zip(&expected) {
+                // Rounding of two transforms, relative to what the field's largest parts make of it.
+                assert!((a - b).abs() < 2e-14 * largest, "{shape:?} {a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn on_a_mirrored_grid_the_preconditioner_is_that_of_the_whole() {
+        // Lengths at which both repeat after the same number of cells.
+        for shape in [(32, 32, 1.0, 1.0), (48, 16, 1.0, 2.5), (64, 96, 3.0, 2.0)] {
+            let (quarter, field, whole, unfolded) = quarter_and_whole(shape);
+            let applied = |grid: &Grid, field: &[f64]| {
+                let mut image = vec![0.0; grid.cells()];
+                let mut scratch = Scratch::empty();
+                Preconditioner::new(grid)
+                    .unwrap()
+                    .apply(field, &mut image, 0..grid.cells_y(), &mut scratch)
+                    .unwrap();
+                image
+            };
+            let own = quarter.unfolded(&applied(&quarter, &field));
+            let expected = applied(&whole, &unfolded);
+            let largest = expected.iter().fold(0.0_f64, |l, u| l.max(u.abs()));
+            for (a, b) in own.iter().zip(&expected) {
+                assert!((a - b).abs() < 2e-14 * largest, "{shape:?} {a} {b}");
             }
         }
     }
@@ -501,10 +614,7 @@ mod tests {
             let expected = bits(&displacement(&convolution, &pressure));
 
             let mut scratch = convolution.scratch();
-            scratch.spectra.fill(Complex::new(f64::NAN, f64::INFINITY));
-            scratch.block.fill(Complex::new(f64::NAN, f64::INFINITY));
-            scratch.work.fill(Complex::new(f64::NAN, f64::INFINITY));
-            scratch.real.fill(f64::NAN);
+            scratch.spoil();
             let mut found = vec![f64::NAN; cells];
             convolution
                 .apply(&pressure, &mut found, &mut scratch)
@@ -590,10 +700,12 @@ mod tests {
 
     #[test]
     fn the_padding_keeps_periodic_images_apart() {
+        let padded = |grid: Grid| Convolution::new(grid).unwrap().padded_cells();
         for cells in 1..300 {
-            let convolution_shape = Shape::new(&Grid::new(1, cells, 1.0, 1.0).unwrap(), 3);
-            assert!(convolution_shape.column_length >= 2 * cells - 1);
-            assert!(PaddedRow::new(cells).period() >= 2 * cells - 1);
+            assert!(padded(Grid::new(cells, 1, 1.0, 1.0).unwrap()).0 >= 2 * cells - 1);
+            assert!(padded(Grid::new(1, cells, 1.0, 1.0).unwrap()).1 >= 2 * cells - 1);
+            let mirrored = Grid::new(2, 2 * cells, 1.0, 1.0).unwrap().quarter();
+            assert!(padded(mirrored.unwrap()).1 >= 4 * cells - 1);
         }
     }
 }

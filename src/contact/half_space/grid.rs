@@ -3,6 +3,9 @@
 //! Cell `(ix, iy)` has the index `iy * cells_x + ix` and its centre at
 //! `((ix - (cells_x - 1) / 2) * spacing_x, (iy - (cells_y - 1) / 2) * spacing_y)`, so an odd number of cells puts a
 //! centre on the origin and an even number puts a cell edge there.
+//!
+//! Of a surface that is even in x and in y a quarter says everything: a mirrored grid is that quarter, its first cell's corner
+//! on the origin, and each of its cells stands for four.
 
 use thiserror::Error;
 
@@ -57,6 +60,8 @@ pub struct Grid {
     cells_y: usize,
     spacing_x_m: f64,
     spacing_y_m: f64,
+    /// Whether it is the quarter with x > 0 and y > 0 of a surface even in both.
+    mirrored: bool,
 }
 
 impl Grid {
@@ -93,6 +98,7 @@ impl Grid {
             cells_y,
             spacing_x_m,
             spacing_y_m,
+            mirrored: false,
         })
     }
 
@@ -150,17 +156,74 @@ impl Grid {
             cells_y: self.cells_y.div_ceil(2),
             spacing_x_m: 2.0 * self.spacing_x_m,
             spacing_y_m: 2.0 * self.spacing_y_m,
+            mirrored: self.mirrored,
         }
+    }
+
+    /// The quarter with x > 0 and y > 0, which holds all of a field that is even in x and in y; `None` where a row or column of
+    /// cells lies on an axis.
+    pub fn quarter(&self) -> Option<Self> {
+        let even = self.cells_x.is_multiple_of(2) && self.cells_y.is_multiple_of(2);
+        (even && !self.mirrored).then_some(Self {
+            cells_x: self.cells_x / 2,
+            cells_y: self.cells_y / 2,
+            mirrored: true,
+            ..*self
+        })
+    }
+
+    /// Whether it is such a quarter.
+    pub fn is_mirrored(&self) -> bool {
+        self.mirrored
+    }
+
+    /// How many cells of the surface each of its cells stands for: 4 or 1.
+    pub fn copies(&self) -> usize {
+        if self.mirrored { 4 } else { 1 }
+    }
+
+    /// The grid of the whole surface.
+    pub fn whole(&self) -> Self {
+        match self.mirrored {
+            true => Self {
+                cells_x: 2 * self.cells_x,
+                cells_y: 2 * self.cells_y,
+                mirrored: false,
+                ..*self
+            },
+            false => *self,
+        }
+    }
+
+    /// A field of this grid on [`Grid::whole`].
+    pub fn unfolded(&self, field: &[f64]) -> Vec<f64> {
+        if !self.mirrored {
+            return field.to_vec();
+        }
+        let mut whole = Vec::with_capacity(4 * field.len());
+        let rows = field.chunks_exact(self.cells_x);
+        for row in rows.clone().rev().chain(rows) {
+            whole.extend(row.iter().rev().chain(row));
+        }
+        whole
     }
 
     /// x of the centres of column `ix`, m. Columns outside the grid continue it.
     pub fn x_m(&self, ix: usize) -> f64 {
-        centred(ix, self.cells_x) * self.spacing_x_m
+        self.position(ix, self.cells_x) * self.spacing_x_m
     }
 
     /// y of the centres of row `iy`, m. Rows outside the grid continue it.
     pub fn y_m(&self, iy: usize) -> f64 {
-        centred(iy, self.cells_y) * self.spacing_y_m
+        self.position(iy, self.cells_y) * self.spacing_y_m
+    }
+
+    /// Position of cell `i` of `n` from the origin, in cells. Half integers are exact, so the grid is exactly symmetric.
+    fn position(&self, i: usize, n: usize) -> f64 {
+        match self.mirrored {
+            true => i as f64 + 0.5,
+            false => i as f64 - 0.5 * (n as f64 - 1.0),
+        }
     }
 
     /// Centre `(x, y)` of the cell with this index, m.
@@ -170,11 +233,6 @@ impl Grid {
             self.y_m(index / self.cells_x),
         )
     }
-}
-
-/// Position of cell `i` of `n` from the middle, in cells. Half integers are exact, so the grid is exactly symmetric.
-fn centred(i: usize, n: usize) -> f64 {
-    i as f64 - 0.5 * (n as f64 - 1.0)
 }
 
 #[cfg(test)]
@@ -202,6 +260,21 @@ mod tests {
                 assert_eq!(grid.y_m(i), -grid.y_m(n - i));
             }
         }
+    }
+
+    #[test]
+    fn a_quarter_has_the_cells_of_the_whole_and_unfolds_to_it() {
+        let whole = Grid::new(6, 4, 0.3, 0.7).unwrap();
+        let quarter = whole.quarter().unwrap();
+        assert_eq!((quarter.cells(), quarter.copies()), (6, 4));
+        assert_eq!(quarter.whole(), whole);
+        let even = |(x, y): (f64, f64)| x.abs() + 10.0 * y.abs();
+        let field: Vec<f64> = (0..6).map(|cell| even(quarter.center(cell))).collect();
+        let expected: Vec<f64> = (0..24).map(|cell| even(whole.center(cell))).collect();
+        assert_eq!(quarter.unfolded(&field), expected);
+        assert_eq!(whole.unfolded(&expected), expected);
+        assert_eq!(Grid::new(5, 4, 1.0, 1.0).unwrap().quarter(), None);
+        assert_eq!(quarter.quarter(), None);
     }
 
     #[test]

@@ -8,5 +8,5 @@ pub mod grid;
 pub mod influence;
 mod solver;
 
-pub use footprint::predicted_memory_bytes;
+pub use footprint::{predicted_memory_bytes, predicted_memory_bytes_on};
 pub use solver::{HalfSpace, SolverSettings};

@@ -81,7 +81,8 @@ pub struct HalfSpace {
     settings: SolverSettings,
     gap_m: Vec<f64>,
     bounded_pressure: bool,
-    safeguard_alone: bool,
+    /// Steps of an instant after which the fast way is left for the safe one.
+    fast_steps: usize,
     /// Cells inside the grid in which contact is an error, because the gap beside them is not known.
     end_of_data: Vec<usize>,
     fields: ActiveSet,
@@ -116,7 +117,8 @@ impl HalfSpace {
     /// An engine for this gap field (m, one value per cell of the operator's grid; infinite where there is no indenter).
     ///
     /// `bounded_pressure` says whether the shape has a finite pressure maximum. Contact in the outermost cells of the grid is
-    /// an error: what lies beyond is unknown.
+    /// an error: what lies beyond is unknown. On a mirrored grid every field is that of the quarter, loads and areas are those of
+    /// the whole surface.
     pub fn new(
         operator: Arc<Convolution>,
         gap_m: Vec<f64>,
@@ -126,7 +128,7 @@ impl HalfSpace {
         Self {
             settings,
             bounded_pressure,
-            safeguard_alone: false,
+            fast_steps: usize::MAX,
             end_of_data: Vec::new(),
             fields: ActiveSet::default(),
             scratches: Scratches::new(),
@@ -145,8 +147,14 @@ impl HalfSpace {
     }
 
     /// The same engine solving every instant by its slow, safe way alone: what the fast one is checked against.
-    pub fn by_safeguard_alone(mut self) -> Self {
-        self.safeguard_alone = true;
+    pub fn by_safeguard_alone(self) -> Self {
+        self.by_safeguard_after(0)
+    }
+
+    /// The same engine leaving the fast way for the safe one after so many steps of every instant that takes more: what happens
+    /// where the fast one stalls, at will.
+    pub fn by_safeguard_after(mut self, steps: usize) -> Self {
+        self.fast_steps = steps;
         self
     }
 
@@ -178,7 +186,7 @@ impl HalfSpace {
         self.safeguarded
     }
 
-    /// The surface displacement u = B (A p + H) in metres of the instant last solved, one value per cell.
+    /// The surface displacement u = B (A p + H) in metres of the instant last solved, one value per cell of the operator's grid.
     pub fn displacement_m(&self, compliance_per_pa: f64) -> impl Iterator<Item = f64> + '_ {
         let grid = self.operator.grid();
         let mut displacement_m = vec![0.0; grid.cells()];
@@ -250,7 +258,13 @@ impl HalfSpace {
         Ok(found)
     }
 
-    /// Whether any cell on the border of the grid or of the data carries pressure.
+    /// Area (m2) of the surface cells that one cell of the grid stands for.
+    fn nodal_area_m2(&self) -> f64 {
+        let grid = self.operator.grid();
+        grid.copies() as f64 * grid.cell_area_m2()
+    }
+
+    /// Whether any cell on the border of the grid or of the data carries pressure; the axes of a mirrored grid are no border.
     fn touches_edge(&self, pressure: &[f64]) -> bool {
         let (nx, ny) = (
             self.operator.grid().cells_x(),
@@ -258,7 +272,8 @@ impl HalfSpace {
         );
         let row = |iy: usize| (0..nx).any(|ix| pressure[iy * nx + ix] > 0.0);
         let column = |ix: usize| (0..ny).any(|iy| pressure[iy * nx + ix] > 0.0);
-        let border = row(0) || row(ny - 1) || column(0) || column(nx - 1);
+        let axes = self.operator.grid().is_mirrored();
+        let border = row(ny - 1) || column(nx - 1) || (!axes && (row(0) || column(0)));
         border || self.end_of_data.iter().any(|&cell| pressure[cell] > 0.0)
     }
 
@@ -304,12 +319,10 @@ impl HalfSpace {
     ) -> Result<Found, ContactError> {
         let imposed = match prescribed {
             Prescribed::LoadN(0.0) => return self.out_of_contact(instant, pressure, work),
-            Prescribed::LoadN(load_n) => {
-                Imposed::PressureSum(load_n / self.operator.grid().cell_area_m2())
-            }
+            Prescribed::LoadN(load_n) => Imposed::PressureSum(load_n / self.nodal_area_m2()),
             Prescribed::ApproachM(approach_m) => Imposed::ApproachM(approach_m),
         };
-        if !self.safeguard_alone
+        if self.fast_steps > 0
             && let Some(found) = self.solve_in_windows(instant, imposed, pressure, work)?
         {
             return Ok(found);
@@ -374,14 +387,15 @@ impl Engine for HalfSpace {
         let found = found?;
         let grid = self.operator.grid();
         if self.touches_edge(pressure) {
-            let half_width_m = 0.5 * grid.cells_x() as f64 * grid.spacing_x_m();
+            let whole = grid.whole();
+            let half_width_m = 0.5 * whole.cells_x() as f64 * whole.spacing_x_m();
             return Err(ContactError::ReachedEdge { half_width_m });
         }
-        let cell_area_m2 = grid.cell_area_m2();
+        let area_m2 = self.nodal_area_m2();
         Ok(Solution {
-            load_n: found.pressure_sum * cell_area_m2,
+            load_n: found.pressure_sum * area_m2,
             approach_m: found.approach_m,
-            contact_radius_m: (found.cells as f64 * cell_area_m2 / std::f64::consts::PI).sqrt(),
+            contact_radius_m: (found.cells as f64 * area_m2 / std::f64::consts::PI).sqrt(),
             iterations: found.steps,
             convolutions: work.convolutions,
         })
@@ -409,7 +423,7 @@ impl Engine for HalfSpace {
     }
 
     fn load_per_nodal_pressure(&self) -> f64 {
-        self.operator.grid().cell_area_m2()
+        self.nodal_area_m2()
     }
 
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
@@ -423,10 +437,11 @@ impl Engine for HalfSpace {
         self.operator
             .apply(&hereditary, &mut displacement_m, scratch)?;
         self.convolutions += 1;
+        let grid = self.operator.grid();
         Ok(Surface::Cells(CellSurface {
-            grid: *self.operator.grid(),
-            pressure_pa: response.pressure.to_vec(),
-            displacement_m,
+            grid: grid.whole(),
+            pressure_pa: grid.unfolded(response.pressure),
+            displacement_m: grid.unfolded(&displacement_m),
         }))
     }
 }

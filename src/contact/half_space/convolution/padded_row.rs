@@ -18,6 +18,7 @@ use num_complex::Complex;
 use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
+use super::kernel_spectrum::FrequencyPerBin;
 use super::length::fast_row_half;
 use super::spectral::Row;
 
@@ -63,18 +64,6 @@ impl Row for PaddedRow {
     /// Number of frequencies kept: `m/2 + 1` even ones, then `m/2` odd ones.
     fn bins(&self) -> usize {
         2 * self.quarter + 1
-    }
-
-    /// Frequency of a bin as a real even function sees it, that is between 0 and `m`, and how often it occurs in the sum
-    /// of the inverse transform as this type takes it.
-    fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {
-        match bin.checked_sub(self.quarter + 1) {
-            None => (2 * bin, 1.0),
-            Some(l) => {
-                let frequency = 4 * l + 1;
-                (frequency.min(self.period() - frequency), 2.0)
-            }
-        }
     }
 
     /// Length of the buffer for one real row.
@@ -142,6 +131,20 @@ impl Row for PaddedRow {
             *u = even - (z.im * w.re - z.re * w.im);
         }
         Ok(())
+    }
+}
+
+impl FrequencyPerBin for PaddedRow {
+    /// Frequency of a bin as a real even function sees it, that is between 0 and `m`, and how often it occurs in the sum
+    /// of the inverse transform as this type takes it.
+    fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {
+        match bin.checked_sub(self.quarter + 1) {
+            None => (2 * bin, 1.0),
+            Some(l) => {
+                let frequency = 4 * l + 1;
+                (frequency.min(self.period() - frequency), 2.0)
+            }
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use num_complex::Complex;
 use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
 
+use super::kernel_spectrum::FrequencyPerBin;
 use super::length::fast_row_half;
 use super::spectral::Row;
 
@@ -36,10 +37,6 @@ impl Row for PeriodicRow {
 
     fn bins(&self) -> usize {
         self.half + 1
-    }
-
-    fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {
-        (bin, 1.0)
     }
 
     fn buffer_length(&self) -> usize {
@@ -80,5 +77,11 @@ impl Row for PeriodicRow {
         self.inverse.process_with_scratch(bins, buffer, work)?;
         row.copy_from_slice(&buffer[..row.len()]);
         Ok(())
+    }
+}
+
+impl FrequencyPerBin for PeriodicRow {
+    fn frequency_and_weight(&self, bin: usize) -> (usize, f64) {
+        (bin, 1.0)
     }
 }

@@ -1,20 +1,22 @@
 //! A product in Fourier space of a field on a grid with a spectrum that is real and even in both directions.
 //!
 //! Only rows that carry values are transformed; each block of columns goes forward, through the multiplication and back while
-//! it is in cache; the spectrum is stored for half the frequencies and carries the scale of the inverse transform; only the
-//! rows asked for are transformed back.
+//! it is in cache; the spectrum is stored once and carries the scale of the inverse transform; only the rows asked for are
+//! transformed back. How a row and a column are transformed is left to [`Row`] and [`Column`].
+//!
+//! On a grid that is large enough, idle threads of the pool in which it runs take part ([`super::shared`]): rows and columns do
+//! not know of one another, so that the result is the same to the last bit, whoever computes them.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use num_complex::Complex;
 use realfft::FftError;
-use rustfft::{Fft, FftPlanner};
 
 use super::super::grid::Grid;
-use super::length::{conflict_free_stride, fast_column};
+use super::length::conflict_free_stride;
+use super::shared::{self, Panels, in_parts};
 
-const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
+pub(super) const ZERO: Complex<f64> = Complex { re: 0.0, im: 0.0 };
 
 /// Side of the tiles in which rows are turned into columns: four complex numbers fill a cache line.
 const TILE: usize = 4;
@@ -22,16 +24,12 @@ const TILE: usize = 4;
 const BLOCK_COLUMNS: usize = TILE;
 
 /// How a row is transformed. Plans are immutable; buffers are the caller's.
-pub(super) trait Row {
+pub(super) trait Row: Send + Sync {
     /// Length of the row on which the transform acts, that is of the period.
     fn period(&self) -> usize;
 
     /// Number of frequencies kept.
     fn bins(&self) -> usize;
-
-    /// Frequency of a bin as a real even function sees it, and how often it occurs in the sum of the inverse transform as
-    /// this type takes it.
-    fn frequency_and_weight(&self, bin: usize) -> (usize, f64);
 
     /// Length of the buffer for one real row.
     fn buffer_length(&self) -> usize;
@@ -58,6 +56,55 @@ pub(super) trait Row {
     ) -> Result<(), FftError>;
 }
 
+/// How a column of bins is multiplied by its part of the spectrum. Plans are immutable; buffers are the caller's.
+pub(super) trait Column: Send + Sync {
+    /// Length on which the transform acts.
+    fn length(&self) -> usize;
+
+    /// Length after which a column repeats.
+    fn period(&self) -> usize;
+
+    /// Numbers of the spectrum that belong to one column.
+    fn kernel_length(&self) -> usize;
+
+    /// Length of the work space.
+    fn work_length(&self) -> usize;
+
+    /// The product, of which the rows `wanted` must be right, of a column that has values in the rows `loaded` alone; what it
+    /// holds elsewhere is to be taken for zero.
+    fn multiply(
+        &self,
+        column: &mut [Complex<f64>],
+        loaded: &Range<usize>,
+        wanted: &Range<usize>,
+        kernel: &[f64],
+        work: &mut [Complex<f64>],
+    );
+}
+
+/// A product ready to be applied.
+pub(super) trait Product: Send + Sync {
+    fn shape(&self) -> &Shape;
+
+    /// Length of the period along x and y.
+    fn periods(&self) -> (usize, usize);
+
+    fn spectrum(&self) -> &[f64];
+
+    /// Makes work space of any shape fit, for the threads there are. Allocates only what it never held before.
+    fn fit(&self, scratch: &mut Scratch);
+
+    /// The product of the spectrum with `field`, in the rows `wanted` of `image`; the other rows of `image` stay as they are.
+    /// The scratch must fit.
+    fn apply(
+        &self,
+        field: &[f64],
+        image: &mut [f64],
+        wanted: Range<usize>,
+        scratch: &mut Scratch,
+    ) -> Result<(), FftError>;
+}
+
 /// Sizes of the transformed grid and of the buffers on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Shape {
@@ -66,8 +113,10 @@ pub(super) struct Shape {
     /// Frequencies kept per row, that is columns.
     columns: usize,
     /// Length of a transformed column.
-    pub(super) column_length: usize,
-    /// Elements from one row of the spectra to the next.
+    column_length: usize,
+    /// Columns of a panel; the last one may have fewer.
+    panel_columns: usize,
+    /// Elements from one row of a panel to the next.
     row_stride: usize,
     /// Elements from one column of a block to the next.
     column_stride: usize,
@@ -76,21 +125,18 @@ pub(super) struct Shape {
 }
 
 impl Shape {
-    /// Columns padded to at least twice their length, as free space needs it.
-    pub(super) fn new(grid: &Grid, columns: usize) -> Self {
-        let column_length = fast_column(2 * grid.cells_y() - 1);
-        Self::with_columns(grid, columns, column_length)
-    }
-
-    /// Columns of at least this length.
-    pub(super) fn with_columns(grid: &Grid, columns: usize, column_length: usize) -> Self {
+    /// So many columns of this length.
+    pub(super) fn new(grid: &Grid, columns: usize, column_length: usize) -> Self {
         let rows = grid.cells_y().next_multiple_of(TILE);
+        let panels = shared::panels(grid.cells());
+        let panel_columns = columns.div_ceil(panels).next_multiple_of(BLOCK_COLUMNS);
         Self {
             cells_x: grid.cells_x(),
             cells_y: grid.cells_y(),
             columns,
             column_length,
-            row_stride: conflict_free_stride(columns.next_multiple_of(BLOCK_COLUMNS)),
+            panel_columns,
+            row_stride: conflict_free_stride(panel_columns),
             column_stride: conflict_free_stride(column_length.max(rows)),
             rows,
         }
@@ -99,20 +145,33 @@ impl Shape {
     pub(super) fn cells(&self) -> usize {
         self.cells_x * self.cells_y
     }
+
+    /// Elements of a panel.
+    fn panel(&self) -> usize {
+        self.rows * self.row_stride
+    }
 }
 
-/// Work space of one thread for one shape of grid; from [`super::Convolution::scratch`].
+/// Work space for one shape of grid; from [`super::Convolution::scratch`].
 #[derive(Clone)]
 pub struct Scratch {
     pub(super) shape: Shape,
-    /// The transformed rows, row by row.
-    pub(super) spectra: Vec<Complex<f64>>,
+    /// The transformed rows: panel by panel of columns, row by row in each.
+    spectra: Vec<Complex<f64>>,
+    /// One for every thread that may take part.
+    lanes: Vec<Lane>,
+}
+
+/// Work space of one thread.
+#[derive(Clone, Default)]
+struct Lane {
     /// The columns being transformed, column by column.
-    pub(super) block: Vec<Complex<f64>>,
-    /// One row.
-    pub(super) real: Vec<f64>,
+    block: Vec<Complex<f64>>,
+    /// One row, and its transform.
+    real: Vec<f64>,
+    bins: Vec<Complex<f64>>,
     /// What the transforms themselves ask for.
-    pub(super) work: Vec<Complex<f64>>,
+    work: Vec<Complex<f64>>,
 }
 
 impl std::fmt::Debug for Scratch {
@@ -131,6 +190,7 @@ impl Scratch {
             cells_y: 0,
             columns: 0,
             column_length: 0,
+            panel_columns: 0,
             row_stride: 0,
             column_stride: 0,
             rows: 0,
@@ -138,154 +198,233 @@ impl Scratch {
         Self {
             shape: nothing,
             spectra: Vec::new(),
-            block: Vec::new(),
-            real: Vec::new(),
-            work: Vec::new(),
+            lanes: Vec::new(),
+        }
+    }
+
+    /// How many threads may share a product that has it.
+    #[cfg(test)]
+    pub(super) fn lanes(&self) -> usize {
+        self.lanes.len()
+    }
+
+    /// Fills it with what no result may show.
+    #[cfg(test)]
+    pub(super) fn spoil(&mut self) {
+        let bad = Complex::new(f64::NAN, f64::INFINITY);
+        self.spectra.fill(bad);
+        for lane in &mut self.lanes {
+            lane.real.fill(f64::NAN);
+            for values in [&mut lane.block, &mut lane.bins, &mut lane.work] {
+                values.fill(bad);
+            }
         }
     }
 }
 
 /// Plans and spectrum.
-pub(super) struct SpectralProduct<R> {
-    pub(super) shape: Shape,
-    pub(super) row: R,
-    column_forward: Arc<dyn Fft<f64>>,
-    column_inverse: Arc<dyn Fft<f64>>,
-    /// `column_length / 2 + 1` values per column.
-    pub(super) spectrum: Vec<f64>,
+pub(super) struct SpectralProduct<R, C> {
+    shape: Shape,
+    row: R,
+    column: C,
+    /// [`Column::kernel_length`] values for every bin of a row.
+    spectrum: Vec<f64>,
 }
 
-impl<R: Row> SpectralProduct<R> {
-    /// Plans for this shape; `spectrum` has `column_length / 2 + 1` values for every bin of `row`.
-    pub(super) fn new(shape: Shape, row: R, spectrum: Vec<f64>) -> Self {
-        let mut planner = FftPlanner::new();
+impl<R: Row, C: Column> SpectralProduct<R, C> {
+    /// The product with this spectrum on this grid.
+    pub(super) fn new(grid: &Grid, row: R, column: C, spectrum: Vec<f64>) -> Self {
         Self {
-            shape,
+            shape: Shape::new(grid, row.bins(), column.length()),
             row,
-            column_forward: planner.plan_fft_forward(shape.column_length),
-            column_inverse: planner.plan_fft_inverse(shape.column_length),
+            column,
             spectrum,
         }
     }
 
-    /// Bytes of the spectrum.
-    pub(super) fn bytes(&self) -> usize {
-        self.spectrum.capacity() * size_of::<f64>()
-    }
-
-    /// Work space for one thread.
-    pub(super) fn scratch(&self) -> Scratch {
-        let mut scratch = Scratch::empty();
-        self.fit(&mut scratch);
-        scratch
-    }
-
-    /// Makes work space of any shape fit this one. Allocates only what it never held before.
-    pub(super) fn fit(&self, scratch: &mut Scratch) {
-        if scratch.shape == self.shape {
-            return;
-        }
-        let work = self
-            .row
-            .work_length()
-            .max(self.column_forward.get_inplace_scratch_len())
-            .max(self.column_inverse.get_inplace_scratch_len());
-        let shape = self.shape;
-        scratch.shape = shape;
-        resize(&mut scratch.spectra, shape.rows * shape.row_stride, ZERO);
-        resize(
-            &mut scratch.block,
-            BLOCK_COLUMNS * shape.column_stride,
-            ZERO,
-        );
-        resize(&mut scratch.real, self.row.buffer_length(), 0.0);
-        resize(&mut scratch.work, work, ZERO);
-    }
-
-    /// The product of the spectrum with `field`, in the rows `wanted` of `image`; the other rows of `image` stay as they are.
-    /// The scratch must fit.
-    pub(super) fn apply(
-        &self,
-        field: &[f64],
-        image: &mut [f64],
-        wanted: Range<usize>,
-        scratch: &mut Scratch,
-    ) -> Result<(), FftError> {
-        let cells_x = self.shape.cells_x;
-        let Some(loaded) = loaded_rows(field, cells_x) else {
-            image[wanted.start * cells_x..wanted.end * cells_x].fill(0.0);
-            return Ok(());
-        };
-        self.transform_rows(field, loaded.clone(), scratch)?;
-        self.multiply_columns(loaded, wanted.clone(), scratch);
-        self.recover_rows(image, wanted, scratch)
-    }
-
-    /// Transforms the loaded rows of the field into the spectra.
+    /// Transforms rows of the field into rows of the panels.
     fn transform_rows(
         &self,
         field: &[f64],
-        loaded: Range<usize>,
-        scratch: &mut Scratch,
+        panels: Panels<'_, Complex<f64>>,
+        lanes: &mut [Lane],
     ) -> Result<(), FftError> {
-        let rows = field.chunks_exact(self.shape.cells_x);
-        let spectra = scratch.spectra.chunks_exact_mut(self.shape.row_stride);
-        for (row, bins) in rows.zip(spectra).take(loaded.end).skip(loaded.start) {
-            let bins = &mut bins[..self.shape.columns];
-            self.row
-                .forward(row, bins, &mut scratch.real, &mut scratch.work)?;
-        }
-        Ok(())
+        let shape = &self.shape;
+        let rows = field.len() / shape.cells_x;
+        in_parts(
+            (field, panels),
+            rows,
+            lanes,
+            |(field, panels), at| {
+                let (field, rest) = field.split_at(at * shape.cells_x);
+                let (panels, others) = panels.split_at(at * shape.row_stride);
+                ((field, panels), (rest, others))
+            },
+            |(field, mut panels), lane| {
+                let bins = &mut lane.bins[..shape.columns];
+                for (iy, row) in field.chunks_exact(shape.cells_x).enumerate() {
+                    (self.row).forward(row, bins, &mut lane.real, &mut lane.work)?;
+                    let parts = bins.chunks(shape.panel_columns);
+                    for (panel, part) in panels.iter_mut().zip(parts) {
+                        panel[iy * shape.row_stride..][..part.len()].copy_from_slice(part);
+                    }
+                }
+                Ok(())
+            },
+        )
     }
 
-    /// Multiplies the two-dimensional spectrum, block by block of columns: the spectra enter with the loaded rows only and
-    /// leave with the rows wanted.
-    fn multiply_columns(&self, loaded: Range<usize>, wanted: Range<usize>, scratch: &mut Scratch) {
+    /// Multiplies the two-dimensional spectrum, panel by panel of columns.
+    fn multiply_panels(
+        &self,
+        spectra: &mut [Complex<f64>],
+        loaded: &Range<usize>,
+        wanted: &Range<usize>,
+        lanes: &mut [Lane],
+    ) -> Result<(), FftError> {
+        let panel = self.shape.panel();
+        let panels = spectra.len() / panel.max(1);
+        in_parts(
+            (0, spectra),
+            panels,
+            lanes,
+            |(first, panels), at| {
+                let (panels, others) = panels.split_at_mut(at * panel);
+                ((first, panels), (first + at, others))
+            },
+            |(first, panels), lane| {
+                for (index, panel) in (first..).zip(panels.chunks_exact_mut(panel)) {
+                    self.multiply_columns(index, panel, loaded, wanted, lane);
+                }
+                Ok(())
+            },
+        )
+    }
+
+    /// Multiplies a panel, block by block of columns: it enters with the loaded rows only and leaves with the rows wanted.
+    fn multiply_columns(
+        &self,
+        index: usize,
+        panel: &mut [Complex<f64>],
+        loaded: &Range<usize>,
+        wanted: &Range<usize>,
+        lane: &mut Lane,
+    ) {
         let shape = &self.shape;
-        let half_length = shape.column_length / 2 + 1;
-        let (spectra, block) = (&mut scratch.spectra[..], &mut scratch.block[..]);
-        let kernels = self.spectrum.chunks(BLOCK_COLUMNS * half_length);
+        let kernel_length = self.column.kernel_length();
+        let own =
+            index * shape.panel_columns..((index + 1) * shape.panel_columns).min(shape.columns);
+        let Some(spectrum) =
+            (self.spectrum).get(own.start * kernel_length..own.end * kernel_length)
+        else {
+            return;
+        };
+        let block = &mut lane.block[..];
+        let kernels = spectrum.chunks(BLOCK_COLUMNS * kernel_length);
         let tiles = |rows: &Range<usize>| (rows.start / TILE * TILE..rows.end).step_by(TILE);
         for (first, kernels) in (0..).step_by(BLOCK_COLUMNS).zip(kernels) {
-            for row in tiles(&loaded) {
+            for row in tiles(loaded) {
                 let at = row * shape.row_stride + first;
                 let to = shape.column_stride;
-                transpose_tile(spectra, at, shape.row_stride, block, row, to);
+                transpose_tile(panel, at, shape.row_stride, block, row, to);
             }
             let columns = block.chunks_exact_mut(shape.column_stride);
-            for (column, kernel) in columns.zip(kernels.chunks_exact(half_length)) {
-                let column = &mut column[..shape.column_length];
-                column[..loaded.start].fill(ZERO);
-                column[loaded.end..].fill(ZERO);
-                self.column_forward
-                    .process_with_scratch(column, &mut scratch.work);
-                multiply_by_even(column, kernel);
-                self.column_inverse
-                    .process_with_scratch(column, &mut scratch.work);
+            for (column, kernel) in columns.zip(kernels.chunks_exact(kernel_length)) {
+                (self.column).multiply(column, loaded, wanted, kernel, &mut lane.work);
             }
-            for row in tiles(&wanted) {
+            for row in tiles(wanted) {
                 let at = row * shape.row_stride + first;
                 let from = shape.column_stride;
-                transpose_tile(block, row, from, spectra, at, shape.row_stride);
+                transpose_tile(block, row, from, panel, at, shape.row_stride);
             }
         }
     }
 
-    /// Transforms the wanted rows back.
+    /// Transforms the rows from `first` on back.
     fn recover_rows(
         &self,
+        spectra: &[Complex<f64>],
+        first: usize,
+        image: &mut [f64],
+        lanes: &mut [Lane],
+    ) -> Result<(), FftError> {
+        let shape = &self.shape;
+        let rows = image.len() / shape.cells_x;
+        in_parts(
+            (first, image),
+            rows,
+            lanes,
+            |(first, image), at| {
+                let (image, rest) = image.split_at_mut(at * shape.cells_x);
+                ((first, image), (first + at, rest))
+            },
+            |(first, image), lane| {
+                let bins = &mut lane.bins[..shape.columns];
+                for (iy, row) in (first..).zip(image.chunks_exact_mut(shape.cells_x)) {
+                    let panels = spectra.chunks_exact(shape.panel());
+                    for (part, panel) in bins.chunks_mut(shape.panel_columns).zip(panels) {
+                        part.copy_from_slice(&panel[iy * shape.row_stride..][..part.len()]);
+                    }
+                    (self.row).inverse(bins, row, &mut lane.real, &mut lane.work)?;
+                }
+                Ok(())
+            },
+        )
+    }
+}
+
+impl<R: Row, C: Column> Product for SpectralProduct<R, C> {
+    fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    fn periods(&self) -> (usize, usize) {
+        (self.row.period(), self.column.period())
+    }
+
+    fn spectrum(&self) -> &[f64] {
+        &self.spectrum
+    }
+
+    fn fit(&self, scratch: &mut Scratch) {
+        let threads = shared::threads(self.shape.cells());
+        if scratch.shape == self.shape && scratch.lanes.len() == threads {
+            return;
+        }
+        let shape = self.shape;
+        scratch.shape = shape;
+        let panels = shape.columns.div_ceil(shape.panel_columns);
+        resize(&mut scratch.spectra, panels * shape.panel(), ZERO);
+        scratch.lanes.resize_with(threads, Lane::default);
+        let work = self.row.work_length().max(self.column.work_length());
+        for lane in &mut scratch.lanes {
+            resize(&mut lane.block, BLOCK_COLUMNS * shape.column_stride, ZERO);
+            resize(&mut lane.real, self.row.buffer_length(), 0.0);
+            resize(&mut lane.bins, shape.columns, ZERO);
+            resize(&mut lane.work, work, ZERO);
+        }
+    }
+
+    fn apply(
+        &self,
+        field: &[f64],
         image: &mut [f64],
         wanted: Range<usize>,
         scratch: &mut Scratch,
     ) -> Result<(), FftError> {
-        let rows = image.chunks_exact_mut(self.shape.cells_x);
-        let spectra = scratch.spectra.chunks_exact_mut(self.shape.row_stride);
-        for (row, bins) in rows.zip(spectra).take(wanted.end).skip(wanted.start) {
-            let bins = &mut bins[..self.shape.columns];
-            self.row
-                .inverse(bins, row, &mut scratch.real, &mut scratch.work)?;
-        }
-        Ok(())
+        let shape = &self.shape;
+        let cells = |rows: &Range<usize>| rows.start * shape.cells_x..rows.end * shape.cells_x;
+        let Some(loaded) = loaded_rows(field, shape.cells_x) else {
+            image[cells(&wanted)].fill(0.0);
+            return Ok(());
+        };
+        let threads = shared::threads(shape.cells()).min(scratch.lanes.len());
+        let (spectra, lanes) = (&mut scratch.spectra[..], &mut scratch.lanes[..threads]);
+        let panels = Panels::new(spectra.chunks_exact_mut(shape.panel()));
+        let (_, panels) = panels.split_at(loaded.start * shape.row_stride);
+        self.transform_rows(&field[cells(&loaded)], panels, lanes)?;
+        self.multiply_panels(spectra, &loaded, &wanted, lanes)?;
+        self.recover_rows(spectra, wanted.start, &mut image[cells(&wanted)], lanes)
     }
 }
 
@@ -327,28 +466,5 @@ fn transpose_tile(
     for (line, values) in transposed.iter().enumerate() {
         let start = to_at + line * to_stride;
         to[start..start + TILE].copy_from_slice(values);
-    }
-}
-
-/// Multiplies frequency `k` and its mirror image `length - k` by `even[k]`.
-fn multiply_by_even(column: &mut [Complex<f64>], even: &[f64]) {
-    let (Some((zero, others)), Some((even_zero, even))) =
-        (column.split_first_mut(), even.split_first())
-    else {
-        return;
-    };
-    *zero *= even_zero;
-    let pairs = others.len() / 2;
-    let (lower, upper) = others.split_at_mut(pairs);
-    let mirrored = upper.iter_mut().rev();
-    for ((a, b), factor) in lower.iter_mut().zip(mirrored).zip(even) {
-        *a *= factor;
-        *b *= factor;
-    }
-    // An even length has one frequency that is its own mirror image; `upper` is then one longer than `lower`.
-    if upper.len() > pairs
-        && let (Some(middle), Some(factor)) = (upper.first_mut(), even.get(pairs))
-    {
-        *middle *= factor;
     }
 }

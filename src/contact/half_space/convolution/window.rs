@@ -7,15 +7,16 @@
 
 use std::ops::Range;
 
+use super::even_column::EvenColumn;
 use super::length::fast_column;
 use super::periodic_row::PeriodicRow;
-use super::spectral::{Row, Shape, SpectralProduct};
+use super::spectral::{Column, Product, Row, SpectralProduct};
 use super::{Convolution, ConvolutionError, Influence, Scratch, kernel_spectrum};
 use crate::contact::half_space::grid::Grid;
 
 /// A symmetric positive product that nearly inverts the half-space operator on one window.
 pub struct Preconditioner {
-    product: SpectralProduct<PeriodicRow>,
+    product: Box<dyn Product>,
 }
 
 impl Preconditioner {
@@ -24,17 +25,22 @@ impl Preconditioner {
     /// # Errors
     /// As [`Convolution::new`].
     pub fn new(grid: &Grid) -> Result<Self, ConvolutionError> {
+        let influence = Influence::new(grid);
+        if grid.is_mirrored() {
+            let cells = (grid.cells_x(), grid.cells_y());
+            let product = super::mirrored(grid, &influence, cells, f64::recip)?;
+            return Ok(Self { product });
+        }
         let row = PeriodicRow::new(grid.cells_x());
-        let column_length = fast_column(grid.cells_y());
-        let shape = Shape::with_columns(grid, row.bins(), column_length);
-        let mut spectrum = kernel_spectrum::columns(&Influence::new(grid), &row, column_length)?;
-        let cells = row.period() as f64 * column_length as f64;
+        let column = EvenColumn::new(fast_column(grid.cells_y()));
+        let mut spectrum = kernel_spectrum::columns(&influence, &row, column.length())?;
+        let cells = row.period() as f64 * column.length() as f64;
         for value in &mut spectrum {
             // Scaled like the spectrum it inverts.
             *value = (*value * cells * cells).recip();
         }
         Ok(Self {
-            product: SpectralProduct::new(shape, row, spectrum),
+            product: Box::new(SpectralProduct::new(grid, row, column, spectrum)),
         })
     }
 
@@ -49,7 +55,7 @@ impl Preconditioner {
         wanted: Range<usize>,
         scratch: &mut Scratch,
     ) -> Result<(), ConvolutionError> {
-        super::check_lengths(&self.product.shape, residual, direction)?;
+        super::check_lengths(self.product.shape(), residual, direction)?;
         self.product.fit(scratch);
         Ok(self.product.apply(residual, direction, wanted, scratch)?)
     }
@@ -87,7 +93,7 @@ impl WindowOperators {
     /// Bytes of the spectra.
     pub(super) fn bytes(&self) -> usize {
         let own = self.convolution.as_ref().map_or(0, Convolution::bytes);
-        own + self.preconditioner.product.bytes()
+        own + size_of_val(self.preconditioner.product.spectrum())
     }
 }
 
@@ -113,7 +119,7 @@ mod tests {
         for (cells_x, cells_y, spacing_x, spacing_y) in SHAPES {
             let grid = Grid::new(cells_x, cells_y, spacing_x, spacing_y).unwrap();
             let preconditioner = Preconditioner::new(&grid).unwrap();
-            let spectrum = &preconditioner.product.spectrum;
+            let spectrum = preconditioner.product.spectrum();
             assert!(
                 spectrum.iter().all(|v| *v > 0.0 && v.is_finite()),
                 "{grid:?}"

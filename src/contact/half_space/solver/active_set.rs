@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::super::convolution::{Convolution, Scratch, WindowOperators};
 use super::frame::Frame;
-use super::outside::Moments;
+use super::outside::{Moments, first_centre};
 use super::spans::Spans;
 use super::sums::{dot, least, sum, sums};
 use crate::contact::ContactError;
@@ -30,6 +30,8 @@ pub(super) struct Problem<'a> {
     pub(super) target_sum: Option<f64>,
     pub(super) approach_m: Option<f64>,
     pub(super) tolerance: f64,
+    /// Steps of the instant after which this is not the way.
+    pub(super) fast_steps: usize,
     /// What rounding leaves in a gap (m).
     pub(super) noise_m: f64,
 }
@@ -152,10 +154,14 @@ impl ActiveSet {
         work: &mut Work,
     ) -> Result<(State, Ending), ContactError> {
         let (mut best, mut best_at) = (f64::INFINITY, work.steps);
+        let steps = steps.min(problem.fast_steps);
         loop {
             let state = self.assess(problem);
             if state.residual <= problem.tolerance {
                 return Ok((state, Ending::Converged));
+            }
+            if work.steps >= problem.fast_steps {
+                return Ok((state, Ending::Stalled));
             }
             if work.steps >= steps {
                 return Ok((state, Ending::OutOfSteps));
@@ -177,11 +183,11 @@ impl ActiveSet {
         let cells_x = problem.frame.cells_x;
         let grid = problem.whole.grid();
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
-        let mut moments = Moments::default();
+        let (mut moments, first) = (Moments::default(), first_centre(grid));
         let mut lifted = 0.0;
         let rows = self.pressure.chunks_exact(cells_x);
         for (iy, (pressure, gap_m)) in rows.zip(self.gap_m.chunks_exact(cells_x)).enumerate() {
-            moments.add_row(pressure, 0.0, iy as f64 * step_y);
+            moments.add_row(pressure, first, (iy as f64 + first) * step_y);
             // Where there is no indenter the gap is infinite and the pressure zero.
             lifted += sums(pressure, gap_m, |p, gap| {
                 [if p > 0.0 { p * gap } else { 0.0 }]
@@ -199,7 +205,10 @@ impl ActiveSet {
         };
         state.approach_m = problem.approach_m.unwrap_or(mean);
         let own_m = match loaded {
-            true => moments.least_own_displacement(step_y) * grid.spacing_y_m(),
+            true => {
+                let moments = moments.of_all_copies(grid);
+                moments.least_own_displacement(step_y) * grid.spacing_y_m()
+            }
             false => 0.0,
         };
         state.reference_m = problem.compliance_per_pa * own_m + problem.noise_m / problem.tolerance;

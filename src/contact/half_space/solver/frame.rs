@@ -104,11 +104,17 @@ impl Frame {
         }
     }
 
-    /// A window with room about a contact.
+    /// A window with room about a contact; on a mirrored grid it begins at the axes.
     pub(super) fn with_room(contact: &Bounds, grid: &Grid) -> Self {
         let needed = |range: &Range<usize>| {
-            let room = (ROOM_SHARE * range.len() as f64).ceil() as usize;
-            range.len() + 2 * room.max(ROOM_CELLS)
+            // On a mirrored grid half of the width, with room on one side.
+            let (length, sides) = match grid.is_mirrored() {
+                true => (range.end, 1),
+                false => (range.len(), 2),
+            };
+            let width = 2 / sides * length;
+            let room = (ROOM_SHARE * width as f64).ceil() as usize;
+            length + sides * room.max(ROOM_CELLS)
         };
         Self::around(contact, needed(&contact.x), needed(&contact.y), grid)
     }
@@ -119,13 +125,20 @@ impl Frame {
         if all == self.bounds() {
             return *self;
         }
-        Self::around(&all, all.x.len(), all.y.len(), grid)
+        let needed = |range: &Range<usize>| match grid.is_mirrored() {
+            true => range.end,
+            false => range.len(),
+        };
+        Self::around(&all, needed(&all.x), needed(&all.y), grid)
     }
 
     fn around(bounds: &Bounds, needed_x: usize, needed_y: usize, grid: &Grid) -> Self {
         let place = |range: &Range<usize>, needed: usize, cells: usize| {
             let length = window_length(needed.min(cells), cells);
-            let start = (range.start + range.end).saturating_sub(length) / 2;
+            let start = match grid.is_mirrored() {
+                true => 0,
+                false => (range.start + range.end).saturating_sub(length) / 2,
+            };
             (start.min(cells - length), length)
         };
         let (x, cells_x) = place(&bounds.x, needed_x, grid.cells_x());
@@ -257,6 +270,22 @@ mod tests {
                     );
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_window_of_a_quarter_begins_at_the_axes() {
+        let grid = Grid::new(400, 180, 1.0, 1.0).unwrap().quarter().unwrap();
+        for (from, to) in [(0, 1), (0, 30), (20, 60), (80, 90)] {
+            let contact = Bounds {
+                x: from..to,
+                y: from..to,
+            };
+            let frame = Frame::with_room(&contact, &grid);
+            assert_eq!((frame.x, frame.y), (0, 0));
+            assert!(frame.cells_x >= to.min(200) && frame.cells_y >= to.min(90));
+            assert!(!frame.is_touched_by(&contact, &grid));
+            assert_eq!(frame.holding(Some(contact), &grid), frame);
         }
     }
 

@@ -4,6 +4,8 @@
 //! Q / (pi sqrt(|x - c|^2 + s^2)): 1/r is a convex function of r^2, whose mean over the load is |x - c|^2 + s^2 (Jensen's
 //! inequality). Where the gap before deformation makes up the rest of the approach, the surface is clear of the indenter. Gaps
 //! are kept as their least value per ring about the window, so that a proof costs no more than a few hundred operations.
+//!
+//! Places are in cells of width: from the centre of the grid's first cell, or, on a mirrored grid, from the axes.
 
 use std::f64::consts::PI;
 
@@ -44,6 +46,19 @@ impl Moments {
         self.squares += second + sum * y * y;
     }
 
+    /// Those of the whole surface, where only the quarter of a mirrored grid was added, measured from the axes.
+    pub(super) fn of_all_copies(self, grid: &Grid) -> Self {
+        match grid.is_mirrored() {
+            true => Self {
+                sum: 4.0 * self.sum,
+                x: 0.0,
+                y: 0.0,
+                squares: 4.0 * self.squares,
+            },
+            false => self,
+        }
+    }
+
     pub(super) fn sum(&self) -> f64 {
         self.sum
     }
@@ -78,15 +93,27 @@ pub(super) struct Rings {
 
 const RINGS: usize = 192;
 
+/// Where the centre of a grid's first cell lies along either axis, in cells.
+pub(super) fn first_centre(grid: &Grid) -> f64 {
+    match grid.is_mirrored() {
+        true => 0.5,
+        false => 0.0,
+    }
+}
+
 impl Rings {
     pub(super) fn new(grid: &Grid, gap_m: &[f64], frame: Frame) -> Self {
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
-        let centre = (
-            frame.x as f64 + 0.5 * (frame.cells_x as f64 - 1.0),
-            (frame.y as f64 + 0.5 * (frame.cells_y as f64 - 1.0)) * step_y,
-        );
+        let first = first_centre(grid);
+        let centre = match grid.is_mirrored() {
+            true => (0.0, 0.0),
+            false => (
+                frame.x as f64 + 0.5 * (frame.cells_x as f64 - 1.0),
+                (frame.y as f64 + 0.5 * (frame.cells_y as f64 - 1.0)) * step_y,
+            ),
+        };
         let reach = |cells: usize, centre: f64, step: f64| {
-            let far = (cells as f64 - 1.0) * step;
+            let far = (cells as f64 - 1.0 + first) * step;
             centre.max(far - centre)
         };
         let farthest =
@@ -95,14 +122,14 @@ impl Rings {
         let mut least_gap_m = vec![f64::INFINITY; RINGS];
         let own = frame.bounds();
         for (iy, row) in gap_m.chunks_exact(grid.cells_x()).enumerate() {
-            let dy = iy as f64 * step_y - centre.1;
+            let dy = (iy as f64 + first) * step_y - centre.1;
             let inside = match own.y.contains(&iy) {
                 true => own.x.clone(),
                 false => 0..0,
             };
             for (ix, &gap_m) in row.iter().enumerate() {
                 if !inside.contains(&ix) {
-                    let distance = (ix as f64 - centre.0).hypot(dy);
+                    let distance = (ix as f64 + first - centre.0).hypot(dy);
                     let ring = &mut least_gap_m[((distance / width) as usize).min(RINGS - 1)];
                     *ring = ring.min(gap_m);
                 }
@@ -120,7 +147,7 @@ impl Rings {
         &self.frame
     }
 
-    /// Whether sources with these moments (in cells of the grid, from its first cell on) certainly keep every cell beyond the
+    /// Whether sources with these moments, of the whole surface, certainly keep every cell beyond the
     /// window at least as low as the approach asks for.
     pub(super) fn are_clear(&self, sources: &Moments, approach_m: f64, grid: &Grid) -> bool {
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::active_set::{Ending, Problem, State, Work};
 use super::frame::{Bounds, Frame};
-use super::outside::{Moments, Rings};
+use super::outside::{Moments, Rings, first_centre};
 use super::{Found, HalfSpace, Imposed, ROUNDING, start, sums};
 use crate::contact::{ContactError, Instant};
 
@@ -126,6 +126,7 @@ impl HalfSpace {
                 target_sum: imposed.target_sum(),
                 approach_m: imposed.approach_m(),
                 tolerance: self.settings.tolerance,
+                fast_steps: self.fast_steps,
                 noise_m: ROUNDING * (largest_m + level_m),
             };
             let steps = self.settings.max_iterations;
@@ -211,9 +212,12 @@ impl HalfSpace {
         let grid = self.operator.grid();
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
         let mut moments = Moments::default();
+        let (x, y) = (source.x as f64, source.y as f64);
+        let first = first_centre(grid);
         for (iy, row) in self.source.chunks_exact(source.cells_x).enumerate() {
-            moments.add_row(row, source.x as f64, (source.y + iy) as f64 * step_y);
+            moments.add_row(row, x + first, (y + iy as f64 + first) * step_y);
         }
+        let moments = moments.of_all_copies(grid);
         let known = self.rings.iter().position(|r| *r.frame() == window);
         let at = known.unwrap_or_else(|| {
             if self.rings.len() >= REMEMBERED_RINGS {

@@ -1,0 +1,86 @@
+//! The loop area of PMMA under a sphere, W = 10 N + 5 N sin(0.01 rad/s t), beside other programs: half-space engine, one thread,
+//! the stabilised cycle found directly. Prints one JSON line, with the error against the springs at ten times the resolution.
+//!
+//!     cargo bench --bench pmma_cycle -- [CELLS] [STEPS] [constant]
+//!
+//! `constant` takes the first-order rule of the base paper and marches, as it does.
+
+mod common;
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use common::{LOAD_N, RADIUS_M, numbers, peak_mib, timed};
+use contact_dma::drive::{Control, HarmonicDrive};
+use contact_dma::history::TimeRule;
+use contact_dma::indenter::Sphere;
+use contact_dma::material::library;
+use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::plan::{CyclePlan, EngineKind, Method, SolverPlan, SweepPlan};
+use contact_dma::sweep::record::CaseRecord;
+
+const OMEGA_RAD_PER_S: f64 = 0.01;
+
+/// The plan, whose cycle and solver are those of the half-space engine.
+fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
+    let entry = library::find("pmma").expect("in the library");
+    SweepPlan {
+        title: String::new(),
+        material: entry.material().expect("a tested entry"),
+        indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
+        drive: HarmonicDrive::new(Control::Load, LOAD_N, 0.5 * LOAD_N, 0.0, 0.0)
+            .expect("a valid drive"),
+        axis: None,
+        angular_frequencies_rad_per_s: vec![OMEGA_RAD_PER_S],
+        refine: false,
+        cycle: CyclePlan {
+            steps,
+            method: if constant {
+                Method::March
+            } else {
+                Method::Direct
+            },
+            tolerance: 1e-4,
+            max_cycles: 1000,
+            error_bars: false,
+            accuracy: None,
+        },
+        solver: SolverPlan {
+            engine: EngineKind::HalfSpace,
+            time_rule: match constant {
+                true => TimeRule::Constant,
+                false => TimeRule::Linear,
+            },
+            springs: 0,
+            cells,
+            tolerance: 1e-8,
+        },
+    }
+}
+
+fn solved(plan: SweepPlan) -> CaseRecord {
+    let setup = Setup::new(plan).expect("a valid plan");
+    let case = setup.plan().cases()[0];
+    let interrupt = AtomicBool::new(false);
+    setup.run(&case, &interrupt).expect("not interrupted")
+}
+
+fn main() {
+    let numbers = numbers();
+    let cells = numbers.first().copied().unwrap_or(256);
+    let steps = numbers.get(1).copied().unwrap_or(80);
+    let constant = std::env::args().any(|a| a == "constant");
+    let (cpu_s, record) = timed(|| solved(plan(cells, steps, constant)));
+    let peak_mib = peak_mib();
+    let mut exact = plan(0, 2000, false);
+    (exact.solver.engine, exact.solver.springs) = (EngineKind::Axisymmetric, 4000);
+    let exact_j = solved(exact).energy_loss_j().expect("converged");
+    let loss_j = record.energy_loss_j().expect("converged");
+    println!(
+        "{{\"cells\": {cells}, \"steps\": {steps}, \"cpu_s\": {cpu_s:.3}, \"cycles\": {}, \"convolutions_per_step\": {:.2}, \
+         \"energy_loss_j\": {loss_j:.6e}, \"relative_loss_error\": {:.2e}, \"peak_mib\": {peak_mib:.1}}}",
+        record.cycles,
+        record.work.convolutions as f64 / record.work.instants as f64,
+        (loss_j / exact_j - 1.0).abs(),
+    );
+}

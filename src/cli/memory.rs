@@ -1,0 +1,73 @@
+//! Whether the machine has the memory that a run is predicted to take.
+
+use sysinfo::{MemoryRefreshKind, RefreshKind, System};
+
+use super::plan::megabytes;
+
+/// Memory (bytes) that is free for a new program here, within the limits of a container or batch job; `None` where the system
+/// does not tell.
+pub(super) fn free_bytes() -> Option<u64> {
+    let what = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
+    let system = System::new_with_specifics(what);
+    let limit = system.cgroup_limits().map(|limits| limits.free_memory);
+    let free = match (system.available_memory(), limit) {
+        (free, Some(limit)) => free.min(limit),
+        (free, None) => free,
+    };
+    (free > 0).then_some(free)
+}
+
+/// Says on standard error, before a run starts, that its prediction exceeds what is free.
+pub(super) fn warn_if_short(bytes_per_thread: u64, threads: usize) {
+    if let Some(warning) = free_bytes().and_then(|free| warning(bytes_per_thread, threads, free)) {
+        anstream::eprintln!("{warning}");
+    }
+}
+
+fn warning(bytes_per_thread: u64, threads: usize, free: u64) -> Option<String> {
+    let needed = bytes_per_thread.saturating_mul(threads as u64);
+    if needed <= free {
+        return None;
+    }
+    let fitting = free / bytes_per_thread.max(1);
+    let instead = match fitting {
+        0 => "take fewer cells (solver.cells), or a machine with more memory".to_owned(),
+        _ => format!("take --threads {fitting}, or fewer cells (solver.cells)"),
+    };
+    let each = match threads {
+        1 => String::new(),
+        _ => format!(
+            " ({} for each of {threads} threads)",
+            megabytes(bytes_per_thread)
+        ),
+    };
+    Some(format!(
+        "warning: about {} of memory{each} will be needed, and {} are free: {instead}",
+        megabytes(needed),
+        megabytes(free),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_fit_is_said_with_what_would() {
+        const GIGA: u64 = 1_000_000_000;
+        assert_eq!(warning(GIGA, 2, 2 * GIGA), None);
+        let said = warning(2 * GIGA, 4, 5 * GIGA).unwrap();
+        assert_eq!(
+            said,
+            "warning: about 8.0 GB of memory (2.0 GB for each of 4 threads) will be needed, and 5.0 GB are free: take \
+             --threads 2, or fewer cells (solver.cells)"
+        );
+        let said = warning(9 * GIGA, 1, 5 * GIGA).unwrap();
+        assert!(said.contains("about 9.0 GB of memory will") && said.contains("more memory"));
+    }
+
+    #[test]
+    fn this_machine_tells_what_it_has() {
+        assert!(free_bytes().is_none_or(|free| free > 1_000_000));
+    }
+}

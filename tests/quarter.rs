@@ -1,0 +1,172 @@
+//! The half-space engine on a quarter of a surface that is even in x and in y, against the whole of it.
+
+use std::sync::Arc;
+
+use contact_dma::contact::half_space::convolution::Convolution;
+use contact_dma::contact::half_space::grid::Grid;
+use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
+use contact_dma::contact::surface::{CellSurface, Response, Surface};
+use contact_dma::contact::{Engine, Instant, Prescribed, Solution};
+
+/// Far below what is compared: the two stop at different iterates.
+const TOLERANCE: f64 = 1e-12;
+
+/// Gap (m) at a place, by its name.
+type Shape = (&'static str, fn(f64, f64) -> f64);
+
+const SHAPES: [Shape; 4] = [
+    ("sphere", |x, y| 50.0 * (x * x + y * y)),
+    ("ellipsoid", |x, y| 80.0 * x * x + 30.0 * y * y),
+    ("punch", |x, y| {
+        if x.hypot(y) <= 2e-4 {
+            0.0
+        } else {
+            f64::INFINITY
+        }
+    }),
+    // A contact that does not hold the origin: four of them.
+    ("ring", |x, y| {
+        50.0 * (x.abs() - 2e-4).powi(2) + 50.0 * (y.abs() - 2e-4).powi(2)
+    }),
+];
+
+fn engine(grid: Grid, gap: fn(f64, f64) -> f64) -> HalfSpace {
+    let gaps_m = (0..grid.cells()).map(|cell| {
+        let (x_m, y_m) = grid.center(cell);
+        gap(x_m, y_m)
+    });
+    let settings = SolverSettings {
+        tolerance: TOLERANCE,
+        ..SolverSettings::default()
+    };
+    let operator = Arc::new(Convolution::new(grid).unwrap());
+    HalfSpace::new(operator, gaps_m.collect(), true, settings)
+}
+
+struct Solved {
+    solution: Solution,
+    surface: CellSurface,
+    peak_pa: f64,
+}
+
+/// A loading, then an instant whose history is part of what the first pressed in.
+fn solve_twice(engine: &mut HalfSpace, prescribed: [Prescribed; 2]) -> [Solved; 2] {
+    const COMPLIANCE: f64 = 1e-9;
+    let mut pressure = vec![0.0; engine.nodes()];
+    let mut history = vec![0.0; engine.nodes()];
+    prescribed.map(|prescribed| {
+        let instant = Instant {
+            history: &history,
+            compliance_per_pa: COMPLIANCE,
+            prescribed,
+        };
+        let solution = engine.solve(&instant, &mut pressure).unwrap();
+        let surface = engine.surface(&Response {
+            pressure: &pressure,
+            history: &history,
+            compliance_per_pa: COMPLIANCE,
+            contact_radius_m: solution.contact_radius_m,
+        });
+        let Ok(Surface::Cells(surface)) = surface else {
+            panic!("a surface of cells");
+        };
+        let peak_pa = engine.peak_pressure_pa(&pressure, &solution).unwrap();
+        for (h, p) in history.iter_mut().zip(&pressure) {
+            *h = 0.4 * COMPLIANCE * p;
+        }
+        Solved {
+            solution,
+            surface,
+            peak_pa: peak_pa.unwrap(),
+        }
+    })
+}
+
+fn assert_alike(name: &str, a: &Solved, b: &Solved) {
+    let (one, other) = (&a.solution, &b.solution);
+    // Stopped at the tolerance, the pressure is known to some ten thousand times it at single cells of the border.
+    const ALIKE: f64 = 1e4 * TOLERANCE;
+    let near = |a: f64, b: f64, scale: f64| (a - b).abs() <= ALIKE * scale.abs();
+    assert!(
+        near(one.load_n, other.load_n, other.load_n),
+        "{name}: {one:?} {other:?}"
+    );
+    let approach_m = other.approach_m;
+    assert!(
+        near(one.approach_m, approach_m, approach_m),
+        "{name}: {one:?} {other:?}"
+    );
+    assert_eq!(one.contact_radius_m, other.contact_radius_m, "{name}");
+    assert!(
+        near(a.peak_pa, b.peak_pa, b.peak_pa),
+        "{name}: {} {}",
+        a.peak_pa,
+        b.peak_pa
+    );
+    assert_eq!(a.surface.grid, b.surface.grid);
+    let fields = [
+        (&a.surface.pressure_pa, &b.surface.pressure_pa),
+        (&a.surface.displacement_m, &b.surface.displacement_m),
+    ];
+    for (one, other) in fields {
+        let largest = other.iter().fold(0.0_f64, |l, v| l.max(*v));
+        for (cell, (one, other)) in one.iter().zip(other).enumerate() {
+            assert!(
+                near(*one, *other, largest),
+                "{name}, cell {cell}: {one} {other}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_quarter_has_the_contact_of_the_whole() {
+    // More cells along x; the windows are smaller than the grid.
+    let whole = Grid::new(144, 120, 1e-5, 1e-5).unwrap();
+    let quarter = whole.quarter().unwrap();
+    let drives = [
+        [Prescribed::LoadN(3.0), Prescribed::LoadN(1.0)],
+        [Prescribed::ApproachM(3e-6), Prescribed::ApproachM(1.7e-6)],
+        [Prescribed::LoadN(2.0), Prescribed::LoadN(0.0)],
+    ];
+    for (name, gap) in SHAPES {
+        for drive in drives {
+            let own = solve_twice(&mut engine(quarter, gap), drive);
+            let expected = solve_twice(&mut engine(whole, gap), drive);
+            for (own, expected) in own.iter().zip(&expected) {
+                assert_alike(name, own, expected);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_safe_way_has_the_same_contact_on_a_quarter() {
+    let quarter = Grid::square(64, 1.5e-5).unwrap().quarter().unwrap();
+    let drive = [Prescribed::LoadN(3.0), Prescribed::ApproachM(1.7e-6)];
+    let fast = solve_twice(&mut engine(quarter, SHAPES[1].1), drive);
+    let mut safe = engine(quarter, SHAPES[1].1).by_safeguard_alone();
+    let safe = solve_twice(&mut safe, drive);
+    for (fast, safe) in fast.iter().zip(&safe) {
+        assert_alike("safe way", fast, safe);
+    }
+}
+
+#[test]
+fn contact_at_the_outer_border_is_an_error_and_at_the_axes_is_none() {
+    let quarter = Grid::square(32, 1e-5).unwrap().quarter().unwrap();
+    let mut engine = engine(quarter, SHAPES[0].1);
+    let mut pressure = vec![0.0; engine.nodes()];
+    let history = vec![0.0; engine.nodes()];
+    let mut solve = |load_n| {
+        let instant = Instant {
+            history: &history,
+            compliance_per_pa: 1e-9,
+            prescribed: Prescribed::LoadN(load_n),
+        };
+        engine.solve(&instant, &mut pressure)
+    };
+    assert!(solve(0.1).is_ok());
+    let error = solve(50.0).unwrap_err().to_string();
+    assert!(error.contains("half width 1.6e-4 m"), "{error}");
+}
