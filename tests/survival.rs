@@ -1,5 +1,7 @@
 //! What a sweep survives, and how parts of one come together: every end result is that of an undisturbed run, bit for bit.
 
+#[path = "common/kills.rs"]
+mod kills;
 #[path = "common/program.rs"]
 mod program;
 
@@ -8,6 +10,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, Stdio};
 use std::time::{Duration, Instant};
 
+use kills::{Random, assert_same, newest, results, set_clock_back_and_forth, signal, wait_for};
 use predicates::prelude::*;
 use predicates::str::contains;
 use program::{program, write};
@@ -53,85 +56,14 @@ error_bars = false
 springs = 100
 "#;
 
-/// The files that must not depend on how a sweep came to its end.
-fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
-    let mut files = Vec::new();
-    let mut folders = vec![folder.to_path_buf()];
-    while let Some(next) = folders.pop() {
-        for entry in fs::read_dir(next).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if !path
-                .file_name()
-                .unwrap()
-                .to_str()
-                .unwrap()
-                .starts_with("run")
-            {
-                let name = path.strip_prefix(folder).unwrap().to_path_buf();
-                files.push((name, fs::read(&path).unwrap()));
-            }
-        }
-    }
-    files.sort();
-    files
-}
-
-fn assert_same(found: &Path, expected: &Path) {
-    let (found, expected) = (results(found), results(expected));
-    let names = |files: &[(PathBuf, Vec<u8>)]| -> Vec<PathBuf> {
-        files.iter().map(|(name, _)| name.clone()).collect()
-    };
-    assert_eq!(names(&found), names(&expected));
-    for ((name, a), (_, b)) in found.iter().zip(&expected) {
-        assert!(a == b, "{} differs", name.display());
-    }
+fn start(file: &str, out: &Path, more: &[&str]) -> Child {
+    kills::start(&[&["sweep", file], more].concat(), out)
 }
 
 fn sweep(file: &str, out: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
     let mut command = program();
     command.args(["sweep", file, "--out"]).arg(out).args(more);
     command.assert()
-}
-
-fn start(file: &str, out: &Path, more: &[&str]) -> Child {
-    Process::new(assert_cmd::cargo::cargo_bin("contact-dma"))
-        .args(["sweep", file, "--quiet", "--out"])
-        .arg(out)
-        .args(more)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap()
-}
-
-fn signal(child: &Child, name: &str) {
-    let sent = Process::new("kill")
-        .args([name, &child.id().to_string()])
-        .status();
-    assert!(sent.unwrap().success());
-}
-
-fn wait_for(what: &str, ready: impl Fn() -> bool) {
-    let started = Instant::now();
-    while !ready() {
-        assert!(started.elapsed() < Duration::from_secs(120), "{what}");
-        std::thread::sleep(Duration::from_millis(5));
-    }
-}
-
-/// Numbers that look random and are the same in every run (S. Vigna's SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
 }
 
 #[test]
@@ -287,11 +219,67 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
     }
 }
 
-/// When the newest checkpoint was written.
-fn newest(folder: &Path) -> Option<std::time::SystemTime> {
-    let entries = fs::read_dir(folder).ok()?.flatten();
-    let times = entries.filter_map(|entry| entry.metadata().ok()?.modified().ok());
-    times.max()
+/// A clock that was wrong when files were written, or has been set since: times of files, in the far past and in the future,
+/// decide nothing.
+#[test]
+fn a_clock_that_jumps_between_interruption_and_resumption_changes_nothing() {
+    let folder = TempDir::new().unwrap();
+    for (name, text, what) in [
+        ("cheap", CHEAP, "records"),
+        ("long", LONG, "checkpoints/0000"),
+    ] {
+        let file = write(&folder, "clock.toml", text);
+        let whole = folder.path().join(format!("{name}-whole"));
+        sweep(&file, &whole, &["--quiet"]).success();
+        let out = folder.path().join(format!("{name}-out"));
+        let mut child = start(&file, &out, &["--checkpoint-every", "0", "--threads", "1"]);
+        wait_for("nothing was written", || newest(&out.join(what)).is_some());
+        signal(&child, "-TERM");
+        assert_eq!(child.wait().unwrap().code(), Some(130));
+        // What a killed process leaves is swept out, however old or young it claims to be.
+        let left_over = out.join(".contact-dma-left-over");
+        fs::write(&left_over, "half").unwrap();
+        set_clock_back_and_forth(&out);
+        let kept = fs::read_dir(out.join("records")).map_or(0, Iterator::count);
+        sweep(&file, &out, &[])
+            .success()
+            .stderr(contains(format!("{kept} of 60 cases were already done")).or(contains("1/1")))
+            .stderr(contains("damaged").not());
+        assert!(!left_over.exists());
+        assert_same(&out, &whole);
+        let run: serde_json::Value =
+            serde_json::from_slice(&fs::read(out.join("run.json")).unwrap()).unwrap();
+        let wall_s = run["wall_time_s"].as_f64().unwrap();
+        assert!((0.0..600.0).contains(&wall_s), "{wall_s}");
+    }
+}
+
+/// Intervals are taken from a clock that cannot jump: the other one is asked in one place, for the stamps of run.json.
+#[test]
+fn the_time_of_day_is_asked_for_stamps_alone() {
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")];
+    let mut asking = Vec::new();
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                let text = fs::read_to_string(&path).unwrap();
+                let words = [
+                    "SystemTime",
+                    "UNIX_EPOCH",
+                    ".modified()",
+                    ".created()",
+                    ".accessed()",
+                ];
+                if words.iter().any(|word| text.contains(word)) {
+                    asking.push(path.file_name().unwrap().to_owned());
+                }
+            }
+        }
+    }
+    assert_eq!(asking, ["provenance.rs"]);
 }
 
 #[test]

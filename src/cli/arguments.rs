@@ -7,7 +7,7 @@ use clap_complete::Shell;
 
 use super::compare;
 use crate::material::{GivenFace, ModulusKind};
-use crate::sweep::checkpoint;
+use crate::sweep::checkpoint_file;
 use crate::sweep::shard::Shard;
 
 /// Dynamic mechanical analysis by contact: what a viscoelastic half-space dissipates under an oscillating indenter.
@@ -101,7 +101,7 @@ pub(super) struct SweepFlags {
     #[arg(long)]
     pub(super) stats: bool,
     /// Seconds between two checkpoints of a case that takes long
-    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint::EVERY.as_secs())]
+    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
     pub(super) checkpoint_every: u64,
     /// Replace the results of a different sweep, or of a newer program, in the output folder
     #[arg(long)]
@@ -205,6 +205,8 @@ Examples:
   contact-dma simulate sweeps/zener-unloading.toml --set solver.engine=half-space \\
       --set output.fields_at='[\"4 s\"]' --out reports/fields
 
+The same command again goes on where it was stopped, from the last checkpoint.
+
 Written to the output folder: index.html (one page of everything, to look at or to send),
 history.csv (one row per time step, two at a jump), profiles/ and fields/ at the times asked
 for (CSV; NumPy .npy and ParaView .vti), history, profiles and pressure-map as SVG and PNG,
@@ -218,6 +220,9 @@ pub(super) struct SimulateFlags {
     /// Change one key of the scenario file, for example indenter.radius='5 mm'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
+    /// Seconds between two checkpoints of a history that takes long
+    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
+    pub(super) checkpoint_every: u64,
     /// Replace the results of a different sweep or scenario in the output folder
     #[arg(long)]
     pub(super) force: bool,

@@ -1,6 +1,8 @@
 //! `contact-dma simulate`: from a scenario file to the folder of results.
 
-use std::io::{self, IsTerminal};
+use std::io::{self, IsTerminal, Write};
+use std::sync::Arc;
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
@@ -8,6 +10,7 @@ use super::arguments::SimulateFlags;
 use super::sweep::interrupt_flag;
 use super::{Ended, Failure, open_document, open_store, print, scenario_file};
 use crate::report::{self, terminal_simulation};
+use crate::sweep::history_checkpoint::{Found, HistoryCheckpoint, Stand};
 use crate::sweep::scenario;
 use crate::sweep::simulate::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::store::Store;
@@ -20,12 +23,50 @@ pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
     let resolved = scenario::resolved_text(simulation.plan());
     let store = open_store(&flags.file, flags.out.as_deref(), &resolved, flags.force)?;
     let interrupt = interrupt_flag()?;
+    let simulation = simulation.interrupted_by(Arc::clone(&interrupt));
+    let checkpoint = HistoryCheckpoint::of(&store, Duration::from_secs(flags.checkpoint_every));
+    let stand = found(
+        &checkpoint,
+        simulation.schedule().moments.len(),
+        flags.quiet,
+    );
     let bar = bar(simulation.schedule().moments.len(), flags.quiet);
-    let outcome = simulation.run(&interrupt, &|done, _| bar.set_position(done as u64));
+    let outcome = simulation.run_from(stand, &checkpoint, &interrupt, &|done, _| {
+        bar.set_position(done as u64);
+    });
     bar.finish_and_clear();
     let left_out =
         report::scenario::write(&store, simulation.plan(), &outcome).map_err(Failure::run)?;
+    if outcome.ended != SimulationEnd::Interrupted {
+        checkpoint.remove();
+    }
     ended(flags, &simulation, &outcome, &left_out, &store)
+}
+
+/// Where an earlier run stood, of which a line is told.
+fn found(checkpoint: &HistoryCheckpoint, steps: usize, quiet: bool) -> Option<Stand<'static>> {
+    let (text, stand) = match checkpoint.find() {
+        Found::Nothing => return None,
+        Found::Stand(stand) => {
+            let done = stand.steps_done();
+            (
+                format!("{done} of {steps} steps were already done"),
+                Some(*stand),
+            )
+        }
+        Found::Unusable { path, reason } => {
+            let path = path.display();
+            (
+                format!("{path}: {reason}; the history is computed from its beginning"),
+                None,
+            )
+        }
+    };
+    if !quiet {
+        // A closed standard error is no reason to stop.
+        let _ = writeln!(io::stderr(), "{text}");
+    }
+    stand
 }
 
 /// A bar on a terminal, nothing elsewhere.

@@ -139,6 +139,28 @@ impl DirectStep {
         }
         by_rule + self.at_once * (compliance.compliance_per_pa(begun_s) - by_rule)
     }
+
+    fn numbers(&self) -> [f64; 4] {
+        let is_constant = f64::from(self.rule == TimeRule::Constant);
+        [
+            self.step_s,
+            is_constant,
+            self.compliance_per_pa,
+            self.at_once,
+        ]
+    }
+
+    fn from_numbers(&[step_s, is_constant, compliance_per_pa, at_once]: &[f64; 4]) -> Self {
+        Self {
+            step_s,
+            rule: match is_constant == 1.0 {
+                true => TimeRule::Constant,
+                false => TimeRule::Linear,
+            },
+            compliance_per_pa,
+            at_once,
+        }
+    }
 }
 
 /// The whole past of every node.
@@ -246,6 +268,29 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
 
     fn shortest_time_s(&self) -> Option<f64> {
         self.compliance.shortest_time_s()
+    }
+
+    fn state(&self) -> Vec<Vec<f64>> {
+        let steps = self.steps.iter().flat_map(|step| step.numbers());
+        vec![steps.collect(), self.increments.clone(), self.last.clone()]
+    }
+
+    fn restore(&mut self, state: &[Vec<f64>]) -> bool {
+        let [steps, increments, last] = state else {
+            return false;
+        };
+        let (steps, rest) = steps.as_chunks();
+        let fits = rest.is_empty()
+            && increments.len() == steps.len() * self.nodes
+            && last.len() == self.nodes;
+        if fits {
+            self.steps.clear();
+            self.steps
+                .extend(steps.iter().map(DirectStep::from_numbers));
+            self.increments.clone_from(increments);
+            self.last.copy_from_slice(last);
+        }
+        fits
     }
 }
 

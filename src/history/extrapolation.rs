@@ -45,6 +45,35 @@ impl Extrapolation {
         self.steps_s = [step_s, self.steps_s[0]];
     }
 
+    /// Everything it looks back on, for [`Extrapolation::restore`].
+    pub(super) fn state(&self) -> Vec<Vec<f64>> {
+        let [one, two] = self.before.clone();
+        let [last_s, older_s] = self.steps_s;
+        vec![one, two, vec![self.known as f64, last_s, older_s]]
+    }
+
+    /// Looks back on what [`Extrapolation::state`] gave; false, and nothing done, where it is of other nodes.
+    pub(super) fn restore(&mut self, state: &[Vec<f64>], nodes: usize) -> bool {
+        let [one, two, numbers] = state else {
+            return false;
+        };
+        let &[known, last_s, older_s] = numbers.as_slice() else {
+            return false;
+        };
+        let fits = [one, two].iter().all(|p| [0, nodes].contains(&p.len()));
+        if fits {
+            self.before = [one.clone(), two.clone()];
+            self.loaded = Loaded::default();
+            for pressure in &self.before {
+                self.loaded.extend(pressure);
+            }
+            // Written from 0, 1 or 2.
+            self.known = known as usize;
+            self.steps_s = [last_s, older_s];
+        }
+        fits
+    }
+
     /// The past says nothing of what comes.
     pub(super) fn forget(&mut self) {
         self.known = 0;

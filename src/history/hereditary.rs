@@ -32,6 +32,13 @@ pub trait Hereditary {
 
     /// The shortest time (s) at which the compliance changes, where there is one.
     fn shortest_time_s(&self) -> Option<f64>;
+
+    /// Everything it keeps, for [`Hereditary::restore`].
+    fn state(&self) -> Vec<Vec<f64>>;
+
+    /// Goes back to what a past of the same compliance kept. False, and nothing done, where the state is none of this
+    /// compliance on this number of nodes.
+    fn restore(&mut self, state: &[Vec<f64>]) -> bool;
 }
 
 impl Hereditary for Memory {
@@ -64,5 +71,13 @@ impl Hereditary for Memory {
     fn shortest_time_s(&self) -> Option<f64> {
         // Branches are sorted by time.
         self.compliance().branches().first().map(|b| b.time_s)
+    }
+
+    fn state(&self) -> Vec<Vec<f64>> {
+        Memory::state(self).map(<[f64]>::to_vec).into()
+    }
+
+    fn restore(&mut self, state: &[Vec<f64>]) -> bool {
+        Memory::restore(self, state)
     }
 }

@@ -33,6 +33,22 @@ pub struct MarchState {
     pub work: Work,
 }
 
+/// A march between the halves of a step, where a long instant may be given up: enough to go on from there, bit for bit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepState {
+    /// As [`Hereditary::state`].
+    pub memory: Vec<Vec<f64>>,
+    /// The pressure from which the instant is solved.
+    pub guess: Vec<f64>,
+    /// The hereditary part of the instant.
+    pub history: Vec<f64>,
+    /// What the guesses look back on, of an engine that asks for one.
+    pub course: Option<Vec<Vec<f64>>>,
+    /// The instant before.
+    pub solution: Option<Solution>,
+    pub work: Work,
+}
+
 /// Sees every instant of a march: the engine, the nodal pressure and the solution.
 pub type Observer<'o> =
     dyn FnMut(&mut dyn Engine, &[f64], &Solution) -> Result<(), ContactError> + 'o;
@@ -81,16 +97,34 @@ impl<'a, M: Hereditary> March<'a, M> {
         weights: &M::Step,
         prescribed: Prescribed,
     ) -> Result<Solution, ContactError> {
+        self.begin_step(weights);
+        self.end_step(weights, prescribed)
+    }
+
+    /// First half of a step: everything that is known before the instant at its end is solved. [`March::pressure`] is then the
+    /// guess of the pressure there.
+    pub fn begin_step(&mut self, weights: &M::Step) {
         self.memory
             .predict(weights, &self.pressure, &mut self.history);
+        if let Some(extrapolation) = &mut self.extrapolation {
+            extrapolation.guess(M::step_s(weights), &mut self.pressure);
+        }
+    }
+
+    /// Second half of a step, with the same weights: its instant.
+    ///
+    /// # Errors
+    /// As [`March::step`]. After [`ContactError::Interrupted`] all is as it was but the pressure: the guess is lost.
+    pub fn end_step(
+        &mut self,
+        weights: &M::Step,
+        prescribed: Prescribed,
+    ) -> Result<Solution, ContactError> {
         let instant = Instant {
             history: &self.history,
             compliance_per_pa: M::compliance_per_pa(weights),
             prescribed,
         };
-        if let Some(extrapolation) = &mut self.extrapolation {
-            extrapolation.guess(M::step_s(weights), &mut self.pressure);
-        }
         let solution = self.engine.solve(&instant, &mut self.pressure)?;
         self.memory.commit(weights, &self.pressure);
         self.compliance_per_pa = M::compliance_per_pa(weights);
@@ -215,6 +249,44 @@ impl<'a, M: Hereditary> March<'a, M> {
     /// Nodal pressure of the instant last solved, in the engine's unit.
     pub fn pressure(&self) -> &[f64] {
         &self.pressure
+    }
+
+    /// Where the march stands between the halves of a step whose guess this is, for [`March::restore_step`].
+    pub fn step_state(&self, guess: &[f64]) -> StepState {
+        StepState {
+            memory: self.memory.state(),
+            guess: guess.to_vec(),
+            history: self.history.clone(),
+            course: self.extrapolation.as_ref().map(Extrapolation::state),
+            solution: self.solution,
+            work: self.work,
+        }
+    }
+
+    /// Goes back to between the halves of a step, where a march of the same engine and compliance stood. False, and the march
+    /// of no further use, where the state is one of others.
+    pub fn restore_step(&mut self, state: &StepState) -> bool {
+        let nodes = self.pressure.len();
+        let course = match (&mut self.extrapolation, &state.course) {
+            (Some(extrapolation), Some(course)) => extrapolation.restore(course, nodes),
+            (None, None) => true,
+            _ => false,
+        };
+        let fits = course
+            && [&state.guess, &state.history]
+                .iter()
+                .all(|f| f.len() == nodes)
+            && self.memory.restore(&state.memory);
+        if fits {
+            self.pressure.copy_from_slice(&state.guess);
+            self.history.copy_from_slice(&state.history);
+            self.solution = state.solution;
+            if let Some(last) = &state.solution {
+                self.engine.resume_from(last);
+            }
+            self.work = state.work;
+        }
+        fits
     }
 
     /// The memory of the body.

@@ -224,6 +224,24 @@ impl Memory {
         self.find_loaded();
     }
 
+    /// Memory variables, then what has flowed.
+    pub(super) fn state(&self) -> [&[f64]; 2] {
+        [&self.branches, &self.flow]
+    }
+
+    /// Takes over what [`Memory::state`] gave; false, and nothing done, where it is of other nodes or branches.
+    pub(super) fn restore(&mut self, state: &[Vec<f64>]) -> bool {
+        let [branches, flow] = state else {
+            return false;
+        };
+        let fits = branches.len() == self.branches.len() && flow.len() == self.flow.len();
+        if fits {
+            self.flow.copy_from_slice(flow);
+            self.recall(branches);
+        }
+        fits
+    }
+
     /// After the variables were written from outside.
     fn find_loaded(&mut self) {
         self.loaded = Loaded::default();

@@ -23,6 +23,6 @@ mod work;
 pub use direct::{ComplianceFunction, DirectMemory, DirectStep, Quadrature};
 pub use dissipation::Dissipation;
 pub use hereditary::Hereditary;
-pub use march::{March, MarchState, Observer};
+pub use march::{March, MarchState, Observer, StepState};
 pub use memory::{Memory, StepWeights, TimeRule};
 pub use work::Work;

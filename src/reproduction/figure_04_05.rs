@@ -77,6 +77,7 @@ fn there_and_back(
     let builder = EngineBuilder::new(plan.indenter.clone(), plan.solver, largest)?;
     let mut worst = 0.0_f64;
     builder.on_a_large_enough_domain(
+        0,
         |_, _| {},
         |engine| -> Result<(), ReproductionError> {
             worst = 0.0;

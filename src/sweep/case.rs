@@ -405,6 +405,7 @@ impl Setup {
     ) -> Result<Solved, CaseError> {
         let engines = self.engines(&contact.drive, nodes)?;
         let cycles = engines.on_a_large_enough_domain(
+            0,
             |half_width_m, growths| {
                 *domain = Domain {
                     half_width_m,

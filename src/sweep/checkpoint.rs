@@ -4,37 +4,26 @@
 //! level whole, and of the level under way everything that its next cycle depends on: the memory, the pressure (the guess of
 //! the next instant), and what the acceleration of the search looks back on. What a thread carries besides is made anew.
 //!
-//! One file per level, `checkpoints/<case>/<level>.finished` or `.cycle`, little endian: eight bytes of mark, 32 bytes that
-//! say what it belongs to (SHA-256 of program version, sweep, case and level), the length of a JSON text and the text, the
-//! number of arrays, of each its length and its f64s; at the end the SHA-256 of all that. Files are written at most every
-//! few seconds and at an interruption, and removed with the case. One that cannot be written costs nothing but the time it
-//! would have saved, and one that does not belong or is damaged is passed over.
+//! One file per level, `checkpoints/<case>/<level>.finished` or `.cycle`, that says what it belongs to: build of the program,
+//! sweep, case and level. Files are written at most every few seconds and at an interruption, and removed with the case. One
+//! that cannot be written costs nothing but the time it would have saved, and one that does not belong or is damaged is passed
+//! over.
 
 use std::cell::RefCell;
 use std::fs;
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
-use crate::contact::Solution;
 use crate::history::{MarchState, Work};
 use crate::steady::SearchState;
 use crate::sweep::archive::{Purpose, case_name};
+use crate::sweep::checkpoint_file::{self, FOLDER, Key, Rhythm, from_numbers, numbers};
 use crate::sweep::plan::{Case, Method};
 use crate::sweep::record::CaseResult;
 use crate::sweep::stabilise::Stabilised;
 use crate::sweep::store::{Store, write_atomically};
-
-/// Time between two writes, unless told otherwise.
-pub const EVERY: Duration = Duration::from_secs(10);
-
-/// A case that has run for less than this is sooner computed again than read.
-const WORTH_KEEPING: Duration = Duration::from_secs(1);
-
-const MARK: &[u8; 8] = b"CDMACHK\x01";
-const HASH_BYTES: usize = 32;
 
 /// The checkpoints of one case, in the hands of the thread that solves it.
 pub struct Checkpoints {
@@ -42,24 +31,22 @@ pub struct Checkpoints {
     folder: Option<PathBuf>,
     /// What they belong to, but for the level.
     owner: String,
-    every: Duration,
+    rhythm: Rhythm,
     state: RefCell<State>,
 }
 
 struct State {
     levels: usize,
-    began: Instant,
-    written: Instant,
     /// Finished levels that are not on disk yet: name and bytes.
     pending: Vec<(String, Vec<u8>)>,
     /// The level under way at its last cycle: name, key, state; made into bytes only where it is written.
-    latest: Option<(String, [u8; HASH_BYTES], Progress)>,
+    latest: Option<(String, Key, Progress)>,
 }
 
 /// One stabilised cycle to be found within a case.
 pub(super) struct Level {
     ordinal: usize,
-    key: [u8; HASH_BYTES],
+    key: Key,
 }
 
 /// Where the level under way stands.
@@ -78,7 +65,7 @@ pub(super) enum Progress {
 impl Checkpoints {
     /// Keeps nothing.
     pub fn none() -> Self {
-        Self::new(None, String::new(), EVERY)
+        Self::new(None, String::new(), checkpoint_file::EVERY)
     }
 
     /// Those of a case in the folder of its sweep.
@@ -95,15 +82,12 @@ impl Checkpoints {
     }
 
     fn new(folder: Option<PathBuf>, owner: String, every: Duration) -> Self {
-        let now = Instant::now();
         Self {
             folder,
             owner,
-            every,
+            rhythm: Rhythm::new(every),
             state: RefCell::new(State {
                 levels: 0,
-                began: now,
-                written: now,
                 pending: Vec::new(),
                 latest: None,
             }),
@@ -116,10 +100,10 @@ impl Checkpoints {
         state.latest = None;
         let ordinal = state.levels;
         state.levels += 1;
-        let key = format!("{}\n{ordinal} {nodes} {steps}", self.owner);
+        let owner = format!("{}\n{ordinal} {nodes} {steps}", self.owner);
         Level {
             ordinal,
-            key: Sha256::digest(key).into(),
+            key: checkpoint_file::key(&owner),
         }
     }
 
@@ -133,7 +117,7 @@ impl Checkpoints {
         name: &str,
     ) -> Option<(T, Vec<Vec<f64>>)> {
         let bytes = fs::read(self.file(name)?).ok()?;
-        let (text, arrays) = decode(&bytes, &level.key)?;
+        let (text, arrays) = checkpoint_file::decode(&bytes, &level.key).ok()?;
         Some((serde_json::from_slice(text).ok()?, arrays))
     }
 
@@ -161,8 +145,7 @@ impl Checkpoints {
 
     /// Whether the case runs long enough for its state to be worth keeping.
     pub(super) fn is_wanted(&self) -> bool {
-        let began = self.state.borrow().began;
-        self.folder.is_some() && began.elapsed() >= WORTH_KEEPING.min(self.every)
+        self.folder.is_some() && self.rhythm.is_wanted()
     }
 
     /// Takes in where the level stands between two cycles.
@@ -187,7 +170,7 @@ impl Checkpoints {
         };
         if let Ok(text) = serde_json::to_vec(&text) {
             let last = numbers(ended.last);
-            let bytes = encode(&level.key, &text, &[&ended.memory, &last]);
+            let bytes = checkpoint_file::encode(&level.key, &text, &[&ended.memory, &last]);
             let mut state = self.state.borrow_mut();
             state.pending.push((level.finished_name(), bytes));
             state.latest = None;
@@ -197,8 +180,7 @@ impl Checkpoints {
     }
 
     fn write_where_due(&self) {
-        let written = self.state.borrow().written;
-        if written.elapsed() >= self.every {
+        if self.rhythm.is_due() {
             self.flush();
         }
     }
@@ -209,11 +191,12 @@ impl Checkpoints {
         let mut state = self.state.borrow_mut();
         let latest = state.latest.take();
         let latest = latest.and_then(|(name, key, progress)| Some((name, progress.bytes(&key)?)));
-        for (name, bytes) in state.pending.drain(..).chain(latest) {
-            // Without it, this level is solved again.
-            let _ = write_atomically(&folder.join(name), &bytes);
-        }
-        state.written = Instant::now();
+        self.rhythm.written(|| {
+            for (name, bytes) in state.pending.drain(..).chain(latest) {
+                // Without it, this level is solved again.
+                let _ = write_atomically(&folder.join(name), &bytes);
+            }
+        });
     }
 
     /// Removes them: the case is done.
@@ -224,9 +207,6 @@ impl Checkpoints {
         }
     }
 }
-
-/// The folder of all checkpoints.
-pub(super) const FOLDER: &str = "checkpoints";
 
 impl Level {
     fn finished_name(&self) -> String {
@@ -249,7 +229,7 @@ struct FinishedText {
     result: Option<CaseResult>,
 }
 
-/// What is no array. Numbers that may be infinite, which JSON cannot write, are in arrays.
+/// What is no array.
 #[derive(Serialize, Deserialize)]
 struct ProgressText {
     searching: bool,
@@ -275,11 +255,11 @@ impl Progress {
         }
     }
 
-    fn bytes(&self, key: &[u8; HASH_BYTES]) -> Option<Vec<u8>> {
+    fn bytes(&self, key: &Key) -> Option<Vec<u8>> {
         let (text, arrays) = self.parts();
         let text = serde_json::to_vec(&text).ok()?;
         let arrays: Vec<&[f64]> = arrays.iter().map(Vec::as_slice).collect();
-        Some(encode(key, &text, &arrays))
+        Some(checkpoint_file::encode(key, &text, &arrays))
     }
 
     /// Arrays: scalars, memory, pressure, solution; of a search then start, best memory, best update, acceleration.
@@ -349,90 +329,12 @@ impl Progress {
     }
 }
 
-/// An instant's numbers but for its iterations; none where there was no instant.
-fn numbers(solution: Option<Solution>) -> Vec<f64> {
-    solution.map_or(Vec::new(), |s| {
-        let convolutions = s.convolutions as f64;
-        vec![s.load_n, s.approach_m, s.contact_radius_m, convolutions]
-    })
-}
-
-/// What [`numbers`] and the iterations were made from; `None` where they were made from nothing alike.
-fn from_numbers(numbers: &[f64], iterations: Option<usize>) -> Option<Option<Solution>> {
-    match (numbers, iterations) {
-        (&[load_n, approach_m, contact_radius_m, convolutions], Some(iterations)) => {
-            Some(Some(Solution {
-                load_n,
-                approach_m,
-                contact_radius_m,
-                iterations,
-                // Written from a whole number far below 2^53.
-                convolutions: convolutions as usize,
-            }))
-        }
-        ([], None) => Some(None),
-        _ => None,
-    }
-}
-
-fn encode(key: &[u8; HASH_BYTES], text: &[u8], arrays: &[&[f64]]) -> Vec<u8> {
-    let values: usize = arrays.iter().map(|array| array.len() + 1).sum();
-    let mut bytes = Vec::with_capacity(2 * HASH_BYTES + 24 + text.len() + 8 * values);
-    let length = |length: usize| (length as u64).to_le_bytes();
-    bytes.extend_from_slice(MARK);
-    bytes.extend_from_slice(key);
-    bytes.extend_from_slice(&length(text.len()));
-    bytes.extend_from_slice(text);
-    bytes.extend_from_slice(&length(arrays.len()));
-    for array in arrays {
-        bytes.extend_from_slice(&length(array.len()));
-        bytes.extend(array.iter().flat_map(|value| value.to_le_bytes()));
-    }
-    let hash = Sha256::digest(&bytes);
-    bytes.extend_from_slice(&hash);
-    bytes
-}
-
-/// The text and the arrays of a checkpoint that is whole and has this key.
-fn decode<'a>(bytes: &'a [u8], key: &[u8; HASH_BYTES]) -> Option<(&'a [u8], Vec<Vec<f64>>)> {
-    let (content, hash) = bytes.split_at_checked(bytes.len().checked_sub(HASH_BYTES)?)?;
-    if Sha256::digest(content).as_slice() != hash {
-        return None;
-    }
-    let mut rest = content.strip_prefix(MARK)?.strip_prefix(key)?;
-    let text_length = take_length(&mut rest)?;
-    let text = take(&mut rest, text_length)?;
-    let count = take_length(&mut rest)?;
-    let mut arrays = Vec::new();
-    for _ in 0..count {
-        let length = take_length(&mut rest)?;
-        let values = take(&mut rest, length.checked_mul(8)?)?;
-        let values = values.chunks_exact(8).map(|value| {
-            let mut bytes = [0; 8];
-            bytes.copy_from_slice(value);
-            f64::from_le_bytes(bytes)
-        });
-        arrays.push(values.collect());
-    }
-    rest.is_empty().then_some((text, arrays))
-}
-
-fn take<'a>(rest: &mut &'a [u8], length: usize) -> Option<&'a [u8]> {
-    let (taken, left) = rest.split_at_checked(length)?;
-    *rest = left;
-    Some(taken)
-}
-
-fn take_length(rest: &mut &[u8]) -> Option<usize> {
-    let bytes: [u8; 8] = take(rest, 8)?.try_into().ok()?;
-    usize::try_from(u64::from_le_bytes(bytes)).ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::Solution;
 
-    const KEY: [u8; HASH_BYTES] = [7; HASH_BYTES];
+    const KEY: Key = [7; 32];
 
     fn march() -> MarchState {
         MarchState {
@@ -455,7 +357,7 @@ mod tests {
 
     fn there_and_back(progress: &Progress) -> Progress {
         let bytes = progress.bytes(&KEY).unwrap();
-        let (text, arrays) = decode(&bytes, &KEY).unwrap();
+        let (text, arrays) = checkpoint_file::decode(&bytes, &KEY).unwrap();
         Progress::from_parts(serde_json::from_slice(text).unwrap(), arrays).unwrap()
     }
 
@@ -478,27 +380,5 @@ mod tests {
         for progress in [searching, marching] {
             assert_eq!(there_and_back(&progress), progress);
         }
-    }
-
-    #[test]
-    fn a_damaged_or_foreign_checkpoint_is_passed_over() {
-        let bytes = encode(&KEY, b"{}", &[&[1.0, 2.0], &[]]);
-        assert!(decode(&bytes, &KEY).is_some());
-        assert!(decode(&bytes, &[8; HASH_BYTES]).is_none());
-        for byte in 0..bytes.len() {
-            let mut damaged = bytes.clone();
-            damaged[byte] ^= 1;
-            assert!(decode(&damaged, &KEY).is_none(), "byte {byte}");
-            assert!(decode(&bytes[..byte], &KEY).is_none(), "cut at {byte}");
-        }
-    }
-
-    #[test]
-    fn lengths_that_lie_are_refused_without_taking_memory() {
-        let mut content = [&MARK[..], &KEY].concat();
-        content.extend_from_slice(&u64::MAX.to_le_bytes());
-        let hash = Sha256::digest(&content);
-        content.extend_from_slice(&hash);
-        assert!(decode(&content, &KEY).is_none());
     }
 }

@@ -158,20 +158,20 @@ impl EngineBuilder {
         })
     }
 
-    /// Calls `run` with an engine, on ever larger domains as long as it reports that the contact reached the edge. `started`
-    /// hears the half width (m) of each domain and how often it was enlarged.
+    /// Calls `run` with an engine, on ever larger domains as long as it reports that the contact reached the edge; the first is
+    /// enlarged `growths` times. `started` hears the half width (m) of each domain and how often it was enlarged.
     ///
     /// # Errors
     /// What `run` or the building of an engine ends with.
     pub fn on_a_large_enough_domain<T, E>(
         &self,
+        mut growths: usize,
         mut started: impl FnMut(f64, usize),
         mut run: impl FnMut(&mut dyn Engine) -> Result<T, E>,
     ) -> Result<T, E>
     where
         E: From<EngineError> + AsContactError,
     {
-        let mut growths = 0;
         loop {
             let mut engine = self.engine(growths)?;
             let (half_width_m, can_grow) = self.enlarged_half_width_m(growths);
@@ -183,7 +183,7 @@ impl EngineBuilder {
             if !can_grow {
                 return Err(EngineError::EndOfData { half_width_m }.into());
             }
-            if growths == MAX_GROWTHS {
+            if growths >= MAX_GROWTHS {
                 return Err(error);
             }
             growths += 1;

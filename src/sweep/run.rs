@@ -10,7 +10,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::sweep::archive::Purpose;
 use crate::sweep::case::Setup;
-use crate::sweep::checkpoint;
+use crate::sweep::checkpoint_file;
 use crate::sweep::peak::Peak;
 use crate::sweep::record::{CaseRecord, Status};
 use crate::sweep::search::Search;
@@ -62,7 +62,7 @@ impl Options {
     pub fn on_threads(threads: usize) -> Self {
         Self {
             threads,
-            checkpoint_every: checkpoint::EVERY,
+            checkpoint_every: checkpoint_file::EVERY,
         }
     }
 }

@@ -10,18 +10,19 @@
 //! begins or ends count, provided that the load is above zero on the other side.
 
 use std::cell::Cell;
-use std::collections::HashSet;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
-use crate::contact::half_space::grid::Grid;
+use crate::contact::Engine;
 use crate::contact::surface::Surface;
-use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::drive::{Control, Moment, Schedule, ScheduleError, Steps};
-use crate::history::{DirectMemory, Hereditary, March};
+use crate::history::{DirectMemory, March};
 use crate::material::MaterialError;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::body_material::Compliance;
-use crate::sweep::engines::{self, AsContactError, EngineBuilder, EngineError, LargestContact};
+use crate::sweep::engines::{EngineBuilder, EngineError, LargestContact};
+use crate::sweep::follow::{Following, MarchError};
+use crate::sweep::history_checkpoint::{HistoryCheckpoint, Stand};
 use crate::sweep::scenario::ScenarioPlan;
 
 /// Why a simulation cannot be set up.
@@ -55,6 +56,8 @@ pub struct Simulation {
     /// Per moment, whether the approach is undefined.
     floating: Vec<bool>,
     engines: EngineBuilder,
+    /// Ends an instant under way, where the engine's instants are long.
+    interrupt: Option<Arc<AtomicBool>>,
 }
 
 /// One row of the history.
@@ -110,36 +113,6 @@ pub enum SimulationEnd {
 /// Hears of progress: moments done, moments in all.
 pub type Progress<'p> = dyn Fn(usize, usize) + 'p;
 
-/// Why a march ended early.
-#[derive(Debug, thiserror::Error)]
-enum MarchError {
-    #[error(transparent)]
-    Contact(#[from] ContactError),
-    #[error(transparent)]
-    Engine(#[from] EngineError),
-    #[error("interrupted")]
-    Interrupted,
-}
-
-impl AsContactError for MarchError {
-    fn as_contact_error(&self) -> Option<&ContactError> {
-        match self {
-            Self::Contact(error) => Some(error),
-            _ => None,
-        }
-    }
-}
-
-impl MarchError {
-    /// Whether the contact does not look like a disc.
-    fn is_of_a_disc(&self) -> bool {
-        matches!(
-            self,
-            Self::Contact(ContactError::NotADisc { .. } | ContactError::Ring { .. })
-        )
-    }
-}
-
 impl Simulation {
     /// Checks the plan against the physics, lays out the time steps and sizes the domain.
     ///
@@ -177,7 +150,15 @@ impl Simulation {
             compliance,
             schedule,
             plan,
+            interrupt: None,
         })
+    }
+
+    /// The same, with the flag handed to [`Simulation::run`] known to the engine too, so that it is heard within an instant.
+    #[must_use]
+    pub fn interrupted_by(mut self, flag: Arc<AtomicBool>) -> Self {
+        self.interrupt = Some(flag);
+        self
     }
 
     /// The plan.
@@ -197,6 +178,18 @@ impl Simulation {
     /// relaxation time have made newly met springs ring ([`crate::history::StepWeights::settling`]). To tell the two apart,
     /// the history is run once more with damped steps throughout, which do not ring but are less exact.
     pub fn run(&self, interrupt: &AtomicBool, progress: &Progress<'_>) -> SimulationOutcome {
+        self.run_from(None, &HistoryCheckpoint::none(), interrupt, progress)
+    }
+
+    /// As [`Simulation::run`], from where an earlier run of the same scenario stood; the outcome is the same, bit for bit. An
+    /// interruption leaves a new checkpoint.
+    pub fn run_from(
+        &self,
+        stand: Option<Stand<'_>>,
+        checkpoint: &HistoryCheckpoint,
+        interrupt: &AtomicBool,
+        progress: &Progress<'_>,
+    ) -> SimulationOutcome {
         let mut outcome = SimulationOutcome {
             rows: Vec::new(),
             profiles: Vec::new(),
@@ -204,17 +197,34 @@ impl Simulation {
             domain_half_width_m: self.engines.half_width_m(),
             domain_enlarged: 0,
             iterations: 0,
-            damped_throughout: false,
+            damped_throughout: stand.as_ref().is_some_and(|stand| stand.damped_throughout),
             ended: SimulationEnd::Done,
         };
-        let domain = Cell::new((outcome.domain_half_width_m, 0));
-        let marched = |outcome: &mut SimulationOutcome| {
+        let mut first_growths = stand.as_ref().map_or(0, |stand| stand.growths);
+        let stand = Cell::new(stand);
+        let domain = Cell::new((outcome.domain_half_width_m, first_growths));
+        let mut marched = |outcome: &mut SimulationOutcome| {
             self.engines.on_a_large_enough_domain(
+                std::mem::take(&mut first_growths),
                 |half_width_m, growths| domain.set((half_width_m, growths)),
                 |engine| {
-                    let cells = self.plan.output.field_cells;
-                    let grid = self.engines.field_grid(cells, domain.get().1)?;
-                    self.march(engine, &grid, outcome, interrupt, progress)
+                    let growths = domain.get().1;
+                    if let Some(flag) = &self.interrupt {
+                        engine.interrupted_by(Arc::clone(flag));
+                    }
+                    let following = Following {
+                        plan: &self.plan,
+                        schedule: &self.schedule,
+                        floating: &self.floating,
+                        field_grid: &self
+                            .engines
+                            .field_grid(self.plan.output.field_cells, growths)?,
+                        growths,
+                        checkpoint,
+                        interrupt,
+                        progress,
+                    };
+                    self.march(engine, &following, stand.take(), outcome)
                 },
             )
         };
@@ -247,142 +257,22 @@ impl Simulation {
     fn march(
         &self,
         engine: &mut dyn Engine,
-        field_grid: &Grid,
+        following: &Following<'_>,
+        stand: Option<Stand<'_>>,
         outcome: &mut SimulationOutcome,
-        interrupt: &AtomicBool,
-        progress: &Progress<'_>,
     ) -> Result<(), MarchError> {
         let rule = self.plan.solver.time_rule;
         match &self.compliance {
             Compliance::Series(creep) => {
                 let march = March::new(engine, creep.clone(), rule);
-                self.follow(march, field_grid, outcome, interrupt, progress)
+                following.run(march, stand, outcome)
             }
             Compliance::Samples(curve) => {
                 let steps = self.schedule.moments.len();
                 let memory = DirectMemory::with_room_for(curve.clone(), engine.nodes(), steps);
                 let march = March::with_memory(engine, memory, rule);
-                self.follow(march, field_grid, outcome, interrupt, progress)
+                following.run(march, stand, outcome)
             }
-        }
-    }
-
-    /// Marches from moment to moment, and keeps what is asked for.
-    fn follow<M: Hereditary>(
-        &self,
-        mut march: March<'_, M>,
-        field_grid: &Grid,
-        outcome: &mut SimulationOutcome,
-        interrupt: &AtomicBool,
-        progress: &Progress<'_>,
-    ) -> Result<(), MarchError> {
-        outcome.rows.clear();
-        let damped_throughout = outcome.damped_throughout;
-        let (profiles, fields) = self
-            .schedule
-            .requested
-            .split_at(self.plan.output.profiles_at_s.len());
-        let (mut kept_profiles, mut kept_fields) = (Kept::new(profiles), Kept::new(fields));
-        let moments = &self.schedule.moments;
-        let mut marched = || {
-            for (index, moment) in moments.iter().enumerate() {
-                if interrupt.load(Ordering::Relaxed) {
-                    return Err(MarchError::Interrupted);
-                }
-                let damped = damped_throughout || moment.is_settling;
-                let mut row = self.step(&mut march, moment, damped, self.floating[index])?;
-                if index == 0 && moment.value == 0.0 {
-                    // First touch of an undisturbed body: zero by definition, whatever node lies nearest to the axis.
-                    row.approach_m = Some(0.0);
-                }
-                if kept_profiles.wants(index)
-                    && let Some(surface) = march.surface()?
-                {
-                    kept_profiles.keep(index, self.surface_record(row, surface));
-                }
-                if kept_fields.wants(index)
-                    && let Some(surface) = march.field(field_grid)?
-                {
-                    kept_fields.keep(index, self.surface_record(row, surface));
-                }
-                outcome.rows.push(row);
-                progress(index + 1, moments.len());
-            }
-            Ok(())
-        };
-        let ended = marched();
-        outcome.iterations = march.work().iterations;
-        outcome.profiles = kept_profiles.finish();
-        outcome.fields = kept_fields.finish();
-        ended
-    }
-
-    /// Moves on to a moment; its row.
-    fn step<M: Hereditary>(
-        &self,
-        march: &mut March<'_, M>,
-        moment: &Moment,
-        damped: bool,
-        floating: bool,
-    ) -> Result<HistoryRow, ContactError> {
-        let weights = if damped {
-            march.settling_weights(moment.step_s)
-        } else {
-            march.weights(moment.step_s)
-        };
-        let prescribed = engines::prescribed(self.plan.drive.control(), moment.value);
-        let solution = march.step(&weights, prescribed)?;
-        march.check_assumptions()?;
-        let mut peak_pressure_pa = None;
-        march.observe(&mut |engine, pressure, solution| {
-            peak_pressure_pa = engine.peak_pressure_pa(pressure, solution)?;
-            Ok(())
-        })?;
-        if solution.load_n == 0.0 {
-            peak_pressure_pa = Some(0.0);
-        }
-        let Solution {
-            load_n,
-            approach_m,
-            contact_radius_m,
-            ..
-        } = solution;
-        Ok(HistoryRow {
-            time_s: moment.time_s,
-            // What was prescribed, without the rounding of the sum over the nodes.
-            load_n: match prescribed {
-                Prescribed::LoadN(load_n) => load_n,
-                Prescribed::ApproachM(_) => load_n,
-            },
-            approach_m: (!floating).then_some(approach_m),
-            contact_radius_m,
-            peak_pressure_pa,
-        })
-    }
-
-    fn surface_record(&self, row: HistoryRow, surface: Surface) -> SurfaceRecord {
-        let indenter = self.plan.indenter.as_ref();
-        let gap_m = row.approach_m.map(|approach_m| match &surface {
-            Surface::Radial(radial) => {
-                let points = radial.radius_m.iter().zip(&radial.displacement_m);
-                points
-                    .map(|(r, u)| indenter.gap_m(*r, 0.0) + u - approach_m)
-                    .collect()
-            }
-            Surface::Cells(cells) => {
-                let points = cells.displacement_m.iter().enumerate();
-                points
-                    .map(|(cell, u)| {
-                        let (x_m, y_m) = cells.grid.center(cell);
-                        indenter.gap_m(x_m, y_m) + u - approach_m
-                    })
-                    .collect()
-            }
-        });
-        SurfaceRecord {
-            row,
-            surface,
-            gap_m,
         }
     }
 }
@@ -391,39 +281,6 @@ impl HistoryRow {
     /// Contact area (m^2).
     pub fn contact_area_m2(&self) -> f64 {
         std::f64::consts::PI * self.contact_radius_m * self.contact_radius_m
-    }
-}
-
-/// Surfaces wanted at some moments, in the order of the wishes.
-struct Kept<'a> {
-    moments: &'a [usize],
-    wanted: HashSet<usize>,
-    records: Vec<Option<SurfaceRecord>>,
-}
-
-impl<'a> Kept<'a> {
-    fn new(moments: &'a [usize]) -> Self {
-        Self {
-            moments,
-            wanted: moments.iter().copied().collect(),
-            records: vec![None; moments.len()],
-        }
-    }
-
-    fn wants(&self, moment: usize) -> bool {
-        self.wanted.contains(&moment)
-    }
-
-    fn keep(&mut self, moment: usize, record: SurfaceRecord) {
-        for (wanted, slot) in self.moments.iter().zip(&mut self.records) {
-            if *wanted == moment {
-                *slot = Some(record.clone());
-            }
-        }
-    }
-
-    fn finish(self) -> Vec<SurfaceRecord> {
-        self.records.into_iter().flatten().collect()
     }
 }
 
@@ -449,8 +306,6 @@ fn floating(control: Control, moments: &[Moment]) -> Vec<bool> {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
     use crate::drive::{Segment, SegmentedDrive};
     use crate::indenter::{Axisymmetric, Indenter, Parameter};

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 
-use crate::sweep::checkpoint;
+use crate::sweep::checkpoint_file;
 use crate::sweep::difference;
 use crate::sweep::resolved::hash;
 
@@ -140,7 +140,7 @@ impl Store {
     /// Removes the checkpoints of all cases.
     pub(super) fn remove_checkpoints(&self) {
         // There are none, most often.
-        let _ = fs::remove_dir_all(self.folder.join(checkpoint::FOLDER));
+        let _ = fs::remove_dir_all(self.folder.join(checkpoint_file::FOLDER));
     }
 
     /// Removes what a process that was killed has left half-written. A process that is still writing there writes again.
