@@ -140,6 +140,54 @@ fn a_record_of_a_newer_program_is_not_replaced_unless_told_to() {
     assert_eq!(results(&out), whole);
 }
 
+/// Makes a record one of another build of the same version.
+fn of_another_build(path: &Path) {
+    use contact_dma::sweep::{provenance::BUILD, sealed};
+    let bytes = fs::read(path).unwrap();
+    let content = std::str::from_utf8(sealed::unseal(&bytes).unwrap()).unwrap();
+    let here = format!("\"build\":\"{BUILD}\"");
+    assert!(content.contains(&here));
+    let other = content.replace(&here, "\"build\":\"0123456789abcdef\"");
+    fs::write(path, sealed::seal(other.as_bytes())).unwrap();
+}
+
+#[test]
+fn records_of_another_build_are_computed_again_by_a_sweep_and_shown_by_a_report() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    for folder in [&whole, &out] {
+        sweep(&file, folder, &["--quiet"]).success();
+    }
+    let other = out.join("records/0005.json");
+    of_another_build(&other);
+    let altered = fs::read(&other).unwrap();
+    let report = || {
+        let mut command = program();
+        command.arg("report").arg(&out).assert()
+    };
+    report().success().stderr(
+        contains("0005.json: it was written by another build").and(contains("as they are")),
+    );
+    assert_eq!(fs::read(&other).unwrap(), altered);
+    // One result is that of one build.
+    let merged = folder.path().join("merged");
+    program()
+        .arg("merge")
+        .arg(&out)
+        .arg("--out")
+        .arg(&merged)
+        .assert()
+        .code(1)
+        .stderr(contains("0005.json: it was written by another build"))
+        .stderr(contains("1 of 60 cases are in none of the parts"));
+    sweep(&file, &out, &[])
+        .success()
+        .stderr(contains("59 of 60 cases were already done"))
+        .stderr(contains("0005.json: it was written by another build").and(contains("again")));
+    assert_same(&out, &whole);
+}
+
 /// Ten kills; `CONTACT_DMA_KILLS=100 cargo test --test survival kills` for more.
 #[test]
 fn kills_at_any_moment_lose_nothing() {
@@ -543,6 +591,7 @@ fn pictures_and_run_json_say_where_they_come_from() {
     let hash = summary["sweep_hash"].as_str().unwrap();
     assert_eq!(run["sweep_hash"], hash);
     assert_eq!(run["program_version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(run["build"], contact_dma::sweep::provenance::BUILD);
     assert_eq!(
         (&run["threads"], &run["cases_computed"]),
         (&2.into(), &60.into())

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use serde::{Deserialize, Serialize};
 
 use crate::sweep::plan::Case;
+use crate::sweep::provenance::BUILD;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::sealed;
 use crate::sweep::store::{Store, StoreError};
@@ -25,6 +26,11 @@ pub enum Purpose {
 pub enum Kept {
     Intact(Box<CaseRecord>),
     Absent,
+    /// There is a record of this version of the program, but of another build, whose numbers may be others.
+    OfAnotherBuild {
+        path: PathBuf,
+        record: Box<CaseRecord>,
+    },
     /// There is a record, but it cannot be used.
     Unusable {
         path: PathBuf,
@@ -36,6 +42,7 @@ pub enum Kept {
 #[derive(Serialize)]
 struct Stored<'a> {
     program_version: &'a str,
+    build: &'a str,
     sweep_hash: &'a str,
     case: &'a CaseRecord,
 }
@@ -44,6 +51,8 @@ struct Stored<'a> {
 #[derive(Deserialize)]
 struct Heading {
     program_version: String,
+    /// None in records of programs that did not know theirs.
+    build: Option<String>,
     sweep_hash: String,
 }
 
@@ -53,6 +62,13 @@ struct Content {
 }
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+/// What is said of a record of another build.
+pub const OF_ANOTHER_BUILD: &str = concat!(
+    "it was written by another build of version ",
+    env!("CARGO_PKG_VERSION"),
+    " of the program"
+);
 
 /// The name of a case in the folder, without its ending: the same in every process that solves it.
 pub(super) fn case_name(purpose: Purpose, case: &Case) -> String {
@@ -89,6 +105,7 @@ impl Store {
         let name = file_name(purpose, case);
         let stored = Stored {
             program_version: VERSION,
+            build: BUILD,
             sweep_hash: self.sweep_hash(),
             case: record,
         };
@@ -111,7 +128,11 @@ impl Store {
             Err(source) => return Err(StoreError::Read { path, source }),
         };
         match self.usable(case, &bytes) {
-            Ok(record) => Ok(Kept::Intact(Box::new(record))),
+            Ok((record, true)) => Ok(Kept::Intact(Box::new(record))),
+            Ok((record, false)) => Ok(Kept::OfAnotherBuild {
+                path,
+                record: Box::new(record),
+            }),
             Err(Unusable::Newer(version)) if !self.force => {
                 Err(StoreError::NewerProgram { path, version })
             }
@@ -122,7 +143,8 @@ impl Store {
         }
     }
 
-    fn usable(&self, case: &Case, bytes: &[u8]) -> Result<CaseRecord, Unusable> {
+    /// The record, and whether it is one of this build.
+    fn usable(&self, case: &Case, bytes: &[u8]) -> Result<(CaseRecord, bool), Unusable> {
         let content = sealed::unseal(bytes).ok_or(Unusable::Damaged)?;
         let heading: Heading = serde_json::from_slice(content).map_err(|_| Unusable::Damaged)?;
         if heading.program_version != VERSION {
@@ -142,10 +164,11 @@ impl Store {
         if !same_frequency || !record.is_under(&case.drive) {
             return Err(Unusable::Foreign);
         }
-        Ok(CaseRecord {
+        let record = CaseRecord {
             index: case.index,
             ..record
-        })
+        };
+        Ok((record, heading.build.as_deref() == Some(BUILD)))
     }
 }
 
@@ -259,9 +282,10 @@ mod tests {
     fn records_of_other_versions_are_not_used() {
         let folder = tempfile::TempDir::new().unwrap();
         let (store, case) = (store(&folder), case());
-        let write = |version: &str| {
+        let write_of = |version: &str, build: &str| {
             let stored = Stored {
                 program_version: version,
+                build,
                 sweep_hash: store.sweep_hash(),
                 case: &record(&case),
             };
@@ -270,6 +294,12 @@ mod tests {
                 .write("records/0007.json", &sealed::seal(&content))
                 .unwrap();
         };
+        let write = |version: &str| write_of(version, BUILD);
+        write_of(VERSION, "0123");
+        let kept = store.load_case(Purpose::Sweep, &case).unwrap();
+        assert!(
+            matches!(kept, Kept::OfAnotherBuild { record: found, .. } if *found == record(&case))
+        );
         write("0.0.1");
         let kept = store.load_case(Purpose::Sweep, &case).unwrap();
         assert!(matches!(kept, Kept::Unusable { reason, .. } if reason.contains("older")));

@@ -21,6 +21,7 @@ use crate::steady::SearchState;
 use crate::sweep::archive::{Purpose, case_name};
 use crate::sweep::checkpoint_file::{self, FOLDER, Key, Rhythm, from_numbers, numbers};
 use crate::sweep::plan::{Case, Method};
+use crate::sweep::provenance::BUILD;
 use crate::sweep::record::CaseResult;
 use crate::sweep::stabilise::Stabilised;
 use crate::sweep::store::{Store, write_atomically};
@@ -73,7 +74,7 @@ impl Checkpoints {
         let name = case_name(purpose, case);
         let owner = format!(
             "{}\n{}\n{name}\n{:016x}",
-            env!("CARGO_PKG_VERSION"),
+            BUILD,
             store.sweep_hash(),
             case.angular_frequency_rad_per_s.to_bits()
         );

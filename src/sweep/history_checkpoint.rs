@@ -16,6 +16,7 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{CellSurface, RadialSurface, Surface};
 use crate::history::{StepState, Work};
 use crate::sweep::checkpoint_file::{self, FOLDER, Key, Rhythm, Unusable, from_numbers, numbers};
+use crate::sweep::provenance::BUILD;
 use crate::sweep::simulate::{HistoryRow, SurfaceRecord};
 use crate::sweep::store::{Store, write_atomically};
 
@@ -62,11 +63,7 @@ impl HistoryCheckpoint {
 
     /// That of the scenario of a folder, written every so often.
     pub fn of(store: &Store, every: Duration) -> Self {
-        let owner = format!(
-            "{}\n{}\nhistory",
-            env!("CARGO_PKG_VERSION"),
-            store.sweep_hash()
-        );
+        let owner = format!("{}\n{}\nhistory", BUILD, store.sweep_hash());
         Self {
             path: Some(store.folder().join(FOLDER).join("history")),
             key: checkpoint_file::key(&owner),

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::sweep::archive::{Kept, Purpose};
+use crate::sweep::archive::{Kept, OF_ANOTHER_BUILD, Purpose};
 use crate::sweep::plan::Case;
 use crate::sweep::store::{Store, StoreError};
 
@@ -22,7 +22,7 @@ pub fn gather(
     for case in cases {
         let mut found = match out.load_case(Purpose::Sweep, case)? {
             Kept::Intact(record) => Some(record),
-            Kept::Absent | Kept::Unusable { .. } => None,
+            Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => None,
         };
         for part in parts {
             match (part.load_case(Purpose::Sweep, case)?, &found) {
@@ -37,6 +37,9 @@ pub fn gather(
                 )),
                 (Kept::Unusable { path, reason }, _) => {
                     told(&format!("{}: {reason}", path.display()));
+                }
+                (Kept::OfAnotherBuild { path, .. }, _) => {
+                    told(&format!("{}: {OF_ANOTHER_BUILD}", path.display()));
                 }
                 _ => {}
             }

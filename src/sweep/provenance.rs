@@ -9,7 +9,12 @@ use serde::Serialize;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::store::{Store, StoreError};
 
-/// The commit this program was built from, where the build was told (`CONTACT_DMA_COMMIT`).
+/// What the numbers of this program come from: the SHA-256 of its sources as far as they make numbers; see build.rs. Records
+/// of another build may be others.
+pub const BUILD: &str = env!("CONTACT_DMA_BUILD");
+
+/// The commit this program was built from: of a release built in a repository, and wherever the build was told
+/// (`CONTACT_DMA_COMMIT`).
 pub const COMMIT: Option<&str> = option_env!("CONTACT_DMA_COMMIT");
 
 /// Runs from the beginning of a command.
@@ -37,6 +42,7 @@ pub struct Circumstances {
 struct Run<'a> {
     program: &'a str,
     program_version: &'a str,
+    build: &'a str,
     commit: Option<&'a str>,
     sweep_hash: &'a str,
     engine: &'a str,
@@ -78,6 +84,7 @@ impl Stopwatch {
         let run = Run {
             program: env!("CARGO_PKG_NAME"),
             program_version: env!("CARGO_PKG_VERSION"),
+            build: BUILD,
             commit: COMMIT,
             sweep_hash: store.sweep_hash(),
             engine: plan.solver.engine.name(),

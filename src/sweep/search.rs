@@ -1,13 +1,14 @@
 //! The work behind a sweep: cases that have records are read, the others solved in parallel, frequencies added where the
 //! curve is not resolved.
 
+use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 use rayon::ThreadPool;
 
-use crate::sweep::archive::{Kept, Purpose};
+use crate::sweep::archive::{Kept, OF_ANOTHER_BUILD, Purpose};
 use crate::sweep::case::{Aim, Setup};
 use crate::sweep::checkpoint::Checkpoints;
 use crate::sweep::locate::curve_of;
@@ -26,6 +27,8 @@ pub(super) struct Search<'a> {
     pub checkpoint_every: Option<Duration>,
     pub interrupt: &'a AtomicBool,
     pub progress: &'a dyn Progress,
+    /// Where nothing is solved: whether it was said that records of another build are drawn.
+    told_of_builds: AtomicBool,
 }
 
 /// How often a neighbourhood may be halved before it is left as it is.
@@ -47,6 +50,7 @@ impl<'a> Search<'a> {
             checkpoint_every: None,
             interrupt,
             progress,
+            told_of_builds: AtomicBool::new(false),
         }
     }
 
@@ -138,18 +142,36 @@ impl<'a> Search<'a> {
             match self.store.load_case(purpose, case)? {
                 Kept::Intact(record) => records.push(*record),
                 Kept::Absent => lacking.push(*case),
+                Kept::OfAnotherBuild { path, record } if self.checkpoint_every.is_none() => {
+                    if !self.told_of_builds.swap(true, Ordering::Relaxed) {
+                        let path = path.display();
+                        self.progress.told(&format!(
+                            "{path}: {OF_ANOTHER_BUILD}; it and those like it are shown as they are"
+                        ));
+                    }
+                    records.push(*record);
+                }
+                Kept::OfAnotherBuild { path, .. } => {
+                    self.lacks(&path, OF_ANOTHER_BUILD);
+                    lacking.push(*case);
+                }
                 Kept::Unusable { path, reason } => {
-                    let path = path.display();
-                    let then = match self.checkpoint_every {
-                        Some(_) => "the case is computed again",
-                        None => "the case is left out",
-                    };
-                    self.progress.told(&format!("{path}: {reason}; {then}"));
+                    self.lacks(&path, &reason);
                     lacking.push(*case);
                 }
             }
         }
         Ok((records, lacking))
+    }
+
+    /// Tells why a record is not used.
+    fn lacks(&self, path: &Path, reason: &str) {
+        let then = match self.checkpoint_every {
+            Some(_) => "the case is computed again",
+            None => "the case is left out",
+        };
+        let path = path.display();
+        self.progress.told(&format!("{path}: {reason}; {then}"));
     }
 
     /// Solves these cases in parallel, the dearest first: each thread takes the next from a common counter, so that the
@@ -200,7 +222,7 @@ impl<'a> Search<'a> {
         let purpose = aim.purpose();
         let record = match self.store.load_case(purpose, case)? {
             Kept::Intact(record) => *record,
-            Kept::Absent | Kept::Unusable { .. } => {
+            Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
                 let checkpoints = Checkpoints::of(self.store, purpose, case, every);
                 let found = (self.setup).run_from(&checkpoints, case, aim, self.interrupt);
                 let Some(record) = found else {
