@@ -1,16 +1,20 @@
 //! Inputs that nobody meant: random bytes, and valid files with random changes. Nothing may panic, hang or take memory
 //! without bound; what is accepted must be what it says. Seeded: every run tries the same inputs.
 
+#[path = "common/inputs.rs"]
+mod inputs;
+
 use std::cell::Cell;
 use std::fs;
+use std::path::Path;
 
 use contact_dma::cli::document::Document;
-use contact_dma::cli::{field_file, sweep_file};
-use contact_dma::quantity::{self, Dimension};
+use contact_dma::cli::sweep_file;
 use contact_dma::report::comparison::{Comparison, SweepTable, Tolerances};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::resolved::resolved_text;
 use contact_dma::sweep::sealed;
+use inputs::{CheckpointFiles, Records, Table, Tables};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -82,17 +86,21 @@ fn changed(seed: &[u8], changes: &[Change]) -> Vec<u8> {
 
 /// Runs a check on every seed with random changes, and on random bytes.
 fn assault(seeds: &[&[u8]], check: impl Fn(&[u8])) {
+    assault_with(CASES, seeds, check);
+}
+
+fn assault_with(cases: u32, seeds: &[&[u8]], check: impl Fn(&[u8])) {
     let strategy = (
         prop::sample::select((0..seeds.len()).collect::<Vec<_>>()),
         changes(),
     );
-    runner(CASES)
+    runner(cases)
         .run(&strategy, |(seed, changes)| {
             check(&changed(seeds[seed], &changes));
             Ok(())
         })
         .unwrap();
-    runner(CASES / 4)
+    runner(cases / 4)
         .run(&prop::collection::vec(any::<u8>(), 0..400), |bytes| {
             check(&bytes);
             Ok(())
@@ -134,16 +142,7 @@ fn a_changed_sweep_file_is_refused_with_a_reason_or_means_what_its_resolved_form
     let (accepted, tried) = (Cell::new(0), Cell::new(0));
     assault(&[SWEEP.as_bytes(), short.as_bytes()], |bytes| {
         tried.set(tried.get() + 1);
-        let Ok(document) = Document::from_bytes("fuzz.toml", bytes) else {
-            return;
-        };
-        if let Ok(plan) = sweep_file::plan(&document) {
-            let text = resolved_text(&plan);
-            let again = Document::parse("resolved.toml", &text).unwrap();
-            let again = sweep_file::plan(&again).ok().unwrap();
-            assert_eq!(resolved_text(&again), text);
-            accepted.set(accepted.get() + 1);
-        }
+        accepted.set(accepted.get() + usize::from(inputs::sweep_file(bytes)));
     });
     // Changes that are all refused, or all harmless, would test nothing.
     assert!(accepted.get() > 20 && tried.get() > 20 + accepted.get());
@@ -159,16 +158,7 @@ fn quantities_are_finite_or_refused() {
         b"0.5 rad/s",
     ];
     assault(&seeds, |bytes| {
-        let text = String::from_utf8_lossy(bytes);
-        for dimension in [
-            Dimension::Length,
-            Dimension::Stress,
-            Dimension::AngularFrequency,
-        ] {
-            if let Ok(value) = quantity::parse(&text, dimension) {
-                assert!(value.is_finite(), "{text}");
-            }
-        }
+        inputs::quantity(bytes);
     });
 }
 
@@ -179,44 +169,35 @@ fn height_maps_hold_finite_heights_in_full_rows_or_are_refused() {
     let matrix = b"0 1e-6 2e-6\n1e-6 2e-6 3e-6\n";
     let points = b"x_m,y_m,z_m\n0,0,1e-6\n1e-6,0,2e-6\n0,1e-6,3e-6\n1e-6,1e-6,0\n";
     assault(&[&npy, matrix, points], |bytes| {
-        if let Ok(field) = field_file::field("map", bytes) {
-            assert_eq!(field.values_m.len(), field.cells_x * field.cells_y);
-            assert!(field.values_m.iter().all(|value| value.is_finite()));
-        }
+        inputs::height_map(bytes);
     });
 }
 
 #[test]
-fn measured_tables_become_materials_or_are_refused() {
-    let folder = tempfile::TempDir::new().unwrap();
-    let path = folder.path().join("creep.csv");
-    let sweep = "[material]\npoisson_ratio = 0.4\n[material.table]\nfile = \"creep.csv\"\nquantity = \"creep\"\nmodulus = \"shear\"\n\
-                 [indenter]\nshape = \"sphere\"\nradius = \"1 mm\"\n[drive]\nmean = 1\namplitude = 0.5\n[sweep]\nfrequency = [1]\ntitle = 1\n";
-    let sweep = format!("title = \"t\"\n{}", sweep.replace("title = 1\n", ""));
+fn tables_become_materials_drives_and_indenters_or_are_refused() {
     let rows: String = (0..12)
         .map(|k| {
             let time_s = 10_f64.powf(f64::from(k) / 4.0 - 1.0);
             format!("{time_s},{}\n", 1e-9 * (2.0 - (-time_s / 5.0).exp()))
         })
         .collect();
-    let table = format!("time_s,creep_compliance_per_pa\n{rows}");
-    // A table lies beside the file that names it.
-    let name = folder.path().join("t.toml").display().to_string();
-    let document = || {
-        let document = Document::parse(&name, &sweep).unwrap();
-        document.in_folder(folder.path())
-    };
-    fs::write(&path, &table).unwrap();
-    let plan = sweep_file::plan(&document());
-    assert!(plan.is_ok(), "{}", plan.unwrap_err());
-    let strategy = changes();
-    runner(60)
-        .run(&strategy, |changes| {
-            fs::write(&path, changed(table.as_bytes(), &changes)).unwrap();
-            let _ = sweep_file::plan(&document());
-            Ok(())
-        })
-        .unwrap();
+    let creep = format!("time_s,creep_compliance_per_pa\n{rows}");
+    let relaxation = "time_min,relaxation_modulus_mpa\n0.1,2400\n1,2200\n10,2000\n100,1980\n";
+    let load = "# recorded\ntime_s,load_n,temperature_c\n0,0,23\n2,1,23.09\n2,2.5,22.90\n9,0,22\n";
+    let profile = "r_m,gap_m\n0,0\n1e-4,1e-6\n2e-4,4e-6\n3e-4,9e-6\n";
+    let tables = Tables::new();
+    for (kind, whole) in [
+        (Table::Creep, creep.as_str()),
+        (Table::Relaxation, relaxation),
+        (Table::DirectCreep, &creep),
+        (Table::Load, load),
+        (Table::Profile, profile),
+    ] {
+        assert!(tables.check(kind, whole.as_bytes()), "{kind:?}");
+        assault_with(60, &[whole.as_bytes()], |bytes| {
+            tables.check(kind, bytes);
+        });
+    }
 }
 
 #[test]
@@ -244,6 +225,57 @@ fn a_changed_record_never_passes_for_whole() {
     assault(&[&whole], |bytes| {
         assert!(sealed::unseal(bytes).is_none() || bytes == whole);
     });
+}
+
+#[test]
+fn a_record_of_any_content_is_refused_or_reported() {
+    let records = Records::new();
+    let whole = records.whole_case();
+    assert!(records.case(whole.as_bytes()));
+    assault_with(200, &[whole.as_bytes()], |bytes| {
+        records.case(bytes);
+    });
+}
+
+#[test]
+fn a_case_ends_whatever_its_checkpoint_holds() {
+    for method in ["direct", "march"] {
+        let files = CheckpointFiles::new(method);
+        for (file, whole) in files.contents().iter().enumerate() {
+            assault_with(100, &[whole], |bytes| {
+                files.check(file, bytes);
+            });
+        }
+    }
+}
+
+/// What the fuzzer starts from, and what it once found to fail: tests/fuzz/seeds.
+#[test]
+fn what_the_fuzzer_has_found_stays_mended() {
+    let (tables, records) = (Tables::new(), Records::new());
+    let checkpoints = ["direct", "march"].map(CheckpointFiles::new);
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/seeds");
+    let mut tried = 0;
+    for target in fs::read_dir(folder).unwrap() {
+        let target = target.unwrap().path();
+        for seed in fs::read_dir(&target).unwrap() {
+            let seed = seed.unwrap().path();
+            println!("{}", seed.display());
+            let bytes = fs::read(seed).unwrap();
+            match target.file_name().unwrap().to_str().unwrap() {
+                "sweep_files" => inputs::sweep_file(&bytes),
+                "scenarios" => inputs::scenario_file(&bytes),
+                "quantities" => inputs::quantity(&bytes),
+                "height_maps" => inputs::height_map(&bytes),
+                "tables" => tables.check_any(&bytes),
+                "records" => records.bytes(&bytes) | records.case(&bytes),
+                "checkpoints" => inputs::check_any_checkpoint(&checkpoints, &bytes),
+                other => panic!("no target is called {other}"),
+            };
+            tried += 1;
+        }
+    }
+    assert!(tried > 20);
 }
 
 /// A valid sweep, by a few random numbers.

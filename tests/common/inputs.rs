@@ -1,0 +1,437 @@
+//! What must hold of any input, whatever its bytes: one function for each kind that the program reads. Random tests and the
+//! fuzzer (tests/fuzz) try them on bytes that nobody meant. Each says whether the input was accepted.
+
+#![allow(dead_code)] // Each user has its own part.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+use std::time::Duration;
+
+use contact_dma::cli::diagnostic::{Diagnostics, Styling};
+use contact_dma::cli::document::Document;
+use contact_dma::cli::{field_file, scenario_file, sweep_file};
+use contact_dma::quantity::{self, Dimension};
+use contact_dma::report::{machine, page, table};
+use contact_dma::sweep::archive::{Kept, Purpose};
+use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::checkpoint::Checkpoints;
+use contact_dma::sweep::plan::{Case, EngineKind};
+use contact_dma::sweep::resolved::{hash, resolved_text};
+use contact_dma::sweep::run::Outcome;
+use contact_dma::sweep::simulate::Simulation;
+use contact_dma::sweep::store::Store;
+use contact_dma::sweep::{scenario, sealed};
+use sha2::{Digest, Sha256};
+use tempfile::TempDir;
+
+/// A refusal says something, and can be shown.
+fn refused<T>(result: Result<T, Diagnostics>) -> Option<T> {
+    result
+        .inspect_err(|why| assert!(!why.render(Styling::Plain).is_empty()))
+        .ok()
+}
+
+/// A sweep file is refused, or means what its resolved form says.
+pub fn sweep_file(bytes: &[u8]) -> bool {
+    let Some(document) = refused(Document::from_bytes("fuzz.toml", bytes)) else {
+        return false;
+    };
+    let Some(plan) = refused(sweep_file::plan(&document)) else {
+        return false;
+    };
+    let text = resolved_text(&plan);
+    let again = Document::parse("resolved.toml", &text).unwrap();
+    let again = sweep_file::plan(&again).ok().unwrap();
+    assert_eq!(resolved_text(&again), text);
+    // Physics that cannot be is refused before anything is solved. Large grids would only take time.
+    if plan.solver.engine == EngineKind::Axisymmetric && plan.drives().len() < 50 {
+        let _ = Setup::new(plan).inspect_err(|why| assert!(!why.to_string().is_empty()));
+    }
+    true
+}
+
+/// The same of a file of one drive history.
+pub fn scenario_file(bytes: &[u8]) -> bool {
+    let Some(document) = refused(Document::from_bytes("fuzz.toml", bytes)) else {
+        return false;
+    };
+    let Some(plan) = refused(scenario_file::plan(&document)) else {
+        return false;
+    };
+    let text = scenario::resolved_text(&plan);
+    let again = Document::parse("resolved.toml", &text).unwrap();
+    let again = scenario_file::plan(&again).ok().unwrap();
+    assert_eq!(scenario::resolved_text(&again), text);
+    if plan.solver.engine == EngineKind::Axisymmetric {
+        let _ = Simulation::new(plan).inspect_err(|why| assert!(!why.to_string().is_empty()));
+    }
+    true
+}
+
+/// A quantity is finite or refused.
+pub fn quantity(bytes: &[u8]) -> bool {
+    let text = String::from_utf8_lossy(bytes);
+    let mut accepted = false;
+    for dimension in [
+        Dimension::Length,
+        Dimension::Stress,
+        Dimension::AngularFrequency,
+        Dimension::Time,
+        Dimension::Force,
+        Dimension::Compliance,
+        Dimension::Angle,
+    ] {
+        match quantity::parse(&text, dimension) {
+            Ok(value) => {
+                assert!(value.is_finite(), "{text}");
+                accepted = true;
+                let written = quantity::format_si(value, dimension);
+                let again = quantity::parse(&written, dimension).unwrap();
+                assert_eq!(again.to_bits(), value.to_bits(), "{text}: {written}");
+            }
+            Err(why) => assert!(!why.to_string().is_empty()),
+        }
+    }
+    accepted
+}
+
+/// A height map holds finite heights in full rows or is refused.
+pub fn height_map(bytes: &[u8]) -> bool {
+    match field_file::field("map", bytes) {
+        Ok(field) => {
+            assert_eq!(field.values_m.len(), field.cells_x * field.cells_y);
+            assert!(field.values_m.iter().all(|value| value.is_finite()));
+            true
+        }
+        Err(why) => {
+            assert!(!why.to_string().is_empty() && !why.help().is_empty());
+            false
+        }
+    }
+}
+
+/// A profile holds finite numbers or is refused.
+pub fn profile(bytes: &[u8]) -> bool {
+    match field_file::profile("profile", bytes) {
+        Ok(points) => {
+            assert!(
+                points
+                    .iter()
+                    .all(|(r, gap)| r.is_finite() && gap.is_finite())
+            );
+            true
+        }
+        Err(why) => {
+            assert!(!why.to_string().is_empty());
+            false
+        }
+    }
+}
+
+/// Tables that sweeps and scenarios name, which therefore lie in a folder.
+pub struct Tables {
+    folder: TempDir,
+}
+
+/// A table and what it is taken for.
+#[derive(Debug, Clone, Copy)]
+pub enum Table {
+    Creep,
+    Relaxation,
+    /// Creep that is taken as it is.
+    DirectCreep,
+    Load,
+    Profile,
+}
+
+impl Table {
+    pub const ALL: [Self; 5] = [
+        Self::Creep,
+        Self::Relaxation,
+        Self::DirectCreep,
+        Self::Load,
+        Self::Profile,
+    ];
+
+    fn naming(self) -> String {
+        let measured = |quantity: &str, evaluation: &str| {
+            format!(
+                "[material]\npoisson_ratio = 0.4\n[material.table]\nfile = \"table.csv\"\nquantity = \"{quantity}\"\n\
+                 modulus = \"shear\"\nevaluation = \"{evaluation}\"\n"
+            )
+        };
+        let material = match self {
+            Self::Creep => measured("creep", "fit"),
+            Self::Relaxation => measured("relaxation", "fit"),
+            Self::DirectCreep => measured("creep", "direct"),
+            Self::Load | Self::Profile => "[material]\nlibrary = \"pmma\"\n".to_owned(),
+        };
+        let indenter = match self {
+            Self::Profile => "shape = \"profile\"\nfile = \"table.csv\"",
+            _ => "shape = \"sphere\"\nradius = \"1 mm\"",
+        };
+        let segment = match self {
+            Self::Load => "kind = \"table\", file = \"table.csv\"",
+            _ => "kind = \"step\", to = 1.0, duration = 1.0",
+        };
+        format!(
+            "title = \"t\"\n{material}[indenter]\n{indenter}\n[drive]\nsegments = [{{ {segment} }}]\n"
+        )
+    }
+}
+
+impl Tables {
+    pub fn new() -> Self {
+        Self {
+            folder: TempDir::new().unwrap(),
+        }
+    }
+
+    /// As [`Tables::check`]; the first byte says what the table is taken for.
+    pub fn check_any(&self, bytes: &[u8]) -> bool {
+        let Some((first, table)) = bytes.split_first() else {
+            return false;
+        };
+        self.check(Table::ALL[usize::from(*first) % Table::ALL.len()], table)
+    }
+
+    /// A table becomes a material, a drive or an indenter, or is refused.
+    pub fn check(&self, table: Table, bytes: &[u8]) -> bool {
+        let folder = self.folder.path();
+        fs::write(folder.join("table.csv"), bytes).unwrap();
+        let name = folder.join("naming.toml").display().to_string();
+        let document = Document::parse(&name, &table.naming()).unwrap();
+        let plan = scenario_file::plan(&document.in_folder(folder));
+        let Some(plan) = refused(plan) else {
+            return false;
+        };
+        let text = scenario::resolved_text(&plan);
+        let again = Document::parse("resolved.toml", &text).unwrap();
+        let again = scenario_file::plan(&again).ok().unwrap();
+        assert_eq!(scenario::resolved_text(&again), text);
+        true
+    }
+}
+
+/// A sweep of two cases in a folder, each solved within milliseconds.
+pub struct Folder {
+    folder: TempDir,
+    setup: Setup,
+    store: Store,
+    case: Case,
+}
+
+const TINY: &str = r#"title = "tiny"
+[material]
+library = "pmma"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+mean = "10 N"
+amplitude = "5 N"
+[sweep]
+angular_frequency = ["0.01 rad/s", "0.1 rad/s"]
+[cycle]
+steps = 8
+max_cycles = 8
+error_bars = false
+[solver]
+springs = 16
+"#;
+
+impl Folder {
+    /// `method` is "direct" or "march".
+    pub fn new(method: &str) -> Self {
+        let folder = TempDir::new().unwrap();
+        let text = TINY.replace(
+            "[cycle]",
+            &format!("[cycle]\nmethod = \"{method}\"\ntolerance = 1e-4"),
+        );
+        let document = Document::parse("tiny.toml", &text).unwrap();
+        let plan = sweep_file::plan(&document).ok().unwrap();
+        let setup = Setup::new(plan).unwrap();
+        let resolved = resolved_text(setup.plan());
+        let store = Store::open(folder.path(), &resolved, &hash(&resolved), false).unwrap();
+        let case = setup.plan().cases()[0];
+        Self {
+            folder,
+            setup,
+            store,
+            case,
+        }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    /// What a record's content is before and behind the case, so that any case can be sealed as this program's own.
+    fn record_around_case(&self) -> (Vec<u8>, Vec<u8>) {
+        let record = self.setup.run(&self.case, &AtomicBool::new(false)).unwrap();
+        assert!(record.result.is_some(), "{:?}", record.message);
+        let plain = serde_json::to_string(&record).unwrap();
+        self.store
+            .save_case(Purpose::Sweep, &self.case, &record)
+            .unwrap();
+        let bytes = fs::read(self.path("records/0000.json")).unwrap();
+        let content = String::from_utf8(sealed::unseal(&bytes).unwrap().to_vec()).unwrap();
+        let (before, behind) = content.split_once(&plain).unwrap();
+        (before.into(), behind.into())
+    }
+
+    /// The record of a solved case, as text.
+    pub fn whole_case(&self) -> String {
+        let record = self.setup.run(&self.case, &AtomicBool::new(false)).unwrap();
+        serde_json::to_string(&record).unwrap()
+    }
+
+    fn load(&self, record: &[u8]) -> Option<Outcome> {
+        fs::write(self.path("records/0000.json"), record).unwrap();
+        match self.store.load_case(Purpose::Sweep, &self.case) {
+            Ok(Kept::Intact(record)) => Some(Outcome {
+                records: vec![*record],
+                peaks: Vec::new(),
+                peak_problems: Vec::new(),
+                interrupted: true,
+            }),
+            Ok(Kept::Absent) => panic!("the record was written"),
+            Ok(Kept::OfAnotherBuild { .. } | Kept::Unusable { .. }) | Err(_) => None,
+        }
+    }
+}
+
+/// Records, as they are and with a right checksum about them.
+pub struct Records {
+    folder: Folder,
+    around: (Vec<u8>, Vec<u8>),
+}
+
+impl Records {
+    pub fn new() -> Self {
+        let folder = Folder::new("direct");
+        Self {
+            around: folder.record_around_case(),
+            folder,
+        }
+    }
+
+    /// The case of a whole record.
+    pub fn whole_case(&self) -> String {
+        self.folder.whole_case()
+    }
+
+    /// A case whose checksum is right is refused, or makes tables and a page.
+    pub fn case(&self, case: &[u8]) -> bool {
+        let (before, behind) = &self.around;
+        let content = [before, case, behind].concat();
+        let Some(outcome) = self.folder.load(&sealed::seal(&content)) else {
+            return false;
+        };
+        let (plan, hash) = (self.folder.setup.plan(), self.folder.store.sweep_hash());
+        let branches = outcome.retardation_times_s().len();
+        let _ = table::sweep(&outcome.records, branches);
+        for result in outcome.records.iter().filter_map(|r| r.result.as_ref()) {
+            let _ = table::samples(&result.samples);
+        }
+        let _ = machine::sweep(plan, &outcome, hash);
+        let _ = page::sweep(plan, &outcome, &[], hash);
+        true
+    }
+
+    /// Bytes that are not a record are not taken for one.
+    pub fn bytes(&self, bytes: &[u8]) -> bool {
+        let taken = self.folder.load(bytes).is_some();
+        assert!(!taken || sealed::unseal(bytes).is_some());
+        taken
+    }
+}
+
+/// Checkpoints of a case, with a right checksum about anything.
+pub struct CheckpointFiles {
+    folder: Folder,
+    /// Names of the files and how each begins.
+    heads: Vec<(PathBuf, Vec<u8>)>,
+}
+
+/// Bytes by which a checkpoint says what it is and what it belongs to.
+const CHECKPOINT_HEAD: usize = 40;
+
+impl CheckpointFiles {
+    /// `method` is "direct" or "march".
+    pub fn new(method: &str) -> Self {
+        let folder = Folder::new(method);
+        let mut files = Self {
+            folder,
+            heads: Vec::new(),
+        };
+        files.run();
+        files.heads = files
+            .wholes()
+            .into_iter()
+            .map(|(path, bytes)| (path, bytes[..CHECKPOINT_HEAD].to_vec()))
+            .collect();
+        assert!(!files.heads.is_empty(), "no checkpoint was written");
+        files
+    }
+
+    fn run(&self) -> bool {
+        let Folder {
+            setup, store, case, ..
+        } = &self.folder;
+        let checkpoints = Checkpoints::of(store, Purpose::Sweep, case, Duration::ZERO);
+        setup
+            .run_from(&checkpoints, case, &AtomicBool::new(false))
+            .is_some()
+    }
+
+    /// The checkpoints that lie there now.
+    fn wholes(&self) -> Vec<(PathBuf, Vec<u8>)> {
+        let folder = self.folder.path("checkpoints/0000");
+        let mut files: Vec<_> = fs::read_dir(folder)
+            .unwrap()
+            .map(|e| e.unwrap().path())
+            .collect();
+        files.sort();
+        files
+            .into_iter()
+            .map(|path| (path.clone(), fs::read(&path).unwrap()))
+            .collect()
+    }
+
+    /// How many files there are, and what each holds between its head and its checksum.
+    pub fn contents(&self) -> Vec<Vec<u8>> {
+        self.run();
+        let wholes = self.wholes().into_iter();
+        wholes
+            .map(|(_, bytes)| bytes[CHECKPOINT_HEAD..bytes.len() - 32].to_vec())
+            .collect()
+    }
+
+    /// A case goes on from a checkpoint of any content, or from its beginning, and ends.
+    pub fn check(&self, file: usize, content: &[u8]) -> bool {
+        let (path, head) = &self.heads[file % self.heads.len()];
+        self.remove_others(path);
+        let mut bytes = [head, content].concat();
+        let hash = Sha256::digest(&bytes);
+        bytes.extend_from_slice(&hash);
+        fs::write(path, bytes).unwrap();
+        self.run()
+    }
+
+    fn remove_others(&self, but: &Path) {
+        for (path, _) in self.heads.iter().filter(|(path, _)| path != but) {
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+/// As [`CheckpointFiles::check`], of the direct or the marched case; the first byte says of which, and which file.
+pub fn check_any_checkpoint(files: &[CheckpointFiles; 2], bytes: &[u8]) -> bool {
+    let Some((first, content)) = bytes.split_first() else {
+        return false;
+    };
+    let (method, file) = (usize::from(*first) % 2, usize::from(*first) / 2);
+    files[method].check(file, content)
+}

@@ -1,0 +1,10 @@
+//! Numbers with units.
+
+#![no_main]
+
+#[path = "../../common/inputs.rs"]
+mod inputs;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    inputs::quantity(bytes);
+});

@@ -1,0 +1,19 @@
+//! Records of cases: the bytes of a file, and the same as a case with a right checksum about it.
+
+#![no_main]
+
+#[path = "../../common/inputs.rs"]
+mod inputs;
+
+use inputs::Records;
+
+thread_local! {
+    static RECORDS: Records = Records::new();
+}
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    RECORDS.with(|records| {
+        records.bytes(bytes);
+        records.case(bytes);
+    });
+});

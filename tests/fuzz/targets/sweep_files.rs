@@ -1,0 +1,10 @@
+//! Sweep files.
+
+#![no_main]
+
+#[path = "../../common/inputs.rs"]
+mod inputs;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    inputs::sweep_file(bytes);
+});
