@@ -182,5 +182,7 @@ mod tests {
             utc(UNIX_EPOCH - Duration::from_secs(9)),
             "1970-01-01T00:00:00Z"
         );
+        // The last second that a 64-bit clock knows.
+        assert_eq!(at(i64::MAX.unsigned_abs()), "292277026596-12-04T15:30:07Z");
     }
 }

@@ -145,7 +145,8 @@ impl Store {
 
     /// Removes what a process that was killed has left half-written. A process that is still writing there writes again.
     fn sweep_out(&self) {
-        let folders = CASE_FOLDERS.iter().map(|name| self.folder.join(name));
+        let folders = CASE_FOLDERS.iter().chain(&SURFACE_FOLDERS);
+        let folders = folders.map(|name| self.folder.join(name));
         for folder in std::iter::once(self.folder.clone()).chain(folders) {
             let Ok(entries) = fs::read_dir(folder) else {
                 continue;
