@@ -45,8 +45,8 @@ fn claims() -> Vec<std::collections::BTreeMap<String, String>> {
 fn what_is_committed_is_what_the_command_writes() {
     let (made, kept) = (names(MADE.path()), names(&committed()));
     assert_eq!(made, kept);
-    // Eleven figures in three files each, the claims, the page.
-    assert_eq!(made.len(), 35);
+    // Eleven figures in four files each, the claims, the page.
+    assert_eq!(made.len(), 46);
     for name in made {
         let found = fs::read(MADE.path().join(&name)).unwrap();
         let expected = fs::read(committed().join(&name)).unwrap();

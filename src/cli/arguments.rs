@@ -71,7 +71,10 @@ computed, and a long case goes on from its last checkpoint.
 Written to the output folder: index.html (one page of everything, to look at or to send),
 sweep.csv (one row per frequency), loops/ (the stabilised cycles), summary.json (peaks,
 counts), figures as SVG and PNG with their data as CSV, records/ (everything, for later),
-resolved.toml (the sweep with every default).")]
+resolved.toml (the sweep with every default).
+
+The [figures] table says how figures look and changes no result: the same sweep with another
+table reads its records and draws again.")]
 pub(super) struct SweepFlags {
     /// The sweep file (TOML)
     pub(super) file: PathBuf,
@@ -158,10 +161,19 @@ pub(super) enum OutputFormat {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma report reports/pmma
+  contact-dma report reports/pmma --set figures.column=one --set figures.dpi=600
+
+The [figures] table of resolved.toml says how figures look; what is changed is kept there.")]
 pub(super) struct ReportFlags {
     /// Folder of a sweep
     #[arg(value_name = "DIR")]
     pub(super) folder: PathBuf,
+    /// Change one key of [figures], for example figures.width='85 mm'; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(super) set: Vec<String>,
     /// Print nothing but errors
     #[arg(long, short)]
     pub(super) quiet: bool,

@@ -7,7 +7,8 @@ use std::path::Path;
 use super::arguments::CompareFlags;
 use super::{Ended, Failure, print};
 use crate::report::comparison::{Comparison, SweepTable, Tolerances};
-use crate::report::figure;
+use crate::report::figure::{self, press::Press};
+use crate::sweep::figure_plan::FigurePlan;
 use crate::sweep::store::write_atomically;
 
 /// A result larger than this is none of a sweep.
@@ -25,9 +26,12 @@ pub(super) fn run(flags: &CompareFlags) -> Result<Ended, Failure> {
     let mut text = comparison.text();
     if let Some(out) = &flags.out {
         let write = |name: &str, bytes: &[u8]| write_atomically(&out.join(name), bytes);
-        if let Some(reason) =
-            figure::comparison::write(&comparison, &write).map_err(Failure::run)?
-        {
+        let press = Press {
+            plan: &FigurePlan::default(),
+            write: &write,
+        };
+        let left_out = figure::comparison::write(&comparison, &press);
+        if let Some(reason) = left_out.map_err(Failure::run)? {
             text.push_str(&format!("{reason}\n"));
         }
     }

@@ -8,8 +8,11 @@ use super::document::Document;
 use super::material_table::DirectSum;
 use super::{Ended, Failure, material_block, material_fit, print};
 use crate::material::{Material, library};
+use crate::report::caption::Setting;
+use crate::report::figure::press::Press;
 use crate::report::page::{self, material::About};
-use crate::report::{self, figure, material::MaterialReport};
+use crate::report::{self, material::MaterialReport};
+use crate::sweep::figure_plan::FigurePlan;
 use crate::sweep::resolved;
 use crate::sweep::store::write_atomically;
 
@@ -42,7 +45,12 @@ fn show(flags: &ShowFlags) -> Result<Ended, Failure> {
     };
     let figures = report.figures().map_err(Failure::run)?;
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
-    figure::write_all(&figures, &write).map_err(Failure::run)?;
+    let press = Press {
+        plan: &FigurePlan::default(),
+        write: &write,
+    };
+    let drawn = press.figures(&figures, &Setting::of_material(&material));
+    drawn.map_err(Failure::run)?;
     if let Some(figure) = figures.first() {
         let about = About {
             title: material.name().unwrap_or("Material"),

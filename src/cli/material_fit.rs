@@ -4,8 +4,11 @@ use super::arguments::FitFlags;
 use super::{Ended, Failure, print, table_file};
 use crate::material::Material;
 use crate::material::fit;
+use crate::report::caption::Setting;
+use crate::report::figure::press::Press;
 use crate::report::page::{self, material::About};
 use crate::report::{self, figure};
+use crate::sweep::figure_plan::FigurePlan;
 use crate::sweep::resolved;
 use crate::sweep::store::write_atomically;
 
@@ -26,7 +29,12 @@ pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
     let figures = figure::fit::figures(&table, &fit).map_err(Failure::run)?;
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     write("material.toml", block.as_bytes()).map_err(Failure::run)?;
-    figure::write_all(&figures, &write).map_err(Failure::run)?;
+    let press = Press {
+        plan: &FigurePlan::default(),
+        write: &write,
+    };
+    let drawn = press.figures(&figures, &Setting::of_material(&material));
+    drawn.map_err(Failure::run)?;
     if let Some(figure) = figures.first() {
         let name = flags.data.file_name().unwrap_or_default();
         let about = About {

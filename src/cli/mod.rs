@@ -9,6 +9,7 @@ pub mod diagnostic;
 pub mod document;
 mod drive_table;
 pub mod field_file;
+mod figures_block;
 mod harmonic_block;
 mod indenter_block;
 mod material;

@@ -2,12 +2,15 @@
 
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Located, TableReader};
+use super::figures_block::{self, Figures};
 use super::material_table::DirectSum;
 use super::sweep_file::{CELLS, default_solver, optional, solver};
 use super::{indenter_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::body_material::BodyMaterial;
+use crate::sweep::elastic_scale::ElasticScale;
+use crate::sweep::figure_plan::FigurePlan;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::scenario::{OutputPlan, ScenarioPlan};
 
@@ -39,9 +42,13 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
     let output = optional(&mut root, "output", OutputPlan::default(), |t| {
         output(t, &problems, drive.as_ref(), solver.as_ref())
     });
+    let figures = optional(&mut root, "figures", Figures::default(), |t| {
+        figures_block::read(t, &problems)
+    });
     root.finish();
     let plan = (|| {
-        Some(ScenarioPlan {
+        let figures = figures?;
+        let mut plan = ScenarioPlan {
             title: title?.value,
             material: material?,
             indenter: indenter?,
@@ -49,7 +56,11 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
             step_s: step_s?,
             output: output?,
             solver: solver?,
-        })
+            figures: FigurePlan::default(),
+        };
+        let scale = || ElasticScale::of_scenario(&plan).map(drop);
+        plan.figures = figures.checked(scale, &problems)?;
+        Some(plan)
     })();
     problems.into_result(plan)
 }

@@ -10,6 +10,7 @@ use super::sweep::{Job, failure, interrupt_flag, threads};
 use super::{Ended, Failure, sweep_file};
 use crate::sweep::case::Setup;
 use crate::sweep::difference;
+use crate::sweep::figure_plan::without_figures;
 use crate::sweep::merge;
 use crate::sweep::plan::Case;
 use crate::sweep::provenance::Stopwatch;
@@ -31,16 +32,16 @@ pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
         return Err(Failure::Input("there is nothing to merge".to_owned()));
     };
     for (part, other) in &parts {
-        if other != resolved {
+        if without_figures(other) != without_figures(resolved) {
             return Err(Failure::Input(format!(
                 "{} holds a part of another sweep than {}:\n{}",
                 part.folder().display(),
                 flags.parts[0].display(),
-                difference::lines(resolved, other, 12)
+                difference::lines(without_figures(resolved), without_figures(other), 12)
             )));
         }
     }
-    let setup = setup_of(&flags.parts[0], resolved)?;
+    let setup = setup_of(&flags.parts[0], resolved, &[])?;
     let hash = resolved::hash(resolved);
     let out = Store::open(&flags.out, resolved, &hash, flags.force);
     let out = out.map_err(|error| failure(RunError::Store(error)))?;
@@ -76,7 +77,7 @@ pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
     let store = Store::reopen(&flags.folder).map_err(|e| failure(RunError::Store(e)))?;
     let (store, resolved) = store;
-    let setup = setup_of(&flags.folder, &resolved)?;
+    let setup = setup_of(&flags.folder, &resolved, &flags.set)?;
     let progress = Shown::new(setup.plan().cases().len(), flags.quiet);
     let outcome = run::collect(&setup, &store, &progress).map_err(failure)?;
     progress.finish();
@@ -85,6 +86,12 @@ pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
             "{} holds no usable record of the sweep: run `contact-dma sweep` first",
             flags.folder.display()
         )));
+    }
+    let changed = resolved::resolved_text(setup.plan());
+    if changed != resolved {
+        // What the folder says of its figures must be what they are.
+        let written = store.write(RESOLVED, changed.as_bytes());
+        written.map_err(|error| failure(RunError::Store(error)))?;
     }
     let job = Job {
         setup: &setup,
@@ -103,15 +110,29 @@ pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
     })
 }
 
-/// The sweep that a folder says it holds.
-fn setup_of(folder: &Path, text: &str) -> Result<Setup, Failure> {
+/// The sweep that a folder says it holds, its figures changed as asked.
+fn setup_of(folder: &Path, text: &str, set: &[String]) -> Result<Setup, Failure> {
     let name = folder.join(RESOLVED).display().to_string();
-    let document = Document::parse(&name, text)?.in_folder(folder);
-    let plan = sweep_file::plan(&document)?;
+    let mut document = Document::parse(&name, text)?.in_folder(folder);
+    let mut plan = sweep_file::plan(&document)?;
     if resolved::resolved_text(&plan) != text {
         return Err(Failure::Input(format!(
             "{name} is not as this version of the program would write it: run the sweep again"
         )));
+    }
+    if !set.is_empty() {
+        for assignment in set {
+            document.set(assignment)?;
+        }
+        plan = sweep_file::plan(&document)?;
+        let changed = resolved::resolved_text(&plan);
+        if without_figures(&changed) != without_figures(text) {
+            return Err(Failure::Input(format!(
+                "`report` solves nothing, and --set can change [figures] alone; this is another sweep:\n{}for it run \
+                 `contact-dma sweep`",
+                difference::lines(without_figures(text), without_figures(&changed), NAMED)
+            )));
+        }
     }
     Setup::new(plan).map_err(Failure::input)
 }

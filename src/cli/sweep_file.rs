@@ -2,6 +2,7 @@
 
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Form, Located, TableReader};
+use super::figures_block::{self, Figures};
 use super::material_table::DirectSum;
 use super::{harmonic_block, indenter_block, material_block};
 use crate::drive::HarmonicDrive;
@@ -9,6 +10,8 @@ use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::Dimension;
+use crate::sweep::elastic_scale::ElasticScale;
+use crate::sweep::figure_plan::FigurePlan;
 use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 
 /// Frequencies, steps, cycles and nodes beyond these are a slip of the pen rather than a wish.
@@ -46,10 +49,16 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let solver = optional(&mut root, "solver", default, |t| {
         solver(t, default, &problems)
     });
+    let frequencies = sweep.as_ref();
+    let frequencies = frequencies.map(|axes| axes.angular_frequencies_rad_per_s.as_slice());
+    let figures = optional(&mut root, "figures", Figures::default(), |t| {
+        figures_block::of_sweep(t, frequencies, &problems)
+    });
     root.finish();
     let plan = (|| {
         let axes = sweep?;
-        Some(SweepPlan {
+        let figures = figures?;
+        let mut plan = SweepPlan {
             title: title?.value,
             material: material?,
             indenter: indenter?,
@@ -59,7 +68,11 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
             refine: axes.refine,
             cycle: cycle?,
             solver: solver?,
-        })
+            figures: FigurePlan::default(),
+        };
+        let scale = || ElasticScale::of_sweep(&plan).map(drop);
+        plan.figures = figures.checked(scale, &problems)?;
+        Some(plan)
     })();
     problems.into_result(plan)
 }

@@ -1,5 +1,6 @@
 //! Tables and figures, from records alone: nothing here solves anything.
 
+pub mod caption;
 pub mod chart;
 pub mod comparison;
 pub mod figure;
@@ -17,11 +18,17 @@ pub mod terminal;
 pub mod terminal_simulation;
 pub mod vti;
 
+use crate::sweep::elastic_scale::NoScale;
+use crate::sweep::figure_plan::AxisUnits;
 use crate::sweep::files;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::run::Outcome;
 use crate::sweep::store::{Store, StoreError};
+use caption::Setting;
 use chart::ChartError;
+use figure::Figure;
+use figure::press::{self, Press};
+use figure::units::Units;
 use stamp::Stamp;
 
 /// Why a report cannot be written.
@@ -34,6 +41,8 @@ pub enum ReportError {
         name: &'static str,
         source: ChartError,
     },
+    #[error("cannot normalise the figures: {0}")]
+    Scale(#[from] NoScale),
     #[error("cannot make the table {name}: {reason}")]
     Table { name: &'static str, reason: String },
 }
@@ -59,18 +68,44 @@ pub fn write_sweep(
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
     store.write("summary.json", &summary)?;
     let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
-    let page = page::sweep(plan, outcome, &figures, store.sweep_hash())?;
-    store.write("index.html", page.as_bytes())?;
+    write_page(store, plan, outcome, &figures)?;
     let stamp = Stamp::of(store.sweep_hash());
-    figure::write_all(&figures, &|name, bytes| {
-        store.write(name, &stamp.on(name, bytes))
-    })?;
-    // An earlier run of the same sweep, which came further, may have left figures that this one has not.
+    let units = Units::of_sweep(plan)?.sentence();
+    let press = Press {
+        plan: &plan.figures,
+        write: &|name, bytes| store.write(name, &stamp.on(name, bytes)),
+    };
+    press.figures(&figures, &Setting::of_sweep(plan, outcome, units))?;
+    // An earlier run of the same sweep, which came further or was asked for other forms, may have left more than this one.
     let has = |name: &str| figures.iter().any(|figure| figure.name == name);
-    for name in files::FIGURES.into_iter().filter(|name| !has(name)) {
-        for file in files::of_figure(name) {
+    for name in files::FIGURES {
+        let left = match has(name) {
+            true => press::not_asked(&plan.figures, name),
+            false => files::of_figure(name).into(),
+        };
+        for file in left {
             store.remove(&file)?;
         }
     }
     Ok(left_out)
+}
+
+/// The page shows SI units throughout: its own script draws in them.
+fn write_page(
+    store: &Store,
+    plan: &SweepPlan,
+    outcome: &Outcome,
+    figures: &[Figure],
+) -> Result<(), ReportError> {
+    let hash = store.sweep_hash();
+    let page = match plan.figures.axes {
+        AxisUnits::Si => page::sweep(plan, outcome, figures, hash)?,
+        AxisUnits::Normalised => {
+            let mut in_si = plan.clone();
+            in_si.figures.axes = AxisUnits::Si;
+            let (figures, _) = figure::of_sweep::figures(&in_si, outcome)?;
+            page::sweep(plan, outcome, &figures, hash)?
+        }
+    };
+    Ok(store.write("index.html", page.as_bytes())?)
 }

@@ -4,11 +4,15 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::caption::Setting;
+use super::figure::Drawn;
+use super::figure::press::{self, Press};
+use super::figure::units::Units;
 use super::table::{Table, number, optional};
 use super::{ReportError, figure, npy, page, vti};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::sweep::body_material::BodyMaterial;
-use crate::sweep::scenario::ScenarioPlan;
+use crate::sweep::scenario::{self, ScenarioPlan};
 use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::store::Store;
 
@@ -37,14 +41,38 @@ pub fn write(
             write_fields(store, k, record)?;
         }
     }
-    let write: &figure::WriteFile<'_> = &|name, bytes| store.write(name, bytes);
-    let mut left_out = Vec::new();
-    for missing in [
-        figure::history::write(outcome, write)?,
-        figure::profiles::write(&outcome.profiles, write)?,
-        figure::pressure_map::write(&outcome.fields, write)?,
-    ] {
-        left_out.extend(missing);
+    figures(store, plan, outcome)
+}
+
+fn figures(
+    store: &Store,
+    plan: &ScenarioPlan,
+    outcome: &SimulationOutcome,
+) -> Result<Vec<String>, ReportError> {
+    let units = Units::of_scenario(plan)?;
+    let setting = Setting::of_scenario(plan, outcome, units.sentence());
+    let press = Press {
+        plan: &plan.figures,
+        write: &|name, bytes| store.write(name, bytes),
+    };
+    let (mut figures, mut left_out) = (Vec::new(), Vec::new());
+    match figure::history::figure(outcome, &units) {
+        Drawn::Figure(figure) => figures.push(figure),
+        Drawn::LeftOut(why) => left_out.push(why),
+    }
+    let (profiles, not_drawn) = figure::profiles::figure(&outcome.profiles, &units)?;
+    figures.extend(profiles);
+    left_out.extend(not_drawn);
+    press.figures(&figures, &setting)?;
+    left_out.extend(figure::pressure_map::write(
+        &outcome.fields,
+        &press,
+        (&units, &setting),
+    )?);
+    let maps = (0..outcome.fields.len()).map(figure::pressure_map::file);
+    let files = scenario::FIGURES.into_iter().map(str::to_owned).chain(maps);
+    for file in files.flat_map(|file| press::not_asked(&plan.figures, &file)) {
+        store.remove(&file)?;
     }
     Ok(left_out)
 }

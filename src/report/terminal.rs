@@ -3,10 +3,11 @@
 use std::fmt::{self, Write};
 
 use super::figure;
+use super::figure::units::Units;
 use crate::history::Work;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::peak::Peak;
-use crate::sweep::plan::{DriveAxis, SweepPlan, Varied};
+use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::{CaseRecord, Status};
 use crate::sweep::run::Outcome;
 
@@ -43,8 +44,10 @@ fn cases(records: &[CaseRecord]) -> String {
 fn drives(plan: &SweepPlan, axis: &DriveAxis, outcome: &Outcome) -> String {
     let name = axis.varied.name();
     let mut text = format!("{name:>10}   converged    loss / cycle, peak           ω / rad/s\n");
-    for curve in figure::curve::curves(plan, outcome) {
-        let value = figure::curve::drive_value(&curve.drive, axis.varied.value(&curve.drive));
+    let units = Units::default();
+    for curve in figure::curve::curves(plan, outcome, &units) {
+        let value = axis.varied.value(&curve.drive);
+        let value = units.drive_value(curve.drive.control(), value);
         let of_curve = |peak: &&Peak| {
             peak.drive_mean == Some(curve.drive.mean())
                 && peak.drive_amplitude == Some(curve.drive.amplitude())
@@ -145,11 +148,8 @@ pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
     for (rank, peak) in outcome.peaks.iter().take(shown).enumerate() {
         let what = if rank == 0 { "Peak" } else { "Lower peak" };
         let under = plan.axis.as_ref().and_then(|axis| {
-            let value = match axis.varied {
-                Varied::Amplitude => peak.drive_amplitude?,
-                Varied::Mean => peak.drive_mean?,
-            };
-            let value = figure::curve::drive_value(&plan.drive, value);
+            let value = axis.varied.of_peak(peak)?;
+            let value = Units::default().drive_value(plan.drive.control(), value);
             Some(format!(", {} {value}", axis.varied.name()))
         });
         let _ = writeln!(

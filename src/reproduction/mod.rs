@@ -43,6 +43,7 @@ use crate::report::ReportError;
 use crate::report::chart::{self, Chart, ChartError};
 use crate::sweep::case::SetupError;
 use crate::sweep::engines::{AsContactError, EngineError};
+use crate::sweep::files;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::scenario::ScenarioPlan;
 use crate::sweep::simulate::SimulationError;
@@ -50,6 +51,9 @@ use crate::sweep::store::{StoreError, write_atomically};
 
 /// The figures of the paper that show computed results; 2 and 3 are flowcharts.
 pub const FIGURES: [u8; 11] = [1, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13];
+
+/// Numbers of a figure told in its caption; all are in claims.csv.
+const NUMBERS_IN_CAPTION: usize = 4;
 
 macro_rules! files {
     ($($name:literal),* $(,)?) => {
@@ -147,6 +151,27 @@ impl Figure {
     pub fn name(&self) -> String {
         format!("figure-{:02}", self.number)
     }
+
+    /// The caption to stand beside the picture alone: with units and the first numbers.
+    fn full_caption(&self) -> String {
+        let numbers: Vec<String> = self
+            .claims
+            .iter()
+            .filter(|claim| claim.exact != claim::Value::Difference)
+            .take(NUMBERS_IN_CAPTION)
+            .map(|claim| format!("{}: {}", claim.quantity, claim.exact_text()))
+            .collect();
+        let numbers = match numbers.is_empty() {
+            true => String::new(),
+            false => format!(" Exact values: {}.", numbers.join("; ")),
+        };
+        format!(
+            "{} After figure {} of S. Spinu, Advances in Tribology 2018, 9432894, in its units: lengths in Hertz contact radii, \
+             approaches in Hertz approaches, pressures in Hertz peak pressures, loads in W₀, times in τ, all at W₀ and the \
+             instantaneous compliance, where an axis names no other. Computed with contact-dma.{numbers}",
+            self.caption, self.number
+        )
+    }
 }
 
 impl Plans {
@@ -222,7 +247,7 @@ pub fn make(
 /// # Errors
 /// [`ReproductionError`] where a picture cannot be drawn.
 pub fn files(figures: &[Figure]) -> Result<Vec<(String, Vec<u8>)>, ReproductionError> {
-    let drawn: Vec<[(String, Vec<u8>); 3]> = figures
+    let drawn: Vec<[(String, Vec<u8>); 4]> = figures
         .par_iter()
         .map(|figure| {
             let name = figure.name();
@@ -230,8 +255,14 @@ pub fn files(figures: &[Figure]) -> Result<Vec<(String, Vec<u8>)>, ReproductionE
                 [chart] => chart::to_svg(chart)?,
                 panels => chart::stack_to_svg(panels)?,
             };
+            let caption = figure.full_caption();
+            let svg = chart::described(&svg, &caption);
             let png = chart::to_png(&svg, 1.0)?;
             Ok([
+                (
+                    format!("{name}{}", files::CAPTION),
+                    format!("{caption}\n").into_bytes(),
+                ),
                 (format!("{name}.csv"), figure.data.clone()),
                 (format!("{name}.svg"), svg.into_bytes()),
                 (format!("{name}.png"), png),

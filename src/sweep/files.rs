@@ -19,9 +19,14 @@ pub const FIGURES: [&str; 12] = [
 /// Where it comes from, table, summary and page.
 const TABLES: [&str; 4] = ["run.json", "sweep.csv", "summary.json", "index.html"];
 
-/// The files of a figure: its data, and the picture in three forms.
-pub fn of_figure(name: &str) -> [String; 4] {
-    [".csv", ".svg", ".png", "@2x.png"].map(|ending| format!("{name}{ending}"))
+/// What follows the name of a figure in those of its files: data, caption, and the picture in every form.
+const ENDINGS: [&str; 5] = [".csv", CAPTION, ".svg", ".png", "@2x.png"];
+/// The ending of a caption.
+pub const CAPTION: &str = ".caption.txt";
+
+/// The files that a figure may have.
+pub fn of_figure(name: &str) -> [String; 5] {
+    ENDINGS.map(|ending| format!("{name}{ending}"))
 }
 
 /// All files at the top of a sweep's folder that later runs replace.

@@ -6,6 +6,8 @@ use crate::drive::HarmonicDrive;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
+use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::peak::Peak;
 
 /// Everything a sweep needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
@@ -22,6 +24,8 @@ pub struct SweepPlan {
     pub refine: bool,
     pub cycle: CyclePlan,
     pub solver: SolverPlan,
+    /// How the figures look; no part of the results.
+    pub figures: FigurePlan,
 }
 
 /// Drives that differ in one of their numbers.
@@ -45,6 +49,14 @@ impl Varied {
         match self {
             Self::Amplitude => "amplitude",
             Self::Mean => "mean",
+        }
+    }
+
+    /// The varied number of the drive of a peak, where the peak tells it.
+    pub fn of_peak(self, peak: &Peak) -> Option<f64> {
+        match self {
+            Self::Amplitude => peak.drive_amplitude,
+            Self::Mean => peak.drive_mean,
         }
     }
 

@@ -1,4 +1,5 @@
-//! The resolved sweep: every default written out, with units, as a sweep file that gives the same plan again; and its hash.
+//! The resolved sweep: every default written out, with units, as a sweep file that gives the same plan again; and its hash,
+//! which the `[figures]` table at its end does not enter.
 
 use std::fmt::Write;
 
@@ -9,6 +10,7 @@ use crate::history::TimeRule;
 use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{GivenFace, Material, ModulusKind};
 use crate::quantity::{Dimension, format_si};
+use crate::sweep::figure_plan::without_figures;
 use crate::sweep::plan::{SolverPlan, SweepPlan};
 
 /// The plan as the text of a sweep file.
@@ -68,6 +70,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     }
     line("");
     text.push_str(&solver_text(&plan.solver));
+    text.push_str(&plan.figures.text());
     text
 }
 
@@ -138,9 +141,9 @@ fn inline_table(table: &[Parameter]) -> String {
     format!("    {{ {} }},\n", entries.join(", "))
 }
 
-/// SHA-256 of the resolved text, in hexadecimal.
+/// SHA-256 of the resolved text without its `[figures]`, in hexadecimal.
 pub fn hash(resolved: &str) -> String {
-    hash_of_bytes(resolved.as_bytes())
+    hash_of_bytes(without_figures(resolved).as_bytes())
 }
 
 /// SHA-256 of any bytes, in hexadecimal.

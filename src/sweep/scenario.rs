@@ -7,6 +7,7 @@ use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::body_material::BodyMaterial;
+use crate::sweep::figure_plan::FigurePlan;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::resolved;
 
@@ -21,6 +22,8 @@ pub struct ScenarioPlan {
     pub step_s: Option<f64>,
     pub output: OutputPlan,
     pub solver: SolverPlan,
+    /// How the figures look; no part of the results.
+    pub figures: FigurePlan,
 }
 
 /// What is written beside the history.
@@ -44,20 +47,9 @@ impl Default for OutputPlan {
     }
 }
 
-/// Files at the top of a scenario's folder that later runs replace; with summary.json, which a sweep has too.
-pub const RESULT_FILES: [&str; 11] = [
-    "history.csv",
-    "history.svg",
-    "history.png",
-    "history@2x.png",
-    "profiles.csv",
-    "profiles.svg",
-    "profiles.png",
-    "profiles@2x.png",
-    "pressure-map.svg",
-    "pressure-map.png",
-    "pressure-map@2x.png",
-];
+/// Every figure a scenario may have. Their files at the top of its folder are replaced by later runs, and summary.json, which a
+/// sweep has too.
+pub const FIGURES: [&str; 3] = ["history", "profiles", "pressure-map"];
 
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
@@ -87,6 +79,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
     }
     text.push('\n');
     text.push_str(&resolved::solver_text(&plan.solver));
+    text.push_str(&plan.figures.text());
     text
 }
 

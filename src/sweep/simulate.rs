@@ -310,6 +310,7 @@ mod tests {
     use crate::drive::{Segment, SegmentedDrive};
     use crate::indenter::{Axisymmetric, Indenter, Parameter};
     use crate::material::library;
+    use crate::sweep::figure_plan::FigurePlan;
     use crate::sweep::plan::SolverPlan;
     use crate::sweep::scenario::OutputPlan;
 
@@ -413,6 +414,7 @@ mod tests {
             step_s: Some(1.0),
             output: OutputPlan::default(),
             solver: SolverPlan::default(),
+            figures: FigurePlan::default(),
         };
         let simulation = Simulation::new(plan).unwrap();
         let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});

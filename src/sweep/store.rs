@@ -7,7 +7,10 @@ use std::path::{Path, PathBuf};
 
 use crate::sweep::checkpoint_file;
 use crate::sweep::difference;
+use crate::sweep::figure_plan::without_figures;
+use crate::sweep::files;
 use crate::sweep::resolved::hash;
+use crate::sweep::scenario;
 
 /// Why the folder cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -78,12 +81,13 @@ impl Store {
         };
         let path = folder.join(RESOLVED);
         match fs::read(&path) {
-            Ok(existing) if existing == resolved.as_bytes() => {}
+            Ok(existing) if is_same(&existing, resolved) => {}
             Ok(existing) if !force => {
                 let existing = String::from_utf8_lossy(&existing);
+                let (existing, resolved) = (without_figures(&existing), without_figures(resolved));
                 return Err(StoreError::OtherSweep {
                     path: folder.to_path_buf(),
-                    difference: difference::lines(&existing, resolved, LINES_SHOWN),
+                    difference: difference::lines(existing, resolved, LINES_SHOWN),
                 });
             }
             Ok(_) => store.clear()?,
@@ -169,8 +173,8 @@ impl Store {
                 fs::remove_dir_all(&path).map_err(failed(path.clone()))?;
             }
         }
-        let of_scenarios = crate::sweep::scenario::RESULT_FILES.map(str::to_owned);
-        for name in crate::sweep::files::of_sweep().chain(of_scenarios) {
+        let of_scenarios = scenario::FIGURES.into_iter().flat_map(files::of_figure);
+        for name in files::of_sweep().chain(of_scenarios) {
             self.remove(&name)?;
         }
         Ok(())
@@ -189,6 +193,12 @@ impl Store {
             _ => Ok(()),
         }
     }
+}
+
+/// Whether a folder's resolved file is of the same sweep, however its figures look.
+fn is_same(existing: &[u8], resolved: &str) -> bool {
+    let existing = std::str::from_utf8(existing).map(without_figures);
+    existing == Ok(without_figures(resolved))
 }
 
 /// Writes a file whole or not at all, creating its folder where needed. The umask decides its permissions.

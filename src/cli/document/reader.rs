@@ -405,6 +405,15 @@ impl TableReader<'_> {
         self.or(key, &Choice(choices), default)
     }
 
+    /// An array of values that belong to a few words each, each located. May be empty.
+    pub fn choices_of<T: Copy>(
+        &mut self,
+        key: &str,
+        choices: &[(&str, T)],
+    ) -> Option<Located<Vec<Located<T>>>> {
+        self.required(key, &Array(Choice(choices)))
+    }
+
     fn required<K: Kind>(&mut self, key: &str, kind: &K) -> Option<Located<K::Value>> {
         if let Some(entry) = self.find(key) {
             return self.convert(key, entry, kind);

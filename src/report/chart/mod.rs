@@ -31,6 +31,7 @@ mod legend;
 mod look;
 mod marker;
 mod palette;
+mod paper;
 mod place;
 mod render;
 mod scale;
@@ -42,7 +43,8 @@ mod ticks;
 pub use error::{AxisName, ChartError};
 pub use heat_map::{HeatMap, MapShape, heat_map_to_svg};
 pub use palette::Color;
-pub use render::{to_png, to_svg};
+pub use paper::{described, on_paper};
+pub use render::{to_png, to_png_at, to_svg};
 pub use stack::stack_to_svg;
 
 /// A chart: what is drawn against which axes.

@@ -6,6 +6,7 @@ use resvg::{tiny_skia, usvg};
 
 use super::check::subject;
 use super::draw::draw;
+use super::paper;
 use super::text::{escaped, options};
 use super::{Chart, ChartError, Size};
 
@@ -35,6 +36,18 @@ pub(super) fn finished(drawn: &str, size: Size, title: &str) -> Result<String, C
 /// # Errors
 /// [`ChartError`] where the text is no SVG or the scale gives no picture.
 pub fn to_png(svg: &str, scale: f32) -> Result<Vec<u8>, ChartError> {
+    png(svg, scale, None)
+}
+
+/// The SVG as PNG on white, so many pixels to an inch of its size on paper, which the PNG says.
+///
+/// # Errors
+/// As [`to_png`].
+pub fn to_png_at(svg: &str, dpi: usize) -> Result<Vec<u8>, ChartError> {
+    png(svg, paper::scale(dpi), Some(paper::pixels_per_metre(dpi)))
+}
+
+fn png(svg: &str, scale: f32, pixels_per_metre: Option<u32>) -> Result<Vec<u8>, ChartError> {
     if !(scale.is_finite() && scale > 0.0) {
         return Err(ChartError::PixelScale {
             scale,
@@ -59,14 +72,17 @@ pub fn to_png(svg: &str, scale: f32) -> Result<Vec<u8>, ChartError> {
         height as f32 / size.height(),
     );
     resvg::render(&tree, stretch, &mut picture.as_mut());
-    encode(&picture).map_err(|error| ChartError::Encode {
+    encode(&picture, pixels_per_metre).map_err(|error| ChartError::Encode {
         reason: error.to_string(),
     })
 }
 
 /// The pixels as PNG without transparency: the picture stands on white. Fast compression takes a tenth of the time of the
 /// thorough one, which used to be most of the time of a whole sweep.
-fn encode(picture: &tiny_skia::Pixmap) -> Result<Vec<u8>, png::EncodingError> {
+fn encode(
+    picture: &tiny_skia::Pixmap,
+    pixels_per_metre: Option<u32>,
+) -> Result<Vec<u8>, png::EncodingError> {
     let opaque: Vec<u8> = picture
         .pixels()
         .iter()
@@ -77,6 +93,11 @@ fn encode(picture: &tiny_skia::Pixmap) -> Result<Vec<u8>, png::EncodingError> {
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Fast);
+    encoder.set_pixel_dims(pixels_per_metre.map(|count| png::PixelDimensions {
+        xppu: count,
+        yppu: count,
+        unit: png::Unit::Meter,
+    }));
     let mut writer = encoder.write_header()?;
     writer.write_image_data(&opaque)?;
     writer.finish()?;

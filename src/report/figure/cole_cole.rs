@@ -3,8 +3,9 @@
 
 use num_complex::Complex;
 
+use super::Figure;
 use super::equivalent::{self, Equivalent};
-use super::{Figure, prefix};
+use super::units::Units;
 use crate::report::ReportError;
 use crate::report::chart::{Axis, Chart, Series};
 
@@ -12,16 +13,16 @@ use crate::report::chart::{Axis, Chart, Series};
 ///
 /// # Errors
 /// Where the table behind it cannot be made.
-pub fn figure(equivalent: &Equivalent<'_>) -> Result<Figure, ReportError> {
+pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, ReportError> {
     let moduli = || equivalent.own_beyond.iter().map(|(_, modulus)| modulus);
-    let (to_storage, storage) = prefix(moduli().fold(0.0, |a, m| a.max(m.re)));
-    let (to_loss, loss) = prefix(moduli().fold(0.0, |a, m| a.max(m.im)));
+    let (to_storage, storage) = units.modulus(moduli().fold(0.0, |a, m| a.max(m.re)));
+    let (to_loss, loss) = units.modulus(moduli().fold(0.0, |a, m| a.max(m.im)));
     let line = moduli().map(|m| (to_storage * m.re, to_loss * m.im));
     let loops = equivalent.loops.iter();
     let loops = loops.map(|at| (to_storage * at.storage_pa, to_loss * at.loss_pa));
     let mut chart = Chart::new(
-        Axis::linear(format!("storage modulus E′ / {storage}Pa")),
-        Axis::linear(format!("loss modulus E″ / {loss}Pa")),
+        Axis::linear(format!("storage modulus E′ / {storage}")),
+        Axis::linear(format!("loss modulus E″ / {loss}")),
     )
     .series(Series::line(line).label("material"))
     .series(Series::scatter(loops).label("from the loops").color(1));
@@ -30,6 +31,7 @@ pub fn figure(equivalent: &Equivalent<'_>) -> Result<Figure, ReportError> {
     Ok(Figure {
         name: "cole-cole",
         picture: chart.into(),
+        caption: equivalent.caption("Loss modulus E″ over storage modulus E′ (Cole–Cole diagram)"),
         data: equivalent::pairs(
             "cole-cole.csv",
             equivalent,

@@ -1,9 +1,13 @@
 //! The loss of two results over frequency, and below it by how much they differ.
 
-use super::{WriteFile, prefix, write_picture};
+use super::press::Press;
+use super::{Picture, prefix, scientific};
+use crate::quantity::Dimension;
 use crate::report::ReportError;
-use crate::report::chart::{self, Axis, Chart, LineStyle, Marker, Series};
+use crate::report::caption::{Caption, Setting};
+use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
 use crate::report::comparison::{Comparison, CurvePoint, Place};
+use crate::report::page::number::plain;
 
 const NAME: &str = "comparison";
 const WIDTH_PX: u32 = 800;
@@ -14,11 +18,8 @@ const DIFFERENCE_PX: u32 = 300;
 ///
 /// # Errors
 /// [`ReportError`] naming the figure.
-pub fn write(
-    comparison: &Comparison,
-    write: &WriteFile<'_>,
-) -> Result<Option<String>, ReportError> {
-    write("comparison.csv", &comparison.table()?)?;
+pub fn write(comparison: &Comparison, press: &Press<'_>) -> Result<Option<String>, ReportError> {
+    (press.write)("comparison.csv", &comparison.table()?)?;
     let curve = &comparison.curve;
     let has_difference = curve.iter().any(|p| p.relative_difference().is_some());
     if !has_difference {
@@ -26,10 +27,27 @@ pub fn write(
             "no figure: no case has a loss in both results".to_owned(),
         ));
     }
-    let svg = chart::stack_to_svg(&[losses(curve), differences(curve)])
-        .map_err(|source| ReportError::Chart { name: NAME, source })?;
-    write_picture(NAME, NAME, &svg, write)?;
+    let picture = Picture::Stack(vec![losses(curve), differences(curve)]);
+    let caption = caption(comparison).text(&Setting::default());
+    press.picture(NAME, NAME, &picture, &caption)?;
     Ok(None)
+}
+
+fn caption(comparison: &Comparison) -> Caption {
+    let differences = comparison.curve.iter();
+    let differences = differences.filter_map(|p| Some((p.relative_difference()?, p.place)));
+    let largest = differences.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    let largest = largest.map(|(difference, place)| {
+        let omega = place.angular_frequency_rad_per_s;
+        format!(
+            "Largest difference: {} % at ω = {}.",
+            scientific(100.0 * difference, 3),
+            plain(omega, Dimension::AngularFrequency, 4)
+        )
+    });
+    Caption::new("Energy loss per cycle over angular frequency ω in two results (above) and their relative difference (below)")
+        .say(format!("{} cases are in both.", comparison.compared))
+        .say_all(largest)
 }
 
 fn drive(place: &Place) -> (f64, f64) {

@@ -1,7 +1,7 @@
 //! The cases of a sweep as curves over frequency: one, or one per drive of a second axis; and which of many are shown.
 
-use super::{prefix, scientific};
-use crate::drive::{Control, HarmonicDrive};
+use super::units::Units;
+use crate::drive::HarmonicDrive;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::run::Outcome;
@@ -14,13 +14,14 @@ pub struct Curve<'a> {
     pub records: Vec<&'a CaseRecord>,
 }
 
-/// The curves of a sweep, in the order of its drives; those without any case are left out.
-pub fn curves<'a>(plan: &SweepPlan, outcome: &'a Outcome) -> Vec<Curve<'a>> {
+/// The curves of a sweep, in the order of its drives, labelled in these units; those without any case are left out.
+pub fn curves<'a>(plan: &SweepPlan, outcome: &'a Outcome, units: &Units) -> Vec<Curve<'a>> {
     let curve = |drive: &HarmonicDrive| Curve {
         drive: *drive,
         label: plan.axis.as_ref().map(|axis| {
             let value = axis.varied.value(drive);
-            format!("{} {}", axis.varied.name(), drive_value(drive, value))
+            let value = units.drive_value(drive.control(), value);
+            format!("{} {value}", axis.varied.name())
         }),
         records: outcome
             .records
@@ -44,6 +45,12 @@ pub fn largest<'a, 'b>(curves: &'b [Curve<'a>]) -> Option<&'b Curve<'a>> {
 }
 
 impl<'a> Curve<'a> {
+    /// Which of several drives this is, for a caption.
+    pub fn sentence(&self) -> Option<String> {
+        let label = self.label.as_ref()?;
+        Some(format!("Drive: {label}."))
+    }
+
     /// The cases that have a result.
     pub fn results(&self) -> Vec<(&'a CaseRecord, &'a CaseResult)> {
         let results = self.records.iter();
@@ -53,24 +60,36 @@ impl<'a> Curve<'a> {
     }
 }
 
-/// A value of the drive to be read: `5 N`, `200 mN`, `1.5 µm`.
-pub fn drive_value(drive: &HarmonicDrive, value: f64) -> String {
-    let (factor, prefix) = prefix(value.abs());
-    let unit = drive_unit(drive.control());
-    format!("{} {prefix}{unit}", scientific(factor * value, 3))
-}
-
-/// The unit of a drive's values.
-pub fn drive_unit(control: Control) -> &'static str {
-    match control {
-        Control::Load => "N",
-        Control::Approach => "m",
-    }
-}
-
-/// An angular frequency as it stands in legends.
-pub fn omega_label(angular_frequency_rad_per_s: f64) -> String {
-    format!("ω = {} rad/s", scientific(angular_frequency_rad_per_s, 3))
+/// The results nearest to these frequencies (rad/s), in their order and each once; without any, at most `most`, evenly spread,
+/// the one of the largest loss among them.
+pub fn chosen<'a>(
+    results: &[(&'a CaseRecord, &'a CaseResult)],
+    frequencies_rad_per_s: &[f64],
+    most: usize,
+) -> Vec<(&'a CaseRecord, &'a CaseResult)> {
+    let places = match frequencies_rad_per_s {
+        [] => {
+            let losses = results.iter().map(|(_, r)| r.analysis.energy_loss_j);
+            with_the_largest(&losses.collect::<Vec<f64>>(), most)
+        }
+        frequencies => {
+            let omega = |place: usize| results[place].0.angular_frequency_rad_per_s;
+            let off = |place: usize, wanted: f64| (omega(place) / wanted).ln().abs();
+            let nearest = |wanted: &f64| {
+                let by_distance =
+                    |a: &usize, b: &usize| off(*a, *wanted).total_cmp(&off(*b, *wanted));
+                (0..results.len()).min_by(by_distance)
+            };
+            let mut places: Vec<usize> = frequencies.iter().filter_map(nearest).collect();
+            places.sort_unstable();
+            places.dedup();
+            places
+        }
+    };
+    places
+        .into_iter()
+        .filter_map(|place| results.get(place).copied())
+        .collect()
 }
 
 /// At most `most` of `count` places, evenly spread with both ends; rather some fewer than unevenly.
@@ -115,15 +134,5 @@ mod tests {
         assert_eq!(evenly(9, 8), [0, 2, 4, 6, 8]);
         assert_eq!(evenly(10, 8), [0, 1, 2, 3, 5, 6, 7, 9]);
         assert_eq!(evenly(9, 1), [0]);
-    }
-
-    #[test]
-    fn values_of_a_drive_read_as_in_print() {
-        let drive = HarmonicDrive::new(Control::Load, 10.0, 0.25, 0.0, 0.0).unwrap();
-        assert_eq!(drive_value(&drive, 0.25), "250 mN");
-        assert_eq!(drive_value(&drive, 10.0), "10 N");
-        let drive = HarmonicDrive::new(Control::Approach, 0.0, 1e-6, 0.0, 0.0).unwrap();
-        assert_eq!(drive_value(&drive, 1.5e-6), "1.5 µm");
-        assert_eq!(drive_value(&drive, 0.0), "0 m");
     }
 }

@@ -1,10 +1,13 @@
 //! Which relaxation branch dissipates: the energy loss over frequency as a stack of the losses of the branches.
 
 use super::curve::Curve;
-use super::{Drawn, Figure, prefix, scientific};
+use super::units::Units;
+use super::{Drawn, Figure, scientific};
 use crate::quantity::{Dimension, format_human};
 use crate::report::ReportError;
+use crate::report::caption::{Caption, listed};
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
+use crate::report::page::number::plain;
 use crate::report::table::{Table, number};
 use crate::sweep::record::{CaseRecord, CaseResult};
 
@@ -16,7 +19,7 @@ const OTHERS: Color = Color::Rgb(0xC4, 0xC4, 0xC4);
 ///
 /// # Errors
 /// Where the table behind it cannot be made.
-pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
+pub fn figure(curve: &Curve<'_>, units: &Units) -> Result<Drawn, ReportError> {
     let results = curve.results();
     if results.len() < 2 {
         return Ok(Drawn::left_out(
@@ -30,10 +33,11 @@ pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
         ));
     }
     let losses = results.iter().map(|(_, r)| r.analysis.energy_loss_j);
-    let (factor, unit) = prefix(losses.fold(0.0, f64::max));
+    let (factor, unit) = units.energy(losses.fold(0.0, f64::max));
+    let omega = |record: &CaseRecord| units.frequency().0 * record.angular_frequency_rad_per_s;
     let mut chart = Chart::new(
-        Axis::log("angular frequency ω / rad·s⁻¹"),
-        Axis::linear(format!("energy loss per cycle / {unit}J")),
+        Axis::log(units.frequency_title()),
+        Axis::linear(format!("energy loss per cycle / {unit}")),
     );
     chart.title.clone_from(&curve.label);
     // From the total downwards: each area covers the lower part of the one before.
@@ -53,10 +57,7 @@ pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
         let points = curve.records.iter().map(|record| {
             let place = results.iter().position(|(r, _)| r.index == record.index)?;
             let below = bands[k..].iter().filter_map(|b| b.losses_j.get(place));
-            Some((
-                record.angular_frequency_rad_per_s,
-                factor * below.sum::<f64>(),
-            ))
+            Some((omega(record), factor * below.sum::<f64>()))
         });
         let area = Series::line(points).area_to(0.0);
         chart = chart.series(area.label(band.label.clone()).color(color));
@@ -64,7 +65,7 @@ pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
     let total = curve
         .records
         .iter()
-        .map(|r| Some((r.angular_frequency_rad_per_s, factor * r.energy_loss_j()?)));
+        .map(|r| Some((omega(r), factor * r.energy_loss_j()?)));
     chart = chart
         .series(
             Series::line(total)
@@ -75,8 +76,29 @@ pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
     Ok(Drawn::Figure(Figure {
         name: "dissipation",
         picture: chart.into(),
+        caption: caption(curve, &results, &bands),
         data: data(&results)?,
     }))
+}
+
+fn caption(curve: &Curve<'_>, results: &[(&CaseRecord, &CaseResult)], bands: &[Band]) -> Caption {
+    let loss = |place: &usize| results[*place].1.analysis.energy_loss_j;
+    let largest = (0..results.len()).max_by(|a, b| loss(a).total_cmp(&loss(b)));
+    let shares = largest.filter(|place| loss(place) > 0.0).map(|place| {
+        let omega = results[place].0.angular_frequency_rad_per_s;
+        let share = |band: &Band| {
+            let part = band.losses_j.get(place).copied().unwrap_or_default() / loss(&place);
+            format!("{} % ({})", scientific(100.0 * part, 3), band.label)
+        };
+        format!(
+            "At ω = {}, where the computed loss is largest, they dissipate {} of it.",
+            plain(omega, Dimension::AngularFrequency, 4),
+            listed(&bands.iter().map(share).collect::<Vec<_>>())
+        )
+    });
+    Caption::new("Energy loss per cycle over angular frequency ω, by retardation time λ of the branches that dissipate it")
+        .say("Areas: dissipated by the branches, from their memory alone; line: area of the hysteresis loop.")
+        .say_all(curve.sentence().into_iter().chain(shares))
 }
 
 /// One band of the stack.

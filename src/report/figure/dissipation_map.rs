@@ -1,11 +1,15 @@
 //! Where the energy goes in, over the surface: the work per cycle and area at the frequency of the largest loss.
 
-use super::curve::{Curve, omega_label};
-use super::{Drawn, Figure, prefix};
+use super::curve::Curve;
+use super::units::Units;
+use super::{Drawn, Figure};
+use crate::quantity::Dimension;
 use crate::report::ReportError;
+use crate::report::caption::Caption;
 use crate::report::chart::{HeatMap, MapShape, Scale};
+use crate::report::page::number::{plain, with_error};
 use crate::report::table::{Table, number, optional};
-use crate::sweep::record::{CaseResult, SurfaceLoss};
+use crate::sweep::record::{CaseRecord, CaseResult, SurfaceLoss};
 
 const WIDTH_PX: u32 = 800;
 /// Cells along the diameter of what is revolved.
@@ -15,7 +19,7 @@ const REVOLVED: usize = 128;
 ///
 /// # Errors
 /// Where the table behind it cannot be made.
-pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
+pub fn figure(curve: &Curve<'_>, units: &Units) -> Result<Drawn, ReportError> {
     let loss = |result: &CaseResult| result.analysis.energy_loss_j;
     let results = curve.results();
     let largest = results
@@ -28,16 +32,34 @@ pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
     let Some((record, result, field)) = field else {
         return Ok(Drawn::left_out("no dissipation map: nothing is dissipated"));
     };
-    let omega = omega_label(record.angular_frequency_rad_per_s);
+    let omega = units.omega(record.angular_frequency_rad_per_s);
     let title = match &curve.label {
         Some(label) => format!("{omega}, {label}"),
         None => omega,
     };
     Ok(Drawn::Figure(Figure {
         name: "dissipation-map",
-        picture: field.map(title).into(),
+        picture: field.map(title, units).into(),
+        caption: caption(curve, record),
         data: data(&result.surface_loss)?,
     }))
+}
+
+fn caption(curve: &Curve<'_>, record: &CaseRecord) -> Caption {
+    let omega = plain(
+        record.angular_frequency_rad_per_s,
+        Dimension::AngularFrequency,
+        4,
+    );
+    let loss = record.energy_loss_j().map(|loss_j| {
+        let loss = with_error(loss_j, record.energy_loss_error_j(), Dimension::Energy);
+        format!("Its integral over the surface is the energy loss per cycle, {loss}.")
+    });
+    Caption::new(format!(
+        "Work that the indenter does on the surface per cycle and area, at ω = {omega}, of the computed frequencies that of the \
+         largest loss"
+    ))
+    .say_all(curve.sentence().into_iter().chain(loss))
 }
 
 /// Densities (J/m2) on a grid of cells.
@@ -117,17 +139,17 @@ impl Field {
         })
     }
 
-    fn map(self, title: String) -> HeatMap {
+    fn map(self, title: String, units: &Units) -> HeatMap {
         let [(left, right), (low, high)] = [self.x_range_m, self.y_range_m];
         let reach = [left, right, low, high].map(f64::abs);
-        let (to_length, length) = prefix(reach.into_iter().fold(0.0, f64::max));
+        let (to_length, length) = units.length(reach.into_iter().fold(0.0, f64::max));
         let densities = self.density.iter().flatten();
-        let (to_density, unit) = prefix(densities.fold(0.0, |a, d| a.max(d.abs())));
+        let (to_density, unit) = units.density(densities.fold(0.0, |a, d| a.max(d.abs())));
         let scaled = |density: &Option<f64>| Some(to_density * (*density)?);
         HeatMap {
             title: Some(title),
-            x_label: format!("x / {length}m"),
-            y_label: format!("y / {length}m"),
+            x_label: format!("x / {length}"),
+            y_label: format!("y / {length}"),
             x_range: (to_length * left, to_length * right),
             y_range: (to_length * low, to_length * high),
             x_scale: Scale::Linear,
@@ -135,7 +157,7 @@ impl Field {
             columns: self.columns,
             rows: self.rows,
             values: self.density.iter().map(scaled).collect(),
-            value_label: format!("work per cycle and area / {unit}J·m⁻²"),
+            value_label: format!("work per cycle and area / {unit}"),
             value_range: None,
             value_scale: Scale::Linear,
             contours: false,

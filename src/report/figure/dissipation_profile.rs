@@ -1,10 +1,14 @@
 //! Where the energy goes in: the work that the indenter does on the surface per cycle and area, along a radius or, over cells,
 //! along x through the centre of the work.
 
-use super::curve::{Curve, omega_label, with_the_largest};
-use super::{Drawn, Figure, prefix};
+use super::curve::{Curve, chosen};
+use super::units::Units;
+use super::{Drawn, Figure};
+use crate::quantity::Dimension;
 use crate::report::ReportError;
+use crate::report::caption::{Caption, listed};
 use crate::report::chart::{Axis, Chart, Color, Series};
+use crate::report::page::number::plain;
 use crate::report::table::{Table, number, optional};
 use crate::sweep::record::{CaseRecord, CaseResult, SurfaceLoss};
 
@@ -14,22 +18,23 @@ const PROFILES: usize = 5;
 /// Place (m) and density (J/m2); `None` where it is unbounded.
 type ProfilePoint = (f64, Option<f64>);
 
-/// The figure, of one curve: profiles evenly spread over its cases, that of the largest loss among them.
+/// The figure, of one curve: profiles nearest to the frequencies asked for (rad/s), or evenly spread over its cases, that of the
+/// largest loss among them.
 ///
 /// # Errors
 /// Where the table behind it cannot be made.
-pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
+pub fn figure(
+    curve: &Curve<'_>,
+    asked_rad_per_s: &[f64],
+    units: &Units,
+) -> Result<Drawn, ReportError> {
     let results = curve.results();
-    let losses: Vec<f64> = results
-        .iter()
-        .map(|(_, result)| result.analysis.energy_loss_j)
-        .collect();
-    let profiles: Vec<(&CaseRecord, Vec<ProfilePoint>)> = with_the_largest(&losses, PROFILES)
-        .into_iter()
-        .map(|i| results[i])
-        .map(|(record, result)| (record, profile(&result.surface_loss)))
-        .filter(|(_, profile)| profile.iter().any(|(_, density)| density.is_some()))
-        .collect();
+    let profiles: Vec<(&CaseRecord, Vec<ProfilePoint>)> =
+        chosen(&results, asked_rad_per_s, PROFILES)
+            .into_iter()
+            .map(|(record, result)| (record, profile(&result.surface_loss)))
+            .filter(|(_, profile)| profile.iter().any(|(_, density)| density.is_some()))
+            .collect();
     let Some(along) = results.first().map(|(_, result)| along(result)) else {
         return Ok(Drawn::left_out(
             "no dissipation profile: no case has a result",
@@ -41,9 +46,9 @@ pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
             "no dissipation profile: nothing is dissipated",
         ));
     }
-    let (to_length, length) = prefix(points().fold(0.0, |a, (x, _)| a.max(x.abs())));
+    let (to_length, length) = units.length(points().fold(0.0, |a, (x, _)| a.max(x.abs())));
     let densities = points().filter_map(|(_, density)| *density);
-    let (to_density, unit) = prefix(densities.fold(0.0, |a, d| a.max(d.abs())));
+    let (to_density, unit) = units.density(densities.fold(0.0, |a, d| a.max(d.abs())));
     let series = profiles
         .iter()
         .enumerate()
@@ -52,20 +57,52 @@ pub fn figure(curve: &Curve<'_>) -> Result<Drawn, ReportError> {
                 |(x, density): &ProfilePoint| Some((to_length * x, to_density * (*density)?));
             let of = profiles.len();
             Series::line(profile.iter().map(scaled))
-                .label(omega_label(record.angular_frequency_rad_per_s))
+                .label(units.omega(record.angular_frequency_rad_per_s))
                 .color(Color::Ramp { step, of })
         });
     let mut chart = Chart::new(
-        Axis::linear(format!("{} / {length}m", along.label)),
-        Axis::linear(format!("work per cycle and area w / {unit}J·m⁻²")),
+        Axis::linear(format!("{} / {length}", along.label)),
+        Axis::linear(format!("work per cycle and area w / {unit}")),
     )
     .all_series(series);
     chart.title.clone_from(&curve.label);
     Ok(Drawn::Figure(Figure {
         name: "dissipation-profile",
         picture: chart.into(),
+        caption: caption(curve, &profiles, along.label),
         data: data(&profiles, along.column)?,
     }))
+}
+
+fn caption(
+    curve: &Curve<'_>,
+    profiles: &[(&CaseRecord, Vec<ProfilePoint>)],
+    along: &str,
+) -> Caption {
+    let omegas: Vec<String> = profiles
+        .iter()
+        .map(|(record, _)| {
+            plain(
+                record.angular_frequency_rad_per_s,
+                Dimension::AngularFrequency,
+                4,
+            )
+        })
+        .collect();
+    let largest = profiles.iter().flat_map(|(_, profile)| profile);
+    let largest = largest
+        .filter_map(|(_, density)| *density)
+        .fold(0.0, f64::max);
+    let (factor, unit) = Units::default().density(largest);
+    Caption::new(format!(
+        "Work that the indenter does on the surface per cycle and area, over the {along}"
+    ))
+    .say_all(curve.sentence())
+    .say(format!("Curves: ω = {}.", listed(&omegas)))
+    .say(format!(
+        "Largest: {} {unit}. The integral over the surface is the energy loss per cycle.",
+        super::scientific(factor * largest, 4)
+    ))
 }
 
 /// What a profile runs along.

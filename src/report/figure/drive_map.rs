@@ -1,8 +1,8 @@
 //! A quantity over both axes of a sweep, frequency and drive, as a map: coloured between the cases, which are dots.
 
-use super::curve::{Curve, drive_unit};
+use super::curve::Curve;
 use super::moduli_error::WIDE;
-use super::prefix;
+use super::units::Units;
 use crate::report::ReportError;
 use crate::report::chart::{HeatMap, MapShape, Scale};
 use crate::report::table::{Table, number, optional};
@@ -29,9 +29,11 @@ pub struct Mapped<'a> {
 pub fn map(
     plan: &SweepPlan,
     axis: &DriveAxis,
-    curves: &[Curve<'_>],
+    (curves, units): (&[Curve<'_>], &Units),
     mapped: Mapped<'_>,
 ) -> Option<HeatMap> {
+    let control = plan.drive.control();
+    let to_omega = units.frequency().0;
     let values = || {
         let records = curves.iter().flat_map(|curve| &curve.records);
         records.filter_map(|record| (mapped.value)(record))
@@ -43,7 +45,7 @@ pub fn map(
     let value_scale = scale(least, largest, WIDE_COLOURS);
     let drives = || curves.iter().map(|curve| axis.varied.value(&curve.drive));
     let (low, high) = (drives().next()?, drives().next_back()?);
-    let (to_unit, unit_prefix) = prefix(low.abs().max(high.abs()));
+    let (to_unit, unit) = units.drive(control, low.abs().max(high.abs()));
     let y_scale = scale(low, high, WIDE);
     let omegas = || {
         let records = curves.iter().flat_map(|curve| &curve.records);
@@ -84,15 +86,14 @@ pub fn map(
     let points = curves.iter().flat_map(|curve| {
         let value = to_unit * axis.varied.value(&curve.drive);
         let there = curve.records.iter().filter(|r| (mapped.value)(r).is_some());
-        there.map(move |record| (record.angular_frequency_rad_per_s, value))
+        there.map(move |record| (to_omega * record.angular_frequency_rad_per_s, value))
     });
-    let control = plan.drive.control();
-    let (name, unit) = (axis.varied.name(), drive_unit(control));
+    let name = axis.varied.name();
     Some(HeatMap {
         title: None,
-        x_label: "angular frequency ω / rad·s⁻¹".to_owned(),
-        y_label: format!("{} {name} / {unit_prefix}{unit}", control.name()),
-        x_range,
+        x_label: units.frequency_title(),
+        y_label: format!("{} {name} / {unit}", control.name()),
+        x_range: (to_omega * x_range.0, to_omega * x_range.1),
         y_range: (to_unit * low, to_unit * high),
         x_scale: Scale::Log,
         y_scale,
@@ -107,7 +108,7 @@ pub fn map(
         rings: mapped
             .rings
             .iter()
-            .map(|(x, y)| (*x, to_unit * y))
+            .map(|(x, y)| (to_omega * x, to_unit * y))
             .collect(),
         width_px: WIDTH_PX,
         shape: MapShape::HeightPx(HEIGHT_PX),

@@ -1,9 +1,13 @@
 //! Energy loss per cycle against angular frequency, with error bars, its peaks marked; one curve per drive.
 
-use super::curve::{Curve, curves, evenly};
-use super::{Figure, prefix, scientific};
+use super::Figure;
+use super::curve::{Curve, evenly};
+use super::units::Units;
+use crate::quantity::Dimension;
 use crate::report::ReportError;
+use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, Color, Mark, Marker, Series};
+use crate::report::page::number::with_error;
 use crate::report::table::{Table, number, optional};
 use crate::sweep::peak::Peak;
 use crate::sweep::plan::SweepPlan;
@@ -18,8 +22,12 @@ const WIDE: f64 = 20.0;
 ///
 /// # Errors
 /// Where the table behind it cannot be made.
-pub fn figure(plan: &SweepPlan, outcome: &Outcome) -> Result<Figure, ReportError> {
-    let all = curves(plan, outcome);
+pub fn figure(
+    plan: &SweepPlan,
+    outcome: &Outcome,
+    all: &[Curve<'_>],
+    units: &Units,
+) -> Result<Figure, ReportError> {
     let shown: Vec<&Curve<'_>> = evenly(all.len(), CURVES)
         .into_iter()
         .filter_map(|k| all.get(k))
@@ -37,16 +45,17 @@ pub fn figure(plan: &SweepPlan, outcome: &Outcome) -> Result<Figure, ReportError
         let heights = heights.chain(peaks().map(|peak| peak.energy_loss_j));
         heights.filter(|height| *height > 0.0)
     };
-    let (factor, unit) = prefix(heights().fold(0.0, f64::max));
+    let (factor, unit) = units.energy(heights().fold(0.0, f64::max));
+    let to_omega = units.frequency().0;
     let log = heights().fold(0.0, f64::max) > WIDE * heights().fold(f64::INFINITY, f64::min);
-    let label = format!("energy loss per cycle / {unit}J");
+    let label = format!("energy loss per cycle / {unit}");
     let series = shown.iter().enumerate().map(|(step, curve)| {
         let of = shown.len();
         let color = match of {
             1 => Color::Palette(0),
             _ => Color::Ramp { step, of },
         };
-        let series = of_curve(curve, factor, log).color(color);
+        let series = of_curve(curve, (to_omega, factor), log).color(color);
         match &curve.label {
             Some(label) => series.label(label.clone()).marker(Marker::nth(step)),
             None => series,
@@ -54,26 +63,27 @@ pub fn figure(plan: &SweepPlan, outcome: &Outcome) -> Result<Figure, ReportError
     });
     let marks = peaks()
         .filter(|peak| !log || peak.energy_loss_j > 0.0)
-        .map(|peak| mark(peak, factor, shown.len() == 1));
+        .map(|peak| mark(peak, (units, factor), shown.len() == 1));
     let y = if log {
         Axis::log(label)
     } else {
         Axis::linear(label)
     };
-    let chart = Chart::new(Axis::log("angular frequency ω / rad·s⁻¹"), y)
+    let chart = Chart::new(Axis::log(units.frequency_title()), y)
         .all_series(series)
         .all_marks(marks);
     Ok(Figure {
         name: "energy-loss",
         picture: chart.into(),
+        caption: caption(plan, outcome, &shown),
         data: data(plan, outcome)?,
     })
 }
 
-fn of_curve(curve: &Curve<'_>, factor: f64, log: bool) -> Series {
+fn of_curve(curve: &Curve<'_>, (to_omega, factor): (f64, f64), log: bool) -> Series {
     let points = curve.records.iter().map(|record| {
         let loss = factor * record.energy_loss_j()?;
-        (!log || loss > 0.0).then_some((record.angular_frequency_rad_per_s, loss))
+        (!log || loss > 0.0).then_some((to_omega * record.angular_frequency_rad_per_s, loss))
     });
     let errors = curve
         .records
@@ -99,15 +109,63 @@ fn is_of(peak: &Peak, curve: &Curve<'_>) -> bool {
             .is_none_or(|amplitude| amplitude == curve.drive.amplitude())
 }
 
-fn mark(peak: &Peak, factor: f64, labelled: bool) -> Mark {
+fn mark(peak: &Peak, (units, factor): (&Units, f64), labelled: bool) -> Mark {
     let omega = peak.angular_frequency_rad_per_s;
-    let label = format!("ω = {} rad/s", scientific(omega, 3));
-    let mark = Mark::point(omega, factor * peak.energy_loss_j, label);
+    let place = units.frequency().0 * omega;
+    let mark = Mark::point(place, factor * peak.energy_loss_j, units.omega(omega));
     // Labels at every peak of several curves would cover the curves.
     Mark {
         label: mark.label.filter(|_| labelled),
         ..mark
     }
+}
+
+fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>]) -> Caption {
+    let mut caption = Caption::new("Energy loss per cycle over angular frequency ω");
+    if let Some(axis) = &plan.axis {
+        let varied = axis.varied.name();
+        let curves = shown.len();
+        caption = caption.say(format!("{curves} curves, one per {varied} of the drive."));
+    }
+    let told = match plan.axis {
+        // Each curve has its own.
+        Some(_) => outcome.peaks.len().min(1),
+        None => outcome.peaks.len(),
+    };
+    for (rank, peak) in outcome.peaks.iter().take(told).enumerate() {
+        let what = if rank == 0 {
+            "Largest peak"
+        } else {
+            "Lower peak"
+        };
+        let under = plan.axis.as_ref().and_then(|axis| {
+            let value = axis.varied.of_peak(peak)?;
+            let value = Units::default().drive_value(plan.drive.control(), value);
+            Some(format!(", {} {value}", axis.varied.name()))
+        });
+        caption = caption.say(format!(
+            "{what}: {} at ω = {}{}.",
+            with_error(
+                peak.energy_loss_j,
+                peak.energy_loss_error_j,
+                Dimension::Energy
+            ),
+            with_error(
+                peak.angular_frequency_rad_per_s,
+                Some(peak.angular_frequency_uncertainty_rad_per_s),
+                Dimension::AngularFrequency
+            ),
+            under.unwrap_or_default()
+        ));
+    }
+    let rings = (!outcome.peaks.is_empty())
+        .then(|| "Rings: peaks, located between the samples by further computations.".to_owned());
+    let parts = [
+        rings,
+        caption::error_bars(plan, outcome),
+        caption::absent(outcome),
+    ];
+    caption.say_all(parts.into_iter().flatten())
 }
 
 fn data(plan: &SweepPlan, outcome: &Outcome) -> Result<Vec<u8>, ReportError> {

@@ -3,8 +3,11 @@
 use num_complex::Complex;
 
 use super::curve::{Curve, curves};
+use super::scientific;
+use super::units::Units;
 use crate::material::Material;
 use crate::report::ReportError;
+use crate::report::caption::Caption;
 use crate::report::table::{Table, number, optional};
 use crate::sweep::error_bars::Quantity;
 use crate::sweep::plan::SweepPlan;
@@ -74,6 +77,28 @@ fn line(material: &Material, first: f64, last: f64) -> Line {
         .collect()
 }
 
+impl Equivalent<'_> {
+    /// A caption of a figure that draws loops beside the material: how the symbols come about, and how far they are off.
+    pub fn caption(&self, shows: &str) -> Caption {
+        let drive = self.title.as_ref().map(|title| format!("Drive: {title}."));
+        let largest = |values: &mut dyn Iterator<Item = f64>| {
+            scientific(100.0 * values.fold(0.0_f64, |a, v| a.max(v.abs())), 3)
+        };
+        let storage = largest(&mut self.loops.iter().map(LoopModulus::storage_difference));
+        let loss = largest(&mut self.loops.iter().filter_map(LoopModulus::loss_difference));
+        Caption::new(shows)
+            .say_all(drive)
+            .say(
+                "Lines: the material's longitudinal modulus. Symbols: what indentation reads from the hysteresis loops, \
+                 E′ = (1 − ν²)W₁cosφ/(2aδ₁) and E″ with sinφ, W₁ and δ₁ being the first harmonics of load and approach, φ the \
+                 phase between them and a the mean contact radius.",
+            )
+            .say(format!(
+                "They differ from the material's by at most {storage} % in E′ and {loss} % in E″."
+            ))
+    }
+}
+
 impl LoopModulus<'_> {
     /// Angular frequency (rad/s).
     pub fn omega(&self) -> f64 {
@@ -120,7 +145,7 @@ pub fn table(
         "loss_relative_difference",
     ];
     let mut table = Table::new(name, &columns)?;
-    for curve in curves(plan, outcome) {
+    for curve in curves(plan, outcome, &Units::default()) {
         for at in of_loops(&plan.material, &curve) {
             table.row(&[
                 number(at.record.drive_mean),

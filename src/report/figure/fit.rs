@@ -5,6 +5,7 @@ use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::material::{GivenFace, ModulusKind};
 use crate::report::ReportError;
+use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Marker, Series};
 use crate::report::table::Table;
 
@@ -97,6 +98,11 @@ fn curves(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
     Ok(Figure {
         name: "fit",
         picture: chart.into(),
+        caption: caption(
+            table,
+            fit,
+            "Data and the series fitted to them, against time t",
+        ),
         data: data_table(table, fit)?,
     })
 }
@@ -118,8 +124,31 @@ fn residual(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
     Ok(Figure {
         name: "fit-residual",
         picture: chart.into(),
+        caption: caption(
+            table,
+            fit,
+            "Relative difference of the fitted series from the data, against time t",
+        ),
         data: data.finish()?,
     })
+}
+
+fn caption(table: &Tabulated, fit: &Fit, shows: &str) -> Caption {
+    let what = match table.face() {
+        GivenFace::Creep => "creep compliance",
+        GivenFace::Relaxation => "relaxation modulus",
+    };
+    let report = fit.report().to_string();
+    let sentences = report.lines().map(|line| {
+        let line = line.trim();
+        match line.ends_with(['.', '!', '?']) {
+            true => line.to_owned(),
+            false => format!("{line}."),
+        }
+    });
+    Caption::new(shows)
+        .say(format!("{} samples of the {what}.", table.times_s().len()))
+        .say_all(sentences)
 }
 
 fn positive_range_s(table: &Tabulated) -> (f64, f64) {

@@ -2,9 +2,11 @@
 
 use super::curve::Curve;
 use super::drive_map::{self, Mapped};
-use super::{Drawn, Figure};
+use super::units::Units;
+use super::{Drawn, Figure, scientific};
 use crate::drive::Control;
 use crate::report::ReportError;
+use crate::report::caption::Caption;
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 
@@ -16,6 +18,7 @@ pub fn figure(
     plan: &SweepPlan,
     axis: &DriveAxis,
     curves: &[Curve<'_>],
+    units: &Units,
 ) -> Result<Drawn, ReportError> {
     if plan.drive.control() == Control::Approach {
         return Ok(Drawn::left_out(
@@ -27,7 +30,7 @@ pub fn figure(
         label: "second harmonic of the approach / % of the first".to_owned(),
         rings: Vec::new(),
     };
-    let Some(map) = drive_map::map(plan, axis, curves, mapped) else {
+    let Some(map) = drive_map::map(plan, axis, (curves, units), mapped) else {
         return Ok(Drawn::left_out(
             "no harmonic-2 map: it takes two frequencies and two drives with results",
         ));
@@ -35,10 +38,24 @@ pub fn figure(
     Ok(Drawn::Figure(Figure {
         name: "harmonic-2-map",
         picture: map.into(),
+        caption: caption(axis, curves),
         data: drive_map::data("harmonic-2-map.csv", curves, &[("harmonic_2", &second)])?,
     }))
 }
 
 fn second(record: &CaseRecord) -> Option<f64> {
     record.result.as_ref()?.analysis.approach_harmonic(2)
+}
+
+fn caption(axis: &DriveAxis, curves: &[Curve<'_>]) -> Caption {
+    let varied = axis.varied.name();
+    let title = format!(
+        "Second harmonic of the approach relative to its first, over angular frequency ω and {varied} of the drive"
+    );
+    let values = curves.iter().flat_map(|curve| &curve.records);
+    let values = values.filter_map(|record| second(record));
+    let largest = scientific(100.0 * values.fold(0.0, f64::max), 3);
+    Caption::new(title)
+        .say("Dots: computed cases, coloured linearly between; lines: the values labelled at the colour bar.")
+        .say(format!("Largest computed: {largest} %."))
 }

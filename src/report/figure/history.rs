@@ -1,8 +1,12 @@
 //! Load, approach and contact radius against time, one above another.
 
-use super::{WriteFile, prefix, write_picture};
+use super::units::{Unit, Units};
+use super::{Drawn, Figure, Picture};
+use crate::quantity::Dimension;
 use crate::report::ReportError;
+use crate::report::caption::Caption;
 use crate::report::chart::{self, Axis, Chart, Series};
+use crate::report::page::number::plain;
 use crate::sweep::simulate::{HistoryRow, SimulationOutcome};
 
 const NAME: &str = "history";
@@ -13,51 +17,64 @@ const WIDTH_PX: u32 = 800;
 const PANEL_PX: u32 = 250;
 const LAST_PANEL_PX: u32 = 285;
 
-/// Writes the figure; its data are history.csv. Returns why where it cannot be drawn.
-///
-/// # Errors
-/// [`ReportError`] naming the figure.
-pub fn write(
-    outcome: &SimulationOutcome,
-    write: &WriteFile<'_>,
-) -> Result<Option<String>, ReportError> {
-    let Some(svg) = svg(outcome)? else {
-        return Ok(Some(
-            "no figure of the history: it has no two times".to_owned(),
+/// The figure; its data are history.csv.
+pub fn figure(outcome: &SimulationOutcome, units: &Units) -> Drawn {
+    let rows = &outcome.rows;
+    if !has_span(rows) {
+        return Drawn::left_out("no figure of the history: it has no two times");
+    }
+    let load = |row: &HistoryRow| row.load_n;
+    let largest = rows.iter().map(load).fold(0.0, f64::max);
+    let radius = rows
+        .iter()
+        .map(|row| row.contact_radius_m)
+        .fold(0.0, f64::max);
+    let end_s = rows.last().map_or(0.0, |row| row.time_s);
+    let caption =
+        Caption::new("Load W, approach δ and contact radius a against time t").say(format!(
+            "The history ends at {}; its largest load is {}, its largest contact radius {}.",
+            plain(end_s, Dimension::Time, 4),
+            plain(largest, Dimension::Force, 4),
+            plain(radius, Dimension::Length, 4)
         ));
-    };
-    write_picture(NAME, NAME, &svg, write)?;
-    Ok(None)
+    Drawn::Figure(Figure {
+        name: NAME,
+        picture: Picture::Stack(panels(rows, units)),
+        caption,
+        data: Vec::new(),
+    })
 }
 
-/// The picture, where the history has two times.
+fn has_span(rows: &[HistoryRow]) -> bool {
+    matches!((rows.first(), rows.last()), (Some(a), Some(b)) if b.time_s > a.time_s)
+}
+
+/// The picture in SI units, where the history has two times.
 ///
 /// # Errors
 /// [`ReportError`] naming the figure.
 pub fn svg(outcome: &SimulationOutcome) -> Result<Option<String>, ReportError> {
     let rows = &outcome.rows;
-    let has_span = matches!((rows.first(), rows.last()), (Some(a), Some(b)) if b.time_s > a.time_s);
-    if !has_span {
+    if !has_span(rows) {
         return Ok(None);
     }
-    let svg = chart::stack_to_svg(&panels(rows))
+    let svg = chart::stack_to_svg(&panels(rows, &Units::default()))
         .map_err(|source| ReportError::Chart { name: NAME, source })?;
     Ok(Some(svg))
 }
 
 type Signal = fn(&HistoryRow) -> Option<f64>;
+type UnitOf = fn(&Units, f64) -> Unit;
 
-fn panels(rows: &[HistoryRow]) -> Vec<Chart> {
+fn panels(rows: &[HistoryRow], units: &Units) -> Vec<Chart> {
     let end_s = rows.last().map_or(0.0, |row| row.time_s);
-    // Long times stay in seconds.
-    let (to_time, time_unit) = match prefix(end_s) {
-        (factor, unit) if end_s < 1.0 => (factor, unit),
-        _ => (1.0, ""),
-    };
-    let signals: [(&str, &str, Signal); 3] = [
-        ("load W", "N", |row| Some(row.load_n)),
-        ("approach δ", "m", |row| row.approach_m),
-        ("contact radius a", "m", |row| Some(row.contact_radius_m)),
+    let (to_time, time_unit) = units.time(end_s);
+    let signals: [(&str, UnitOf, Signal); 3] = [
+        ("load W", Units::load, |row| Some(row.load_n)),
+        ("approach δ", Units::approach, |row| row.approach_m),
+        ("contact radius a", Units::length, |row| {
+            Some(row.contact_radius_m)
+        }),
     ];
     // A signal that is nowhere defined has no panel.
     let shown: Vec<_> = signals
@@ -65,21 +82,21 @@ fn panels(rows: &[HistoryRow]) -> Vec<Chart> {
         .filter(|(_, _, signal)| rows.iter().any(|row| signal(row).is_some()))
         .collect();
     let last = shown.len().saturating_sub(1);
-    let panel = |(place, (name, unit, signal)): (usize, (&str, &str, Signal))| {
+    let panel = |(place, (name, unit, signal)): (usize, (&str, UnitOf, Signal))| {
         let largest = rows.iter().filter_map(signal).map(f64::abs);
-        let (factor, scale) = prefix(largest.fold(0.0, f64::max));
+        let (factor, unit) = unit(units, largest.fold(0.0, f64::max));
         let points: Vec<_> = rows
             .iter()
             .map(|row| Some((to_time * row.time_s, factor * signal(row)?)))
             .collect();
         let (label, height_px) = if place == last {
-            (format!("time t / {time_unit}s"), LAST_PANEL_PX)
+            (format!("time t / {time_unit}"), LAST_PANEL_PX)
         } else {
             (String::new(), PANEL_PX)
         };
         Chart::new(
             Axis::linear(label).range(0.0, to_time * end_s),
-            Axis::linear(format!("{name} / {scale}{unit}")),
+            Axis::linear(format!("{name} / {unit}")),
         )
         .series(Series::line(thinned(points)).color(place))
         .size(WIDTH_PX, height_px)
@@ -140,7 +157,7 @@ mod tests {
             contact_radius_m: 0.0,
             peak_pressure_pa: Some(0.0),
         };
-        let labels: Vec<String> = panels(&[row(0.0), row(1.0)])
+        let labels: Vec<String> = panels(&[row(0.0), row(1.0)], &Units::default())
             .into_iter()
             .map(|chart| chart.y.label)
             .collect();

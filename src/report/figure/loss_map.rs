@@ -2,9 +2,13 @@
 
 use super::curve::Curve;
 use super::drive_map::{self, Mapped};
-use super::{Drawn, Figure, prefix};
+use super::units::Units;
+use super::{Drawn, Figure};
+use crate::quantity::Dimension;
 use crate::report::ReportError;
-use crate::sweep::plan::{DriveAxis, SweepPlan, Varied};
+use crate::report::caption::{self, Caption};
+use crate::report::page::number::with_error;
+use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::run::Outcome;
 
@@ -17,22 +21,20 @@ pub fn figure(
     outcome: &Outcome,
     axis: &DriveAxis,
     curves: &[Curve<'_>],
+    units: &Units,
 ) -> Result<Drawn, ReportError> {
     let losses = outcome.records.iter().filter_map(|r| r.energy_loss_j());
-    let (factor, unit) = prefix(losses.fold(0.0, f64::max));
+    let (factor, unit) = units.energy(losses.fold(0.0, f64::max));
     let rings = outcome.peaks.iter().filter_map(|peak| {
-        let value = match axis.varied {
-            Varied::Amplitude => peak.drive_amplitude?,
-            Varied::Mean => peak.drive_mean?,
-        };
+        let value = axis.varied.of_peak(peak)?;
         Some((peak.angular_frequency_rad_per_s, value))
     });
     let mapped = Mapped {
         value: &|record| Some(factor * record.energy_loss_j()?),
-        label: format!("energy loss per cycle / {unit}J"),
+        label: format!("energy loss per cycle / {unit}"),
         rings: rings.collect(),
     };
-    let Some(map) = drive_map::map(plan, axis, curves, mapped) else {
+    let Some(map) = drive_map::map(plan, axis, (curves, units), mapped) else {
         return Ok(Drawn::left_out(
             "no loss map: it takes two frequencies and two drives with results",
         ));
@@ -48,6 +50,25 @@ pub fn figure(
     Ok(Drawn::Figure(Figure {
         name: "loss-map",
         picture: map.into(),
+        caption: caption(outcome, axis),
         data,
     }))
+}
+
+fn caption(outcome: &Outcome, axis: &DriveAxis) -> Caption {
+    let varied = axis.varied.name();
+    let title = format!("Energy loss per cycle over angular frequency ω and {varied} of the drive");
+    let losses = outcome.records.iter().filter_map(|record| {
+        let loss_j = record.energy_loss_j()?;
+        Some((loss_j, record.energy_loss_error_j()))
+    });
+    let largest = losses
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(loss_j, error_j)| {
+            let loss = with_error(loss_j, error_j, Dimension::Energy);
+            format!("Largest computed loss: {loss}.")
+        });
+    Caption::new(title)
+        .say("Dots: computed cases, coloured linearly between; lines: the values labelled at the colour bar; rings: peaks over frequency.")
+        .say_all(largest.into_iter().chain(caption::absent(outcome)))
 }

@@ -4,6 +4,7 @@ use num_complex::Complex;
 
 use super::Figure;
 use super::equivalent::{self, Equivalent};
+use super::units::Units;
 use crate::report::ReportError;
 use crate::report::chart::{Axis, Chart, Series};
 
@@ -11,13 +12,14 @@ use crate::report::chart::{Axis, Chart, Series};
 ///
 /// # Errors
 /// Where the table behind it cannot be made.
-pub fn figure(equivalent: &Equivalent<'_>) -> Result<Figure, ReportError> {
+pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, ReportError> {
+    let to_omega = units.frequency().0;
     let own = equivalent.own.iter();
-    let own = own.map(|(omega, modulus)| (*omega, tangent(*modulus)));
+    let own = own.map(|(omega, modulus)| (to_omega * omega, tangent(*modulus)));
     let loops = equivalent.loops.iter();
-    let loops = loops.map(|at| (at.omega(), at.loss_pa / at.storage_pa));
+    let loops = loops.map(|at| (to_omega * at.omega(), at.loss_pa / at.storage_pa));
     let mut chart = Chart::new(
-        Axis::log("angular frequency ω / rad·s⁻¹"),
+        Axis::log(units.frequency_title()),
         Axis::linear("loss tangent tan δ = E″/E′"),
     )
     .series(Series::line(own).label("material"))
@@ -26,6 +28,7 @@ pub fn figure(equivalent: &Equivalent<'_>) -> Result<Figure, ReportError> {
     Ok(Figure {
         name: "loss-tangent",
         picture: chart.into(),
+        caption: equivalent.caption("Loss tangent E″/E′ over angular frequency ω"),
         data: equivalent::pairs(
             "loss-tangent.csv",
             equivalent,

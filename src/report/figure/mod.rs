@@ -1,4 +1,4 @@
-//! Figures, one file each: a chart and the data behind it. Every figure is written as SVG and as PNG in two resolutions.
+//! Figures, one file each: a chart, its caption and the data behind it. [`press`] writes them in the forms asked for.
 
 pub mod cole_cole;
 pub mod comparison;
@@ -18,25 +18,27 @@ pub mod loss_tangent;
 pub mod moduli;
 pub mod moduli_error;
 pub mod of_sweep;
+pub mod press;
 pub mod pressure_map;
 pub mod profiles;
 pub mod relaxation;
+pub mod units;
 pub mod van_gurp_palmen;
 
-use rayon::prelude::*;
-
-use super::ReportError;
+use super::caption::Caption;
 use super::chart::{self, Chart, ChartError, HeatMap};
-use crate::sweep::store::StoreError;
 
-/// A picture, the name of its files, and its data as CSV.
+/// A picture, the name of its files, what is to be said of it, and its data as CSV.
 pub struct Figure {
     pub name: &'static str,
     pub picture: Picture,
+    pub caption: Caption,
+    /// Empty where another file holds them.
     pub data: Vec<u8>,
 }
 
 /// What a figure shows.
+#[derive(Clone)]
 pub enum Picture {
     Chart(Box<Chart>),
     /// Charts one above another.
@@ -76,47 +78,6 @@ impl Drawn {
     fn left_out(why: &str) -> Self {
         Self::LeftOut(why.to_owned())
     }
-}
-
-/// Writes one file: its name, its bytes.
-pub type WriteFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 'a;
-
-/// Resolutions of the PNG: suffix of the name and scale.
-const RESOLUTIONS: [(&str, f32); 2] = [("", 1.0), ("@2x", 2.0)];
-
-/// Renders all figures in parallel and hands every file to `write`.
-///
-/// # Errors
-/// [`ReportError`] naming the figure.
-pub fn write_all(figures: &[Figure], write: &WriteFile<'_>) -> Result<(), ReportError> {
-    figures.par_iter().try_for_each(|figure| {
-        let name = figure.name;
-        let failed = |source| ReportError::Chart { name, source };
-        write(&format!("{name}.csv"), &figure.data)?;
-        let svg = figure.picture.to_svg().map_err(failed)?;
-        write_picture(name, name, &svg, write)
-    })
-}
-
-/// Writes a finished picture as SVG and, in both resolutions, as PNG. `file` is the name without its ending, `figure` what
-/// errors call it.
-///
-/// # Errors
-/// [`ReportError`] naming the figure.
-pub fn write_picture(
-    file: &str,
-    figure: &'static str,
-    svg: &str,
-    write: &WriteFile<'_>,
-) -> Result<(), ReportError> {
-    write(&format!("{file}.svg"), svg.as_bytes())?;
-    RESOLUTIONS.par_iter().try_for_each(|&(suffix, scale)| {
-        let png = chart::to_png(svg, scale).map_err(|source| ReportError::Chart {
-            name: figure,
-            source,
-        })?;
-        Ok(write(&format!("{file}{suffix}.png"), &png)?)
-    })
 }
 
 /// The power of ten and its prefix in which values up to `largest` read well: (factor to multiply by, prefix).

@@ -1,9 +1,13 @@
 //! Storage modulus and loss modulus over angular frequency: of a material, and beside it what the loops of a sweep give.
 
 use super::equivalent::{self, Equivalent, LoopModulus};
-use super::{Figure, prefix};
+use super::units::Units;
+use super::{Figure, scientific};
+use crate::quantity::Dimension;
 use crate::report::ReportError;
+use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
+use crate::report::page::number::plain;
 use crate::report::table::Table;
 use crate::sweep::error_bars::Quantity;
 use crate::sweep::plan::SweepPlan;
@@ -28,7 +32,7 @@ pub fn figure(points: &[ModulusPoint], symbol: char) -> Result<Figure, ReportErr
         let (storage, loss) = (p.storage_modulus_pa, p.loss_modulus_pa);
         (p.angular_frequency_rad_per_s, storage, loss)
     });
-    let (chart, _) = of_material(lines, symbol);
+    let (chart, _) = of_material(lines, symbol, &Units::default());
     let columns = [
         "angular_frequency_rad_per_s",
         "storage_modulus_pa",
@@ -51,7 +55,28 @@ pub fn figure(points: &[ModulusPoint], symbol: char) -> Result<Figure, ReportErr
     Ok(Figure {
         name: "moduli",
         picture: chart.into(),
+        caption: Caption::new(format!(
+            "Storage modulus {symbol}′ and loss modulus {symbol}″ over angular frequency ω"
+        ))
+        .say_all(largest_tangent(points)),
         data: table.finish()?,
+    })
+}
+
+/// Where the material dissipates most of what it stores.
+fn largest_tangent(points: &[ModulusPoint]) -> Option<String> {
+    let tangent = |p: &ModulusPoint| p.loss_modulus_pa / p.storage_modulus_pa;
+    let largest = points
+        .iter()
+        .max_by(|a, b| tangent(a).total_cmp(&tangent(b)))?;
+    let omega = plain(
+        largest.angular_frequency_rad_per_s,
+        Dimension::AngularFrequency,
+        3,
+    );
+    (tangent(largest) > 0.0).then(|| {
+        let tangent = scientific(tangent(largest), 4);
+        format!("Largest loss tangent of the points drawn: {tangent} at ω = {omega}.")
     })
 }
 
@@ -63,15 +88,20 @@ pub fn with_loops(
     equivalent: &Equivalent<'_>,
     plan: &SweepPlan,
     outcome: &Outcome,
+    units: &Units,
 ) -> Result<Figure, ReportError> {
     let own = equivalent.own.iter();
-    let (mut chart, factor) =
-        of_material(own.map(|(w, modulus)| (*w, modulus.re, modulus.im)), 'E');
+    let (mut chart, factor) = of_material(
+        own.map(|(w, modulus)| (*w, modulus.re, modulus.im)),
+        'E',
+        units,
+    );
+    let to_omega = units.frequency().0;
     chart.title.clone_from(&equivalent.title);
     let symbols = |quantity: Quantity, value: fn(&LoopModulus<'_>) -> f64| {
         let points = equivalent.loops.iter().map(|at| {
             let scaled = factor * value(at);
-            (scaled > 0.0).then_some((at.omega(), scaled))
+            (scaled > 0.0).then_some((to_omega * at.omega(), scaled))
         });
         let errors = equivalent.loops.iter();
         let errors = errors.map(|at| Some(factor * at.error_pa(quantity)?));
@@ -88,6 +118,9 @@ pub fn with_loops(
     Ok(Figure {
         name: "moduli",
         picture: chart.into(),
+        caption: equivalent
+            .caption("Storage modulus E′ and loss modulus E″ over angular frequency ω")
+            .say_all(caption::error_bars(plan, outcome)),
         data: equivalent::table("moduli.csv", plan, outcome)?,
     })
 }
@@ -96,20 +129,22 @@ pub fn with_loops(
 fn of_material(
     points: impl Iterator<Item = (f64, f64, f64)> + Clone,
     symbol: char,
+    units: &Units,
 ) -> (Chart, f64) {
     let largest = points.clone().map(|(_, storage, _)| storage);
-    let (factor, unit) = prefix(largest.fold(0.0, f64::max));
+    let (factor, unit) = units.modulus(largest.fold(0.0, f64::max));
+    let to_omega = units.frequency().0;
     // A modulus of exactly zero has no place on a log axis.
     let line = |value: fn((f64, f64, f64)) -> f64| {
         let scaled = points.clone().map(move |p| {
             let value = factor * value(p);
-            (value > 0.0).then_some((p.0, value))
+            (value > 0.0).then_some((to_omega * p.0, value))
         });
         Series::line(scaled)
     };
     let chart = Chart::new(
-        Axis::log("angular frequency ω / rad·s⁻¹"),
-        Axis::log(format!("modulus / {unit}Pa")),
+        Axis::log(units.frequency_title()),
+        Axis::log(format!("modulus / {unit}")),
     )
     .series(line(|p| p.1).label(format!("storage modulus {symbol}′")))
     .series(

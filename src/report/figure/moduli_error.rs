@@ -1,10 +1,12 @@
 //! What the indentation formula gets wrong: the relative difference of the equivalent moduli from the material's own, over the
 //! amplitude or the mean of the drive.
 
-use super::curve::{Curve, drive_unit, evenly, omega_label};
+use super::curve::{Curve, evenly};
 use super::equivalent::{self, LoopModulus, of_loops};
-use super::{Drawn, Figure, Picture, prefix};
+use super::units::Units;
+use super::{Drawn, Figure, Picture, scientific};
 use crate::report::ReportError;
+use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Marker, Series};
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::run::Outcome;
@@ -26,6 +28,7 @@ pub fn figure(
     outcome: &Outcome,
     axis: &DriveAxis,
     curves: &[Curve<'_>],
+    units: &Units,
 ) -> Result<Drawn, ReportError> {
     let rows = rows(plan, axis, curves);
     let loops = rows.iter().flat_map(|(_, row)| row);
@@ -34,15 +37,15 @@ pub fn figure(
             "no figure of the error of the moduli: too few loops have moduli",
         ));
     }
-    let unit = drive_unit(plan.drive.control());
+    let control = plan.drive.control();
     let values = || curves.iter().map(|curve| axis.varied.value(&curve.drive));
-    let (factor, prefix) = prefix(values().fold(0.0, |a, v| a.max(v.abs())));
+    let (factor, unit) = units.drive(control, values().fold(0.0, |a, v| a.max(v.abs())));
     let (least, largest) = (
         values().fold(f64::INFINITY, f64::min),
         values().fold(0.0, f64::max),
     );
-    let name = format!("{} {}", plan.drive.control().name(), axis.varied.name());
-    let label = format!("{name} / {prefix}{unit}");
+    let name = format!("{} {}", control.name(), axis.varied.name());
+    let label = format!("{name} / {unit}");
     let x_axis = |label: String| match least > 0.0 && largest > WIDE * least {
         true => Axis::log(label),
         false => Axis::linear(label),
@@ -57,7 +60,7 @@ pub fn figure(
             Series::line(points)
                 .marker(Marker::nth(step))
                 .color(Color::Ramp { step, of })
-                .label(omega_label(*omega))
+                .label(units.omega(*omega))
         });
         series.collect::<Vec<_>>()
     };
@@ -75,8 +78,28 @@ pub fn figure(
     Ok(Drawn::Figure(Figure {
         name: "moduli-error",
         picture: Picture::Stack(vec![storage, loss]),
+        caption: caption(axis, &rows),
         data: equivalent::table("moduli-error.csv", plan, outcome)?,
     }))
+}
+
+fn caption(axis: &DriveAxis, rows: &[(f64, Row<'_>)]) -> Caption {
+    let varied = axis.varied.name();
+    let loops = || {
+        rows.iter()
+            .flat_map(|(_, row)| row)
+            .filter_map(|(_, at)| at.as_ref())
+    };
+    let largest = |values: &mut dyn Iterator<Item = f64>| {
+        scientific(100.0 * values.fold(0.0_f64, |a, v| a.max(v.abs())), 3)
+    };
+    let storage = largest(&mut loops().map(LoopModulus::storage_difference));
+    let loss = largest(&mut loops().filter_map(LoopModulus::loss_difference));
+    Caption::new(format!(
+        "Relative difference of the moduli that indentation reads from the hysteresis loops from those of the material, storage \
+         modulus E′ above and loss modulus E″ below, over the {varied} of the drive"
+    ))
+    .say(format!("Largest: {storage} % in E′, {loss} % in E″."))
 }
 
 /// Some of the planned frequencies, each over the drives.

@@ -2,6 +2,7 @@
 
 use super::curve::{curves, largest};
 use super::equivalent::Equivalent;
+use super::units::Units;
 use super::{
     Drawn, Figure, cole_cole, dissipation, dissipation_map, dissipation_profile, energy_loss,
     harmonic_map, loops, loss_map, loss_tangent, moduli, moduli_error, van_gurp_palmen,
@@ -18,25 +19,27 @@ pub fn figures(
     plan: &SweepPlan,
     outcome: &Outcome,
 ) -> Result<(Vec<Figure>, Vec<String>), ReportError> {
-    let curves = curves(plan, outcome);
+    let units = &Units::of_sweep(plan)?;
+    let asked = &plan.figures.loops_rad_per_s;
+    let curves = curves(plan, outcome, units);
     let Some(curve) = largest(&curves).filter(|curve| !curve.results().is_empty()) else {
         let why = "no figures: no case converged, so there is nothing to draw";
         return Ok((Vec::new(), vec![why.to_owned()]));
     };
     let mut drawn = vec![
-        Drawn::Figure(energy_loss::figure(plan, outcome)?),
-        Drawn::Figure(loops::figure(curve)?),
-        dissipation::figure(curve)?,
-        dissipation_profile::figure(curve)?,
-        dissipation_map::figure(curve)?,
+        Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)?),
+        Drawn::Figure(loops::figure(curve, asked, units)?),
+        dissipation::figure(curve, units)?,
+        dissipation_profile::figure(curve, asked, units)?,
+        dissipation_map::figure(curve, units)?,
     ];
     match Equivalent::of(&plan.material, curve) {
         Some(equivalent) => drawn.extend(
             [
-                moduli::with_loops(&equivalent, plan, outcome)?,
-                cole_cole::figure(&equivalent)?,
-                van_gurp_palmen::figure(&equivalent)?,
-                loss_tangent::figure(&equivalent)?,
+                moduli::with_loops(&equivalent, plan, outcome, units)?,
+                cole_cole::figure(&equivalent, units)?,
+                van_gurp_palmen::figure(&equivalent, units)?,
+                loss_tangent::figure(&equivalent, units)?,
             ]
             .map(Drawn::Figure),
         ),
@@ -46,9 +49,9 @@ pub fn figures(
     }
     if let Some(axis) = &plan.axis {
         drawn.extend([
-            loss_map::figure(plan, outcome, axis, &curves)?,
-            harmonic_map::figure(plan, axis, &curves)?,
-            moduli_error::figure(plan, outcome, axis, &curves)?,
+            loss_map::figure(plan, outcome, axis, &curves, units)?,
+            harmonic_map::figure(plan, axis, &curves, units)?,
+            moduli_error::figure(plan, outcome, axis, &curves, units)?,
         ]);
     }
     let (mut figures, mut left_out) = (Vec::new(), Vec::new());

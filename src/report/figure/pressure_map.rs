@@ -1,9 +1,14 @@
 //! The contact pressure over the surface as a heat map, blank outside the contact.
 
-use super::{WriteFile, prefix, scientific, write_picture};
+use super::press::Press;
+use super::scientific;
+use super::units::Units;
 use crate::contact::surface::{CellSurface, Surface};
+use crate::quantity::Dimension;
 use crate::report::ReportError;
-use crate::report::chart::{HeatMap, MapShape, Scale, heat_map_to_svg};
+use crate::report::caption::{Caption, Setting};
+use crate::report::chart::{HeatMap, MapShape, Scale};
+use crate::report::page::number::plain;
 use crate::sweep::simulate::SurfaceRecord;
 
 const NAME: &str = "pressure-map";
@@ -17,7 +22,8 @@ const WIDTH_PX: u32 = 800;
 /// [`ReportError`] naming the figure.
 pub fn write(
     records: &[SurfaceRecord],
-    write: &WriteFile<'_>,
+    press: &Press<'_>,
+    (units, setting): (&Units, &Setting),
 ) -> Result<Option<String>, ReportError> {
     let fields: Vec<(usize, f64, &CellSurface)> = records
         .iter()
@@ -40,40 +46,54 @@ pub fn write(
             "no pressure map: at no time asked for is there a contact".to_owned(),
         ));
     }
-    write_map(NAME, time_s, cells, peak, write)?;
+    let write_map = |file: &str, time_s: f64, cells: &CellSurface| {
+        let picture = map(time_s, cells, peak, units).into();
+        press.picture(file, NAME, &picture, &caption(time_s, cells).text(setting))
+    };
+    write_map(NAME, time_s, cells)?;
     for &(k, time_s, cells) in &fields {
         if fields.len() > 1 && largest(cells) > 0.0 {
-            write_map(&format!("fields/{k}-{NAME}"), time_s, cells, peak, write)?;
+            write_map(&file(k), time_s, cells)?;
         }
     }
     Ok(None)
 }
 
-fn write_map(
-    file: &str,
-    time_s: f64,
-    cells: &CellSurface,
-    peak_pa: f64,
-    write: &WriteFile<'_>,
-) -> Result<(), ReportError> {
-    let svg = heat_map_to_svg(&map(time_s, cells, peak_pa))
-        .map_err(|source| ReportError::Chart { name: NAME, source })?;
-    write_picture(file, NAME, &svg, write)
+/// The map of the field `k`, without its ending.
+pub fn file(k: usize) -> String {
+    format!("fields/{k}-{NAME}")
 }
 
-fn map(time_s: f64, cells: &CellSurface, peak_pa: f64) -> HeatMap {
+fn caption(time_s: f64, cells: &CellSurface) -> Caption {
+    let largest = cells.pressure_pa.iter().copied().fold(0.0, f64::max);
+    Caption::new(format!(
+        "Contact pressure p over the surface at t = {} s, blank outside the contact",
+        scientific(time_s, 4)
+    ))
+    .say(format!(
+        "Largest: {}.",
+        plain(largest, Dimension::Stress, 4)
+    ))
+}
+
+fn map(time_s: f64, cells: &CellSurface, peak_pa: f64, units: &Units) -> HeatMap {
     let grid = &cells.grid;
     let half = (
         0.5 * grid.cells_x() as f64 * grid.spacing_x_m(),
         0.5 * grid.cells_y() as f64 * grid.spacing_y_m(),
     );
-    let (to_length, length) = prefix(half.0.max(half.1));
-    let (to_pressure, pressure) = prefix(peak_pa);
+    let (to_length, length) = units.length(half.0.max(half.1));
+    let (to_pressure, pressure) = units.pressure(peak_pa);
+    // From a second on, so that times stay in seconds.
+    let (to_time, time_unit) = units.time(1.0);
     let value = |p: &f64| (*p > 0.0).then_some(to_pressure * p);
     HeatMap {
-        title: Some(format!("t = {} s", scientific(time_s, 4))),
-        x_label: format!("x / {length}m"),
-        y_label: format!("y / {length}m"),
+        title: Some(format!(
+            "t = {} {time_unit}",
+            scientific(to_time * time_s, 4)
+        )),
+        x_label: format!("x / {length}"),
+        y_label: format!("y / {length}"),
         x_range: (-to_length * half.0, to_length * half.0),
         y_range: (-to_length * half.1, to_length * half.1),
         x_scale: Scale::Linear,
@@ -81,7 +101,7 @@ fn map(time_s: f64, cells: &CellSurface, peak_pa: f64) -> HeatMap {
         columns: grid.cells_x(),
         rows: grid.cells_y(),
         values: cells.pressure_pa.iter().map(value).collect(),
-        value_label: format!("pressure p / {pressure}Pa"),
+        value_label: format!("pressure p / {pressure}"),
         value_range: Some((0.0, to_pressure * peak_pa)),
         value_scale: Scale::Linear,
         contours: false,

@@ -1,8 +1,12 @@
 //! Pressure and surface displacement along a radius, or along x through the centre, at the times asked for.
 
-use super::{WriteFile, prefix, scientific, write_picture};
+use super::units::Units;
+use super::{Figure, Picture, scientific};
+use crate::quantity::Dimension;
 use crate::report::ReportError;
-use crate::report::chart::{self, Axis, Chart, Color, LegendPlace, Series};
+use crate::report::caption::{Caption, listed};
+use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
+use crate::report::page::number::plain;
 use crate::report::scenario::{ProfilePoint, lines};
 use crate::report::table::{Table, number, optional};
 use crate::sweep::simulate::SurfaceRecord;
@@ -17,29 +21,55 @@ const LOWER_PX: u32 = 380;
 /// A profile to be drawn: its time (s) and its points.
 type Curve = (f64, Vec<ProfilePoint>);
 
-/// Writes the figure and its data. Returns why where there is nothing to draw, nothing where nothing was asked for.
+/// The figure, where any profile was asked for, and what is not drawn of them.
 ///
 /// # Errors
-/// [`ReportError`] naming the figure.
-pub fn write(
+/// Where the table behind it cannot be made.
+pub fn figure(
     records: &[SurfaceRecord],
-    write: &WriteFile<'_>,
-) -> Result<Option<String>, ReportError> {
+    units: &Units,
+) -> Result<(Option<Figure>, Option<String>), ReportError> {
     let Some((line, _)) = records.first().and_then(|r| lines(r).into_iter().next()) else {
-        return Ok(None);
+        return Ok((None, None));
     };
     let curves = chosen(records);
-    write("profiles.csv", &data(&curves)?)?;
-    let svg = chart::stack_to_svg(&panels(line, &curves))
-        .map_err(|source| ReportError::Chart { name: NAME, source })?;
-    write_picture(NAME, NAME, &svg, write)?;
+    let figure = Figure {
+        name: NAME,
+        picture: Picture::Stack(panels(line, &curves, units).into()),
+        caption: caption(line, &curves),
+        data: data(&curves)?,
+    };
     let left_out = records.len() - curves.len();
-    Ok((left_out > 0).then(|| {
+    let told = (left_out > 0).then(|| {
         format!(
             "figure of the profiles: {CURVES} of {} drawn, all are in profiles/",
             records.len()
         )
-    }))
+    });
+    Ok((Some(figure), told))
+}
+
+fn caption(line: &str, curves: &[Curve]) -> Caption {
+    let digits = telling_digits(curves);
+    let times = curves
+        .iter()
+        .map(|(time_s, _)| format!("{} s", scientific(*time_s, digits)));
+    let pressures = curves.iter().flat_map(|(_, points)| points);
+    let pressures = pressures.filter_map(|point| point.pressure_pa);
+    let largest = plain(pressures.fold(0.0, f64::max), Dimension::Stress, 4);
+    let along = if line == "r" {
+        "the radius r"
+    } else {
+        "x through the centre"
+    };
+    Caption::new(format!(
+        "Contact pressure p (above) and surface displacement u (below) over {along}"
+    ))
+    .say(format!(
+        "Curves: t = {}.",
+        listed(&times.collect::<Vec<_>>())
+    ))
+    .say(format!("Largest pressure drawn: {largest}."))
 }
 
 /// At most [`CURVES`] profiles in the order of their times, evenly spread, both ends among them.
@@ -64,14 +94,16 @@ fn chosen(records: &[SurfaceRecord]) -> Vec<Curve> {
         .collect()
 }
 
-fn panels(line: &str, curves: &[Curve]) -> [Chart; 2] {
+fn panels(line: &str, curves: &[Curve], units: &Units) -> [Chart; 2] {
     let all = || curves.iter().flat_map(|(_, points)| points);
-    let (to_length, length) = prefix(all().map(|p| p.position_m).fold(0.0, f64::max));
+    let (to_length, length) = units.length(all().map(|p| p.position_m).fold(0.0, f64::max));
     let pressures = all().filter_map(|p| p.pressure_pa);
-    let (to_pressure, pressure) = prefix(pressures.fold(0.0, f64::max));
+    let (to_pressure, pressure) = units.pressure(pressures.fold(0.0, f64::max));
     let displacements = all().map(|p| p.displacement_m);
-    let (to_displacement, displacement) = prefix(displacements.fold(0.0, f64::max));
+    let (to_displacement, displacement) = units.approach(displacements.fold(0.0, f64::max));
     let digits = telling_digits(curves);
+    // From a second on, so that times stay in seconds.
+    let (to_time, time_unit) = units.time(1.0);
     let family = |value: &dyn Fn(&ProfilePoint) -> Option<f64>, labelled: bool| {
         let curve = |(step, (time_s, points)): (usize, &Curve)| {
             let series = Series::line(
@@ -84,7 +116,8 @@ fn panels(line: &str, curves: &[Curve]) -> [Chart; 2] {
                 of: curves.len(),
             });
             if labelled {
-                series.label(format!("t = {} s", scientific(*time_s, digits)))
+                let time = scientific(to_time * time_s, digits);
+                series.label(format!("t = {time} {time_unit}"))
             } else {
                 series
             }
@@ -102,14 +135,14 @@ fn panels(line: &str, curves: &[Curve]) -> [Chart; 2] {
     };
     let upper = Chart::new(
         axis(String::new()),
-        Axis::linear(format!("pressure p / {pressure}Pa")),
+        Axis::linear(format!("pressure p / {pressure}")),
     )
     .all_series(family(&|p| p.pressure_pa.map(|v| to_pressure * v), true))
     .legend(LegendPlace::Auto)
     .size(WIDTH_PX, UPPER_PX);
     let lower = Chart::new(
-        axis(format!("{position} / {length}m")),
-        Axis::linear(format!("displacement u / {displacement}m")),
+        axis(format!("{position} / {length}")),
+        Axis::linear(format!("displacement u / {displacement}")),
     )
     .all_series(family(&|p| Some(to_displacement * p.displacement_m), false))
     .size(WIDTH_PX, LOWER_PX);

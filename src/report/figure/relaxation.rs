@@ -1,8 +1,11 @@
 //! Relaxation modulus against time, as figure 1 of S. Spinu, Advances in Tribology 2018, 9432894, shows it for PMMA.
 
 use super::{Figure, prefix};
+use crate::quantity::Dimension;
 use crate::report::ReportError;
+use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Series};
+use crate::report::page::number::plain;
 use crate::report::table::Table;
 
 /// The figure, from (time in s, relaxation modulus in Pa, creep compliance in 1/Pa).
@@ -25,6 +28,19 @@ pub fn figure(points: &[(f64, f64, f64)], symbol: char) -> Result<Figure, Report
     Ok(Figure {
         name: "relaxation",
         picture: chart.into(),
+        caption: caption(points, symbol),
         data: table.finish()?,
     })
+}
+
+fn caption(points: &[(f64, f64, f64)], symbol: char) -> Caption {
+    let ends = points.first().zip(points.last()).map(|(first, last)| {
+        format!(
+            "It falls from {} to {} within {}.",
+            plain(first.1, Dimension::Stress, 4),
+            plain(last.1, Dimension::Stress, 4),
+            plain(last.0, Dimension::Time, 4)
+        )
+    });
+    Caption::new(format!("Relaxation modulus {symbol}(t) against time t")).say_all(ends)
 }

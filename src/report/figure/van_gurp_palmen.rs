@@ -3,8 +3,9 @@
 
 use num_complex::Complex;
 
+use super::Figure;
 use super::equivalent::{self, Equivalent};
-use super::{Figure, prefix};
+use super::units::Units;
 use crate::report::ReportError;
 use crate::report::chart::{Axis, Chart, Series};
 
@@ -15,7 +16,7 @@ const WIDE: f64 = 5.0;
 ///
 /// # Errors
 /// Where the table behind it cannot be made.
-pub fn figure(equivalent: &Equivalent<'_>) -> Result<Figure, ReportError> {
+pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, ReportError> {
     let loops = || {
         let loops = equivalent.loops.iter();
         loops.map(|at| Complex::new(at.storage_pa, at.loss_pa))
@@ -26,12 +27,12 @@ pub fn figure(equivalent: &Equivalent<'_>) -> Result<Figure, ReportError> {
         norms().fold(f64::INFINITY, f64::min),
         norms().fold(0.0, f64::max),
     );
-    let (factor, unit) = prefix(largest);
+    let (factor, unit) = units.modulus(largest);
     let point = |modulus: Complex<f64>| {
         let [norm, angle_deg] = polar(modulus);
         (norm > 0.0).then_some((factor * norm, angle_deg))
     };
-    let label = format!("magnitude of the complex modulus |E*| / {unit}Pa");
+    let label = format!("magnitude of the complex modulus |E*| / {unit}");
     let x = if largest > WIDE * least && least > 0.0 {
         Axis::log(label)
     } else {
@@ -48,6 +49,9 @@ pub fn figure(equivalent: &Equivalent<'_>) -> Result<Figure, ReportError> {
     Ok(Figure {
         name: "van-gurp-palmen",
         picture: chart.into(),
+        caption: equivalent.caption(
+            "Phase angle δ over magnitude of the complex modulus |E*| (van Gurp–Palmen diagram)",
+        ),
         data: equivalent::pairs(
             "van-gurp-palmen.csv",
             equivalent,

@@ -99,7 +99,7 @@ pub(super) fn nodes_name(engine: EngineKind) -> &'static str {
 }
 
 /// Smallest and largest of some values; `decimals` 0 prints whole numbers, others that many significant digits.
-fn range(values: impl Iterator<Item = f64>, digits: usize) -> String {
+pub(in crate::report) fn range(values: impl Iterator<Item = f64>, digits: usize) -> String {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
         (a.min(v), b.max(v))
     });

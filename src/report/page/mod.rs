@@ -4,11 +4,11 @@
 mod answer;
 mod cases_table;
 mod compact;
-mod how;
+pub(super) mod how;
 mod html;
 pub mod material;
-mod number;
-mod question;
+pub(super) mod number;
+pub(super) mod question;
 mod simulation;
 mod sweep_data;
 

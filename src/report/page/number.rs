@@ -5,7 +5,11 @@ use crate::report::figure::scientific;
 
 /// Value and error, both in one unit: `3.50901 ± 0.00027 µJ`, `(8.4401 ± 0.0021) × 10⁻³ rad/s`. The error has two digits, the
 /// value as many decimals.
-pub(super) fn with_error(value: f64, error: Option<f64>, dimension: Dimension) -> String {
+pub(in crate::report) fn with_error(
+    value: f64,
+    error: Option<f64>,
+    dimension: Dimension,
+) -> String {
     let error = error.filter(|e| *e > 0.0 && e.is_finite() && *e < value.abs());
     let (Some(error), true) = (error, value.is_finite()) else {
         return format_human(value, dimension, 5);
@@ -31,7 +35,7 @@ pub(super) fn with_error(value: f64, error: Option<f64>, dimension: Dimension) -
 }
 
 /// A number as a person would write it: `10 N`, `10⁻⁴ rad/s`. At most `significant` digits.
-pub(super) fn plain(value: f64, dimension: Dimension, significant: usize) -> String {
+pub(in crate::report) fn plain(value: f64, dimension: Dimension, significant: usize) -> String {
     let human = format_human(value, dimension, significant);
     let (number, unit) = human.split_once(' ').unwrap_or((&human, ""));
     let number: f64 = number.parse().unwrap_or(value);

@@ -69,7 +69,8 @@ pub(super) fn line(plan: &SweepPlan) -> String {
     )
 }
 
-fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
+/// What is prescribed, with the range of what a second axis varies: `load 10 N ± 0.1 N to 10 N`.
+pub(in crate::report) fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
     let dimension = drive_dimension(drive.control());
     let value = |value| plain(value, dimension, 4);
     let varied = plan.axis.as_ref().map(|axis| axis.varied);
@@ -178,7 +179,8 @@ fn named(key: &str) -> String {
     key.replace('_', " ")
 }
 
-fn row(table: &[Parameter]) -> String {
+/// Settings in one line: `radius 10 mm, height 1 µm`.
+pub(in crate::report) fn row(table: &[Parameter]) -> String {
     let entries: Vec<String> = table
         .iter()
         .map(|p| format!("{} {}", named(p.key), text(&p.value)))

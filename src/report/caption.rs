@@ -1,0 +1,240 @@
+//! Captions: what a figure shows, of what, with which numbers, and how it was computed, as one paragraph to paste into a paper.
+
+use super::page::number::plain;
+use super::page::{how, question};
+use crate::indenter::{Indenter, Value};
+use crate::material::Material;
+use crate::quantity::Dimension;
+use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::run::Outcome;
+use crate::sweep::scenario::ScenarioPlan;
+use crate::sweep::simulate::SimulationOutcome;
+
+/// What a figure itself has to say.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Caption {
+    /// What is drawn, without a full stop.
+    shows: String,
+    /// Whole sentences: numbers, symbols, error bars.
+    says: Vec<String>,
+}
+
+impl Caption {
+    /// What is drawn, without a full stop.
+    pub fn new(shows: impl Into<String>) -> Self {
+        Self {
+            shows: shows.into(),
+            says: Vec::new(),
+        }
+    }
+
+    /// Adds a sentence.
+    #[must_use]
+    pub fn say(mut self, sentence: impl Into<String>) -> Self {
+        self.says.push(sentence.into());
+        self
+    }
+
+    /// Adds sentences; an `Option` serves as well.
+    #[must_use]
+    pub fn say_all(mut self, sentences: impl IntoIterator<Item = String>) -> Self {
+        self.says.extend(sentences);
+        self
+    }
+
+    /// The paragraph, in one line.
+    pub fn text(&self, setting: &Setting) -> String {
+        let Setting { of, by } = setting;
+        let opening = match of.is_empty() {
+            true => format!("{}.", self.shows),
+            false => format!("{}: {of}.", self.shows),
+        };
+        let rest = self.says.iter().chain(by);
+        std::iter::once(&opening)
+            .chain(rest)
+            .map(String::as_str)
+            .collect::<Vec<_>>()
+            .join(" ")
+    }
+}
+
+/// What all figures of a result have in common.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Setting {
+    /// Material, indenter, drive.
+    of: String,
+    /// Sentences on engine, resolution, and units that are not SI.
+    by: Vec<String>,
+}
+
+impl Setting {
+    /// The setting of a sweep.
+    pub fn of_sweep(plan: &SweepPlan, outcome: &Outcome, units: Option<String>) -> Self {
+        let rest = match plan.drive.hold_s() {
+            hold_s if hold_s > 0.0 => {
+                format!(
+                    ", after {} of rest under the mean",
+                    plain(hold_s, Dimension::Time, 4)
+                )
+            }
+            _ => String::new(),
+        };
+        let of = format!(
+            "{} on {}, {} (mean ± amplitude){rest}",
+            indenter(plan.indenter.as_ref()),
+            material(&plan.material),
+            question::drive_line(&plan.drive, plan)
+        );
+        let records = &outcome.records;
+        let steps = how::range(records.iter().map(|record| record.steps as f64), 0);
+        let nodes = how::range(records.iter().map(|record| record.nodes as f64), 0);
+        let computed = format!(
+            "Stabilised cycles to a relative tolerance of {:e}, {steps} time steps per cycle, computed by {}.",
+            plan.cycle.tolerance,
+            engine(&plan.solver, &nodes)
+        );
+        Self {
+            of,
+            by: units.into_iter().chain([computed]).collect(),
+        }
+    }
+
+    /// The setting of a history.
+    pub fn of_scenario(
+        plan: &ScenarioPlan,
+        outcome: &SimulationOutcome,
+        units: Option<String>,
+    ) -> Self {
+        let body = match plan.material.series() {
+            Some(series) => material(series),
+            None => "a material given by its samples".to_owned(),
+        };
+        let of = format!(
+            "{} on {body}, {} against time prescribed",
+            indenter(plan.indenter.as_ref()),
+            plan.drive.control().name()
+        );
+        let computed = format!(
+            "{} time steps, computed by {}.",
+            outcome.rows.len(),
+            engine(&plan.solver, &plan.solver.nodes().to_string())
+        );
+        Self {
+            of,
+            by: units.into_iter().chain([computed]).collect(),
+        }
+    }
+
+    /// The setting of a material alone.
+    pub fn of_material(of: &Material) -> Self {
+        Self {
+            of: material(of),
+            by: Vec::new(),
+        }
+    }
+}
+
+fn material(material: &Material) -> String {
+    let name = material.name().unwrap_or("a viscoelastic material");
+    format!("{name} (Poisson ratio {})", material.poisson_ratio())
+}
+
+fn indenter(indenter: &dyn Indenter) -> String {
+    let shape = indenter.shape().replace('-', " ");
+    // Where a shape comes from is told by resolved.toml.
+    let told = |value: &Value| {
+        matches!(
+            value,
+            Value::Quantity(..) | Value::Number(_) | Value::Integer(_)
+        )
+    };
+    let settings: Vec<_> = indenter
+        .parameters()
+        .into_iter()
+        .filter(|parameter| told(&parameter.value))
+        .collect();
+    match settings.is_empty() {
+        true => format!("rigid {shape}"),
+        false => format!("rigid {shape} ({})", question::row(&settings)),
+    }
+}
+
+fn engine(solver: &SolverPlan, nodes: &str) -> String {
+    match solver.engine {
+        EngineKind::Axisymmetric => {
+            format!("the axisymmetric engine of contact-dma on {nodes} springs")
+        }
+        EngineKind::HalfSpace => {
+            format!("the half-space engine of contact-dma on {nodes} cells per side")
+        }
+    }
+}
+
+/// What error bars mean; nothing where there are none.
+pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
+    let nodes = match plan.solver.engine {
+        EngineKind::Axisymmetric => "springs",
+        EngineKind::HalfSpace => "cells",
+    };
+    let records = &outcome.records;
+    let any = records
+        .iter()
+        .any(|record| record.energy_loss_error_j().is_some());
+    any.then(|| {
+        format!(
+            "Error bars: estimated numerical error, from half and a quarter of the time steps and {nodes} and from the distance \
+             to the stabilised cycle; bars shorter than their symbol are not drawn."
+        )
+    })
+}
+
+/// Cases that are absent from the curves; nothing where all are there.
+pub fn absent(outcome: &Outcome) -> Option<String> {
+    let without = outcome
+        .records
+        .iter()
+        .filter(|record| record.result.is_none());
+    let (without, of) = (without.count(), outcome.records.len());
+    (without > 0).then(|| format!("{without} of {of} cases have no result and are absent."))
+}
+
+/// Items of a list as words: `a`, `a and b`, `a, b and c`.
+pub fn listed(items: &[String]) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_caption_is_one_paragraph_of_whole_sentences() {
+        let setting = Setting {
+            of: "a sphere on PMMA".to_owned(),
+            by: vec!["Computed.".to_owned()],
+        };
+        let caption = Caption::new("Loss").say("Largest: 3 µJ.").say_all(None);
+        assert_eq!(
+            caption.text(&setting),
+            "Loss: a sphere on PMMA. Largest: 3 µJ. Computed."
+        );
+        assert_eq!(Caption::new("Loss").text(&Setting::default()), "Loss.");
+    }
+
+    #[test]
+    fn lists_read_as_words() {
+        let items = |count: usize| -> Vec<String> {
+            ["a", "b", "c"]
+                .iter()
+                .take(count)
+                .map(|item| (*item).to_owned())
+                .collect()
+        };
+        let listed: Vec<String> = (0..=3).map(|count| listed(&items(count))).collect();
+        assert_eq!(listed, ["", "a", "a and b", "a, b and c"]);
+    }
+}

@@ -1,0 +1,155 @@
+//! Pictures written as the `[figures]` table asks for: size, forms, resolution; each with its caption.
+
+use rayon::prelude::*;
+
+use super::{Figure, Picture};
+use crate::report::ReportError;
+use crate::report::caption::Setting;
+use crate::report::chart::{self, Chart, ChartError, HeatMap, MapShape};
+use crate::sweep::figure_plan::{FigurePlan, Format, PaperSize};
+use crate::sweep::files;
+use crate::sweep::store::StoreError;
+
+/// Writes one file: its name, its bytes.
+pub type WriteFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 'a;
+
+/// Resolutions of the PNG where none is asked for: suffix of the name and scale.
+const RESOLUTIONS: [(&str, f32); 2] = [("", 1.0), ("@2x", 2.0)];
+
+/// What makes files of figures.
+pub struct Press<'a> {
+    pub plan: &'a FigurePlan,
+    pub write: &'a WriteFile<'a>,
+}
+
+impl Press<'_> {
+    /// Renders all figures in parallel and writes every file: pictures, captions, data.
+    ///
+    /// # Errors
+    /// [`ReportError`] naming the figure.
+    pub fn figures(&self, figures: &[Figure], setting: &Setting) -> Result<(), ReportError> {
+        figures.par_iter().try_for_each(|figure| {
+            let name = figure.name;
+            if !figure.data.is_empty() {
+                (self.write)(&format!("{name}.csv"), &figure.data)?;
+            }
+            self.picture(name, name, &figure.picture, &figure.caption.text(setting))
+        })
+    }
+
+    /// Writes one picture and its caption. `file` is the name without its ending, `figure` what errors call it.
+    ///
+    /// # Errors
+    /// [`ReportError`] naming the figure.
+    pub fn picture(
+        &self,
+        file: &str,
+        figure: &'static str,
+        picture: &Picture,
+        caption: &str,
+    ) -> Result<(), ReportError> {
+        let failed = |source| ReportError::Chart {
+            name: figure,
+            source,
+        };
+        let svg = picture.as_asked(self.plan).map_err(failed)?;
+        let svg = chart::described(&svg, caption);
+        let name = format!("{file}{}", files::CAPTION);
+        (self.write)(&name, format!("{caption}\n").as_bytes())?;
+        for format in &self.plan.formats {
+            match (format, self.plan.resolution()) {
+                (Format::Svg, _) => (self.write)(&format!("{file}.svg"), svg.as_bytes())?,
+                (Format::Png, Some(dpi)) => {
+                    let png = chart::to_png_at(&svg, dpi).map_err(failed)?;
+                    (self.write)(&format!("{file}.png"), &png)?;
+                }
+                (Format::Png, None) => {
+                    RESOLUTIONS.par_iter().try_for_each(|&(suffix, scale)| {
+                        let png = chart::to_png(&svg, scale).map_err(failed)?;
+                        Ok::<(), ReportError>((self.write)(&format!("{file}{suffix}.png"), &png)?)
+                    })?
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Files of a figure that the plan does not ask for: an earlier run may have left them.
+pub fn not_asked(plan: &FigurePlan, file: &str) -> Vec<String> {
+    let endings = plan.endings();
+    [".svg", ".png", "@2x.png"]
+        .into_iter()
+        .filter(|ending| !endings.contains(ending))
+        .map(|ending| format!("{file}{ending}"))
+        .collect()
+}
+
+impl Picture {
+    /// The picture as SVG in the size asked for, with its title or without.
+    fn as_asked(&self, plan: &FigurePlan) -> Result<String, ChartError> {
+        let mut picture = self.clone();
+        if !plan.titles {
+            picture.drop_titles();
+        }
+        let Some(paper) = plan.paper() else {
+            return picture.to_svg();
+        };
+        let height_mm = match picture.resize(&paper) {
+            true => paper.height_m.map(|height_m| 1e3 * height_m),
+            false => None,
+        };
+        let svg = picture.to_svg()?;
+        chart::on_paper(&svg, 1e3 * paper.width_m, height_mm, 1e3 * paper.px_m)
+    }
+
+    fn drop_titles(&mut self) {
+        match self {
+            Self::Chart(chart) => chart.title = None,
+            Self::Stack(charts) => charts.iter_mut().for_each(|chart| chart.title = None),
+            Self::Map(map) => map.title = None,
+        }
+    }
+
+    /// Gives the drawing the px of this size on paper; says whether its height could be chosen.
+    fn resize(&mut self, paper: &PaperSize) -> bool {
+        // Whole px within the paper; a rounding error must not cost one.
+        let whole = |length_m: f64| (length_m / paper.px_m + 1e-6).floor() as u32;
+        let width_px = whole(paper.width_m);
+        let height_px = paper.height_m.map(whole);
+        match self {
+            Self::Chart(chart) => resize(std::slice::from_mut(chart), width_px, height_px),
+            Self::Stack(charts) => resize(charts, width_px, height_px),
+            Self::Map(map) => return resize_map(map, width_px, height_px),
+        }
+        true
+    }
+}
+
+/// Charts one above another: their heights keep their ratios to one another, and to the width where none is given.
+fn resize(charts: &mut [Chart], width_px: u32, height_px: Option<u32>) {
+    let drawn_wide = charts.iter().map(|chart| chart.size.width_px).max();
+    let drawn_high: u32 = charts.iter().map(|chart| chart.size.height_px).sum();
+    let ratio = match height_px {
+        Some(height_px) => f64::from(height_px) / f64::from(drawn_high.max(1)),
+        None => f64::from(width_px) / f64::from(drawn_wide.unwrap_or(1).max(1)),
+    };
+    for chart in charts {
+        let height_px = (f64::from(chart.size.height_px) * ratio).floor() as u32;
+        *chart = chart.clone().size(width_px, height_px);
+    }
+}
+
+/// A map to scale is as high as its lengths are.
+fn resize_map(map: &mut HeatMap, width_px: u32, height_px: Option<u32>) -> bool {
+    let drawn_wide = std::mem::replace(&mut map.width_px, width_px);
+    match map.shape {
+        MapShape::ToScale => false,
+        MapShape::HeightPx(high) => {
+            let in_ratio = u64::from(high) * u64::from(width_px) / u64::from(drawn_wide.max(1));
+            let in_ratio = u32::try_from(in_ratio).unwrap_or(u32::MAX);
+            map.shape = MapShape::HeightPx(height_px.unwrap_or(in_ratio));
+            true
+        }
+    }
+}

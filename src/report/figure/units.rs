@@ -1,0 +1,233 @@
+//! What the axes of figures are in: SI units with a fitting prefix, or units of the elastic contact. An axis is titled with a
+//! quantity over its unit, so that both are told apart there: `load W / N` and `load W / W₀`.
+
+use super::{prefix, scientific};
+use crate::drive::Control;
+use crate::quantity::{Dimension, format_human};
+use crate::report::ReportError;
+use crate::sweep::elastic_scale::ElasticScale;
+use crate::sweep::figure_plan::AxisUnits;
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::scenario::ScenarioPlan;
+
+/// The units of a result's figures.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Units {
+    /// `None`: SI units.
+    scale: Option<Scale>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Scale {
+    elastic: ElasticScale,
+    /// Under which load or approach: `mean load`.
+    under: String,
+}
+
+/// What a number is multiplied by to be drawn, and the unit it is then in.
+pub type Unit = (f64, String);
+
+impl Units {
+    /// As a sweep asks for.
+    ///
+    /// # Errors
+    /// [`ReportError::Scale`] where normalised axes are asked for and there is no elastic contact.
+    pub fn of_sweep(plan: &SweepPlan) -> Result<Self, ReportError> {
+        let under = || format!("mean {}", plan.drive.control().name());
+        Self::new(plan.figures.axes, under, || ElasticScale::of_sweep(plan))
+    }
+
+    /// As a scenario asks for.
+    ///
+    /// # Errors
+    /// As [`Units::of_sweep`].
+    pub fn of_scenario(plan: &ScenarioPlan) -> Result<Self, ReportError> {
+        let under = || format!("largest {}", plan.drive.control().name());
+        Self::new(plan.figures.axes, under, || ElasticScale::of_scenario(plan))
+    }
+
+    fn new<E: Into<ReportError>>(
+        axes: AxisUnits,
+        under: impl Fn() -> String,
+        elastic: impl Fn() -> Result<ElasticScale, E>,
+    ) -> Result<Self, ReportError> {
+        let scale = match axes {
+            AxisUnits::Si => None,
+            AxisUnits::Normalised => Some(Scale {
+                elastic: elastic().map_err(Into::into)?,
+                under: under(),
+            }),
+        };
+        Ok(Self { scale })
+    }
+
+    /// The unit of values up to `largest` (SI).
+    fn unit(&self, largest: f64, si: &str, normal: (fn(&ElasticScale) -> f64, &str)) -> Unit {
+        match &self.scale {
+            Some(scale) => (normal.0(&scale.elastic).recip(), normal.1.to_owned()),
+            None => {
+                let (factor, prefix) = prefix(largest);
+                (factor, format!("{prefix}{si}"))
+            }
+        }
+    }
+
+    /// Energies (J).
+    pub fn energy(&self, largest: f64) -> Unit {
+        self.unit(largest, "J", (ElasticScale::energy_j, "W₀δ₀"))
+    }
+
+    /// Loads (N).
+    pub fn load(&self, largest: f64) -> Unit {
+        self.unit(largest, "N", (|scale| scale.load_n, "W₀"))
+    }
+
+    /// Approaches and displacements (m).
+    pub fn approach(&self, largest: f64) -> Unit {
+        self.unit(largest, "m", (|scale| scale.approach_m, "δ₀"))
+    }
+
+    /// Lengths along the surface (m).
+    pub fn length(&self, largest: f64) -> Unit {
+        self.unit(largest, "m", (|scale| scale.contact_radius_m, "a₀"))
+    }
+
+    /// Pressures (Pa).
+    pub fn pressure(&self, largest: f64) -> Unit {
+        self.unit(largest, "Pa", (ElasticScale::pressure_pa, "p₀"))
+    }
+
+    /// Moduli (Pa).
+    pub fn modulus(&self, largest: f64) -> Unit {
+        self.unit(largest, "Pa", (|scale| scale.modulus_pa, "E₀"))
+    }
+
+    /// Energies per area (J/m²).
+    pub fn density(&self, largest: f64) -> Unit {
+        let density = |scale: &ElasticScale| scale.energy_j() / scale.contact_radius_m.powi(2);
+        self.unit(largest, "J·m⁻²", (density, "W₀δ₀a₀⁻²"))
+    }
+
+    /// What a drive prescribes.
+    pub fn drive(&self, control: Control, largest: f64) -> Unit {
+        match control {
+            Control::Load => self.load(largest),
+            Control::Approach => self.approach(largest),
+        }
+    }
+
+    fn time_s(&self) -> Option<f64> {
+        self.scale.as_ref()?.elastic.time_s
+    }
+
+    /// Angular frequencies (rad/s). An elastic body has no time to take them in units of.
+    pub fn frequency(&self) -> Unit {
+        match self.time_s() {
+            Some(time_s) => (time_s, "τ⁻¹".to_owned()),
+            None => (1.0, "rad·s⁻¹".to_owned()),
+        }
+    }
+
+    /// Times (s); long ones stay in seconds.
+    pub fn time(&self, largest: f64) -> Unit {
+        match self.time_s() {
+            Some(time_s) => (time_s.recip(), "τ".to_owned()),
+            None if largest < 1.0 => {
+                let (factor, prefix) = prefix(largest);
+                (factor, format!("{prefix}s"))
+            }
+            None => (1.0, "s".to_owned()),
+        }
+    }
+
+    /// The title of an axis of frequencies.
+    pub fn frequency_title(&self) -> String {
+        format!("angular frequency ω / {}", self.frequency().1)
+    }
+
+    /// An angular frequency (rad/s) as it stands in legends: `ω = 0.12 rad/s`, `ω = 1.6 τ⁻¹`.
+    pub fn omega(&self, angular_frequency_rad_per_s: f64) -> String {
+        let (factor, unit) = self.frequency();
+        let unit = if unit == "rad·s⁻¹" {
+            "rad/s"
+        } else {
+            &unit
+        };
+        format!(
+            "ω = {} {unit}",
+            scientific(factor * angular_frequency_rad_per_s, 3)
+        )
+    }
+
+    /// A value of the drive to be read: `5 N`, `1.5 µm`, `0.5 W₀`.
+    pub fn drive_value(&self, control: Control, value: f64) -> String {
+        let (factor, unit) = self.drive(control, value.abs());
+        format!("{} {unit}", scientific(factor * value, 3))
+    }
+
+    /// What the units are, for a caption; nothing for SI units.
+    pub fn sentence(&self) -> Option<String> {
+        let Scale { elastic, under } = self.scale.as_ref()?;
+        let human = |value, dimension| format_human(value, dimension, 4);
+        let time = elastic.time_s.map_or(String::new(), |time_s| {
+            format!(
+                "; τ = {}, the retardation time of the branch of largest creep compliance",
+                human(time_s, Dimension::Time)
+            )
+        });
+        Some(format!(
+            "Normalised by the elastic contact of the same indenter at the instantaneous compliance under the {under}: load \
+             W₀ = {}, approach δ₀ = {}, contact radius a₀ = {}, pressure p₀ = 3W₀/(2πa₀²) = {}, instantaneous modulus \
+             E₀ = {}{time}.",
+            human(elastic.load_n, Dimension::Force),
+            human(elastic.approach_m, Dimension::Length),
+            human(elastic.contact_radius_m, Dimension::Length),
+            human(elastic.pressure_pa(), Dimension::Stress),
+            human(elastic.modulus_pa, Dimension::Stress),
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn normalised() -> Units {
+        Units {
+            scale: Some(Scale {
+                elastic: ElasticScale {
+                    load_n: 10.0,
+                    approach_m: 2e-6,
+                    contact_radius_m: 1e-4,
+                    modulus_pa: 2e9,
+                    time_s: Some(100.0),
+                },
+                under: "mean load".to_owned(),
+            }),
+        }
+    }
+
+    #[test]
+    fn the_same_number_is_told_in_both_units() {
+        let (si, normalised) = (Units::default(), normalised());
+        assert_eq!(si.energy(3e-6), (1e6, "µJ".to_owned()));
+        let (factor, unit) = normalised.energy(3e-6);
+        assert!((factor * 2e-5 - 1.0).abs() < 1e-12 && unit == "W₀δ₀");
+        assert_eq!(si.omega(0.012), "ω = 0.012 rad/s");
+        assert_eq!(normalised.omega(0.012), "ω = 1.2 τ⁻¹");
+        assert_eq!(si.drive_value(Control::Load, 5.0), "5 N");
+        assert_eq!(si.drive_value(Control::Load, 0.25), "250 mN");
+        assert_eq!(si.drive_value(Control::Approach, 1.5e-6), "1.5 µm");
+        assert_eq!(si.drive_value(Control::Approach, 0.0), "0 m");
+        assert_eq!(normalised.drive_value(Control::Load, 5.0), "0.5 W₀");
+        assert_eq!(si.frequency_title(), "angular frequency ω / rad·s⁻¹");
+        assert_eq!(normalised.frequency_title(), "angular frequency ω / τ⁻¹");
+        assert_eq!(si.time(500.0).1, "s");
+        assert_eq!(si.time(0.5).1, "ms");
+        assert_eq!(si.sentence(), None);
+        let sentence = normalised.sentence().unwrap();
+        for part in ["mean load", "W₀ = 10.00 N", "δ₀ = 2.000 µm", "τ = 100.0 s"] {
+            assert!(sentence.contains(part), "{sentence}");
+        }
+    }
+}

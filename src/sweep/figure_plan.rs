@@ -1,0 +1,252 @@
+//! How the figures of a sweep or scenario are to look: the `[figures]` table. It is kept with the resolved file and is no part
+//! of its hash: figures drawn in another way are of the same sweep.
+
+use std::fmt::Write;
+
+use crate::quantity::{Dimension, format_si};
+
+/// What the `[figures]` table asks for. Where it asks for nothing, figures are 800 px wide with text of 16 px (211.7 mm and 12 pt
+/// on a screen of 96 dpi), as SVG and as PNG of one and of two pixels per px.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FigurePlan {
+    /// Frequencies (rad/s) whose cycles are drawn; empty: chosen from the sweep.
+    pub loops_rad_per_s: Vec<f64>,
+    /// Width and height on paper (m).
+    pub width_m: Option<f64>,
+    pub height_m: Option<f64>,
+    /// Size (pt) of the text at ticks, in legends and at marks; titles of axes are an eighth larger.
+    pub font_size_pt: Option<f64>,
+    /// At least one, each once.
+    pub formats: Vec<Format>,
+    /// Pixels of a PNG per inch on paper.
+    pub dpi: Option<usize>,
+    pub axes: AxisUnits,
+    /// Whether pictures that have a title above the frame show it.
+    pub titles: bool,
+}
+
+/// A form in which pictures are written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    Svg,
+    Png,
+}
+
+/// What the axes of figures are in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AxisUnits {
+    Si,
+    /// Units of the elastic contact: see [`crate::sweep::elastic_scale::ElasticScale`].
+    Normalised,
+}
+
+impl Format {
+    /// All, as sweep files name them.
+    pub const NAMES: [(&'static str, Self); 2] = [("svg", Self::Svg), ("png", Self::Png)];
+}
+
+impl AxisUnits {
+    /// All, as sweep files name them.
+    pub const NAMES: [(&'static str, Self); 2] =
+        [("si", Self::Si), ("normalised", Self::Normalised)];
+}
+
+/// Widths (m) of a figure in one and in two columns of a journal, as sweep files name them.
+pub const COLUMNS: [(&str, f64); 2] = [("one", 0.085), ("two", 0.180)];
+
+/// Text size (pt) where a size is asked for but none of the text.
+const FONT_SIZE_PT: f64 = 8.0;
+/// Resolution (pixels per inch) of a PNG whose size on paper is asked for.
+const DPI: usize = 300;
+/// A px of a figure of which nothing is asked, on paper (m), and its text (px).
+const PX_M: f64 = 0.0254 / 96.0;
+const WIDTH_PX: f64 = 800.0;
+const TEXT_PX: f64 = 16.0;
+const POINT_M: f64 = 0.0254 / 72.0;
+
+/// A figure on paper.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PaperSize {
+    pub width_m: f64,
+    /// `None`: as the figure asks for.
+    pub height_m: Option<f64>,
+    /// Length (m) of one px of the drawing: its text of 16 px has the size asked for.
+    pub px_m: f64,
+}
+
+impl Default for FigurePlan {
+    fn default() -> Self {
+        Self {
+            loops_rad_per_s: Vec::new(),
+            width_m: None,
+            height_m: None,
+            font_size_pt: None,
+            formats: vec![Format::Svg, Format::Png],
+            dpi: None,
+            axes: AxisUnits::Si,
+            titles: true,
+        }
+    }
+}
+
+impl FigurePlan {
+    /// The size on paper, where any of it is asked for.
+    pub fn paper(&self) -> Option<PaperSize> {
+        if self.width_m.is_none() && self.height_m.is_none() && self.font_size_pt.is_none() {
+            return None;
+        }
+        let font_size_pt = self.font_size_pt.unwrap_or(FONT_SIZE_PT);
+        Some(PaperSize {
+            width_m: self.width_m.unwrap_or(WIDTH_PX * PX_M),
+            height_m: self.height_m,
+            px_m: font_size_pt * POINT_M / TEXT_PX,
+        })
+    }
+
+    /// Resolution (pixels per inch) of a single PNG; `None` for the two of figures of which nothing is asked.
+    pub fn resolution(&self) -> Option<usize> {
+        let of_paper = self.paper().map(|_| DPI);
+        self.dpi.or(of_paper)
+    }
+
+    /// The endings of the pictures of a figure.
+    pub fn endings(&self) -> Vec<&'static str> {
+        let mut endings = Vec::new();
+        for format in &self.formats {
+            match (format, self.resolution()) {
+                (Format::Svg, _) => endings.push(".svg"),
+                (Format::Png, Some(_)) => endings.push(".png"),
+                (Format::Png, None) => endings.extend([".png", "@2x.png"]),
+            }
+        }
+        endings
+    }
+
+    /// The table as it stands at the end of a resolved file: what differs from the default, nothing where nothing does.
+    pub fn text(&self) -> String {
+        let default = Self::default();
+        if *self == default {
+            return String::new();
+        }
+        let mut text = format!("\n{TABLE}\n");
+        let mut line = |key: &str, value: Option<String>| {
+            if let Some(value) = value {
+                // Writing to a String cannot fail.
+                let _ = writeln!(text, "{key} = {value}");
+            }
+        };
+        let list =
+            |items: Vec<String>| (!items.is_empty()).then(|| format!("[{}]", items.join(", ")));
+        let length = |value: f64| format!("\"{}\"", format_si(value, Dimension::Length));
+        let loops = self.loops_rad_per_s.iter();
+        let loops = loops.map(|w| format!("\"{}\"", format_si(*w, Dimension::AngularFrequency)));
+        line("loops", list(loops.collect()));
+        line("width", self.width_m.map(length));
+        line("height", self.height_m.map(length));
+        line(
+            "font_size",
+            self.font_size_pt.map(|size| format!("{size:?}")),
+        );
+        if self.formats != default.formats {
+            let names = Format::NAMES.iter();
+            let named = |format: &Format| {
+                names
+                    .clone()
+                    .find(|(_, f)| f == format)
+                    .map(|(name, _)| format!("\"{name}\""))
+            };
+            line(
+                "formats",
+                list(self.formats.iter().filter_map(named).collect()),
+            );
+        }
+        line("dpi", self.dpi.map(|dpi| dpi.to_string()));
+        if self.axes == AxisUnits::Normalised {
+            line("axes", Some("\"normalised\"".to_owned()));
+        }
+        if !self.titles {
+            line("titles", Some("false".to_owned()));
+        }
+        text
+    }
+}
+
+const TABLE: &str = "[figures]";
+
+/// A resolved file without its `[figures]` table, which is the last and has one line per key.
+pub fn without_figures(resolved: &str) -> &str {
+    let header = format!("\n{TABLE}\n");
+    match resolved.rfind(&header) {
+        // A title may hold any line; no table follows that of the figures.
+        Some(at)
+            if !resolved[at + header.len()..]
+                .lines()
+                .any(|l| l.starts_with('[')) =>
+        {
+            &resolved[..at]
+        }
+        _ => resolved,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn everything() -> FigurePlan {
+        FigurePlan {
+            loops_rad_per_s: vec![1e-3, 0.1],
+            width_m: Some(0.085),
+            height_m: Some(0.06),
+            font_size_pt: Some(7.0),
+            formats: vec![Format::Png],
+            dpi: Some(600),
+            axes: AxisUnits::Normalised,
+            titles: false,
+        }
+    }
+
+    #[test]
+    fn a_table_is_written_line_by_line_and_taken_off_again() {
+        assert_eq!(FigurePlan::default().text(), "");
+        let sweep = "title = \"a\"\n\n[solver]\ncells = 3\n";
+        let whole = format!("{sweep}{}", everything().text());
+        assert_eq!(
+            &whole[sweep.len()..],
+            "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
+             formats = [\"png\"]\ndpi = 600\naxes = \"normalised\"\ntitles = false\n"
+        );
+        assert_eq!(without_figures(&whole), sweep);
+        assert_eq!(without_figures(sweep), sweep);
+        // A title that looks like the table is none.
+        let title = "title = \"\"\"a\n[figures]\nb\"\"\"\n\n[solver]\ncells = 3\n";
+        assert_eq!(without_figures(title), title);
+    }
+
+    #[test]
+    fn text_of_the_drawing_has_the_size_asked_for() {
+        assert_eq!(FigurePlan::default().paper(), None);
+        let paper = everything().paper().unwrap();
+        // 16 px are 7 pt.
+        assert!((16.0 * paper.px_m / POINT_M - 7.0).abs() < 1e-12);
+        let only_text = FigurePlan {
+            font_size_pt: Some(12.0),
+            ..FigurePlan::default()
+        };
+        let paper = only_text.paper().unwrap();
+        // As without the table: 800 px.
+        assert!((paper.width_m / paper.px_m - 800.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn two_resolutions_are_for_figures_of_which_nothing_is_asked() {
+        assert_eq!(FigurePlan::default().endings(), [".svg", ".png", "@2x.png"]);
+        assert_eq!(everything().endings(), [".png"]);
+        assert_eq!(everything().resolution(), Some(600));
+        let column = FigurePlan {
+            width_m: Some(0.085),
+            ..FigurePlan::default()
+        };
+        assert_eq!(column.resolution(), Some(300));
+    }
+}
