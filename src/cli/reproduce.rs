@@ -6,12 +6,16 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::diagnostic::Problems;
 use super::document::Document;
+use super::figures_block::{self, Figures};
 use super::sweep::interrupt_flag;
+use super::sweep_file::optional;
 use super::{Ended, Failure, print, scenario_file, sweep_file};
 use crate::reproduction::{
     self, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
+use crate::sweep::figure_plan::FigurePlan;
 
 const DEFAULT_FOLDER: &str = "reports/spinu-2018";
 
@@ -32,6 +36,10 @@ pub(super) struct ReproduceFlags {
     /// Make this figure alone; may be repeated
     #[arg(long = "figure", value_name = "N", value_parser = figure_number)]
     pub(super) figures: Vec<u8>,
+    /// Change how the figures look, for example figures.column=one, as the [figures] table of a
+    /// sweep file does; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(super) set: Vec<String>,
     /// Number of threads [default: one per processor]; the results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS")]
     pub(super) threads: Option<NonZeroUsize>,
@@ -58,6 +66,7 @@ fn figure_number(text: &str) -> Result<u8, String> {
 /// Runs the command.
 pub(super) fn run(flags: &ReproduceFlags) -> Result<Ended, Failure> {
     let plans = plans()?;
+    let figures = figures(&flags.set)?;
     let wanted = if flags.figures.is_empty() {
         FIGURES.to_vec()
     } else {
@@ -78,11 +87,28 @@ pub(super) fn run(flags: &ReproduceFlags) -> Result<Ended, Failure> {
         Err(ReproductionError::Interrupted) => return Ok(Ended::Interrupted),
         made => made.map_err(Failure::run)?,
     };
-    reproduction::write(&made, &flags.out).map_err(Failure::run)?;
+    reproduction::write(&made, &figures, &flags.out).map_err(Failure::run)?;
     if !flags.quiet {
         print(&text(&made, &flags.out))?;
     }
     Ok(Ended::Done)
+}
+
+/// How the figures are asked to look.
+fn figures(set: &[String]) -> Result<FigurePlan, Failure> {
+    let mut document = Document::parse("command line", "")?;
+    for assignment in set {
+        document.set(assignment)?;
+    }
+    let problems = Problems::new();
+    let mut root = document.root(&problems);
+    let figures = optional(&mut root, "figures", Figures::default(), |table| {
+        figures_block::read(table, &problems)
+    });
+    root.finish();
+    let in_units_of_the_paper = || Err("each is in units of the paper already");
+    let plan = figures.and_then(|figures| figures.checked(in_units_of_the_paper, &problems));
+    Ok(problems.into_result(plan)?)
 }
 
 /// The plans of the files built into the program.

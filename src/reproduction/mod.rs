@@ -41,8 +41,10 @@ use crate::material::Material;
 use crate::material::MaterialError;
 use crate::report::ReportError;
 use crate::report::chart::{self, Chart, ChartError};
+use crate::report::figure::Picture;
 use crate::sweep::case::SetupError;
 use crate::sweep::engines::{AsContactError, EngineError};
+use crate::sweep::figure_plan::{FigurePlan, Format};
 use crate::sweep::files;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::scenario::ScenarioPlan;
@@ -246,27 +248,36 @@ pub fn make(
 ///
 /// # Errors
 /// [`ReproductionError`] where a picture cannot be drawn.
-pub fn files(figures: &[Figure]) -> Result<Vec<(String, Vec<u8>)>, ReproductionError> {
-    let drawn: Vec<[(String, Vec<u8>); 4]> = figures
+pub fn files(
+    figures: &[Figure],
+    plan: &FigurePlan,
+) -> Result<Vec<(String, Vec<u8>)>, ReproductionError> {
+    let drawn: Vec<Vec<(String, Vec<u8>)>> = figures
         .par_iter()
         .map(|figure| {
             let name = figure.name();
-            let svg = match &figure.panels[..] {
-                [chart] => chart::to_svg(chart)?,
-                panels => chart::stack_to_svg(panels)?,
+            let picture = match &figure.panels[..] {
+                [chart] => Picture::from(chart.clone()),
+                panels => Picture::Stack(panels.to_vec()),
             };
             let caption = figure.full_caption();
-            let svg = chart::described(&svg, &caption);
-            let png = chart::to_png(&svg, 1.0)?;
-            Ok([
-                (
-                    format!("{name}{}", files::CAPTION),
-                    format!("{caption}\n").into_bytes(),
-                ),
+            let svg = chart::described(&picture.as_asked(plan)?, &caption);
+            let text = format!("{caption}\n").into_bytes();
+            let mut files = vec![
+                (format!("{name}{}", files::CAPTION), text),
                 (format!("{name}.csv"), figure.data.clone()),
-                (format!("{name}.svg"), svg.into_bytes()),
-                (format!("{name}.png"), png),
-            ])
+            ];
+            for format in &plan.formats {
+                files.push(match (format, plan.resolution()) {
+                    (Format::Svg, _) => (format!("{name}.svg"), svg.clone().into_bytes()),
+                    (Format::Png, Some(dpi)) => {
+                        (format!("{name}.png"), chart::to_png_at(&svg, dpi)?)
+                    }
+                    // The page of the repository shows one resolution.
+                    (Format::Png, None) => (format!("{name}.png"), chart::to_png(&svg, 1.0)?),
+                });
+            }
+            Ok(files)
         })
         .collect::<Result<_, ReproductionError>>()?;
     let mut files: Vec<(String, Vec<u8>)> = drawn.into_iter().flatten().collect();
@@ -279,8 +290,12 @@ pub fn files(figures: &[Figure]) -> Result<Vec<(String, Vec<u8>)>, ReproductionE
 ///
 /// # Errors
 /// [`ReproductionError`] naming the file.
-pub fn write(figures: &[Figure], folder: &Path) -> Result<(), ReproductionError> {
-    for (name, bytes) in files(figures)? {
+pub fn write(
+    figures: &[Figure],
+    plan: &FigurePlan,
+    folder: &Path,
+) -> Result<(), ReproductionError> {
+    for (name, bytes) in files(figures, plan)? {
         write_atomically(&folder.join(name), &bytes)?;
     }
     Ok(())

@@ -76,7 +76,7 @@ impl Bar {
 
     pub(super) fn draw(
         &self,
-        map: &HeatMap,
+        (map, height_px): (&HeatMap, f64),
         frame: &Rect,
         along: &AxisMap,
         canvas: &Canvas<'_>,
@@ -109,14 +109,15 @@ impl Bar {
             );
             canvas.text(&tick.label, at, TICK_TEXT, TEXT, level)?;
         }
-        // A label too long for the picture is set smaller rather than cut off.
+        // A label too long for the frame may be as long as the picture; beyond that it is set smaller rather than cut off.
         let room = frame.bottom - frame.top + LABEL_TEXT;
+        let (room, middle) = match self.label_em * LABEL_TEXT <= room {
+            true => (room, (frame.top + frame.bottom) / 2.0),
+            false => (height_px - 2.0 * MARGIN, height_px / 2.0),
+        };
         let size = LABEL_TEXT.min(room / self.label_em.max(1e-9));
         let beside = right + MAJOR_TICK + TICK_GAP + self.widest_label + LABEL_GAP;
-        let at = (
-            beside + LABEL_TEXT * ASCENT_EM,
-            (frame.top + frame.bottom) / 2.0,
-        );
+        let at = (beside + LABEL_TEXT * ASCENT_EM, middle);
         let upwards = (Anchor::Middle, Direction::Upwards);
         canvas.text(&map.value_label, at, size, TEXT, upwards)
     }

@@ -91,7 +91,8 @@ pub fn heat_map_to_svg(map: &HeatMap) -> Result<String, ChartError> {
         FRAME_STROKE,
         FRAME,
     )?;
-    bar.draw(map, &layout.frame, &bar_map, &canvas)?;
+    let height_px = f64::from(chart.size.height_px);
+    bar.draw((map, height_px), &layout.frame, &bar_map, &canvas)?;
     dots(map, &layout, range, &canvas)?;
     texts(&layout, &canvas)?;
     canvas.finish()?;

@@ -92,6 +92,13 @@ pub(super) struct Ranges {
     y: (f64, f64),
 }
 
+impl Widths {
+    /// The height (px) of a picture in which the label of y has its full size.
+    pub(super) fn height_of_y_label_px(&self) -> f64 {
+        self.y_label * LABEL_TEXT + 2.0 * MARGIN
+    }
+}
+
 /// The least frame that is still a chart, in px.
 const LEAST_FRAME: f64 = 60.0;
 /// No canvas is larger than this, so that sixteenths of a px stay whole numbers of 32 bits with room to spare.
@@ -165,7 +172,7 @@ pub(super) fn lay_out(
         y,
         x_ticks,
         y_ticks,
-        texts: texts(chart, widths, &frame, height),
+        texts: texts(chart, widths, &frame, (height, reserve)),
     })
 }
 
@@ -224,7 +231,12 @@ fn room_for_heights(axis: &AxisMap, ticks: &[Tick]) -> bool {
         .all(|pair| axis.px(pair[0].value) - axis.px(pair[1].value) >= 2.6 * TICK_TEXT)
 }
 
-fn texts(chart: &Chart, widths: &Widths, frame: &Rect, height: f64) -> Vec<PlacedText> {
+fn texts(
+    chart: &Chart,
+    widths: &Widths,
+    frame: &Rect,
+    (height, reserve): (f64, Reserve),
+) -> Vec<PlacedText> {
     // A text too long for its side is set smaller rather than cut off.
     let fitted = |size: f64, width_em: f64, room: f64| {
         if width_em * size > room {
@@ -233,7 +245,9 @@ fn texts(chart: &Chart, widths: &Widths, frame: &Rect, height: f64) -> Vec<Place
             size
         }
     };
-    let (full_width, full_height) = (frame.right - MARGIN, height - 2.0 * MARGIN);
+    // A legend above may begin as far left as the label of y stands.
+    let y_from = if reserve.top > 0.0 { frame.top } else { MARGIN };
+    let (full_width, full_height) = (frame.right - MARGIN, height - MARGIN - y_from);
     let x_size = fitted(LABEL_TEXT, widths.x_label, full_width);
     let y_size = fitted(LABEL_TEXT, widths.y_label, full_height);
     let middle = |center: f64, length: f64, low: f64, high: f64| {
@@ -248,8 +262,8 @@ fn texts(chart: &Chart, widths: &Widths, frame: &Rect, height: f64) -> Vec<Place
     let y_center = middle(
         (frame.top + frame.bottom) / 2.0,
         widths.y_label * y_size,
-        MARGIN,
-        MARGIN + full_height,
+        y_from,
+        y_from + full_height,
     );
     let mut texts = vec![
         PlacedText {

@@ -36,14 +36,20 @@ impl Block {
     /// All labelled series in as many columns as `room` px hold.
     pub(super) fn rows(chart: &Chart, widths: &Widths, room: f64) -> Option<Self> {
         let most = labelled(chart).count();
-        let grids = (1..=most)
-            .rev()
-            .filter_map(|columns| Self::grid(chart, widths, room, columns));
+        let grid = |columns: usize| Self::grid(chart, widths, room, columns);
         // The widest that keeps the text at its full size; one column sets it smaller if it must.
-        grids
-            .into_iter()
-            .find(|grid| grid.text_px == LEGEND_TEXT)
-            .or_else(|| Self::column(chart, widths, room))
+        let is_full = |grid: Self| grid.text_px == LEGEND_TEXT;
+        let full = (1..=most)
+            .rev()
+            .find(|&columns| grid(columns).is_some_and(is_full));
+        // A long column gives way to two with text a little smaller.
+        if full.unwrap_or(1) == 1 && most >= LONG_COLUMN {
+            let smaller = grid(2).filter(|g| g.text_px >= LEAST_SHARE_OF_TEXT * LEGEND_TEXT);
+            if smaller.is_some() {
+                return smaller;
+            }
+        }
+        grid(full.unwrap_or(1))
     }
 
     fn grid(chart: &Chart, widths: &Widths, room: f64, columns: usize) -> Option<Self> {
@@ -191,6 +197,9 @@ pub(super) enum Outside {
     Above,
 }
 
+/// Entries from which one column above the frame is long, and how much smaller their text may be to make two.
+const LONG_COLUMN: usize = 5;
+const LEAST_SHARE_OF_TEXT: f64 = 0.85;
 /// Between the columns of a legend in rows.
 const COLUMN_GAP: f64 = 26.0;
 

@@ -40,6 +40,7 @@ mod stroke;
 mod text;
 mod ticks;
 
+pub use draw::fitting_height_px;
 pub use error::{AxisName, ChartError};
 pub use heat_map::{HeatMap, MapShape, heat_map_to_svg};
 pub use palette::Color;

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::{Figure, Picture};
 use crate::report::ReportError;
 use crate::report::caption::Setting;
-use crate::report::chart::{self, Chart, ChartError, HeatMap, MapShape};
+use crate::report::chart::{self, Chart, ChartError, Color, HeatMap, LineStyle, MapShape};
 use crate::sweep::figure_plan::{FigurePlan, Format, PaperSize};
 use crate::sweep::files;
 use crate::sweep::store::StoreError;
@@ -87,7 +87,10 @@ pub fn not_asked(plan: &FigurePlan, file: &str) -> Vec<String> {
 
 impl Picture {
     /// The picture as SVG in the size asked for, with its title or without.
-    fn as_asked(&self, plan: &FigurePlan) -> Result<String, ChartError> {
+    ///
+    /// # Errors
+    /// As [`chart::to_svg`].
+    pub fn as_asked(&self, plan: &FigurePlan) -> Result<String, ChartError> {
         let mut picture = self.clone();
         if !plan.titles {
             picture.drop_titles();
@@ -95,7 +98,8 @@ impl Picture {
         let Some(paper) = plan.paper() else {
             return picture.to_svg();
         };
-        let height_mm = match picture.resize(&paper) {
+        picture.tell_apart_in_grey();
+        let height_mm = match picture.resize(&paper)? {
             true => paper.height_m.map(|height_m| 1e3 * height_m),
             false => None,
         };
@@ -112,22 +116,42 @@ impl Picture {
     }
 
     /// Gives the drawing the px of this size on paper; says whether its height could be chosen.
-    fn resize(&mut self, paper: &PaperSize) -> bool {
+    fn resize(&mut self, paper: &PaperSize) -> Result<bool, ChartError> {
         // Whole px within the paper; a rounding error must not cost one.
         let whole = |length_m: f64| (length_m / paper.px_m + 1e-6).floor() as u32;
         let width_px = whole(paper.width_m);
         let height_px = paper.height_m.map(whole);
         match self {
-            Self::Chart(chart) => resize(std::slice::from_mut(chart), width_px, height_px),
-            Self::Stack(charts) => resize(charts, width_px, height_px),
-            Self::Map(map) => return resize_map(map, width_px, height_px),
+            Self::Chart(chart) => {
+                resize(std::slice::from_mut(chart.as_mut()), width_px, height_px)?
+            }
+            Self::Stack(charts) => resize(charts, width_px, height_px)?,
+            Self::Map(map) => return Ok(resize_map(map, width_px, height_px)),
         }
-        true
+        Ok(true)
+    }
+
+    /// Paper may be printed in grey: curves of a family, which differ in colour alone on a screen, get strokes of their own.
+    fn tell_apart_in_grey(&mut self) {
+        let charts = match self {
+            Self::Chart(chart) => std::slice::from_mut(chart.as_mut()),
+            Self::Stack(charts) => charts.as_mut_slice(),
+            Self::Map(_) => return,
+        };
+        for series in charts.iter_mut().flat_map(|chart| &mut chart.series) {
+            if let (Some(LineStyle::Solid), None, Color::Ramp { step, of }) =
+                (series.line, series.marker, series.color)
+                && of > 1
+            {
+                series.line = Some(LineStyle::nth(step));
+            }
+        }
     }
 }
 
-/// Charts one above another: their heights keep their ratios to one another, and to the width where none is given.
-fn resize(charts: &mut [Chart], width_px: u32, height_px: Option<u32>) {
+/// Charts one above another: their heights keep their ratios to one another. Where none is given they keep that to the width
+/// too, but for what labels and a legend above need.
+fn resize(charts: &mut [Chart], width_px: u32, height_px: Option<u32>) -> Result<(), ChartError> {
     let drawn_wide = charts.iter().map(|chart| chart.size.width_px).max();
     let drawn_high: u32 = charts.iter().map(|chart| chart.size.height_px).sum();
     let ratio = match height_px {
@@ -135,9 +159,14 @@ fn resize(charts: &mut [Chart], width_px: u32, height_px: Option<u32>) {
         None => f64::from(width_px) / f64::from(drawn_wide.unwrap_or(1).max(1)),
     };
     for chart in charts {
-        let height_px = (f64::from(chart.size.height_px) * ratio).floor() as u32;
-        *chart = chart.clone().size(width_px, height_px);
+        let high = (f64::from(chart.size.height_px) * ratio).floor() as u32;
+        *chart = chart.clone().size(width_px, high);
+        if height_px.is_none() {
+            let high = chart::fitting_height_px(chart)?;
+            *chart = chart.clone().size(width_px, high);
+        }
     }
+    Ok(())
 }
 
 /// A map to scale is as high as its lengths are.
