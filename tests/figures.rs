@@ -390,7 +390,10 @@ fn wrong_values_are_refused_at_their_place_before_anything_is_computed() {
             ["figures.formats[0]", "\"svg\" or \"png\""],
         ),
         ("formats = []", ["in no format", "leave it out"]),
-        ("formats = [\"svg\", \"svg\"]", ["listed twice", "figures"]),
+        (
+            "formats = [\"svg\", \"svg\"]",
+            ["listed twice", "every format once"],
+        ),
         ("dpi = 10", ["figures.dpi", "from 30 to 2400"]),
         (
             "width = \"1 m\"\ndpi = 2400",
@@ -420,10 +423,35 @@ fn what_has_no_elastic_contact_to_normalise_by_is_refused() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/two-asperities.toml");
     let folder = TempDir::new().unwrap();
     program()
-        .args(["sweep", "--set", "figures.axes=normalised", "--out"])
+        .args(["simulate", "--set", "figures.axes=normalised", "--out"])
         .arg(folder.path().join("out"))
         .arg(&file)
         .assert()
         .code(2)
         .stderr(contains("no convex body of revolution").and(contains("command line")));
+}
+
+#[test]
+fn the_smallest_figures_that_are_allowed_can_be_drawn() {
+    let folder = TempDir::new().unwrap();
+    let file = sweep_file(&folder, "");
+    let out = folder.path().join("out");
+    program()
+        .args(["sweep", "--quiet", &file, "--out"])
+        .arg(&out)
+        .args(["--set", "sweep.drive.amplitude=[1.0, 3.0, 9.0]"])
+        // 320 and 240 px of 8 pt / 16.
+        .args([
+            "--set",
+            "figures.width=57 mm",
+            "--set",
+            "figures.height=43 mm",
+        ])
+        .args(["--set", "figures.formats=[\"svg\"]"])
+        .assert()
+        .success();
+    assert_eq!(root(&text(&out, "energy-loss.svg"), "width"), "57mm");
+    assert_eq!(root(&text(&out, "cole-cole.svg"), "height"), "43mm");
+    // Two panels with a legend take more.
+    assert_ne!(root(&text(&out, "moduli-error.svg"), "height"), "43mm");
 }

@@ -207,7 +207,9 @@ fn formats(table: &mut TableReader<'_>, problems: &Problems) -> Option<Vec<Forma
     let mut formats: Vec<Format> = Vec::new();
     for format in list.value {
         if formats.contains(&format.value) {
-            problems.at(&format, "this format is listed twice");
+            problems
+                .at(&format, "this format is listed twice")
+                .help("write every format once, as in `formats = [\"svg\", \"png\"]`");
             return None;
         }
         formats.push(format.value);

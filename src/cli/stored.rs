@@ -87,12 +87,6 @@ pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
             flags.folder.display()
         )));
     }
-    let changed = resolved::resolved_text(setup.plan());
-    if changed != resolved {
-        // What the folder says of its figures must be what they are.
-        let written = store.write(RESOLVED, changed.as_bytes());
-        written.map_err(|error| failure(RunError::Store(error)))?;
-    }
     let job = Job {
         setup: &setup,
         store: &store,
@@ -104,7 +98,14 @@ pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
         threads: 1,
         found: outcome.records.len(),
     };
-    Ok(match job.finish(&outcome)? {
+    let ended = job.finish(&outcome)?;
+    let changed = resolved::resolved_text(setup.plan());
+    if changed != resolved {
+        // What the folder says of its figures must be what they are.
+        let written = store.write(RESOLVED, changed.as_bytes());
+        written.map_err(|error| failure(RunError::Store(error)))?;
+    }
+    Ok(match ended {
         Ended::Interrupted => Ended::SomeCasesWithoutResult,
         ended => ended,
     })

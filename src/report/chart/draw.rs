@@ -30,29 +30,6 @@ pub(super) fn draw(chart: &Chart, left: f64) -> Result<String, ChartError> {
     at_real_size(&svg, chart.size)
 }
 
-/// The height (px) that a chart of this width wants: its own, or as much as it takes to set the label of y in full size, and that
-/// of a legend above the frame, so that it takes no room from the frame.
-///
-/// # Errors
-/// [`ChartError`] where the chart cannot be laid out, however high.
-pub fn fitting_height_px(chart: &Chart) -> Result<u32, ChartError> {
-    /// More than any legend needs.
-    const AMPLE_PX: u32 = 1000;
-    check(chart)?;
-    let of_label = Widths::measure(chart)?.height_of_y_label_px().ceil() as u32;
-    let high = chart.size.height_px.max(of_label);
-    let arranged = |high: u32| arrange(&chart.clone().size(chart.size.width_px, high));
-    let arrangement = arranged(high).or_else(|error| match error {
-        ChartError::Size { .. } => arranged(high.saturating_add(AMPLE_PX)),
-        other => Err(other),
-    })?;
-    let above = arrangement
-        .legend
-        .filter(|legend| legend.rect.bottom <= arrangement.layout.frame.top);
-    let legend = above.map_or(0, |legend| legend.rect.height().ceil() as u32);
-    Ok(high.saturating_add(legend))
-}
-
 /// Decides where everything goes.
 pub(super) fn arrange(chart: &Chart) -> Result<Arrangement, ChartError> {
     arrange_beside(chart, 0.0)
@@ -83,8 +60,12 @@ fn arrange_beside(chart: &Chart, left: f64) -> Result<Arrangement, ChartError> {
         )
     };
     let (layout, curves, legend) = match (chart.legend, column, rows()) {
-        (Some(LegendPlace::Right), Some(column), _) => outside(column, Outside::Right)?,
-        (Some(LegendPlace::Above), _, Some(rows)) => outside(rows, Outside::Above)?,
+        (Some(LegendPlace::Right), Some(column), _) if column.leaves_room_beside(&plain) => {
+            outside(column, Outside::Right)?
+        }
+        (Some(LegendPlace::Right | LegendPlace::Above), _, Some(rows)) => {
+            outside(rows, Outside::Above)?
+        }
         (Some(LegendPlace::Auto), Some(column), Some(rows)) => {
             let curves = curves(chart, &plain);
             match column.where_free(&plain, &Obstacles::of(chart, &plain, &curves)) {

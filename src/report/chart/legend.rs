@@ -184,6 +184,11 @@ impl Block {
         }
     }
 
+    /// Whether the frame of a layout without it stays wide enough with it at the right.
+    pub(super) fn leaves_room_beside(&self, layout: &Layout) -> bool {
+        layout.frame.width() - self.width >= LEAST_FRAME_BESIDE
+    }
+
     /// Whether the block reads better in a column beside the frame than in rows above it.
     pub(super) fn suits_right(&self, layout: &Layout) -> bool {
         self.width <= 0.27 * layout.frame.width() && self.height <= layout.frame.height()
@@ -200,6 +205,8 @@ pub(super) enum Outside {
 /// Entries from which one column above the frame is long, and how much smaller their text may be to make two.
 const LONG_COLUMN: usize = 5;
 const LEAST_SHARE_OF_TEXT: f64 = 0.85;
+/// The least width of a frame beside which a legend goes.
+const LEAST_FRAME_BESIDE: f64 = 240.0;
 /// Between the columns of a legend in rows.
 const COLUMN_GAP: f64 = 26.0;
 

@@ -24,6 +24,7 @@ mod contour;
 mod curves;
 mod draw;
 mod error;
+mod fitting;
 mod geometry;
 mod heat_map;
 mod layout;
@@ -40,8 +41,8 @@ mod stroke;
 mod text;
 mod ticks;
 
-pub use draw::fitting_height_px;
 pub use error::{AxisName, ChartError};
+pub use fitting::{fits, fitting_height_px};
 pub use heat_map::{HeatMap, MapShape, heat_map_to_svg};
 pub use palette::Color;
 pub use paper::{described, on_paper};
@@ -359,7 +360,7 @@ pub enum LegendPlace {
     TopLeft,
     BottomRight,
     BottomLeft,
-    /// Outside, in a column to the right of the frame.
+    /// Outside, in a column to the right of the frame; above it where the frame would be too narrow.
     Right,
     /// Outside, in rows above the frame.
     Above,

@@ -115,20 +115,41 @@ impl Picture {
         }
     }
 
-    /// Gives the drawing the px of this size on paper; says whether its height could be chosen.
+    /// Gives the drawing the px of this size on paper; says whether it has the height asked for. A map to scale has its own, and
+    /// what is too low for its labels and legends is drawn as high as they need.
     fn resize(&mut self, paper: &PaperSize) -> Result<bool, ChartError> {
         // Whole px within the paper; a rounding error must not cost one.
         let whole = |length_m: f64| (length_m / paper.px_m + 1e-6).floor() as u32;
         let width_px = whole(paper.width_m);
         let height_px = paper.height_m.map(whole);
-        match self {
-            Self::Chart(chart) => {
-                resize(std::slice::from_mut(chart.as_mut()), width_px, height_px)?
-            }
-            Self::Stack(charts) => resize(charts, width_px, height_px)?,
+        let charts = match self {
+            Self::Chart(chart) => std::slice::from_mut(chart.as_mut()),
+            Self::Stack(charts) => charts.as_mut_slice(),
             Self::Map(map) => return Ok(resize_map(map, width_px, height_px)),
+        };
+        if let Some(height_px) = height_px {
+            let high = charts.iter().map(|chart| chart.size.height_px).sum::<u32>();
+            let ratio = f64::from(height_px) / f64::from(high.max(1));
+            let given: Vec<Chart> = charts
+                .iter()
+                .map(|chart| resized(chart, width_px, ratio))
+                .collect();
+            let fit = given
+                .iter()
+                .map(chart::fits)
+                .collect::<Result<Vec<_>, _>>()?;
+            if !fit.contains(&false) {
+                charts.clone_from_slice(&given);
+                return Ok(true);
+            }
         }
-        Ok(true)
+        let wide = charts.iter().map(|chart| chart.size.width_px).max();
+        let ratio = f64::from(width_px) / f64::from(wide.unwrap_or(1).max(1));
+        for chart in charts {
+            *chart = resized(chart, width_px, ratio);
+            chart.size.height_px = chart::fitting_height_px(chart)?;
+        }
+        Ok(false)
     }
 
     /// Paper may be printed in grey: curves of a family, which differ in colour alone on a screen, get strokes of their own.
@@ -149,24 +170,10 @@ impl Picture {
     }
 }
 
-/// Charts one above another: their heights keep their ratios to one another. Where none is given they keep that to the width
-/// too, but for what labels and a legend above need.
-fn resize(charts: &mut [Chart], width_px: u32, height_px: Option<u32>) -> Result<(), ChartError> {
-    let drawn_wide = charts.iter().map(|chart| chart.size.width_px).max();
-    let drawn_high: u32 = charts.iter().map(|chart| chart.size.height_px).sum();
-    let ratio = match height_px {
-        Some(height_px) => f64::from(height_px) / f64::from(drawn_high.max(1)),
-        None => f64::from(width_px) / f64::from(drawn_wide.unwrap_or(1).max(1)),
-    };
-    for chart in charts {
-        let high = (f64::from(chart.size.height_px) * ratio).floor() as u32;
-        *chart = chart.clone().size(width_px, high);
-        if height_px.is_none() {
-            let high = chart::fitting_height_px(chart)?;
-            *chart = chart.clone().size(width_px, high);
-        }
-    }
-    Ok(())
+/// The chart so wide, its height in this ratio to what it was.
+fn resized(chart: &Chart, width_px: u32, ratio: f64) -> Chart {
+    let high = (f64::from(chart.size.height_px) * ratio).floor() as u32;
+    chart.clone().size(width_px, high)
 }
 
 /// A map to scale is as high as its lengths are.
@@ -180,5 +187,111 @@ fn resize_map(map: &mut HeatMap, width_px: u32, height_px: Option<u32>) -> bool 
             map.shape = MapShape::HeightPx(height_px.unwrap_or(in_ratio));
             true
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::chart::{Axis, Marker, Scale, Series};
+
+    fn chart() -> Chart {
+        let line = |step: u8| {
+            let points = [(0.0, 0.0), (1.0, 1.0 + f64::from(step))];
+            Series::line(points).color(Color::Ramp {
+                step: usize::from(step),
+                of: 2,
+            })
+        };
+        Chart::new(Axis::linear("x"), Axis::linear("y"))
+            .title("title")
+            .series(line(0))
+            .series(line(1))
+            .series(line(1).marker(Marker::Disc))
+    }
+
+    fn paper(height_m: Option<f64>) -> PaperSize {
+        PaperSize {
+            width_m: 0.08,
+            height_m,
+            px_m: 2e-4,
+        }
+    }
+
+    #[test]
+    fn heights_follow_the_width_or_are_what_is_given() {
+        let sizes = |height_m: Option<f64>| {
+            let mut stack = Picture::Stack(vec![
+                chart().size(800, 600),
+                chart().size(800, 300).title("b"),
+            ]);
+            let met = stack.resize(&paper(height_m)).unwrap();
+            assert_eq!(met, height_m == Some(0.12));
+            let Picture::Stack(charts) = stack else {
+                panic!("it is a stack")
+            };
+            let size = |chart: &Chart| (chart.size.width_px, chart.size.height_px);
+            charts.iter().map(size).collect::<Vec<_>>()
+        };
+        assert_eq!(sizes(None), [(400, 300), (400, 150)]);
+        assert_eq!(sizes(Some(0.12)), [(400, 400), (400, 200)]);
+        // Too low for labels: as high as they need.
+        assert_eq!(sizes(Some(0.03)), sizes(None));
+    }
+
+    #[test]
+    fn a_map_to_scale_keeps_its_shape_and_others_take_the_height() {
+        let map = |shape| HeatMap {
+            title: None,
+            x_label: "x".to_owned(),
+            y_label: "y".to_owned(),
+            x_range: (0.0, 1.0),
+            y_range: (0.0, 1.0),
+            x_scale: Scale::Linear,
+            y_scale: Scale::Linear,
+            columns: 1,
+            rows: 1,
+            values: vec![Some(1.0)],
+            value_label: "value".to_owned(),
+            value_range: None,
+            value_scale: Scale::Linear,
+            contours: false,
+            points: Vec::new(),
+            rings: Vec::new(),
+            width_px: 800,
+            shape,
+        };
+        let resized = |shape, height_m| {
+            let mut map = map(shape);
+            let free = resize_map(&mut map, 400, height_m);
+            (free, map.width_px, map.shape)
+        };
+        let high = MapShape::HeightPx;
+        assert_eq!(
+            resized(MapShape::ToScale, Some(7)),
+            (false, 400, MapShape::ToScale)
+        );
+        assert_eq!(resized(high(600), None), (true, 400, high(300)));
+        assert_eq!(resized(high(600), Some(200)), (true, 400, high(200)));
+    }
+
+    #[test]
+    fn on_paper_a_family_has_strokes_of_its_own_where_it_has_no_markers() {
+        let mut picture = Picture::from(chart());
+        picture.tell_apart_in_grey();
+        picture.drop_titles();
+        let Picture::Chart(chart) = picture else {
+            panic!("it is a chart")
+        };
+        let styles: Vec<_> = chart
+            .series
+            .iter()
+            .filter_map(|series| series.line)
+            .collect();
+        assert_eq!(
+            styles,
+            [LineStyle::Solid, LineStyle::Dashed, LineStyle::Solid]
+        );
+        assert_eq!(chart.title, None);
     }
 }
