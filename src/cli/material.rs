@@ -8,7 +8,7 @@ use super::document::Document;
 use super::material_table::DirectSum;
 use super::{Ended, Failure, material_block, material_fit, print};
 use crate::material::{Material, library};
-use crate::report::page::{self, material::About};
+use crate::report::page::{self, Pictures, material::About};
 use crate::report::{self, figure, material::MaterialReport};
 use crate::sweep::resolved;
 use crate::sweep::store::write_atomically;
@@ -41,14 +41,19 @@ fn show(flags: &ShowFlags) -> Result<Ended, Failure> {
         return Ok(Ended::Done);
     };
     let figures = report.figures().map_err(Failure::run)?;
-    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
+    let pictures = Pictures::default();
+    let write = |name: &str, bytes: &[u8]| {
+        pictures.see(name, bytes);
+        write_atomically(&folder.join(name), bytes)
+    };
     figure::write_all(&figures, &write).map_err(Failure::run)?;
     if let Some(figure) = figures.first() {
         let about = About {
             title: material.name().unwrap_or("Material"),
             text: &head,
             block: &resolved::material_text(&material),
-            figure,
+            pictures: &pictures,
+            figure: figure.name,
             fit: None,
         };
         let page = page::material::page(&material, &about).map_err(Failure::run)?;

@@ -4,7 +4,7 @@ use super::arguments::FitFlags;
 use super::{Ended, Failure, print, table_file};
 use crate::material::Material;
 use crate::material::fit;
-use crate::report::page::{self, material::About};
+use crate::report::page::{self, Pictures, material::About};
 use crate::report::{self, figure};
 use crate::sweep::resolved;
 use crate::sweep::store::write_atomically;
@@ -24,7 +24,11 @@ pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
         return Ok(Ended::Done);
     };
     let figures = figure::fit::figures(&table, &fit).map_err(Failure::run)?;
-    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
+    let pictures = Pictures::default();
+    let write = |name: &str, bytes: &[u8]| {
+        pictures.see(name, bytes);
+        write_atomically(&folder.join(name), bytes)
+    };
     write("material.toml", block.as_bytes()).map_err(Failure::run)?;
     figure::write_all(&figures, &write).map_err(Failure::run)?;
     if let Some(figure) = figures.first() {
@@ -33,7 +37,8 @@ pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
             title: &format!("Fit to {}", name.display()),
             text: &report::fit::text(fit.report()),
             block: &block,
-            figure,
+            pictures: &pictures,
+            figure: figure.name,
             fit: Some((&table, &fit)),
         };
         let page = page::material::page(&material, &about).map_err(Failure::run)?;

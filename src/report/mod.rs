@@ -22,6 +22,7 @@ use crate::sweep::plan::SweepPlan;
 use crate::sweep::run::Outcome;
 use crate::sweep::store::{Store, StoreError};
 use chart::ChartError;
+use page::Pictures;
 use stamp::Stamp;
 
 /// Why a report cannot be written.
@@ -59,12 +60,14 @@ pub fn write_sweep(
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
     store.write("summary.json", &summary)?;
     let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
-    let page = page::sweep(plan, outcome, &figures, store.sweep_hash())?;
-    store.write("index.html", page.as_bytes())?;
     let stamp = Stamp::of(store.sweep_hash());
+    let pictures = Pictures::default();
     figure::write_all(&figures, &|name, bytes| {
+        pictures.see(name, bytes);
         store.write(name, &stamp.on(name, bytes))
     })?;
+    let page = page::sweep(plan, outcome, &pictures, store.sweep_hash())?;
+    store.write("index.html", page.as_bytes())?;
     // An earlier run of the same sweep, which came further, may have left figures that this one has not.
     let has = |name: &str| figures.iter().any(|figure| figure.name == name);
     for name in files::FIGURES.into_iter().filter(|name| !has(name)) {

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::page::Pictures;
 use super::table::{Table, number, optional};
 use super::{ReportError, figure, npy, page, vti};
 use crate::contact::surface::{CellSurface, Surface};
@@ -23,8 +24,6 @@ pub fn write(
 ) -> Result<Vec<String>, ReportError> {
     store.write("history.csv", &history(&outcome.rows)?)?;
     store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
-    let page = page::simulation(plan, outcome, store.sweep_hash())?;
-    store.write("index.html", page.as_bytes())?;
     if !outcome.profiles.is_empty() {
         store.write("profiles/index.csv", &index(&outcome.profiles)?)?;
         for (k, record) in outcome.profiles.iter().enumerate() {
@@ -37,7 +36,11 @@ pub fn write(
             write_fields(store, k, record)?;
         }
     }
-    let write: &figure::WriteFile<'_> = &|name, bytes| store.write(name, bytes);
+    let pictures = Pictures::default();
+    let write: &figure::WriteFile<'_> = &|name, bytes| {
+        pictures.see(name, bytes);
+        store.write(name, bytes)
+    };
     let mut left_out = Vec::new();
     for missing in [
         figure::history::write(outcome, write)?,
@@ -46,6 +49,8 @@ pub fn write(
     ] {
         left_out.extend(missing);
     }
+    let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
+    store.write("index.html", page.as_bytes())?;
     Ok(left_out)
 }
 

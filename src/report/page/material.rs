@@ -3,14 +3,13 @@
 use serde::Serialize;
 
 use super::compact::{picked, rounded, spread};
-use super::html::{escaped, inline_figure, json_for_script};
+use super::html::{escaped, json_for_script};
 use super::sweep_data::MaterialData;
-use super::{Frame, filled, question};
+use super::{Frame, Pictures, filled, question};
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::material::{GivenFace, Material};
 use crate::report::ReportError;
-use crate::report::figure::Figure;
 use crate::sweep::resolved;
 
 const MATERIAL: &str = include_str!("material.html");
@@ -43,8 +42,9 @@ pub struct About<'a> {
     pub text: &'a str,
     /// The `[material]` block that gives it again.
     pub block: &'a str,
-    /// Drawn for a reader without script.
-    pub figure: &'a Figure,
+    /// The figures that have gone by, and the name of the one for a reader without script.
+    pub pictures: &'a Pictures,
+    pub figure: &'a str,
     /// The data it was fitted to.
     pub fit: Option<(&'a Tabulated, &'a Fit)>,
 }
@@ -54,20 +54,13 @@ pub struct About<'a> {
 /// # Errors
 /// [`ReportError`] naming the part that could not be made.
 pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportError> {
-    let svg = about
-        .figure
-        .picture
-        .to_svg()
-        .map_err(|source| ReportError::Chart {
-            name: about.figure.name,
-            source,
-        })?;
+    let figure = about.pictures.inline(about.figure).unwrap_or_default();
     let main = filled(
         MATERIAL,
         &[
             ("about", &format!("<p>{}</p>", escaped(about.text))),
             ("question", &question::material(material)),
-            ("figure", &inline_figure(&svg, about.figure.name)),
+            ("figure", &figure),
         ],
     )?;
     let face = match about.fit {

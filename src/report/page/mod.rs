@@ -8,20 +8,21 @@ mod how;
 mod html;
 pub mod material;
 mod number;
+mod pictures;
 mod question;
 mod simulation;
 mod sweep_data;
 
+pub use pictures::Pictures;
+
 use super::ReportError;
-use super::chart::ChartError;
-use super::figure::Figure;
 use crate::report::table;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::resolved;
 use crate::sweep::run::Outcome;
 use crate::sweep::scenario::{self, ScenarioPlan};
 use crate::sweep::simulate::SimulationOutcome;
-use html::{data_link, escaped, filled, inline_figure, json_for_script};
+use html::{data_link, escaped, filled, json_for_script};
 
 const PAGE: &str = include_str!("page.html");
 const STYLE: &str = include_str!("page.css");
@@ -78,21 +79,20 @@ impl Frame<'_> {
     }
 }
 
-/// The page of a sweep.
+/// The page of a sweep, whose figures have gone by.
 ///
 /// # Errors
 /// [`ReportError`] naming the part that could not be made.
 pub fn sweep(
     plan: &SweepPlan,
     outcome: &Outcome,
-    figures: &[Figure],
+    pictures: &Pictures,
     hash: &str,
 ) -> Result<String, ReportError> {
     let branches = outcome.retardation_times_s().len();
     let csv = table::sweep(&outcome.records, branches)?;
     let csv = String::from_utf8_lossy(&csv);
     let data = sweep_data::SweepData::new(plan, outcome, &csv);
-    let (curve, loops) = static_figures(figures)?;
     let main = filled(
         SWEEP,
         &[
@@ -102,8 +102,8 @@ pub fn sweep(
                 "varied",
                 plan.axis.as_ref().map_or("", |axis| axis.varied.name()),
             ),
-            ("curve_figure", &curve),
-            ("loops_figure", &loops),
+            ("curve_figure", &static_figure(pictures, "energy-loss")),
+            ("loops_figure", &static_figure(pictures, "loops")),
             ("table", &cases_table::table(plan, outcome)),
             ("question", &question::sweep(plan)),
             ("how", &how::sweep(plan, outcome)),
@@ -123,19 +123,19 @@ pub fn sweep(
     frame.page()
 }
 
-/// The page of one history.
+/// The page of one history, whose figure has gone by.
 ///
 /// # Errors
 /// [`ReportError`] naming the part that could not be made.
 pub fn simulation(
     plan: &ScenarioPlan,
     outcome: &SimulationOutcome,
+    pictures: &Pictures,
     hash: &str,
 ) -> Result<String, ReportError> {
-    let figure = match super::figure::history::svg(outcome)? {
-        Some(svg) => inline_figure(&svg, "history"),
-        None => "<p>The history has no two times: there is nothing to draw.</p>".to_owned(),
-    };
+    let figure = pictures.inline("history").unwrap_or_else(|| {
+        "<p>The history has no two times: there is nothing to draw.</p>".to_owned()
+    });
     let main = filled(
         SIMULATION,
         &[
@@ -160,18 +160,9 @@ pub fn simulation(
     frame.page()
 }
 
-/// Curve and loops for a reader without script; a sentence where there is nothing to draw.
-fn static_figures(figures: &[Figure]) -> Result<(String, String), ReportError> {
-    let inline = |name: &str| -> Result<String, ReportError> {
-        let Some(figure) = figures.iter().find(|figure| figure.name == name) else {
-            return Ok("<p>No case has a result: there is nothing to draw.</p>".to_owned());
-        };
-        let failed = |source: ChartError| ReportError::Chart {
-            name: figure.name,
-            source,
-        };
-        let svg = figure.picture.to_svg().map_err(failed)?;
-        Ok(inline_figure(&svg, figure.name))
-    };
-    Ok((inline("energy-loss")?, inline("loops")?))
+/// A figure for a reader without script; a sentence where there is nothing to draw.
+fn static_figure(pictures: &Pictures, name: &str) -> String {
+    pictures
+        .inline(name)
+        .unwrap_or_else(|| "<p>No case has a result: there is nothing to draw.</p>".to_owned())
 }
