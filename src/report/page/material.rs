@@ -3,9 +3,10 @@
 use serde::Serialize;
 
 use super::compact::{picked, rounded, spread};
+use super::frame::{Frame, Input, InputFile, MODULI, PLOT};
 use super::html::{escaped, json_for_script};
 use super::sweep_data::MaterialData;
-use super::{Frame, Pictures, filled, question};
+use super::{Pictures, filled, question};
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::material::{GivenFace, Material};
@@ -13,6 +14,7 @@ use crate::report::ReportError;
 use crate::sweep::resolved;
 
 const MATERIAL: &str = include_str!("material.html");
+const SCRIPT: &str = include_str!("material.js");
 /// Points of a curve over time, and samples shown at most.
 const POINTS: usize = 200;
 const SAMPLES: usize = 1000;
@@ -58,7 +60,7 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
     let main = filled(
         MATERIAL,
         &[
-            ("about", &format!("<p>{}</p>", escaped(about.text))),
+            ("about", &described(material, about.text)),
             ("question", &question::material(material)),
             ("figure", &figure),
         ],
@@ -75,11 +77,16 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
         title: about.title,
         asked: format!("{label} over time, complex modulus over frequency"),
         main,
-        file: about.block,
-        file_name: "material.toml",
-        hash: &resolved::hash(about.block),
-        file_text: "The material as a block of a sweep file, every number exact. \
-                    <code>contact-dma material show material.toml</code> shows it again.",
+        input: Input {
+            hashes: vec![("exactly this input", resolved::hash(about.block))],
+            files: vec![InputFile {
+                name: "material.toml",
+                text: about.block,
+            }],
+            text: "The material as a block of a sweep file, every number exact. \
+                   <code>contact-dma material show material.toml</code> shows it again.",
+        },
+        script: &[PLOT, MODULI, SCRIPT],
         data: json_for_script(&Data {
             kind: "material",
             material: MaterialData::of(material),
@@ -89,6 +96,19 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
         })?,
     };
     frame.page()
+}
+
+/// The text in paragraphs; nothing where the list of facts holds the same, line by line.
+fn described(material: &Material, text: &str) -> String {
+    if material.fit().is_some() {
+        return String::new();
+    }
+    let lines = text.replace("Source:", "\u{0}Source:");
+    let paragraphs = lines.split('\u{0}').map(str::trim);
+    paragraphs
+        .filter(|paragraph| !paragraph.is_empty())
+        .map(|paragraph| format!("<p>{}</p>\n", escaped(paragraph)))
+        .collect()
 }
 
 /// The data and their fit, or the function alone, at times evenly spread in their logarithm.

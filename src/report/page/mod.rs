@@ -4,8 +4,11 @@
 mod answer;
 mod cases_table;
 mod compact;
+pub mod comparison;
+pub mod drawing;
+pub mod frame;
 mod how;
-mod html;
+pub mod html;
 pub mod material;
 mod number;
 mod pictures;
@@ -22,62 +25,13 @@ use crate::sweep::resolved;
 use crate::sweep::run::Outcome;
 use crate::sweep::scenario::{self, ScenarioPlan};
 use crate::sweep::simulate::SimulationOutcome;
-use html::{data_link, escaped, filled, json_for_script};
+use frame::{Frame, HEAT, Input, InputFile, MODULI, PLOT, QUANTITIES, TABLE};
+use html::{filled, json_for_script};
 
-const PAGE: &str = include_str!("page.html");
-const STYLE: &str = include_str!("page.css");
 const SWEEP: &str = include_str!("sweep.html");
 const SIMULATION: &str = include_str!("simulation.html");
-
-/// The script, in the order in which its parts use each other.
-const SCRIPT: [&str; 8] = [
-    include_str!("core.js"),
-    include_str!("plot.js"),
-    include_str!("heat.js"),
-    include_str!("table.js"),
-    include_str!("material.js"),
-    include_str!("sweep.js"),
-    include_str!("simulation.js"),
-    include_str!("start.js"),
-];
-
-/// What every page has: the parts around its own.
-struct Frame<'a> {
-    title: &'a str,
-    /// One line under the title.
-    asked: String,
-    /// HTML of the page's own sections.
-    main: String,
-    /// The input as a file: its text, name, hash, and what to do with it, as HTML.
-    file: &'a str,
-    file_name: &'a str,
-    hash: &'a str,
-    file_text: &'a str,
-    /// JSON for the script.
-    data: String,
-}
-
-impl Frame<'_> {
-    fn page(&self) -> Result<String, ReportError> {
-        filled(
-            PAGE,
-            &[
-                ("title", &escaped(self.title)),
-                ("asked", &escaped(&self.asked)),
-                ("main", &self.main),
-                ("version", env!("CARGO_PKG_VERSION")),
-                ("hash", &escaped(self.hash)),
-                ("file_text", self.file_text),
-                ("file_name", self.file_name),
-                ("file_link", &data_link("text/plain", self.file)),
-                ("file", &escaped(self.file)),
-                ("style", STYLE),
-                ("data", &self.data),
-                ("script", &SCRIPT.concat()),
-            ],
-        )
-    }
-}
+const SWEEP_SCRIPT: &str = include_str!("sweep.js");
+const SIMULATION_SCRIPT: &str = include_str!("simulation.js");
 
 /// The page of a sweep, whose figures have gone by.
 ///
@@ -109,16 +63,22 @@ pub fn sweep(
             ("how", &how::sweep(plan, outcome)),
         ],
     )?;
+    let text = resolved::resolved_text(plan);
     let frame = Frame {
         title: &plan.title,
         asked: question::line(plan),
         main,
-        file: &resolved::resolved_text(plan),
-        file_name: "resolved.toml",
-        hash,
-        file_text: "The sweep file with every default written out. <code>contact-dma sweep resolved.toml</code> gives these \
-                    results again, under the same hash.",
+        input: Input {
+            hashes: vec![("exactly this input", hash.to_owned())],
+            files: vec![InputFile {
+                name: "resolved.toml",
+                text: &text,
+            }],
+            text: "The sweep file with every default written out. <code>contact-dma sweep resolved.toml</code> gives these \
+                   results again, under the same hash.",
+        },
         data: json_for_script(&data)?,
+        script: &[PLOT, HEAT, TABLE, MODULI, QUANTITIES, SWEEP_SCRIPT],
     };
     frame.page()
 }
@@ -146,16 +106,22 @@ pub fn simulation(
             ("how", &simulation::how(plan, outcome)),
         ],
     )?;
+    let text = scenario::resolved_text(plan);
     let frame = Frame {
         title: &plan.title,
         asked: simulation::line(plan),
         main,
-        file: &scenario::resolved_text(plan),
-        file_name: "resolved.toml",
-        hash,
-        file_text: "The scenario with every default written out. <code>contact-dma simulate resolved.toml</code> gives these \
-                    results again, under the same hash.",
+        input: Input {
+            hashes: vec![("exactly this input", hash.to_owned())],
+            files: vec![InputFile {
+                name: "resolved.toml",
+                text: &text,
+            }],
+            text: "The scenario with every default written out. <code>contact-dma simulate resolved.toml</code> gives these \
+                   results again, under the same hash.",
+        },
         data: json_for_script(&simulation::SimulationData::new(plan, outcome))?,
+        script: &[PLOT, HEAT, MODULI, SIMULATION_SCRIPT],
     };
     frame.page()
 }

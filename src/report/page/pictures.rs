@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use super::html::inline_figure;
+use super::drawing::inline_figure;
 
 /// The SVG that went by.
 #[derive(Debug, Default)]
@@ -21,7 +21,7 @@ impl Pictures {
     }
 
     /// The picture of this name as a part of a page.
-    pub(super) fn inline(&self, name: &str) -> Option<String> {
+    pub fn inline(&self, name: &str) -> Option<String> {
         let pictures = self.by_name.lock().unwrap_or_else(PoisonError::into_inner);
         pictures.get(name).map(|svg| inline_figure(svg, name))
     }
