@@ -9,6 +9,7 @@ use super::material_table::DirectSum;
 use super::{Ended, Failure, material_block, material_fit, print};
 use crate::material::{Material, library};
 use crate::report::page::{self, Pictures, material::About};
+use crate::report::terminal::wrapped;
 use crate::report::{self, figure, material::MaterialReport};
 use crate::sweep::resolved;
 use crate::sweep::store::write_atomically;
@@ -92,19 +93,7 @@ fn load(name: &str) -> Result<(Material, String), Failure> {
     Ok((material, format!("{title} (from {name})\n{fit}")))
 }
 
-/// A paragraph wrapped at 76 columns and set in by four.
+/// A paragraph set in by four.
 fn indented(text: &str) -> String {
-    let mut lines = String::new();
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > 72 {
-            lines.push_str(&format!("    {line}\n"));
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    lines + &format!("    {line}\n")
+    wrapped(text, 76, "    ", "    ")
 }

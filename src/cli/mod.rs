@@ -15,6 +15,7 @@ mod material;
 mod material_block;
 mod material_fit;
 mod material_table;
+mod meant_for;
 mod plan;
 mod progress;
 mod reproduce;
