@@ -44,6 +44,7 @@
 //! | [`report`] | tables and figures, from records alone |
 //! | [`reproduction`] | the base paper, figure by figure; knows `reference` too, to draw closed forms and compare with them |
 //! | [`cli`] | flags and files to plans |
+//! | [`guide`] | how to use the program; text alone |
 //!
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
 //! bit for bit.
@@ -52,6 +53,7 @@ pub mod cli;
 pub mod contact;
 pub mod cycle;
 pub mod drive;
+pub mod guide;
 pub mod history;
 pub mod indenter;
 pub mod material;

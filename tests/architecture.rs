@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms from top to bottom.
-const ROOMS: [&str; 13] = [
+const ROOMS: [&str; 14] = [
     "quantity",
     "material",
     "indenter",
@@ -18,6 +18,7 @@ const ROOMS: [&str; 13] = [
     "report",
     "reproduction",
     "cli",
+    "guide",
 ];
 
 /// Rooms that do not know one another, although one stands above the other.

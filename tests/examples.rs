@@ -94,8 +94,8 @@ fn a_file_is_run_by_the_command_it_is_meant_for_and_not_by_the_other() {
     for path in all() {
         let text = fs::read_to_string(&path).unwrap();
         let (other, expected) = match command(&text) {
-            "sweep" => ("simulate", "unknown key `sweep`"),
-            _ => ("sweep", "missing"),
+            "sweep" => ("simulate", "run `contact-dma sweep "),
+            _ => ("sweep", "run `contact-dma simulate "),
         };
         // The folder holds nothing, so that even a run would leave no trace beside the examples.
         let assert = program()

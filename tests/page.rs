@@ -1,12 +1,15 @@
-//! The pages of sweeps and scenarios: their size, what it loads, what it holds against the files beside it, its nesting.
+//! The pages of sweeps, scenarios, materials and comparisons: their size, what they load, what they hold against the files beside
+//! them, their nesting.
 
+#[path = "common/page.rs"]
+mod html;
 #[path = "common/program.rs"]
 mod program;
 
-use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use html::{assert_stands_alone, between, data, nesting_problems, unescaped};
 use program::{program, write};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -38,69 +41,6 @@ fn read(folder: &Path, name: &str) -> String {
     fs::read_to_string(folder.join("out").join(name)).unwrap()
 }
 
-/// What stands between the first `from` and the next `to`.
-fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
-    let (_, rest) = text.split_once(from).unwrap();
-    rest.split_once(to).unwrap().0
-}
-
-fn data(page: &str) -> Value {
-    let json = between(
-        page,
-        "<script type=\"application/json\" id=\"data\">",
-        "</script>",
-    );
-    serde_json::from_str(json).unwrap()
-}
-
-/// Undoes the five escapes.
-fn unescaped(text: &str) -> String {
-    [
-        ("&lt;", "<"),
-        ("&gt;", ">"),
-        ("&quot;", "\""),
-        ("&#39;", "'"),
-        ("&amp;", "&"),
-    ]
-    .iter()
-    .fold(text.to_owned(), |text, (from, to)| text.replace(from, to))
-}
-
-/// Names of the elements that are opened and not closed in order, by a reader that knows tags and nothing else.
-fn nesting_problems(page: &str) -> Vec<String> {
-    const VOID: [&str; 4] = ["meta", "link", "input", "br"];
-    let (mut open, mut problems) = (Vec::new(), Vec::new());
-    let mut rest = page;
-    while let Some(at) = rest.find('<') {
-        rest = &rest[at + 1..];
-        let (tag, after) = rest.split_once('>').unwrap();
-        rest = after;
-        if tag.starts_with('!') {
-            continue;
-        }
-        let name: String = tag
-            .trim_start_matches('/')
-            .chars()
-            .take_while(|c| c.is_alphanumeric())
-            .collect();
-        if tag.starts_with('/') {
-            if open.pop() != Some(name.clone()) {
-                problems.push(format!("</{name}> closes something else"));
-            }
-        } else if !tag.ends_with('/') && !VOID.contains(&name.as_str()) {
-            if ["script", "style"].contains(&name.as_str()) {
-                // What they hold is no HTML.
-                let end = format!("</{name}>");
-                rest = rest.split_once(end.as_str()).unwrap().1;
-            } else {
-                open.push(name);
-            }
-        }
-    }
-    problems.extend(open.iter().map(|name| format!("<{name}> is never closed")));
-    problems
-}
-
 const SIXTY: &str = r#"{ from = "1e-4 rad/s", to = "1 rad/s", points = 60, spacing = "log" }"#;
 
 #[test]
@@ -109,27 +49,7 @@ fn a_page_of_sixty_frequencies_is_small_and_loads_nothing() {
     let page = page(&folder, &sweep_file("\"sixty\"", SIXTY, ""), 0);
     println!("index.html of 60 frequencies: {} bytes", page.len());
     assert!(page.len() < 1_500_000, "{}", page.len());
-    for load in [
-        "src=", "@import", "url(http", "url(/", "<iframe", "<object", "<base", "fetch(", "import(",
-    ] {
-        assert!(!page.contains(load), "{load}");
-    }
-    // Addresses of other machines stand in links that a person may follow, and nowhere else.
-    for (at, _) in page.match_indices("http") {
-        let before = &page[..at];
-        let after = &page[at..];
-        if after.starts_with("http://") || after.starts_with("https://") {
-            assert!(before.ends_with("<a href=\""), "{}", &after[..60]);
-        }
-    }
-    assert_eq!(nesting_problems(&page), Vec::<String>::new());
-    let ids: Vec<&str> = page
-        .split(" id=\"")
-        .skip(1)
-        .map(|rest| rest.split('"').next().unwrap())
-        .collect();
-    let distinct: BTreeSet<&str> = ids.iter().copied().collect();
-    assert_eq!(ids.len(), distinct.len(), "two elements share a name");
+    assert_stands_alone(&page);
 }
 
 #[test]
@@ -309,7 +229,7 @@ fn materials_and_fits_have_pages_with_the_block_that_gives_them_again() {
             .assert()
             .success();
         let page = read(folder.path(), "index.html");
-        assert_eq!(nesting_problems(&page), Vec::<String>::new());
+        assert_stands_alone(&page);
         assert_eq!(data(&page)["curves"].as_array().unwrap().len(), curves);
         let block = unescaped(between(
             &page,
@@ -322,4 +242,109 @@ fn materials_and_fits_have_pages_with_the_block_that_gives_them_again() {
             .assert()
             .success();
     }
+}
+
+/// Two sweeps of these frequencies on so many steps, compared; the page, and whether they are the same.
+fn compared(folder: &TempDir, sweeps: [(&str, usize); 2], more: &[&str]) -> (String, bool) {
+    let mut command = program();
+    command.arg("compare");
+    for (k, (frequencies, steps)) in sweeps.into_iter().enumerate() {
+        let text = sweep_file(
+            "\"a <b>\"",
+            frequencies,
+            &format!("[cycle]\nsteps = {steps}\n"),
+        );
+        let file = write(folder, &format!("{k}.toml"), &text);
+        let out = folder.path().join(k.to_string());
+        program()
+            .args(["sweep", &file, "--quiet", "--out"])
+            .arg(&out)
+            .assert()
+            .success();
+        command.arg(out);
+    }
+    let out = folder.path().join("out");
+    let output = command.args(more).arg("--out").arg(&out).output().unwrap();
+    let code = output.status.code();
+    assert!(matches!(code, Some(0 | 4)), "{code:?}");
+    (read(folder.path(), "index.html"), code == Some(0))
+}
+
+#[test]
+fn a_page_of_a_comparison_says_the_verdict_and_holds_both_results() {
+    let folder = TempDir::new().unwrap();
+    let frequencies = r#"["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]"#;
+    let (page, same) = compared(&folder, [(frequencies, 200), (frequencies, 100)], &[]);
+    assert!(same);
+    assert_stands_alone(&page);
+    assert!(page.contains("<strong>The results are the same within the tolerances.</strong>"));
+    assert!(page.contains("  - steps = 200\n  + steps = 100\n"));
+    let data = data(&page);
+    assert_eq!(data["csv"], read(folder.path(), "comparison.csv"));
+    // Every value is the one in the table it comes from.
+    for (k, side) in ["baseline", "new"].into_iter().enumerate() {
+        let mut table =
+            csv::Reader::from_path(folder.path().join(format!("{k}/sweep.csv"))).unwrap();
+        let heads = table.headers().unwrap().clone();
+        let rows: Vec<csv::StringRecord> = table.records().map(|row| row.unwrap()).collect();
+        for column in data["columns"].as_array().unwrap() {
+            let name = column["name"].as_str().unwrap();
+            let place = heads.iter().position(|head| head == name).unwrap();
+            for (row, value) in rows.iter().zip(column[side].as_array().unwrap()) {
+                assert_eq!(row[place].parse().ok(), value.as_f64(), "{side} {name}");
+            }
+        }
+        let summary = fs::read(folder.path().join(format!("{k}/summary.json"))).unwrap();
+        let summary: Value = serde_json::from_slice(&summary).unwrap();
+        assert!(page.contains(summary["sweep_hash"].as_str().unwrap()));
+    }
+}
+
+#[test]
+fn a_page_of_a_comparison_names_what_differs() {
+    let folder = TempDir::new().unwrap();
+    let sweeps = [
+        (r#"["0.004 rad/s", "0.008 rad/s"]"#, 200),
+        (r#"["0.008 rad/s", "0.02 rad/s"]"#, 100),
+    ];
+    let (page, same) = compared(&folder, sweeps, &["--tolerance", "dissipated_j=1e-9"]);
+    assert!(!same);
+    assert_stands_alone(&page);
+    for said in [
+        "<strong>The results differ.</strong>",
+        "<li>1 case is missing in the new result</li>",
+        "<li>1 case is only in the new result</li>",
+        "<li>dissipated_j differs in 1 of 1 cases, at most by ",
+        "<h3>Missing in the new result: 1</h3>\n<ul>\n<li>ω = 4.000e-3 rad/s (mean 10, amplitude 5)</li>",
+        "dissipated_j 10⁻⁹.",
+    ] {
+        assert!(page.contains(said), "{said}");
+    }
+    let loss = &data(&page)["columns"][0];
+    assert_eq!(loss["name"], "energy_loss_j");
+    let absent: Vec<bool> = loss["new"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(Value::is_null)
+        .collect();
+    assert_eq!(absent, [true, false, false]);
+}
+
+#[test]
+fn two_tables_alone_have_a_page_without_origin() {
+    let folder = TempDir::new().unwrap();
+    let baseline = Path::new(env!("CARGO_MANIFEST_DIR")).join("reports/baseline/pmma/sweep.csv");
+    let out = folder.path().join("out");
+    program()
+        .arg("compare")
+        .args([&baseline, &baseline])
+        .arg("--out")
+        .arg(&out)
+        .assert()
+        .success();
+    let page = read(folder.path(), "index.html");
+    assert_stands_alone(&page);
+    assert!(page.contains("What was asked cannot be compared"));
+    assert!(!page.contains("The input, to run again"));
 }

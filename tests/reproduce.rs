@@ -1,6 +1,8 @@
 //! The figures of the base paper: made again from the files of `sweeps/spinu-2018/`, compared byte for byte with what is
 //! committed in `reports/spinu-2018/`; and every claim held to the accuracy it needs.
 
+#[path = "common/page.rs"]
+mod html;
 #[path = "common/program.rs"]
 mod program;
 
@@ -9,6 +11,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use html::{assert_stands_alone, data};
 use predicates::str::contains;
 use program::program;
 use tempfile::TempDir;
@@ -45,8 +48,8 @@ fn claims() -> Vec<std::collections::BTreeMap<String, String>> {
 fn what_is_committed_is_what_the_command_writes() {
     let (made, kept) = (names(MADE.path()), names(&committed()));
     assert_eq!(made, kept);
-    // Eleven figures in four files each, the claims, the page.
-    assert_eq!(made.len(), 46);
+    // Eleven figures in four files each, the claims, the text, the page.
+    assert_eq!(made.len(), 47);
     for name in made {
         let found = fs::read(MADE.path().join(&name)).unwrap();
         let expected = fs::read(committed().join(&name)).unwrap();
@@ -70,6 +73,24 @@ fn every_claim_is_as_accurate_as_it_must_be() {
     }
     // Every number but the constants of the creep function is computed on the half-space.
     assert!(checked + 6 >= claims.len() && checked > 80, "{checked}");
+}
+
+#[test]
+fn the_page_holds_every_figure_and_every_claim_and_stands_alone() {
+    let page = fs::read_to_string(MADE.path().join("index.html")).unwrap();
+    assert!(page.len() < 1_500_000, "{}", page.len());
+    assert_stands_alone(&page);
+    let claims = claims();
+    assert_eq!(page.matches("<tr data-verdict=").count(), claims.len());
+    let table = fs::read_to_string(MADE.path().join("claims.csv")).unwrap();
+    assert_eq!(data(&page)["csv"], table);
+    assert_eq!(page.matches("<svg ").count(), 11);
+    for claim in &claims {
+        let row = format!("<tr data-verdict=\"{}\">", claim["verdict"]);
+        assert!(page.contains(&row));
+    }
+    // Every file behind the figures can be downloaded.
+    assert_eq!(page.matches(" download=\"figure-").count(), 17);
 }
 
 #[test]
@@ -116,12 +137,13 @@ fn one_figure_alone_is_the_same_figure() {
         "figure-01.csv",
         "figure-01.png",
         "figure-01.svg",
+        "index.html",
     ];
     assert_eq!(
         names(folder.path()),
         BTreeSet::from(expected.map(str::to_owned))
     );
-    for name in &expected[2..] {
+    for name in &expected[2..5] {
         let [found, kept] = [folder.path(), &committed()].map(|f| fs::read(f.join(name)).unwrap());
         assert!(found == kept, "{name}");
     }

@@ -1,5 +1,6 @@
 //! What can be typed: commands, flags, their help texts.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -82,8 +83,8 @@ pub(super) struct SweepFlags {
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Number of threads [default: one per processor]; the results do not depend on it
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS")]
-    pub(super) threads: Option<std::num::NonZeroUsize>,
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
+    pub(super) threads: Option<NonZeroUsize>,
     /// Change one key of the sweep file, for example drive.amplitude='2 N'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
@@ -141,8 +142,8 @@ pub(super) struct MergeFlags {
     #[arg(long, value_name = "DIR")]
     pub(super) out: PathBuf,
     /// Number of threads [default: one per processor]
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS")]
-    pub(super) threads: Option<std::num::NonZeroUsize>,
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
+    pub(super) threads: Option<NonZeroUsize>,
     /// Replace the results of a different sweep in the output folder
     #[arg(long)]
     pub(super) force: bool,
@@ -187,7 +188,8 @@ Examples:
 
 Cases are matched by drive and frequency, peaks by frequency. Values on the same steps and nodes
 are the same within --relative and --absolute; on different ones, within their error bars too.
-With --out, both curves of the loss and their difference are drawn as SVG and PNG, with data.")]
+With --out, both curves of the loss and their difference are drawn as SVG and PNG, with data,
+and index.html says all of it in one page: verdict, columns, peaks, cases, where both come from.")]
 pub(super) struct CompareFlags {
     /// Folder of a sweep, or a sweep.csv
     pub(super) baseline: PathBuf,
@@ -202,7 +204,7 @@ pub(super) struct CompareFlags {
     /// Relative difference allowed in one column; may be repeated
     #[arg(long, value_name = "COLUMN=R", value_parser = compare::column_tolerance)]
     pub(super) tolerance: Vec<(String, f64)>,
-    /// Folder for a figure of both
+    /// Folder for figure and page of both
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
     /// Print nothing but errors
@@ -338,4 +340,11 @@ pub(super) struct ShowFlags {
     /// Folder for figures and their data
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+}
+
+/// A number of threads.
+pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
+    let number = text.trim().parse().ok();
+    number
+        .ok_or_else(|| format!("`{text}` is no number of threads: write a whole number from 1 on"))
 }

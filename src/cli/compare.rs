@@ -6,10 +6,12 @@ use std::path::Path;
 
 use super::arguments::CompareFlags;
 use super::{Ended, Failure, print};
-use crate::report::comparison::{Comparison, SweepTable, Tolerances};
+use crate::report::comparison::{self, Comparison, RunFacts, Source, SweepTable, Tolerances};
 use crate::report::figure::{self, press::Press};
+use crate::report::page::comparison::Compared;
+use crate::report::page::{self, Pictures};
 use crate::sweep::figure_plan::FigurePlan;
-use crate::sweep::store::write_atomically;
+use crate::sweep::store::{RESOLVED, write_atomically};
 
 /// A result larger than this is none of a sweep.
 const MAX_BYTES: u64 = 256_000_000;
@@ -22,24 +24,21 @@ pub(super) fn run(flags: &CompareFlags) -> Result<Ended, Failure> {
         columns: flags.tolerance.clone(),
     };
     let (baseline, new) = (open(&flags.baseline)?, open(&flags.new)?);
-    let comparison = Comparison::of(&baseline, &new, &tolerances).map_err(Failure::input)?;
+    let comparison =
+        Comparison::of(&baseline.table, &new.table, &tolerances).map_err(Failure::input)?;
     let mut text = comparison.text();
     if let Some(out) = &flags.out {
-        let write = |name: &str, bytes: &[u8]| write_atomically(&out.join(name), bytes);
-        let press = Press {
-            plan: &FigurePlan::default(),
-            write: &write,
-        };
-        let left_out = figure::comparison::write(&comparison, &press);
-        if let Some(reason) = left_out.map_err(Failure::run)? {
-            text.push_str(&format!("{reason}\n"));
-        }
+        let left_out = write(out, &comparison, &tolerances, [&baseline, &new])?;
+        text.extend(left_out.map(|reason| format!("{reason}\n")));
     }
     let differs = comparison.differs();
     text.push_str(match differs {
         true => "\nThe results differ.\n",
         false => "\nThe results are the same within the tolerances.\n",
     });
+    if let Some(out) = &flags.out {
+        text.push_str(&format!("\nComparison in {}\n", out.display()));
+    }
     if !flags.quiet {
         print(&text)?;
     }
@@ -49,19 +48,70 @@ pub(super) fn run(flags: &CompareFlags) -> Result<Ended, Failure> {
     })
 }
 
+/// Writes figure, data and page. Returns why there is no figure, where there is none.
+fn write(
+    out: &Path,
+    comparison: &Comparison,
+    tolerances: &Tolerances,
+    [baseline, new]: [&Opened; 2],
+) -> Result<Option<String>, Failure> {
+    let pictures = Pictures::default();
+    let write = |name: &str, bytes: &[u8]| write_atomically(&out.join(name), bytes);
+    let press = Press {
+        plan: &FigurePlan::default(),
+        write: &write,
+        pictures: &pictures,
+    };
+    let left_out = figure::comparison::write(comparison, &press).map_err(Failure::run)?;
+    let names = comparison.columns.iter().map(|column| column.name.as_str());
+    let columns = comparison::columns(&baseline.table, &new.table, names);
+    let page = page::comparison::page(&Compared {
+        comparison,
+        tolerances,
+        baseline: &baseline.table,
+        new: &new.table,
+        sources: [&baseline.source, &new.source],
+        columns: &columns.map_err(Failure::input)?,
+        pictures: &pictures,
+    });
+    write("index.html", page.map_err(Failure::run)?.as_bytes()).map_err(Failure::run)?;
+    Ok(left_out)
+}
+
+/// A result and where it comes from.
+struct Opened {
+    table: SweepTable,
+    source: Source,
+}
+
 /// The result in a folder, with its peaks, or in a single table, without.
-fn open(path: &Path) -> Result<SweepTable, Failure> {
-    let (table, summary) = match path.is_dir() {
-        true => (path.join("sweep.csv"), Some(path.join("summary.json"))),
-        false => (path.to_path_buf(), None),
+fn open(path: &Path) -> Result<Opened, Failure> {
+    let name = path.display().to_string();
+    if !path.is_dir() {
+        let table = SweepTable::parse(&name, &read(path)?, None).map_err(Failure::input)?;
+        let source = Source {
+            name,
+            ..Source::default()
+        };
+        return Ok(Opened { table, source });
+    }
+    let beside = |file: &str| {
+        let file = path.join(file);
+        file.exists().then(|| read(&file)).transpose()
     };
-    let bytes = read(&table)?;
-    let summary = match summary.filter(|summary| summary.exists()) {
-        Some(summary) => Some(read(&summary)?),
-        None => None,
+    let csv = path.join("sweep.csv");
+    let (bytes, summary) = (read(&csv)?, beside("summary.json")?);
+    let table = SweepTable::parse(&csv.display().to_string(), &bytes, summary.as_deref())
+        .map_err(Failure::input)?;
+    let run = beside("run.json")?;
+    let told = [run.as_deref(), summary.as_deref()].into_iter().flatten();
+    let resolved = beside(RESOLVED)?;
+    let source = Source {
+        name,
+        run: RunFacts::read(told),
+        resolved: resolved.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()),
     };
-    let name = table.display().to_string();
-    SweepTable::parse(&name, &bytes, summary.as_deref()).map_err(Failure::input)
+    Ok(Opened { table, source })
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {

@@ -10,7 +10,8 @@ use super::{Ended, Failure, material_block, material_fit, print};
 use crate::material::{Material, library};
 use crate::report::caption::Setting;
 use crate::report::figure::press::Press;
-use crate::report::page::{self, material::About};
+use crate::report::page::{self, Pictures, material::About};
+use crate::report::terminal::wrapped;
 use crate::report::{self, material::MaterialReport};
 use crate::sweep::figure_plan::FigurePlan;
 use crate::sweep::resolved;
@@ -44,10 +45,12 @@ fn show(flags: &ShowFlags) -> Result<Ended, Failure> {
         return Ok(Ended::Done);
     };
     let figures = report.figures().map_err(Failure::run)?;
+    let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     let press = Press {
         plan: &FigurePlan::default(),
         write: &write,
+        pictures: &pictures,
     };
     let drawn = press.figures(&figures, &Setting::of_material(&material));
     drawn.map_err(Failure::run)?;
@@ -56,7 +59,8 @@ fn show(flags: &ShowFlags) -> Result<Ended, Failure> {
             title: material.name().unwrap_or("Material"),
             text: &head,
             block: &resolved::material_text(&material),
-            figure,
+            pictures: &pictures,
+            figure: figure.name,
             fit: None,
         };
         let page = page::material::page(&material, &about).map_err(Failure::run)?;
@@ -95,19 +99,7 @@ fn load(name: &str) -> Result<(Material, String), Failure> {
     Ok((material, format!("{title} (from {name})\n{fit}")))
 }
 
-/// A paragraph wrapped at 76 columns and set in by four.
+/// A paragraph set in by four.
 fn indented(text: &str) -> String {
-    let mut lines = String::new();
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        if !line.is_empty() && line.chars().count() + 1 + word.chars().count() > 72 {
-            lines.push_str(&format!("    {line}\n"));
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    lines + &format!("    {line}\n")
+    wrapped(text, 76, "    ", "    ")
 }

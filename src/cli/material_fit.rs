@@ -6,7 +6,7 @@ use crate::material::Material;
 use crate::material::fit;
 use crate::report::caption::Setting;
 use crate::report::figure::press::Press;
-use crate::report::page::{self, material::About};
+use crate::report::page::{self, Pictures, material::About};
 use crate::report::{self, figure};
 use crate::sweep::figure_plan::FigurePlan;
 use crate::sweep::resolved;
@@ -27,11 +27,13 @@ pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
         return Ok(Ended::Done);
     };
     let figures = figure::fit::figures(&table, &fit).map_err(Failure::run)?;
+    let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     write("material.toml", block.as_bytes()).map_err(Failure::run)?;
     let press = Press {
         plan: &FigurePlan::default(),
         write: &write,
+        pictures: &pictures,
     };
     let drawn = press.figures(&figures, &Setting::of_material(&material));
     drawn.map_err(Failure::run)?;
@@ -41,7 +43,8 @@ pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
             title: &format!("Fit to {}", name.display()),
             text: &report::fit::text(fit.report()),
             block: &block,
-            figure,
+            pictures: &pictures,
+            figure: figure.name,
             fit: Some((&table, &fit)),
         };
         let page = page::material::page(&material, &about).map_err(Failure::run)?;

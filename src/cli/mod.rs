@@ -16,6 +16,7 @@ mod material;
 mod material_block;
 mod material_fit;
 mod material_table;
+mod meant_for;
 mod memory;
 mod plan;
 mod progress;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::arguments::PlanFlags;
-use super::{Ended, Failure, open_document, print, sweep_file};
+use super::{Ended, Failure, meant_for, open_document, print, sweep_file};
 use crate::quantity::{Dimension, format_human};
 use crate::report::terminal::frequency;
 use crate::sweep::case::Setup;
@@ -16,6 +16,7 @@ const LISTED: usize = 100;
 /// Runs the command.
 pub(super) fn run(flags: &PlanFlags) -> Result<Ended, Failure> {
     let document = open_document(&flags.file, &flags.set)?;
+    meant_for::sweep(&document, &flags.file)?;
     let plan = sweep_file::plan(&document)?;
     show(&Setup::new(plan).map_err(Failure::input)?)
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use super::arguments::threads;
 use super::diagnostic::Problems;
 use super::document::Document;
 use super::figures_block::{self, Figures};
@@ -13,7 +14,7 @@ use super::sweep::interrupt_flag;
 use super::sweep_file::optional;
 use super::{Ended, Failure, print, scenario_file, sweep_file};
 use crate::reproduction::{
-    self, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
+    self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
 use crate::sweep::figure_plan::FigurePlan;
 
@@ -27,8 +28,9 @@ Examples:
 
 The figures are those of S. Spinu, Advances in Tribology 2018, 9432894: 1 and 4 to 13.
 Written to the output folder: figure-NN as SVG and PNG with the data as CSV, claims.csv
-(every number, as the paper states it, exact, and by both engines) and README.md with all
-of it. The scenarios and sweeps behind them are in sweeps/spinu-2018/ of the repository.")]
+(every number, as the paper states it, exact, and by both engines), and all of it in one
+place: index.html for a browser, README.md for a repository. The scenarios and sweeps behind
+them are in sweeps/spinu-2018/ of the repository.")]
 pub(super) struct ReproduceFlags {
     /// Folder for the results
     #[arg(long, value_name = "DIR", default_value = DEFAULT_FOLDER)]
@@ -41,7 +43,7 @@ pub(super) struct ReproduceFlags {
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
     /// Number of threads [default: one per processor]; the results do not depend on it
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS")]
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
     /// Print nothing but errors
     #[arg(long, short)]
@@ -130,14 +132,14 @@ fn plans() -> Result<Plans, Failure> {
 /// What is printed at the end.
 fn text(made: &[Figure], folder: &Path) -> String {
     let claims = || made.iter().flat_map(|figure| &figure.claims);
-    let count = |verdict| claims().filter(|claim| claim.verdict == verdict).count();
+    let count = Count::of(claims());
     let mut text = format!(
         "{} figures, {} claims: {} agree with the paper, {} disagree, {} are not stated there\n",
         made.len(),
-        claims().count(),
-        count(Verdict::Agrees),
-        count(Verdict::Disagrees),
-        count(Verdict::NotStated)
+        count.all,
+        count.agree,
+        count.disagree,
+        count.not_stated
     );
     for claim in claims().filter(|claim| claim.verdict == Verdict::Disagrees) {
         text.push_str(&format!(

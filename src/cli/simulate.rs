@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::arguments::SimulateFlags;
 use super::sweep::interrupt_flag;
-use super::{Ended, Failure, open_document, open_store, print, scenario_file};
+use super::{Ended, Failure, meant_for, open_document, open_store, print, scenario_file};
 use crate::report::{self, terminal_simulation};
 use crate::sweep::history_checkpoint::{Found, HistoryCheckpoint, Stand};
 use crate::sweep::scenario;
@@ -18,6 +18,7 @@ use crate::sweep::store::Store;
 /// Runs the command.
 pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
     let document = open_document(&flags.file, &flags.set)?;
+    meant_for::simulate(&document, &flags.file)?;
     let plan = scenario_file::plan(&document)?;
     let simulation = Simulation::new(plan).map_err(Failure::input)?;
     let resolved = scenario::resolved_text(simulation.plan());

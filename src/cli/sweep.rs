@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use super::arguments::{OutputFormat, SweepFlags};
 use super::progress::Shown;
-use super::{Ended, Failure, memory, open_document, open_store, print, sweep_file};
+use super::{Ended, Failure, meant_for, memory, open_document, open_store, print, sweep_file};
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
 use crate::sweep::provenance::{Circumstances, Stopwatch};
@@ -24,6 +24,7 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
     let accuracy = flags.accuracy.map(|a| format!("cycle.accuracy={a:?}"));
     let set: Vec<String> = flags.set.iter().cloned().chain(accuracy).collect();
     let document = open_document(&flags.file, &set)?;
+    meant_for::sweep(&document, &flags.file)?;
     let plan = sweep_file::plan(&document)?;
     let setup = Setup::new(plan).map_err(Failure::input)?;
     if flags.dry_run {

@@ -65,7 +65,7 @@ pub struct Solution {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ContactError {
     #[error(
-        "the contact reached the edge of the computational domain (half width {half_width_m:e} m)"
+        "the contact reached the edge of the computational domain (half width {half_width_m:.3e} m)"
     )]
     ReachedEdge { half_width_m: f64 },
     #[error(

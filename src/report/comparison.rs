@@ -5,10 +5,14 @@
 //! sum of their error bars count as the same too, and columns without bars are not judged; on the same steps and nodes, where
 //! the errors are the same, bars excuse nothing, but differences within them are reported as such.
 
+mod columns;
 mod result;
-mod text;
+mod source;
+pub(in crate::report) mod text;
 
+pub use columns::{Column, columns};
 pub use result::{ComparisonError, SweepTable};
+pub use source::{RunFacts, Source};
 
 use result::Row;
 
@@ -138,7 +142,7 @@ impl Comparison {
                 .collect(),
             columns,
             peaks: peaks(baseline, new, tolerances),
-            curve: curve(baseline, new)?,
+            curve: columns::curve(baseline, new)?,
         })
     }
 
@@ -302,40 +306,6 @@ fn peak_differs(a: &Peak, b: &Peak, tolerances: &Tolerances) -> bool {
     };
     let allowed_j = tolerances.absolute + relative * losses[0].abs().max(losses[1].abs()) + bars_j;
     (omegas[0] - omegas[1]).abs() > allowed || (losses[0] - losses[1]).abs() > allowed_j
-}
-
-fn curve(baseline: &SweepTable, new: &SweepTable) -> Result<Vec<CurvePoint>, ComparisonError> {
-    let loss = |table: &SweepTable, row: Option<&Row>, column| match row {
-        Some(row) => table.number(row, column),
-        None => Ok(None),
-    };
-    let mut curve = Vec::new();
-    let added = new.rows.iter().filter(|r| baseline.row(r.place).is_none());
-    for row in baseline.rows.iter().chain(added) {
-        let place = row.place;
-        let (a, b) = (baseline.row(place), new.row(place));
-        let errors =
-            loss(baseline, a, "energy_loss_error_j")?.zip(loss(new, b, "energy_loss_error_j")?);
-        curve.push(CurvePoint {
-            place,
-            baseline_j: loss(baseline, a, "energy_loss_j")?,
-            new_j: loss(new, b, "energy_loss_j")?,
-            error_j: errors.map(|(a, b)| a + b),
-        });
-    }
-    curve.sort_by(|a, b| {
-        let key = |p: &Place| {
-            [
-                p.drive_mean,
-                p.drive_amplitude,
-                p.angular_frequency_rad_per_s,
-            ]
-        };
-        key(&a.place)
-            .partial_cmp(&key(&b.place))
-            .unwrap_or(std::cmp::Ordering::Equal)
-    });
-    Ok(curve)
 }
 
 #[cfg(test)]

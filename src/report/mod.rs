@@ -26,9 +26,9 @@ use crate::sweep::run::Outcome;
 use crate::sweep::store::{Store, StoreError};
 use caption::Setting;
 use chart::ChartError;
-use figure::Figure;
 use figure::press::{self, Press};
 use figure::units::Units;
+use page::Pictures;
 use stamp::Stamp;
 
 /// Why a report cannot be written.
@@ -68,14 +68,20 @@ pub fn write_sweep(
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
     store.write("summary.json", &summary)?;
     let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
-    write_page(store, plan, outcome, &figures)?;
     let stamp = Stamp::of(store.sweep_hash());
     let units = Units::of_sweep(plan)?.sentence();
+    let pictures = Pictures::default();
     let press = Press {
         plan: &plan.figures,
         write: &|name, bytes| store.write(name, &stamp.on(name, bytes)),
+        pictures: &pictures,
     };
     press.figures(&figures, &Setting::of_sweep(plan, outcome, units))?;
+    if plan.figures.axes != AxisUnits::Si {
+        picture_in_si(plan, outcome, &pictures)?;
+    }
+    let page = page::sweep(plan, outcome, &pictures, store.sweep_hash())?;
+    store.write("index.html", page.as_bytes())?;
     // An earlier run of the same sweep, which came further or was asked for other forms, may have left more than this one.
     let has = |name: &str| figures.iter().any(|figure| figure.name == name);
     for name in files::FIGURES {
@@ -90,22 +96,22 @@ pub fn write_sweep(
     Ok(left_out)
 }
 
-/// The page shows SI units throughout: its own script draws in them.
-fn write_page(
-    store: &Store,
+/// The page shows SI units throughout, since its own script draws in them: gives it its figures in these.
+fn picture_in_si(
     plan: &SweepPlan,
     outcome: &Outcome,
-    figures: &[Figure],
+    pictures: &Pictures,
 ) -> Result<(), ReportError> {
-    let hash = store.sweep_hash();
-    let page = match plan.figures.axes {
-        AxisUnits::Si => page::sweep(plan, outcome, figures, hash)?,
-        AxisUnits::Normalised => {
-            let mut in_si = plan.clone();
-            in_si.figures.axes = AxisUnits::Si;
-            let (figures, _) = figure::of_sweep::figures(&in_si, outcome)?;
-            page::sweep(plan, outcome, &figures, hash)?
-        }
-    };
-    Ok(store.write("index.html", page.as_bytes())?)
+    let mut in_si = plan.clone();
+    in_si.figures.axes = AxisUnits::Si;
+    let (figures, _) = figure::of_sweep::figures(&in_si, outcome)?;
+    for figure in figures.iter().filter(|f| page::FIGURES.contains(&f.name)) {
+        let svg = figure.picture.to_svg();
+        let svg = svg.map_err(|source| ReportError::Chart {
+            name: figure.name,
+            source,
+        })?;
+        pictures.see(&format!("{}.svg", figure.name), svg.as_bytes());
+    }
+    Ok(())
 }

@@ -8,10 +8,12 @@ use super::caption::Setting;
 use super::figure::Drawn;
 use super::figure::press::{self, Press};
 use super::figure::units::Units;
+use super::page::Pictures;
 use super::table::{Table, number, optional};
 use super::{ReportError, figure, npy, page, vti};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::sweep::body_material::BodyMaterial;
+use crate::sweep::figure_plan::AxisUnits;
 use crate::sweep::scenario::{self, ScenarioPlan};
 use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::store::Store;
@@ -27,8 +29,6 @@ pub fn write(
 ) -> Result<Vec<String>, ReportError> {
     store.write("history.csv", &history(&outcome.rows)?)?;
     store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
-    let page = page::simulation(plan, outcome, store.sweep_hash())?;
-    store.write("index.html", page.as_bytes())?;
     if !outcome.profiles.is_empty() {
         store.write("profiles/index.csv", &index(&outcome.profiles)?)?;
         for (k, record) in outcome.profiles.iter().enumerate() {
@@ -41,19 +41,31 @@ pub fn write(
             write_fields(store, k, record)?;
         }
     }
-    figures(store, plan, outcome)
+    let pictures = Pictures::default();
+    let left_out = figures(store, plan, outcome, &pictures)?;
+    if plan.figures.axes != AxisUnits::Si
+        && let Some(svg) = figure::history::svg(outcome)?
+    {
+        // The page shows SI units throughout, since its own script draws in them.
+        pictures.see("history.svg", svg.as_bytes());
+    }
+    let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
+    store.write("index.html", page.as_bytes())?;
+    Ok(left_out)
 }
 
 fn figures(
     store: &Store,
     plan: &ScenarioPlan,
     outcome: &SimulationOutcome,
+    pictures: &Pictures,
 ) -> Result<Vec<String>, ReportError> {
     let units = Units::of_scenario(plan)?;
     let setting = Setting::of_scenario(plan, outcome, units.sentence());
     let press = Press {
         plan: &plan.figures,
         write: &|name, bytes| store.write(name, bytes),
+        pictures,
     };
     let (mut figures, mut left_out) = (Vec::new(), Vec::new());
     match figure::history::figure(outcome, &units) {

@@ -215,15 +215,37 @@ pub fn work(outcome: &Outcome) -> String {
 pub fn problems(outcome: &Outcome) -> String {
     let mut text = String::new();
     for record in outcome.records.iter().filter(|r| r.result.is_none()) {
-        let _ = writeln!(
-            text,
+        let line = format!(
             "ω = {} rad/s: {}: {}",
             frequency(record.angular_frequency_rad_per_s),
             record.status.name(),
             record.message.as_deref().unwrap_or("no reason recorded")
         );
+        text.push_str(&wrapped(&line, 80, "", "  "));
     }
     text
+}
+
+/// A paragraph in lines of at most so many columns, as far as its words allow; `first` stands before the first line, `next` before
+/// the others.
+pub fn wrapped(text: &str, columns: usize, first: &str, next: &str) -> String {
+    let mut lines = vec![first.to_owned()];
+    let mut is_empty = true;
+    for word in text.split_whitespace() {
+        let line = lines.last().map_or(0, |line| line.chars().count());
+        if !is_empty && line + 1 + word.chars().count() > columns {
+            lines.push(next.to_owned());
+            is_empty = true;
+        }
+        if let Some(line) = lines.last_mut() {
+            if !is_empty {
+                line.push(' ');
+            }
+            line.push_str(word);
+            is_empty = false;
+        }
+    }
+    lines.join("\n") + "\n"
 }
 
 /// Four digits, with an exponent where the number is small or large.
@@ -242,6 +264,16 @@ pub fn frequency(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn paragraphs_are_wrapped_between_words() {
+        assert_eq!(wrapped("a bb  ccc d", 6, "", " "), "a bb\n ccc d\n");
+        assert_eq!(
+            wrapped("longer than that", 4, "- ", "  "),
+            "- longer\n  than\n  that\n"
+        );
+        assert_eq!(wrapped("", 9, "    ", ""), "    \n");
+    }
 
     #[test]
     fn a_number_has_the_digits_that_its_error_leaves_it() {

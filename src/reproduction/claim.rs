@@ -84,6 +84,45 @@ impl Value {
     }
 }
 
+/// How many claims there are, by verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Count {
+    pub all: usize,
+    pub agree: usize,
+    pub disagree: usize,
+    pub not_stated: usize,
+}
+
+impl Count {
+    /// Counts them.
+    pub fn of<'a>(claims: impl Iterator<Item = &'a Claim> + Clone) -> Self {
+        let count = |verdict| {
+            claims
+                .clone()
+                .filter(|claim| claim.verdict == verdict)
+                .count()
+        };
+        Self {
+            all: claims.clone().count(),
+            agree: count(Verdict::Agrees),
+            disagree: count(Verdict::Disagrees),
+            not_stated: count(Verdict::NotStated),
+        }
+    }
+}
+
+/// What [`Claim::cells`] are.
+pub(super) const COLUMNS: [&str; 8] = [
+    "quantity",
+    "the paper",
+    "exact",
+    "axisymmetric",
+    "half-space",
+    "errors",
+    "verdict",
+    "note",
+];
+
 /// Differences below this depend on the tolerance of the half-space solver.
 const UNRESOLVED: f64 = 1e-6;
 
@@ -147,6 +186,35 @@ impl Claim {
                 .map(|error| difference(error, self.measure.floor))
                 .unwrap_or_default(),
         }
+    }
+
+    /// The claim as a row to be read.
+    pub(super) fn cells(&self) -> [String; 8] {
+        let errors = [self.axisymmetric, self.half_space]
+            .map(|value| self.error_text(value))
+            .into_iter()
+            .filter(|text| !text.is_empty())
+            .collect::<Vec<_>>()
+            .join(", ");
+        let exact = match self.exact {
+            Value::Difference => String::new(),
+            Value::ClosedForm(_) => self.exact_text(),
+            Value::Refined(_) | Value::Count(_) => format!("{} (refined)", self.exact_text()),
+        };
+        [
+            self.quantity.clone(),
+            self.paper.clone(),
+            exact,
+            self.value_text(self.axisymmetric),
+            self.value_text(self.half_space),
+            if errors.is_empty() {
+                errors
+            } else {
+                format!("{errors} {}", self.measure.unit_name)
+            },
+            self.verdict.name().to_owned(),
+            self.note.clone(),
+        ]
     }
 
     /// Whether both engines come as near as they must.

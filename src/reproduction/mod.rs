@@ -23,8 +23,10 @@ mod figure_13;
 mod look;
 pub mod number;
 mod page;
+mod readme;
 mod scale;
 mod stabilised;
+mod wording;
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -32,7 +34,7 @@ use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-pub use claim::{Claim, Measure, Verdict};
+pub use claim::{Claim, Count, Measure, Verdict};
 pub use scale::Scale;
 
 use crate::contact::ContactError;
@@ -42,6 +44,7 @@ use crate::material::MaterialError;
 use crate::report::ReportError;
 use crate::report::chart::{self, Chart, ChartError};
 use crate::report::figure::Picture;
+use crate::report::page::Pictures;
 use crate::sweep::case::SetupError;
 use crate::sweep::engines::{AsContactError, EngineError};
 use crate::sweep::figure_plan::{FigurePlan, Format};
@@ -244,7 +247,8 @@ pub fn make(
     Ok(made)
 }
 
-/// Everything that is written: names and bytes. Pictures and data of each figure, the claims as table, and a page with all.
+/// Everything that is written: names and bytes. Pictures and data of each figure, the claims as table, and everything in one
+/// text for a repository and in one page for a browser.
 ///
 /// # Errors
 /// [`ReproductionError`] where a picture cannot be drawn.
@@ -281,8 +285,15 @@ pub fn files(
         })
         .collect::<Result<_, ReproductionError>>()?;
     let mut files: Vec<(String, Vec<u8>)> = drawn.into_iter().flatten().collect();
-    files.push(("claims.csv".to_owned(), claim::table(figures)?));
-    files.push(("README.md".to_owned(), page::text(figures).into_bytes()));
+    let claims = claim::table(figures)?;
+    files.push(("claims.csv".to_owned(), claims.clone()));
+    files.push(("README.md".to_owned(), readme::text(figures).into_bytes()));
+    let pictures = Pictures::default();
+    files
+        .iter()
+        .for_each(|(name, bytes)| pictures.see(name, bytes));
+    let page = page::page(figures, &pictures, &claims)?;
+    files.push(("index.html".to_owned(), page.into_bytes()));
     Ok(files)
 }
 

@@ -1,133 +1,224 @@
-//! README.md: the figures with their claims, readable where the repository is.
+//! index.html: the figures with their claims in one page, in the frame that all pages have.
 
 use std::fmt::Write;
 
-use super::claim::Value;
-use super::{Claim, Figure, Verdict};
+use serde::Serialize;
 
-const OPENING: &str = "\
-# The computed figures of Spinu 2018
+use super::claim::{COLUMNS, Count};
+use super::wording::{self, EXPLANATION, FIGURE_13};
+use super::{Claim, Figure, ReproductionError, SCENARIOS, SWEEPS};
+use crate::report::page::Pictures;
+use crate::report::page::frame::{Frame, Input, InputFile};
+use crate::report::page::html::{escaped, filled, json_for_script};
+use crate::sweep::resolved;
 
-S. Spinu, *Viscoelastic Contact Simulation under Harmonic Cyclic Load*, Advances in Tribology 2018, 9432894
-([doi:10.1155/2018/9432894](https://doi.org/10.1155/2018/9432894)), figure by figure. This folder is written by
+const MAIN: &str = include_str!("page.html");
+const SCRIPT: &str = include_str!("page.js");
 
-```sh
-contact-dma reproduce
-```
-
-from the scenario and sweep files in `sweeps/spinu-2018/`, each of which also runs by itself (`contact-dma simulate FILE`,
-`contact-dma sweep FILE`). A test holds every byte of it to what the command writes. Figures 2 and 3 of the paper are
-flowcharts.
-
-**Units** are the paper's: lengths in Hertz contact radii a_H, approaches in δ_H = a_H²/R, pressures in Hertz peak pressures
-p_H, loads in W₀, times in τ, all Hertz values at W₀ and the instantaneous compliance. Concretely: G = G_K = 1 MPa, ν = 1/2,
-τ = 1 s, R = 10 mm, W₀ = 10 mN, which keeps slopes small (a_H = 0.266 mm). PMMA: R = 10 mm, W₀ = 10 N, W_A = 5 N, 500 s of rest.
-
-**Exact** values are closed forms where there are any (Hertz; Lee and Radok; Ting; the stabilised maxima of radius and
-approach), elsewhere the axisymmetric engine refined: twice the springs, and half to a quarter of the time steps.
-**Axisymmetric** are 800 to 1600 springs and time steps a tenth of those of the half-space engine, or 400 springs and 200 steps
-per cycle. **Half-space** are 256 × 256 cells; long histories from rest (figures 1, 8 and 9, first touch in 13) stand on
-128 × 128, and the many cycles that a count of cycles takes on 64 × 64.
-Errors are relative for losses and energies, otherwise in the unit of the quantity. Required are: pressures within 0.01 p_H
-but within two cells of the edge of the contact, radii within half a cell, losses within 0.2 %; a test asserts it for
-every row.
-";
-
-/// The page.
-pub(super) fn text(figures: &[Figure]) -> String {
-    let mut text = OPENING.to_owned();
-    let claims = || figures.iter().flat_map(|figure| &figure.claims);
-    let count = |verdict| claims().filter(|claim| claim.verdict == verdict).count();
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        "\n**{} claims**: {} agree with the paper, {} disagree, {} are not stated there. As a table: [claims.csv](claims.csv).",
-        claims().count(),
-        count(Verdict::Agrees),
-        count(Verdict::Disagrees),
-        count(Verdict::NotStated)
-    );
-    disagreements(&mut text, figures);
-    for figure in figures {
-        section(&mut text, figure);
-    }
-    text
+/// What the script of the page knows.
+#[derive(Serialize)]
+struct Data<'a> {
+    kind: &'static str,
+    /// `claims.csv`.
+    csv: &'a str,
 }
 
-fn disagreements(text: &mut String, figures: &[Figure]) {
-    let claims = figures.iter().flat_map(|figure| &figure.claims);
-    let disagreeing: Vec<&Claim> = claims
-        .filter(|claim| claim.verdict == Verdict::Disagrees)
+/// The page, once the figures have gone by.
+pub(super) fn page(
+    figures: &[Figure],
+    pictures: &Pictures,
+    claims: &[u8],
+) -> Result<String, ReproductionError> {
+    let count = Count::of(figures.iter().flat_map(|figure| &figure.claims));
+    let sections: String = figures
+        .iter()
+        .map(|figure| section(figure, pictures))
         .collect();
-    if disagreeing.is_empty() {
-        return;
+    let main = filled(
+        MAIN,
+        &[
+            ("all", &count.all.to_string()),
+            ("agree", &count.agree.to_string()),
+            ("disagree", &count.disagree.to_string()),
+            ("not_stated", &count.not_stated.to_string()),
+            ("disagreements", &disagreements(figures)),
+            ("contents", &contents(figures)),
+            ("explanation", &paragraphs(EXPLANATION)),
+            ("figures", &sections),
+        ],
+    )?;
+    let names: Vec<(String, &str)> = SCENARIOS
+        .iter()
+        .chain(&SWEEPS)
+        .filter(|(name, _)| figures.iter().any(|f| name.starts_with(&f.name())))
+        .map(|(name, text)| (format!("{name}.toml"), *text))
+        .collect();
+    let inputs: String = names.iter().map(|(_, text)| *text).collect();
+    let data = Data {
+        kind: "reproduction",
+        csv: &String::from_utf8_lossy(claims),
+    };
+    let frame = Frame {
+        title: "The computed figures of Spinu 2018",
+        asked: "Viscoelastic Contact Simulation under Harmonic Cyclic Load, Advances in Tribology 2018, 9432894: figure by \
+                figure, by two engines"
+            .to_owned(),
+        main,
+        input: Input {
+            hashes: vec![("exactly these inputs", resolved::hash(&inputs))],
+            files: names
+                .iter()
+                .map(|(name, text)| InputFile { name, text })
+                .collect(),
+            text: "The scenario and sweep files behind these figures, which are built into the program: \
+                   <code>contact-dma reproduce</code> gives this page again. Each also runs by itself, with \
+                   <code>contact-dma simulate FILE</code> where it has segments and <code>contact-dma sweep FILE</code> where \
+                   it has a sweep.",
+        },
+        data: json_for_script(&data)?,
+        script: &[SCRIPT],
+    };
+    Ok(frame.page()?)
+}
+
+/// Nothing where everything agrees.
+fn disagreements(figures: &[Figure]) -> String {
+    let lines = wording::disagreeing(figures);
+    if lines.is_empty() {
+        return String::new();
     }
-    text.push_str("\n## What disagrees\n\n");
-    for claim in disagreeing {
+    let items: String = lines
+        .iter()
+        .map(|line| format!("<li>{}</li>\n", readable(line)))
+        .collect();
+    let more = match figures.iter().any(|figure| figure.number == 13) {
+        true => paragraphs(FIGURE_13),
+        false => String::new(),
+    };
+    format!("<div class=\"problems\">\n<p>What disagrees:</p>\n<ul>\n{items}</ul>\n</div>\n{more}")
+}
+
+/// How many numbers of each figure agree.
+fn contents(figures: &[Figure]) -> String {
+    let mut html = String::from(
+        "<table>\n<thead><tr><th scope=\"col\" class=\"text\">figure</th><th scope=\"col\">numbers</th>\
+         <th scope=\"col\">agree</th><th scope=\"col\">disagree</th><th scope=\"col\">not stated</th>\
+         <th scope=\"col\" class=\"text\">what it shows</th></tr></thead>\n<tbody>\n",
+    );
+    for figure in figures {
+        let count = Count::of(figure.claims.iter());
+        let shown = figure.caption.split_inclusive(". ").next();
+        // Writing to a String cannot fail.
         let _ = writeln!(
-            text,
-            "- Figure {}, {}: the paper has {}, computed is {}{}{}.",
-            claim.figure,
-            claim.quantity,
-            claim.paper,
-            claim.exact_text(),
-            if claim.note.is_empty() { "" } else { "; " },
-            claim.note
+            html,
+            "<tr><th scope=\"row\"><a href=\"#{}\">Figure {}</a></th><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
+             <td class=\"text wide\">{}</td></tr>",
+            figure.name(),
+            figure.number,
+            count.all,
+            count.agree,
+            count.disagree,
+            count.not_stated,
+            readable(shown.unwrap_or_default().trim())
         );
     }
-    if figures.iter().any(|figure| figure.number == 13) {
-        text.push_str(FIGURE_13);
+    html.push_str("</tbody>\n</table>");
+    html
+}
+
+fn section(figure: &Figure, pictures: &Pictures) -> String {
+    let name = figure.name();
+    let picture = pictures.inline(&name).unwrap_or_default();
+    let rows: String = figure.claims.iter().map(row).collect();
+    let heads: String = COLUMNS
+        .iter()
+        .map(|column| format!("<th scope=\"col\"{}>{column}</th>", kind(column)))
+        .collect();
+    format!(
+        "<section aria-labelledby=\"{name}\" class=\"reproduced\">\n<h2 id=\"{name}\">Figure {number}</h2>\n\
+         <figure class=\"scroll\" tabindex=\"0\" aria-label=\"Figure {number}, may be scrolled\">{picture}</figure>\n<p>{caption}</p>\n\
+         <section class=\"scroll\" tabindex=\"0\" aria-label=\"Numbers of figure {number}, may be scrolled\">\n\
+         <table class=\"claims\">\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n</section>\n</section>\n",
+        number = figure.number,
+        caption = readable(&figure.caption),
+    )
+}
+
+fn row(claim: &Claim) -> String {
+    let cells = claim.cells();
+    let mut html = format!("<tr data-verdict=\"{}\">", claim.verdict.name());
+    for (column, cell) in COLUMNS.iter().zip(&cells) {
+        let cell = readable(cell);
+        let _ = match *column {
+            "quantity" => write!(html, "<th scope=\"row\">{cell}</th>"),
+            column => write!(html, "<td{}>{cell}</td>", kind(column)),
+        };
+    }
+    html + "</tr>\n"
+}
+
+/// Columns of words stand on the left.
+fn kind(column: &str) -> &'static str {
+    match column {
+        "quantity" | "verdict" => " class=\"text\"",
+        "the paper" | "note" => " class=\"text wide\"",
+        _ => "",
     }
 }
 
-const FIGURE_13: &str = "
-Figure 13 in particular. *Agrees*: there is one largest value at a few mrad/s, followed by a decay that levels off. *Does not*:
-the paper calls the quantity the area enclosed by the hysteresis loop, and no stabilised loop has such areas: they vanish at
-both ends of the frequency axis, are largest at 0.00844 rad/s and have a second maximum at 0.0757 rad/s, near the two maxima
-of the loss compliance. *Why*: the drawn curve stays above 0.9 of its maximum, as the work does that is counted from first
-touch on: it contains the carrier step and the creep of the hold, which are much larger than a loop. That work, to the second
-maximum of the load, has its maximum near the paper's and falls to 0.91 at 0.3 rad/s. What exactly was integrated in the paper
-is not said there.
-";
+/// Paragraphs parted by empty lines, with `**` and `*` as in README.md.
+fn paragraphs(text: &str) -> String {
+    let paragraphs = text.trim().split("\n\n");
+    let marked = |text: &str| emphasised(&emphasised(&readable(text), "**", "strong"), "*", "em");
+    paragraphs
+        .map(|text| format!("<p>{}</p>\n", marked(text)))
+        .collect()
+}
 
-fn section(text: &mut String, figure: &Figure) {
-    let name = figure.name();
-    let _ = writeln!(
-        text,
-        "\n## Figure {}\n\n![Figure {}]({name}.png)\n\n{} Data: [{name}.csv]({name}.csv); [SVG]({name}.svg).\n",
-        figure.number, figure.number, figure.caption
-    );
-    text.push_str(
-        "| quantity | the paper | exact | axisymmetric | half-space | errors | verdict | note |\n\
-         |---|---|---|---|---|---|---|---|\n",
-    );
-    for claim in &figure.claims {
-        let errors = [claim.axisymmetric, claim.half_space]
-            .map(|value| claim.error_text(value))
-            .into_iter()
-            .filter(|text| !text.is_empty())
-            .collect::<Vec<_>>()
-            .join(", ");
-        let exact = match claim.exact {
-            Value::Difference => String::new(),
-            Value::ClosedForm(_) => claim.exact_text(),
-            Value::Refined(_) | Value::Count(_) => format!("{} (refined)", claim.exact_text()),
-        };
-        let cells = [
-            &claim.quantity,
-            &claim.paper,
-            &exact,
-            &claim.value_text(claim.axisymmetric),
-            &claim.value_text(claim.half_space),
-            &if errors.is_empty() {
-                errors
-            } else {
-                format!("{errors} {}", claim.measure.unit_name)
-            },
-            &claim.verdict.name().to_owned(),
-            &claim.note,
-        ];
-        let cells: Vec<&str> = cells.iter().map(|cell| cell.as_str()).collect();
-        let _ = writeln!(text, "| {} |", cells.join(" | "));
+/// Escaped, and an index such as that of a_H set as one.
+fn readable(text: &str) -> String {
+    let mut html = String::with_capacity(text.len());
+    let escaped = escaped(text);
+    let mut parts = escaped.split('_');
+    html.push_str(parts.next().unwrap_or_default());
+    for part in parts {
+        let letters = part.chars().take_while(|c| c.is_alphabetic()).count();
+        match part.chars().next() {
+            Some(index) if letters == 1 && index.is_ascii_uppercase() => {
+                let rest = part.strip_prefix(index).unwrap_or_default();
+                html.push_str(&format!("<sub>{index}</sub>{rest}"));
+            }
+            _ => html.push_str(&format!("_{part}")),
+        }
+    }
+    html
+}
+
+/// What stands between each pair of `mark` within an element of that name.
+fn emphasised(text: &str, mark: &str, element: &str) -> String {
+    let mut html = String::with_capacity(text.len());
+    for (place, part) in text.split(mark).enumerate() {
+        match place % 2 {
+            0 => html.push_str(part),
+            _ => html.push_str(&format!("<{element}>{part}</{element}>")),
+        }
+    }
+    html
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stars_become_elements_and_the_rest_is_escaped() {
+        assert_eq!(
+            paragraphs("**Units** are *a* < b,\nand\n\nmore\n"),
+            "<p><strong>Units</strong> are <em>a</em> &lt; b,\nand</p>\n<p>more</p>\n"
+        );
+        assert_eq!(
+            readable("a_H²/R, δ_H, energy_loss_j"),
+            "a<sub>H</sub>²/R, δ<sub>H</sub>, energy_loss_j"
+        );
     }
 }

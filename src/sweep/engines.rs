@@ -23,7 +23,7 @@ pub enum EngineError {
     #[error("the half-space grid cannot be built: {0}")]
     Grid(String),
     #[error(
-        "the contact reached the edge of the computational domain (half width {half_width_m:e} m), beyond which the shape of \
+        "the contact reached the edge of the computational domain (half width {half_width_m:.3e} m), beyond which the shape of \
          the indenter is not known: give a larger map or a longer profile, or a smaller load"
     )]
     EndOfData { half_width_m: f64 },

@@ -176,7 +176,54 @@ test("a history shows its signals, profiles by time, and fields by a slider", ()
   assert.match(await page.locator("#map .readout").innerText(), /pressure = .*Pa/);
 }));
 
-const pages = ["sixty", "missing", "two-axes", "history", "material"];
+test("a comparison draws any column of both results, and their difference", () => open("compare", {}, async (page) => {
+  assert.equal(await page.locator(".peaks").innerText(), "The results are the same within the tolerances.");
+  const drawn = () => page.evaluate(() => ({ curve: document.querySelector("#curve").spec.series, difference: document.querySelector("#difference").spec.series[0] }));
+  const [old, now] = [rows("sixty"), rows("coarse")];
+  const { curve, difference } = await drawn();
+  assert.deepEqual(curve.map((s) => s.y), [old, now].map((all) => all.map((row) => Number(row.energy_loss_j))));
+  difference.y.forEach((percent, k) => assert.ok(Math.abs(percent - 100 * (now[k].energy_loss_j / old[k].energy_loss_j - 1)) < 1e-9));
+  const names = await page.locator("#quantity option").allInnerTexts();
+  assert.equal(names.length, await page.locator("section[aria-label^=Columns] tbody tr").count());
+  for (const label of names) {
+    await page.selectOption("#quantity", { label });
+    assert.equal((await drawn()).difference.y.length, 60);
+  }
+  await page.click("#log-x");
+  await page.locator("#curve svg[role=img]").hover();
+  assert.match(await page.locator("#curve .readout").innerText(), /^(baseline|new): ω = .* rad\/s/);
+  const [file] = await Promise.all([page.waitForEvent("download"), page.click("#download-csv")]);
+  await file.saveAs("again/comparison.csv");
+  assert.equal(readFileSync("again/comparison.csv", "utf8"), readFileSync("compare/comparison.csv", "utf8"));
+}));
+
+test("a comparison of results that differ names what does, and its drives are chosen", () => open("compare-other", {}, async (page) => {
+  assert.equal(await page.locator(".peaks").innerText(), "The results differ.");
+  assert.ok((await page.locator(".problems li").count()) >= 2);
+  assert.ok((await page.locator("#drive option").count()) >= 2);
+  await page.selectOption("#drive", { index: 1 });
+  assert.match(await page.locator("#difference").innerText(), /No case has a value in both results/);
+}));
+
+test("the reproduction shows its figures, and its numbers by their verdict", () => open("reproduce", {}, async (page) => {
+  const claims = table(`${here}/reproduce/claims.csv`).length;
+  const shown = () => page.locator("tr[data-verdict]:visible").count();
+  assert.equal(await page.locator("figure svg:visible").count(), 11);
+  assert.equal(await shown(), claims);
+  await page.selectOption("#verdict", "disagrees");
+  assert.equal(await shown(), await page.locator(".problems li").count());
+  assert.equal(await page.locator("figure svg:visible").count(), 3);
+  assert.equal(await page.locator("#copied").innerText(), `${await shown()} of ${claims} numbers shown`);
+  await page.selectOption("#verdict", "");
+  assert.equal(await shown(), claims);
+  await page.locator('a[href="#figure-10"]').press("Enter");
+  assert.ok(await page.locator("#figure-10").isVisible());
+  const [file] = await Promise.all([page.waitForEvent("download"), page.click("#download-csv")]);
+  await file.saveAs("again/claims.csv");
+  assert.equal(readFileSync("again/claims.csv", "utf8"), readFileSync("reproduce/claims.csv", "utf8"));
+}));
+
+const pages = process.env.PAGES.split(" ");
 for (const colorScheme of ["light", "dark"]) {
   for (const width of [360, 1400]) {
     test(`nothing is cut off and axe finds nothing serious at ${width} px, ${colorScheme}`, async () => {
@@ -195,15 +242,50 @@ for (const colorScheme of ["light", "dark"]) {
   }
 }
 
-test("the theme is switched by its button", () => open("sixty", {}, async (page) => {
-  const paper = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
-  const light = await paper();
-  await page.click("#theme");
-  assert.notEqual(await paper(), light);
-  assert.equal(await page.getAttribute("#theme", "aria-pressed"), "true");
-}));
+test("the theme of every page is switched by its button", async () => {
+  for (const name of pages) {
+    await open(name, {}, async (page) => {
+      const paper = () => page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor);
+      const light = await paper();
+      await page.click("#theme");
+      assert.notEqual(await paper(), light);
+      assert.equal(await page.getAttribute("#theme", "aria-pressed"), "true");
+    });
+  }
+});
 
-test("without script there are curve, loops, table and input", async () => {
+test("everything that can be activated is reached with the tabulator key, and shows that it is", async () => {
+  for (const name of pages) {
+    await open(name, {}, async (page) => {
+      const targets = await page.evaluate(() => [...document.querySelectorAll("a[href], button, select, input, summary, [tabindex='0']")].filter((e) => e.checkVisibility()).length);
+      const reached = new Set();
+      for (let k = 0; k <= targets; k++) {
+        await page.keyboard.press("Tab");
+        const seen = await page.evaluate(() => {
+          const e = document.activeElement;
+          e.place ??= [...document.querySelectorAll("*")].indexOf(e);
+          return { place: e.place, outline: e === document.body || getComputedStyle(e).outlineStyle !== "none" };
+        });
+        assert.ok(seen.outline);
+        reached.add(seen.place);
+      }
+      assert.ok(reached.size >= targets, `${name}: ${reached.size} of ${targets}`);
+    });
+  }
+});
+
+test("every page is complete without script", async () => {
+  for (const name of pages) {
+    await open(name, { javaScriptEnabled: false, viewport: { width: 360, height: 800 } }, async (page) => {
+      assert.ok((await page.locator("figure svg:visible").count()) >= 1 || name === "compare-other", name);
+      assert.equal(await page.locator(".live:visible").count(), 0);
+      assert.ok((await page.locator("main h2:visible").count()) >= 3);
+      assert.ok((await page.locator("a[download]").count()) >= 1);
+    });
+  }
+});
+
+test("without script a sweep has curve, loops, table and input", async () => {
   for (const name of ["sixty", "missing", "two-axes"]) {
     await open(name, { javaScriptEnabled: false, viewport: { width: 360, height: 800 } }, async (page) => {
       assert.equal(await page.locator("figure.static svg:visible").count(), 2);
@@ -214,15 +296,28 @@ test("without script there are curve, loops, table and input", async () => {
   }
 });
 
-test("it prints on A4", () => open("sixty", {}, async (page) => {
-  const pdf = await page.pdf({ preferCSSPageSize: true, path: "sixty.pdf" });
-  const text = pdf.toString("latin1");
-  const sheets = (text.match(/\/Type\s*\/Page\b/g) || []).length;
-  const [, width, height] = text.match(/\/MediaBox\s*\[0 0 ([\d.]+) ([\d.]+)\]/);
-  // A4 is 595.3 by 841.9 points.
-  assert.ok(Math.abs(width - 595.3) < 1.5 && Math.abs(height - 841.9) < 1.5);
-  assert.ok(sheets >= 4 && sheets <= 9, `${sheets} sheets`);
-}));
+test("every page prints on A4, dark or light, and nothing is cut off", async () => {
+  for (const name of pages) {
+    await open(name, { colorScheme: "dark", viewport: { width: 688, height: 1000 } }, async (page) => {
+      const pdf = await page.pdf({ preferCSSPageSize: true, path: `${name}.pdf` });
+      const text = pdf.toString("latin1");
+      const sheets = (text.match(/\/Type\s*\/Page\b/g) || []).length;
+      const [, width, height] = text.match(/\/MediaBox\s*\[0 0 ([\d.]+) ([\d.]+)\]/);
+      // A4 is 595.3 by 841.9 points.
+      assert.ok(Math.abs(width - 595.3) < 1.5 && Math.abs(height - 841.9) < 1.5);
+      const [least, most] = { sixty: [4, 9], reproduce: [12, 24] }[name] || [1, 9];
+      assert.ok(sheets >= least && sheets <= most, `${name}: ${sheets} sheets`);
+      // 688 px are the 182 mm between the margins.
+      await page.emulateMedia({ media: "print", colorScheme: "dark" });
+      const { paper, wide } = await page.evaluate(() => ({
+        paper: getComputedStyle(document.documentElement).backgroundColor,
+        wide: [...document.querySelectorAll("main *")].filter((e) => e.checkVisibility() && !e.closest("details, .sr, svg") && e.getBoundingClientRect().right > innerWidth + 1).map((e) => e.outerHTML.slice(0, 80)),
+      }));
+      assert.equal(paper, "rgb(255, 255, 255)");
+      assert.deepEqual(wide, [], name);
+    });
+  }
+});
 
 test("a page of sixty frequencies is ready within a second", async () => {
   const times = [];

@@ -5,7 +5,7 @@
 //! periodic images apart and so is exactly free space, to rounding (DC-FFT: Liu, Wang & Liu, *Wear* 243 (2000) 101).
 //!
 //! What makes it fast: only rows that carry load are transformed, at half length and without touching their padding
-//! ([`padded_row`]); each block of columns goes forward, through the multiplication and back while it is in cache; the
+//! (`padded_row`); each block of columns goes forward, through the multiplication and back while it is in cache; the
 //! spectrum of `B` is real because `B` is even, is stored for half the frequencies, and carries the scale of the inverse
 //! transform; only the rows of the grid proper are transformed back.
 //!

@@ -91,7 +91,8 @@ impl super::CurvePoint {
     }
 }
 
-fn words(place: &Place) -> String {
+/// A case in words.
+pub(in crate::report) fn words(place: &Place) -> String {
     format!(
         "ω = {} rad/s (mean {}, amplitude {})",
         frequency(place.angular_frequency_rad_per_s),
@@ -113,7 +114,8 @@ fn named(text: &mut String, what: &str, places: &[Place]) {
     }
 }
 
-fn peak_words(peak: &PeakComparison) -> String {
+/// A pair of peaks in words.
+pub(in crate::report) fn peak_words(peak: &PeakComparison) -> String {
     let omega = |peak: &Peak| format!("{} rad/s", frequency(peak.angular_frequency_rad_per_s));
     match (&peak.baseline, &peak.new) {
         (Some(old), Some(new)) => {

@@ -6,6 +6,7 @@ use super::{Figure, Picture};
 use crate::report::ReportError;
 use crate::report::caption::Setting;
 use crate::report::chart::{self, Chart, ChartError, Color, HeatMap, LineStyle, MapShape};
+use crate::report::page::Pictures;
 use crate::sweep::figure_plan::{FigurePlan, Format, PaperSize};
 use crate::sweep::files;
 use crate::sweep::store::StoreError;
@@ -20,6 +21,8 @@ const RESOLUTIONS: [(&str, f32); 2] = [("", 1.0), ("@2x", 2.0)];
 pub struct Press<'a> {
     pub plan: &'a FigurePlan,
     pub write: &'a WriteFile<'a>,
+    /// Sees every picture, in whatever forms it is written.
+    pub pictures: &'a Pictures,
 }
 
 impl Press<'_> {
@@ -54,6 +57,7 @@ impl Press<'_> {
         };
         let svg = picture.as_asked(self.plan).map_err(failed)?;
         let svg = chart::described(&svg, caption);
+        (self.pictures).see(&format!("{file}.svg"), svg.as_bytes());
         let name = format!("{file}{}", files::CAPTION);
         (self.write)(&name, format!("{caption}\n").as_bytes())?;
         for format in &self.plan.formats {

@@ -15,7 +15,7 @@ const NAME: &str = "pressure-map";
 const WIDTH_PX: u32 = 800;
 
 /// Writes the map of the field with the largest pressure as `pressure-map`, and, where there are several fields, each as
-/// `fields/<k>-pressure-map`, all to one colour scale. Its data are fields/<k>-pressure_pa.npy. Returns why where there is
+/// `fields/<k>-pressure-map`, all to one colour scale. Its data are `fields/<k>-pressure_pa.npy`. Returns why where there is
 /// nothing to draw, nothing where nothing was asked for.
 ///
 /// # Errors

@@ -1,9 +1,9 @@
-//! The table of all cases: the numbers most asked for, to five digits; the script knows the other columns.
+//! The table of all cases: the numbers most asked for, to five digits, errors to two; the script knows the other columns.
 
 use std::fmt::Write;
 
 use super::html::escaped;
-use super::number::cell;
+use super::number::{cell, digits};
 use crate::report::figure::prefix;
 use crate::sweep::error_bars::Quantity;
 use crate::sweep::plan::SweepPlan;
@@ -15,6 +15,8 @@ struct Column {
     name: &'static str,
     heading: String,
     unit: Option<&'static str>,
+    /// Significant digits, or as few as there are.
+    digits: Option<usize>,
     value: Box<Value>,
 }
 
@@ -50,7 +52,11 @@ pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
     for record in records {
         let _ = write!(html, "<tr data-index=\"{}\">", record.index);
         for (k, (column, factor)) in columns.iter().zip(&factors).enumerate() {
-            let text = cell((column.value)(record).map(|v| v * factor));
+            let value = (column.value)(record).map(|v| v * factor);
+            let text = match column.digits {
+                Some(significant) => digits(value, significant),
+                None => cell(value),
+            };
             let _ = match k {
                 0 => write!(html, "<th scope=\"row\">{text}</th>"),
                 _ => write!(html, "<td>{text}</td>"),
@@ -71,12 +77,14 @@ fn columns(plan: &SweepPlan) -> Vec<Column> {
         name,
         heading: heading.to_owned(),
         unit,
+        digits: None,
         value: Box::new(value),
     };
     let quantity = |quantity: Quantity, heading: &str, unit| Column {
         name: quantity.columns().0,
         heading: heading.to_owned(),
         unit,
+        digits: Some(5),
         value: Box::new(move |r: &CaseRecord| quantity.of(r.result.as_ref()?)),
     };
     let mut columns = vec![column(
@@ -97,12 +105,18 @@ fn columns(plan: &SweepPlan) -> Vec<Column> {
     }
     columns.extend([
         quantity(Quantity::EnergyLoss, "loss per cycle", Some("J")),
-        column("energy_loss_error_j", "its error", Some("J"), |r| {
-            r.energy_loss_error_j()
-        }),
-        column("phase_lag_rad", "phase lag / °", None, |r| {
-            Some(r.result.as_ref()?.analysis.phase_lag_rad.to_degrees())
-        }),
+        Column {
+            digits: Some(2),
+            ..column("energy_loss_error_j", "its error", Some("J"), |r| {
+                r.energy_loss_error_j()
+            })
+        },
+        Column {
+            digits: Some(5),
+            ..column("phase_lag_rad", "phase lag / °", None, |r| {
+                Some(r.result.as_ref()?.analysis.phase_lag_rad.to_degrees())
+            })
+        },
         quantity(Quantity::StorageModulus, "E′", Some("Pa")),
         quantity(Quantity::LossModulus, "E″", Some("Pa")),
         quantity(Quantity::ApproachMax, "largest approach", Some("m")),

@@ -1,11 +1,11 @@
-//! Text into HTML: escaping, templates, data for the script, drawings without clashing names.
+//! Text into HTML: escaping, templates, data for the script.
 
 use serde::Serialize;
 
 use crate::report::ReportError;
 
 /// Text as it may stand between tags and within quoted attributes.
-pub(super) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut safe = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -24,7 +24,7 @@ pub(super) fn escaped(text: &str) -> String {
 ///
 /// # Errors
 /// [`ReportError::Table`] where the template names what there is not.
-pub(super) fn filled(template: &str, values: &[(&str, &str)]) -> Result<String, ReportError> {
+pub fn filled(template: &str, values: &[(&str, &str)]) -> Result<String, ReportError> {
     let mut text = String::with_capacity(template.len());
     let mut parts = template.split("{{");
     text.push_str(parts.next().unwrap_or_default());
@@ -47,7 +47,7 @@ pub(super) fn filled(template: &str, values: &[(&str, &str)]) -> Result<String, 
 ///
 /// # Errors
 /// [`ReportError::Table`] where the data are no JSON.
-pub(super) fn json_for_script(data: &impl Serialize) -> Result<String, ReportError> {
+pub fn json_for_script(data: &impl Serialize) -> Result<String, ReportError> {
     let json = serde_json::to_string(data).map_err(|error| ReportError::Table {
         name: "index.html",
         reason: error.to_string(),
@@ -57,7 +57,7 @@ pub(super) fn json_for_script(data: &impl Serialize) -> Result<String, ReportErr
 }
 
 /// A link that holds the text itself.
-pub(super) fn data_link(media_type: &str, text: &str) -> String {
+pub fn data_link(media_type: &str, text: &str) -> String {
     let mut link = format!("data:{media_type};charset=utf-8,");
     for byte in text.bytes() {
         if byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte) {
@@ -67,15 +67,6 @@ pub(super) fn data_link(media_type: &str, text: &str) -> String {
         }
     }
     link
-}
-
-/// A drawing as a part of a page: the names within it begin with `name`, so that two drawings do not share any.
-pub(super) fn inline_figure(svg: &str, name: &str) -> String {
-    svg.replace(" id=\"", &format!(" id=\"{name}-"))
-        .replace("url(#", &format!("url(#{name}-"))
-        .replace("href=\"#", &format!("href=\"#{name}-"))
-        .replace(" xmlns=\"http://www.w3.org/2000/svg\"", "")
-        .replace(" xmlns:xlink=\"http://www.w3.org/1999/xlink\"", "")
 }
 
 #[cfg(test)]

@@ -3,17 +3,18 @@
 use serde::Serialize;
 
 use super::compact::{picked, rounded, spread};
-use super::html::{escaped, inline_figure, json_for_script};
+use super::frame::{Frame, Input, InputFile, MODULI, PLOT};
+use super::html::{escaped, json_for_script};
 use super::sweep_data::MaterialData;
-use super::{Frame, filled, question};
+use super::{Pictures, filled, question};
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::material::{GivenFace, Material};
 use crate::report::ReportError;
-use crate::report::figure::Figure;
 use crate::sweep::resolved;
 
 const MATERIAL: &str = include_str!("material.html");
+const SCRIPT: &str = include_str!("material.js");
 /// Points of a curve over time, and samples shown at most.
 const POINTS: usize = 200;
 const SAMPLES: usize = 1000;
@@ -43,8 +44,9 @@ pub struct About<'a> {
     pub text: &'a str,
     /// The `[material]` block that gives it again.
     pub block: &'a str,
-    /// Drawn for a reader without script.
-    pub figure: &'a Figure,
+    /// The figures that have gone by, and the name of the one for a reader without script.
+    pub pictures: &'a Pictures,
+    pub figure: &'a str,
     /// The data it was fitted to.
     pub fit: Option<(&'a Tabulated, &'a Fit)>,
 }
@@ -54,20 +56,13 @@ pub struct About<'a> {
 /// # Errors
 /// [`ReportError`] naming the part that could not be made.
 pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportError> {
-    let svg = about
-        .figure
-        .picture
-        .to_svg()
-        .map_err(|source| ReportError::Chart {
-            name: about.figure.name,
-            source,
-        })?;
+    let figure = about.pictures.inline(about.figure).unwrap_or_default();
     let main = filled(
         MATERIAL,
         &[
-            ("about", &format!("<p>{}</p>", escaped(about.text))),
+            ("about", &described(material, about.text)),
             ("question", &question::material(material)),
-            ("figure", &inline_figure(&svg, about.figure.name)),
+            ("figure", &figure),
         ],
     )?;
     let face = match about.fit {
@@ -82,11 +77,16 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
         title: about.title,
         asked: format!("{label} over time, complex modulus over frequency"),
         main,
-        file: about.block,
-        file_name: "material.toml",
-        hash: &resolved::hash(about.block),
-        file_text: "The material as a block of a sweep file, every number exact. \
-                    <code>contact-dma material show material.toml</code> shows it again.",
+        input: Input {
+            hashes: vec![("exactly this input", resolved::hash(about.block))],
+            files: vec![InputFile {
+                name: "material.toml",
+                text: about.block,
+            }],
+            text: "The material as a block of a sweep file, every number exact. \
+                   <code>contact-dma material show material.toml</code> shows it again.",
+        },
+        script: &[PLOT, MODULI, SCRIPT],
         data: json_for_script(&Data {
             kind: "material",
             material: MaterialData::of(material),
@@ -96,6 +96,19 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
         })?,
     };
     frame.page()
+}
+
+/// The text in paragraphs; nothing where the list of facts holds the same, line by line.
+fn described(material: &Material, text: &str) -> String {
+    if material.fit().is_some() {
+        return String::new();
+    }
+    let lines = text.replace("Source:", "\u{0}Source:");
+    let paragraphs = lines.split('\u{0}').map(str::trim);
+    paragraphs
+        .filter(|paragraph| !paragraph.is_empty())
+        .map(|paragraph| format!("<p>{}</p>\n", escaped(paragraph)))
+        .collect()
 }
 
 /// The data and their fit, or the function alone, at times evenly spread in their logarithm.

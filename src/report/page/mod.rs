@@ -4,95 +4,49 @@
 mod answer;
 mod cases_table;
 mod compact;
+pub mod comparison;
+pub mod drawing;
+pub mod frame;
 pub(super) mod how;
-mod html;
+pub mod html;
 pub mod material;
 pub(super) mod number;
+mod pictures;
 pub(super) mod question;
 mod simulation;
 mod sweep_data;
 
+pub use pictures::Pictures;
+
 use super::ReportError;
-use super::chart::ChartError;
-use super::figure::Figure;
 use crate::report::table;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::resolved;
 use crate::sweep::run::Outcome;
 use crate::sweep::scenario::{self, ScenarioPlan};
 use crate::sweep::simulate::SimulationOutcome;
-use html::{data_link, escaped, filled, inline_figure, json_for_script};
+use frame::{Frame, HEAT, Input, InputFile, MODULI, PLOT, QUANTITIES, TABLE};
+use html::{filled, json_for_script};
 
-const PAGE: &str = include_str!("page.html");
-const STYLE: &str = include_str!("page.css");
 const SWEEP: &str = include_str!("sweep.html");
 const SIMULATION: &str = include_str!("simulation.html");
+const SWEEP_SCRIPT: &str = include_str!("sweep.js");
+const SIMULATION_SCRIPT: &str = include_str!("simulation.js");
 
-/// The script, in the order in which its parts use each other.
-const SCRIPT: [&str; 8] = [
-    include_str!("core.js"),
-    include_str!("plot.js"),
-    include_str!("heat.js"),
-    include_str!("table.js"),
-    include_str!("material.js"),
-    include_str!("sweep.js"),
-    include_str!("simulation.js"),
-    include_str!("start.js"),
-];
-
-/// What every page has: the parts around its own.
-struct Frame<'a> {
-    title: &'a str,
-    /// One line under the title.
-    asked: String,
-    /// HTML of the page's own sections.
-    main: String,
-    /// The input as a file: its text, name, hash, and what to do with it, as HTML.
-    file: &'a str,
-    file_name: &'a str,
-    hash: &'a str,
-    file_text: &'a str,
-    /// JSON for the script.
-    data: String,
-}
-
-impl Frame<'_> {
-    fn page(&self) -> Result<String, ReportError> {
-        filled(
-            PAGE,
-            &[
-                ("title", &escaped(self.title)),
-                ("asked", &escaped(&self.asked)),
-                ("main", &self.main),
-                ("version", env!("CARGO_PKG_VERSION")),
-                ("hash", &escaped(self.hash)),
-                ("file_text", self.file_text),
-                ("file_name", self.file_name),
-                ("file_link", &data_link("text/plain", self.file)),
-                ("file", &escaped(self.file)),
-                ("style", STYLE),
-                ("data", &self.data),
-                ("script", &SCRIPT.concat()),
-            ],
-        )
-    }
-}
-
-/// The page of a sweep.
+/// The page of a sweep, whose figures have gone by.
 ///
 /// # Errors
 /// [`ReportError`] naming the part that could not be made.
 pub fn sweep(
     plan: &SweepPlan,
     outcome: &Outcome,
-    figures: &[Figure],
+    pictures: &Pictures,
     hash: &str,
 ) -> Result<String, ReportError> {
     let branches = outcome.retardation_times_s().len();
     let csv = table::sweep(&outcome.records, branches)?;
     let csv = String::from_utf8_lossy(&csv);
     let data = sweep_data::SweepData::new(plan, outcome, &csv);
-    let (curve, loops) = static_figures(figures)?;
     let main = filled(
         SWEEP,
         &[
@@ -102,40 +56,46 @@ pub fn sweep(
                 "varied",
                 plan.axis.as_ref().map_or("", |axis| axis.varied.name()),
             ),
-            ("curve_figure", &curve),
-            ("loops_figure", &loops),
+            ("curve_figure", &static_figure(pictures, "energy-loss")),
+            ("loops_figure", &static_figure(pictures, "loops")),
             ("table", &cases_table::table(plan, outcome)),
             ("question", &question::sweep(plan)),
             ("how", &how::sweep(plan, outcome)),
         ],
     )?;
+    let text = resolved::resolved_text(plan);
     let frame = Frame {
         title: &plan.title,
         asked: question::line(plan),
         main,
-        file: &resolved::resolved_text(plan),
-        file_name: "resolved.toml",
-        hash,
-        file_text: "The sweep file with every default written out. <code>contact-dma sweep resolved.toml</code> gives these \
-                    results again, under the same hash.",
+        input: Input {
+            hashes: vec![("exactly this input", hash.to_owned())],
+            files: vec![InputFile {
+                name: "resolved.toml",
+                text: &text,
+            }],
+            text: "The sweep file with every default written out. <code>contact-dma sweep resolved.toml</code> gives these \
+                   results again, under the same hash.",
+        },
         data: json_for_script(&data)?,
+        script: &[PLOT, HEAT, TABLE, MODULI, QUANTITIES, SWEEP_SCRIPT],
     };
     frame.page()
 }
 
-/// The page of one history.
+/// The page of one history, whose figure has gone by.
 ///
 /// # Errors
 /// [`ReportError`] naming the part that could not be made.
 pub fn simulation(
     plan: &ScenarioPlan,
     outcome: &SimulationOutcome,
+    pictures: &Pictures,
     hash: &str,
 ) -> Result<String, ReportError> {
-    let figure = match super::figure::history::svg(outcome)? {
-        Some(svg) => inline_figure(&svg, "history"),
-        None => "<p>The history has no two times: there is nothing to draw.</p>".to_owned(),
-    };
+    let figure = pictures.inline("history").unwrap_or_else(|| {
+        "<p>The history has no two times: there is nothing to draw.</p>".to_owned()
+    });
     let main = filled(
         SIMULATION,
         &[
@@ -146,32 +106,29 @@ pub fn simulation(
             ("how", &simulation::how(plan, outcome)),
         ],
     )?;
+    let text = scenario::resolved_text(plan);
     let frame = Frame {
         title: &plan.title,
         asked: simulation::line(plan),
         main,
-        file: &scenario::resolved_text(plan),
-        file_name: "resolved.toml",
-        hash,
-        file_text: "The scenario with every default written out. <code>contact-dma simulate resolved.toml</code> gives these \
-                    results again, under the same hash.",
+        input: Input {
+            hashes: vec![("exactly this input", hash.to_owned())],
+            files: vec![InputFile {
+                name: "resolved.toml",
+                text: &text,
+            }],
+            text: "The scenario with every default written out. <code>contact-dma simulate resolved.toml</code> gives these \
+                   results again, under the same hash.",
+        },
         data: json_for_script(&simulation::SimulationData::new(plan, outcome))?,
+        script: &[PLOT, HEAT, MODULI, SIMULATION_SCRIPT],
     };
     frame.page()
 }
 
-/// Curve and loops for a reader without script; a sentence where there is nothing to draw.
-fn static_figures(figures: &[Figure]) -> Result<(String, String), ReportError> {
-    let inline = |name: &str| -> Result<String, ReportError> {
-        let Some(figure) = figures.iter().find(|figure| figure.name == name) else {
-            return Ok("<p>No case has a result: there is nothing to draw.</p>".to_owned());
-        };
-        let failed = |source: ChartError| ReportError::Chart {
-            name: figure.name,
-            source,
-        };
-        let svg = figure.picture.to_svg().map_err(failed)?;
-        Ok(inline_figure(&svg, figure.name))
-    };
-    Ok((inline("energy-loss")?, inline("loops")?))
+/// A figure for a reader without script; a sentence where there is nothing to draw.
+fn static_figure(pictures: &Pictures, name: &str) -> String {
+    pictures
+        .inline(name)
+        .unwrap_or_else(|| "<p>No case has a result: there is nothing to draw.</p>".to_owned())
 }

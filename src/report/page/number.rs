@@ -42,11 +42,31 @@ pub(in crate::report) fn plain(value: f64, dimension: Dimension, significant: us
     format!("{} {unit}", scientific(number, significant))
 }
 
-/// Five significant digits without a unit, for a column: a dash for what is absent.
+/// At most five significant digits without a unit: a dash for what is absent.
 pub(super) fn cell(value: Option<f64>) -> String {
     match value {
         Some(value) => scientific(value, 5),
         None => "–".to_owned(),
+    }
+}
+
+/// So many significant digits without a unit, zeros at the end too, for a column of like numbers; a dash for what is absent.
+pub(super) fn digits(value: Option<f64>, significant: usize) -> String {
+    let Some(value) = value else {
+        return "–".to_owned();
+    };
+    let decimals = significant.saturating_sub(1);
+    let written = format!("{value:.decimals$e}");
+    let (mantissa, exponent) = written.split_once('e').unwrap_or((&written, "0"));
+    match exponent.parse::<i32>().unwrap_or(0) {
+        exponent @ -2..5 => {
+            let decimals = (decimals as i32 - exponent).max(0) as usize;
+            format!("{value:.decimals$}").replace('-', "−")
+        }
+        exponent => {
+            let tens = scientific(10_f64.powi(exponent), 1);
+            format!("{} × {tens}", mantissa.replace('-', "−"))
+        }
     }
 }
 
@@ -70,6 +90,23 @@ mod tests {
             "(8.400 ± 0.021) × 10⁻⁷ rad/s"
         );
         assert_eq!(text(2.0, None, Dimension::Force), "2.0000 N");
+    }
+
+    #[test]
+    fn a_column_keeps_the_zeros_at_the_end() {
+        let texts = [3.5, -365.0, 0.01, 1e5, 9.99999, 0.0].map(|v| digits(Some(v), 5));
+        assert_eq!(
+            texts,
+            [
+                "3.5000",
+                "−365.00",
+                "0.010000",
+                "1.0000 × 10⁵",
+                "10.000",
+                "0.0000"
+            ]
+        );
+        assert_eq!(digits(None, 5), "–");
     }
 
     #[test]

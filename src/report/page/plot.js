@@ -25,8 +25,12 @@ function ticksOf(low, high, log, room) {
   }
   const raw = (high - low) / Math.max(2, room);
   const power = 10 ** Math.floor(Math.log10(raw));
-  const step = power * [1, 2, 5, 10].find((m) => m * power >= raw * (1 - 1e-9));
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) major.push(k * step);
+  const steps = [0.2, 0.5, 1, 2, 5, 10].map((m) => m * power);
+  const first = (step) => Math.ceil(low / step - 1e-9), last = (step) => Math.floor(high / step + 1e-9);
+  let at = steps.findIndex((step) => step >= raw * (1 - 1e-9));
+  // A wide step may leave a single tick, which tells no scale.
+  if (last(steps[at]) - first(steps[at]) < 1) at--;
+  for (let k = first(steps[at]); k <= last(steps[at]); k++) major.push(k * steps[at]);
   return { major, minor };
 }
 
@@ -138,8 +142,9 @@ function drawPlot(host) {
   host.scaled = scaled;
   const named = spec.slider ? 'aria-hidden="true"' : `role="img" aria-label="${esc(spec.label)}"`;
   host.drawing.innerHTML = `<svg ${named} viewBox="0 0 ${width} ${height}">${parts.join("")}<circle class="cursor" r="5" visibility="hidden"/></svg>`;
+  // A series without a name belongs to the one before.
   host.legend.innerHTML = scaled.series.length > 1 || spec.legend
-    ? scaled.series.map((s, k) => `<li><svg viewBox="0 0 26 10" aria-hidden="true"><path d="M0 5H26" stroke="${colourOf(s.colour ?? k)}" stroke-width="2.5" stroke-dasharray="${dashOf(s, k)}"/></svg>${esc(s.name)}</li>`).join("")
+    ? scaled.series.map((s, k) => s.name && `<li><svg viewBox="0 0 26 10" aria-hidden="true"><path d="M0 5H26" stroke="${colourOf(s.colour ?? k)}" stroke-width="2.5" stroke-dasharray="${dashOf(s, k)}"/></svg>${esc(s.name)}</li>`).join("")
     : "";
   host.legend.hidden = !host.legend.innerHTML;
 }

@@ -112,7 +112,9 @@ pub(super) fn sweep(plan: &SweepPlan) -> String {
 /// A material's series as given.
 pub(super) fn material(material: &Material) -> String {
     let mut facts = Facts::default();
-    facts.add("name", material.name().unwrap_or("none"));
+    if let Some(name) = material.name() {
+        facts.add("name", name);
+    }
     facts.add("Poisson ratio", &format!("{}", material.poisson_ratio()));
     let kind = match material.kind() {
         ModulusKind::Longitudinal => "longitudinal",

@@ -1,6 +1,6 @@
 // The page of one history: its signals over time, profiles and fields at the times asked for.
 
-function startSimulation(data) {
+function start(data) {
   const h = data.history;
   const time = { label: "time t", name: "t", unit: "s" };
   const signal = (id, column, label, unit, colour) =>

@@ -2,9 +2,4 @@
 
 document.documentElement.classList.add("js");
 startTheme();
-{
-  const data = JSON.parse($("data").textContent);
-  if (data.kind === "sweep") startSweep(data);
-  else if (data.kind === "simulation") startSimulation(data);
-  else startMaterial(data);
-}
+start(JSON.parse($("data").textContent));

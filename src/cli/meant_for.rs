@@ -1,0 +1,48 @@
+//! Sweeps given to `simulate`, and scenarios given to `sweep`: one sentence instead of a list of keys that do not fit.
+
+use std::path::Path;
+
+use super::Failure;
+use super::diagnostic::Problems;
+use super::document::Document;
+
+/// Refuses a scenario.
+pub(super) fn sweep(document: &Document, file: &Path) -> Result<(), Failure> {
+    match !has_sweep(document) && has_segments(document) {
+        true => Err(other(
+            file,
+            "a scenario: its [drive] has segments",
+            "simulate",
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Refuses a sweep.
+pub(super) fn simulate(document: &Document, file: &Path) -> Result<(), Failure> {
+    match has_sweep(document) && !has_segments(document) {
+        true => Err(other(file, "a sweep: it has a table [sweep]", "sweep")),
+        false => Ok(()),
+    }
+}
+
+fn has_sweep(document: &Document) -> bool {
+    // What is wrong with the file is told when it is read in earnest.
+    document.root(&Problems::new()).has("sweep")
+}
+
+fn has_segments(document: &Document) -> bool {
+    let problems = Problems::new();
+    let mut root = document.root(&problems);
+    root.has("drive")
+        && root
+            .table("drive")
+            .is_some_and(|mut drive| drive.has("segments"))
+}
+
+fn other(file: &Path, what: &str, command: &str) -> Failure {
+    let file = file.display();
+    Failure::Input(format!(
+        "{file} is {what}; run `contact-dma {command} {file}`"
+    ))
+}

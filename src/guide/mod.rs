@@ -1,0 +1,43 @@
+//! Guides for those who use the program: each is a file beside this one, and every command, input file and piece of code in them
+//! is run by the tests.
+//!
+//! | guide | what it answers |
+//! |---|---|
+//! | [`first_sweep`] | from nothing to a curve of the energy loss, in five minutes |
+//! | [`own_material`] | how a material is given: series, tables of measured data, code |
+//! | [`own_indenter`] | how a shape is given: profile, height map, code |
+//! | [`own_loading`] | what drives the contact: oscillations about a mean, histories, records |
+//! | [`cluster`] | sweeps on several machines: shards, Slurm, what survives what |
+//! | [`results`] | what every number means, and how far it can be trusted |
+//! | [`validity`] | what the model leaves out, and how to see that it matters |
+//!
+//! In the guides a block that follows a sentence with a file's name in it is that file; commands are for a shell in the folder
+//! that holds these files.
+
+pub mod first_sweep {
+    #![doc = include_str!("first_sweep.md")]
+}
+
+pub mod own_material {
+    #![doc = include_str!("own_material.md")]
+}
+
+pub mod own_indenter {
+    #![doc = include_str!("own_indenter.md")]
+}
+
+pub mod own_loading {
+    #![doc = include_str!("own_loading.md")]
+}
+
+pub mod cluster {
+    #![doc = include_str!("cluster.md")]
+}
+
+pub mod results {
+    #![doc = include_str!("results.md")]
+}
+
+pub mod validity {
+    #![doc = include_str!("validity.md")]
+}
