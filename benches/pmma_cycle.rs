@@ -16,6 +16,7 @@ use contact_dma::history::TimeRule;
 use contact_dma::indenter::Sphere;
 use contact_dma::material::library;
 use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::figure_plan::FigurePlan;
 use contact_dma::sweep::plan::{CyclePlan, EngineKind, Method, SolverPlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 
@@ -55,6 +56,7 @@ fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
             cells,
             tolerance: 1e-8,
         },
+        figures: FigurePlan::default(),
     }
 }
 

@@ -1,6 +1,6 @@
 //! The identity of a build: what changes it, and what must not.
 
-#[path = "../build.rs"]
+#[path = "../src/build.rs"]
 mod build;
 
 use std::fs;

@@ -234,6 +234,13 @@ pub(super) struct SimulateFlags {
     /// Change one key of the scenario file, for example indenter.radius='5 mm'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
+    /// Number of threads, which share a large half-space grid [default: one per processor]; the
+    /// results do not depend on it
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
+    pub(super) threads: Option<std::num::NonZeroUsize>,
+    /// Print what would be computed and about the memory it takes, and compute nothing
+    #[arg(long)]
+    pub(super) dry_run: bool,
     /// Seconds between two checkpoints of a history that takes long
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
     pub(super) checkpoint_every: u64,

@@ -8,7 +8,7 @@ use crate::quantity::{Dimension, format_human};
 use crate::report::terminal::frequency;
 use crate::sweep::case::Setup;
 use crate::sweep::cost::Cost;
-use crate::sweep::plan::EngineKind;
+use crate::sweep::plan::{EngineKind, SolverPlan};
 
 /// Cases listed before the rest is counted.
 const LISTED: usize = 100;
@@ -52,10 +52,6 @@ fn text(setup: &Setup, cost: &Cost) -> String {
     if cost.cases.len() > LISTED {
         let _ = writeln!(text, "  and {} more", cost.cases.len() - LISTED);
     }
-    let nodes = match plan.solver.engine {
-        EngineKind::Axisymmetric => format!("{} springs", plan.solver.springs),
-        EngineKind::HalfSpace => format!("{0} x {0} cells", plan.solver.cells),
-    };
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let _ = write!(
         text,
@@ -65,7 +61,7 @@ fn text(setup: &Setup, cost: &Cost) -> String {
          Memory: about {memory} for every thread{free}.\n\
          Shards: {} (below about ten minutes each, more of them gain little).\n",
         cost.cases.len(),
-        nodes,
+        nodes(&plan.solver),
         plan.solver.engine.name(),
         plan.cycle.steps,
         spoken(cost.time_s()),
@@ -74,6 +70,14 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         cost.shards(),
     );
     text
+}
+
+/// The nodes of an engine, in words.
+pub(super) fn nodes(solver: &SolverPlan) -> String {
+    match solver.engine {
+        EngineKind::Axisymmetric => format!("{} springs", solver.springs),
+        EngineKind::HalfSpace => format!("{0} x {0} cells", solver.cells),
+    }
 }
 
 /// Bytes in the unit that people would use for them.

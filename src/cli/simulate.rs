@@ -7,10 +7,12 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::arguments::SimulateFlags;
-use super::sweep::interrupt_flag;
-use super::{Ended, Failure, meant_for, open_document, open_store, print, scenario_file};
+use super::plan::{megabytes, nodes};
+use super::sweep::{interrupt_flag, threads};
+use super::{Ended, Failure, meant_for, memory, open_document, open_store, print, scenario_file};
 use crate::report::{self, terminal_simulation};
 use crate::sweep::history_checkpoint::{Found, HistoryCheckpoint, Stand};
+use crate::sweep::run;
 use crate::sweep::scenario;
 use crate::sweep::simulate::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::store::Store;
@@ -21,6 +23,9 @@ pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
     meant_for::simulate(&document, &flags.file)?;
     let plan = scenario_file::plan(&document)?;
     let simulation = Simulation::new(plan).map_err(Failure::input)?;
+    if flags.dry_run {
+        return print(&foretold(&simulation));
+    }
     let resolved = scenario::resolved_text(simulation.plan());
     let store = open_store(&flags.file, flags.out.as_deref(), &resolved, flags.force)?;
     let interrupt = interrupt_flag()?;
@@ -32,8 +37,15 @@ pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
         flags.quiet,
     );
     let bar = bar(simulation.schedule().moments.len(), flags.quiet);
-    let outcome = simulation.run_from(stand, &checkpoint, &interrupt, &|done, _| {
-        bar.set_position(done as u64);
+    memory::warn_if_short(simulation.predicted_memory_bytes(), 1);
+    let pool = run::pool(threads(flags.threads)).map_err(Failure::run)?;
+    let (outcome, checkpoint) = pool.install({
+        let (simulation, interrupt, bar) = (&simulation, &interrupt, &bar);
+        move || {
+            let told = |done, _| bar.set_position(done as u64);
+            let outcome = simulation.run_from(stand, &checkpoint, interrupt, &told);
+            (outcome, checkpoint)
+        }
     });
     bar.finish_and_clear();
     let left_out =
@@ -42,6 +54,23 @@ pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
         checkpoint.remove();
     }
     ended(flags, &simulation, &outcome, &left_out, &store)
+}
+
+/// What would be computed, and about the memory it takes.
+fn foretold(simulation: &Simulation) -> String {
+    let plan = simulation.plan();
+    let free = match memory::free_bytes() {
+        Some(free) => format!("; {} are free here", megabytes(free)),
+        None => String::new(),
+    };
+    format!(
+        "{}\n\n{} time steps on {} ({} engine).\nMemory: about {}{free}.\n",
+        plan.title,
+        simulation.schedule().moments.len(),
+        nodes(&plan.solver),
+        plan.solver.engine.name(),
+        megabytes(simulation.predicted_memory_bytes()),
+    )
 }
 
 /// Where an earlier run stood, of which a line is told.

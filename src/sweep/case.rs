@@ -187,16 +187,26 @@ impl Setup {
 
     /// Runs one case to its record; `None` where it was interrupted.
     pub fn run(&self, case: &Case, interrupt: &AtomicBool) -> Option<CaseRecord> {
-        self.run_from(&Checkpoints::none(), case, Aim::Plan, interrupt)
+        self.run_from(&Checkpoints::none(), case, interrupt)
     }
 
     /// As [`Setup::run`], from the checkpoints that an earlier run of the same case has left; the record is the same, bit for
     /// bit. An interruption leaves new ones.
-    pub(super) fn run_from(
+    pub fn run_from(
         &self,
         checkpoints: &Checkpoints,
         case: &Case,
+        interrupt: &AtomicBool,
+    ) -> Option<CaseRecord> {
+        self.run_for(Aim::Plan, checkpoints, case, interrupt)
+    }
+
+    /// As [`Setup::run_from`], for what the record is wanted for.
+    pub(super) fn run_for(
+        &self,
         aim: Aim,
+        checkpoints: &Checkpoints,
+        case: &Case,
         interrupt: &AtomicBool,
     ) -> Option<CaseRecord> {
         let mut cycle = self.plan.cycle;

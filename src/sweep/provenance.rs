@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::store::{Store, StoreError};
 
-/// What the numbers of this program come from: the SHA-256 of its sources as far as they make numbers; see build.rs. Records
+/// What the numbers of this program come from: the SHA-256 of its sources as far as they make numbers; see `src/build.rs`. Records
 /// of another build may be others.
 pub const BUILD: &str = env!("CONTACT_DMA_BUILD");
 

@@ -109,10 +109,8 @@ pub fn run_with(
     progress: &dyn Progress,
 ) -> Result<Outcome, RunError> {
     let pool = pool(options.threads)?;
-    let search = Search {
-        checkpoint_every: Some(options.checkpoint_every),
-        ..Search::of_records(&pool, setup, store, interrupt, progress)
-    };
+    let search = Search::of_records(&pool, setup, store, interrupt, progress);
+    let search = search.solving(options.checkpoint_every);
     let (records, missing) = search.planned(&setup.plan().cases())?;
     search.outcome(records, missing > 0)
 }
@@ -130,10 +128,8 @@ pub fn run_shard(
     progress: &dyn Progress,
 ) -> Result<Part, RunError> {
     let pool = pool(options.threads)?;
-    let search = Search {
-        checkpoint_every: Some(options.checkpoint_every),
-        ..Search::of_records(&pool, setup, store, interrupt, progress)
-    };
+    let search = Search::of_records(&pool, setup, store, interrupt, progress);
+    let search = search.solving(options.checkpoint_every);
     let own = shard::cases(setup, shard);
     let (records, missing) = search.planned(&own)?;
     if missing > 0 {
@@ -169,7 +165,11 @@ pub fn collect(setup: &Setup, store: &Store, progress: &dyn Progress) -> Result<
     search.outcome(records, !missing.is_empty())
 }
 
-fn pool(threads: usize) -> Result<ThreadPool, RunError> {
+/// Threads to work on.
+///
+/// # Errors
+/// [`RunError::Threads`] where they cannot be started.
+pub fn pool(threads: usize) -> Result<ThreadPool, RunError> {
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|error| RunError::Threads {
         threads,

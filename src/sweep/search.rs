@@ -54,6 +54,12 @@ impl<'a> Search<'a> {
         }
     }
 
+    /// The same, solving cases that have no record, those that take long with a checkpoint every so often.
+    pub fn solving(mut self, checkpoint_every: Duration) -> Self {
+        self.checkpoint_every = Some(checkpoint_every);
+        self
+    }
+
     /// The records of cases of the sweep, and how many of these have none in the end.
     pub fn planned(&self, cases: &[Case]) -> Result<(Vec<CaseRecord>, usize), StoreError> {
         let (mut records, lacking) = self.known(Purpose::Sweep, cases)?;
@@ -224,7 +230,7 @@ impl<'a> Search<'a> {
             Kept::Intact(record) => *record,
             Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
                 let checkpoints = Checkpoints::of(self.store, purpose, case, every);
-                let found = (self.setup).run_from(&checkpoints, case, aim, self.interrupt);
+                let found = (self.setup).run_for(aim, &checkpoints, case, self.interrupt);
                 let Some(record) = found else {
                     return Ok(None);
                 };

@@ -166,6 +166,20 @@ impl Simulation {
         &self.plan
     }
 
+    /// Memory (bytes) that the history takes while it runs; within 20 % where that is much and the contact stays inside its domain.
+    pub fn predicted_memory_bytes(&self) -> u64 {
+        match &self.compliance {
+            Compliance::Series(creep) => {
+                let flow = usize::from(creep.viscosity_pa_s().is_some());
+                (self.engines).predicted_memory_bytes(creep.branches().len() + flow)
+            }
+            // The sum over the past needs every pressure of it.
+            Compliance::Samples(_) => {
+                (self.engines).predicted_memory_bytes(self.schedule.moments.len())
+            }
+        }
+    }
+
     /// The time steps.
     pub fn schedule(&self) -> &Schedule {
         &self.schedule

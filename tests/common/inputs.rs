@@ -336,7 +336,7 @@ impl Records {
             let _ = table::samples(&result.samples);
         }
         let _ = machine::sweep(plan, &outcome, hash);
-        let _ = page::sweep(plan, &outcome, &[], hash);
+        let _ = page::sweep(plan, &outcome, &page::Pictures::default(), hash);
         true
     }
 

@@ -33,6 +33,9 @@ const SIMULATION: &str = include_str!("simulation.html");
 const SWEEP_SCRIPT: &str = include_str!("sweep.js");
 const SIMULATION_SCRIPT: &str = include_str!("simulation.js");
 
+/// Figures of a sweep that its page shows where there is no script.
+pub const FIGURES: [&str; 2] = ["energy-loss", "loops"];
+
 /// The page of a sweep, whose figures have gone by.
 ///
 /// # Errors
