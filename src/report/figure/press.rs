@@ -5,7 +5,9 @@ use rayon::prelude::*;
 use super::{Figure, Picture};
 use crate::report::ReportError;
 use crate::report::caption::Setting;
-use crate::report::chart::{self, Chart, ChartError, Color, HeatMap, LineStyle, MapShape};
+use crate::report::chart::{
+    self, Chart, ChartError, Color, HeatMap, LegendPlace, LineStyle, MapShape,
+};
 use crate::report::page::Pictures;
 use crate::sweep::figure_plan::{FigurePlan, Format, PaperSize};
 use crate::sweep::files;
@@ -102,7 +104,7 @@ impl Picture {
         let Some(paper) = plan.paper() else {
             return picture.to_svg();
         };
-        picture.tell_apart_in_grey();
+        picture.make_fit_for_paper();
         let height_mm = match picture.resize(&paper)? {
             true => paper.height_m.map(|height_m| 1e3 * height_m),
             false => None,
@@ -156,13 +158,25 @@ impl Picture {
         Ok(false)
     }
 
-    /// Paper may be printed in grey: curves of a family, which differ in colour alone on a screen, get strokes of their own.
-    fn tell_apart_in_grey(&mut self) {
+    /// Paper may be printed in grey: curves of a family, which differ in colour alone on a screen, get strokes of their own. And a
+    /// corner that a legend was given in a wide picture may hold data in a narrow one.
+    fn make_fit_for_paper(&mut self) {
         let charts = match self {
             Self::Chart(chart) => std::slice::from_mut(chart.as_mut()),
             Self::Stack(charts) => charts.as_mut_slice(),
             Self::Map(_) => return,
         };
+        for chart in charts.iter_mut() {
+            if let Some(
+                LegendPlace::TopRight
+                | LegendPlace::TopLeft
+                | LegendPlace::BottomRight
+                | LegendPlace::BottomLeft,
+            ) = chart.legend
+            {
+                chart.legend = Some(LegendPlace::Auto);
+            }
+        }
         for series in charts.iter_mut().flat_map(|chart| &mut chart.series) {
             if let (Some(LineStyle::Solid), None, Color::Ramp { step, of }) =
                 (series.line, series.marker, series.color)
@@ -280,9 +294,9 @@ mod tests {
     }
 
     #[test]
-    fn on_paper_a_family_has_strokes_of_its_own_where_it_has_no_markers() {
-        let mut picture = Picture::from(chart());
-        picture.tell_apart_in_grey();
+    fn on_paper_a_family_has_strokes_of_its_own_and_the_legend_looks_for_a_place() {
+        let mut picture = Picture::from(chart().legend(LegendPlace::TopLeft));
+        picture.make_fit_for_paper();
         picture.drop_titles();
         let Picture::Chart(chart) = picture else {
             panic!("it is a chart")
@@ -297,5 +311,6 @@ mod tests {
             [LineStyle::Solid, LineStyle::Dashed, LineStyle::Solid]
         );
         assert_eq!(chart.title, None);
+        assert_eq!(chart.legend, Some(LegendPlace::Auto));
     }
 }
