@@ -13,6 +13,7 @@ use super::figures_block::{self, Figures};
 use super::sweep::interrupt_flag;
 use super::sweep_file::optional;
 use super::{Ended, Failure, print, scenario_file, sweep_file};
+use crate::report::terminal::wrapped;
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
@@ -142,13 +143,14 @@ fn text(made: &[Figure], folder: &Path) -> String {
         count.not_stated
     );
     for claim in claims().filter(|claim| claim.verdict == Verdict::Disagrees) {
-        text.push_str(&format!(
-            "  figure {}, {}: {} here, {} in the paper\n",
+        let line = format!(
+            "figure {}, {}: {} here, {} in the paper",
             claim.figure,
             claim.quantity,
             claim.exact_text(),
             claim.paper
-        ));
+        );
+        text.push_str(&wrapped(&line, 80, "  ", "    "));
     }
     text.push_str(&format!("\nResults in {}\n", folder.display()));
     text

@@ -5,14 +5,14 @@ use std::fmt::Write;
 use super::{Comparison, PeakComparison, Place};
 use crate::report::ReportError;
 use crate::report::table::{Table, number, optional};
-use crate::report::terminal::frequency;
+use crate::report::terminal::{frequency, wrapped};
 use crate::sweep::peak::Peak;
 
 /// Names of cases shown before the rest is counted.
 const NAMED: usize = 10;
 
 impl Comparison {
-    /// The whole finding, as text of at most about a hundred columns.
+    /// The whole finding, as text of at most 80 columns, or what a name takes.
     pub fn text(&self) -> String {
         let mut text = format!("{} cases in both results\n", self.compared);
         named(&mut text, "missing in the new result", &self.missing);
@@ -22,7 +22,8 @@ impl Comparison {
             ("only in the new result", &self.added_columns),
         ] {
             if !columns.is_empty() {
-                let _ = writeln!(text, "columns {what}: {}", columns.join(", "));
+                let line = format!("columns {what}: {}", columns.join(", "));
+                text.push_str(&wrapped(&line, 80, "", "  "));
             }
         }
         for (place, old, new) in self.statuses.iter().take(NAMED) {

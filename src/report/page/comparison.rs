@@ -13,7 +13,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::comparison::text::{peak_words, words};
 use crate::report::comparison::{
-    Column, Comparison, PeakComparison, Place, Source, SweepTable, Tolerances,
+    Column, ColumnComparison, Comparison, PeakComparison, Place, Source, SweepTable, Tolerances,
 };
 use crate::report::figure::scientific;
 use crate::sweep::difference;
@@ -21,7 +21,8 @@ use crate::sweep::peak::Peak;
 
 const MAIN: &str = include_str!("comparison.html");
 const SCRIPT: &str = include_str!("comparison.js");
-/// Lines by which two questions differ, and cases of a list, that are shown.
+/// Columns named beside the verdict, lines by which two questions differ, and cases of a list, that are shown.
+const COLUMNS: usize = 3;
 const LINES: usize = 40;
 const CASES: usize = 100;
 
@@ -158,10 +159,16 @@ fn reasons(comparison: &Comparison) -> String {
         let names = comparison.missing_columns.join(", ");
         lines.push(format!("columns missing in the new result: {names}"));
     }
-    for column in comparison.columns.iter().filter(|c| c.different > 0) {
+    let different: Vec<&ColumnComparison> = comparison
+        .columns
+        .iter()
+        .filter(|column| column.different > 0)
+        .collect();
+    for column in different.iter().take(COLUMNS) {
         let largest = column.largest.map(|(share, place)| {
             let omega = scientific(place.angular_frequency_rad_per_s, 4);
-            format!(", at most by {} at ω = {omega} rad/s", scientific(share, 2))
+            let share = scientific(share, 2);
+            format!(", at most by {share} (relative) at ω = {omega} rad/s")
         });
         lines.push(format!(
             "{} differs in {} of {} cases{}",
@@ -170,6 +177,10 @@ fn reasons(comparison: &Comparison) -> String {
             comparison.compared,
             largest.unwrap_or_default()
         ));
+    }
+    match different.len().saturating_sub(COLUMNS) {
+        0 => {}
+        more => lines.push(format!("{more} more columns differ: see below")),
     }
     let peaks = comparison.peaks.iter().filter(|peak| peak.differs);
     lines.extend(peaks.map(peak_words));

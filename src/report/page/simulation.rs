@@ -18,9 +18,10 @@ use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome, Surfa
 
 /// Moments of the history that the page carries.
 const MOMENTS: usize = 1500;
-/// Points of a profile, and cells along a side of a map.
+/// Points of a profile, and cells along a side of a map: of few maps, and of many.
 const POINTS: usize = 160;
-const CELLS: usize = 64;
+const FEW: usize = 4;
+const CELLS: [usize; 2] = [96, 64];
 
 /// Everything the script of the page knows.
 #[derive(Serialize)]
@@ -68,6 +69,8 @@ impl SimulationData {
     /// The data of a history, as far as it came.
     pub(super) fn new(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Self {
         let first = outcome.profiles.first();
+        let fields = &outcome.fields;
+        let cells = CELLS[usize::from(fields.len() > FEW)];
         Self {
             kind: "simulation",
             history: history(&outcome.rows),
@@ -75,7 +78,7 @@ impl SimulationData {
                 .and_then(|record| Some(lines(record).first()?.0))
                 .unwrap_or("r"),
             profiles: outcome.profiles.iter().filter_map(profile).collect(),
-            fields: outcome.fields.iter().filter_map(field).collect(),
+            fields: fields.iter().filter_map(|f| field(f, cells)).collect(),
             material: plan.material.series().map(MaterialData::of),
         }
     }
@@ -118,7 +121,7 @@ fn profile(record: &SurfaceRecord) -> Option<Profile> {
     })
 }
 
-fn field(record: &SurfaceRecord) -> Option<Field> {
+fn field(record: &SurfaceRecord, cells: usize) -> Option<Field> {
     let Surface::Cells(CellSurface {
         grid,
         pressure_pa,
@@ -132,7 +135,7 @@ fn field(record: &SurfaceRecord) -> Option<Field> {
             grid.cells_x(),
             values.len(),
             |i| values.get(i).copied(),
-            CELLS,
+            cells,
         )
     };
     let (pressure, displacement) = (of(pressure_pa), of(displacement_m));
