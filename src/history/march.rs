@@ -263,8 +263,8 @@ impl<'a, M: Hereditary> March<'a, M> {
         }
     }
 
-    /// Goes back to between the halves of a step, where a march of the same engine and compliance stood. False, and the march
-    /// of no further use, where the state is one of others.
+    /// Goes back to between the halves of a step, where a march of the same engine and compliance stood. False, and a march
+    /// that has not begun is as it was, where the state is one of others.
     pub fn restore_step(&mut self, state: &StepState) -> bool {
         let nodes = self.pressure.len();
         let course = match (&mut self.extrapolation, &state.course) {
@@ -285,6 +285,8 @@ impl<'a, M: Hereditary> March<'a, M> {
                 self.engine.resume_from(last);
             }
             self.work = state.work;
+        } else if let Some(extrapolation) = &mut self.extrapolation {
+            *extrapolation = Extrapolation::default();
         }
         fits
     }

@@ -243,7 +243,7 @@ impl Simulation {
             )
         };
         let mut ended = marched(&mut outcome);
-        if ended.as_ref().is_err_and(MarchError::is_of_a_disc) {
+        if !outcome.damped_throughout && ended.as_ref().is_err_and(MarchError::is_of_a_disc) {
             outcome.damped_throughout = true;
             ended = marched(&mut outcome);
         }
@@ -320,13 +320,19 @@ fn floating(control: Control, moments: &[Moment]) -> Vec<bool> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::atomic::Ordering;
+    use std::time::Duration;
+
     use super::*;
     use crate::drive::{Segment, SegmentedDrive};
-    use crate::indenter::{Axisymmetric, Indenter, Parameter};
+    use crate::indenter::{Axisymmetric, Indenter, Parameter, Sphere};
     use crate::material::library;
     use crate::sweep::figure_plan::FigurePlan;
+    use crate::sweep::history_checkpoint::Found;
     use crate::sweep::plan::SolverPlan;
+    use crate::sweep::resolved;
     use crate::sweep::scenario::OutputPlan;
+    use crate::sweep::store::Store;
 
     /// (time, whether the approach is undefined) at every unloaded moment.
     fn unloaded(segments: Vec<Segment>) -> Vec<(f64, bool)> {
@@ -409,6 +415,73 @@ mod tests {
         fn has_bounded_pressure(&self) -> bool {
             false
         }
+    }
+
+    /// A sphere of 10 mm whose contact is foretold far too small.
+    #[derive(Debug)]
+    struct Underrated(Sphere);
+
+    impl Indenter for Underrated {
+        fn shape(&self) -> &'static str {
+            self.0.shape()
+        }
+        fn parameters(&self) -> Vec<Parameter> {
+            self.0.parameters()
+        }
+        fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
+            self.0.gap_m(x_m, y_m)
+        }
+        fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+            self.0.axisymmetric()
+        }
+        fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
+            0.2 * self.0.elastic_half_width_m(load_n, compliance_per_pa)
+        }
+    }
+
+    #[test]
+    fn a_history_interrupted_every_third_step_ends_as_if_undisturbed_on_domains_that_grow_too() {
+        let segments = vec![ramp(10.0, 6.0), ramp(2.0, 6.0)];
+        let plan = ScenarioPlan {
+            title: "underrated".to_owned(),
+            material: library::find("pmma").unwrap().material().unwrap().into(),
+            indenter: Arc::new(Underrated(Sphere::new(0.01).unwrap())),
+            drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
+            step_s: Some(0.5),
+            output: OutputPlan {
+                profiles_at_s: vec![9.0, 1.0],
+                fields_at_s: vec![2.0],
+                field_cells: 8,
+            },
+            solver: SolverPlan::default(),
+        };
+        let simulation = Simulation::new(plan).unwrap();
+        let whole = simulation.run(&AtomicBool::new(false), &|_, _| {});
+        assert_eq!(whole.ended, SimulationEnd::Done);
+        let folder = tempfile::TempDir::new().unwrap();
+        let store = Store::open(folder.path(), "", &resolved::hash(""), false).unwrap();
+        let (mut runs, mut grown) = (0, 0);
+        let outcome = loop {
+            let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
+            let stand = match checkpoint.find() {
+                Found::Stand(stand) => Some(*stand),
+                Found::Nothing => None,
+                Found::Unusable { path, reason } => panic!("{}: {reason}", path.display()),
+            };
+            grown = stand.as_ref().map_or(0, |stand| stand.growths).max(grown);
+            let (interrupt, steps) = (AtomicBool::new(false), Cell::new(0));
+            let outcome = simulation.run_from(stand, &checkpoint, &interrupt, &|_, _| {
+                steps.set(steps.get() + 1);
+                interrupt.store(steps.get() == 3, Ordering::Relaxed);
+            });
+            runs += 1;
+            if outcome.ended != SimulationEnd::Interrupted {
+                break outcome;
+            }
+        };
+        assert_eq!(outcome, whole);
+        assert_eq!(grown, whole.domain_enlarged);
+        assert!(runs > 8 && grown > 0, "{runs} runs, {grown} times enlarged");
     }
 
     #[test]
