@@ -454,6 +454,7 @@ mod tests {
                 field_cells: 8,
             },
             solver: SolverPlan::default(),
+            figures: FigurePlan::default(),
         };
         let simulation = Simulation::new(plan).unwrap();
         let whole = simulation.run(&AtomicBool::new(false), &|_, _| {});
