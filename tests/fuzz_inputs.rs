@@ -14,7 +14,7 @@ use contact_dma::report::comparison::{Comparison, SweepTable, Tolerances};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::resolved::resolved_text;
 use contact_dma::sweep::sealed;
-use inputs::{CheckpointFiles, Records, Table, Tables};
+use inputs::{CheckpointFiles, Histories, Records, Table, Tables};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
@@ -246,6 +246,18 @@ fn a_case_ends_whatever_its_checkpoint_holds() {
                 files.check(file, bytes);
             });
         }
+    }
+}
+
+#[test]
+fn a_history_ends_whatever_its_checkpoint_holds() {
+    let histories = Histories::new();
+    for which in [0, 1] {
+        let whole = histories.content(which);
+        assert!(histories.check(which, &whole));
+        assault_with(100, &[&whole], |bytes| {
+            histories.check(which, bytes);
+        });
     }
 }
 

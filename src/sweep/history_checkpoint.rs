@@ -300,17 +300,24 @@ fn surface_of(
 ) -> Option<SurfaceRecord> {
     let row = next()?;
     let (radius_m, pressure, displacement_m, gap_m) = (next()?, next()?, next()?, next()?);
+    let points = displacement_m.len();
+    let fits = pressure.len() == points && (!text.has_gap || gap_m.len() == points);
     let surface = match text.grid {
+        _ if !fits => return None,
+        None if radius_m.len() != points => return None,
         None => Surface::Radial(RadialSurface {
             radius_m,
             pressure_pa: pressure.into_iter().map(not_nan).collect(),
             displacement_m,
         }),
-        Some((cells_x, cells_y, spacing_x_m, spacing_y_m)) => Surface::Cells(CellSurface {
-            grid: Grid::new(cells_x, cells_y, spacing_x_m, spacing_y_m).ok()?,
-            pressure_pa: pressure,
-            displacement_m,
-        }),
+        Some((cells_x, cells_y, spacing_x_m, spacing_y_m)) => {
+            let grid = Grid::new(cells_x, cells_y, spacing_x_m, spacing_y_m).ok()?;
+            Surface::Cells(CellSurface {
+                grid: (grid.cells() == points).then_some(grid)?,
+                pressure_pa: pressure,
+                displacement_m,
+            })
+        }
     };
     Some(SurfaceRecord {
         row: row_of(row.as_slice().try_into().ok()?),

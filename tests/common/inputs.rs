@@ -5,7 +5,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use contact_dma::cli::diagnostic::{Diagnostics, Styling};
@@ -16,6 +16,7 @@ use contact_dma::report::{machine, page, table};
 use contact_dma::sweep::archive::{Kept, Purpose};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::checkpoint::Checkpoints;
+use contact_dma::sweep::history_checkpoint::{Found, HistoryCheckpoint};
 use contact_dma::sweep::plan::{Case, EngineKind};
 use contact_dma::sweep::resolved::{hash, resolved_text};
 use contact_dma::sweep::run::Outcome;
@@ -434,4 +435,84 @@ pub fn check_any_checkpoint(files: &[CheckpointFiles; 2], bytes: &[u8]) -> bool 
     };
     let (method, file) = (usize::from(*first) % 2, usize::from(*first) / 2);
     files[method].check(file, content)
+}
+
+/// A short history of springs and one of cells, with a right checksum about any checkpoint.
+pub struct Histories {
+    folder: TempDir,
+    simulations: Vec<Simulation>,
+}
+
+const HISTORY: &str = r#"title = "tiny"
+[material]
+library = "pmma"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+segments = [{ kind = "ramp", to = "5 N", duration = "6 s" }]
+[time]
+step = "1 s"
+[output]
+profiles_at = ["1 s", "5 s"]
+fields_at = ["2 s"]
+"#;
+
+impl Histories {
+    pub fn new() -> Self {
+        let solvers = [
+            "field_cells = 8\n[solver]\nsprings = 16\n",
+            "[solver]\nengine = \"half-space\"\ncells = 8\n",
+        ];
+        let simulation = |solver: &str| {
+            let text = format!("{HISTORY}{solver}");
+            let document = Document::parse("history.toml", &text).unwrap();
+            Simulation::new(scenario_file::plan(&document).ok().unwrap()).unwrap()
+        };
+        Self {
+            folder: TempDir::new().unwrap(),
+            simulations: solvers.map(simulation).into(),
+        }
+    }
+
+    fn path(&self) -> PathBuf {
+        self.folder.path().join("checkpoints/history")
+    }
+
+    /// Goes on from what lies there, for so many steps.
+    fn run(&self, which: usize, steps: usize) -> bool {
+        let simulation = &self.simulations[which];
+        let resolved = scenario::resolved_text(simulation.plan());
+        let store = Store::open(self.folder.path(), &resolved, &hash(&resolved), true).unwrap();
+        let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
+        let stand = match checkpoint.find() {
+            Found::Stand(stand) => Some(*stand),
+            Found::Nothing | Found::Unusable { .. } => None,
+        };
+        let accepted = stand.is_some();
+        let interrupt = AtomicBool::new(false);
+        let _ = simulation.run_from(stand, &checkpoint, &interrupt, &|done, _| {
+            interrupt.store(done >= steps, Ordering::Relaxed);
+        });
+        accepted
+    }
+
+    /// What a checkpoint holds between its head and its checksum after four steps, of springs or cells.
+    pub fn content(&self, which: usize) -> Vec<u8> {
+        let _ = fs::remove_file(self.path());
+        self.run(which, 4);
+        let bytes = fs::read(self.path()).unwrap();
+        bytes[CHECKPOINT_HEAD..bytes.len() - 32].to_vec()
+    }
+
+    /// A history goes on from a checkpoint of any content, or from its beginning, and ends. The last [`Histories::content`]
+    /// must have been of the same one.
+    pub fn check(&self, which: usize, content: &[u8]) -> bool {
+        let head = fs::read(self.path()).unwrap();
+        let mut bytes = [&head[..CHECKPOINT_HEAD], content].concat();
+        let hash = Sha256::digest(&bytes);
+        bytes.extend_from_slice(&hash);
+        fs::write(self.path(), bytes).unwrap();
+        self.run(which, usize::MAX)
+    }
 }
