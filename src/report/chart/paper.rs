@@ -92,7 +92,7 @@ mod tests {
         let svg = on_paper(&drawn(), 85.0, Some(63.75), 0.176_388_9).unwrap();
         let head = svg.split_once('>').unwrap().0;
         assert!(head.contains("width=\"85mm\" height=\"63.75mm\""), "{head}");
-        assert!(head.contains("viewBox=\"0 0 481.8897 361.4172\""), "{head}");
+        assert!(head.contains("viewBox=\"0 0 481.8897 361.4173\""), "{head}");
         assert_eq!(head.matches("viewBox").count(), 1);
         assert_eq!(
             svg.split_once('>').unwrap().1,

@@ -213,8 +213,8 @@ mod tests {
         assert_eq!(si.energy(3e-6), (1e6, "µJ".to_owned()));
         let (factor, unit) = normalised.energy(3e-6);
         assert!((factor * 2e-5 - 1.0).abs() < 1e-12 && unit == "W₀δ₀");
-        assert_eq!(si.omega(0.012), "ω = 0.012 rad/s");
-        assert_eq!(normalised.omega(0.012), "ω = 1.2 τ⁻¹");
+        assert_eq!(si.omega(0.12), "ω = 0.12 rad/s");
+        assert_eq!(normalised.omega(0.12), "ω = 12 τ⁻¹");
         assert_eq!(si.drive_value(Control::Load, 5.0), "5 N");
         assert_eq!(si.drive_value(Control::Load, 0.25), "250 mN");
         assert_eq!(si.drive_value(Control::Approach, 1.5e-6), "1.5 µm");
