@@ -355,3 +355,17 @@ pub(super) fn threads(text: &str) -> Result<NonZeroUsize, String> {
     number
         .ok_or_else(|| format!("`{text}` is no number of threads: write a whole number from 1 on"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn threads_are_a_whole_number_from_one_on() {
+        assert_eq!(threads(" 4 ").map(NonZeroUsize::get), Ok(4));
+        for wrong in ["0", "-1", "1.5", "all", ""] {
+            let message = threads(wrong).unwrap_err();
+            assert!(message.contains("from 1 on"), "{message}");
+        }
+    }
+}

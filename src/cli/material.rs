@@ -57,7 +57,8 @@ fn show(flags: &ShowFlags) -> Result<Ended, Failure> {
     if let Some(figure) = figures.first() {
         let about = About {
             title: material.name().unwrap_or("Material"),
-            text: &head,
+            // The first line is the title, which stands above.
+            text: head.split_once('\n').map_or("", |(_, rest)| rest),
             block: &resolved::material_text(&material),
             pictures: &pictures,
             figure: figure.name,
