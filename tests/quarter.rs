@@ -168,5 +168,5 @@ fn contact_at_the_outer_border_is_an_error_and_at_the_axes_is_none() {
     };
     assert!(solve(0.1).is_ok());
     let error = solve(50.0).unwrap_err().to_string();
-    assert!(error.contains("half width 1.6e-4 m"), "{error}");
+    assert!(error.contains("half width 1.600e-4 m"), "{error}");
 }

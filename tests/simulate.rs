@@ -912,3 +912,24 @@ fn an_approach_history_written_by_one_run_drives_the_next() {
         assert!((a - b).abs() < 1e-4 * 10.0, "{a} {b}");
     }
 }
+
+#[test]
+fn a_dry_run_tells_steps_and_memory_and_writes_nothing() {
+    let folder = TempDir::new().unwrap();
+    let segments = r#"{ kind = "step", to = "10 N", duration = "2 s" }"#;
+    let solver = "[solver]\nengine = \"half-space\"\ncells = 1024\n[time]\nstep = \"0.5 s\"\n";
+    let text = maxwell() + &drive("load", segments) + solver;
+    let file = write(&folder, "dry.toml", &text);
+    let out = folder.path().join("out");
+    program()
+        .args(["simulate", &file, "--dry-run", "--out"])
+        .arg(&out)
+        .assert()
+        .success()
+        .stdout(
+            contains("time steps on 1024 x 1024 cells (half-space engine)")
+                .and(contains("Memory: about"))
+                .and(contains(" MB")),
+        );
+    assert!(!out.exists());
+}

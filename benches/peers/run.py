@@ -19,8 +19,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 PEERS = {
-    "tamaas 2.9.0": (["tamaas==2.9.0", "numpy"], "tamaas_step.py"),
-    "ContactMechanics 1.8.3": (["ContactMechanics==1.8.3"], "contactmechanics_sphere.py"),
+    "tamaas 2.9.0": ["tamaas==2.9.0", "numpy"],
+    "ContactMechanics 1.8.3": ["ContactMechanics==1.8.3"],
 }
 
 
@@ -49,22 +49,28 @@ def bench(name):
     return programs[-1]
 
 
-def compare(title, peer, ours, arguments, pairs, rows):
-    packages, script = PEERS[peer]
-    theirs = [python_of(packages), str(HERE / script)]
+def error_of(result):
+    """The error that a program reports, whichever it can."""
+    names = ("mean_relative_radius_error", "relative_radius_error", "relative_loss_error")
+    errors = [result[name] for name in names if name in result]
+    return f"{errors[0]:.1e}" if errors else "none"
+
+
+def compare(title, peer, script, ours, arguments, pairs, rows):
+    """Runs pairs in turn. `arguments` are those of this program and those of the peer."""
+    theirs = [python_of(PEERS[peer]), str(HERE / script)]
     results = []
     for pair in range(pairs):
-        both = (last_line([ours, *arguments]), last_line([*theirs, *arguments]))
+        both = (last_line([ours, *arguments[0]]), last_line([*theirs, *arguments[-1]]))
         results.append(both)
         print(f"{title}, pair {pair + 1}: {json.dumps(both)}", file=sys.stderr, flush=True)
     ratios = [theirs["cpu_s"] / ours["cpu_s"] for ours, theirs in results]
     middle = lambda side, key: statistics.median(result[side][key] for result in results)
-    error = "mean_relative_radius_error" if "mean_relative_radius_error" in results[0][0] else "relative_radius_error"
     rows.append(
         f"| {title} | {peer} | {pairs} | {middle(0, 'cpu_s'):.3g} s | {middle(1, 'cpu_s'):.3g} s "
         f"| {statistics.median(ratios):.0f} ({min(ratios):.0f} to {max(ratios):.0f}) "
         f"| {middle(0, 'peak_mib'):.0f} / {middle(1, 'peak_mib'):.0f} MiB "
-        f"| {middle(0, error):.1e} / {middle(1, error):.1e} |"
+        f"| {error_of(results[0][0])} / {error_of(results[0][1])} |"
     )
 
 
@@ -76,18 +82,23 @@ def main():
     parser.add_argument("--steps", type=int, default=200)
     parser.add_argument("--out", type=Path)
     options = parser.parse_args()
-    step, sphere = bench("pmma_step"), bench("elastic_sphere")
+    step, cycle, sphere = bench("pmma_step"), bench("pmma_cycle"), bench("elastic_sphere")
     rows = [
-        "| work | peer | pairs | this program, CPU | peer, CPU | ratio | peak memory, this / peer | error of the radius, this / peer |",
+        "| work | peer | pairs | this program, CPU | peer, CPU | ratio | peak memory, this / peer | error, this / peer |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for cells, pairs in [(options.cells, options.pairs), (options.once, 1)]:
         if cells:
             title = f"PMMA, step load, {options.steps} steps, {cells} x {cells} cells"
-            compare(title, "tamaas 2.9.0", step, [str(cells), str(options.steps)], pairs, rows)
-    compare(
-        "elastic sphere, 512 x 512 cells", "ContactMechanics 1.8.3", sphere, ["512"], options.pairs, rows
-    )
+            arguments = [[str(cells), str(options.steps)]]
+            compare(title, "tamaas 2.9.0", "tamaas_step.py", step, arguments, pairs, rows)
+    if options.once:
+        title = f"PMMA, loop area at 0.01 rad/s, {options.once} x {options.once} cells"
+        arguments = [[str(options.once), "80"], [str(options.once), "100", "4"]]
+        compare(title, "tamaas 2.9.0", "tamaas_cycle.py", cycle, arguments, 1, rows)
+    title = "elastic sphere, 512 x 512 cells"
+    for peer, script in [("ContactMechanics 1.8.3", "contactmechanics_sphere.py"), ("tamaas 2.9.0", "tamaas_sphere.py")]:
+        compare(title, peer, script, sphere, [["512"]], options.pairs, rows)
     table = "\n".join(rows) + "\n"
     print(table)
     if options.out:

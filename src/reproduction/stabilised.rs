@@ -88,7 +88,8 @@ pub(super) fn stabilised(
             };
             let mut engine = self::builder(plan, coarse)?.engine(0)?;
             let memory = search(plan, omega, engine.as_mut(), steps, interrupt)?;
-            doubled(&memory, side)
+            // Of the whole, or of a quarter: both have as many cells either way.
+            doubled(&memory, engine.nodes().isqrt())
         }
     };
     let parts = match engine {
@@ -234,7 +235,8 @@ fn sample(march: &mut March<'_>, samples: &mut Loop, time_s: f64) -> Result<(), 
     })
 }
 
-/// Memory variables on a square of `side` cells carried over to one of twice as many, linearly between the centres.
+/// Memory variables on a square of `side` cells carried over to one of twice as many, linearly between the centres. Beyond a
+/// border the field goes on with the value beside it, which at the axes of a quarter is its mirror image.
 fn doubled(memory: &[f64], side: usize) -> Vec<f64> {
     // The two coarse cells on either side of a fine centre: three quarters of the nearer, a quarter of the other.
     let neighbours = |fine: usize| {

@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Measures this program's half-space engine against cells, steps and error, and draws what reports/performance shows.
+
+    python3 benches/peers/measure.py [--tamaas CPU_SECONDS]
+
+One thread, CPU time. Writes tables (CSV) and figures (SVG, PNG) into reports/performance; matplotlib goes into a virtual
+environment under target/peers the first time. `--tamaas` gives the CPU time of four cycles of 100 steps on 256 x 256 cells in
+tamaas (`run.py` measures it), which is drawn at the error that its first-order rule has here with as many steps.
+"""
+
+import argparse
+import csv
+import json
+import subprocess
+import sys
+import venv
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+OUT = ROOT / "reports" / "performance"
+MATPLOTLIB = "matplotlib==3.10.7"
+
+
+def bench(name, *arguments):
+    command = ["cargo", "bench", "--quiet", "--bench", name, "--", *map(str, arguments)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"{command} failed:\n{done.stderr}")
+    result = json.loads(done.stdout.strip().splitlines()[-1])
+    print(json.dumps(result), file=sys.stderr, flush=True)
+    return result
+
+
+def table(name, rows):
+    with open(OUT / name, "w", newline="") as file:
+        writer = csv.DictWriter(file, fieldnames=list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def measure(tamaas):
+    cells = [bench("pmma_step", n, 200) for n in (64, 128, 256, 512, 1024)]
+    table("against-cells.csv", cells)
+    steps = [bench("pmma_step", 256, n) for n in (50, 100, 200, 500, 1000, 2000)]
+    table("against-steps.csv", steps)
+    rows = []
+    for rule, counts in (("linear", (16, 32, 48, 64, 80, 100, 200)), ("constant", (50, 100, 200, 400))):
+        for n in counts:
+            found = bench("pmma_cycle", 256, n, *(["constant"] if rule == "constant" else []))
+            rows.append({"rule": rule, "program": "contact-dma", **found})
+    if tamaas:
+        like = next(row for row in rows if row["rule"] == "constant" and row["steps"] == 100)
+        missing = dict.fromkeys(like)
+        rows.append({**missing, "rule": "constant", "program": "tamaas 2.9.0", "cells": 256, "steps": 100, "cycles": 4,
+                     "cpu_s": tamaas, "relative_loss_error": like["relative_loss_error"]})
+    table("error-against-time.csv", rows)
+
+
+def read(name):
+    with open(OUT / name, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def draw():
+    import matplotlib
+
+    matplotlib.use("svg")
+    matplotlib.rcParams.update({"svg.hashsalt": "contact-dma", "svg.fonttype": "none", "font.size": 9, "axes.grid": True,
+                                "grid.alpha": 0.3, "figure.constrained_layout.use": True})
+    from matplotlib import pyplot
+
+    def figure(name, x, y):
+        picture, axes = pyplot.subplots(figsize=(4.6, 3.2))
+        axes.set(xlabel=x, ylabel=y, xscale="log", yscale="log")
+        return picture, axes
+
+    def save(picture, name):
+        picture.savefig(OUT / f"{name}.svg", metadata={"Date": None})
+        picture.savefig(OUT / f"{name}.png", dpi=150, metadata={"Software": None})
+
+    import math
+
+    rows = read("against-cells.csv")
+    n = [int(row["cells"]) for row in rows]
+    step_ms = [1e3 * float(row["cpu_s"]) / int(row["steps"]) for row in rows]
+    picture, axes = figure("against-cells", "cells per side $N$", "CPU time per step / ms")
+    axes.plot(n, step_ms, "o-", label="step load, 200 steps")
+    scale = step_ms[1] / (n[1] ** 2 * math.log2(n[1]))
+    axes.plot(n, [scale * k**2 * math.log2(k) for k in n], "--", color="0.5", label="$N^2 \\log N$")
+    axes.set_xticks(n, [str(k) for k in n])
+    axes.minorticks_off()
+    axes.legend()
+    save(picture, "against-cells")
+
+    rows = read("against-steps.csv")
+    picture, axes = figure("against-steps", "steps", "CPU time / s")
+    axes.plot([int(r["steps"]) for r in rows], [float(r["cpu_s"]) for r in rows], "o-", label="step load, 256 × 256 cells")
+    axes.legend()
+    save(picture, "against-steps")
+
+    rows = read("error-against-time.csv")
+    picture, axes = figure("error-against-time", "CPU time / s", "relative error of the loop area")
+    for program, rule, mark, label in (
+        ("contact-dma", "linear", "o-", "this program"),
+        ("contact-dma", "constant", "s--", "the paper's rule, marching"),
+        ("tamaas 2.9.0", "constant", "^", "tamaas, 4 cycles of 100 steps"),
+    ):
+        own = [row for row in rows if (row["program"], row["rule"]) == (program, rule)]
+        axes.plot([float(r["cpu_s"]) for r in own], [float(r["relative_loss_error"]) for r in own], mark, label=label)
+    axes.legend()
+    save(picture, "error-against-time")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--tamaas", type=float)
+    parser.add_argument("--draw", action="store_true", help="only draw again what was measured")
+    options = parser.parse_args()
+    if options.draw:
+        return draw()
+    measure(options.tamaas)
+    folder = ROOT / "target" / "peers" / MATPLOTLIB
+    python = folder / "bin" / "python"
+    if not python.exists():
+        venv.create(folder, with_pip=True)
+        subprocess.run([python, "-m", "pip", "install", "--quiet", MATPLOTLIB], check=True)
+    subprocess.run([python, __file__, "--draw"], check=True)
+
+
+main()
