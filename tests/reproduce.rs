@@ -134,6 +134,7 @@ fn one_figure_alone_is_the_same_figure() {
     let expected = [
         "README.md",
         "claims.csv",
+        "figure-01.caption.txt",
         "figure-01.csv",
         "figure-01.png",
         "figure-01.svg",
@@ -143,7 +144,7 @@ fn one_figure_alone_is_the_same_figure() {
         names(folder.path()),
         BTreeSet::from(expected.map(str::to_owned))
     );
-    for name in &expected[2..5] {
+    for name in &expected[2..6] {
         let [found, kept] = [folder.path(), &committed()].map(|f| fs::read(f.join(name)).unwrap());
         assert!(found == kept, "{name}");
     }

@@ -9,7 +9,8 @@ use super::plan::megabytes;
 pub(super) fn free_bytes() -> Option<u64> {
     let what = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
     let system = System::new_with_specifics(what);
-    let limit = system.cgroup_limits().map(|limits| limits.free_memory);
+    // What files have left in memory counts as used there, but makes room.
+    let limit = (system.cgroup_limits()).map(|l| l.total_memory.saturating_sub(l.rss));
     let free = match (system.available_memory(), limit) {
         (free, Some(limit)) => free.min(limit),
         (free, None) => free,

@@ -167,24 +167,33 @@ fn step_s(setup: &Setup) -> Result<f64, SetupError> {
     Ok(measured / relative_step(plan, nodes))
 }
 
+/// What the program takes whatever it computes, most of it for pictures (bytes).
+const PROGRAM_BYTES: u64 = 25_000_000;
+
 impl Setup {
-    /// Memory (bytes) that a case under way takes: engine and march, what the search for the stabilised cycle looks back on, and
-    /// where it was in contact at which step. Within 20 % where that is much and the contact stays inside its domain.
+    /// Memory (bytes) that a case under way takes: engine and march, what the search for the stabilised cycle looks back on, where
+    /// it was in contact at which step, and what is told of its surface. Within 20 % of what was measured on 512 x 512 and
+    /// 1024 x 1024 cells, for a contact that stays inside its domain.
     pub fn predicted_memory_bytes(&self) -> u64 {
         /// Memories of the body that a search keeps after the usual number of cycles, those of the recorded cycle included.
-        const MEMORIES: usize = 16;
+        const MEMORIES: usize = 20;
+        /// A value per cell of the surface in the record, as a number and as text, and in the picture made of it.
+        const TOLD_BYTES: usize = 40;
         let plan = self.plan();
         let branches = self.compliance().branches().len();
         let drives = plan.drives().iter();
         let of_engine = |drive| {
             let engines = self.engines(drive, plan.solver.nodes()).ok()?;
-            Some((engines.predicted_memory_bytes(branches), engines.nodes()))
+            let told = TOLD_BYTES * engines.surface_cells();
+            let engine = engines.predicted_memory_bytes(branches) + told as u64;
+            Some((engine, engines.nodes()))
         };
         let (engine, nodes) = drives.filter_map(of_engine).max().unwrap_or_default();
         let searched = match plan.cycle.method {
             Method::Direct => nodes * plan.cycle.steps,
             Method::March => 0,
         };
-        engine + (nodes * branches * MEMORIES * size_of::<f64>() + searched) as u64
+        let memories = nodes * branches * MEMORIES * size_of::<f64>();
+        PROGRAM_BYTES + engine + (memories + searched) as u64
     }
 }

@@ -101,6 +101,11 @@ impl EngineBuilder {
         }
     }
 
+    /// Cells of the whole surface, where the engine has any.
+    pub fn surface_cells(&self) -> usize {
+        self.grid.map_or(0, |grid| grid.whole().cells())
+    }
+
     /// Memory (bytes) that a march of an engine takes with so many memory variables per node; that of springs is a guess on the
     /// safe side.
     pub fn predicted_memory_bytes(&self, branches: usize) -> u64 {
