@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """Measures this program's half-space engine against cells, steps and error, and draws what reports/performance shows.
 
-    python3 benches/peers/measure.py [--tamaas CPU_SECONDS]
+    python3 benches/peers/measure.py
 
 One thread, CPU time. Writes tables (CSV) and figures (SVG, PNG) into reports/performance; matplotlib goes into a virtual
-environment under target/peers the first time. `--tamaas` gives the CPU time of four cycles of 100 steps on 256 x 256 cells in
-tamaas (`run.py` measures it), which is drawn at the error that its first-order rule has here with as many steps.
+environment under target/peers the first time.
 """
 
 import argparse
@@ -39,7 +38,7 @@ def table(name, rows):
         writer.writerows(rows)
 
 
-def measure(tamaas):
+def measure():
     cells = [bench("pmma_step", n, 200) for n in (64, 128, 256, 512, 1024)]
     table("against-cells.csv", cells)
     steps = [bench("pmma_step", 256, n) for n in (50, 100, 200, 500, 1000, 2000)]
@@ -48,12 +47,7 @@ def measure(tamaas):
     for rule, counts in (("linear", (16, 32, 48, 64, 80, 100, 200)), ("constant", (50, 100, 200, 400))):
         for n in counts:
             found = bench("pmma_cycle", 256, n, *(["constant"] if rule == "constant" else []))
-            rows.append({"rule": rule, "program": "contact-dma", **found})
-    if tamaas:
-        like = next(row for row in rows if row["rule"] == "constant" and row["steps"] == 100)
-        missing = dict.fromkeys(like)
-        rows.append({**missing, "rule": "constant", "program": "tamaas 2.9.0", "cells": 256, "steps": 100, "cycles": 4,
-                     "cpu_s": tamaas, "relative_loss_error": like["relative_loss_error"]})
+            rows.append({"rule": rule, **found})
     table("error-against-time.csv", rows)
 
 
@@ -101,12 +95,11 @@ def draw():
 
     rows = read("error-against-time.csv")
     picture, axes = figure("error-against-time", "CPU time / s", "relative error of the loop area")
-    for program, rule, mark, label in (
-        ("contact-dma", "linear", "o-", "this program"),
-        ("contact-dma", "constant", "s--", "the paper's rule, marching"),
-        ("tamaas 2.9.0", "constant", "^", "tamaas, 4 cycles of 100 steps"),
+    for rule, mark, label in (
+        ("linear", "o-", "this program"),
+        ("constant", "s--", "the paper's rule, marching"),
     ):
-        own = [row for row in rows if (row["program"], row["rule"]) == (program, rule)]
+        own = [row for row in rows if row["rule"] == rule]
         axes.plot([float(r["cpu_s"]) for r in own], [float(r["relative_loss_error"]) for r in own], mark, label=label)
     axes.legend()
     save(picture, "error-against-time")
@@ -114,12 +107,11 @@ def draw():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--tamaas", type=float)
     parser.add_argument("--draw", action="store_true", help="only draw again what was measured")
     options = parser.parse_args()
     if options.draw:
         return draw()
-    measure(options.tamaas)
+    measure()
     folder = ROOT / "target" / "peers" / MATPLOTLIB
     python = folder / "bin" / "python"
     if not python.exists():
