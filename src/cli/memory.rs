@@ -6,7 +6,7 @@ use super::plan::megabytes;
 
 /// Memory (bytes) that is free for a new program here, within the limits of a container or batch job; `None` where the system
 /// does not tell.
-pub(super) fn free_bytes() -> Option<u64> {
+fn free_bytes() -> Option<u64> {
     let what = RefreshKind::nothing().with_memory(MemoryRefreshKind::nothing().with_ram());
     let system = System::new_with_specifics(what);
     // What files have left in memory counts as used there, but makes room.
@@ -16,6 +16,14 @@ pub(super) fn free_bytes() -> Option<u64> {
         (free, None) => free,
     };
     (free > 0).then_some(free)
+}
+
+/// What is free, as it follows a prediction; nothing where the system does not tell.
+pub(super) fn free_here() -> String {
+    match free_bytes() {
+        Some(free) => format!("; {} are free here", megabytes(free)),
+        None => String::new(),
+    }
 }
 
 /// Says on standard error, before a run starts, that its prediction exceeds what is free.

@@ -30,10 +30,7 @@ pub(super) fn show(setup: &Setup) -> Result<Ended, Failure> {
 fn text(setup: &Setup, cost: &Cost) -> String {
     let plan = setup.plan();
     let memory = megabytes(cost.memory_bytes);
-    let free = match super::memory::free_bytes() {
-        Some(free) => format!("; {} are free here", megabytes(free)),
-        None => String::new(),
-    };
+    let free = super::memory::free_here();
     let mut text = format!("{}\n\n", plan.title);
     text.push_str(" case    ω / rad/s   drive mean   amplitude   cycles     about   memory\n");
     for case in cost.cases.iter().take(LISTED) {

@@ -59,10 +59,7 @@ pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
 /// What would be computed, and about the memory it takes.
 fn foretold(simulation: &Simulation) -> String {
     let plan = simulation.plan();
-    let free = match memory::free_bytes() {
-        Some(free) => format!("; {} are free here", megabytes(free)),
-        None => String::new(),
-    };
+    let free = memory::free_here();
     format!(
         "{}\n\n{} time steps on {} ({} engine).\nMemory: about {}{free}.\n",
         plan.title,

@@ -171,9 +171,10 @@ impl Simulation {
     pub fn predicted_memory_bytes(&self) -> u64 {
         /// What the program takes whatever it computes.
         const PROGRAM_BYTES: u64 = 15_000_000;
-        /// Fields of a checkpoint besides the memory variables; each is held as it is and as text.
+        /// Fields of a checkpoint besides the memory variables; and what a number of it takes, as it is and in the file being
+        /// written, as measured.
         const KEPT_FIELDS: usize = 3;
-        const TEXT_BYTES: usize = 11;
+        const KEPT_BYTES: usize = 19;
         let variables = match &self.compliance {
             Compliance::Series(creep) => {
                 creep.branches().len() + usize::from(creep.viscosity_pa_s().is_some())
@@ -182,9 +183,7 @@ impl Simulation {
             Compliance::Samples(_) => self.schedule.moments.len(),
         };
         let kept = self.engines.nodes() * (variables + KEPT_FIELDS);
-        PROGRAM_BYTES
-            + self.engines.predicted_memory_bytes(variables)
-            + (kept * (size_of::<f64>() + TEXT_BYTES)) as u64
+        PROGRAM_BYTES + self.engines.predicted_memory_bytes(variables) + (kept * KEPT_BYTES) as u64
     }
 
     /// The time steps.

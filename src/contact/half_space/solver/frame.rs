@@ -94,6 +94,14 @@ pub(super) struct Frame {
 const ROOM_SHARE: f64 = 0.1;
 const ROOM_CELLS: usize = 3;
 
+/// Cells that a window must have to hold these: on a mirrored grid it begins at the axis.
+fn length_to_hold(range: &Range<usize>, grid: &Grid) -> usize {
+    match grid.is_mirrored() {
+        true => range.end,
+        false => range.len(),
+    }
+}
+
 impl Frame {
     pub(super) fn whole(grid: &Grid) -> Self {
         Self {
@@ -108,10 +116,8 @@ impl Frame {
     pub(super) fn with_room(contact: &Bounds, grid: &Grid) -> Self {
         let needed = |range: &Range<usize>| {
             // On a mirrored grid half of the width, with room on one side.
-            let (length, sides) = match grid.is_mirrored() {
-                true => (range.end, 1),
-                false => (range.len(), 2),
-            };
+            let sides = if grid.is_mirrored() { 1 } else { 2 };
+            let length = length_to_hold(range, grid);
             let width = 2 / sides * length;
             let room = (ROOM_SHARE * width as f64).ceil() as usize;
             length + sides * room.max(ROOM_CELLS)
@@ -125,10 +131,7 @@ impl Frame {
         if all == self.bounds() {
             return *self;
         }
-        let needed = |range: &Range<usize>| match grid.is_mirrored() {
-            true => range.end,
-            false => range.len(),
-        };
+        let needed = |range| length_to_hold(range, grid);
         Self::around(&all, needed(&all.x), needed(&all.y), grid)
     }
 
