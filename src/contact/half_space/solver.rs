@@ -8,6 +8,7 @@
 //! ratio: the answer does not change with the user's units.
 
 mod active_set;
+mod area;
 mod coarse;
 mod frame;
 mod outside;
@@ -103,7 +104,6 @@ pub struct HalfSpace {
 
 /// An instant solved.
 struct Found {
-    cells: usize,
     approach_m: f64,
     pressure_sum: f64,
     steps: usize,
@@ -237,14 +237,12 @@ impl HalfSpace {
             None => {
                 pressure.fill(0.0);
                 Found {
-                    cells: 0,
                     approach_m: imposed.approach_m().unwrap_or(0.0),
                     pressure_sum: 0.0,
                     steps: work.steps,
                 }
             }
             Some((residual, steps)) => Found {
-                cells: residual.cells,
                 // Weighted by the pressure, the mean gap left by the iteration counts only in second order.
                 approach_m: imposed
                     .approach_m()
@@ -262,6 +260,14 @@ impl HalfSpace {
     fn nodal_area_m2(&self) -> f64 {
         let grid = self.operator.grid();
         grid.copies() as f64 * grid.cell_area_m2()
+    }
+
+    /// Area under pressure of the instant last solved, in cells of the grid.
+    fn contact_area_cells(&self) -> f64 {
+        self.windows.as_ref().map_or(0.0, |windows| {
+            let grid = self.operator.grid();
+            area::contact_area_cells(grid, &windows.contact, &self.fields.pressure)
+        })
     }
 
     /// Whether any cell on the border of the grid or of the data carries pressure; the axes of a mirrored grid are no border.
@@ -302,7 +308,6 @@ impl HalfSpace {
             approach_m = sums::least_of(&gap_m, |gap| gap);
         }
         Ok(Found {
-            cells: 0,
             approach_m,
             pressure_sum: 0.0,
             steps: 0,
@@ -392,10 +397,11 @@ impl Engine for HalfSpace {
             return Err(ContactError::ReachedEdge { half_width_m });
         }
         let area_m2 = self.nodal_area_m2();
+        let contact_area_m2 = self.contact_area_cells() * area_m2;
         Ok(Solution {
             load_n: found.pressure_sum * area_m2,
             approach_m: found.approach_m,
-            contact_radius_m: (found.cells as f64 * area_m2 / std::f64::consts::PI).sqrt(),
+            contact_radius_m: (contact_area_m2 / std::f64::consts::PI).sqrt(),
             iterations: found.steps,
             convolutions: work.convolutions,
         })

@@ -50,7 +50,6 @@ pub(super) enum Ending {
 /// Where a pressure stands.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct State {
-    pub(super) cells: usize,
     pub(super) approach_m: f64,
     pub(super) pressure_sum: f64,
     /// What the tolerance bounds.
@@ -213,7 +212,7 @@ impl ActiveSet {
         };
         state.reference_m = problem.compliance_per_pa * own_m + problem.noise_m / problem.tolerance;
         let joining_m = -JOINING * problem.tolerance * state.reference_m;
-        let (misfit, lowest_m) = self.find_contact(problem, &mut state, joining_m);
+        let (misfit, lowest_m) = self.find_contact(problem, &state, joining_m);
         let inside_m = if loaded {
             misfit / state.pressure_sum
         } else {
@@ -230,12 +229,7 @@ impl ActiveSet {
 
     /// Finds the contact: the cells with pressure, and those that penetrate by more than `joining_m` allows. Returns the sum of
     /// p |gap|, and the lowest gap outside, at most 0 (m).
-    fn find_contact(
-        &mut self,
-        problem: &Problem<'_>,
-        state: &mut State,
-        joining_m: f64,
-    ) -> (f64, f64) {
+    fn find_contact(&mut self, problem: &Problem<'_>, state: &State, joining_m: f64) -> (f64, f64) {
         let (mut misfit, mut lowest_m) = (0.0, 0.0_f64);
         let cells_x = problem.frame.cells_x;
         self.contact.clear();
@@ -250,7 +244,6 @@ impl ActiveSet {
                 let gap_m = gap - state.approach_m;
                 if p > 0.0 {
                     misfit += p * gap_m.abs();
-                    state.cells += 1;
                 } else {
                     lowest_m = lowest_m.min(gap_m);
                     if gap_m >= joining_m {

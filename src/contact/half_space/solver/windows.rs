@@ -71,7 +71,6 @@ impl HalfSpace {
             let wider = contact.holding(beyond, &grid);
             if wider == contact {
                 return Ok(Some(Found {
-                    cells: state.cells,
                     approach_m: state.approach_m,
                     pressure_sum: state.pressure_sum,
                     steps: work.steps,
