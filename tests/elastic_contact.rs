@@ -263,9 +263,8 @@ fn a_sphere_on_the_half_space_converges_with_second_order_in_every_integral() {
     check_order("approach", &approach, 1.7..2.1, 5e-5);
     check_order("load", &load, 1.7..2.1, 7e-5);
     check_order("peak pressure", &peak, 1.85..2.1, 2.5e-4);
-    // The radius counts whole cells: the number of cells in a circle is off by about the square root of those on its edge,
-    // an error of order between 1 and 3/2.
-    check_order("contact radius", &radius, 0.7..1.6, 6e-3);
+    // The edge is found between the cells: of second order too, where counted cells gave 3e-3 and an order of one.
+    check_order("contact radius", &radius, 1.7..2.5, 4.5e-4);
 }
 
 #[test]
@@ -324,7 +323,7 @@ fn a_cone_on_the_half_space_converges_with_second_order_in_the_approach() {
     });
     // As for the sphere; the apex is weak enough not to show. Bounds are twice what was seen.
     check_order("approach", &approach, 1.7..2.1, 2.5e-5);
-    check_order("contact radius", &radius, 0.7..1.6, 6e-3);
+    check_order("contact radius", &radius, 1.5..2.2, 7e-4);
 }
 
 #[test]
@@ -397,7 +396,12 @@ fn approach_control_gives_back_the_load_that_load_control_had() {
             engine.nodes()
         );
         assert!(relative(there.load_n, LOAD_N).abs() < 1e-13);
-        assert!(relative(back.contact_radius_m, there.contact_radius_m).abs() < 1e-12);
+        let radius = relative(back.contact_radius_m, there.contact_radius_m);
+        assert!(
+            radius.abs() < tolerance.max(1e-12),
+            "{radius:e} on {} nodes",
+            engine.nodes()
+        );
     }
 }
 

@@ -7,10 +7,10 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use common::{first_touch, half_space, observed_order, pmma, relative, solve_from};
-use contact_dma::contact::Prescribed;
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
+use contact_dma::contact::{Prescribed, Solution};
 use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::{
     Asperities, Asperity, Ellipsoid, FlatPunch, Indenter, MapEdge, Rough, Roughness, Shifted,
@@ -67,6 +67,30 @@ fn a_cycle_on_pmma_takes_fewer_than_ten_convolutions_per_step() {
 }
 
 #[test]
+fn the_two_thousandth_step_costs_what_the_first_ones_do() {
+    const PER_CYCLE: usize = 100;
+    let half_width_m = 1.1 * relaxed_radius_m(1.5 * LOAD_N);
+    let mut engine = half_space(&sphere(), half_width_m, 64);
+    let mut march = March::new(&mut engine, pmma(), TimeRule::Linear);
+    march.jump(Prescribed::LoadN(LOAD_N)).unwrap();
+    let weights = march.weights(TAU / 0.01 / PER_CYCLE as f64);
+    let cycles: Vec<u64> = (0..20)
+        .map(|_| {
+            let before = march.work().convolutions;
+            for step in 1..=PER_CYCLE {
+                let angle = TAU * step as f64 / PER_CYCLE as f64;
+                let load = Prescribed::LoadN(LOAD_N * (1.0 + 0.5 * angle.sin()));
+                march.step(&weights, load).unwrap();
+            }
+            march.work().convolutions - before
+        })
+        .collect();
+    println!("{cycles:?}");
+    // The past is in memory variables, of which there are as many as ever; the first cycle still creeps.
+    assert!(cycles[19] as f64 <= 1.1 * cycles[0] as f64, "{cycles:?}");
+}
+
+#[test]
 fn a_held_load_takes_a_few_convolutions_per_step() {
     let mut engine = half_space(&sphere(), 2.0 * relaxed_radius_m(LOAD_N), 128);
     let mut march = March::new(&mut engine, pmma(), TimeRule::Linear);
@@ -87,6 +111,13 @@ fn a_held_load_takes_a_few_convolutions_per_step() {
 }
 
 // The fast way against the safe one.
+
+/// The same cells in contact, and the edge between cells where their pressures, settled to a millionth of the peak, put it: a
+/// few millionths of a cell of some ten to hundred in the radius.
+fn assert_same_radius(one: &Solution, other: &Solution) {
+    let difference = relative(one.contact_radius_m, other.contact_radius_m);
+    assert!(difference.abs() < 1e-7, "{difference:e}");
+}
 
 /// A contact of some hundred patches on 2 % of a rough surface of 512 x 512 cells.
 #[test]
@@ -132,8 +163,9 @@ fn a_rough_surface_takes_few_iterations_and_has_the_answer_of_the_safe_way() {
     // The tolerance of 1e-8 on either side.
     let error = relative(found.approach_m, expected.approach_m);
     assert!(error.abs() < 2e-8, "{error:e}");
-    assert_eq!(found.contact_radius_m, expected.contact_radius_m);
-    // Gaps that are settled to 1e-8 leave the pressure of single cells settled to some hundred times that.
+    // Gaps that are settled to 1e-8 leave the pressure of single cells settled to some hundred times that, and with it the
+    // edge of the contact, in cells.
+    assert_same_radius(&found, &expected);
     let peak = exact.iter().copied().fold(0.0, f64::max);
     let pairs = pressure.iter().zip(&exact);
     let largest = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / peak;
@@ -271,7 +303,7 @@ fn a_contact_that_opens_beyond_the_window_is_found() {
         let (expected, _) = first_touch(&mut safe, compliance_per_pa, load).unwrap();
         let error = relative(found.approach_m, expected.approach_m);
         assert!(error.abs() < 2e-8, "{cells} cells: {error:e}");
-        assert_eq!(found.contact_radius_m, expected.contact_radius_m);
+        assert_same_radius(&found, &expected);
     }
 }
 
@@ -285,17 +317,15 @@ fn the_size_of_the_domain_about_a_contact_changes_nothing() {
         march.jump(Prescribed::LoadN(LOAD_N)).unwrap();
         let weights = march.weights(8.0);
         let step = |_| march.step(&weights, Prescribed::LoadN(LOAD_N)).unwrap();
-        (0..10)
-            .map(step)
-            .map(|s| (s.approach_m, s.contact_radius_m))
-            .collect::<Vec<_>>()
+        (0..10).map(step).collect::<Vec<_>>()
     };
     let expected = march(64);
     for cells in [80, 128, 300] {
         for (found, expected) in march(cells).iter().zip(&expected) {
             // The tolerance of 1e-8.
-            assert!(relative(found.0, expected.0).abs() < 2e-8, "{cells} cells");
-            assert_eq!(found.1, expected.1);
+            let error = relative(found.approach_m, expected.approach_m);
+            assert!(error.abs() < 2e-8, "{cells} cells: {error:e}");
+            assert_same_radius(found, expected);
         }
     }
 }
@@ -331,23 +361,22 @@ fn an_engine_that_has_solved_something_else_gives_the_same_answer_to_the_last_bi
 #[test]
 fn radius_and_approach_follow_lee_and_radok_to_a_thousandth_at_every_step() {
     let compliance = pmma();
-    let half_width_m = 1.15 * relaxed_radius_m(LOAD_N);
-    // Cells are counted: a quarter of one at most, of some 200 in a radius.
-    let mut engine = half_space(&sphere(), half_width_m, 512);
+    let mut engine = half_space(&sphere(), 2.0 * relaxed_radius_m(LOAD_N), 256);
     let mut march = March::new(&mut engine, compliance.clone(), TimeRule::Linear);
     let mut found = vec![(0.0, march.jump(Prescribed::LoadN(LOAD_N)).unwrap())];
-    let weights = march.weights(8.0);
-    for step in 1..=25 {
+    let weights = march.weights(1.0);
+    for step in 1..=200 {
         let solution = march.step(&weights, Prescribed::LoadN(LOAD_N)).unwrap();
-        found.push((8.0 * f64::from(step), solution));
+        found.push((f64::from(step), solution));
     }
     for (time_s, solution) in found {
         let exact_m = step_load_contact_radius_m(RADIUS_M, LOAD_N, &compliance, time_s);
         let radius = relative(solution.contact_radius_m, exact_m);
         let approach = relative(solution.approach_m, exact_m * exact_m / RADIUS_M);
+        // A thousandth is 0.06 of a cell; half of it was seen.
         assert!(radius.abs() < 1e-3, "{time_s} s: radius {radius:e}");
-        // Of second order in the cell, 1/200 of the radius.
-        assert!(approach.abs() < 1e-5, "{time_s} s: approach {approach:e}");
+        // Of second order in the cell, 1/60 of the radius; 1.5e-5 was seen.
+        assert!(approach.abs() < 3e-5, "{time_s} s: approach {approach:e}");
     }
 }
 

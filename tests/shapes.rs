@@ -316,10 +316,11 @@ fn a_shift_by_whole_cells_shifts_the_answer() {
     // The same gaps bit for bit, but transforms and sums round a shifted field differently, and the iteration then takes
     // another way to its tolerance of 1e-13; the pressure feels it more than the approach, by the 80 cells of the grid.
     assert!(largest < 1e-11 && approach < 1e-12, "{largest} {approach}");
-    assert_eq!(
+    let radius = off(
         moved.solution.contact_radius_m,
-        plain.solution.contact_radius_m
+        plain.solution.contact_radius_m,
     );
+    assert!(radius < 1e-11, "{radius}");
 }
 
 fn roughness(cells: usize) -> Roughness {
@@ -364,10 +365,11 @@ fn a_transposed_or_flipped_surface_gives_the_transposed_or_flipped_answer() {
         let difference = largest_difference(&back, &plain.pressure_pa) / peak;
         // Sums in another order, over some hundred iterations: far below what the tolerance of 1e-10 leaves open.
         assert!(difference < 1e-8, "{difference}");
-        assert_eq!(
+        let radius = off(
             other.solution.contact_radius_m,
-            plain.solution.contact_radius_m
+            plain.solution.contact_radius_m,
         );
+        assert!(radius < 1e-8, "{radius:e}");
     }
 }
 
@@ -447,7 +449,7 @@ fn a_rough_contact_that_creeps_does_not_depend_on_the_order_of_the_cells() {
         let difference = largest_difference(&other, &plain) / peak;
         // As in the elastic test, through five instants.
         assert!(difference < 1e-8, "{difference:e}");
-        assert_eq!(its_radius_m, radius_m);
+        assert!(off(its_radius_m, radius_m) < 1e-8);
     }
 }
 
