@@ -115,6 +115,7 @@ fn a_flat_punch_on_cells_is_the_flat_punch_on_springs_times_the_stiffness_of_its
         let mut plan = marched.clone();
         plan.solver.engine = EngineKind::HalfSpace;
         plan.solver.cells = cells;
+        plan.solver.tolerance = Some(1e-10);
         let record = run_case(&plan, omega);
         let mut engine = half_space(plan.indenter.as_ref(), record.domain_half_width_m, cells);
         let (elastic, _) = first_touch(&mut engine, 1e-10, Prescribed::LoadN(1.0)).unwrap();

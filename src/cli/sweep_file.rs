@@ -12,6 +12,7 @@ use crate::material::Material;
 use crate::quantity::Dimension;
 use crate::sweep::elastic_scale::ElasticScale;
 use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::instant_tolerance;
 use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 
 /// Frequencies, steps, cycles and nodes beyond these are a slip of the pen rather than a wish.
@@ -364,7 +365,10 @@ pub(super) fn solver(
     let engine = table.choice_of_or("engine", &engines, default.engine);
     let cells = table.positive_integer_or("cells", CELLS, default.cells);
     let springs = table.positive_integer_or("springs", SPRINGS, default.springs);
-    let tolerance = tolerance(&mut table, problems, default.tolerance);
+    let tolerance = match table.has("tolerance") {
+        true => tolerance(&mut table, problems, instant_tolerance::OF_A_HISTORY).map(Some),
+        false => Some(default.tolerance),
+    };
     let rules = [
         ("linear", TimeRule::Linear),
         ("constant", TimeRule::Constant),

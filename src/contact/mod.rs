@@ -145,6 +145,9 @@ pub trait Engine: Send {
     /// short need none.
     fn interrupted_by(&mut self, _flag: Arc<AtomicBool>) {}
 
+    /// Gives the engine another tolerance of an instant; engines that solve exactly have none.
+    fn tolerate(&mut self, _tolerance: f64) {}
+
     /// Makes the engine what it was after the instant that came to `last`: what it carries from one instant to the next, which
     /// may only speed up the next, is then the same, and so is every bit and count of what follows.
     fn resume_from(&mut self, _last: &Solution) {}

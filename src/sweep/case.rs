@@ -12,6 +12,7 @@ use crate::sweep::archive::Purpose;
 use crate::sweep::checkpoint::Checkpoints;
 use crate::sweep::engines::{AsContactError, EngineBuilder, EngineError, LargestContact};
 use crate::sweep::error_bars::{ErrorBars, Ladder, Pair, Quantity};
+use crate::sweep::instant_tolerance;
 use crate::sweep::plan::{Case, EngineKind, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 use crate::sweep::stabilise::{Contact, CycleError, Stabilised};
@@ -174,6 +175,19 @@ impl Setup {
         )?);
         engines.insert(key, Arc::clone(&builder));
         Ok(builder)
+    }
+
+    /// Tolerance of an instant of a cycle.
+    pub(super) fn instant_tolerance(
+        &self,
+        drive: &HarmonicDrive,
+        angular_frequency_rad_per_s: f64,
+        cycle_tolerance: f64,
+    ) -> f64 {
+        let omega = angular_frequency_rad_per_s;
+        let needed =
+            || instant_tolerance::of_a_cycle(&self.compliance, drive, omega, cycle_tolerance);
+        self.plan.solver.tolerance.unwrap_or_else(needed)
     }
 
     /// An engine of its own for a drive with so many springs or cells, on the domain before it is enlarged.
@@ -426,6 +440,8 @@ impl Setup {
                 if let Some(flag) = &self.interrupt {
                     engine.interrupted_by(Arc::clone(flag));
                 }
+                let (drive, omega) = (&contact.drive, contact.angular_frequency_rad_per_s);
+                engine.tolerate(self.instant_tolerance(drive, omega, contact.cycle.tolerance));
                 let mut solved: Vec<(usize, Stabilised)> = Vec::with_capacity(steps.len());
                 for &steps in steps {
                     let start = solved.last().map(|(_, coarser)| coarser.memory.clone());

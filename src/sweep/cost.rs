@@ -148,6 +148,7 @@ fn step_s(setup: &Setup) -> Result<f64, SetupError> {
     let omegas = &plan.angular_frequencies_rad_per_s;
     let omega = omegas.get(omegas.len() / 2).copied().unwrap_or(1.0);
     let mut engine = setup.engine(drive, nodes)?;
+    engine.tolerate(setup.instant_tolerance(drive, omega, plan.cycle.tolerance));
     let compliance = setup.compliance().clone();
     let mut march = March::new(engine.as_mut(), compliance, plan.solver.time_rule);
     let steps = plan.cycle.steps as f64;

@@ -11,6 +11,7 @@ use crate::contact::{ContactError, Engine, Prescribed};
 use crate::drive::Control;
 use crate::indenter::{self, Domain, Indenter};
 use crate::sweep::domain::{self, GROWTH};
+use crate::sweep::instant_tolerance;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 
 /// Why there is no engine for an indenter.
@@ -222,7 +223,7 @@ impl EngineBuilder {
         let operator = self.operator(growths)?;
         let gaps = domain::gaps_m(self.indenter.as_ref(), operator.grid());
         let settings = SolverSettings {
-            tolerance: self.solver.tolerance,
+            tolerance: (self.solver.tolerance).unwrap_or(instant_tolerance::OF_A_HISTORY),
             ..SolverSettings::default()
         };
         let bounded = self.indenter.pressure_is_bounded();

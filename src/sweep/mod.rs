@@ -15,6 +15,7 @@ pub mod figure_plan;
 pub mod files;
 mod follow;
 pub mod history_checkpoint;
+pub mod instant_tolerance;
 mod locate;
 pub mod merge;
 pub mod peak;

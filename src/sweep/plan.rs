@@ -152,8 +152,9 @@ pub struct SolverPlan {
     pub springs: usize,
     /// Half-space engine: cells along the longer side of the domain; an indenter that is a map brings its own.
     pub cells: usize,
-    /// Half-space engine: tolerance of one instant, see [`crate::contact::half_space::SolverSettings`].
-    pub tolerance: f64,
+    /// Half-space engine: tolerance of one instant, see [`crate::contact::half_space::SolverSettings`]; where none is given, what
+    /// the loss asks for, see [`crate::sweep::instant_tolerance`].
+    pub tolerance: Option<f64>,
 }
 
 /// The two contact engines.
@@ -218,8 +219,7 @@ impl Default for SolverPlan {
             time_rule: TimeRule::Linear,
             springs: 400,
             cells: 128,
-            // Tight enough that rounding, which leads the solver another way in other units, stays below 1e-9.
-            tolerance: 1e-10,
+            tolerance: None,
         }
     }
 }

@@ -47,7 +47,8 @@ struct Run<'a> {
     sweep_hash: &'a str,
     engine: &'a str,
     cycle_tolerance: f64,
-    solver_tolerance: f64,
+    /// `None`: for every case what its loss asks for.
+    solver_tolerance: Option<f64>,
     command: &'a str,
     threads: usize,
     shard: Option<&'a str>,

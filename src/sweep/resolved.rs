@@ -95,12 +95,13 @@ pub(super) fn solver_text(solver: &SolverPlan) -> String {
         TimeRule::Linear => "linear",
         TimeRule::Constant => "constant",
     };
+    let tolerance = solver.tolerance.map(|t| format!("tolerance = {t:e}\n"));
     format!(
-        "[solver]\nengine = \"{}\"\ncells = {}\nsprings = {}\ntolerance = {:e}\ntime_rule = \"{rule}\"\n",
+        "[solver]\nengine = \"{}\"\ncells = {}\nsprings = {}\n{}time_rule = \"{rule}\"\n",
         solver.engine.name(),
         solver.cells,
         solver.springs,
-        solver.tolerance
+        tolerance.unwrap_or_default(),
     )
 }
 

@@ -373,6 +373,10 @@ impl Engine for HalfSpace {
         true
     }
 
+    fn tolerate(&mut self, tolerance: f64) {
+        self.settings.tolerance = tolerance;
+    }
+
     fn interrupted_by(&mut self, flag: Arc<AtomicBool>) {
         self.interrupt = Some(flag);
     }
