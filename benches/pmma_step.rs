@@ -1,7 +1,9 @@
 //! The yardstick against other programs: PMMA under a sphere, step load of 10 N, 200 steps of 1 s, half-space engine on a
 //! domain of four contact radii, tolerance 1e-8, one thread. Prints one JSON line.
 //!
-//!     cargo bench --bench pmma_step -- [CELLS] [STEPS]
+//!     cargo bench --bench pmma_step -- [CELLS] [STEPS] [constant]
+//!
+//! `constant` takes the first-order rule of the base paper.
 
 mod common;
 
@@ -23,11 +25,11 @@ struct Run {
     mean_radius_error: f64,
 }
 
-fn run(cells: usize, steps: usize) -> Result<Run, ContactError> {
+fn run(cells: usize, steps: usize, rule: TimeRule) -> Result<Run, ContactError> {
     let compliance = pmma();
     let relaxed = compliance.equilibrium_compliance().unwrap_or(f64::NAN);
     let mut engine = engine(cells, 4.0 * hertz_radius_m(LOAD_N, relaxed));
-    let mut march = March::new(&mut engine, compliance.clone(), TimeRule::Linear);
+    let mut march = March::new(&mut engine, compliance.clone(), rule);
     march.jump(Prescribed::LoadN(LOAD_N))?;
     let step_s = DURATION_S / steps as f64;
     let weights = march.weights(step_s);
@@ -55,10 +57,14 @@ fn main() -> Result<(), ContactError> {
     let numbers = numbers();
     let cells = numbers.first().copied().unwrap_or(256);
     let steps = numbers.get(1).copied().unwrap_or(200);
-    let (cpu_s, found) = timed(|| run(cells, steps));
+    let rule = match std::env::args().any(|a| a == "constant") {
+        true => TimeRule::Constant,
+        false => TimeRule::Linear,
+    };
+    let (cpu_s, found) = timed(|| run(cells, steps, rule));
     let found = found?;
     println!(
-        "{{\"cells\": {cells}, \"steps\": {steps}, \"cpu_s\": {cpu_s:.3}, \"iterations_per_step\": {:.2}, \
+        "{{\"cells\": {cells}, \"steps\": {steps}, \"cpu_s\": {cpu_s:.4}, \"iterations_per_step\": {:.2}, \
          \"convolutions_per_step\": {:.2}, \"largest_relative_approach_error\": {:.2e}, \
          \"largest_relative_radius_error\": {:.2e}, \"mean_relative_radius_error\": {:.2e}, \"peak_mib\": {:.1}}}",
         found.iterations as f64 / steps as f64,

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the same work in this program and in its peers, in turn, and prints a table of ratios.
 
-    python3 benches/peers/run.py [--cells 128] [--pairs 3] [--once 256] [--steps 200] [--out FILE]
+    python3 benches/peers/run.py [--cells 128] [--pairs 3] [--once 256] [--once-pairs 1] [--steps 200] [--out FILE]
 
 Makes a virtual environment per peer under target/peers the first time (needs the network), and builds the benches. CPU time
 is each process's own count; pairs alternate, so that what else the machine does falls on both.
@@ -22,6 +22,7 @@ PEERS = {
     "tamaas 2.9.0": ["tamaas==2.9.0", "numpy"],
     "ContactMechanics 1.8.3": ["ContactMechanics==1.8.3"],
 }
+MATPLOTLIB = ["matplotlib==3.10.7"]
 
 
 def python_of(packages):
@@ -79,6 +80,7 @@ def main():
     parser.add_argument("--cells", type=int, default=128)
     parser.add_argument("--pairs", type=int, default=3)
     parser.add_argument("--once", type=int, default=256, help="cells of a single, longer pair; 0 for none")
+    parser.add_argument("--once-pairs", type=int, default=1, help="pairs of those")
     parser.add_argument("--steps", type=int, default=200)
     parser.add_argument("--out", type=Path)
     options = parser.parse_args()
@@ -87,7 +89,7 @@ def main():
         "| work | peer | pairs | this program, CPU | peer, CPU | ratio | peak memory, this / peer | error, this / peer |",
         "|---|---|---|---|---|---|---|---|",
     ]
-    for cells, pairs in [(options.cells, options.pairs), (options.once, 1)]:
+    for cells, pairs in [(options.cells, options.pairs), (options.once, options.once_pairs)]:
         if cells:
             title = f"PMMA, step load, {options.steps} steps, {cells} x {cells} cells"
             arguments = [[str(cells), str(options.steps)]]
@@ -95,7 +97,7 @@ def main():
     if options.once:
         title = f"PMMA, loop area at 0.01 rad/s, {options.once} x {options.once} cells"
         arguments = [[str(options.once), "80"], [str(options.once), "100", "4"]]
-        compare(title, "tamaas 2.9.0", "tamaas_cycle.py", cycle, arguments, 1, rows)
+        compare(title, "tamaas 2.9.0", "tamaas_cycle.py", cycle, arguments, options.once_pairs, rows)
     title = "elastic sphere, 512 x 512 cells"
     for peer, script in [("ContactMechanics 1.8.3", "contactmechanics_sphere.py"), ("tamaas 2.9.0", "tamaas_sphere.py")]:
         compare(title, peer, script, sphere, [["512"]], options.pairs, rows)
@@ -105,4 +107,5 @@ def main():
         options.out.write_text(table)
 
 
-main()
+if __name__ == "__main__":
+    main()

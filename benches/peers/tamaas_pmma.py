@@ -48,6 +48,19 @@ def pmma(cells, side, step_s):
     return model, in_free_space(solver)
 
 
+def creep_branches():
+    """Relaxed compliance 1/RELAXED (1/MPa) and pairs of branch compliance and retardation time (s) of the creep compliance
+    D(t) = 1/RELAXED - sum c exp(-t/t_c), from s D(s) = 1/(s Psi(s))."""
+    # s Psi(s) = RELAXED + sum g s/(s + 1/tau): its zeros are -1/t_c.
+    poly = np.polynomial.Polynomial
+    factors = [poly([1.0 / t, 1.0]) for t in TIMES]
+    denominator = factors[0] * factors[1]
+    numerator = RELAXED * denominator
+    numerator += MODULI[0] * poly([0.0, 1.0]) * factors[1] + MODULI[1] * poly([0.0, 1.0]) * factors[0]
+    zeros = numerator.roots().real
+    return 1.0 / RELAXED, [(-denominator(z) / (z * numerator.deriv()(z)), -1.0 / z) for z in zeros]
+
+
 def contact_radius(model, side, cells):
     return float(np.sqrt((model.traction > 0).sum() * (side / cells) ** 2 / np.pi))
 

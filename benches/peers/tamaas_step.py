@@ -12,25 +12,9 @@ import time
 
 import numpy as np
 
-from tamaas_pmma import MODULI, POISSON, RADIUS, RELAXED, SHEAR, TIMES, contact_radius, hertz_radius, pmma, report
+from tamaas_pmma import POISSON, RADIUS, SHEAR, contact_radius, creep_branches, hertz_radius, pmma, report
 
 LOAD, DURATION = 10.0, 200.0
-
-
-def creep_compliance(times):
-    """D(t) (1/MPa) of the relaxation modulus: D = 1/RELAXED - sum c_j exp(-t/lambda_j), from s D(s) = 1/(s Psi(s))."""
-    # s Psi(s) = RELAXED + sum g s/(s + 1/tau): its zeros are -1/lambda.
-    rates = [1.0 / t for t in TIMES]
-    poly = np.polynomial.Polynomial
-    factors = [poly([r, 1.0]) for r in rates]
-    numerator = RELAXED * factors[0] * factors[1]
-    numerator += MODULI[0] * poly([0.0, 1.0]) * factors[1] + MODULI[1] * poly([0.0, 1.0]) * factors[0]
-    denominator = factors[0] * factors[1]
-    compliance = np.full(len(times), 1.0 / RELAXED)
-    for zero in numerator.roots().real:
-        residue = denominator(zero) / (zero * numerator.deriv()(zero))
-        compliance += residue * np.exp(zero * np.asarray(times))
-    return compliance
 
 
 def main():
@@ -45,7 +29,9 @@ def main():
         radius.append(contact_radius(model, side, cells))
     cpu_s = time.process_time() - started
     times = step_s * np.arange(1, steps + 1)
-    exact = (0.75 * LOAD * RADIUS * (1 - POISSON**2) * creep_compliance(times)) ** (1 / 3)
+    relaxed, branches = creep_branches()
+    compliance = relaxed - sum(c * np.exp(-times / t) for c, t in branches)
+    exact = (0.75 * LOAD * RADIUS * (1 - POISSON**2) * compliance) ** (1 / 3)
     error = np.abs(np.array(radius) / exact - 1)
     report(
         cpu_s,
