@@ -127,6 +127,75 @@ fn only_the_formats_asked_for_are_there_even_after_others_were() {
     );
 }
 
+/// The first page of a PDF (width and height in points), how many pages there are, and what the file says of itself.
+fn page(pdf: &[u8]) -> (Vec<f64>, usize, String) {
+    let text = String::from_utf8_lossy(pdf).into_owned();
+    assert!(text.starts_with("%PDF-1.") && text.trim_end().ends_with("%%EOF"));
+    // The place that the last lines name is that of the cross-reference table, which is how a reader begins.
+    let table: usize = text
+        .rsplit("startxref")
+        .next()
+        .unwrap()
+        .split_whitespace()
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!(pdf[table..].starts_with(b"xref"), "{table}");
+    let sides = text
+        .split("/MediaBox[0 0 ")
+        .nth(1)
+        .unwrap()
+        .split(']')
+        .next()
+        .unwrap();
+    let sides = sides.split(' ').map(|side| side.parse().unwrap()).collect();
+    (sides, text.matches("/MediaBox").count(), text)
+}
+
+#[test]
+fn pdf_has_the_millimetres_asked_for_text_as_text_and_the_same_bytes_on_any_number_of_threads() {
+    let folder = TempDir::new().unwrap();
+    let table = "[figures]\ncolumn = \"one\"\nheight = \"60 mm\"\nformats = [\"pdf\", \"svg\"]\n";
+    let out = swept(&folder, table);
+    let (sides, pages, text) = page(&fs::read(out.join("loops.pdf")).unwrap());
+    let points = |mm: f64| mm / 25.4 * 72.0;
+    // Points are written to single precision.
+    assert!((sides[0] - points(85.0)).abs() < 1e-3 && (sides[1] - points(60.0)).abs() < 1e-3);
+    assert_eq!(pages, 1);
+    assert!(text.contains("/FontFile2") && text.contains("/ToUnicode"));
+    assert!(!text.contains("Date"), "the same sweep has the same bytes");
+    assert!(text.contains("\n% contact-dma ") && text.contains(", sweep sha256 "));
+    let all = |out: &Path| {
+        let all = names(out).into_iter().filter(|name| name.ends_with(".pdf"));
+        all.map(|name| (name.clone(), fs::read(out.join(name)).unwrap()))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(all(&out).len(), 9);
+    let again = TempDir::new().unwrap();
+    let one_thread = again.path().join("out");
+    program()
+        .args([
+            "sweep",
+            "--quiet",
+            "--threads",
+            "1",
+            &sweep_file(&again, table),
+            "--out",
+        ])
+        .arg(&one_thread)
+        .assert()
+        .success();
+    assert!(all(&out) == all(&one_thread));
+    // Another wish takes them away again.
+    program()
+        .args(["report", "--quiet", "--set", "figures.formats=[\"svg\"]"])
+        .arg(&out)
+        .assert()
+        .success();
+    assert!(all(&out).is_empty());
+}
+
 #[test]
 fn a_table_that_asks_for_nothing_changes_no_byte() {
     let (plain, empty) = (TempDir::new().unwrap(), TempDir::new().unwrap());
@@ -386,8 +455,8 @@ fn wrong_values_are_refused_at_their_place_before_anything_is_computed() {
         ("font_size = \"8 pt\"", ["figures.font_size", "a number"]),
         ("font_size = 100", ["4 to 36 pt", "font_size = 8"]),
         (
-            "formats = [\"pdf\"]",
-            ["figures.formats[0]", "\"svg\" or \"png\""],
+            "formats = [\"eps\"]",
+            ["figures.formats[0]", "\"svg\", \"png\" or \"pdf\""],
         ),
         ("formats = []", ["in no format", "leave it out"]),
         (

@@ -25,7 +25,7 @@ use crate::sweep::plan::SweepPlan;
 use crate::sweep::run::Outcome;
 use crate::sweep::store::{Store, StoreError};
 use caption::Setting;
-use chart::ChartError;
+use chart::{ChartError, Letters};
 use figure::press::{self, Press};
 use figure::units::Units;
 use page::Pictures;
@@ -106,7 +106,7 @@ fn picture_in_si(
     in_si.figures.axes = AxisUnits::Si;
     let (figures, _) = figure::of_sweep::figures(&in_si, outcome)?;
     for figure in figures.iter().filter(|f| page::FIGURES.contains(&f.name)) {
-        let svg = figure.picture.to_svg();
+        let svg = figure.picture.to_svg(Letters::Outlines);
         let svg = svg.map_err(|source| ReportError::Chart {
             name: figure.name,
             source,

@@ -1,4 +1,4 @@
-//! Where a picture comes from, written into the picture: `<metadata>` of an SVG, `tEXt` of a PNG.
+//! Where a picture comes from, written into the picture: `<metadata>` of an SVG, `tEXt` of a PNG, a comment in a PDF.
 
 use std::borrow::Cow;
 
@@ -13,6 +13,8 @@ const PROGRAM: &str = concat!(env!("CARGO_PKG_NAME"), " ", env!("CARGO_PKG_VERSI
 /// Signature, and the header chunk that comes first in every PNG.
 const PNG_SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
 const PNG_HEAD_BYTES: usize = 33;
+/// What opens the last lines of every PDF.
+const PDF_END: &[u8] = b"startxref";
 
 impl Stamp {
     /// The stamp of a sweep's pictures.
@@ -22,12 +24,14 @@ impl Stamp {
         }
     }
 
-    /// A file's bytes with the stamp in them; what is neither SVG nor PNG stays as it is.
+    /// A file's bytes with the stamp in them; what is no picture stays as it is.
     pub fn on<'a>(&self, name: &str, bytes: &'a [u8]) -> Cow<'a, [u8]> {
         let stamped = if name.ends_with(".svg") {
             self.on_svg(bytes)
         } else if name.ends_with(".png") {
             self.on_png(bytes)
+        } else if name.ends_with(".pdf") {
+            self.on_pdf(bytes)
         } else {
             None
         };
@@ -54,6 +58,16 @@ impl Stamp {
         let software = text_chunk("Software", PROGRAM);
         let source = text_chunk("Source", &format!("sweep sha256 {}", self.sweep_hash));
         Some([head, &software, &source, rest].concat())
+    }
+
+    /// Behind the trailer, where no offset of the file counts past it.
+    fn on_pdf(&self, bytes: &[u8]) -> Option<Vec<u8>> {
+        let end = bytes
+            .windows(PDF_END.len())
+            .rposition(|word| word == PDF_END)?;
+        let (objects, end) = bytes.split_at(end);
+        let comment = format!("% {PROGRAM}, sweep sha256 {}\n", self.sweep_hash);
+        Some([objects, comment.as_bytes(), end].concat())
     }
 }
 
@@ -110,7 +124,22 @@ mod tests {
         let text = String::from_utf8(svg.into_owned()).unwrap();
         assert!(text.starts_with("<svg width=\"1\"><metadata>contact-dma "));
         assert!(text.ends_with("sweep sha256 abc</metadata><title>t</title></svg>"));
-        for (name, bytes) in [("a.csv", &b"a,b"[..]), ("a.png", b"short"), ("a.svg", b"")] {
+        let pdf = stamp.on("a.pdf", b"%PDF-1.7\ntrailer\nstartxref\n9\n%%EOF");
+        let text = String::from_utf8(pdf.into_owned()).unwrap();
+        assert!(
+            text.starts_with("%PDF-1.7\ntrailer\n% contact-dma "),
+            "{text}"
+        );
+        assert!(
+            text.ends_with("sweep sha256 abc\nstartxref\n9\n%%EOF"),
+            "{text}"
+        );
+        for (name, bytes) in [
+            ("a.csv", &b"a,b"[..]),
+            ("a.png", b"short"),
+            ("a.svg", b""),
+            ("a.pdf", b""),
+        ] {
             assert_eq!(stamp.on(name, bytes), bytes);
         }
     }

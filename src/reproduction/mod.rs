@@ -42,7 +42,7 @@ use crate::cycle::LoopError;
 use crate::material::Material;
 use crate::material::MaterialError;
 use crate::report::ReportError;
-use crate::report::chart::{self, Chart, ChartError};
+use crate::report::chart::{self, Chart, ChartError, Letters};
 use crate::report::figure::Picture;
 use crate::report::page::Pictures;
 use crate::sweep::case::SetupError;
@@ -265,7 +265,7 @@ pub fn files(
                 panels => Picture::Stack(panels.to_vec()),
             };
             let caption = figure.full_caption();
-            let svg = chart::described(&picture.as_asked(plan)?, &caption);
+            let svg = chart::described(&picture.as_asked(plan, Letters::Outlines)?, &caption);
             let text = format!("{caption}\n").into_bytes();
             let mut files = vec![
                 (format!("{name}{}", files::CAPTION), text),
@@ -274,6 +274,7 @@ pub fn files(
             for format in &plan.formats {
                 files.push(match (format, plan.resolution()) {
                     (Format::Svg, _) => (format!("{name}.svg"), svg.clone().into_bytes()),
+                    (Format::Pdf, _) => (format!("{name}.pdf"), picture.to_pdf(plan, &caption)?),
                     (Format::Png, Some(dpi)) => {
                         (format!("{name}.png"), chart::to_png_at(&svg, dpi)?)
                     }

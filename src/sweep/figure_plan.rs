@@ -6,7 +6,7 @@ use std::fmt::Write;
 use crate::quantity::{Dimension, format_si};
 
 /// What the `[figures]` table asks for. Where it asks for nothing, figures are 800 px wide with text of 16 px (211.7 mm and 12 pt
-/// on a screen of 96 dpi), as SVG and as PNG of one and of two pixels per px.
+/// on a screen of 96 dpi), as SVG and as PNG of one and of two pixels per px; PDF is there to be asked for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FigurePlan {
     /// Frequencies (rad/s) whose cycles are drawn; empty: chosen from the sweep.
@@ -30,6 +30,8 @@ pub struct FigurePlan {
 pub enum Format {
     Svg,
     Png,
+    /// Of the same size as the SVG; its text is text.
+    Pdf,
 }
 
 /// What the axes of figures are in.
@@ -42,7 +44,8 @@ pub enum AxisUnits {
 
 impl Format {
     /// All, as sweep files name them.
-    pub const NAMES: [(&'static str, Self); 2] = [("svg", Self::Svg), ("png", Self::Png)];
+    pub const NAMES: [(&'static str, Self); 3] =
+        [("svg", Self::Svg), ("png", Self::Png), ("pdf", Self::Pdf)];
 }
 
 impl AxisUnits {
@@ -115,6 +118,7 @@ impl FigurePlan {
         for format in &self.formats {
             match (format, self.resolution()) {
                 (Format::Svg, _) => endings.push(".svg"),
+                (Format::Pdf, _) => endings.push(".pdf"),
                 (Format::Png, Some(_)) => endings.push(".png"),
                 (Format::Png, None) => endings.extend([".png", "@2x.png"]),
             }
@@ -199,7 +203,7 @@ mod tests {
             width_m: Some(0.085),
             height_m: Some(0.06),
             font_size_pt: Some(7.0),
-            formats: vec![Format::Png],
+            formats: vec![Format::Png, Format::Pdf],
             dpi: Some(600),
             axes: AxisUnits::Normalised,
             titles: false,
@@ -214,7 +218,7 @@ mod tests {
         assert_eq!(
             &whole[sweep.len()..],
             "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
-             formats = [\"png\"]\ndpi = 600\naxes = \"normalised\"\ntitles = false\n"
+             formats = [\"png\", \"pdf\"]\ndpi = 600\naxes = \"normalised\"\ntitles = false\n"
         );
         assert_eq!(without_figures(&whole), sweep);
         assert_eq!(without_figures(sweep), sweep);
@@ -241,7 +245,7 @@ mod tests {
     #[test]
     fn two_resolutions_are_for_figures_of_which_nothing_is_asked() {
         assert_eq!(FigurePlan::default().endings(), [".svg", ".png", "@2x.png"]);
-        assert_eq!(everything().endings(), [".png"]);
+        assert_eq!(everything().endings(), [".png", ".pdf"]);
         assert_eq!(everything().resolution(), Some(600));
         let column = FigurePlan {
             width_m: Some(0.085),

@@ -20,12 +20,12 @@ pub const FIGURES: [&str; 12] = [
 const TABLES: [&str; 4] = ["run.json", "sweep.csv", "summary.json", "index.html"];
 
 /// What follows the name of a figure in those of its files: data, caption, and the picture in every form.
-const ENDINGS: [&str; 5] = [".csv", CAPTION, ".svg", ".png", "@2x.png"];
+const ENDINGS: [&str; 6] = [".csv", CAPTION, ".svg", ".pdf", ".png", "@2x.png"];
 /// The ending of a caption.
 pub const CAPTION: &str = ".caption.txt";
 
 /// The files that a figure may have.
-pub fn of_figure(name: &str) -> [String; 5] {
+pub fn of_figure(name: &str) -> [String; 6] {
     ENDINGS.map(|ending| format!("{name}{ending}"))
 }
 

@@ -109,6 +109,9 @@ pub enum ChartError {
 
     #[error("cannot encode the chart as PNG: {reason}")]
     Encode { reason: String },
+
+    #[error("cannot make a PDF of the chart: {reason}")]
+    Pdf { reason: String },
 }
 
 /// Which axis an error is about.

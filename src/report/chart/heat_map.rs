@@ -16,7 +16,7 @@ use super::draw::{axes, texts};
 use super::geometry::{Point, Rect};
 use super::layout::{Layout, Reserve, Widths, lay_out, ranges};
 use super::look::*;
-use super::render::finished;
+use super::render::{Letters, finished};
 use super::scale::AxisMap;
 use super::ticks::Ticks;
 use super::{Axis, Chart, ChartError, Color, Scale, Series};
@@ -70,7 +70,7 @@ const MOST_CELLS: usize = 256;
 ///
 /// # Errors
 /// [`ChartError`]: a wrong number of values, none at all, one that is not finite, ranges or texts that cannot be drawn.
-pub fn heat_map_to_svg(map: &HeatMap) -> Result<String, ChartError> {
+pub fn heat_map_to_svg(map: &HeatMap, letters: Letters) -> Result<String, ChartError> {
     let range = map.checked_range()?;
     let chart = map.chart();
     check(&chart)?;
@@ -98,7 +98,12 @@ pub fn heat_map_to_svg(map: &HeatMap) -> Result<String, ChartError> {
     canvas.finish()?;
     let title = map.title.clone();
     let title = title.unwrap_or_else(|| format!("{} over the surface", map.value_label));
-    let svg = finished(&at_real_size(&svg, chart.size)?, chart.size, &title)?;
+    let svg = finished(
+        &at_real_size(&svg, chart.size)?,
+        chart.size,
+        &title,
+        letters,
+    )?;
     // Below all ink: right behind the title.
     let (head, ink) = svg.split_once("</title>").ok_or_else(|| ChartError::Draw {
         reason: "the picture has no title".to_owned(),
@@ -455,7 +460,7 @@ mod tests {
 
     #[test]
     fn the_picture_is_small_and_has_neither_text_nor_references() {
-        let svg = heat_map_to_svg(&dome(128, 128)).unwrap();
+        let svg = heat_map_to_svg(&dome(128, 128), Letters::Outlines).unwrap();
         assert!(svg.len() < 500_000, "{}", svg.len());
         for unwanted in ["<text", "href", "url(", "<image"] {
             assert!(!svg.contains(unwanted), "{unwanted}");
@@ -463,7 +468,12 @@ mod tests {
         assert!(svg.contains("<title>pressure p / MPa over the surface</title>"));
         assert!(to_png(&svg, 1.0).unwrap().starts_with(b"\x89PNG"));
         // A large grid is averaged over blocks, not drawn cell by cell.
-        assert!(heat_map_to_svg(&dome(1024, 1024)).unwrap().len() < 2_000_000);
+        assert!(
+            heat_map_to_svg(&dome(1024, 1024), Letters::Outlines)
+                .unwrap()
+                .len()
+                < 2_000_000
+        );
     }
 
     #[test]
@@ -495,9 +505,12 @@ mod tests {
         assert_eq!(chart.size.height_px, 500);
         let middle = 0.5 * (layout.frame.left + layout.frame.right);
         assert!((layout.x.px(10.0) - middle).abs() < 1e-9); // rounding
-        assert!(heat_map_to_svg(&map).is_ok());
+        assert!(heat_map_to_svg(&map, Letters::Outlines).is_ok());
         map.values[1] = Some(0.0);
-        assert!(matches!(heat_map_to_svg(&map), Err(ChartError::Map { .. })));
+        assert!(matches!(
+            heat_map_to_svg(&map, Letters::Outlines),
+            Err(ChartError::Map { .. })
+        ));
     }
 
     #[test]
@@ -505,25 +518,25 @@ mod tests {
         let mut short = dome(3, 3);
         short.values.pop();
         assert!(matches!(
-            heat_map_to_svg(&short),
+            heat_map_to_svg(&short, Letters::Outlines),
             Err(ChartError::CellCount { found: 8, .. })
         ));
         let mut nan = dome(3, 3);
         nan.values[4] = Some(f64::NAN);
         assert!(matches!(
-            heat_map_to_svg(&nan),
+            heat_map_to_svg(&nan, Letters::Outlines),
             Err(ChartError::NotFinite { .. })
         ));
         let mut blank = dome(3, 3);
         blank.values.fill(None);
         assert!(matches!(
-            heat_map_to_svg(&blank),
+            heat_map_to_svg(&blank, Letters::Outlines),
             Err(ChartError::Map { .. })
         ));
         let mut upside_down = dome(3, 3);
         upside_down.value_range = Some((1.0, 0.0));
         assert!(matches!(
-            heat_map_to_svg(&upside_down),
+            heat_map_to_svg(&upside_down, Letters::Outlines),
             Err(ChartError::Map { .. })
         ));
     }

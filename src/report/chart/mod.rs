@@ -2,7 +2,7 @@
 //!
 //! A figure says what is to be seen; where the ticks, the legend and the labels go is decided here. The caller passes
 //! data already scaled to the unit named in the axis label. [`to_svg`] gives the finished picture as SVG whose text is
-//! outlines (it needs no font), [`to_png`] the same picture in pixels.
+//! outlines (it needs no font), [`to_png`] the same picture in pixels, [`to_pdf`] as a page.
 //!
 //! ```
 //! use contact_dma::report::chart::{Axis, Chart, Mark, Marker, Series, to_png, to_svg};
@@ -33,6 +33,7 @@ mod look;
 mod marker;
 mod palette;
 mod paper;
+mod pdf;
 mod place;
 mod render;
 mod scale;
@@ -46,7 +47,8 @@ pub use fitting::{fits, fitting_height_px};
 pub use heat_map::{HeatMap, MapShape, heat_map_to_svg};
 pub use palette::Color;
 pub use paper::{described, on_paper};
-pub use render::{to_png, to_png_at, to_svg};
+pub use pdf::to_pdf;
+pub use render::{Letters, to_png, to_png_at, to_svg, to_svg_with};
 pub use stack::stack_to_svg;
 
 /// A chart: what is drawn against which axes.

@@ -15,14 +15,36 @@ use super::{Chart, ChartError, Size};
 /// # Errors
 /// [`ChartError`] where the chart has no point, or a value, text or range that cannot be drawn.
 pub fn to_svg(chart: &Chart) -> Result<String, ChartError> {
-    finished(&draw(chart, 0.0)?, chart.size, &subject(chart))
+    to_svg_with(chart, Letters::Outlines)
 }
 
-/// A drawing of this size with its text turned into outlines, under a title.
-pub(super) fn finished(drawn: &str, size: Size, title: &str) -> Result<String, ChartError> {
+/// What the letters of a picture are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Letters {
+    /// Shapes: the picture looks the same everywhere.
+    Outlines,
+    /// Text in the embedded font, on its way into a file that brings the font along.
+    Text,
+}
+
+/// The chart as SVG with its letters as outlines or as text.
+///
+/// # Errors
+/// As [`to_svg`].
+pub fn to_svg_with(chart: &Chart, letters: Letters) -> Result<String, ChartError> {
+    finished(&draw(chart, 0.0)?, chart.size, &subject(chart), letters)
+}
+
+/// A drawing of this size under a title.
+pub(super) fn finished(
+    drawn: &str,
+    size: Size,
+    title: &str,
+    letters: Letters,
+) -> Result<String, ChartError> {
     let tree = usvg::Tree::from_str(drawn, &options())?;
     let written = tree.to_string(&usvg::WriteOptions {
-        preserve_text: false,
+        preserve_text: letters == Letters::Text,
         // Coordinates are in sixteenths of a px: two places are far below what can be seen.
         coordinates_precision: 2,
         indent: usvg::Indent::Spaces(1),

@@ -2,7 +2,7 @@
 
 use super::check::subject;
 use super::draw::{arrange, draw};
-use super::render::finished;
+use super::render::{Letters, finished};
 use super::text::escaped;
 use super::{Chart, ChartError, Size};
 
@@ -10,7 +10,7 @@ use super::{Chart, ChartError, Size};
 ///
 /// # Errors
 /// [`ChartError::EmptyStack`] without a chart; otherwise as [`super::to_svg`].
-pub fn stack_to_svg(charts: &[Chart]) -> Result<String, ChartError> {
+pub fn stack_to_svg(charts: &[Chart], letters: Letters) -> Result<String, ChartError> {
     let mut left = 0.0_f64;
     for chart in charts {
         left = left.max(arrange(chart)?.layout.frame.left);
@@ -26,7 +26,7 @@ pub fn stack_to_svg(charts: &[Chart]) -> Result<String, ChartError> {
     );
     let mut top_px = 0;
     for (chart, title) in charts.iter().zip(&titles) {
-        let svg = finished(&draw(chart, left)?, chart.size, title)?;
+        let svg = finished(&draw(chart, left)?, chart.size, title, letters)?;
         picture.push_str(&format!(" <g transform=\"translate(0 {top_px})\">"));
         picture.push_str(content(&svg, chart.size)?);
         picture.push_str("</g>\n");
@@ -64,8 +64,11 @@ mod tests {
 
     #[test]
     fn the_picture_is_as_high_as_its_charts_and_has_no_text() {
-        let svg =
-            stack_to_svg(&[chart("", 1.0), chart("", 1e4), chart("time t / s", 0.1)]).unwrap();
+        let svg = stack_to_svg(
+            &[chart("", 1.0), chart("", 1e4), chart("time t / s", 0.1)],
+            Letters::Outlines,
+        )
+        .unwrap();
         assert!(svg.starts_with(r#"<svg width="800" height="780""#));
         for unwanted in ["<text", "href", "url("] {
             assert!(!svg.contains(unwanted), "{unwanted}");
@@ -82,7 +85,7 @@ mod tests {
         assert!(left(&narrow) < left(&wide));
         // What is drawn of one chart of a stack.
         let drawn = |charts: &[Chart], place: usize| {
-            let svg = stack_to_svg(charts).unwrap();
+            let svg = stack_to_svg(charts, Letters::Outlines).unwrap();
             let part = svg.split("<g transform=\"translate").nth(place + 1);
             let content = part.and_then(|part| part.split_once(">")?.1.rsplit_once("</g>"));
             content.unwrap().0.to_owned()
@@ -91,6 +94,9 @@ mod tests {
         let both = [wide, narrow];
         assert_eq!(drawn(&both[..1], 0), drawn(&both, 0));
         assert_ne!(drawn(&both[1..], 0), drawn(&both, 1));
-        assert!(matches!(stack_to_svg(&[]), Err(ChartError::EmptyStack)));
+        assert!(matches!(
+            stack_to_svg(&[], Letters::Outlines),
+            Err(ChartError::EmptyStack)
+        ));
     }
 }

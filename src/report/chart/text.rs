@@ -9,7 +9,7 @@ use super::ChartError;
 
 /// DejaVu Sans, whose licence lies beside it: it has ω, δ, τ, ′, superscripts and subscripts, and stays the same
 /// whatever fonts a system has.
-static FONT: &[u8] = include_bytes!("../fonts/DejaVuSans.ttf");
+pub(super) static FONT: &[u8] = include_bytes!("../fonts/DejaVuSans.ttf");
 
 pub(super) const FAMILY: &str = "DejaVu Sans";
 

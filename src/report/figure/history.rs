@@ -58,7 +58,7 @@ pub fn svg(outcome: &SimulationOutcome) -> Result<Option<String>, ReportError> {
     if !has_span(rows) {
         return Ok(None);
     }
-    let svg = chart::stack_to_svg(&panels(rows, &Units::default()))
+    let svg = chart::stack_to_svg(&panels(rows, &Units::default()), chart::Letters::Outlines)
         .map_err(|source| ReportError::Chart { name: NAME, source })?;
     Ok(Some(svg))
 }

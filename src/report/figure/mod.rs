@@ -26,7 +26,7 @@ pub mod units;
 pub mod van_gurp_palmen;
 
 use super::caption::Caption;
-use super::chart::{self, Chart, ChartError, HeatMap};
+use super::chart::{self, Chart, ChartError, HeatMap, Letters};
 
 /// A picture, the name of its files, what is to be said of it, and its data as CSV.
 pub struct Figure {
@@ -59,11 +59,11 @@ impl From<HeatMap> for Picture {
 }
 
 impl Picture {
-    pub(super) fn to_svg(&self) -> Result<String, ChartError> {
+    pub(super) fn to_svg(&self, letters: Letters) -> Result<String, ChartError> {
         match self {
-            Self::Chart(chart) => chart::to_svg(chart),
-            Self::Stack(charts) => chart::stack_to_svg(charts),
-            Self::Map(map) => chart::heat_map_to_svg(map),
+            Self::Chart(chart) => chart::to_svg_with(chart, letters),
+            Self::Stack(charts) => chart::stack_to_svg(charts, letters),
+            Self::Map(map) => chart::heat_map_to_svg(map, letters),
         }
     }
 }

@@ -6,7 +6,7 @@ use super::{Figure, Picture};
 use crate::report::ReportError;
 use crate::report::caption::Setting;
 use crate::report::chart::{
-    self, Chart, ChartError, Color, HeatMap, LegendPlace, LineStyle, MapShape,
+    self, Chart, ChartError, Color, HeatMap, LegendPlace, Letters, LineStyle, MapShape,
 };
 use crate::report::page::Pictures;
 use crate::sweep::figure_plan::{FigurePlan, Format, PaperSize};
@@ -57,7 +57,9 @@ impl Press<'_> {
             name: figure,
             source,
         };
-        let svg = picture.as_asked(self.plan).map_err(failed)?;
+        let svg = picture
+            .as_asked(self.plan, Letters::Outlines)
+            .map_err(failed)?;
         let svg = chart::described(&svg, caption);
         (self.pictures).see(&format!("{file}.svg"), svg.as_bytes());
         let name = format!("{file}{}", files::CAPTION);
@@ -65,6 +67,10 @@ impl Press<'_> {
         for format in &self.plan.formats {
             match (format, self.plan.resolution()) {
                 (Format::Svg, _) => (self.write)(&format!("{file}.svg"), svg.as_bytes())?,
+                (Format::Pdf, _) => {
+                    let pdf = picture.to_pdf(self.plan, caption).map_err(failed)?;
+                    (self.write)(&format!("{file}.pdf"), &pdf)?;
+                }
                 (Format::Png, Some(dpi)) => {
                     let png = chart::to_png_at(&svg, dpi).map_err(failed)?;
                     (self.write)(&format!("{file}.png"), &png)?;
@@ -84,7 +90,7 @@ impl Press<'_> {
 /// Files of a figure that the plan does not ask for: an earlier run may have left them.
 pub fn not_asked(plan: &FigurePlan, file: &str) -> Vec<String> {
     let endings = plan.endings();
-    [".svg", ".png", "@2x.png"]
+    [".svg", ".pdf", ".png", "@2x.png"]
         .into_iter()
         .filter(|ending| !endings.contains(ending))
         .map(|ending| format!("{file}{ending}"))
@@ -96,21 +102,30 @@ impl Picture {
     ///
     /// # Errors
     /// As [`chart::to_svg`].
-    pub fn as_asked(&self, plan: &FigurePlan) -> Result<String, ChartError> {
+    pub fn as_asked(&self, plan: &FigurePlan, letters: Letters) -> Result<String, ChartError> {
         let mut picture = self.clone();
         if !plan.titles {
             picture.drop_titles();
         }
         let Some(paper) = plan.paper() else {
-            return picture.to_svg();
+            return picture.to_svg(letters);
         };
         picture.make_fit_for_paper();
         let height_mm = match picture.resize(&paper)? {
             true => paper.height_m.map(|height_m| 1e3 * height_m),
             false => None,
         };
-        let svg = picture.to_svg()?;
+        let svg = picture.to_svg(letters)?;
         chart::on_paper(&svg, 1e3 * paper.width_m, height_mm, 1e3 * paper.px_m)
+    }
+
+    /// The picture as PDF, as asked for, with this caption as its description.
+    ///
+    /// # Errors
+    /// As [`chart::to_pdf`].
+    pub fn to_pdf(&self, plan: &FigurePlan, caption: &str) -> Result<Vec<u8>, ChartError> {
+        let svg = self.as_asked(plan, Letters::Text)?;
+        chart::to_pdf(&chart::described(&svg, caption))
     }
 
     fn drop_titles(&mut self) {
