@@ -1,8 +1,8 @@
 //! Where the data lie in the frame: every series in px, cut to the frame, for drawing and for keeping clear of.
 
-use super::geometry::{Point, Rect};
+use super::geometry::{Point, Rect, distance};
 use super::layout::Layout;
-use super::look::{MARKER_EDGE, MARKER_RADIUS};
+use super::look::{MARKER_EDGE, MARKER_RADIUS, MARKER_SPACING};
 use super::stroke::{clip, thinned};
 use super::{Chart, MarkPlace, Series};
 
@@ -41,7 +41,11 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
     // A point on the frame must not be lost to rounding.
     let reach = frame.grown(0.01);
     let mut curve = Curve::default();
-    for run in series.points.split(Option::is_none) {
+    let points = match series.spaced {
+        true => &spaced(&series.points, layout),
+        false => &series.points,
+    };
+    for run in points.split(Option::is_none) {
         let line: Vec<Point> = run
             .iter()
             .flatten()
@@ -66,8 +70,7 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
         }
     }
     if let Some(errors) = &series.error {
-        let bars = series
-            .points
+        let bars = points
             .iter()
             .zip(errors)
             .filter_map(|(point, error)| {
@@ -78,6 +81,20 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
         curve.error_bars.extend(bars);
     }
     curve
+}
+
+/// The points without those that stand too near to the one before.
+fn spaced(points: &[Option<(f64, f64)>], layout: &Layout) -> Vec<Option<(f64, f64)>> {
+    let mut before = None;
+    let kept = |point: &Option<(f64, f64)>| {
+        let at = layout.px((*point)?);
+        if before.is_some_and(|before| distance(before, at) < MARKER_SPACING) {
+            return None;
+        }
+        before = Some(at);
+        *point
+    };
+    points.iter().map(kept).collect()
 }
 
 /// Whether a marker covers the bar: then its caps would stick out as stumps that say nothing.
@@ -184,7 +201,39 @@ fn length_inside(rect: &Rect, from: Point, to: Point) -> f64 {
     }
     match rect.clip(from, to) {
         // A line that only touches counts as a little, so that "nothing" means nothing.
-        Some((enter, leave)) => ((leave - enter) * super::geometry::distance(from, to)).max(0.1),
+        Some((enter, leave)) => ((leave - enter) * distance(from, to)).max(0.1),
         None => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::chart::draw::arrange;
+    use crate::report::chart::{Axis, Chart};
+
+    #[test]
+    fn spaced_markers_keep_off_one_another_and_take_their_error_bars_along() {
+        let points: Vec<(f64, f64)> = (0..=200).map(|k| (f64::from(k), 0.0)).collect();
+        let all = Series::scatter(points.clone()).error_bars(vec![1.0; 201]);
+        let chart = Chart::new(Axis::linear("x"), Axis::linear("y"))
+            .series(all.clone())
+            .series(all.spaced());
+        let curves = arrange(&chart).unwrap().curves;
+        assert_eq!(
+            (curves[0].points.len(), curves[0].error_bars.len()),
+            (201, 201)
+        );
+        let kept = &curves[1];
+        assert_eq!(kept.points[0], curves[0].points[0]);
+        assert_eq!(kept.points.len(), kept.error_bars.len());
+        // Points are some 3 px apart: the next that is far enough is hardly further.
+        for pair in kept.points.windows(2) {
+            let apart = distance(pair[0], pair[1]);
+            assert!(
+                (MARKER_SPACING..MARKER_SPACING + 4.0).contains(&apart),
+                "{apart}"
+            );
+        }
     }
 }

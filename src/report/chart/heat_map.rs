@@ -19,6 +19,7 @@ use super::look::*;
 use super::render::{Letters, finished};
 use super::scale::AxisMap;
 use super::ticks::Ticks;
+use super::turned::discs;
 use super::{Axis, Chart, ChartError, Color, Scale, Series};
 
 /// The shape of a map.
@@ -26,6 +27,8 @@ use super::{Axis, Chart, ChartError, Color, Scale, Series};
 pub enum MapShape {
     /// Lengths along y are to the scale of those along x.
     ToScale,
+    /// To scale too, a square about the origin: the values are one row, from there to the edge, and turned about it.
+    Turned,
     /// The picture is this high.
     HeightPx(u32),
 }
@@ -108,10 +111,14 @@ pub fn heat_map_to_svg(map: &HeatMap, letters: Letters) -> Result<String, ChartE
     let (head, ink) = svg.split_once("</title>").ok_or_else(|| ChartError::Draw {
         reason: "the picture has no title".to_owned(),
     })?;
-    let colours = cells(map, &layout, range) + &strips(&bar.rect(&layout.frame));
+    let (discs, cells) = match map.shape {
+        MapShape::Turned => (discs(map, &layout, range), String::new()),
+        MapShape::ToScale | MapShape::HeightPx(_) => (String::new(), cells(map, &layout, range)),
+    };
+    let colours = cells + &strips(&bar.rect(&layout.frame));
     let lines = contours(map, &layout, range, &bar.ticks);
     Ok(format!(
-        "{head}</title>\n <g shape-rendering=\"crispEdges\">\n{colours} </g>\n{lines}{ink}"
+        "{head}</title>\n{discs} <g shape-rendering=\"crispEdges\">\n{colours} </g>\n{lines}{ink}"
     ))
 }
 
@@ -177,7 +184,7 @@ impl HeatMap {
     }
 
     /// The level of a value's colour.
-    fn level(&self, value: f64, (low, high): (f64, f64)) -> usize {
+    pub(super) fn level(&self, value: f64, (low, high): (f64, f64)) -> usize {
         match self.value_scale {
             Scale::Linear => level(value, (low, high)),
             Scale::Log => level(value.log10(), (low.log10(), high.log10())),
@@ -322,7 +329,7 @@ fn contrast(level: usize) -> Color {
 /// The contour lines, one path for each labelled value.
 fn contours(map: &HeatMap, layout: &Layout, range: (f64, f64), ticks: &Ticks) -> String {
     let mut text = String::new();
-    if !map.contours {
+    if !map.contours || map.shape == MapShape::Turned {
         return text;
     }
     // On the scale of the colours the values are closer to linear between the cells.
@@ -488,6 +495,34 @@ mod tests {
         assert!(painted.contains("#440154") && painted.contains("#fde725"));
         map.values[0] = None;
         assert_eq!(cells(&map, &layout, range).matches("<path").count(), 1);
+    }
+
+    #[test]
+    fn a_turned_profile_is_discs_one_per_colour_and_blank_within_is_paper() {
+        let mut map = dome(5, 1);
+        map.y_range = map.x_range;
+        map.shape = MapShape::Turned;
+        map.value_range = Some((0.0, 8.0));
+        map.values = vec![None, Some(8.0), Some(8.0), Some(0.0), None];
+        let range = map.checked_range().unwrap();
+        let (_, layout) = shaped(&map, map.chart(), &Bar::new(&map, range).unwrap()).unwrap();
+        let drawn = discs(&map, &layout, range);
+        let fills: Vec<&str> = drawn
+            .split("fill=\"")
+            .skip(1)
+            .map(|part| &part[..7])
+            .collect();
+        assert_eq!(fills, ["#440154", "#fde725", "#ffffff"]);
+        let outermost = format!("r=\"{:.2}\"", 0.4 * layout.frame.width());
+        assert!(
+            drawn.lines().next().unwrap().contains(&outermost),
+            "{drawn}"
+        );
+        assert!(
+            heat_map_to_svg(&map, Letters::Outlines)
+                .unwrap()
+                .contains(&drawn)
+        );
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub(super) const LEADER_STROKE: f64 = 1.0;
 pub(super) const MARKER_RADIUS: f64 = 4.4;
 /// White edge that parts a marker from the line below it.
 pub(super) const MARKER_EDGE: f64 = 1.3;
+/// From one marker to the next, where a line is to be seen between them: two dashes of it.
+pub(super) const MARKER_SPACING: f64 = 32.0;
 pub(super) const MARK_RING: f64 = 9.0;
 
 pub(super) const LEGEND_SAMPLE: f64 = 36.0;

@@ -41,6 +41,7 @@ mod stack;
 mod stroke;
 mod text;
 mod ticks;
+mod turned;
 
 pub use error::{AxisName, ChartError};
 pub use fitting::{fits, fitting_height_px};
@@ -187,6 +188,8 @@ pub struct Series {
     pub fill_to: Option<f64>,
     /// Whether the area is filled with the full colour, as in a stack of areas, or with a tint that shows what lies behind.
     pub solid_fill: bool,
+    /// Whether markers that crowd are left out, for a series without a line: see [`Series::spaced`].
+    pub spaced: bool,
     /// Symmetric error bars in units of y, one entry per entry of `points`.
     pub error: Option<Vec<Option<f64>>>,
 }
@@ -202,6 +205,7 @@ impl Series {
             color: Color::Palette(0),
             fill_to: None,
             solid_fill: false,
+            spaced: false,
             error: None,
         }
     }
@@ -253,6 +257,14 @@ impl Series {
         self.fill_to = Some(y);
         self.solid_fill = true;
         self.line = None;
+        self
+    }
+
+    /// Leaves out markers, and their error bars, that stand within a few marker widths of the one before, so that they do not hide
+    /// a line they are compared with.
+    #[must_use]
+    pub fn spaced(mut self) -> Self {
+        self.spaced = true;
         self
     }
 

@@ -25,7 +25,7 @@ pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, Repo
         Axis::linear(format!("loss modulus E″ / {loss}")),
     )
     .series(Series::line(line).label("material"))
-    .series(Series::scatter(loops).label("from the loops").color(1));
+    .series(equivalent::symbols(loops).label("from the loops").color(1));
     chart.title.clone_from(&equivalent.title);
     let pair = |modulus: Complex<f64>| [modulus.re, modulus.im];
     Ok(Figure {

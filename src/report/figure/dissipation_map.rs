@@ -12,8 +12,9 @@ use crate::report::table::{Table, number, optional};
 use crate::sweep::record::{CaseRecord, CaseResult, SurfaceLoss};
 
 const WIDTH_PX: u32 = 800;
-/// Cells along the diameter of what is revolved.
-const REVOLVED: usize = 128;
+/// Steps along the radius of what is revolved, and beyond it to the edge of the map.
+const ALONG_RADIUS: usize = 250;
+const BEYOND: usize = 10;
 
 /// The figure, of one curve.
 ///
@@ -62,13 +63,14 @@ fn caption(curve: &Curve<'_>, record: &CaseRecord) -> Caption {
     .say_all(curve.sentence().into_iter().chain(loss))
 }
 
-/// Densities (J/m2) on a grid of cells.
+/// Densities (J/m2) on a grid of cells, or along the radius of what is turned.
 struct Field {
     x_range_m: (f64, f64),
     y_range_m: (f64, f64),
     columns: usize,
     rows: usize,
     density: Vec<Option<f64>>,
+    shape: MapShape,
 }
 
 impl Field {
@@ -102,6 +104,7 @@ impl Field {
                         // Cells of the rectangle that were never in contact.
                         .map(|density| (*density != 0.0).then_some(f64::from(*density)))
                         .collect(),
+                    shape: MapShape::ToScale,
                 }
             }
         };
@@ -116,10 +119,11 @@ impl Field {
     /// A profile along a radius, turned about the axis.
     fn revolved(radius_m: &[f64], density: &[Option<f64>]) -> Option<Self> {
         let outer_m = radius_m.last().copied().filter(|outer_m| *outer_m > 0.0)?;
-        let range = (-outer_m, outer_m);
-        let centre = |k: usize| outer_m * ((2 * k + 1) as f64 / REVOLVED as f64 - 1.0);
-        let at = |cell: usize| {
-            let r_m = centre(cell % REVOLVED).hypot(centre(cell / REVOLVED));
+        let step_m = outer_m / ALONG_RADIUS as f64;
+        let columns = ALONG_RADIUS + BEYOND;
+        let edge_m = step_m * columns as f64;
+        let at = |step: usize| {
+            let r_m = step_m * (step as f64 + 0.5);
             let outer = radius_m.partition_point(|&r| r < r_m);
             let inner = outer.saturating_sub(1);
             let (from_m, to_m) = (*radius_m.get(inner)?, *radius_m.get(outer)?);
@@ -131,11 +135,12 @@ impl Field {
             Some(from + part * (to - from))
         };
         Some(Self {
-            x_range_m: range,
-            y_range_m: range,
-            columns: REVOLVED,
-            rows: REVOLVED,
-            density: (0..REVOLVED * REVOLVED).map(at).collect(),
+            x_range_m: (-edge_m, edge_m),
+            y_range_m: (-edge_m, edge_m),
+            columns,
+            rows: 1,
+            density: (0..columns).map(at).collect(),
+            shape: MapShape::Turned,
         })
     }
 
@@ -164,7 +169,7 @@ impl Field {
             points: Vec::new(),
             rings: Vec::new(),
             width_px: WIDTH_PX,
-            shape: MapShape::ToScale,
+            shape: self.shape,
         }
     }
 }
@@ -214,16 +219,16 @@ mod tests {
         let radius: Vec<f64> = (0..=50).map(|k| f64::from(k) * 1e-6).collect();
         let density: Vec<_> = radius.iter().map(|r| Some(3.0 - 2e4 * r)).collect();
         let field = Field::revolved(&radius, &density).unwrap();
-        let cell = 100.0e-6 / REVOLVED as f64;
+        let step = 50.0e-6 / ALONG_RADIUS as f64;
         for (k, value) in field.density.iter().enumerate() {
-            let place = |k: usize| (k as f64 + 0.5) * cell - 50.0e-6;
-            let r = place(k % REVOLVED).hypot(place(k / REVOLVED));
+            let r = (k as f64 + 0.5) * step;
             match value {
                 // Linear in r, which linear interpolation reproduces but for rounding.
                 Some(value) => assert!((value - (3.0 - 2e4 * r)).abs() < 1e-12),
                 None => assert!(r > 50.0e-6),
             }
         }
+        assert!((field.x_range_m.1 - 52.0e-6).abs() < 1e-18);
         assert!(Field::revolved(&[], &[]).is_none());
     }
 }

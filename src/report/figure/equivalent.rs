@@ -8,6 +8,7 @@ use super::units::Units;
 use crate::material::Material;
 use crate::report::ReportError;
 use crate::report::caption::Caption;
+use crate::report::chart::Series;
 use crate::report::table::{Table, number, optional};
 use crate::sweep::error_bars::Quantity;
 use crate::sweep::plan::SweepPlan;
@@ -52,6 +53,11 @@ impl<'a> Equivalent<'a> {
     }
 }
 
+/// Loops as symbols beside the line of the material, which they must not hide.
+pub fn symbols<P: Into<Option<(f64, f64)>>>(points: impl IntoIterator<Item = P>) -> Series {
+    Series::scatter(points).spaced()
+}
+
 /// The moduli of the loops of a curve, as far as they have any.
 pub fn of_loops<'a>(material: &Material, curve: &Curve<'a>) -> Vec<LoopModulus<'a>> {
     let records = curve.records.iter();
@@ -91,7 +97,8 @@ impl Equivalent<'_> {
             .say(
                 "Lines: the material's longitudinal modulus. Symbols: what indentation reads from the hysteresis loops, \
                  E′ = (1 − ν²)W₁cosφ/(2aδ₁) and E″ with sinφ, W₁ and δ₁ being the first harmonics of load and approach, φ the \
-                 phase between them and a the mean contact radius.",
+                 phase between them and a the mean contact radius. Symbols that would crowd over the lines are left out; the data have \
+                 all.",
             )
             .say(format!(
                 "They differ from the material's by at most {storage} % in E′ and {loss} % in E″."

@@ -23,7 +23,7 @@ pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, Repo
         Axis::linear("loss tangent tan δ = E″/E′"),
     )
     .series(Series::line(own).label("material"))
-    .series(Series::scatter(loops).label("from the loops").color(1));
+    .series(equivalent::symbols(loops).label("from the loops").color(1));
     chart.title.clone_from(&equivalent.title);
     Ok(Figure {
         name: "loss-tangent",

@@ -105,7 +105,7 @@ pub fn with_loops(
         });
         let errors = equivalent.loops.iter();
         let errors = errors.map(|at| Some(factor * at.error_pa(quantity)?));
-        Series::scatter(points).error_bars(errors.collect::<Vec<_>>())
+        equivalent::symbols(points).error_bars(errors.collect::<Vec<_>>())
     };
     let chart = chart
         .series(symbols(Quantity::StorageModulus, |at| at.storage_pa).label("E′ from the loop"))

@@ -213,7 +213,7 @@ fn resized(chart: &Chart, width_px: u32, ratio: f64) -> Chart {
 fn resize_map(map: &mut HeatMap, width_px: u32, height_px: Option<u32>) -> bool {
     let drawn_wide = std::mem::replace(&mut map.width_px, width_px);
     match map.shape {
-        MapShape::ToScale => false,
+        MapShape::ToScale | MapShape::Turned => false,
         MapShape::HeightPx(high) => {
             let in_ratio = u64::from(high) * u64::from(width_px) / u64::from(drawn_wide.max(1));
             let in_ratio = u32::try_from(in_ratio).unwrap_or(u32::MAX);

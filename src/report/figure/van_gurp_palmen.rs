@@ -41,7 +41,7 @@ pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, Repo
     let mut chart = Chart::new(x, Axis::linear("phase angle δ / °"))
         .series(Series::line(own().map(point)).label("material"))
         .series(
-            Series::scatter(loops().map(point))
+            equivalent::symbols(loops().map(point))
                 .label("from the loops")
                 .color(1),
         );
