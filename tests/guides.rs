@@ -1,5 +1,6 @@
 //! The guides in src/guide: what they tell the reader to save is saved, what they tell him to run is run, in the order in which they
-//! tell it. Their Rust code is tested as documentation.
+//! tell it. Commands for a cluster meet an `sbatch` that runs its jobs at once, and pictures in LaTeX must be there in the size that
+//! the text gives them. Rust code is tested as documentation.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,10 @@ enum Step {
         text: String,
     },
     Shell(String),
+    /// Commands for a cluster, each behind a `$`.
+    Console(Vec<String>),
     Python(String),
+    Latex(String),
     /// A part of an input file.
     Fragment(String),
     /// What the program prints.
@@ -45,7 +49,12 @@ fn steps(guide: &str) -> Vec<Step> {
             ("sh", _) => Some(Step::Shell(text)),
             ("python", _) => Some(Step::Python(text)),
             ("text", _) => Some(Step::Shown(text)),
-            ("" | "console" | "latex", _) => None,
+            ("console", _) => {
+                let lines = text.lines().filter_map(|line| line.strip_prefix("$ "));
+                Some(Step::Console(lines.map(str::to_owned).collect()))
+            }
+            ("latex", _) => Some(Step::Latex(text)),
+            ("", _) => None,
             (other, _) => panic!("{guide}: a block of {other}"),
         });
         prose = parts.next().expect("a block is not closed").to_owned();
@@ -57,7 +66,12 @@ fn steps(guide: &str) -> Vec<Step> {
 fn run(folder: &TempDir, command: &mut Command) -> String {
     let program = assert_cmd::cargo::cargo_bin("contact-dma");
     let path = std::env::var("PATH").unwrap_or_default();
-    let path = format!("{}:{path}", program.parent().unwrap().display());
+    let own = folder.path().join("bin");
+    let path = format!(
+        "{}:{}:{path}",
+        own.display(),
+        program.parent().unwrap().display()
+    );
     let Output {
         status,
         stdout,
@@ -65,12 +79,81 @@ fn run(folder: &TempDir, command: &mut Command) -> String {
     } = command
         .current_dir(folder.path())
         .env("PATH", path)
+        .env("SCRATCH", folder.path())
         .env_remove("CONTACT_DMA_THREADS")
         .output()
         .unwrap();
     let stderr = String::from_utf8_lossy(&stderr);
     assert!(status.success(), "{command:?}\n{stderr}");
     String::from_utf8(stdout).unwrap()
+}
+
+/// The scripts of the repository, and in place of Slurm a command that runs every task of an array, one after another.
+fn lend_a_cluster(folder: &TempDir) {
+    const SBATCH: &str = r#"#!/bin/sh
+set -eu
+[ "$1" = --parsable ]
+tasks=1-1
+for word; do case $word in
+    --array=*) tasks=${word#--array=} ;;
+    --dependency=afterany:7 | --parsable | --time=* | --mem=*) ;;
+    -*) echo "sbatch: unknown option $word" >&2; exit 1 ;;
+    *) script=$word ;;
+esac; done
+export SLURM_ARRAY_TASK_MIN=${tasks%-*} SLURM_ARRAY_TASK_MAX=${tasks#*-} SLURM_CPUS_PER_TASK=1
+export SLURM_ARRAY_TASK_COUNT=$((SLURM_ARRAY_TASK_MAX - SLURM_ARRAY_TASK_MIN + 1))
+for task in $(seq "$SLURM_ARRAY_TASK_MIN" "$SLURM_ARRAY_TASK_MAX"); do
+    SLURM_ARRAY_TASK_ID=$task bash "$script" >&2
+done
+echo 7
+"#;
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let bin = folder.path().join("bin");
+    fs::create_dir(&bin).unwrap();
+    fs::write(bin.join("sbatch"), SBATCH).unwrap();
+    let command = "chmod +x bin/sbatch && ln -s \"$1\" sweeps";
+    let scripts = root.join("sweeps");
+    run(
+        folder,
+        Command::new("sh")
+            .args(["-e", "-c", command, "sh"])
+            .arg(scripts),
+    );
+}
+
+/// Whether what a piece of LaTeX takes from files is in them: pictures of the width that it gives them, columns of tables.
+fn check_latex(folder: &TempDir, text: &str) {
+    let mut taken = 0;
+    for command in text.split("\\includegraphics[width=").skip(1) {
+        let (width, rest) = command.split_once("]{").unwrap();
+        let file = rest.split('}').next().unwrap();
+        let bytes = fs::read(folder.path().join(file)).unwrap_or_else(|_| panic!("no {file}"));
+        let pdf = String::from_utf8_lossy(&bytes);
+        let sides = pdf.split("/MediaBox[0 0 ").nth(1).unwrap();
+        let wide: f64 = sides.split(' ').next().unwrap().parse().unwrap();
+        let asked: f64 = width.strip_suffix("mm").unwrap().parse().unwrap();
+        // Points of 1/72 inch, written to single precision.
+        assert!(
+            (wide / 72.0 * 25.4 - asked).abs() < 1e-3,
+            "{file}: {wide} points"
+        );
+        taken += 1;
+    }
+    for command in text.split("\\addplot table [").skip(1) {
+        let (keys, rest) = command.split_once("] {").unwrap();
+        let file = rest.split('}').next().unwrap();
+        let table =
+            fs::read_to_string(folder.path().join(file)).unwrap_or_else(|_| panic!("no {file}"));
+        let columns: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+        for (axis, column) in keys.split(", ").filter_map(|key| key.split_once('=')) {
+            assert!(
+                axis == "col sep" || columns.contains(&column),
+                "{file}: {column}"
+            );
+        }
+        taken += 1;
+    }
+    assert!(taken > 0, "a block of LaTeX that takes nothing: {text}");
 }
 
 /// Does what a guide says; everything that was printed.
@@ -84,6 +167,13 @@ fn follow(guide: &str) -> String {
             Step::Shell(text) => {
                 printed += &run(&folder, Command::new("sh").args(["-e", "-c", &text]));
             }
+            Step::Console(lines) => {
+                lend_a_cluster(&folder);
+                for line in lines {
+                    printed += &run(&folder, Command::new("sh").args(["-e", "-c", &line]));
+                }
+            }
+            Step::Latex(text) => check_latex(&folder, &text),
             Step::Python(text) if has_python => {
                 printed += &run(&folder, Command::new("python3").args(["-c", &text]));
             }
@@ -124,7 +214,8 @@ fn own_loading() {
 
 #[test]
 fn cluster() {
-    follow("cluster");
+    let printed = follow("cluster");
+    assert!(printed.contains("array 7, merge 7"), "{printed}");
 }
 
 #[test]

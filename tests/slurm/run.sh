@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # A sweep as a Slurm job array on a cluster of one node that this script sets up and takes down: one task is killed and
-# requeued, the merge waits for all, and the result must be that of a single process, byte for byte.
+# requeued, the merge waits for all, and the result must be that of a single process, byte for byte. Then the same with the sweep
+# and the command that src/guide/cluster.md tells its reader to save and run.
 #
 #   tests/slurm/run.sh PROGRAM
 #
@@ -73,7 +74,7 @@ MpiDefault=none
 ReturnToService=2
 JobRequeue=1
 KillWait=5
-NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) State=UNKNOWN
+NodeName=$host NodeAddr=127.0.0.1 CPUs=$(nproc) RealMemory=1024 State=UNKNOWN
 PartitionName=main Nodes=ALL Default=YES MaxTime=INFINITE State=UP
 CONF
 echo "CgroupAutomount=no" >"$work/cgroup.conf"
@@ -150,3 +151,18 @@ for file in sweep.csv summary.json energy-loss.png loops.svg records/0000.json r
     cmp "$work/merged/$file" "$work/single/$file"
 done
 echo "slurm: 4 tasks, one killed and requeued, merged: identical to a single process"
+
+# The guide, to the letter.
+guide=$root/src/guide/cluster.md
+mkdir "$work/guide"
+cd "$work/guide"
+ln -s "$root/sweeps" sweeps
+sed -n '/^Save as `many.toml`/,/^```$/p' "$guide" | sed '1,/^```toml$/d; /^```$/d' >many.toml
+command=$(sed -n '/^```console$/,/^```$/s/^\$ //p' "$guide")
+SCRATCH=$work/guide bash -e -c "$command"
+patience 400 "the guide's jobs do not end" gone
+"$program" sweep many.toml --quiet --out single
+for file in sweep.csv summary.json energy-loss.png records/0000.json records/0003.json; do
+    cmp "many/$file" "single/$file"
+done
+echo "slurm: the guide's $command: identical to a single process"
