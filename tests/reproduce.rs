@@ -151,6 +151,21 @@ fn one_figure_alone_is_the_same_figure() {
 }
 
 #[test]
+fn the_page_shows_its_figures_in_whatever_form_they_are_written() {
+    let folder = TempDir::new().unwrap();
+    program()
+        .args(["reproduce", "--figure", "1", "--quiet", "--out"])
+        .arg(folder.path())
+        .args(["--set", "figures.formats=[\"pdf\"]"])
+        .assert()
+        .success();
+    assert!(names(folder.path()).contains("figure-01.pdf"));
+    assert!(!names(folder.path()).contains("figure-01.svg"));
+    let page = fs::read_to_string(folder.path().join("index.html")).unwrap();
+    assert!(page.contains("<svg"));
+}
+
+#[test]
 fn a_figure_that_is_not_computed_is_refused_with_those_that_are() {
     for (number, why) in [
         ("2", "it is a flowchart"),

@@ -256,6 +256,8 @@ pub fn files(
     figures: &[Figure],
     plan: &FigurePlan,
 ) -> Result<Vec<(String, Vec<u8>)>, ReproductionError> {
+    // The page shows every picture, in whatever forms they are written.
+    let pictures = Pictures::default();
     let drawn: Vec<Vec<(String, Vec<u8>)>> = figures
         .par_iter()
         .map(|figure| {
@@ -266,6 +268,7 @@ pub fn files(
             };
             let caption = figure.full_caption();
             let svg = chart::described(&picture.as_asked(plan, Letters::Outlines)?, &caption);
+            pictures.see(&format!("{name}.svg"), svg.as_bytes());
             let text = format!("{caption}\n").into_bytes();
             let mut files = vec![
                 (format!("{name}{}", files::CAPTION), text),
@@ -289,10 +292,6 @@ pub fn files(
     let claims = claim::table(figures)?;
     files.push(("claims.csv".to_owned(), claims.clone()));
     files.push(("README.md".to_owned(), readme::text(figures).into_bytes()));
-    let pictures = Pictures::default();
-    files
-        .iter()
-        .for_each(|(name, bytes)| pictures.see(name, bytes));
     let page = page::page(figures, &pictures, &claims)?;
     files.push(("index.html".to_owned(), page.into_bytes()));
     Ok(files)
