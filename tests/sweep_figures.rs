@@ -177,7 +177,7 @@ fn the_work_over_the_surface_adds_up_to_the_energy_loss_with_both_engines() {
         let (sum, count) = inside.fold((0.0, 0.0), |(s, n), (_, w)| (s + w, n + 1.0));
         sum / count
     };
-    let (a, b) = (middle(&springs, "radius_m"), middle(&cells, "x_m"));
+    let (a, b) = (middle(&springs, "radius_m"), middle(&cells, "radius_m"));
     assert!((a / b - 1.0).abs() < 0.02, "{a} {b}");
 }
 

@@ -70,7 +70,8 @@ The same command again goes on where it was stopped: cases with intact records a
 computed, and a long case goes on from its last checkpoint.
 
 Written to the output folder: index.html (one page of everything, to look at or to send),
-sweep.csv (one row per frequency), loops/ (the stabilised cycles), summary.json (peaks,
+sweep.csv (one row per frequency), loops/ (the stabilised cycles), pressures/ and work/
+(contact pressure at some instants of each, and where its work goes in), summary.json (peaks,
 counts), figures as SVG and PNG with their data as CSV, records/ (everything, for later),
 resolved.toml (the sweep with every default).
 

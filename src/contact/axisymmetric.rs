@@ -15,7 +15,7 @@
 mod profile;
 
 use super::half_space::grid::Grid;
-use super::surface::{Response, Surface};
+use super::surface::{PressureLine, Response, Surface};
 use super::{ContactError, Engine, Instant, Prescribed, Solution};
 
 /// The row of springs of one indenter.
@@ -247,6 +247,10 @@ impl Engine for Axisymmetric {
         Ok(Some(
             self.largest_pressure(contact, solution.contact_radius_m),
         ))
+    }
+
+    fn pressure_lines(&self, force: &[f64], solution: &Solution) -> Vec<PressureLine> {
+        vec![self.pressure_line(force, solution.contact_radius_m)]
     }
 
     fn check_assumptions(

@@ -24,7 +24,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use half_space::grid::Grid;
-use surface::{Response, Surface};
+use surface::{PressureLine, Response, Surface};
 
 /// The quantity that the drive imposes at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,6 +128,10 @@ pub trait Engine: Send {
         pressure: &[f64],
         solution: &Solution,
     ) -> Result<Option<f64>, ContactError>;
+
+    /// The contact pressure (Pa) along lines through the origin: from the axis to the edge of the contact, or along x and along y
+    /// over all cells.
+    fn pressure_lines(&self, pressure: &[f64], solution: &Solution) -> Vec<PressureLine>;
 
     /// Whether the engine's own assumptions hold for the instant last solved; cheap enough to ask at every one.
     ///

@@ -1,5 +1,7 @@
 //! The deformed surface at one instant: pressure and displacement, along a radius or over the cells of a grid.
 
+use serde::{Deserialize, Serialize};
+
 use super::half_space::grid::Grid;
 
 /// What the surface needs besides the nodal pressure: how the body answered.
@@ -39,4 +41,34 @@ pub struct CellSurface {
     pub grid: Grid,
     pub pressure_pa: Vec<f64>,
     pub displacement_m: Vec<f64>,
+}
+
+/// What a line through the origin of the surface runs along.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Along {
+    /// From the axis of a body of revolution outwards.
+    Radius,
+    X,
+    Y,
+}
+
+impl Along {
+    /// The symbol used in every output.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Radius => "r",
+            Self::X => "x",
+            Self::Y => "y",
+        }
+    }
+}
+
+/// The contact pressure along a line through the origin, at ascending positions; 0 outside the contact, `None` where it is
+/// unbounded, at an apex or a sharp rim.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PressureLine {
+    pub along: Along,
+    pub position_m: Vec<f64>,
+    pub pressure_pa: Vec<Option<f64>>,
 }

@@ -190,6 +190,27 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
         "is not a body of revolution".to_owned()
     }
 
+    /// Whether the shape is one of revolution about the origin, convex or not, as far as a few gaps within this radius (m) tell.
+    fn is_of_revolution_within(&self, radius_m: f64) -> bool {
+        /// Around the axis, at angles that share no symmetry.
+        const ANGLES: usize = 7;
+        const RADII: usize = 16;
+        /// Of the largest gap there: what rounding may make of equal ones.
+        const ROUNDING: f64 = 1e-9;
+        let at = |k: usize| radius_m * k as f64 / RADII as f64;
+        let on_x = |k: usize| self.gap_m(at(k), 0.0);
+        let gaps = (1..=RADII).map(on_x).filter(|gap_m| gap_m.is_finite());
+        let slack_m = ROUNDING * gaps.fold(0.0_f64, |a, gap_m| a.max(gap_m.abs()));
+        (1..=RADII).all(|k| {
+            let gap_m = on_x(k);
+            (1..=ANGLES).all(|turn| {
+                let (sine, cosine) = (turn as f64).sin_cos();
+                let other_m = self.gap_m(at(k) * cosine, at(k) * sine);
+                other_m == gap_m || (other_m - gap_m).abs() <= slack_m
+            })
+        })
+    }
+
     /// Half the side of the square that just holds the elastic contact under this load (N) and contact compliance (1/Pa).
     fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64;
 

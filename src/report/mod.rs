@@ -17,6 +17,7 @@ pub mod table;
 pub mod terminal;
 pub mod terminal_simulation;
 pub mod vti;
+pub mod work_line;
 
 use crate::sweep::elastic_scale::NoScale;
 use crate::sweep::figure_plan::AxisUnits;
@@ -30,6 +31,7 @@ use figure::press::{self, Press};
 use figure::units::Units;
 use page::Pictures;
 use stamp::Stamp;
+use work_line::WorkLine;
 
 /// Why a report cannot be written.
 #[derive(Debug, thiserror::Error)]
@@ -47,7 +49,7 @@ pub enum ReportError {
     Table { name: &'static str, reason: String },
 }
 
-/// Writes everything a sweep leaves behind: table, loops, summary, figures with their data. Returns what was left out and
+/// Writes everything a sweep leaves behind: table, loops, pressures, work, summary, figures with their data. Returns what was left out and
 /// why.
 ///
 /// # Errors
@@ -61,8 +63,12 @@ pub fn write_sweep(
     store.write("sweep.csv", &table::sweep(&outcome.records, branches)?)?;
     for record in &outcome.records {
         if let Some(result) = &record.result {
-            let name = format!("loops/{}.csv", record.index);
-            store.write(name, &table::samples(&result.samples)?)?;
+            let name = |folder: &str| format!("{folder}/{}.csv", record.index);
+            store.write(name("loops"), &table::samples(&result.samples)?)?;
+            let pressures = table::pressures(&result.pressures, plan.drive.control())?;
+            store.write(name("pressures"), &pressures)?;
+            let work = WorkLine::of(&result.surface_loss, plan.indenter.as_ref());
+            store.write(name("work"), &table::work(&work)?)?;
         }
     }
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;

@@ -182,44 +182,27 @@ pub(super) fn lines(record: &SurfaceRecord) -> Vec<(&'static str, Vec<ProfilePoi
             vec![("r", points.map(point).collect())]
         }
         Surface::Cells(cells) => vec![
-            ("x", centre_line(cells, &gap, true)),
-            ("y", centre_line(cells, &gap, false)),
+            ("x", centre_line(cells, &gap, cells.grid.centre_row())),
+            ("y", centre_line(cells, &gap, cells.grid.centre_column())),
         ],
     }
 }
 
-/// Values along x or y through the centre: those of the middle row of cells, or the mean of the two rows beside the middle.
+/// Values along x or y through the centre, as [`Grid::centre_row`](crate::contact::half_space::grid::Grid::centre_row) finds
+/// them.
 fn centre_line(
     cells: &CellSurface,
     gap: &dyn Fn(usize) -> Option<f64>,
-    along_x: bool,
+    places: Vec<(f64, [usize; 2])>,
 ) -> Vec<ProfilePoint> {
-    let grid = &cells.grid;
-    let (length, across) = if along_x {
-        (grid.cells_x(), grid.cells_y())
-    } else {
-        (grid.cells_y(), grid.cells_x())
+    let mean = |field: &[f64], [a, b]: [usize; 2]| 0.5 * (field[a] + field[b]);
+    let point = |(position_m, pair): (f64, [usize; 2])| ProfilePoint {
+        position_m,
+        pressure_pa: Some(mean(&cells.pressure_pa, pair)),
+        displacement_m: mean(&cells.displacement_m, pair),
+        gap_m: gap(pair[0]).zip(gap(pair[1])).map(|(a, b)| 0.5 * (a + b)),
     };
-    let pair = [(across - 1) / 2, across / 2];
-    let cell = |i: usize, line: usize| {
-        if along_x {
-            line * grid.cells_x() + i
-        } else {
-            i * grid.cells_x() + line
-        }
-    };
-    let mean = |value: &dyn Fn(usize) -> f64, i: usize| {
-        0.5 * (value(cell(i, pair[0])) + value(cell(i, pair[1])))
-    };
-    let point = |i: usize| ProfilePoint {
-        position_m: if along_x { grid.x_m(i) } else { grid.y_m(i) },
-        pressure_pa: Some(mean(&|c| cells.pressure_pa[c], i)),
-        displacement_m: mean(&|c| cells.displacement_m[c], i),
-        gap_m: gap(cell(i, pair[0]))
-            .zip(gap(cell(i, pair[1])))
-            .map(|(a, b)| 0.5 * (a + b)),
-    };
-    (0..length).map(point).collect()
+    places.into_iter().map(point).collect()
 }
 
 /// `profiles/<k>.csv`.

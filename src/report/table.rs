@@ -1,9 +1,11 @@
 //! Tables as CSV: one header line, then rows; numbers as short as they can be without losing a bit, absent values empty.
 
 use super::ReportError;
+use super::work_line::WorkLine;
 use crate::cycle::Loop;
+use crate::drive::Control;
 use crate::sweep::error_bars::Quantity;
-use crate::sweep::record::{CaseRecord, CaseResult};
+use crate::sweep::record::{CaseRecord, CaseResult, PressureProfile};
 
 /// A table being written.
 pub struct Table {
@@ -154,6 +156,50 @@ pub fn samples(samples: &Loop) -> Result<Vec<u8>, ReportError> {
             number(*radius),
             optional(*peak),
         ])?;
+    }
+    table.finish()
+}
+
+/// `pressures/<index>.csv`: the pressure over the contact at the instants recorded of the stabilised cycle, one row per place.
+pub fn pressures(profiles: &[PressureProfile], control: Control) -> Result<Vec<u8>, ReportError> {
+    let columns = [
+        "instant",
+        "time_s",
+        "load_n",
+        "approach_m",
+        "contact_radius_m",
+        "line",
+        "position_m",
+        "pressure_pa",
+    ];
+    let mut table = Table::new("pressures", &columns)?;
+    for profile in profiles {
+        let instant = [
+            profile.quarter.name(control),
+            number(profile.time_s),
+            number(profile.load_n),
+            number(profile.approach_m),
+            number(profile.contact_radius_m),
+        ];
+        for line in &profile.lines {
+            for (position_m, pressure_pa) in line.position_m.iter().zip(&line.pressure_pa) {
+                let place = [
+                    line.along.symbol().to_owned(),
+                    number(*position_m),
+                    optional(*pressure_pa),
+                ];
+                table.row(&instant.iter().cloned().chain(place).collect::<Vec<_>>())?;
+            }
+        }
+    }
+    table.finish()
+}
+
+/// `work/<index>.csv`: the density of the work per cycle along one line.
+pub fn work(line: &WorkLine) -> Result<Vec<u8>, ReportError> {
+    let mut table = Table::new("work", &[line.along.column(), "work_j_per_m2"])?;
+    for (position_m, density) in &line.points {
+        table.row(&[number(*position_m), optional(*density)])?;
     }
     table.finish()
 }

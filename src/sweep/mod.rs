@@ -20,6 +20,7 @@ mod locate;
 pub mod merge;
 pub mod peak;
 pub mod plan;
+mod pressure;
 pub mod provenance;
 pub mod record;
 pub mod refine;

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::contact::surface::PressureLine;
 use crate::cycle::{Extrema, Loop, LoopAnalysis};
-use crate::drive::HarmonicDrive;
+use crate::drive::{Control, HarmonicDrive};
 use crate::history::Work;
 use crate::sweep::error_bars::ErrorBars;
 use crate::sweep::plan::Method;
@@ -78,6 +79,9 @@ pub struct CaseResult {
     pub branches: Vec<BranchLoss>,
     /// Where the energy goes in.
     pub surface_loss: SurfaceLoss,
+    /// The pressure over the contact at the quarters of the drive's oscillation.
+    #[serde(default)]
+    pub pressures: Vec<PressureProfile>,
     /// The cycle itself.
     pub samples: Loop,
 }
@@ -109,6 +113,51 @@ pub enum SurfaceLoss {
         /// Single precision: seven digits are more than the grid resolves.
         density_j_per_m2: Vec<f32>,
     },
+}
+
+/// An instant of the cycle, by what the drive does there. At the two that have the mean, all that differs is what the body
+/// remembers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quarter {
+    Greatest,
+    MeanFalling,
+    Least,
+    MeanRising,
+}
+
+/// The contact pressure at one instant of the stabilised cycle: at the time step nearest to a quarter of the oscillation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PressureProfile {
+    pub quarter: Quarter,
+    /// Since the start of the cycle.
+    pub time_s: f64,
+    pub load_n: f64,
+    pub approach_m: f64,
+    pub contact_radius_m: f64,
+    /// Along the radius, or along x and along y through the centre of the cells.
+    pub lines: Vec<PressureLine>,
+}
+
+impl Quarter {
+    /// In the order in which the drive passes them.
+    pub const ALL: [Self; 4] = [
+        Self::Greatest,
+        Self::MeanFalling,
+        Self::Least,
+        Self::MeanRising,
+    ];
+
+    /// The name in every output: "greatest load".
+    pub fn name(self, control: Control) -> String {
+        let value = control.name();
+        match self {
+            Self::Greatest => format!("greatest {value}"),
+            Self::MeanFalling => format!("mean {value} falling"),
+            Self::Least => format!("least {value}"),
+            Self::MeanRising => format!("mean {value} rising"),
+        }
+    }
 }
 
 impl CaseRecord {

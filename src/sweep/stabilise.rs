@@ -11,6 +11,7 @@ use crate::material::Creep;
 use crate::steady::{self, Begin, SteadySettings};
 use crate::sweep::checkpoint::{Checkpoints, Level, Progress};
 use crate::sweep::plan::{CyclePlan, Method};
+use crate::sweep::pressure::Pressures;
 use crate::sweep::record::{BranchLoss, CaseResult, SurfaceLoss};
 
 /// Cycles after which a direct search is given up for marching: twice what the hardest spectrum known needed.
@@ -238,6 +239,7 @@ impl Contact<'_> {
 struct Recording {
     samples: Loop,
     dissipation: Dissipation,
+    pressures: Pressures,
 }
 
 /// Cycles of one case in one number of steps.
@@ -303,6 +305,7 @@ impl<'a> Cycles<'a> {
                         march.step_dissipating(&self.weights, prescribed, dissipation)?;
                     let time_s = fraction * self.contact.period_s();
                     sample(march, &mut recording.samples, time_s)?;
+                    recording.pressures.see(march, step, time_s)?;
                     solution
                 }
             };
@@ -352,6 +355,7 @@ impl<'a> Cycles<'a> {
         let mut recording = Recording {
             samples: Loop::default(),
             dissipation: Dissipation::new(contact.compliance, nodes, step_s, contact.time_rule),
+            pressures: Pressures::new(&contact.drive, self.steps),
         };
         self.run(march, Some(&mut recording))?;
         if !self.is_within_tolerance() {
@@ -391,6 +395,7 @@ impl Contact<'_> {
         let Recording {
             samples,
             dissipation,
+            pressures,
         } = recording;
         let analysis = cycle::analyse(&samples.load_n, &samples.approach_m)?;
         let radii = &samples.contact_radius_m;
@@ -423,6 +428,7 @@ impl Contact<'_> {
                 })
                 .collect(),
             surface_loss: surface_loss(surface),
+            pressures: pressures.finished(),
             analysis,
             samples,
         })

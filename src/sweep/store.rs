@@ -51,7 +51,14 @@ pub struct Store {
 pub const RESOLVED: &str = "resolved.toml";
 
 /// What a sweep leaves in its folder besides single files: folders with one file per case.
-const CASE_FOLDERS: [&str; 4] = ["records", "loops", "peaks", "checkpoints"];
+const CASE_FOLDERS: [&str; 6] = [
+    "records",
+    "loops",
+    "pressures",
+    "work",
+    "peaks",
+    "checkpoints",
+];
 /// How many changed lines of a resolved sweep a message shows.
 const LINES_SHOWN: usize = 12;
 /// How the names of files begin that have not taken their own name yet.

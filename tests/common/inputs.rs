@@ -12,6 +12,7 @@ use contact_dma::cli::diagnostic::{Diagnostics, Styling};
 use contact_dma::cli::document::Document;
 use contact_dma::cli::{field_file, scenario_file, sweep_file};
 use contact_dma::quantity::{self, Dimension};
+use contact_dma::report::work_line::WorkLine;
 use contact_dma::report::{machine, page, table};
 use contact_dma::sweep::archive::{Kept, Purpose};
 use contact_dma::sweep::case::Setup;
@@ -335,6 +336,9 @@ impl Records {
         let _ = table::sweep(&outcome.records, branches);
         for result in outcome.records.iter().filter_map(|r| r.result.as_ref()) {
             let _ = table::samples(&result.samples);
+            let _ = table::pressures(&result.pressures, plan.drive.control());
+            let line = WorkLine::of(&result.surface_loss, plan.indenter.as_ref());
+            let _ = table::work(&line);
         }
         let _ = machine::sweep(plan, &outcome, hash);
         let _ = page::sweep(plan, &outcome, &page::Pictures::default(), hash);

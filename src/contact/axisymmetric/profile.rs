@@ -14,15 +14,17 @@
 //! From the second formula the gap outside the contact, g + u - delta, is the transform of G + q - delta, which is nowhere
 //! negative there: no check of the gap is needed. That of the pressure is.
 
-use std::f64::consts::{FRAC_1_PI, FRAC_2_PI};
+use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
 
 use super::{Axisymmetric, DISC_TOLERANCE, Edge};
 use crate::contact::ContactError;
 use crate::contact::half_space::grid::Grid;
-use crate::contact::surface::{CellSurface, RadialSurface, Response};
+use crate::contact::surface::{Along, CellSurface, PressureLine, RadialSurface, Response};
 
 /// How far the profile reaches, in lengths of the row of springs.
 const REACH: usize = 2;
+/// Intervals of a line of pressure from the axis to the edge of the contact.
+const LINE: usize = 64;
 /// Below an apex the pressure goes with -ln(r), whose mean over a disc of radius R is its value at R exp(-1/2); the disc of the
 /// area of a square has R = side / sqrt(pi).
 const MEAN_RADIUS: f64 = 0.342_198_280_312_215_9;
@@ -97,6 +99,40 @@ impl Axisymmetric {
                 .map(|&r| displacement_m(&meridian.shortening, r))
                 .collect(),
             radius_m,
+        }
+    }
+
+    /// The pressure from the axis to the edge of the contact, the axis alone out of contact. Places a sin(pi k / 2n), which are
+    /// evenly spread along a pressure that falls to the edge as that of Hertz does; even ones where a rim bounds the contact, at
+    /// which the pressure grows beyond all bounds.
+    pub(super) fn pressure_line(&self, force: &[f64], contact_radius_m: f64) -> PressureLine {
+        let ends_at_a_rim = self.edge == Edge::Rim && force.last().is_some_and(|&f| f > 0.0);
+        let force = self.force_stretches(force, contact_radius_m);
+        let meridian = Meridian {
+            rim_force: self.rim_force(&force, contact_radius_m),
+            force,
+            shortening: Vec::new(),
+            contact_radius_m,
+            is_singular_at_the_axis: self.is_singular_at_the_axis(),
+        };
+        let intervals = if contact_radius_m > 0.0 { LINE } else { 0 };
+        let place_m = |k: usize| {
+            let part = k as f64 / LINE as f64;
+            contact_radius_m
+                * match ends_at_a_rim {
+                    true => part,
+                    false => (FRAC_PI_2 * part).sin(),
+                }
+        };
+        let position_m: Vec<f64> = (0..=intervals).map(place_m).collect();
+        let pressure_pa = |&r_m: &f64| match ends_at_a_rim && r_m >= contact_radius_m {
+            true => None,
+            false => meridian.pressure_pa(r_m),
+        };
+        PressureLine {
+            along: Along::Radius,
+            pressure_pa: position_m.iter().map(pressure_pa).collect(),
+            position_m,
         }
     }
 

@@ -208,6 +208,41 @@ impl Grid {
         whole
     }
 
+    /// The row through the centre of the whole surface: x (m) of each place on it, and the two cells of this grid whose mean is the
+    /// value there. Those are of the two rows beside the x axis; one and the same where a row lies on it, or mirrors the other.
+    pub fn centre_row(&self) -> Vec<(f64, [usize; 2])> {
+        let whole = self.whole();
+        let place = |ix| {
+            (
+                whole.x_m(ix),
+                middle(whole.cells_y).map(|iy| self.cell_at(ix, iy)),
+            )
+        };
+        (0..whole.cells_x).map(place).collect()
+    }
+
+    /// The column through the centre, as [`Grid::centre_row`]: y (m) of each place.
+    pub fn centre_column(&self) -> Vec<(f64, [usize; 2])> {
+        let whole = self.whole();
+        let place = |iy| {
+            (
+                whole.y_m(iy),
+                middle(whole.cells_x).map(|ix| self.cell_at(ix, iy)),
+            )
+        };
+        (0..whole.cells_y).map(place).collect()
+    }
+
+    /// The cell of this grid that holds the value of a cell of [`Grid::whole`].
+    fn cell_at(&self, ix: usize, iy: usize) -> usize {
+        let folded = |i: usize, n: usize| match self.mirrored {
+            true if i < n => n - 1 - i,
+            true => i - n,
+            false => i,
+        };
+        folded(iy, self.cells_y) * self.cells_x + folded(ix, self.cells_x)
+    }
+
     /// x of the centres of column `ix`, m. Columns outside the grid continue it.
     pub fn x_m(&self, ix: usize) -> f64 {
         self.position(ix, self.cells_x) * self.spacing_x_m
@@ -233,6 +268,11 @@ impl Grid {
             self.y_m(index / self.cells_x),
         )
     }
+}
+
+/// The two rows beside the middle of `n`, which are one where `n` is odd.
+fn middle(n: usize) -> [usize; 2] {
+    [(n - 1) / 2, n / 2]
 }
 
 #[cfg(test)]
@@ -275,6 +315,34 @@ mod tests {
         assert_eq!(whole.unfolded(&expected), expected);
         assert_eq!(Grid::new(5, 4, 1.0, 1.0).unwrap().quarter(), None);
         assert_eq!(quarter.quarter(), None);
+    }
+
+    #[test]
+    fn the_lines_through_the_centre_are_those_of_the_whole_surface_on_a_quarter_too() {
+        // Linear in |y|: the mean of the rows beside the axis is the value half a cell from it.
+        let value = |(x, y): (f64, f64)| x * x + 10.0 * y.abs();
+        let on = |line: Vec<(f64, [usize; 2])>, grid: &Grid| -> Vec<(f64, f64)> {
+            let mean = |[a, b]: [usize; 2]| 0.5 * (value(grid.center(a)) + value(grid.center(b)));
+            line.into_iter()
+                .map(|(at, cells)| (at, mean(cells)))
+                .collect()
+        };
+        for (cells_x, cells_y) in [(6, 4), (6, 3), (5, 4), (5, 3), (1, 1), (2, 2)] {
+            let grid = Grid::new(cells_x, cells_y, 1.0, 2.0).unwrap();
+            let beside = |cells: usize, spacing: f64| {
+                [0.0, 0.5 * spacing][usize::from(cells.is_multiple_of(2))]
+            };
+            let row = (0..cells_x).map(|ix| grid.x_m(ix));
+            let row: Vec<_> = row.map(|x| (x, value((x, beside(cells_y, 2.0))))).collect();
+            let column = (0..cells_y).map(|iy| grid.y_m(iy));
+            let column: Vec<_> = column
+                .map(|y| (y, value((beside(cells_x, 1.0), y))))
+                .collect();
+            for grid in [Some(grid), grid.quarter()].into_iter().flatten() {
+                assert_eq!(on(grid.centre_row(), &grid), row, "{grid:?}");
+                assert_eq!(on(grid.centre_column(), &grid), column, "{grid:?}");
+            }
+        }
     }
 
     #[test]

@@ -28,7 +28,7 @@ use polonsky_keer::{Given, PolonskyKeer};
 use windows::Windows;
 
 use super::convolution::{Convolution, ConvolutionError};
-use crate::contact::surface::{CellSurface, Response, Surface};
+use crate::contact::surface::{Along, CellSurface, PressureLine, Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 
 /// When the iteration stops.
@@ -418,6 +418,22 @@ impl Engine for HalfSpace {
     ) -> Result<Option<f64>, ContactError> {
         let peak = pressure.iter().copied().fold(0.0, f64::max);
         Ok(self.bounded_pressure.then_some(peak))
+    }
+
+    fn pressure_lines(&self, pressure: &[f64], _solution: &Solution) -> Vec<PressureLine> {
+        let grid = self.operator.grid();
+        let line = |along, places: Vec<(f64, [usize; 2])>| PressureLine {
+            along,
+            position_m: places.iter().map(|(position_m, _)| *position_m).collect(),
+            pressure_pa: places
+                .iter()
+                .map(|(_, [a, b])| Some(0.5 * (pressure[*a] + pressure[*b])))
+                .collect(),
+        };
+        vec![
+            line(Along::X, grid.centre_row()),
+            line(Along::Y, grid.centre_column()),
+        ]
     }
 
     fn elastic_displacement(

@@ -30,7 +30,7 @@ pub fn figures(
         Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)?),
         Drawn::Figure(loops::figure(curve, asked, units)?),
         dissipation::figure(curve, units)?,
-        dissipation_profile::figure(curve, asked, units)?,
+        dissipation_profile::figure(curve, plan.indenter.as_ref(), asked, units)?,
         dissipation_map::figure(curve, units)?,
     ];
     match Equivalent::of(&plan.material, curve) {
