@@ -89,6 +89,9 @@ fn a_page_holds_the_table_the_cycles_and_the_sweep_file_of_its_folder() {
             }
         }
     }
+    for case in data["cases"].as_array().unwrap() {
+        holds_the_surface(folder.path(), case);
+    }
     let resolved = read(folder.path(), "resolved.toml");
     let shown = between(
         &page,
@@ -114,6 +117,57 @@ fn a_page_holds_the_table_the_cycles_and_the_sweep_file_of_its_folder() {
         }
     }
     assert_eq!(String::from_utf8(bytes).unwrap(), resolved);
+}
+
+/// The numbers of an array.
+fn numbers(array: &Value) -> Vec<f64> {
+    let array = array.as_array().unwrap().iter();
+    array.map(|value| value.as_f64().unwrap()).collect()
+}
+
+fn rounded(cell: &str) -> f64 {
+    let value: f64 = cell.parse().unwrap();
+    format!("{value:.5e}").parse().unwrap()
+}
+
+/// What the page has of a case of springs is in its files: every place of the pressures, some of the work.
+fn holds_the_surface(folder: &Path, case: &Value) {
+    let rows = |name: &str| -> Vec<Vec<String>> {
+        let table = read(folder, &format!("{name}/{}.csv", case["index"]));
+        let cells = |line: &str| line.split(',').map(str::to_owned).collect();
+        table.lines().skip(1).map(cells).collect()
+    };
+    let pressures = rows("pressures");
+    let (instants, line) = (&case["pressure"]["instants"], &case["pressure"]["lines"][0]);
+    assert_eq!(line["along"], "r");
+    let names = [
+        "greatest load",
+        "mean load falling",
+        "least load",
+        "mean load rising",
+    ];
+    for (k, name) in names.into_iter().enumerate() {
+        assert_eq!(instants[k]["name"], name);
+        let rows: Vec<_> = pressures.iter().filter(|row| row[0] == name).collect();
+        assert_eq!(instants[k]["time_s"], rounded(&rows[0][1]));
+        let column = |at: usize| {
+            rows.iter()
+                .map(|row| rounded(&row[at]))
+                .collect::<Vec<f64>>()
+        };
+        assert_eq!(numbers(&line["position_m"][k]), column(6), "{name}");
+        assert_eq!(numbers(&line["pressure_pa"][k]), column(7), "{name}");
+    }
+    let work: Vec<(f64, f64)> = rows("work")
+        .iter()
+        .map(|row| (rounded(&row[0]), rounded(&row[1])))
+        .collect();
+    let shown = numbers(&case["work"]["position_m"])
+        .into_iter()
+        .zip(numbers(&case["work"]["density_j_per_m2"]));
+    let shown: Vec<(f64, f64)> = shown.collect();
+    assert_eq!((shown.first(), shown.last()), (work.first(), work.last()));
+    assert!(shown.iter().all(|point| work.contains(point)));
 }
 
 #[test]

@@ -51,6 +51,32 @@ async function isLoopOf(page, name, index) {
   assert.equal(drawn.path.split(/[ML]/).length - 1, drawn.x.length);
 }
 
+/** The pressures and the work on the screen are those of the case in the folder; every instant is there with its own curve. */
+async function isSurfaceOf(page, name, index) {
+  const read = (id) => page.evaluate((id) => { const host = document.querySelector(id); return { spec: host.spec.series, paths: host.querySelectorAll("svg path[fill=none][stroke-width='1.8']").length, legend: host.querySelector(".legend").innerText, label: host.querySelector("svg[role=img]").getAttribute("aria-label") }; }, id);
+  const rounded = (cell) => Number(Number(cell).toPrecision(6));
+  const file = table(`${here}/${name}/pressures/${index}.csv`);
+  const instants = ["greatest load", "mean load falling", "least load", "mean load rising"];
+  for (const [id, lines] of [["#profile", ["r", "x"]], ["#profile-y", ["y"]]]) {
+    if (!(await page.locator(id).isVisible())) continue;
+    const { spec, paths, legend, label } = await read(id);
+    assert.equal(spec.length, 4);
+    assert.equal(paths, 4);
+    instants.forEach((instant, k) => {
+      const line = file.filter((row) => row.instant === instant && lines.includes(row.line));
+      const pressures = new Map(line.map((row) => [rounded(row.position_m), rounded(row.pressure_pa)]));
+      assert.ok(spec[k].x.length > 10);
+      spec[k].x.forEach((x, i) => assert.equal(spec[k].y[i], pressures.get(x), `${instant} ${x}`));
+      assert.ok(Math.max(...spec[k].y) > 0.98 * Math.max(...pressures.values()));
+      assert.ok(legend.includes(`${instant} = `) && label.includes(`${instant} = `));
+    });
+  }
+  const work = new Map(table(`${here}/${name}/work/${index}.csv`).map((row) => [rounded(row.radius_m ?? row.x_m), rounded(row.work_j_per_m2)]));
+  const [drawn] = (await read("#work")).spec;
+  assert.ok(drawn.x.length > 8);
+  drawn.x.forEach((x, i) => assert.equal(drawn.y[i], work.get(x)));
+}
+
 test("the curve is drawn through every case and its peaks are marked", () => open("sixty", {}, async (page) => {
   const drawn = await page.evaluate(() => ({ spec: document.querySelector("#curve").spec, points: document.querySelector("#curve").points.length, rings: document.querySelectorAll("#curve .peak").length }));
   const expected = rows("sixty");
@@ -74,12 +100,17 @@ test("a frequency is chosen by mouse, by arrow keys, in the list and in the tabl
   await page.keyboard.press("ArrowRight");
   assert.equal(await chosen(page), 12);
   await isLoopOf(page, "sixty", 12);
+  await isSurfaceOf(page, "sixty", 12);
   assert.match(await page.locator("#curve").getAttribute("aria-valuetext"), /rad\/s: energy loss per cycle .*J/);
   await page.keyboard.press("End");
   assert.equal(await chosen(page), 59);
   await isLoopOf(page, "sixty", 59);
   await page.selectOption("#case", "3");
   await isLoopOf(page, "sixty", 3);
+  await isSurfaceOf(page, "sixty", 3);
+  assert.ok(await page.locator("#profile-y-part, #map-part").evaluateAll((parts) => parts.every((part) => part.hidden)));
+  await page.locator("#profile svg[role=img]").hover();
+  assert.match(await page.locator("#profile .readout").innerText(), /load (falling|rising)? ?= .*r = .*m, p = .*Pa/);
   await page.locator('#cases tr[data-index="41"] button').press("Enter");
   assert.equal(await chosen(page), 41);
   await isLoopOf(page, "sixty", 41);
@@ -143,6 +174,8 @@ test("cases without a result are named, cannot be chosen, and are not drawn", ()
   assert.equal(await page.locator("#case option[disabled]").count(), without);
   assert.equal(await page.evaluate(() => document.querySelector("#curve").points.length), 3 - without);
   assert.match(await page.locator("#pressure .none").innerText(), /unbounded/);
+  // Beside the apex the pressure is finite.
+  assert.ok((await page.evaluate(() => document.querySelector("#profile").spec.series.map((s) => s.y[0] === null && s.y[1] > 0))).every(Boolean));
 }));
 
 test("a sweep of two axes lets its drive be chosen, and shows maps", () => open("two-axes", {}, async (page) => {
@@ -153,6 +186,8 @@ test("a sweep of two axes lets its drive be chosen, and shows maps", () => open(
   await page.selectOption("#drive", { index: 1 });
   assert.equal(await chosen(page), 4);
   await isLoopOf(page, "two-axes", 4);
+  await isSurfaceOf(page, "two-axes", 4);
+  assert.ok(await page.locator("#profile-y-part").isHidden());
   await page.locator("#surface canvas").hover();
   assert.match(await page.locator("#surface .readout").innerText(), /work density = /);
 }));

@@ -14,6 +14,7 @@ pub(super) mod number;
 mod pictures;
 pub(super) mod question;
 mod simulation;
+mod surface_data;
 mod sweep_data;
 
 pub use pictures::Pictures;

@@ -132,22 +132,42 @@ function start(data) {
         { name: "load", x: orders.map((n) => n + 0.07), y: relative(0), stem: true, marker: 4 },
       ],
     });
-    drawSurface(cycle.surface);
+    drawSurface(cycle, period);
     drawFacts(row);
   }
 
-  function drawSurface(surface) {
-    const host = $("surface");
-    if (surface.values) {
-      heat(host, surface, { label: "Work of the indenter on the surface per area and cycle", name: "work density", unit: "J/m²" });
-      return;
-    }
-    if (!host.drawing) host.replaceChildren();
-    plot(host, {
-      label: "Work of the indenter on the surface per area and cycle, along a radius",
-      x: { label: "distance from the axis r", name: "r", unit: "m" }, y: { label: "work density", unit: "J/m²", zero: true },
-      series: [{ name: "work density", x: surface.radius_m, y: surface.density_j_per_m2, colour: 1 }],
+  /** The pressure along a line at all instants, each over its own places or all over the same. */
+  function drawPressure(id, line, instants, period) {
+    const at = { r: "distance from the axis r", x: "position x", y: "position y" }[line.along];
+    const name = ({ name, load_n, time_s, contact_radius_m }) =>
+      `${name}${data.drive_unit === "N" ? "" : ", W"} = ${withUnit(load_n, "N")}, t/T = ${trimmed(significant(time_s / period, 3))}${contact_radius_m > 0 ? "" : ": no contact"}`;
+    const places = (k) => line.position_m[k] || line.position_m[0];
+    const peak = (k) => withUnit(Math.max(0, ...line.pressure_pa[k]), "Pa");
+    plot($(id), {
+      label: `Contact pressure over the ${at}; ${instants.map((instant, k) => `${name(instant)}: up to ${peak(k)}`).join("; ")}`,
+      legend: true, byArea: true, none: "no contact along this line",
+      x: { label: at, name: line.along, unit: "m" }, y: { label: "pressure p", name: "p", unit: "Pa", zero: true },
+      series: instants.map((instant, k) => ({ name: name(instant), x: places(k), y: line.pressure_pa[k], dash: k === 3 ? 1 : 0 })),
     });
+  }
+
+  function drawSurface({ pressure, work }, period) {
+    const across = pressure.lines.find((line) => line.along === "y");
+    const line = pressure.lines.find((line) => line !== across);
+    if (line) drawPressure("profile", line, pressure.instants, period);
+    else plot($("profile"), { label: "Contact pressure", x: {}, y: {}, series: [], none: "no pressure is recorded" });
+    $("profile-y-part").hidden = !across;
+    if (across) drawPressure("profile-y", across, pressure.instants, period);
+    const over = work.along === "r" ? "distance from the axis r" : "position x";
+    plot($("work"), {
+      label: `Work of the indenter on the surface per area and cycle, ${work.line}`,
+      x: { label: over, name: work.along, unit: "m" }, y: { label: "work density", unit: "J/m²", zero: true },
+      series: [{ name: "work density", x: work.position_m, y: work.density_j_per_m2, colour: 1 }], none: "no work is done",
+    });
+    const through = line && line.along === "x" ? ", on the cells along the axes through the centre" : "";
+    $("lines-how").textContent = `Pressure: at the time steps nearest to the quarters of the oscillation${through}. Work density: ${work.line}.`;
+    $("map-part").hidden = !work.map;
+    if (work.map) heat($("surface"), work.map, { label: "Work of the indenter on the surface per area and cycle", name: "work density", unit: "J/m²" });
   }
 
   function drawFacts(row) {

@@ -2,14 +2,16 @@
 
 use serde::Serialize;
 
-use super::compact::{all_rounded, coarse, picked, picked_optional, rounded, spread};
+use super::compact::{all_rounded, picked, picked_optional, rounded, spread};
 use super::how::nodes_name;
+use super::surface_data::{Fineness, PressureData, WorkData};
 use crate::material::{Material, ModulusKind};
 use crate::report::figure::moduli::ModulusPoint;
 use crate::report::material::MaterialReport;
+use crate::report::work_line::WorkLine;
 use crate::sweep::peak::Peak;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::record::{CaseRecord, CaseResult, SurfaceLoss};
+use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::run::Outcome;
 
 /// Everything the script of the page knows.
@@ -48,41 +50,24 @@ struct CaseData {
     peak_pressure_pa: Vec<Option<f64>>,
     /// Amplitudes of load (N) and approach (m), first harmonic first.
     harmonics: Vec<[f64; 2]>,
-    surface: SurfaceData,
+    pressure: PressureData,
+    work: WorkData,
 }
 
-#[derive(Serialize)]
-#[serde(untagged)]
-enum SurfaceData {
-    Radial {
-        radius_m: Vec<f64>,
-        density_j_per_m2: Vec<Option<f64>>,
-    },
-    Cells {
-        first_x_m: f64,
-        first_y_m: f64,
-        spacing_x_m: f64,
-        spacing_y_m: f64,
-        cells_x: usize,
-        values: Vec<Option<f64>>,
-    },
-}
-
-/// Points of a loop, of a profile, and cells along a side of a map.
-struct Fineness {
-    points: usize,
-    radii: usize,
-    cells: usize,
+/// Points of a loop: as fine as can be seen up to a hundred cases; coarser beyond, so that the page stays light.
+fn points(cases: usize) -> usize {
+    (100 * 100 / cases.max(100)).max(32)
 }
 
 impl Fineness {
-    /// As fine as can be seen up to a hundred cases; coarser beyond, so that the page stays light.
+    /// The same of the surface. Maps weigh most: beyond 40 of them, each gets its part of as many cells.
     fn of(cases: usize) -> Self {
+        const CELLS: usize = 40 * 40 * 40;
         let share = |most: usize, least: usize| (100 * most / cases.max(100)).max(least);
         Self {
-            points: share(100, 32),
-            radii: share(80, 24),
-            cells: share(40, 12),
+            work: share(80, 24),
+            pressure: share(128, 48),
+            map: (CELLS / cases.max(1)).isqrt().clamp(12, 40),
         }
     }
 }
@@ -90,8 +75,8 @@ impl Fineness {
 impl<'a> SweepData<'a> {
     /// The data of a sweep whose table is `csv`.
     pub(super) fn new(plan: &SweepPlan, outcome: &'a Outcome, csv: &'a str) -> Self {
-        let fineness = Fineness::of(outcome.records.len());
         let cases = outcome.records.iter();
+        let count = outcome.records.len();
         Self {
             kind: "sweep",
             csv,
@@ -102,7 +87,7 @@ impl<'a> SweepData<'a> {
             node_name: nodes_name(plan.solver.engine),
             material: MaterialData::of(&plan.material),
             cases: cases
-                .filter_map(|r| Some(case(r, r.result.as_ref()?, &fineness)))
+                .filter_map(|r| Some(case(plan, r, r.result.as_ref()?, count)))
                 .collect(),
         }
     }
@@ -126,9 +111,12 @@ impl MaterialData {
     }
 }
 
-fn case(record: &CaseRecord, result: &CaseResult, fineness: &Fineness) -> CaseData {
+/// A case's part of a page of so many.
+fn case(plan: &SweepPlan, record: &CaseRecord, result: &CaseResult, cases: usize) -> CaseData {
     let samples = &result.samples;
-    let places = spread(samples.time_s.len(), fineness.points);
+    let places = spread(samples.time_s.len(), points(cases));
+    let fineness = Fineness::of(cases);
+    let work = WorkLine::of(&result.surface_loss, plan.indenter.as_ref());
     let harmonics = result.analysis.harmonics.iter();
     CaseData {
         index: record.index,
@@ -140,43 +128,12 @@ fn case(record: &CaseRecord, result: &CaseResult, fineness: &Fineness) -> CaseDa
         harmonics: harmonics
             .map(|h| [rounded(h.load_amplitude_n), rounded(h.approach_amplitude_m)])
             .collect(),
-        surface: surface(&result.surface_loss, fineness),
-    }
-}
-
-fn surface(loss: &SurfaceLoss, fineness: &Fineness) -> SurfaceData {
-    match loss {
-        SurfaceLoss::Radial {
-            radius_m,
-            density_j_per_m2,
-        } => {
-            let places = spread(radius_m.len(), fineness.radii);
-            SurfaceData::Radial {
-                radius_m: picked(radius_m, &places),
-                density_j_per_m2: picked_optional(density_j_per_m2, &places),
-            }
-        }
-        SurfaceLoss::Cells {
-            first_x_m,
-            first_y_m,
-            spacing_x_m,
-            spacing_y_m,
-            cells_x,
-            density_j_per_m2,
-        } => {
-            let value = |i: usize| density_j_per_m2.get(i).map(|v| f64::from(*v));
-            let field = coarse(*cells_x, density_j_per_m2.len(), value, fineness.cells);
-            let factor = field.factor as f64;
-            // The centre of a coarse cell lies between those of the cells in it.
-            let shift = 0.5 * (factor - 1.0);
-            SurfaceData::Cells {
-                first_x_m: rounded(first_x_m + shift * spacing_x_m),
-                first_y_m: rounded(first_y_m + shift * spacing_y_m),
-                spacing_x_m: rounded(factor * spacing_x_m),
-                spacing_y_m: rounded(factor * spacing_y_m),
-                cells_x: field.cells_x,
-                values: field.values,
-            }
-        }
+        pressure: PressureData::of(
+            &result.pressures,
+            work.along,
+            plan.drive.control(),
+            &fineness,
+        ),
+        work: WorkData::of(&result.surface_loss, &work, &fineness),
     }
 }
