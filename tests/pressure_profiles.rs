@@ -86,9 +86,13 @@ fn the_pressure_under_a_sphere_carries_the_load_and_ends_at_the_edge_of_the_cont
         assert!(relative(peak, recorded).abs() < 1e-9, "{peak} {recorded}");
         let error = relative(integral_n(line), profile.load_n);
         println!("{:?} {error:e}", profile.quarter);
-        // Trapezia of the pressure of Hertz at 64 places a sin(k pi/128) are low by (pi/128)^2/4 = 1.5e-4; that of a contact with
-        // a past has steeper parts, at the edges it had before.
-        assert!(error.abs() < 6e-4, "{:?} {error:e}", profile.quarter);
+        // Trapezia in r^2 of the pressure of Hertz at a sin(k pi/128) are low by (pi/128)^2/6 = 1.00e-4 of the load. A contact with
+        // a past has steeper parts, and springs are off by 1e-5 themselves: three times what was seen beyond.
+        assert!(
+            (error + 1.00e-4).abs() < 2e-5,
+            "{:?} {error:e}",
+            profile.quarter
+        );
     }
     // At one load, a contact that shrinks is wider than one that grows.
     let radius = |k: usize| found.pressures[k].contact_radius_m;
@@ -237,6 +241,7 @@ fn both_engines_have_one_line_of_work_density_under_a_sphere() {
         let mean = off.iter().map(|e| e.abs()).sum::<f64>() / off.len() as f64;
         println!("{cells}: worst {worst:e}, mean {mean:e}");
         // Where the least contact ends, the density rises by half over two rings: one of them is off by a good part of that.
+        // Nearly twice what was seen.
         assert!(worst < 0.1, "{cells}: {worst}");
         assert!(mean < 0.02, "{cells}: {mean}");
     }
