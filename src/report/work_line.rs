@@ -201,7 +201,7 @@ impl<'a> Cells<'a> {
         }
     }
 
-    /// The row through the centre of the work, between two rows by its distances from them.
+    /// The row through the centre of the work, between two rows by its distances from them, with the cells beside its ends.
     fn along_x(&self) -> WorkLine {
         let centre = self.centre_of_work();
         let (below, share) = (centre.floor(), centre.fract());
@@ -217,9 +217,15 @@ impl<'a> Cells<'a> {
                 Some(density),
             )
         };
+        // No work is done beyond the rectangle.
+        let beside = |column: f64| (self.first_m.0 + column * self.spacing_m.0, Some(0.0));
+        let ends = (beside(-1.0), beside(self.columns as f64));
         WorkLine {
             along: WorkAlong::X,
-            points: pairs.map(point).collect(),
+            points: std::iter::once(ends.0)
+                .chain(pairs.map(point))
+                .chain(std::iter::once(ends.1))
+                .collect(),
         }
     }
 
@@ -330,7 +336,10 @@ mod tests {
                 let line = WorkLine::of(&cells(n, n, weight), indenter);
                 assert_eq!(line.along, WorkAlong::X);
                 let off_the_row = if n == 4 { 0.0 } else { 1.0 };
-                for (x_m, value) in line.points {
+                let inside = 1..line.points.len() - 1;
+                let ends = [line.points[0], line.points[inside.end]];
+                assert!(ends.iter().all(|end| end.1 == Some(0.0)));
+                for (x_m, value) in &line.points[inside] {
                     let expected = 20.0 - 2.0 * off_the_row + x_m;
                     assert!((value.unwrap() - expected).abs() < 1e-5, "{x_m} {value:?}");
                 }
