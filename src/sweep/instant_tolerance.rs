@@ -27,8 +27,11 @@ pub fn of_a_cycle(
     let sine_of_phase_lag = answer.im.abs() / answer.norm();
     let amplitude_over_mean = (drive.amplitude() / drive.mean()).abs().min(1.0);
     let tolerance = cycle_tolerance * amplitude_over_mean * sine_of_phase_lag;
-    // In this order what is not a number asks for the tightest.
-    tolerance.max(TIGHTEST).min(LOOSEST)
+    match tolerance > TIGHTEST {
+        true => tolerance.min(LOOSEST),
+        // What is not a number asks for the tightest, too.
+        false => TIGHTEST,
+    }
 }
 
 #[cfg(test)]
