@@ -63,6 +63,8 @@ def compare(title, peer, script, ours, arguments, pairs, rows):
     results = []
     for pair in range(pairs):
         both = (last_line([ours, *arguments[0]]), last_line([*theirs, *arguments[-1]]))
+        if "exact_loss_j" in both[0] and "energy_loss_j" in both[1]:
+            both[1]["relative_loss_error"] = abs(both[1]["energy_loss_j"] / both[0]["exact_loss_j"] - 1)
         results.append(both)
         print(f"{title}, pair {pair + 1}: {json.dumps(both)}", file=sys.stderr, flush=True)
     ratios = [theirs["cpu_s"] / ours["cpu_s"] for ours, theirs in results]
