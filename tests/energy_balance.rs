@@ -117,15 +117,10 @@ fn the_work_over_the_surface_adds_up_to_the_loss() {
                     .sum();
                 (std::f64::consts::PI * sum, 1e-3)
             }
-            SurfaceLoss::Cells {
-                spacing_x_m,
-                spacing_y_m,
-                density_j_per_m2,
-                ..
-            } => {
-                let sum: f64 = density_j_per_m2.iter().map(|d| f64::from(*d)).sum();
+            SurfaceLoss::Cells(cells) => {
+                let sum: f64 = cells.density_j_per_m2.iter().map(|d| f64::from(*d)).sum();
                 // The sum over the cells is the polygon's area, to single precision.
-                (sum * spacing_x_m * spacing_y_m, 1e-6)
+                (sum * cells.spacing_x_m * cells.spacing_y_m, 1e-6)
             }
         };
         let error = relative(total_j, found.analysis.polygon_loss_j);

@@ -9,16 +9,15 @@ environment under target/peers the first time.
 
 import argparse
 import csv
+import functools
 import json
 import math
 import subprocess
 import sys
-from pathlib import Path
 
-from run import MATPLOTLIB, PEERS, last_line, python_of
+import run
+from run import HERE, MATPLOTLIB, PEERS, ROOT, last_line, loss_error, python_of
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
 OUT = ROOT / "reports" / "performance"
 
 
@@ -29,20 +28,22 @@ def least(rounds, name, runs):
     return [min(column, key=lambda result: result["cpu_s"]) for column in zip(*found)]
 
 
+def told(command):
+    """What a program prints last, shown on the way."""
+    found = last_line(list(map(str, command)))
+    print(json.dumps(found), file=sys.stderr, flush=True)
+    return found
+
+
+built = functools.cache(run.bench)
+
+
 def bench(name, *arguments):
-    command = ["cargo", "bench", "--quiet", "--bench", name, "--", *map(str, arguments)]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"{command} failed:\n{done.stderr}")
-    result = json.loads(done.stdout.strip().splitlines()[-1])
-    print(json.dumps(result), file=sys.stderr, flush=True)
-    return result
+    return told([built(name), *arguments])
 
 
 def tamaas(script, cells, steps):
-    found = last_line([python_of(PEERS["tamaas 2.9.0"]), str(HERE / script), str(cells), str(steps)])
-    print(json.dumps(found), file=sys.stderr, flush=True)
-    return found
+    return told([python_of(PEERS["tamaas 2.9.0"]), HERE / script, cells, steps])
 
 
 def table(name, rows):
@@ -71,8 +72,8 @@ def loop_area():
     rows = [{"rule": rule, **result} for (_, _, rule), result in zip(runs, found)]
     exact_j = rows[0]["exact_loss_j"]
     theirs = tamaas("tamaas_cycle.py", 256, 100)
-    error = abs(theirs["energy_loss_j"] / exact_j - 1)
-    rows.append({"rule": "tamaas 2.9.0", **theirs, "exact_loss_j": exact_j, "relative_loss_error": float(f"{error:.3g}")})
+    error = float(f"{loss_error(theirs, exact_j):.3g}")
+    rows.append({"rule": "tamaas 2.9.0", **theirs, "exact_loss_j": exact_j, "relative_loss_error": error})
     table("error-against-time.csv", rows)
 
 

@@ -50,6 +50,10 @@ def bench(name):
     return programs[-1]
 
 
+def loss_error(result, exact_j):
+    return abs(result["energy_loss_j"] / exact_j - 1)
+
+
 def error_of(result):
     """The error that a program reports, whichever it can."""
     names = ("mean_relative_radius_error", "relative_radius_error", "relative_loss_error")
@@ -64,7 +68,7 @@ def compare(title, peer, script, ours, arguments, pairs, rows):
     for pair in range(pairs):
         both = (last_line([ours, *arguments[0]]), last_line([*theirs, *arguments[-1]]))
         if "exact_loss_j" in both[0] and "energy_loss_j" in both[1]:
-            both[1]["relative_loss_error"] = abs(both[1]["energy_loss_j"] / both[0]["exact_loss_j"] - 1)
+            both[1]["relative_loss_error"] = loss_error(both[1], both[0]["exact_loss_j"])
         results.append(both)
         print(f"{title}, pair {pair + 1}: {json.dumps(both)}", file=sys.stderr, flush=True)
     ratios = [theirs["cpu_s"] / ours["cpu_s"] for ours, theirs in results]

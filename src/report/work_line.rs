@@ -1,7 +1,7 @@
 //! The work that the indenter does on the surface per area and cycle, along one line: a radius wherever there is one.
 
 use crate::indenter::Indenter;
-use crate::sweep::record::SurfaceLoss;
+use crate::sweep::record::{CellLoss, SurfaceLoss};
 
 /// What a line of work densities runs along, and how it was made from the surface's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,7 +76,7 @@ impl WorkLine {
                 radius_m,
                 density_j_per_m2,
             } => return radial(radius_m, density_j_per_m2),
-            SurfaceLoss::Cells { .. } => Cells::of(surface),
+            SurfaceLoss::Cells(cells) => Cells::of(cells),
         };
         match cells {
             None => radial(&[], &[]),
@@ -100,28 +100,17 @@ struct Cells<'a> {
 }
 
 impl<'a> Cells<'a> {
-    fn of(surface: &'a SurfaceLoss) -> Option<Self> {
-        let SurfaceLoss::Cells {
-            first_x_m,
-            first_y_m,
-            spacing_x_m,
-            spacing_y_m,
-            cells_x,
-            density_j_per_m2,
-        } = surface
-        else {
-            return None;
-        };
+    fn of(cells: &'a CellLoss) -> Option<Self> {
         let is_length = |m: f64| m.is_finite() && m > 0.0;
-        let whole = *cells_x > 0
-            && density_j_per_m2.len() >= *cells_x
-            && is_length(*spacing_x_m)
-            && is_length(*spacing_y_m);
+        let whole = cells.cells_x > 0
+            && cells.density_j_per_m2.len() >= cells.cells_x
+            && is_length(cells.spacing_x_m)
+            && is_length(cells.spacing_y_m);
         whole.then_some(Self {
-            first_m: (*first_x_m, *first_y_m),
-            spacing_m: (*spacing_x_m, *spacing_y_m),
-            columns: *cells_x,
-            density: density_j_per_m2,
+            first_m: (cells.first_x_m, cells.first_y_m),
+            spacing_m: (cells.spacing_x_m, cells.spacing_y_m),
+            columns: cells.cells_x,
+            density: &cells.density_j_per_m2,
         })
     }
 
@@ -260,14 +249,14 @@ mod tests {
         let at = |k: usize, n: usize| first(n) + 2.0 * k as f64;
         let value =
             |cell: usize| density(at(cell % columns, columns), at(cell / columns, rows)) as f32;
-        SurfaceLoss::Cells {
+        SurfaceLoss::Cells(CellLoss {
             first_x_m: first(columns),
             first_y_m: first(rows),
             spacing_x_m: 2.0,
             spacing_y_m: 2.0,
             cells_x: columns,
             density_j_per_m2: (0..columns * rows).map(value).collect(),
-        }
+        })
     }
 
     fn sphere() -> Sphere {
@@ -307,14 +296,14 @@ mod tests {
         let line = WorkLine::of(&cells(3, 1, cross), &sphere());
         assert_eq!(line.points[1].1, Some(0.75));
         // An axis far outside is no axis of rings.
-        let far = SurfaceLoss::Cells {
+        let far = SurfaceLoss::Cells(CellLoss {
             first_x_m: 1e300,
             first_y_m: 0.0,
             spacing_x_m: 1e-9,
             spacing_y_m: 1e-9,
             cells_x: 1,
             density_j_per_m2: vec![1.0],
-        };
+        });
         assert_eq!(WorkLine::of(&far, &sphere()).along, WorkAlong::X);
     }
 

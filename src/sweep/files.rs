@@ -20,7 +20,12 @@ pub const FIGURES: [&str; 12] = [
 const TABLES: [&str; 4] = ["run.json", "sweep.csv", "summary.json", "index.html"];
 
 /// What follows the name of a figure in those of its files: data, caption, and the picture in every form.
-const ENDINGS: [&str; 6] = [".csv", CAPTION, ".svg", ".pdf", ".png", "@2x.png"];
+const ENDINGS: [&str; 6] = {
+    let [svg, pdf, png, png_of_two] = PICTURES;
+    [".csv", CAPTION, svg, pdf, png, png_of_two]
+};
+/// The endings of a picture in every form.
+pub const PICTURES: [&str; 4] = [".svg", ".pdf", ".png", "@2x.png"];
 /// The ending of a caption.
 pub const CAPTION: &str = ".caption.txt";
 

@@ -48,9 +48,7 @@ impl Pressures {
 
     /// The profiles, in the order of [`Quarter::ALL`] whatever the phase of the drive.
     pub(super) fn finished(mut self) -> Vec<PressureProfile> {
-        let place =
-            |profile: &PressureProfile| Quarter::ALL.iter().position(|q| *q == profile.quarter);
-        self.profiles.sort_by_key(place);
+        self.profiles.sort_by_key(|profile| profile.quarter);
         self.profiles
     }
 }

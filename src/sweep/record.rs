@@ -102,22 +102,25 @@ pub enum SurfaceLoss {
         radius_m: Vec<f64>,
         density_j_per_m2: Vec<Option<f64>>,
     },
-    /// At the centres of cells, row by row, of the smallest rectangle that holds all contact of the cycle.
-    Cells {
-        /// Centre of the first cell, and spacing (m).
-        first_x_m: f64,
-        first_y_m: f64,
-        spacing_x_m: f64,
-        spacing_y_m: f64,
-        cells_x: usize,
-        /// Single precision: seven digits are more than the grid resolves.
-        density_j_per_m2: Vec<f32>,
-    },
+    Cells(CellLoss),
+}
+
+/// The same at the centres of cells, row by row, of the smallest rectangle that holds all contact of the cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CellLoss {
+    /// Centre of the first cell, and spacing (m).
+    pub first_x_m: f64,
+    pub first_y_m: f64,
+    pub spacing_x_m: f64,
+    pub spacing_y_m: f64,
+    pub cells_x: usize,
+    /// Single precision: seven digits are more than the grid resolves.
+    pub density_j_per_m2: Vec<f32>,
 }
 
 /// An instant of the cycle, by what the drive does there. At the two that have the mean, all that differs is what the body
 /// remembers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Quarter {
     Greatest,

@@ -12,7 +12,7 @@ use crate::steady::{self, Begin, SteadySettings};
 use crate::sweep::checkpoint::{Checkpoints, Level, Progress};
 use crate::sweep::plan::{CyclePlan, Method};
 use crate::sweep::pressure::Pressures;
-use crate::sweep::record::{BranchLoss, CaseResult, SurfaceLoss};
+use crate::sweep::record::{BranchLoss, CaseResult, CellLoss, SurfaceLoss};
 
 /// Cycles after which a direct search is given up for marching: twice what the hardest spectrum known needed.
 const SEARCH_CYCLES: usize = 40;
@@ -473,14 +473,14 @@ fn surface_loss(surface: Surface) -> SurfaceLoss {
                 let start = row * nx;
                 &cells.pressure_pa[start + x.0..start + x.1]
             });
-            SurfaceLoss::Cells {
+            SurfaceLoss::Cells(CellLoss {
                 first_x_m: grid.x_m(x.0.min(nx - 1)),
                 first_y_m: grid.y_m(y.0.min(ny - 1)),
                 spacing_x_m: grid.spacing_x_m(),
                 spacing_y_m: grid.spacing_y_m(),
                 cells_x: x.1.saturating_sub(x.0),
                 density_j_per_m2: rows.map(|density| *density as f32).collect(),
-            }
+            })
         }
     }
 }

@@ -81,25 +81,18 @@ impl Field {
                 radius_m,
                 density_j_per_m2,
             } => Self::revolved(radius_m, density_j_per_m2)?,
-            SurfaceLoss::Cells {
-                first_x_m,
-                first_y_m,
-                spacing_x_m,
-                spacing_y_m,
-                cells_x,
-                density_j_per_m2,
-            } => {
-                let rows = density_j_per_m2.len().checked_div(*cells_x)?;
+            SurfaceLoss::Cells(cells) => {
+                let rows = cells.density_j_per_m2.len().checked_div(cells.cells_x)?;
                 let range = |first_m: f64, spacing_m: f64, cells: usize| {
                     let start_m = first_m - 0.5 * spacing_m;
                     (start_m, start_m + cells as f64 * spacing_m)
                 };
                 Self {
-                    x_range_m: range(*first_x_m, *spacing_x_m, *cells_x),
-                    y_range_m: range(*first_y_m, *spacing_y_m, rows),
-                    columns: *cells_x,
+                    x_range_m: range(cells.first_x_m, cells.spacing_x_m, cells.cells_x),
+                    y_range_m: range(cells.first_y_m, cells.spacing_y_m, rows),
+                    columns: cells.cells_x,
                     rows,
-                    density: density_j_per_m2
+                    density: (cells.density_j_per_m2)
                         .iter()
                         // Cells of the rectangle that were never in contact.
                         .map(|density| (*density != 0.0).then_some(f64::from(*density)))
@@ -188,20 +181,13 @@ fn data(surface: &SurfaceLoss) -> Result<Vec<u8>, ReportError> {
             }
             table.finish()
         }
-        SurfaceLoss::Cells {
-            first_x_m,
-            first_y_m,
-            spacing_x_m,
-            spacing_y_m,
-            cells_x,
-            density_j_per_m2,
-        } => {
+        SurfaceLoss::Cells(cells) => {
             let mut table = Table::new(name, &["x_m", "y_m", "work_j_per_m2"])?;
-            let columns = (*cells_x).max(1);
-            for (cell, density) in density_j_per_m2.iter().enumerate() {
+            let columns = cells.cells_x.max(1);
+            for (cell, density) in cells.density_j_per_m2.iter().enumerate() {
                 table.row(&[
-                    number(first_x_m + (cell % columns) as f64 * spacing_x_m),
-                    number(first_y_m + (cell / columns) as f64 * spacing_y_m),
+                    number(cells.first_x_m + (cell % columns) as f64 * cells.spacing_x_m),
+                    number(cells.first_y_m + (cell / columns) as f64 * cells.spacing_y_m),
                     format!("{density:e}"),
                 ])?;
             }

@@ -90,7 +90,7 @@ impl Press<'_> {
 /// Files of a figure that the plan does not ask for: an earlier run may have left them.
 pub fn not_asked(plan: &FigurePlan, file: &str) -> Vec<String> {
     let endings = plan.endings();
-    [".svg", ".pdf", ".png", "@2x.png"]
+    files::PICTURES
         .into_iter()
         .filter(|ending| !endings.contains(ending))
         .map(|ending| format!("{file}{ending}"))

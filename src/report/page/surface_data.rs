@@ -6,13 +6,31 @@ use super::compact::{coarse, picked, picked_optional, rounded, spread};
 use crate::contact::surface::{Along, PressureLine};
 use crate::drive::Control;
 use crate::report::work_line::{WorkAlong, WorkLine};
-use crate::sweep::record::{PressureProfile, SurfaceLoss};
+use crate::sweep::record::{CellLoss, PressureProfile, SurfaceLoss};
 
 /// Points of the line of work and of all lines of pressure together, and cells along a side of a map.
 pub(super) struct Fineness {
     pub(super) work: usize,
     pub(super) pressure: usize,
     pub(super) map: usize,
+}
+
+/// A number of points that is `most` up to a hundred cases, as fine as can be seen, and falls with more of them, so that the page
+/// stays light, to `least`.
+pub(super) fn share(cases: usize, most: usize, least: usize) -> usize {
+    (100 * most / cases.max(100)).max(least)
+}
+
+impl Fineness {
+    /// On a page of so many cases. Maps weigh most: beyond 40 of them, each gets its part of as many cells.
+    pub(super) fn of(cases: usize) -> Self {
+        const CELLS: usize = 40 * 40 * 40;
+        Self {
+            work: share(cases, 80, 24),
+            pressure: share(cases, 128, 48),
+            map: (CELLS / cases.max(1)).isqrt().clamp(12, 40),
+        }
+    }
 }
 
 /// Density of the work over the surface: a line of it, and the map of what was solved on cells.
@@ -69,37 +87,30 @@ impl WorkData {
             line: line.along.words(),
             position_m: picked(&position_m, &places),
             density_j_per_m2: picked_optional(&density, &places),
-            map: MapData::of(surface, fineness),
+            map: match surface {
+                SurfaceLoss::Radial { .. } => None,
+                SurfaceLoss::Cells(cells) => Some(MapData::of(cells, fineness)),
+            },
         }
     }
 }
 
 impl MapData {
-    fn of(surface: &SurfaceLoss, fineness: &Fineness) -> Option<Self> {
-        let SurfaceLoss::Cells {
-            first_x_m,
-            first_y_m,
-            spacing_x_m,
-            spacing_y_m,
-            cells_x,
-            density_j_per_m2,
-        } = surface
-        else {
-            return None;
-        };
-        let value = |i: usize| density_j_per_m2.get(i).map(|v| f64::from(*v));
-        let field = coarse(*cells_x, density_j_per_m2.len(), value, fineness.map);
+    fn of(cells: &CellLoss, fineness: &Fineness) -> Self {
+        let density = &cells.density_j_per_m2;
+        let value = |i: usize| density.get(i).map(|v| f64::from(*v));
+        let field = coarse(cells.cells_x, density.len(), value, fineness.map);
         let factor = field.factor as f64;
         // The centre of a coarse cell lies between those of the cells in it.
         let shift = 0.5 * (factor - 1.0);
-        Some(Self {
-            first_x_m: rounded(first_x_m + shift * spacing_x_m),
-            first_y_m: rounded(first_y_m + shift * spacing_y_m),
-            spacing_x_m: rounded(factor * spacing_x_m),
-            spacing_y_m: rounded(factor * spacing_y_m),
+        Self {
+            first_x_m: rounded(cells.first_x_m + shift * cells.spacing_x_m),
+            first_y_m: rounded(cells.first_y_m + shift * cells.spacing_y_m),
+            spacing_x_m: rounded(factor * cells.spacing_x_m),
+            spacing_y_m: rounded(factor * cells.spacing_y_m),
             cells_x: field.cells_x,
             values: field.values,
-        })
+        }
     }
 }
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::compact::{all_rounded, picked, picked_optional, rounded, spread};
 use super::how::nodes_name;
-use super::surface_data::{Fineness, PressureData, WorkData};
+use super::surface_data::{Fineness, PressureData, WorkData, share};
 use crate::material::{Material, ModulusKind};
 use crate::report::figure::moduli::ModulusPoint;
 use crate::report::material::MaterialReport;
@@ -54,24 +54,6 @@ struct CaseData {
     work: WorkData,
 }
 
-/// Points of a loop: as fine as can be seen up to a hundred cases; coarser beyond, so that the page stays light.
-fn points(cases: usize) -> usize {
-    (100 * 100 / cases.max(100)).max(32)
-}
-
-impl Fineness {
-    /// The same of the surface. Maps weigh most: beyond 40 of them, each gets its part of as many cells.
-    fn of(cases: usize) -> Self {
-        const CELLS: usize = 40 * 40 * 40;
-        let share = |most: usize, least: usize| (100 * most / cases.max(100)).max(least);
-        Self {
-            work: share(80, 24),
-            pressure: share(128, 48),
-            map: (CELLS / cases.max(1)).isqrt().clamp(12, 40),
-        }
-    }
-}
-
 impl<'a> SweepData<'a> {
     /// The data of a sweep whose table is `csv`.
     pub(super) fn new(plan: &SweepPlan, outcome: &'a Outcome, csv: &'a str) -> Self {
@@ -114,7 +96,7 @@ impl MaterialData {
 /// A case's part of a page of so many.
 fn case(plan: &SweepPlan, record: &CaseRecord, result: &CaseResult, cases: usize) -> CaseData {
     let samples = &result.samples;
-    let places = spread(samples.time_s.len(), points(cases));
+    let places = spread(samples.time_s.len(), share(cases, 100, 32));
     let fineness = Fineness::of(cases);
     let work = WorkLine::of(&result.surface_loss, plan.indenter.as_ref());
     let harmonics = result.analysis.harmonics.iter();

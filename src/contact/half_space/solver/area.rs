@@ -60,11 +60,11 @@ fn ends_at(at: usize, pressure: impl Fn(isize) -> f64) -> f64 {
 /// next one's. It lies between the centre of that cell and that of the first cell out of contact; a pressure that does not fall
 /// towards the edge, as under a rim, ends with the cell.
 fn beyond_face(outermost: f64, next: f64) -> f64 {
-    let (outermost, next) = ((outermost / next).powi(2), 1.0);
-    if outermost >= next {
+    let share = (outermost / next).powi(2);
+    if share >= 1.0 {
         return 0.0;
     }
-    (outermost / (next - outermost) - 0.5).clamp(-0.5, 0.5)
+    (share / (1.0 - share) - 0.5).clamp(-0.5, 0.5)
 }
 
 #[cfg(test)]
@@ -92,12 +92,10 @@ mod tests {
         for (k, size) in [20.0, 33.3, 47.9, 55.1].into_iter().enumerate() {
             let centre = (0.37 * k as f64, -0.21 * k as f64);
             let pressure = pressure_on_disc(&grid, size, centre);
-            let counted = pressure.iter().filter(|p| **p > 0.0).count() as f64;
             let found = radius(&grid, &pressure);
             // A straight line in place of a circle's parabola over one cell is wrong by 1/(2 R) of a cell; the rows about
             // the poles, too short to be judged, add as much.
             assert!((found - size).abs() < 1.0 / size, "{size}: {found}");
-            assert!(counted > 0.0);
         }
     }
 
