@@ -12,12 +12,18 @@ pub(super) fn log_spaced(from: f64, to: f64, per_decade: usize) -> Vec<f64> {
 pub(super) struct Noise(pub(super) u64);
 
 impl Noise {
-    fn uniform(&mut self) -> f64 {
+    /// From zero to one.
+    pub(super) fn uniform(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Between two positive values, its logarithm uniform.
+    pub(super) fn log_uniform(&mut self, from: f64, to: f64) -> f64 {
+        from * (to / from).powf(self.uniform())
     }
 
     /// Mean zero, variance one.
