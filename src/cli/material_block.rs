@@ -29,6 +29,9 @@ pub(super) const KINDS: [(&str, ModulusKind); 2] = [
     ("shear", ModulusKind::Shear),
 ];
 
+/// Twice as many as a fit gives.
+const MAX_ALTERNATIVES: usize = 8;
+
 /// More branches than any fit resolves are a mistake in the file.
 const MAX_BRANCHES: usize = 1000;
 
@@ -65,6 +68,7 @@ pub(super) fn read_body(
     }
     let asked_for_nu = block.has("poisson_ratio");
     let chosen = block.one_of(&BLOCKS);
+    let measured = measured(&mut block, problems, chosen);
     let material = match chosen {
         Some("library") => {
             let nu = poisson_ratio.map(|nu| nu.value);
@@ -88,11 +92,13 @@ pub(super) fn read_body(
     if chosen.is_some() {
         block.finish();
     }
-    let material = material?;
-    let value = match name {
-        Some(name) => material.named(name.value),
-        None => material,
-    };
+    let mut value = material?;
+    if let Some(window_s) = measured? {
+        value = value.measured(window_s);
+    }
+    if let Some(name) = name {
+        value = value.named(name.value);
+    }
     Some(Located {
         value,
         path: "material".to_owned(),
@@ -121,14 +127,50 @@ fn from_library(
     match (poisson_ratio, material.relaxation()) {
         (Some(nu), Some(relaxation)) => {
             let other = Material::from_relaxation(relaxation.clone(), material.kind(), nu);
-            at_block(block, problems, "library", other).map(|m| m.named(entry.title))
+            at_block(block, problems, "library", other)
+                .map(|m| m.named(entry.title).measured(entry.measured_window_s))
         }
         _ => Some(material),
     }
 }
 
+/// The times between which a user's own series was measured; `None` where a problem was reported.
+fn measured(
+    block: &mut TableReader<'_>,
+    problems: &Problems,
+    chosen: Option<&str>,
+) -> Option<Option<(f64, f64)>> {
+    if !block.has("measured") {
+        return Some(None);
+    }
+    let times = block.quantities("measured", Dimension::Time)?;
+    if let Some(key @ ("library" | "table")) = chosen {
+        problems
+            .at(&times, format!("`{key}` says itself when it was measured"))
+            .help("leave out `measured`");
+        return None;
+    }
+    match times.value.as_slice() {
+        [first, last] if first.value > 0.0 && last.value > first.value => {
+            Some(Some((first.value, last.value)))
+        }
+        _ => {
+            problems
+                .at(
+                    &times,
+                    "`measured` takes the first and the last time of the test, above zero",
+                )
+                .help("write measured = [\"0.1 s\", \"1000 s\"]");
+            None
+        }
+    }
+}
+
 /// A material but for its Poisson ratio.
 type Build = Box<dyn FnOnce(f64) -> Result<BodyMaterial, MaterialError>>;
+
+/// The same of a series.
+type SeriesBuild = Box<dyn FnOnce(f64) -> Result<Material, MaterialError>>;
 
 fn from_block(
     block: &mut TableReader<'_>,
@@ -139,8 +181,18 @@ fn from_block(
 ) -> Option<Build> {
     let mut table = block.table(key)?;
     let build: Option<Build> = match key {
-        "relaxation" => relaxation(&mut table, problems),
-        "creep" => creep(&mut table, problems),
+        "relaxation" => {
+            let kind = table.choice_of("modulus", &KINDS).map(|kind| kind.value);
+            with_alternatives(block, &mut table, problems, |table| {
+                relaxation(table, problems, kind)
+            })
+        }
+        "creep" => {
+            let kind = table.choice_of("compliance", &KINDS).map(|kind| kind.value);
+            with_alternatives(block, &mut table, problems, |table| {
+                creep(table, problems, kind)
+            })
+        }
         "table" => material_table::read(&mut table, folder, direct_sum, problems).map(of_table),
         "maxwell" => pair(&mut table, problems, "modulus").map(|[modulus, time]| -> Build {
             Box::new(move |nu| series(Maxwell::new(modulus, time)?.material(nu)))
@@ -152,6 +204,39 @@ fn from_block(
     };
     table.finish();
     build
+}
+
+/// A series, and the others beside it that fit the same data.
+fn with_alternatives(
+    block: &mut TableReader<'_>,
+    own: &mut TableReader<'_>,
+    problems: &Problems,
+    read: impl Fn(&mut TableReader<'_>) -> Option<SeriesBuild>,
+) -> Option<Build> {
+    let build = read(own);
+    let mut others = Vec::new();
+    if block.has("alternative") {
+        let tables = block.tables("alternative")?;
+        if tables.value.len() > MAX_ALTERNATIVES {
+            problems
+                .at(
+                    &tables,
+                    format!("{} alternatives are too many", tables.value.len()),
+                )
+                .help(format!("give at most {MAX_ALTERNATIVES}"));
+            return None;
+        }
+        for mut table in tables.value {
+            others.push(read(&mut table));
+            table.finish();
+        }
+    }
+    let build = build?;
+    let others: Vec<SeriesBuild> = others.into_iter().collect::<Option<_>>()?;
+    Some(Box::new(move |nu| {
+        let others: Result<Vec<Material>, _> = others.into_iter().map(|other| other(nu)).collect();
+        Ok(build(nu)?.with_alternatives(others?).into())
+    }))
 }
 
 fn series(material: Result<Material, MaterialError>) -> Result<BodyMaterial, MaterialError> {
@@ -173,8 +258,10 @@ fn pair(table: &mut TableReader<'_>, problems: &Problems, key: &str) -> Option<[
         problems,
         table.quantity(key, Dimension::Stress),
         "a modulus",
+        ELASTIC,
     );
-    let time = positive(problems, table.quantity("time", Dimension::Time), "a time");
+    let time = table.quantity("time", Dimension::Time);
+    let time = positive(problems, time, "a time", ELASTIC);
     Some([modulus?, time?])
 }
 
@@ -183,6 +270,7 @@ fn zener(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
         problems,
         table.quantity("spring", Dimension::Stress),
         "a modulus",
+        ELASTIC,
     );
     let [kelvin_spring, time] = pair(table, problems, "kelvin_spring")?;
     let spring = spring?;
@@ -191,32 +279,43 @@ fn zener(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
     }))
 }
 
-fn relaxation(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
-    let kind = table.choice_of("modulus", &KINDS);
+fn relaxation(
+    table: &mut TableReader<'_>,
+    problems: &Problems,
+    kind: Option<ModulusKind>,
+) -> Option<SeriesBuild> {
     let equilibrium = table.quantity("equilibrium", Dimension::Stress);
     let equilibrium = not_negative(problems, equilibrium, "an equilibrium modulus");
     let branches = branches(table, problems, "modulus", Dimension::Stress);
-    let (kind, equilibrium, branches) = (kind?.value, equilibrium?, branches?);
+    let (kind, equilibrium, branches) = (kind?, equilibrium?, branches?);
     Some(Box::new(move |nu| {
         let branches = branches
             .into_iter()
             .map(|(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s })
             .collect();
         let relaxation = Relaxation::new(equilibrium, branches)?;
-        series(Material::from_relaxation(relaxation, kind, nu))
+        Material::from_relaxation(relaxation, kind, nu)
     }))
 }
 
-fn creep(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
-    let kind = table.choice_of("compliance", &KINDS);
+fn creep(
+    table: &mut TableReader<'_>,
+    problems: &Problems,
+    kind: Option<ModulusKind>,
+) -> Option<SeriesBuild> {
     let instantaneous = table.quantity("instantaneous", Dimension::Compliance);
     let instantaneous = not_negative(problems, instantaneous, "an instantaneous compliance");
     let viscosity = match table.optional_quantity("viscosity", Dimension::Viscosity) {
-        Some(viscosity) => Some(positive(problems, Some(viscosity), "a viscosity")?),
+        Some(viscosity) => Some(positive(
+            problems,
+            Some(viscosity),
+            "a viscosity",
+            "leave the key out for a solid",
+        )?),
         None => None,
     };
     let branches = branches(table, problems, "compliance", Dimension::Compliance);
-    let (kind, instantaneous, branches) = (kind?.value, instantaneous?, branches?);
+    let (kind, instantaneous, branches) = (kind?, instantaneous?, branches?);
     Some(Box::new(move |nu| {
         let branches = branches
             .into_iter()
@@ -226,7 +325,7 @@ fn creep(table: &mut TableReader<'_>, problems: &Problems) -> Option<Build> {
             })
             .collect();
         let creep = Creep::new(instantaneous, branches, viscosity)?;
-        series(Material::from_creep(creep, kind, nu))
+        Material::from_creep(creep, kind, nu)
     }))
 }
 
@@ -252,8 +351,15 @@ fn branches(
             problems,
             branch.quantity(key, dimension),
             &format!("a {key}"),
+            "leave out a branch that is not there",
         );
-        let time = positive(problems, branch.quantity("time", Dimension::Time), "a time");
+        let time = branch.quantity("time", Dimension::Time);
+        let time = positive(
+            problems,
+            time,
+            "a time",
+            "leave out a branch that is not there",
+        );
         branch.finish();
         Some((strength?, time?))
     };
@@ -262,14 +368,23 @@ fn branches(
     all.into_iter().collect()
 }
 
-fn positive(problems: &Problems, value: Option<Located<f64>>, what: &str) -> Option<f64> {
+/// What to write where an element of a model with few of them has no strength or no time.
+const ELASTIC: &str =
+    "for a body without this element write a [material.relaxation] block with the branches it has";
+
+fn positive(
+    problems: &Problems,
+    value: Option<Located<f64>>,
+    what: &str,
+    help: &str,
+) -> Option<f64> {
     let value = value?;
     if value.value > 0.0 {
         return Some(value.value);
     }
     problems
         .at(&value, format!("{what} must be above zero"))
-        .help("leave out a branch that is not there");
+        .help(help);
     None
 }
 

@@ -13,6 +13,8 @@ pub struct LibraryEntry {
     pub source: &'static str,
     /// How they were measured and what to keep in mind.
     pub notes: &'static str,
+    /// First and last time (s) at which it was observed.
+    pub measured_window_s: (f64, f64),
     build: fn() -> Result<Material, MaterialError>,
 }
 
@@ -22,7 +24,8 @@ impl LibraryEntry {
     /// # Errors
     /// None for the entries of this file, whose constants are tested.
     pub fn material(&self) -> Result<Material, MaterialError> {
-        (self.build)().map(|material| material.named(self.title))
+        let material = (self.build)()?;
+        Ok(material.named(self.title).measured(self.measured_window_s))
     }
 }
 
@@ -32,7 +35,10 @@ pub fn entries() -> &'static [LibraryEntry] {
         name: "pmma",
         title: "PMMA",
         source: "M. V. Ramesh Kumar and R. Narasimhan, \"Analysis of spherical indentation of linear viscoelastic materials\" (the experiments); as the two-term Prony series of S. Spinu, \"Viscoelastic Contact Simulation under Harmonic Cyclic Load\", Advances in Tribology 2018, 9432894, equation (8), doi:10.1155/2018/9432894, after W. W. Chen, Q. J. Wang, Z. Huan and X. Luo, \"Semi-Analytical Viscoelastic Contact Modeling of Polymer-Based Materials\", Journal of Tribology 133 (2011) 041404, doi:10.1115/1.4004928",
-        notes: "Polymethyl methacrylate. Longitudinal relaxation modulus from uniaxial compression, observed for 1000 s; Poisson ratio 0.38, taken as constant. Two relaxation times describe that window only: far above 1 rad/s or below 1 mrad/s the series is an extrapolation.",
+        notes: "Polymethyl methacrylate. Longitudinal relaxation modulus from uniaxial compression, observed for 1000 s (from when on is not said; 1 s is assumed); Poisson ratio 0.38, taken as constant. Two relaxation times describe that window only: far above 1 rad/s or below 1 mrad/s the series is an extrapolation.",
+        // The end is the source's. It does not say when the first sample was taken; one second is what a testing machine needs
+        // to put the strain on, and a ninth of the shortest time of the series, of which nothing is seen before.
+        measured_window_s: (1.0, 1000.0),
         build: pmma,
     }]
 }
@@ -83,6 +89,8 @@ mod tests {
         for entry in entries() {
             assert_eq!(entry.material().unwrap().name(), Some(entry.title));
             assert!(entry.material().unwrap().contact_compliance().is_ok());
+            let window_s = entry.material().unwrap().measured_window_s();
+            assert!(window_s.is_some_and(|(first_s, last_s)| 0.0 < first_s && first_s < last_s));
             assert_eq!(find(&entry.name.to_uppercase()).unwrap().name, entry.name);
             assert_eq!(entry.name, entry.name.to_lowercase());
         }

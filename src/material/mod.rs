@@ -69,6 +69,8 @@ pub struct Material {
     creep: Creep,
     relaxation: Option<Relaxation>,
     fit: Option<fit::FitReport>,
+    measured_window_s: Option<(f64, f64)>,
+    alternatives: Vec<Material>,
 }
 
 impl Material {
@@ -89,6 +91,8 @@ impl Material {
             creep: relaxation.to_creep()?,
             relaxation: Some(relaxation),
             fit: None,
+            measured_window_s: None,
+            alternatives: Vec::new(),
         })
     }
 
@@ -117,6 +121,8 @@ impl Material {
             creep,
             relaxation,
             fit: None,
+            measured_window_s: None,
+            alternatives: Vec::new(),
         })
     }
 
@@ -134,6 +140,35 @@ impl Material {
             fit: Some(report),
             ..self
         }
+    }
+
+    /// The same material, known to have been measured from the first to the second of these times (s).
+    pub fn measured(self, window_s: (f64, f64)) -> Self {
+        Material {
+            measured_window_s: Some(window_s),
+            ..self
+        }
+    }
+
+    /// First and last time (s) at which the material was observed, where that is known. What it does at angular frequencies
+    /// outside `1/last < omega < 1/first` is an extrapolation.
+    pub fn measured_window_s(&self) -> Option<(f64, f64)> {
+        self.measured_window_s
+    }
+
+    /// The same material, known to be told from these by no data.
+    pub fn with_alternatives(self, alternatives: Vec<Material>) -> Self {
+        Material {
+            alternatives,
+            ..self
+        }
+    }
+
+    /// Materials of the same kind that fit the data this one was fitted to about as well, and differ in what the data leave
+    /// open: the equilibrium modulus at its lowest and highest, and the instantaneous one. They have no alternatives of their
+    /// own. Empty where the data leave nothing open, and for a material that was not fitted.
+    pub fn alternatives(&self) -> &[Material] {
+        &self.alternatives
     }
 
     /// Where the material was fitted to a table: how well, and what was assumed.

@@ -64,6 +64,22 @@ impl BodyMaterial {
         }
     }
 
+    /// The same material, known to have been measured between these times (s); samples say that themselves.
+    pub fn measured(self, window_s: (f64, f64)) -> Self {
+        match self {
+            Self::Series(material) => material.measured(window_s).into(),
+            samples @ Self::Samples(_) => samples,
+        }
+    }
+
+    /// First and last time (s) at which the material was observed, where that is known.
+    pub fn measured_window_s(&self) -> Option<(f64, f64)> {
+        match self {
+            Self::Series(material) => material.measured_window_s(),
+            Self::Samples(sampled) => Some(sampled.table().window_s()),
+        }
+    }
+
     /// The contact compliance C(t).
     ///
     /// # Errors

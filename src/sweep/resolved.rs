@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use crate::drive::Control;
 use crate::history::TimeRule;
 use crate::indenter::{Indenter, Parameter, Value};
-use crate::material::{GivenFace, Material, ModulusKind};
+use crate::material::{GivenFace, Material, ModulusKind, Relaxation};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figure_plan::without_figures;
 use crate::sweep::plan::{SolverPlan, SweepPlan};
@@ -177,40 +177,61 @@ fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
         line(&format!("name = {}", toml_string(name)));
     }
     line(&format!("poisson_ratio = {:?}", material.poisson_ratio()));
-    match (material.given(), material.relaxation()) {
-        (GivenFace::Relaxation, Some(relaxation)) => {
-            line(&format!("\n[material.relaxation]\nmodulus = \"{kind}\""));
-            let equilibrium = format_si(relaxation.equilibrium_modulus(), Dimension::Stress);
-            line(&format!("equilibrium = \"{equilibrium}\"\nbranches = ["));
-            for branch in relaxation.branches() {
-                let modulus = format_si(branch.modulus_pa, Dimension::Stress);
-                let time = format_si(branch.time_s, Dimension::Time);
-                line(&format!(
-                    "    {{ modulus = \"{modulus}\", time = \"{time}\" }},"
-                ));
-            }
-            line("]");
-        }
-        _ => {
-            let creep = material.creep();
-            line(&format!("\n[material.creep]\ncompliance = \"{kind}\""));
-            let instantaneous = format_si(creep.instantaneous_compliance(), Dimension::Compliance);
-            line(&format!("instantaneous = \"{instantaneous}\""));
-            if let Some(viscosity) = creep.viscosity_pa_s() {
-                let viscosity = format_si(viscosity, Dimension::Viscosity);
-                line(&format!("viscosity = \"{viscosity}\""));
-            }
-            line("branches = [");
-            for branch in creep.branches() {
-                let compliance = format_si(branch.compliance_per_pa, Dimension::Compliance);
-                let time = format_si(branch.time_s, Dimension::Time);
-                line(&format!(
-                    "    {{ compliance = \"{compliance}\", time = \"{time}\" }},"
-                ));
-            }
-            line("]");
-        }
+    if let Some((first_s, last_s)) = material.measured_window_s() {
+        let [first, last] = [first_s, last_s].map(|time_s| format_si(time_s, Dimension::Time));
+        line(&format!("measured = [\"{first}\", \"{last}\"]"));
     }
+    match given_relaxation(material) {
+        Some(_) => line(&format!("\n[material.relaxation]\nmodulus = \"{kind}\"")),
+        None => line(&format!("\n[material.creep]\ncompliance = \"{kind}\"")),
+    }
+    series_lines(material, line);
+    for alternative in material.alternatives() {
+        line("\n[[material.alternative]]");
+        series_lines(alternative, line);
+    }
+}
+
+/// The relaxation modulus of a material that was given by it.
+fn given_relaxation(material: &Material) -> Option<&Relaxation> {
+    let given = material.given() == GivenFace::Relaxation;
+    material.relaxation().filter(|_| given)
+}
+
+/// The numbers of the function that was given.
+fn series_lines(material: &Material, line: &mut dyn FnMut(&str)) {
+    let mut quantity = |key: &str, value, dimension| {
+        line(&format!("{key} = \"{}\"", format_si(value, dimension)));
+    };
+    let (key, dimension, branches): (_, _, Vec<_>) = match given_relaxation(material) {
+        Some(relaxation) => {
+            let equilibrium_pa = relaxation.equilibrium_modulus();
+            quantity("equilibrium", equilibrium_pa, Dimension::Stress);
+            let branches = relaxation.branches().iter();
+            let branches = branches.map(|b| (b.modulus_pa, b.time_s)).collect();
+            ("modulus", Dimension::Stress, branches)
+        }
+        None => {
+            let creep = material.creep();
+            let instantaneous_per_pa = creep.instantaneous_compliance();
+            quantity("instantaneous", instantaneous_per_pa, Dimension::Compliance);
+            if let Some(viscosity) = creep.viscosity_pa_s() {
+                quantity("viscosity", viscosity, Dimension::Viscosity);
+            }
+            let branches = creep.branches().iter();
+            let branches = branches.map(|b| (b.compliance_per_pa, b.time_s)).collect();
+            ("compliance", Dimension::Compliance, branches)
+        }
+    };
+    line("branches = [");
+    for (strength, time_s) in branches {
+        let strength = format_si(strength, dimension);
+        let time = format_si(time_s, Dimension::Time);
+        line(&format!(
+            "    {{ {key} = \"{strength}\", time = \"{time}\" }},"
+        ));
+    }
+    line("]");
 }
 
 /// A TOML basic string.
