@@ -302,6 +302,9 @@ pub(super) struct FitFlags {
     /// Poisson ratio of the material
     #[arg(long, value_name = "NU", allow_negative_numbers = true)]
     pub(super) poisson_ratio: f64,
+    /// Whether the material flows without end; without this flag the data decide
+    #[arg(long, value_name = "true|false")]
+    pub(super) flow: Option<bool>,
     /// Folder for the material block, figures and their data
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,

@@ -15,7 +15,7 @@ use crate::sweep::store::write_atomically;
 /// Runs the command.
 pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
     let table = table_file::read(&flags.data, flags.quantity.into(), flags.modulus.into())?;
-    let fit = fit::fit(&table).map_err(Failure::input)?;
+    let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
     let material = fit.material(flags.poisson_ratio).map_err(Failure::input)?;
     let block = block(flags, &material);
     print(&format!(

@@ -6,6 +6,7 @@
 //! quantity = "creep" | "relaxation"
 //! modulus = "shear" | "longitudinal"
 //! evaluation = "fit" | "direct"         a series fitted to the samples, or the samples themselves (single histories)
+//! flow = true | false                   whether the series is that of a fluid; absent: as the data say
 //! ```
 
 use std::path::Path;
@@ -14,7 +15,7 @@ use super::diagnostic::Problems;
 use super::document::{Located, TableReader};
 use super::material_block::KINDS;
 use super::table_file;
-use crate::material::fit::{self, Fit};
+use crate::material::fit::{self, Fit, FitError};
 use crate::material::tabulated::{TableColumn, Tabulated};
 use crate::material::{GivenFace, ModulusKind};
 use crate::quantity::Dimension;
@@ -71,6 +72,7 @@ pub(super) fn read(
             );
         return None;
     }
+    let flow = table.has("flow").then(|| table.boolean("flow"));
     let (face, kind) = (face.map(|f| f.value), kind.map(|k| k.value));
     if source.is_none() {
         // In its place beside `times`, which was reported.
@@ -81,11 +83,33 @@ pub(super) fn read(
         _ => written_out(table, face, kind, problems),
     };
     let (data, evaluation) = (data?, evaluation?.value);
+    // A problem with the key was reported.
+    let flow = match flow {
+        Some(flow) => Some(flow?),
+        None => None,
+    };
     if evaluation == Evaluation::Direct && direct_sum == DirectSum::Taken {
+        if let Some(flow) = flow {
+            problems
+                .at(
+                    &flow,
+                    "samples taken directly are neither a fluid nor a solid",
+                )
+                .because("a setting of the fit")
+                .help("leave out `flow`, or write evaluation = \"fit\"");
+            return None;
+        }
         return Some(TableMaterial::Direct(data.value));
     }
-    match fit::fit(&data.value) {
+    match fit::fit(&data.value, flow.as_ref().map(|flow| flow.value)) {
         Ok(fit) => Some(TableMaterial::Fitted(Box::new(fit))),
+        Err(error @ FitError::NoFlow) => {
+            let place = flow.as_ref().map_or(&data.location, |flow| &flow.location);
+            problems
+                .at(place, error.to_string())
+                .help("write flow = false, or leave it out");
+            None
+        }
         Err(error) => {
             problems.at(&data, error.to_string());
             None

@@ -118,7 +118,13 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
                     "this material is a fluid, and a sweep looks for a stabilised cycle",
                 )
                 .because("creeps without end under a mean load")
-                .help("give it an equilibrium modulus above zero, or leave out its viscosity");
+                .help(match material.value.fit() {
+                    Some(_) => {
+                        "write `flow = false` in [material.table] for the solid that fits best, or follow one history \
+                         with `contact-dma simulate`"
+                    }
+                    None => "give it an equilibrium modulus above zero, or leave out its viscosity",
+                });
             None
         }
         Ok(_) => Some(material.value),

@@ -4,22 +4,42 @@
 //! Non-negative strengths are what makes a series passive. They are found by non-negative least squares on times
 //! log-spaced over the data (M. Baumgaertel and H. H. Winter, Rheologica Acta 28 (1989) 511, say why the grid alone gives more
 //! branches than the data hold), with residuals relative to the data. Then neighbouring branches are merged, the times are refined
-//! together with the strengths, and branches are taken away as long as Schwarz's information criterion does not get worse.
-//! Misfits below 0.01 % count as none.
+//! together with the strengths, and branches are taken away as long as the criterion of C. L. Mallows (Technometrics 15 (1973)
+//! 661) says so: the sum of squares in units of the variance of the noise, and [`PRICE`] for every parameter. The noise is what
+//! the best non-negative spectrum leaves, ten times per decade, but no less than the rounding of the values as they were
+//! written ([`Tabulated::rounding`]), and no less than 0.01 %: smaller misfits count as none.
 //!
-//! What the data cannot say is not made up silently:
+//! # Solid or fluid
+//!
+//! A table ends, and a branch that is slow enough is a flow as long as it lasts. A solid is assumed where the data do not
+//! resolve the difference; who knows better says so. Sums of squares below are in units of the variance of the noise, and
+//! belong to the best spectrum up to the last time of the table, so that no number of branches enters.
+//!
+//! - A creep compliance flows where a flow term lowers the sum of squares by more than [`PRICE`], the price of a parameter,
+//!   and no solid with few branches scores better or leaves nothing to explain. Tried on 500 seeded solids and
+//!   fluids (1 to 8 branches, three to six decades, 0.1 to 3 % of noise, three digits): two solids were taken for fluids, none
+//!   of the 316 that have retarded by a third of the last time; of fluids that flow by 10 to 60 % of the last compliance and
+//!   have retarded a decade before the end, 17 of 181 were taken for solids, all but one with a flow below 21 times the noise.
+//! - A relaxation modulus is that of a fluid where the sum of squares is worse by no more than [`ALLOWED`] without an
+//!   equilibrium modulus, and by more than [`PRICE`] where [`LEFT`] of the last value is held for it.
+//!
+//! # What the data leave open
 //!
 //! - Branch times lie between the first positive time of the table (a fifth of it, where there is a sample at time zero) and
 //!   twice its last time. What happens before the first sample counts as instantaneous, and the value at time zero is an
 //!   extrapolation by the branches that are there: reported, and a warning where it exceeds one per cent.
-//! - A viscous flow term is kept only where it lowers the misfit by a third ([`LOWERED`]) and Schwarz's criterion by more
-//!   than [`DECISIVE`]; otherwise the material is a solid, with a branch of up to twice the duration of the data in its
-//!   place. Both misfits are reported.
-//! - A relaxation modulus whose equilibrium comes out as zero is a fluid: reported.
+//! - The [alternatives](Fit::alternatives) are other series that fit about as well, by no more than [`ALLOWED`] in the sum of
+//!   squares (two standard deviations): with the lowest and the highest equilibrium value, and the lowest and the highest loss
+//!   at one over the last time, where the material may go on to change for a decade after the last sample; and with the lowest
+//!   and the highest value at time zero, where it may have changed from half the time of the first sample on. All within a
+//!   factor of ten of the fit's own value.
 //!
-//! Where there are more than forty samples per decade they are averaged in groups of a fortieth decade, so that a table with
+//! Where there are more than forty samples per decade they are averaged in groups of a fortieth decade, which weigh as the mean
+//! of so many samples, but of no more than a hundred: what all of them have in common does not average out. So a table with
 //! equal time steps is not fitted in its last decade alone. The misfit reported is that of the samples as given.
 
+#[cfg(test)]
+mod noisy;
 mod search;
 
 use std::fmt;
@@ -31,21 +51,31 @@ use super::{
     RelaxationBranch,
 };
 use crate::quantity::{Dimension, format_human};
-use search::{Search, Series};
+use search::{Open, Search, Series};
 
-/// By how much Schwarz's criterion must improve for a flow term to be kept: "very strong" evidence in the scale of
-/// R. E. Kass and A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773.
-pub const DECISIVE: f64 = 10.0;
+/// What a parameter must lower the sum of squares by, in units of the variance of the noise (H. Akaike, IEEE Transactions on
+/// Automatic Control 19 (1974) 716).
+pub const PRICE: f64 = 2.0;
 
-/// And by which share the misfit must become lower.
-pub const LOWERED: f64 = 1.0 / 3.0;
+/// By how much that sum may be higher for a series that fits about as well.
+pub const ALLOWED: f64 = 4.0;
 
-/// Samples per decade beyond which they are averaged.
-const GROUPS_PER_DECADE: f64 = 40.0;
+/// Share of the last relaxation modulus that is an equilibrium modulus worth having.
+pub const LEFT: f64 = 0.2;
+
+/// Relative misfit that counts as none, however many digits the data have.
+const NOTICEABLE: f64 = 1e-4;
 
 /// Branch times in units of the first positive time (without and with a sample at time zero) and of the last.
 const SHORTEST: (f64, f64) = (1.0, 0.2);
 const LONGEST: f64 = 2.0;
+
+/// The same for the alternatives: what may have changed before the data begin, and may change after they end.
+const BEFORE: f64 = 0.5;
+const AFTER: f64 = 10.0;
+
+/// Ratio to the fit's own value beyond which no alternative is looked for.
+const WIDEST: f64 = 10.0;
 
 /// Shares of extrapolation to time zero and to equilibrium that are worth a warning.
 const FAR_FROM_INSTANTANEOUS: f64 = 0.01;
@@ -58,12 +88,15 @@ pub enum FitError {
     LeastSquares(#[from] NnlsError),
     #[error("the fit is no material: {0}")]
     Material(#[from] MaterialError),
+    #[error("the creep compliance does not flow: no series fits the better for a viscosity")]
+    NoFlow,
 }
 
 /// A series fitted to a table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
     series: FittedSeries,
+    alternatives: Vec<FittedSeries>,
     report: FitReport,
 }
 
@@ -95,6 +128,8 @@ pub struct FitReport {
     /// First and last time of the table (s).
     pub first_s: f64,
     pub last_s: f64,
+    /// First positive and last time (s).
+    pub window_s: (f64, f64),
     pub branches: usize,
     pub misfit: Misfit,
     pub remarks: Vec<FitRemark>,
@@ -111,6 +146,8 @@ pub enum FitRemark {
         first_s: f64,
         value: f64,
         share: f64,
+        /// The lowest and the highest value of series that fit about as well.
+        allowed: (f64, f64),
     },
     /// The creep compliance of the fit begins at zero.
     InstantaneouslyRigid { first_s: f64 },
@@ -119,6 +156,8 @@ pub enum FitRemark {
         face: GivenFace,
         last_s: f64,
         share: f64,
+        /// The lowest and the highest equilibrium value (1/Pa or Pa) of series that fit about as well.
+        allowed: (f64, f64),
     },
     /// The data ask for a viscous flow term; the misfits (rms) without and with it.
     Flow {
@@ -143,30 +182,33 @@ impl FitRemark {
     }
 }
 
-/// Fits a series to a table.
+/// Fits a series to a table: that of a fluid or of a solid as `flow` says, and as the data say where it does not.
 ///
 /// # Errors
-/// [`FitError`]: least squares that do not end, or strengths beyond the range of a double.
-pub fn fit(table: &Tabulated) -> Result<Fit, FitError> {
-    let (times_s, values) = grouped(table);
-    let mut sorted = values.clone();
+/// [`FitError`]: least squares that do not end, strengths beyond the range of a double, or a flow that is asked for and not
+/// in the data.
+pub fn fit(table: &Tabulated, flow: Option<bool>) -> Result<Fit, FitError> {
+    let groups = table.groups();
+    let mut sorted = groups.values.clone();
     sorted.sort_by(f64::total_cmp);
     let reference = sorted[sorted.len() / 2];
-    let values: Vec<f64> = values.iter().map(|value| value / reference).collect();
-    let face = table.face();
-    let search = |flow| Search {
-        face,
-        times_s: &times_s,
-        values: &values,
-        limits_s: limits_s(table),
-        flow,
+    let mut problem = Problem {
+        table,
+        values: groups.values.iter().map(|v| v / reference).collect(),
+        weights: groups.weights(),
+        noise: NOTICEABLE.max(table.rounding()),
+        reference,
     };
-    let solid = search(false);
-    let mut series = solid.run()?;
-    let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    if face == GivenFace::Relaxation && series.constant < search::NOTICEABLE * least {
-        // What no sample would notice is no equilibrium.
-        series.constant = 0.0;
+    let most = problem.search(table.face() == GivenFace::Creep, LONGEST);
+    problem.noise = most.residual()?.max(problem.noise);
+    let candidates = problem.candidates()?;
+    let is_fluid = match flow {
+        Some(flow) => flow,
+        None => problem.is_fluid(&candidates)?,
+    };
+    let face = table.face();
+    if is_fluid && face == GivenFace::Creep && candidates.fluid.flow_per_s == 0.0 {
+        return Err(FitError::NoFlow);
     }
     let mut remarks: Vec<_> = table
         .warnings()
@@ -175,112 +217,205 @@ pub fn fit(table: &Tabulated) -> Result<Fit, FitError> {
         .map(FitRemark::Table)
         .collect();
     if face == GivenFace::Creep {
-        let fluid = search(true);
-        let flowing = fluid.run()?;
-        let (rms_without, rms_with) = (solid.misfit(&series), fluid.misfit(&flowing));
-        let gain = solid.score(&series) - fluid.score(&flowing);
-        let decisive = gain > DECISIVE && rms_with < (1.0 - LOWERED) * rms_without;
-        remarks.push(if flowing.flow_per_s > 0.0 && decisive {
-            series = flowing;
-            FitRemark::Flow {
-                viscosity_pa_s: 1.0 / (series.flow_per_s * reference),
-                rms_without,
-                rms_with,
-            }
-        } else {
-            FitRemark::NoFlow {
-                rms_without,
-                rms_with,
-            }
-        });
+        remarks.push(problem.flow_remark(&candidates, is_fluid));
     }
-    remarks.extend(extrapolations(table, &series, reference));
-    let branches = series.branches.len();
-    let series = in_si(face, &series, reference)?;
+    let series = match is_fluid {
+        true => candidates.fluid,
+        false => candidates.solid,
+    };
+    let ends = problem.variants(&series, is_fluid)?;
+    remarks.extend(problem.extrapolations(&series, &ends));
+    let in_si = |series: &Series| in_si(face, series, reference);
+    let fitted = in_si(&series)?;
+    let alternatives: Result<_, _> = ends.iter().map(|end| in_si(&end.series)).collect();
     let report = FitReport {
         face,
         kind: table.kind(),
         samples: table.times_s().len(),
-        groups: times_s.len(),
+        groups: groups.values.len(),
         first_s: table.times_s()[0],
         last_s: table.curve().last_time_s(),
-        branches,
-        misfit: misfit(table, &series),
+        window_s: table.window_s(),
+        branches: series.branches.len(),
+        misfit: misfit(table, &fitted),
         remarks,
     };
-    Ok(Fit { series, report })
+    Ok(Fit {
+        series: fitted,
+        alternatives: alternatives?,
+        report,
+    })
 }
 
-/// Shortest and longest branch time (s).
-fn limits_s(table: &Tabulated) -> (f64, f64) {
-    let curve = table.curve();
-    let first_s = curve.shortest_time_s().unwrap_or(1.0);
-    let knows_zero = table.times_s()[0] == 0.0;
-    let shortest = if knows_zero { SHORTEST.1 } else { SHORTEST.0 };
-    (shortest * first_s, LONGEST * curve.last_time_s())
+/// A table in units of one of its values.
+struct Problem<'a> {
+    table: &'a Tabulated,
+    values: Vec<f64>,
+    weights: Vec<f64>,
+    noise: f64,
+    reference: f64,
 }
 
-/// Samples, those closer together than a fortieth decade averaged: geometric mean of times, mean of values.
-fn grouped(table: &Tabulated) -> (Vec<f64>, Vec<f64>) {
-    // A table of exactly forty per decade stays as it is, whatever rounding does to its times.
-    let width = 10_f64.powf(1.0 / GROUPS_PER_DECADE) * (1.0 - 1e-9);
-    let (times, values) = (table.times_s(), table.values());
-    let mut grouped = (Vec::new(), Vec::new());
-    let mut start = 0;
-    while start < times.len() {
-        let end = start
-            + times[start..]
-                .partition_point(|&t| t < width * times[start])
-                .max(1);
-        let count = (end - start) as f64;
-        grouped.0.push(if end - start == 1 {
-            times[start]
-        } else {
-            let logarithms: f64 = times[start..end]
-                .iter()
-                .map(|t| (t / times[start]).ln())
-                .sum();
-            times[start] * (logarithms / count).exp()
-        });
-        grouped
-            .1
-            .push(values[start..end].iter().map(|v| v / count).sum());
-        start = end;
-    }
-    grouped
+/// The best series of a solid and of a fluid.
+struct Candidates {
+    solid: Series,
+    fluid: Series,
 }
 
-/// What the series says where there are no data.
-fn extrapolations(table: &Tabulated, series: &Series, reference: f64) -> Vec<FitRemark> {
-    let face = table.face();
-    let value = |time_s: f64| series.value(face, time_s);
-    let mut remarks = Vec::new();
-    let first_s = table.times_s()[0];
-    let rigid = face == GivenFace::Creep && series.constant == 0.0;
-    if rigid {
-        remarks.push(FitRemark::InstantaneouslyRigid { first_s });
-    } else if first_s > 0.0 {
-        remarks.push(FitRemark::Instantaneous {
-            face,
-            first_s,
-            value: value(0.0) * reference,
-            share: (value(0.0) / value(first_s) - 1.0).abs(),
-        });
-    }
-    if face == GivenFace::Relaxation && series.constant == 0.0 {
-        remarks.push(FitRemark::NoEquilibrium);
-    } else if series.flow_per_s == 0.0 {
-        let last_s = table.curve().last_time_s();
-        let share = (series.equilibrium(face) / value(last_s) - 1.0).abs();
-        if share > FAR_FROM_EQUILIBRIUM {
-            remarks.push(FitRemark::Equilibrium {
-                face,
-                last_s,
-                share,
-            });
+/// A series that fits about as well, and what is different in it.
+struct Variant {
+    open: Open,
+    series: Series,
+}
+
+impl Problem<'_> {
+    /// The search for series with branch times up to this multiple of the last time.
+    fn search(&self, flow: bool, longest: f64) -> Search<'_> {
+        let curve = self.table.curve();
+        let knows_zero = self.table.times_s()[0] == 0.0;
+        let shortest = if knows_zero { SHORTEST.1 } else { SHORTEST.0 };
+        let first_s = curve.shortest_time_s().unwrap_or(1.0);
+        Search {
+            face: self.table.face(),
+            times_s: &self.table.groups().times_s,
+            values: &self.values,
+            weights: &self.weights,
+            limits_s: (shortest * first_s, longest * curve.last_time_s()),
+            flow,
+            noise: self.noise,
         }
     }
-    remarks
+
+    fn candidates(&self) -> Result<Candidates, FitError> {
+        let search = self.search(false, LONGEST);
+        let mut solid = search.run(&[])?;
+        let least = self.values.iter().copied().fold(f64::INFINITY, f64::min);
+        if self.table.face() == GivenFace::Relaxation && solid.constant < NOTICEABLE * least {
+            // Half of the largest equilibrium modulus that the data allow.
+            let most = self.allowed(&search, &solid);
+            let range = (NOTICEABLE * least, least);
+            let times = solid.times_s();
+            let highest = search.farthest(Open::Equilibrium, range, most, &times)?;
+            let highest = highest.map_or(range.0, |series| series.constant);
+            solid = search.with_open(Open::Equilibrium, 0.5 * highest, &times)?;
+        }
+        let fluid = self.search(true, 1.0).run(&solid.times_s())?;
+        Ok(Candidates { solid, fluid })
+    }
+
+    /// Whether the data resolve a flow.
+    fn is_fluid(&self, candidates: &Candidates) -> Result<bool, FitError> {
+        let Candidates { solid, fluid } = candidates;
+        let (resting, flowing) = (self.search(false, 1.0), self.search(true, 1.0));
+        let creeps = self.table.face() == GivenFace::Creep;
+        let explained = resting.misfit(solid) <= NOTICEABLE;
+        if creeps && (explained || resting.score(solid) < flowing.score(fluid) - PRICE) {
+            return Ok(false);
+        }
+        let rests = resting.chi_squared(&resting.spectrum(&solid.times_s())?);
+        let flows = flowing.chi_squared(&flowing.spectrum(&fluid.times_s())?);
+        if creeps {
+            return Ok(rests - flows > PRICE);
+        }
+        let left = LEFT * self.values[self.values.len() - 1];
+        let held = resting.with_open(Open::Equilibrium, left, &solid.times_s())?;
+        Ok(flows - rests <= ALLOWED && resting.chi_squared(&held) - rests > PRICE)
+    }
+
+    fn flow_remark(&self, candidates: &Candidates, is_fluid: bool) -> FitRemark {
+        let search = self.search(true, 1.0);
+        let rms_without = search.misfit(&candidates.solid);
+        let rms_with = search.misfit(&candidates.fluid);
+        match is_fluid {
+            true => FitRemark::Flow {
+                viscosity_pa_s: 1.0 / (candidates.fluid.flow_per_s * self.reference),
+                rms_without,
+                rms_with,
+            },
+            false => FitRemark::NoFlow {
+                rms_without,
+                rms_with,
+            },
+        }
+    }
+
+    /// The largest sum of squares of a series that fits about as well as this one.
+    fn allowed(&self, search: &Search<'_>, series: &Series) -> f64 {
+        search.squares(series) + ALLOWED * self.noise * self.noise
+    }
+
+    /// The series that fit about as well and have the lowest and highest values at the ends of time.
+    fn variants(&self, fit: &Series, is_fluid: bool) -> Result<Vec<Variant>, FitError> {
+        let face = self.table.face();
+        let later = self.search(is_fluid, AFTER);
+        let mut earlier = self.search(is_fluid, LONGEST);
+        earlier.limits_s.0 *= BEFORE;
+        let most = self.allowed(&later, fit);
+        let mut ends = Vec::new();
+        let slowest = Open::Loss(1.0 / self.table.curve().last_time_s());
+        for (open, search, applies) in [
+            (Open::Equilibrium, &later, !is_fluid),
+            (slowest, &later, true),
+            (Open::Instantaneous, &earlier, self.table.times_s()[0] > 0.0),
+        ] {
+            let value = fit.open(face, open);
+            // What has no instantaneous compliance cannot go into contact, and what differs from it does not fit.
+            let rigid = fit.open(face, Open::Instantaneous) == 0.0;
+            if !applies || rigid || value == 0.0 {
+                continue;
+            }
+            for limit in [value / WIDEST, value * WIDEST] {
+                let series = search.farthest(open, (value, limit), most, &fit.times_s())?;
+                let differs =
+                    |series: &Series| (series.open(face, open) / value - 1.0).abs() > NOTICEABLE;
+                let series = series.filter(differs);
+                ends.extend(series.map(|series| Variant { open, series }));
+            }
+        }
+        Ok(ends)
+    }
+
+    /// What the series says where there are no data.
+    fn extrapolations(&self, series: &Series, ends: &[Variant]) -> Vec<FitRemark> {
+        let face = self.table.face();
+        let value = |time_s: f64| series.value(face, time_s);
+        let range = |open: Open| {
+            let others = ends.iter().filter(|other| other.open == open);
+            let others = others.map(|other| other.series.open(face, open));
+            let own = series.open(face, open);
+            let both = others.fold((own, own), |(a, b), v| (a.min(v), b.max(v)));
+            (both.0 * self.reference, both.1 * self.reference)
+        };
+        let mut remarks = Vec::new();
+        let first_s = self.table.times_s()[0];
+        if face == GivenFace::Creep && series.constant == 0.0 {
+            remarks.push(FitRemark::InstantaneouslyRigid { first_s });
+        } else if first_s > 0.0 {
+            remarks.push(FitRemark::Instantaneous {
+                face,
+                first_s,
+                value: value(0.0) * self.reference,
+                share: (value(0.0) / value(first_s) - 1.0).abs(),
+                allowed: range(Open::Instantaneous),
+            });
+        }
+        let equilibrium = series.open(face, Open::Equilibrium);
+        if face == GivenFace::Relaxation && equilibrium == 0.0 {
+            remarks.push(FitRemark::NoEquilibrium);
+        } else if series.flow_per_s == 0.0 {
+            let last_s = self.table.curve().last_time_s();
+            let share = (equilibrium / value(last_s) - 1.0).abs();
+            if share > FAR_FROM_EQUILIBRIUM {
+                remarks.push(FitRemark::Equilibrium {
+                    face,
+                    last_s,
+                    share,
+                    allowed: range(Open::Equilibrium),
+                });
+            }
+        }
+        remarks
+    }
 }
 
 fn in_si(face: GivenFace, series: &Series, reference: f64) -> Result<FittedSeries, MaterialError> {
@@ -346,20 +481,43 @@ impl Fit {
         &self.report
     }
 
-    /// The material of the series, which carries the report with it.
+    /// Series that fit about as well and differ in what the data leave open: the values at the ends of time.
+    pub fn alternatives(&self) -> &[FittedSeries] {
+        &self.alternatives
+    }
+
+    /// The material of the series, which carries the report, the times of the data and the alternatives with it.
     ///
     /// # Errors
     /// A Poisson ratio outside -1 < nu <= 1/2, or a conversion beyond the range of a double.
     pub fn material(&self, poisson_ratio: f64) -> Result<Material, MaterialError> {
         let kind = self.report.kind;
-        let material = match &self.series {
+        let material = |series: &FittedSeries| match series {
             FittedSeries::Creep(creep) => Material::from_creep(creep.clone(), kind, poisson_ratio),
             FittedSeries::Relaxation(relaxation) => {
                 Material::from_relaxation(relaxation.clone(), kind, poisson_ratio)
             }
         };
-        Ok(material?.with_fit(self.report.clone()))
+        let alternatives: Result<_, _> = self.alternatives.iter().map(material).collect();
+        Ok(material(&self.series)?
+            .with_fit(self.report.clone())
+            .measured(self.report.window_s)
+            .with_alternatives(alternatives?))
     }
+}
+
+/// A creep compliance or relaxation modulus in five digits.
+fn value(face: GivenFace, value: f64) -> String {
+    match face {
+        GivenFace::Creep => format_human(value, Dimension::Compliance, 5),
+        GivenFace::Relaxation => format_human(value, Dimension::Stress, 5),
+    }
+}
+
+/// What a value at an end of time may be.
+fn range(face: GivenFace, (lowest, highest): (f64, f64)) -> String {
+    let (lowest, highest) = (value(face, lowest), value(face, highest));
+    format!("the data allow {lowest} to {highest}")
 }
 
 /// A share as a person reads it: per cent, or a power of ten where that would be nothing.
@@ -420,21 +578,18 @@ impl fmt::Display for FitRemark {
             Self::Instantaneous {
                 face,
                 first_s,
-                value,
+                value: own,
                 share: by,
-            } => {
-                let value = match face {
-                    GivenFace::Creep => format_human(*value, Dimension::Compliance, 5),
-                    GivenFace::Relaxation => format_human(*value, Dimension::Stress, 5),
-                };
-                write!(
-                    formatter,
-                    "the data begin at {}: the instantaneous {} of {value} is assumed, {} from the first value of the fit; anything faster is taken for instantaneous",
-                    seconds(*first_s),
-                    name(*face),
-                    share(*by)
-                )
-            }
+                allowed,
+            } => write!(
+                formatter,
+                "the data begin at {}: the instantaneous {} of {} is assumed, {} from the first value of the fit; anything faster is taken for instantaneous; {}",
+                seconds(*first_s),
+                name(*face),
+                value(*face, *own),
+                share(*by),
+                range(*face, *allowed)
+            ),
             Self::InstantaneouslyRigid { first_s } => write!(
                 formatter,
                 "the fit has no instantaneous compliance, so it cannot go into contact: the data, which begin at {}, show none",
@@ -444,12 +599,14 @@ impl fmt::Display for FitRemark {
                 face,
                 last_s,
                 share: by,
+                allowed,
             } => write!(
                 formatter,
-                "the data end at {} before the {} comes to rest: its equilibrium is assumed, {} from the last value of the fit",
+                "the data end at {} before the {} comes to rest: its equilibrium is assumed, {} from the last value of the fit; {}",
                 seconds(*last_s),
                 name(*face),
-                share(*by)
+                share(*by),
+                range(*face, *allowed)
             ),
             Self::Flow {
                 viscosity_pa_s,
@@ -457,7 +614,7 @@ impl fmt::Display for FitRemark {
                 rms_with,
             } => write!(
                 formatter,
-                "the data ask for a viscous flow of {}: the misfit is {} rms with it and {} without; the material is a fluid",
+                "the data ask for a viscous flow of {}: the misfit is {} rms with it and {} without; the material is a fluid (flow = false asks for a solid)",
                 format_human(*viscosity_pa_s, Dimension::Viscosity, 4),
                 share(*rms_with),
                 share(*rms_without)
@@ -475,7 +632,7 @@ impl fmt::Display for FitRemark {
             Self::NoFlow { .. } => formatter
                 .write_str("no viscous flow is assumed: it would not lower the misfit"),
             Self::NoEquilibrium => formatter.write_str(
-                "the relaxation modulus of the fit falls to nothing: the material is a fluid, and has no stabilised cycle in contact",
+                "the relaxation modulus of the fit falls to nothing: the material is a fluid, and has no stabilised cycle in contact (flow = false asks for a solid)",
             ),
         }
     }
@@ -493,7 +650,11 @@ mod tests {
 
     fn fitted(face: GivenFace, times: Vec<f64>, function: impl FnMut(f64) -> f64) -> Fit {
         let values = times.iter().copied().map(function).collect();
-        fit(&Tabulated::new(face, ModulusKind::Longitudinal, times, values).unwrap()).unwrap()
+        fit(
+            &Tabulated::new(face, ModulusKind::Longitudinal, times, values).unwrap(),
+            None,
+        )
+        .unwrap()
     }
 
     fn noisy(face: GivenFace, times: Vec<f64>, seed: u64, function: impl Fn(f64) -> f64) -> Fit {
@@ -751,6 +912,31 @@ mod tests {
             fit.report()
         );
         assert!(fit.material(0.3).unwrap().contact_compliance().is_err());
+    }
+
+    #[test]
+    fn a_table_can_be_asked_for_a_fluid_or_a_solid() {
+        let flowing = |t: f64| 1e-9 * (1.0 + t / 30.0 + 0.5 * (1.0 - (-t / 2.0_f64).exp()));
+        let times = log_spaced(0.1, 100.0, 10);
+        let table = |function: &dyn Fn(f64) -> f64, face| {
+            let values = times.iter().map(|&t| function(t)).collect();
+            Tabulated::new(face, ModulusKind::Shear, times.clone(), values).unwrap()
+        };
+        let fluid = table(&flowing, GivenFace::Creep);
+        let is_fluid = |table: &Tabulated, flow| {
+            let material = fit(table, flow).unwrap().material(0.3).unwrap();
+            material.creep().is_fluid()
+        };
+        assert!(is_fluid(&fluid, None) && is_fluid(&fluid, Some(true)));
+        assert!(!is_fluid(&fluid, Some(false)));
+        let relaxing = table(&|t| 1e6 * (-t / 5.0).exp() + 1e2, GivenFace::Relaxation);
+        assert!(is_fluid(&relaxing, Some(true)) && !is_fluid(&relaxing, Some(false)));
+        let resting = table(&|t| 1e-9 * (2.0 - (-t / 2.0_f64).exp()), GivenFace::Creep);
+        assert!(!is_fluid(&resting, None));
+        assert_eq!(
+            fit(&table(&|_| 1e-9, GivenFace::Creep), Some(true)),
+            Err(FitError::NoFlow)
+        );
     }
 
     #[test]

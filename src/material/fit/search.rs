@@ -3,6 +3,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::{NOTICEABLE, PRICE};
 use crate::material::GivenFace;
 use crate::material::nnls::{NnlsError, least_squares, nnls};
 
@@ -11,15 +12,26 @@ use crate::material::nnls::{NnlsError, least_squares, nnls};
 const FINE_GRID: f64 = 5.0;
 const COARSE_GRIDS: [f64; 3] = [1.0, 1.5, 2.0];
 
-/// Relative misfit below which an improvement is not noticeable.
-pub(super) const NOTICEABLE: f64 = 1e-4;
+/// Times per decade of the spectra that say what the data determine, and most times in any grid.
+const SPECTRUM: f64 = 10.0;
+const MOST_TIMES: f64 = 1000.0;
+
+/// How much heavier than a sample a condition weighs that must be met: to rounding times its square.
+const CONDITION: f64 = 1e4;
+
+/// Halvings of the logarithm of a ratio of ten or so: to a thousandth.
+const HALVINGS: usize = 12;
+
+/// Difference of two scores at which both series have substantial support (K. P. Burnham and D. R. Anderson, *Model Selection
+/// and Multimodel Inference*, Springer 2002, section 2.6).
+const ABOUT_EQUAL: f64 = 2.0;
 
 /// Iterations of one refinement, and the relative decrease of the sum of squares at which it ends: while branches are
 /// counted, and at the end.
 const ROUGHLY: (usize, f64) = (30, 1e-3);
 const CLOSELY: (usize, f64) = (200, 1e-10);
 
-/// Branches that are worth merging pair by pair, all at once.
+/// Number of branches from which on it is worth merging pair by pair, all at once.
 const MANY: usize = 8;
 
 /// Branches are taken away one by one; this many ways are tried to the end, the likeliest first.
@@ -28,13 +40,36 @@ const TRIED: usize = 3;
 /// What is fitted, and within which limits.
 pub(super) struct Search<'a> {
     pub(super) face: GivenFace,
-    /// Times in s, and values.
+    /// Times in s, values, and how much heavier than a single sample each of them weighs.
     pub(super) times_s: &'a [f64],
     pub(super) values: &'a [f64],
+    pub(super) weights: &'a [f64],
     /// Shortest and longest branch time.
     pub(super) limits_s: (f64, f64),
-    /// Whether the series has a term that grows with time.
+    /// Whether the series is that of a fluid: a creep compliance with a term that grows with time, a relaxation modulus
+    /// without a constant.
     pub(super) flow: bool,
+    /// Relative standard deviation of the noise.
+    pub(super) noise: f64,
+}
+
+/// A value of a series that data over a limited time leave open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Open {
+    /// At time zero.
+    Instantaneous,
+    /// The one that is approached without flow.
+    Equilibrium,
+    /// The loss modulus or loss compliance at this angular frequency.
+    Loss(f64),
+}
+
+/// A column of the least squares problem.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Column {
+    Constant,
+    Branch(f64),
+    Flow,
 }
 
 /// A branch: strength and time.
@@ -78,39 +113,68 @@ impl Series {
         self.constant + delayed + self.flow_per_s * time_s
     }
 
-    /// The value that is approached without flow.
-    pub(super) fn equilibrium(&self, face: GivenFace) -> f64 {
-        match face {
-            GivenFace::Creep => {
-                self.constant + self.branches.iter().map(|b| b.strength).sum::<f64>()
-            }
-            GivenFace::Relaxation => self.constant,
-        }
+    /// The value in question; of the loss, the part of the branches.
+    pub(super) fn open(&self, face: GivenFace, open: Open) -> f64 {
+        let branches = self.branches.iter();
+        let delayed: f64 = branches
+            .map(|b| b.strength * open.weight(face, Column::Branch(b.time_s)))
+            .sum();
+        self.constant * open.weight(face, Column::Constant) + delayed
     }
 
-    fn times_s(&self) -> Vec<f64> {
+    pub(super) fn times_s(&self) -> Vec<f64> {
         self.branches.iter().map(|b| b.time_s).collect()
     }
 }
 
+impl Open {
+    /// How much of a strength is part of the value.
+    fn weight(self, face: GivenFace, column: Column) -> f64 {
+        match (self, column) {
+            (Self::Loss(omega), Column::Branch(time_s)) => {
+                let x = omega * time_s;
+                x / (1.0 + x * x)
+            }
+            (Self::Loss(_), _) | (_, Column::Flow) => 0.0,
+            (_, Column::Constant) => 1.0,
+            (Self::Equilibrium, _) => f64::from(face == GivenFace::Creep),
+            (Self::Instantaneous, _) => f64::from(face == GivenFace::Relaxation),
+        }
+    }
+}
+
 impl Search<'_> {
-    /// The series that explains the data with the fewest branches.
-    pub(super) fn run(&self) -> Result<Series, NnlsError> {
+    /// The series with the fewest branches among those that score about best, as far as they are found: from grids of several
+    /// widths and from the times of another series, branches merged and left out.
+    pub(super) fn run(&self, other: &[f64]) -> Result<Series, NnlsError> {
         let gridded = self.strengths(&self.grid(FINE_GRID))?;
-        let mut best = self.refined(&merge_runs(&gridded), ROUGHLY)?;
+        let mut found = vec![
+            self.fewest(&merge_runs(&gridded))?,
+            self.fewest(&self.strengths(&self.within_limits(other))?)?,
+        ];
         for per_decade in COARSE_GRIDS {
-            if self.misfit(&best) <= NOTICEABLE {
-                break;
-            }
             let coarse = self.strengths(&self.grid(per_decade))?;
-            let coarse = self.refined(&coarse, ROUGHLY)?;
-            if self.score(&coarse) < self.score(&best) {
-                best = coarse;
-            }
+            found.push(self.fewest(&coarse)?);
         }
-        if self.score(&gridded) < self.score(&best) {
-            best = gridded;
+        if found.iter().all(|series| self.misfit(series) > self.noise) {
+            found.push(self.fewest(&gridded)?);
         }
+        let lowest = found.iter().map(|series| self.score(series));
+        let about_best = lowest.fold(f64::INFINITY, f64::min) + ABOUT_EQUAL;
+        let rank = |series: &Series| (series.branches.len(), self.score(series));
+        let order = |left: &(usize, f64), right: &(usize, f64)| {
+            left.0.cmp(&right.0).then(left.1.total_cmp(&right.1))
+        };
+        found.retain(|series| self.score(series) <= about_best);
+        let best = found.into_iter().min_by(|l, r| order(&rank(l), &rank(r)));
+        // The lowest score is never above itself.
+        self.refined(&best.unwrap_or(gridded), CLOSELY)
+    }
+
+    /// The series with the fewest branches that is to be had from this one by merging and leaving out branches, as long as
+    /// the score stays about as low as it was.
+    fn fewest(&self, start: &Series) -> Result<Series, NnlsError> {
+        let mut best = self.refined(start, ROUGHLY)?;
         // By halves while that costs nothing, then one by one.
         while best.branches.len() >= MANY {
             let half = self.refined(&halved(&best), ROUGHLY)?;
@@ -119,38 +183,116 @@ impl Search<'_> {
             }
             best = half;
         }
-        while let Some(simpler) = self.simpler(&best)? {
+        let mut lowest = self.score(&best);
+        while let Some(simpler) = self.simpler(&best, lowest + ABOUT_EQUAL)? {
+            lowest = lowest.min(self.score(&simpler));
             best = simpler;
         }
-        self.refined(&best, CLOSELY)
+        Ok(best)
+    }
+
+    /// The best series of any number of branches, on a fine grid and at further times within the limits.
+    pub(super) fn spectrum(&self, further: &[f64]) -> Result<Series, NnlsError> {
+        self.strengths(&self.spectrum_times(further))
+    }
+
+    fn spectrum_times(&self, further: &[f64]) -> Vec<f64> {
+        let mut times = self.grid(SPECTRUM);
+        times.extend(self.within_limits(further));
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    fn within_limits(&self, times_s: &[f64]) -> Vec<f64> {
+        let (shortest, longest) = self.limits_s;
+        let within = |time_s: &f64| (shortest..=longest).contains(time_s);
+        times_s.iter().copied().filter(within).collect()
+    }
+
+    /// The best series of any number of branches of which one value is given.
+    pub(super) fn with_open(
+        &self,
+        open: Open,
+        value: f64,
+        further: &[f64],
+    ) -> Result<Series, NnlsError> {
+        let times = self.spectrum_times(further);
+        let columns = self.columns(&times);
+        let samples = self.matrix(&columns);
+        let row = samples.nrows();
+        let mut matrix = samples.resize_vertically(row + 1, 0.0);
+        for (place, column) in columns.iter().enumerate() {
+            matrix[(row, place)] = CONDITION / value * open.weight(self.face, *column);
+        }
+        let right = self.right().push(CONDITION);
+        Ok(self.series(&columns, &nnls(&matrix, &right)?))
+    }
+
+    /// The series of which a value lies as far from `from` towards `limit` as is possible with no more than these squares; `None`
+    /// where hardly any other value is. Both values are positive.
+    pub(super) fn farthest(
+        &self,
+        open: Open,
+        (from, limit): (f64, f64),
+        squares: f64,
+        further: &[f64],
+    ) -> Result<Option<Series>, NnlsError> {
+        let (mut near, mut far) = (0.0, 1.0);
+        let mut best = None;
+        let mut share = 1.0;
+        for _ in 0..=HALVINGS {
+            let series = self.with_open(open, from * (limit / from).powf(share), further)?;
+            if self.squares(&series) <= squares {
+                near = share;
+                best = Some(series);
+                if near == far {
+                    break;
+                }
+            } else {
+                far = share;
+            }
+            share = 0.5 * (near + far);
+        }
+        Ok(best)
     }
 
     /// Root mean square of the relative misfit.
     pub(super) fn misfit(&self, series: &Series) -> f64 {
-        (self.squares(series) / self.values.len() as f64).sqrt()
+        (self.squares(series) / self.weight()).sqrt()
     }
 
-    /// The information criterion of G. Schwarz, Annals of Statistics 6 (1978) 461: lower is better. Misfits that nobody
-    /// would notice count as equal; a series with as many parameters as there are data explains nothing.
+    /// The standard deviation of the noise: what the best spectrum leaves, whose strengths have taken away their part.
+    pub(super) fn residual(&self) -> Result<f64, NnlsError> {
+        let spectrum = self.spectrum(&[])?;
+        let strengths = parameters(&spectrum) - spectrum.branches.len();
+        let free = self.values.len().saturating_sub(strengths).max(1);
+        Ok((self.squares(&spectrum) / free as f64).sqrt())
+    }
+
+    /// The sum of squares in units of the variance of the noise; what is not noticeable makes no difference.
+    pub(super) fn chi_squared(&self, series: &Series) -> f64 {
+        let unnoticed = self.weight() * NOTICEABLE * NOTICEABLE;
+        self.squares(series).max(unnoticed) / (self.noise * self.noise)
+    }
+
+    /// The criterion of C. L. Mallows, Technometrics 15 (1973) 661, which is that of H. Akaike where the noise is known: lower
+    /// is better. A series with as many parameters as there are data explains nothing.
     pub(super) fn score(&self, series: &Series) -> f64 {
-        let count = self.values.len();
-        let flows = usize::from(series.flow_per_s > 0.0);
-        let parameters = usize::from(series.constant > 0.0) + 2 * series.branches.len() + flows;
-        if parameters >= count {
+        let parameters = parameters(series);
+        if parameters >= self.values.len() {
             return f64::INFINITY;
         }
-        let variance = self.squares(series) / count as f64 + NOTICEABLE * NOTICEABLE;
-        count as f64 * variance.ln() + parameters as f64 * (count as f64).ln()
+        self.chi_squared(series) + PRICE * parameters as f64
     }
 
-    /// A series with a branch less that scores no worse, if there is one.
-    fn simpler(&self, series: &Series) -> Result<Option<Series>, NnlsError> {
+    /// A series with a branch less that scores no more than this, if there is one.
+    fn simpler(&self, series: &Series, limit: f64) -> Result<Option<Series>, NnlsError> {
         let mut candidates: Vec<(f64, Series)> = fewer(series)
             .into_iter()
             .map(|candidate| (self.quick_squares(&candidate), candidate))
             .collect();
         candidates.sort_by(|left, right| left.0.total_cmp(&right.0));
-        let limit = self.score(series);
         for (_, candidate) in candidates.into_iter().take(TRIED) {
             let refined = self.refined(&candidate, ROUGHLY)?;
             if self.score(&refined) <= limit {
@@ -160,65 +302,97 @@ impl Search<'_> {
         Ok(None)
     }
 
-    fn squares(&self, series: &Series) -> f64 {
-        let pairs = self.times_s.iter().zip(self.values);
-        pairs
-            .map(|(&t, v)| (series.value(self.face, t) / v - 1.0).powi(2))
+    /// The weighted sum of squares of the relative misfit.
+    pub(super) fn squares(&self, series: &Series) -> f64 {
+        let samples = self.times_s.iter().zip(self.values).zip(self.weights);
+        samples
+            .map(|((&t, v), weight)| (weight * (series.value(self.face, t) / v - 1.0)).powi(2))
             .sum()
+    }
+
+    /// What the sum of squares would be for a misfit of one everywhere.
+    fn weight(&self) -> f64 {
+        self.weights.iter().map(|weight| weight * weight).sum()
+    }
+
+    /// The right side of the least squares problem.
+    fn right(&self) -> DVector<f64> {
+        DVector::from_row_slice(self.weights)
     }
 
     /// Sum of squares with the best strengths of either sign at these times: a quick measure of what a candidate can do.
     fn quick_squares(&self, series: &Series) -> f64 {
-        let matrix = self.matrix(&series.times_s());
-        let ones = DVector::from_element(self.values.len(), 1.0);
-        least_squares(&matrix, &ones).map_or(f64::INFINITY, |strengths| {
-            (ones - matrix * strengths).norm_squared()
+        let matrix = self.matrix(&self.columns(&series.times_s()));
+        let right = self.right();
+        least_squares(&matrix, &right).map_or(f64::INFINITY, |strengths| {
+            (right - matrix * strengths).norm_squared()
         })
     }
 
     fn grid(&self, per_decade: f64) -> Vec<f64> {
         let (shortest, longest) = self.limits_s;
-        let steps = ((longest / shortest).log10() * per_decade).ceil().max(1.0);
+        let steps = ((longest / shortest).log10() * per_decade)
+            .ceil()
+            .clamp(1.0, MOST_TIMES);
         (0..=steps as usize)
             .map(|i| shortest * (longest / shortest).powf(i as f64 / steps))
             .collect()
     }
 
-    /// Columns over the data, each divided by the value there: constant, branches, flow (per last time).
-    fn matrix(&self, times_s: &[f64]) -> DMatrix<f64> {
-        let columns = 1 + times_s.len() + usize::from(self.flow);
-        DMatrix::from_fn(self.values.len(), columns, |row, column| {
-            let time_s = self.times_s[row];
-            let basis = match column.checked_sub(1).map(|branch| times_s.get(branch)) {
-                None => 1.0,
-                Some(Some(branch_s)) => basis(self.face, time_s / branch_s),
-                Some(None) => time_s / self.last_s(),
-            };
-            basis / self.values[row]
+    /// Constant, branches, flow (per last time), those of them that there are.
+    fn columns(&self, times_s: &[f64]) -> Vec<Column> {
+        let creep = self.face == GivenFace::Creep;
+        let constant = (creep || !self.flow).then_some(Column::Constant);
+        let flow = (creep && self.flow).then_some(Column::Flow);
+        let branches = times_s.iter().map(|&time_s| Column::Branch(time_s));
+        constant.into_iter().chain(branches).chain(flow).collect()
+    }
+
+    /// A column at a time.
+    fn basis(&self, column: Column, time_s: f64) -> f64 {
+        match column {
+            Column::Constant => 1.0,
+            Column::Branch(branch_s) => basis(self.face, time_s / branch_s),
+            Column::Flow => time_s / self.last_s(),
+        }
+    }
+
+    /// Columns over the data, each divided by the value there and weighted.
+    fn matrix(&self, columns: &[Column]) -> DMatrix<f64> {
+        DMatrix::from_fn(self.values.len(), columns.len(), |row, place| {
+            self.basis(columns[place], self.times_s[row]) * self.weights[row] / self.values[row]
         })
+    }
+
+    /// The series of these strengths; branches of strength zero are left out.
+    fn series(&self, columns: &[Column], strengths: &DVector<f64>) -> Series {
+        let mut series = Series {
+            constant: 0.0,
+            branches: Vec::new(),
+            flow_per_s: 0.0,
+        };
+        for (column, &strength) in columns.iter().zip(strengths) {
+            match *column {
+                Column::Constant => series.constant = strength,
+                Column::Branch(time_s) if strength > 0.0 => {
+                    series.branches.push(Branch { strength, time_s });
+                }
+                Column::Branch(_) => {}
+                Column::Flow => series.flow_per_s = strength / self.last_s(),
+            }
+        }
+        series
     }
 
     fn last_s(&self) -> f64 {
         self.times_s.last().copied().unwrap_or(1.0)
     }
 
-    /// The best strengths at given times, none negative; branches of strength zero are left out.
+    /// The best strengths at given times, none negative.
     fn strengths(&self, times_s: &[f64]) -> Result<Series, NnlsError> {
-        let ones = DVector::from_element(self.values.len(), 1.0);
-        let found = nnls(&self.matrix(times_s), &ones)?;
-        let branches = times_s.iter().zip(found.iter().skip(1));
-        Ok(Series {
-            constant: found[0],
-            branches: branches
-                .filter(|(_, strength)| **strength > 0.0)
-                .map(|(&time_s, &strength)| Branch { strength, time_s })
-                .collect(),
-            flow_per_s: if self.flow {
-                found[times_s.len() + 1] / self.last_s()
-            } else {
-                0.0
-            },
-        })
+        let columns = self.columns(times_s);
+        let strengths = nnls(&self.matrix(&columns), &self.right())?;
+        Ok(self.series(&columns, &strengths))
     }
 
     /// Times and strengths improved together (K. Levenberg 1944, D. W. Marquardt 1963), then the best strengths.
@@ -261,23 +435,27 @@ impl Search<'_> {
         })
     }
 
-    /// The damped step in (constant, ln strength and ln time of every branch, flow).
+    /// The damped step in (constant, ln strength of every branch, flow) and then ln time of every branch.
     fn step(&self, series: &Series, damping: f64) -> Option<DVector<f64>> {
-        let (rows, branches) = (self.values.len(), series.branches.len());
-        let columns = 1 + 2 * branches + usize::from(self.flow);
+        let own = self.columns(&series.times_s());
+        let (rows, strengths) = (self.values.len(), own.len());
+        let columns = strengths + series.branches.len();
         let mut matrix = DMatrix::zeros(rows + columns, columns);
         let mut right = DVector::zeros(rows + columns);
-        for (row, (&time_s, value)) in self.times_s.iter().zip(self.values).enumerate() {
-            matrix[(row, 0)] = 1.0 / value;
-            for (place, branch) in series.branches.iter().enumerate() {
-                let (x, strength) = (time_s / branch.time_s, branch.strength / value);
-                matrix[(row, 1 + place)] = strength * basis(self.face, x);
-                matrix[(row, 1 + branches + place)] = strength * basis_slope(self.face, x);
+        for (row, &time_s) in self.times_s.iter().enumerate() {
+            let (value, weight) = (self.values[row] / self.weights[row], self.weights[row]);
+            let mut branch = 0;
+            for (place, &column) in own.iter().enumerate() {
+                matrix[(row, place)] = self.basis(column, time_s) / value;
+                if let Column::Branch(branch_s) = column {
+                    let strength = series.branches[branch].strength;
+                    matrix[(row, place)] *= strength;
+                    matrix[(row, strengths + branch)] =
+                        strength / value * basis_slope(self.face, time_s / branch_s);
+                    branch += 1;
+                }
             }
-            if self.flow {
-                matrix[(row, columns - 1)] = time_s / self.last_s() / value;
-            }
-            right[row] = 1.0 - series.value(self.face, time_s) / value;
+            right[row] = weight - series.value(self.face, time_s) / value;
         }
         for column in 0..columns {
             let length = matrix.column(column).rows(0, rows).norm();
@@ -289,24 +467,34 @@ impl Search<'_> {
     fn moved(&self, series: &Series, step: &DVector<f64>) -> Series {
         // A factor of e at a time: the linearisation means nothing farther out.
         let factor = |step: f64| step.clamp(-1.0, 1.0).exp();
-        let count = series.branches.len();
-        let branches = series.branches.iter().enumerate();
-        Series {
-            constant: (series.constant + step[0]).max(0.0),
-            branches: branches
-                .map(|(place, branch)| Branch {
-                    strength: branch.strength * factor(step[1 + place]),
-                    time_s: (branch.time_s * factor(step[1 + count + place]))
-                        .clamp(self.limits_s.0, self.limits_s.1),
-                })
-                .collect(),
-            flow_per_s: if self.flow {
-                (series.flow_per_s + step[1 + 2 * count] / self.last_s()).max(0.0)
-            } else {
-                0.0
-            },
+        let own = self.columns(&series.times_s());
+        let mut moved = series.clone();
+        let mut branches = moved.branches.iter_mut().enumerate();
+        for (place, column) in own.iter().enumerate() {
+            match column {
+                Column::Constant => moved.constant = (series.constant + step[place]).max(0.0),
+                Column::Flow => {
+                    let flow_per_s = series.flow_per_s + step[place] / self.last_s();
+                    moved.flow_per_s = flow_per_s.max(0.0);
+                }
+                Column::Branch(_) => {
+                    if let Some((number, branch)) = branches.next() {
+                        branch.strength *= factor(step[place]);
+                        branch.time_s = (branch.time_s * factor(step[own.len() + number]))
+                            .clamp(self.limits_s.0, self.limits_s.1);
+                    }
+                }
+            }
         }
+        moved
     }
+}
+
+/// Values of a series that were chosen to fit.
+fn parameters(series: &Series) -> usize {
+    usize::from(series.constant > 0.0)
+        + 2 * series.branches.len()
+        + usize::from(series.flow_per_s > 0.0)
 }
 
 /// Two branches as one: strengths added, times averaged as logarithms with the strengths as weights.
