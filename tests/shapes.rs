@@ -700,6 +700,23 @@ fn csv_text(rows: &[Vec<f64>]) -> String {
     rows.iter().map(line).collect()
 }
 
+/// The same as columns x_m, y_m, z_m, far from the origin.
+fn points_text(rows: &[Vec<f64>], spacing_m: f64) -> String {
+    let mut text = "x_m,y_m,z_m\n".to_owned();
+    for (y, row) in rows.iter().enumerate() {
+        for (x, z) in row.iter().enumerate() {
+            let (x, y) = (1.0 + x as f64 * spacing_m, y as f64 * spacing_m);
+            text += &format!("{x:e},{y:e},{z:e}\n");
+        }
+    }
+    text
+}
+
+fn scaled(rows: &[Vec<f64>], factor: f64) -> Vec<Vec<f64>> {
+    let row = |row: &Vec<f64>| row.iter().map(|z| factor * z).collect();
+    rows.iter().map(row).collect()
+}
+
 /// As numpy.save writes a C-ordered array of doubles.
 fn npy_bytes(rows: &[Vec<f64>]) -> Vec<u8> {
     let (ny, nx) = (rows.len(), rows[0].len());
@@ -716,14 +733,7 @@ fn the_same_height_map_comes_from_a_matrix_from_points_and_from_npy() {
     let (rows, spacing) = heights();
     write(folder.path(), "map.csv", &csv_text(&rows));
     fs::write(folder.path().join("map.npy"), npy_bytes(&rows)).unwrap();
-    let mut points = "x_m,y_m,z_m\n".to_owned();
-    for (y, row) in rows.iter().enumerate() {
-        for (x, z) in row.iter().enumerate() {
-            let (x, y) = (1.0 + x as f64 * spacing, y as f64 * spacing);
-            points += &format!("{x:e},{y:e},{z:e}\n");
-        }
-    }
-    write(folder.path(), "points.csv", &points);
+    write(folder.path(), "points.csv", &points_text(&rows, spacing));
     let approach = |block: &str| {
         let setup = setup(folder.path(), block, "tolerance = 1e-9");
         let indenter = &setup.plan().indenter;
@@ -761,7 +771,10 @@ fn the_same_height_map_comes_from_a_matrix_from_points_and_from_npy() {
 #[test]
 fn the_resolved_sweep_gives_every_shape_again() {
     let folder = tempfile::TempDir::new().unwrap();
-    write(folder.path(), "map.csv", &csv_text(&heights().0));
+    let (rows, spacing) = heights();
+    write(folder.path(), "map.csv", &csv_text(&rows));
+    write(folder.path(), "um.csv", &csv_text(&scaled(&rows, 1e6)));
+    write(folder.path(), "points.csv", &points_text(&rows, spacing));
     write(
         folder.path(),
         "tip.csv",
@@ -772,6 +785,8 @@ fn the_resolved_sweep_gives_every_shape_again() {
         "shape = \"power-law\"\nexponent = 1.5\nradius = \"1 mm\"\nheight = \"20 um\"",
         "shape = \"profile\"\nfile = \"tip.csv\"",
         "shape = \"height-map\"\nfile = \"map.csv\"\nspacing = \"50 um\"\nedge = \"rim\"\nquantity = \"gap\"",
+        "shape = \"height-map\"\nfile = \"um.csv\"\nspacing = [\"50 um\", \"40 um\"]\nheight_unit = \"µm\"\nlevel = \"plane\"",
+        "shape = \"height-map\"\nfile = \"points.csv\"\nlevel = \"mean\"",
         "shape = \"asperities\"\nasperities = [{ center = [\"1 um\", 0.0], radius = \"3 mm\" },\n\
          { center = [\"-1 mm\", \"0.3 mm\"], radius = \"2 mm\", height = \"-1 um\" }]\noffset = [\"1 um\", \"-2 um\"]",
         "shape = \"rough\"\ncells = 32\nspacing = \"1 um\"\nhurst_exponent = 0.7\nrms_height = \"10 nm\"\n\
@@ -787,6 +802,40 @@ fn the_resolved_sweep_gives_every_shape_again() {
         assert_eq!(again.solver, plan.solver);
         for (x, y) in [(0.0, 0.0), (3e-6, -7e-6), (2e-4, 1e-4), (1.0, 1.0)] {
             assert_eq!(again.indenter.gap_m(x, y), plan.indenter.gap_m(x, y));
+        }
+    }
+}
+
+#[test]
+fn a_tilted_map_in_micrometres_is_the_map_that_it_is_without_tilt_in_metres() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let (rows, spacing) = heights();
+    let tilted =
+        |y: usize, x: usize| 1e6 * (rows[y][x] + spacing * (0.05 * x as f64 - 0.1 * y as f64));
+    let tilted: Vec<Vec<f64>> = (0..20)
+        .map(|y| (0..24).map(|x| tilted(y, x)).collect())
+        .collect();
+    write(folder.path(), "map.csv", &csv_text(&rows));
+    write(folder.path(), "um.csv", &csv_text(&scaled(&rows, 1e6)));
+    write(folder.path(), "tilted.csv", &csv_text(&tilted));
+    let plan = |rest: &str| {
+        let block = format!("shape = \"height-map\"\nspacing = \"50 um\"\n{rest}");
+        setup(folder.path(), &block, "cells = 64").plan().clone()
+    };
+    let plain = plan("file = \"map.csv\"");
+    // The map has the cells it has, and the plan says so.
+    assert_eq!(plain.solver.cells, 24);
+    assert!(!resolved::resolved_text(&plain).contains("\ncells ="));
+    for rest in [
+        "file = \"um.csv\"\nheight_unit = \"um\"",
+        "file = \"um.csv\"\nheight_unit = \"um\"\nlevel = \"mean\"",
+        "file = \"tilted.csv\"\nheight_unit = \"um\"\nlevel = \"plane\"",
+    ] {
+        let other = plan(rest);
+        for (x, y) in [(0.0, 0.0), (1e-4, -2e-4), (-5e-4, 4.7e-4)] {
+            let difference = other.indenter.gap_m(x, y) - plain.indenter.gap_m(x, y);
+            // Rounding of heights of 200 um, before the tilt is taken out.
+            assert!(difference.abs() < 1e-18, "{rest}: {difference:e}");
         }
     }
 }
@@ -877,6 +926,23 @@ fn what_is_wrong_with_an_indenter_is_said_at_its_place() {
         "points.csv",
         "x_m,y_m,z_m\n0,0,0\n1,0,0\n2,0,0\n0,1,0\n1,1,0\n2,1,0\n0,2,0\n1,2,0\n2,2,0\n",
     );
+    let (rows, spacing) = heights();
+    let tilted = |slope: f64| -> Vec<Vec<f64>> {
+        let point = |y: usize, x: usize| rows[y][x] + slope * spacing * (x as f64 - y as f64);
+        (0..20)
+            .map(|y| (0..24).map(|x| point(y, x)).collect())
+            .collect()
+    };
+    for (name, rows) in [
+        ("um.csv", scaled(&rows, 1e6)),
+        ("tilted.csv", tilted(0.1)),
+        ("leaning.csv", tilted(1.0)),
+        ("valley.csv", scaled(&rows, -1.0)),
+    ] {
+        write(folder.path(), name, &csv_text(&rows));
+    }
+    let points = points_text(&scaled(&rows, 1e6), spacing);
+    write(folder.path(), "um-points.csv", &points);
     let map = |file: &str, rest: &str| format!("shape = \"height-map\"\nfile = \"{file}\"\n{rest}");
     let rough = "shape = \"rough\"\ncells = 32\nspacing = \"1 um\"\nhurst_exponent = 1.5\nrms_height = \"10 nm\"\n\
                  cut_off_wavelength = \"4 um\"\nseed = 7";
@@ -909,6 +975,60 @@ fn what_is_wrong_with_an_indenter_is_said_at_its_place() {
         (
             map("points.csv", "spacing = 1e-6"),
             vec!["gives the place of every point", "remove `spacing`"],
+        ),
+        (
+            map("points.csv", "height_unit = \"um\""),
+            vec![
+                "sweep.toml:7:1",
+                "names its columns",
+                "remove `height_unit`",
+            ],
+        ),
+        (
+            map("um.csv", "spacing = \"50 um\""),
+            vec![
+                "sweep.toml:6:8",
+                "um.csv`: half of the map is steeper than",
+                "heights are read in m",
+                "height_unit = \"um\" or",
+                "height_unit = \"nm\"",
+                "`spacing`",
+            ],
+        ),
+        (
+            map("um.csv", "spacing = \"50 um\"\nheight_unit = \"micron\""),
+            vec!["sweep.toml:8:15", "height_unit", "\"um\""],
+        ),
+        (
+            map(
+                "um.csv",
+                "spacing = \"50 um\"\nheight_unit = \"um\"\nlevel = \"plain\"",
+            ),
+            vec!["sweep.toml:9:9", "did you mean \"plane\"?"],
+        ),
+        (
+            map("um-points.csv", ""),
+            vec![
+                "half of the map is steeper",
+                "convert the column z_m to metres",
+            ],
+        ),
+        (
+            map("tilted.csv", "spacing = \"50 um\""),
+            vec![
+                "sweep.toml:6:8",
+                "tilted.csv`: the map touches first on its border, at column 24, row 1",
+                "beyond the border the shape is not known",
+                "if the map is tilted, write level = \"plane\"",
+            ],
+        ),
+        (
+            map("leaning.csv", "spacing = \"50 um\""),
+            vec!["half of the map is steeper", "if the map is tilted"],
+        ),
+        (
+            map("valley.csv", "spacing = \"50 um\""),
+            vec!["touches first on its border", "edge = \"rim\""],
         ),
         (
             map("thin.csv", "spacing = 1e-6"),

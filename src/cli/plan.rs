@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use super::arguments::PlanFlags;
 use super::{Ended, Failure, meant_for, open_document, print, sweep_file};
+use crate::indenter::Indenter;
 use crate::quantity::{Dimension, format_human};
 use crate::report::terminal::frequency;
 use crate::sweep::case::Setup;
@@ -58,7 +59,7 @@ fn text(setup: &Setup, cost: &Cost) -> String {
          Memory: about {memory} for every thread{free}.\n\
          Shards: {} (below about ten minutes each, more of them gain little).\n",
         cost.cases.len(),
-        nodes(&plan.solver),
+        nodes(&plan.solver, plan.indenter.as_ref()),
         plan.solver.engine.name(),
         plan.cycle.steps,
         spoken(cost.time_s()),
@@ -70,10 +71,11 @@ fn text(setup: &Setup, cost: &Cost) -> String {
 }
 
 /// The nodes of an engine, in words.
-pub(super) fn nodes(solver: &SolverPlan) -> String {
-    match solver.engine {
-        EngineKind::Axisymmetric => format!("{} springs", solver.springs),
-        EngineKind::HalfSpace => format!("{0} x {0} cells", solver.cells),
+pub(super) fn nodes(solver: &SolverPlan, indenter: &dyn Indenter) -> String {
+    match (solver.engine, indenter.own_cells()) {
+        (EngineKind::Axisymmetric, _) => format!("{} springs", solver.springs),
+        (EngineKind::HalfSpace, Some((x, y))) => format!("{x} x {y} cells of the map"),
+        (EngineKind::HalfSpace, None) => format!("{0} x {0} cells", solver.cells),
     }
 }
 

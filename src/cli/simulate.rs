@@ -64,7 +64,7 @@ fn foretold(simulation: &Simulation) -> String {
         "{}\n\n{} time steps on {} ({} engine).\nMemory: about {}{free}.\n",
         plan.title,
         simulation.schedule().moments.len(),
-        nodes(&plan.solver),
+        nodes(&plan.solver, plan.indenter.as_ref()),
         plan.solver.engine.name(),
         megabytes(simulation.predicted_memory_bytes()),
     )

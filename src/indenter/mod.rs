@@ -19,7 +19,9 @@ pub use asperities::{Asperities, Asperity};
 pub use cone::Cone;
 pub use ellipsoid::Ellipsoid;
 pub use flat_punch::FlatPunch;
-pub use height_map::{HeightMap, MapEdge, MapQuantity};
+pub use height_map::{
+    HEIGHT_UNITS, HeightMap, HeightUnit, MapEdge, MapLevel, MapQuantity, MapSource,
+};
 pub use power_law::PowerLaw;
 pub use profile::Profile;
 pub use rough::{Rough, Roughness};
@@ -217,6 +219,11 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
     /// Where the half-space engine puts its cells under this load (N) and contact compliance (1/Pa).
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
         Domain::square(self.elastic_half_width_m(load_n, compliance_per_pa))
+    }
+
+    /// Points along x and y at which the shape is known, where it is a map: the half-space engine has a cell on each of them.
+    fn own_cells(&self) -> Option<(usize, usize)> {
+        None
     }
 
     /// Whether an infinite gap means that the data end there and not the indenter, so that contact beside it is in doubt.

@@ -264,6 +264,10 @@ impl Indenter for Rough {
         self.map.domain(load_n, compliance_per_pa)
     }
 
+    fn own_cells(&self) -> Option<(usize, usize)> {
+        self.map.own_cells()
+    }
+
     fn ends_in_data(&self) -> bool {
         self.map.ends_in_data()
     }

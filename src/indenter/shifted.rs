@@ -105,6 +105,10 @@ impl Indenter for Shifted {
         }
     }
 
+    fn own_cells(&self) -> Option<(usize, usize)> {
+        self.inner.own_cells()
+    }
+
     fn ends_in_data(&self) -> bool {
         self.inner.ends_in_data()
     }

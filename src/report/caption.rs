@@ -91,7 +91,7 @@ impl Setting {
         let computed = format!(
             "Stabilised cycles to a relative tolerance of {:e}, {steps} time steps per cycle, computed by {}.",
             plan.cycle.tolerance,
-            engine(&plan.solver, &nodes)
+            engine(&plan.solver, plan.indenter.as_ref(), &nodes)
         );
         Self {
             of,
@@ -117,7 +117,11 @@ impl Setting {
         let computed = format!(
             "{} time steps, computed by {}.",
             outcome.rows.len(),
-            engine(&plan.solver, &plan.solver.nodes().to_string())
+            engine(
+                &plan.solver,
+                plan.indenter.as_ref(),
+                &plan.solver.nodes().to_string()
+            )
         );
         Self {
             of,
@@ -159,12 +163,15 @@ fn indenter(indenter: &dyn Indenter) -> String {
     }
 }
 
-fn engine(solver: &SolverPlan, nodes: &str) -> String {
-    match solver.engine {
-        EngineKind::Axisymmetric => {
+fn engine(solver: &SolverPlan, indenter: &dyn Indenter, nodes: &str) -> String {
+    match (solver.engine, indenter.own_cells()) {
+        (EngineKind::Axisymmetric, _) => {
             format!("the axisymmetric engine of contact-dma on {nodes} springs")
         }
-        EngineKind::HalfSpace => {
+        (EngineKind::HalfSpace, Some((x, y))) => {
+            format!("the half-space engine of contact-dma on the {x} × {y} cells of the map")
+        }
+        (EngineKind::HalfSpace, None) => {
             format!("the half-space engine of contact-dma on {nodes} cells per side")
         }
     }

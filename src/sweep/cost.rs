@@ -111,7 +111,8 @@ fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
         steps: steps / coarser_steps,
         cycles,
     };
-    if !plan.cycle.error_bars && plan.cycle.accuracy.is_none() {
+    let has_bars = plan.cycle.error_bars && plan.indenter.own_cells().is_none();
+    if !has_bars && plan.cycle.accuracy.is_none() {
         return vec![level(1, 1, cycles)];
     }
     // A search from the memory of coarser steps needs about half as many cycles.
@@ -142,6 +143,7 @@ fn step_s(setup: &Setup) -> Result<f64, SetupError> {
     let plan = setup.plan();
     let nodes = match plan.solver.engine {
         EngineKind::Axisymmetric => plan.solver.nodes(),
+        EngineKind::HalfSpace if plan.indenter.own_cells().is_some() => plan.solver.nodes(),
         EngineKind::HalfSpace => plan.solver.nodes().min(CELLS_MEASURED),
     };
     let drive = plan.drives().first().unwrap_or(&plan.drive);

@@ -150,7 +150,7 @@ pub struct SolverPlan {
     pub time_rule: TimeRule,
     /// Axisymmetric engine: springs over the domain.
     pub springs: usize,
-    /// Half-space engine: cells along the longer side of the domain; an indenter that is a map brings its own.
+    /// Half-space engine: cells along the longer side of the domain; those of the indenter where it is a map.
     pub cells: usize,
     /// Half-space engine: tolerance of one instant, see [`crate::contact::half_space::SolverSettings`]; where none is given, what
     /// the loss asks for, see [`crate::sweep::instant_tolerance`].

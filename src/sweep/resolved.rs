@@ -69,7 +69,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         line(&format!("accuracy = {accuracy:e}"));
     }
     line("");
-    text.push_str(&solver_text(&plan.solver));
+    text.push_str(&solver_text(&plan.solver, plan.indenter.as_ref()));
     text.push_str(&plan.figures.text());
     text
 }
@@ -90,16 +90,19 @@ pub(super) fn opening_text(title: &str, material: &str, indenter: &dyn Indenter)
 }
 
 /// The `[solver]` block, at the end of both.
-pub(super) fn solver_text(solver: &SolverPlan) -> String {
+pub(super) fn solver_text(solver: &SolverPlan, indenter: &dyn Indenter) -> String {
+    let cells = match indenter.own_cells() {
+        Some(_) => String::new(),
+        None => format!("cells = {}\n", solver.cells),
+    };
     let rule = match solver.time_rule {
         TimeRule::Linear => "linear",
         TimeRule::Constant => "constant",
     };
     let tolerance = solver.tolerance.map(|t| format!("tolerance = {t:e}\n"));
     format!(
-        "[solver]\nengine = \"{}\"\ncells = {}\nsprings = {}\n{}time_rule = \"{rule}\"\n",
+        "[solver]\nengine = \"{}\"\n{cells}springs = {}\n{}time_rule = \"{rule}\"\n",
         solver.engine.name(),
-        solver.cells,
         solver.springs,
         tolerance.unwrap_or_default(),
     )

@@ -78,7 +78,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         let _ = writeln!(text, "field_cells = {}", plan.output.field_cells);
     }
     text.push('\n');
-    text.push_str(&resolved::solver_text(&plan.solver));
+    text.push_str(&resolved::solver_text(&plan.solver, plan.indenter.as_ref()));
     text.push_str(&plan.figures.text());
     text
 }

@@ -2,6 +2,7 @@
 
 use super::question::Facts;
 use crate::history::TimeRule;
+use crate::indenter::Indenter;
 use crate::report::terminal;
 use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
@@ -33,7 +34,8 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> String {
     );
     let integer = |value: fn(&CaseRecord) -> f64| range(records.iter().map(value), 0);
     facts.add("time steps per cycle", &integer(|r| r.steps as f64));
-    facts.add(nodes_name(plan.solver.engine), &integer(|r| r.nodes as f64));
+    let nodes = integer(|r| r.nodes as f64);
+    add_nodes(&mut facts, &plan.solver, plan.indenter.as_ref(), &nodes);
     facts.add("cycles solved per case", &integer(|r| r.cycles as f64));
     facts.add(
         "distance to the stabilised cycle",
@@ -88,6 +90,19 @@ pub(super) fn solver(facts: &mut Facts, solver: &SolverPlan) {
             TimeRule::Constant => "constant over a time step, first order",
         },
     );
+}
+
+/// Adds how many nodes there were: those of a map, or so many.
+pub(super) fn add_nodes(
+    facts: &mut Facts,
+    solver: &SolverPlan,
+    indenter: &dyn Indenter,
+    nodes: &str,
+) {
+    match indenter.own_cells() {
+        Some((x, y)) => facts.add("cells of the map", &format!("{x} × {y}")),
+        None => facts.add(nodes_name(solver.engine), nodes),
+    }
 }
 
 /// What the nodes of an engine are called.

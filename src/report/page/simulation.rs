@@ -245,10 +245,8 @@ pub(super) fn question(plan: &ScenarioPlan) -> String {
 pub(super) fn how(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
     let mut facts = Facts::default();
     how::solver(&mut facts, &plan.solver);
-    facts.add(
-        how::nodes_name(plan.solver.engine),
-        &plan.solver.nodes().to_string(),
-    );
+    let nodes = plan.solver.nodes().to_string();
+    how::add_nodes(&mut facts, &plan.solver, plan.indenter.as_ref(), &nodes);
     facts.add("time steps", &outcome.rows.len().to_string());
     facts.add("contact iterations", &outcome.iterations.to_string());
     facts.add(

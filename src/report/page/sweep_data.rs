@@ -66,7 +66,10 @@ impl<'a> SweepData<'a> {
             retardation_times_s: all_rounded(&outcome.retardation_times_s()),
             varied: plan.axis.as_ref().map(|axis| axis.varied.name()),
             drive_unit: plan.drive.control().unit(),
-            node_name: nodes_name(plan.solver.engine),
+            node_name: match plan.indenter.own_cells() {
+                Some(_) => "cells along the longer side of the map",
+                None => nodes_name(plan.solver.engine),
+            },
             material: MaterialData::of(&plan.material),
             cases: cases
                 .filter_map(|r| Some(case(plan, r, r.result.as_ref()?, count)))
