@@ -206,6 +206,7 @@ fn text(setup: &Setup, outcome: &Outcome, left_out: &[String], folder: &Path) ->
     for part in [
         terminal::peaks(plan, outcome),
         terminal::problems(outcome),
+        terminal::warnings_of_sweep(outcome),
         left_out.iter().map(|line| format!("{line}\n")).collect(),
     ] {
         if !part.is_empty() {

@@ -43,7 +43,7 @@ fn value(column: &str, cell: &str) -> Value {
     if cell.is_empty() {
         return Value::Null;
     }
-    if ["method", "status", "message"].contains(&column) {
+    if ["method", "warnings", "status", "message"].contains(&column) {
         return Value::from(cell);
     }
     let whole = cell.parse::<u64>().map(Value::from);

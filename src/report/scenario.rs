@@ -17,6 +17,7 @@ use crate::sweep::figure_plan::AxisUnits;
 use crate::sweep::scenario::{self, ScenarioPlan};
 use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::store::Store;
+use crate::sweep::warnings;
 
 /// Writes everything, as far as the simulation came. Returns what was left out and why.
 ///
@@ -263,6 +264,8 @@ struct Summary<'a> {
     /// done | interrupted | failed.
     status: &'a str,
     message: Option<&'a str>,
+    /// What lies outside the model.
+    warnings: Vec<Warned>,
     time_steps: usize,
     end_time_s: Option<f64>,
     largest_contact_radius_m: f64,
@@ -278,6 +281,13 @@ struct Summary<'a> {
     program: &'a str,
     program_version: &'a str,
     scenario_hash: &'a str,
+}
+
+/// A warning.
+#[derive(Serialize)]
+struct Warned {
+    code: &'static str,
+    message: String,
 }
 
 /// `summary.json`.
@@ -297,10 +307,16 @@ fn summary(
         .iter()
         .map(|row| row.peak_pressure_pa)
         .collect();
+    let warnings = warnings::of_history(plan, outcome).into_iter();
+    let warnings = warnings.map(|warning| Warned {
+        code: warning.code(),
+        message: warning.to_string(),
+    });
     let summary = Summary {
         title: &plan.title,
         status,
         message,
+        warnings: warnings.collect(),
         time_steps: outcome.rows.len(),
         end_time_s: outcome.rows.last().map(|row| row.time_s),
         largest_contact_radius_m: radii.fold(0.0, f64::max),

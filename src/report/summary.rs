@@ -7,6 +7,7 @@ use crate::sweep::peak::{Peak, RELATIVE_ACCURACY};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::Status;
 use crate::sweep::run::Outcome;
+use crate::sweep::warnings::{self, OverCases};
 
 #[derive(Serialize)]
 struct Summary<'a> {
@@ -17,6 +18,8 @@ struct Summary<'a> {
     /// Retardation times (s) of the branches whose losses `sweep.csv` lists, in its order.
     retardation_times_s: Vec<f64>,
     cases: Cases,
+    /// What lies outside the model, or was not estimated, by kind.
+    warnings: Vec<OverCases>,
     interrupted: bool,
     engine: &'a str,
     program: &'a str,
@@ -51,6 +54,7 @@ pub fn summary(
             not_converged: outcome.count(Status::NotConverged),
             failed: outcome.count(Status::Failed),
         },
+        warnings: warnings::over_cases(&outcome.records),
         interrupted: outcome.interrupted,
         engine: plan.solver.engine.name(),
         program: env!("CARGO_PKG_NAME"),

@@ -100,7 +100,7 @@ const FIRST: [Column; 4] = [
 ];
 
 /// What has no error bar, and how the numbers came about.
-const LAST: [Column; 17] = [
+const LAST: [Column; 18] = [
     ("dissipated_j", |r| {
         optional(r.result.as_ref().map(CaseResult::dissipated_j))
     }),
@@ -123,6 +123,10 @@ const LAST: [Column; 17] = [
     ("instants", |r| r.work.instants.to_string()),
     ("iterations", |r| r.work.iterations.to_string()),
     ("convolutions", |r| r.work.convolutions.to_string()),
+    ("warnings", |r| {
+        let codes: Vec<&str> = r.warnings.iter().map(|warning| warning.code()).collect();
+        codes.join(" ")
+    }),
     ("status", |r| r.status.name().to_owned()),
     ("message", |r| r.message.clone().unwrap_or_default()),
 ];

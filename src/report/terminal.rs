@@ -10,6 +10,7 @@ use crate::sweep::peak::Peak;
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::{CaseRecord, Status};
 use crate::sweep::run::Outcome;
+use crate::sweep::warnings;
 
 /// One line per case: frequency, loss with its error, phase, cycles, status; an absent value is a dash. A sweep of two axes
 /// has one line per drive instead: its cases are too many to be read.
@@ -224,6 +225,19 @@ pub fn problems(outcome: &Outcome) -> String {
         text.push_str(&wrapped(&line, 80, "", "  "));
     }
     text
+}
+
+/// What lies outside the model, or was not estimated: one line for each kind, whatever the number of cases.
+pub fn warnings_of_sweep(outcome: &Outcome) -> String {
+    warned(warnings::over_cases(&outcome.records))
+}
+
+/// Warnings, one after another.
+pub fn warned(warnings: impl IntoIterator<Item = impl fmt::Display>) -> String {
+    let lines = warnings.into_iter();
+    lines
+        .map(|warning| wrapped(&format!("warning: {warning}"), 80, "", "  "))
+        .collect()
 }
 
 /// A paragraph in lines of at most so many columns, as far as its words allow; `first` stands before the first line, `next` before

@@ -3,10 +3,11 @@
 use std::fmt::Write;
 
 use crate::quantity::{Dimension, format_human};
-use crate::report::{fit, samples};
+use crate::report::{fit, samples, terminal};
 use crate::sweep::body_material::BodyMaterial;
 use crate::sweep::scenario::ScenarioPlan;
 use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome};
+use crate::sweep::warnings;
 
 /// Title, material where it comes from a table, extent of the history, its largest contact and its end.
 pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
@@ -50,6 +51,10 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
             n => format!(", domain enlarged {n} times"),
         }
     );
+    let warnings = terminal::warned(warnings::of_history(plan, outcome));
+    if !warnings.is_empty() {
+        let _ = write!(text, "\n{warnings}");
+    }
     if outcome.damped_throughout {
         text.push_str(
             "Time steps are long beside the shortest relaxation time and were damped;\n\

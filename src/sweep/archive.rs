@@ -217,6 +217,12 @@ mod tests {
             drive_amplitude: case.drive.amplitude(),
             status: Status::NotConverged,
             message: Some("reached \"nothing\"".to_owned()),
+            warnings: vec![
+                crate::sweep::warnings::Warning::LargeStrain { strain: 0.1 + 0.2 },
+                crate::sweep::warnings::Warning::NoErrorBars {
+                    because: crate::sweep::warnings::NoErrorBars::OwnCells,
+                },
+            ],
             method: Method::March,
             steps: 200,
             nodes: 400,

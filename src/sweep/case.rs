@@ -16,6 +16,7 @@ use crate::sweep::instant_tolerance;
 use crate::sweep::plan::{Case, EngineKind, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 use crate::sweep::stabilise::{Contact, CycleError, Stabilised};
+use crate::sweep::warnings;
 
 /// Why a sweep cannot be set up.
 #[derive(Debug, Clone, thiserror::Error)]
@@ -239,6 +240,7 @@ impl Setup {
             drive_amplitude: case.drive.amplitude(),
             status: Status::Failed,
             message: None,
+            warnings: Vec::new(),
             method: cycle.method,
             steps: cycle.steps,
             nodes,
@@ -275,6 +277,7 @@ impl Setup {
                 record.message = Some(error.to_string());
             }
         }
+        record.warnings = warnings::of_case(&self.plan, &record, cycle.error_bars);
         Some(record)
     }
 

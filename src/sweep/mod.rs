@@ -33,3 +33,4 @@ pub mod shard;
 pub mod simulate;
 mod stabilise;
 pub mod store;
+pub mod warnings;

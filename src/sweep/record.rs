@@ -8,6 +8,7 @@ use crate::drive::{Control, HarmonicDrive};
 use crate::history::Work;
 use crate::sweep::error_bars::ErrorBars;
 use crate::sweep::plan::Method;
+use crate::sweep::warnings::Warning;
 
 /// How a case ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -44,6 +45,9 @@ pub struct CaseRecord {
     pub status: Status,
     /// Why there is no result, or what else a reader should know.
     pub message: Option<String>,
+    /// What lies outside the model, or was not estimated.
+    #[serde(default)]
+    pub warnings: Vec<Warning>,
     /// How the cycle was reached in the end.
     pub method: Method,
     /// Time steps per cycle, and springs or cells, of the result.

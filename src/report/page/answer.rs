@@ -51,6 +51,18 @@ pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
     html
 }
 
+/// Warnings as a list; nothing where there are none.
+pub(super) fn warned(warnings: impl IntoIterator<Item = impl std::fmt::Display>) -> String {
+    let lines = warnings.into_iter();
+    let lines: String = lines
+        .map(|warning| format!("<li>{}</li>\n", escaped(&warning.to_string())))
+        .collect();
+    if lines.is_empty() {
+        return String::new();
+    }
+    format!("<div class=\"warnings\">\n<p>To be kept in mind:</p>\n<ul>\n{lines}</ul>\n</div>")
+}
+
 /// What has no result or could not be located, each with its reason; nothing where there is no such thing.
 pub(super) fn problems(outcome: &Outcome) -> String {
     let cases = outcome.records.iter().filter(|r| r.result.is_none());

@@ -26,6 +26,7 @@ use crate::sweep::resolved;
 use crate::sweep::run::Outcome;
 use crate::sweep::scenario::{self, ScenarioPlan};
 use crate::sweep::simulate::SimulationOutcome;
+use crate::sweep::warnings;
 use frame::{Frame, HEAT, Input, InputFile, MODULI, PLOT, QUANTITIES, TABLE};
 use html::{filled, json_for_script};
 
@@ -56,6 +57,10 @@ pub fn sweep(
         &[
             ("answer", &answer::peaks(plan, outcome)),
             ("problems", &answer::problems(outcome)),
+            (
+                "warnings",
+                &answer::warned(warnings::over_cases(&outcome.records)),
+            ),
             (
                 "varied",
                 plan.axis.as_ref().map_or("", |axis| axis.varied.name()),
@@ -105,6 +110,10 @@ pub fn simulation(
         &[
             ("answer", &simulation::answer(outcome)),
             ("problems", &simulation::problems(outcome)),
+            (
+                "warnings",
+                &answer::warned(warnings::of_history(plan, outcome)),
+            ),
             ("figure", &figure),
             ("question", &simulation::question(plan)),
             ("how", &simulation::how(plan, outcome)),

@@ -181,6 +181,7 @@ function start(data) {
     const plain = [["energy balance: branches over loop, less one", "energy_imbalance"], ["distance to the stabilised cycle", "steady_distance"]];
     for (const [name, column] of plain) lines.push(line(name, row[column] === null ? "undefined" : significant(row[column], 3)));
     lines.push(line("method", `${row.method}, ${row.cycles} cycles, ${row.steps} steps per cycle, ${row.nodes} ${data.node_name}`));
+    if (row.warnings) lines.push(line("warnings", row.warnings));
     if (row.message) lines.push(line("message", row.message));
     document.querySelector("#facts tbody").innerHTML = lines.join("");
   }
