@@ -10,7 +10,7 @@ use common::{first_touch, half_space, observed_order, pmma, relative, solve_from
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
-use contact_dma::contact::{Prescribed, Solution};
+use contact_dma::contact::{Engine, Instant, Prescribed, Solution};
 use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::{
     Asperities, Asperity, Ellipsoid, FlatPunch, Indenter, MapEdge, Rough, Roughness, Shifted,
@@ -279,6 +279,94 @@ fn where_the_fast_way_is_left_within_an_instant_the_safe_one_ends_it_alike() {
     }
 }
 
+// The guess.
+
+/// Guesses that have nothing, or too much, to do with the answer.
+fn guesses(exact: &[f64], grid: &Grid) -> Vec<(&'static str, Vec<f64>)> {
+    let peak = exact.iter().copied().fold(0.0, f64::max);
+    let (nx, cells) = (grid.cells_x(), grid.cells());
+    let with = |changes: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        let cells = exact.iter().enumerate();
+        cells.map(|(cell, p)| p + peak * changes(cell)).collect()
+    };
+    let is_border = |cell: usize| {
+        let (x, y) = (cell % nx, cell / nx);
+        x == 0 || y == 0 || x == nx - 1 || y == grid.cells_y() - 1
+    };
+    let mut state = 3;
+    let noise: Vec<f64> = (0..cells).map(|_| random(&mut state)).collect();
+    let sparse: Vec<f64> = (0..cells).map(|_| random(&mut state)).collect();
+    let one = |at: usize, share: f64| move |cell: usize| if cell == at { share } else { 0.0 };
+    vec![
+        ("the answer", exact.to_vec()),
+        ("1e-9 in a border cell", with(&one(nx / 2, 1e-9))),
+        ("1e-15 in a corner", with(&one(cells - 1, 1e-15))),
+        ("1e-4 in a border cell", with(&one(nx * 3, 1e-4))),
+        (
+            "1e-12 in every border cell",
+            with(&|cell| if is_border(cell) { 1e-12 } else { 0.0 }),
+        ),
+        (
+            "1e-10 of noise everywhere",
+            with(&|cell| 1e-10 * noise[cell]),
+        ),
+        ("1e-300 everywhere", with(&|_| 1e-300)),
+        ("noise alone", noise.clone()),
+        (
+            "a few spikes",
+            sparse
+                .iter()
+                .map(|&v| if v < 0.02 { 1e9 * v } else { 0.0 })
+                .collect(),
+        ),
+        (
+            "a border alone",
+            (0..cells)
+                .map(|cell| if is_border(cell) { 1.0 } else { 0.0 })
+                .collect(),
+        ),
+        ("below zero", noise.iter().map(|v| -v).collect()),
+        ("nothing", vec![0.0; cells]),
+    ]
+}
+
+/// A pressure too small to weigh in any mean, in a cell at the border, is no contact there.
+#[test]
+fn the_answer_does_not_depend_on_the_guess() {
+    let shapes: [(Box<dyn Indenter>, Grid); 3] = [
+        (Box::new(pair()), Grid::new(48, 43, 3.3e-5, 3.9e-5).unwrap()),
+        (
+            Box::new(Ellipsoid::new(0.004, 0.001).unwrap()),
+            Grid::square(40, 2.5e-5).unwrap(),
+        ),
+        (
+            Box::new(sphere()),
+            Grid::square(64, 3.0e-5).unwrap().quarter().unwrap(),
+        ),
+    ];
+    for (shape, grid) in &shapes {
+        for prescribed in [Prescribed::LoadN(1.0), Prescribed::ApproachM(1e-5)] {
+            let new = || engine_on(shape.as_ref(), *grid);
+            let (expected, exact) = first_touch(&mut new(), 1e-9, prescribed).unwrap();
+            for (what, guess) in guesses(&exact, grid) {
+                for steps in [usize::MAX, 0] {
+                    let mut pressure = guess.clone();
+                    let mut engine = new().by_safeguard_after(steps);
+                    let found = solve_from(&mut engine, 1e-9, prescribed, &mut pressure);
+                    let found = found.unwrap_or_else(|e| panic!("{what}: {e}"));
+                    // The tolerance of 1e-8 on either side, and of what it leaves between cells: as above.
+                    let load = relative(found.load_n, expected.load_n);
+                    let approach = relative(found.approach_m, expected.approach_m);
+                    assert!(load.abs() < 5e-8, "{what}: {load:e}");
+                    assert!(approach.abs() < 5e-8, "{what}: {approach:e}");
+                    let radius = relative(found.contact_radius_m, expected.contact_radius_m);
+                    assert!(radius.abs() < 3e-7, "{what}: {radius:e}");
+                }
+            }
+        }
+    }
+}
+
 // Windows.
 
 #[test]
@@ -304,6 +392,48 @@ fn a_contact_that_opens_beyond_the_window_is_found() {
         let error = relative(found.approach_m, expected.approach_m);
         assert!(error.abs() < 2e-8, "{cells} cells: {error:e}");
         assert_same_radius(&found, &expected);
+    }
+}
+
+/// What noise in a measured creep curve may leave of the past: sources that lift the surface, here up to the indenter beyond
+/// the window of the contact.
+#[test]
+fn a_surface_that_the_past_has_lifted_is_met_beyond_the_window_too() {
+    let cells = 96;
+    let grid = Grid::square(cells, 2e-5).unwrap();
+    let compliance_per_pa = 4e-10;
+    for (lift_per_pa, met) in [(-0.1, false), (-0.2, true), (-0.3, true), (-0.45, true)] {
+        let mut history = vec![0.0; grid.cells()];
+        for iy in 44..52 {
+            history[iy * cells + 84..iy * cells + 92].fill(lift_per_pa);
+        }
+        let solve = |engine: &mut HalfSpace| {
+            let instant = Instant {
+                history: &history,
+                compliance_per_pa,
+                prescribed: Prescribed::LoadN(LOAD_N),
+            };
+            let mut pressure = vec![0.0; grid.cells()];
+            // A guess that knows of the contact in the middle alone.
+            press_in_the_middle(&mut pressure, grid);
+            let found = engine.solve(&instant, &mut pressure).unwrap();
+            let right = (0..grid.cells()).filter(|c| c % cells > 80);
+            (found, right.map(|c| pressure[c]).sum::<f64>())
+        };
+        let (fast, right) = solve(&mut engine_on(&sphere(), grid));
+        let (safe, expected) = solve(&mut engine_on(&sphere(), grid).by_safeguard_alone());
+        // The tolerance of 1e-8 on either side.
+        let error = relative(fast.approach_m, safe.approach_m);
+        assert!(error.abs() < 2e-8, "{error:e}");
+        assert_same_radius(&fast, &safe);
+    }
+}
+
+/// The pressure of a flat patch at the origin.
+fn press_in_the_middle(pressure: &mut [f64], grid: Grid) {
+    for (cell, p) in pressure.iter_mut().enumerate() {
+        let (x_m, y_m) = grid.center(cell);
+        *p = f64::from(u8::from(x_m.hypot(y_m) < 1e-4));
     }
 }
 

@@ -16,7 +16,7 @@ use super::super::convolution::{Convolution, Scratch, WindowOperators};
 use super::frame::Frame;
 use super::outside::{Moments, first_centre};
 use super::spans::Spans;
-use super::sums::{dot, least, sum, sums};
+use super::sums::{dot, least, least_of, sum, sums};
 use crate::contact::ContactError;
 
 /// What a window's problem is, apart from its fields.
@@ -104,6 +104,9 @@ const STEPS_PER_CONTACT: usize = 50;
 const SHARE_BEFORE_JOINING: f64 = 0.2;
 /// Cells join that penetrate by this share of what the tolerance allows.
 const JOINING: f64 = 0.3;
+/// A cell under pressure may stand off by this many times what the tolerance allows on average, no more: a tiny pressure hardly
+/// weighs in the average, wherever it is, but it says that there is contact. Cells at the edge settle last and are that far off.
+pub(super) const STANDING_OFF: f64 = 30.0;
 
 /// Fields of a window.
 #[derive(Debug, Default)]
@@ -122,6 +125,16 @@ pub(super) struct ActiveSet {
     last: Vec<f64>,
     direction: Vec<f64>,
     constant: Vec<f64>,
+}
+
+/// How far gaps are from those of a contact.
+struct Gaps {
+    /// Sum of p |gap|.
+    misfit: f64,
+    /// The highest gap under pressure, at least 0 (m).
+    highest_m: f64,
+    /// The lowest gap outside, at most 0 (m).
+    lowest_m: f64,
 }
 
 /// What the last step along a direction did.
@@ -212,13 +225,15 @@ impl ActiveSet {
         };
         state.reference_m = problem.compliance_per_pa * own_m + problem.noise_m / problem.tolerance;
         let joining_m = -JOINING * problem.tolerance * state.reference_m;
-        let (misfit, lowest_m) = self.find_contact(problem, &state, joining_m);
+        let extremes = self.find_contact(problem, &state, joining_m);
         let inside_m = if loaded {
-            misfit / state.pressure_sum
+            extremes.misfit / state.pressure_sum
         } else {
             0.0
         };
-        let worst_m = inside_m.max(-lowest_m);
+        let worst_m = inside_m
+            .max(extremes.highest_m / STANDING_OFF)
+            .max(-extremes.lowest_m);
         state.residual = if worst_m > 0.0 {
             worst_m / state.reference_m
         } else {
@@ -227,10 +242,9 @@ impl ActiveSet {
         state
     }
 
-    /// Finds the contact: the cells with pressure, and those that penetrate by more than `joining_m` allows. Returns the sum of
-    /// p |gap|, and the lowest gap outside, at most 0 (m).
-    fn find_contact(&mut self, problem: &Problem<'_>, state: &State, joining_m: f64) -> (f64, f64) {
-        let (mut misfit, mut lowest_m) = (0.0, 0.0_f64);
+    /// Finds the contact: the cells with pressure, and those that penetrate by more than `joining_m` allows.
+    fn find_contact(&mut self, problem: &Problem<'_>, state: &State, joining_m: f64) -> Gaps {
+        let (mut misfit, mut lowest_m, mut highest_m) = (0.0, 0.0_f64, 0.0_f64);
         let cells_x = problem.frame.cells_x;
         self.contact.clear();
         let rows = self.pressure.chunks_exact(cells_x);
@@ -244,6 +258,7 @@ impl ActiveSet {
                 let gap_m = gap - state.approach_m;
                 if p > 0.0 {
                     misfit += p * gap_m.abs();
+                    highest_m = highest_m.max(gap_m);
                 } else {
                     lowest_m = lowest_m.min(gap_m);
                     if gap_m >= joining_m {
@@ -253,7 +268,11 @@ impl ActiveSet {
                 self.contact.push(iy * cells_x + ix);
             }
         }
-        (misfit, lowest_m)
+        Gaps {
+            misfit,
+            highest_m,
+            lowest_m,
+        }
     }
 
     /// Conjugate gradients on the contact as it is. False where there is no way down.
@@ -341,7 +360,8 @@ impl ActiveSet {
     }
 
     /// The residual: the approach, or under load control the mean over the contact of the gap before it, less that gap.
-    /// Returns the pressure-weighted mean of the gap's size (m), and the approach of which it is the gap.
+    /// Returns how far the gap is from none (m), on average by pressure or, if that says more, where it is highest; and the
+    /// approach of which it is the gap.
     fn update_residual(&mut self, problem: &Problem<'_>) -> (f64, f64) {
         let (mut gaps, mut pressures, mut lifted) = (0.0, 0.0, 0.0);
         for (run, _) in self.contact.runs() {
@@ -360,21 +380,23 @@ impl ActiveSet {
             None if loaded => lifted / pressures,
             None => level_m,
         };
-        let mut misfit = 0.0;
+        let (mut misfit, mut least_negated_m) = (0.0, f64::INFINITY);
         for (run, at) in self.contact.runs() {
             let (pressure, gap_m) = (&self.pressure[run.clone()], &self.gap_m[run.clone()]);
             misfit += sums(pressure, gap_m, |p, gap| [p * (gap - approach_m).abs()])[0];
+            least_negated_m = least_negated_m.min(least_of(gap_m, |gap| -gap));
             for (r, gap) in self.residual[at.clone()].iter_mut().zip(gap_m) {
                 *r = level_m - gap;
             }
             self.field[run].copy_from_slice(&self.residual[at]);
         }
-        let mean_m = if loaded {
-            misfit / pressures
+        let highest_m = -least_negated_m - approach_m;
+        let misfit_m = if loaded {
+            (misfit / pressures).max(highest_m / STANDING_OFF)
         } else {
             f64::INFINITY
         };
-        (mean_m, approach_m)
+        (misfit_m, approach_m)
     }
 
     /// Preconditions the residual, which is in `field`; under load control the sum of the result is nil. Returns its product

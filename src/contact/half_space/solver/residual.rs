@@ -1,5 +1,7 @@
 //! How far a pressure is from the solution of an instant: gaps inside the contact, penetration outside.
 
+use super::active_set::STANDING_OFF;
+
 /// Sums over the contact that one iteration needs.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Residual {
@@ -15,6 +17,8 @@ pub(super) struct Residual {
     pub(super) pressure_sum: f64,
     /// Deepest penetration outside the contact, as a positive number (m).
     pub(super) penetration_m: f64,
+    /// Highest gap under pressure, at least 0 (m).
+    standing_off_m: f64,
 }
 
 /// One value per cell each.
@@ -58,6 +62,7 @@ impl Residual {
             if p > 0.0 {
                 total.squared_gap += gap * gap;
                 total.misfit += p * gap.abs();
+                total.standing_off_m = total.standing_off_m.max(gap);
             } else {
                 lowest = lowest.min(gap);
             }
@@ -76,6 +81,10 @@ impl Residual {
             return f64::INFINITY;
         }
         let reference_m = self.work / self.pressure_sum + noise_m / tolerance;
-        (self.misfit / self.pressure_sum).max(self.penetration_m) / reference_m
+        let standing_off_m = self.standing_off_m / STANDING_OFF;
+        (self.misfit / self.pressure_sum)
+            .max(standing_off_m)
+            .max(self.penetration_m)
+            / reference_m
     }
 }
