@@ -422,6 +422,7 @@ fn a_surface_that_the_past_has_lifted_is_met_beyond_the_window_too() {
         };
         let (fast, right) = solve(&mut engine_on(&sphere(), grid));
         let (safe, expected) = solve(&mut engine_on(&sphere(), grid).by_safeguard_alone());
+        assert_eq!((right > 0.0, expected > 0.0), (met, met));
         // The tolerance of 1e-8 on either side.
         let error = relative(fast.approach_m, safe.approach_m);
         assert!(error.abs() < 2e-8, "{error:e}");

@@ -2,7 +2,8 @@
 //!
 //! A load Q on the surface, spread with the radius of gyration s about its centre c, lowers a point x by at least
 //! Q / (pi sqrt(|x - c|^2 + s^2)): 1/r is a convex function of r^2, whose mean over the load is |x - c|^2 + s^2 (Jensen's
-//! inequality). Where the gap before deformation makes up the rest of the approach, the surface is clear of the indenter. Gaps
+//! inequality). Sources below zero, which a noisy table leaves, lift a point by no more than if all of them lay in its own cell.
+//! Where the gap before deformation makes up the rest of the approach, the surface is clear of the indenter. Gaps
 //! are kept as their least value per ring about the window, so that a proof costs no more than a few hundred operations.
 //!
 //! Places are in cells of width: from the centre of the grid's first cell, or, on a mirrored grid, from the axes.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::super::influence::Influence;
 use super::active_set::{Ending, Problem, State, Work};
 use super::frame::{Bounds, Frame};
 use super::outside::{Moments, Rings, first_centre};
@@ -213,10 +214,20 @@ impl HalfSpace {
         let mut moments = Moments::default();
         let (x, y) = (source.x as f64, source.y as f64);
         let first = first_centre(grid);
+        // The hereditary part of a noisy table may lift the surface in places.
+        let (mut lifting, mut pressing) = (0.0, Vec::new());
         for (iy, row) in self.source.chunks_exact(source.cells_x).enumerate() {
+            let mut row = row;
+            if sums::least(row) < 0.0 {
+                lifting -= sums::sums(row, row, |q, _| [q.min(0.0)])[0];
+                pressing.clear();
+                pressing.extend(row.iter().map(|q| q.max(0.0)));
+                row = &pressing;
+            }
             moments.add_row(row, x + first, (y + iy as f64 + first) * step_y);
         }
         let moments = moments.of_all_copies(grid);
+        let lift_m = grid.copies() as f64 * lifting * Influence::new(grid).coefficient_m(0, 0);
         let known = self.rings.iter().position(|r| *r.frame() == window);
         let at = known.unwrap_or_else(|| {
             if self.rings.len() >= REMEMBERED_RINGS {
@@ -225,7 +236,7 @@ impl HalfSpace {
             self.rings.push(Rings::new(grid, &self.gap_m, window));
             self.rings.len() - 1
         });
-        self.rings[at].are_clear(&moments, approach_m, grid)
+        self.rings[at].are_clear(&moments, approach_m + lift_m, grid)
     }
 
     /// The gap before the approach is taken off, of the whole grid.
