@@ -129,6 +129,19 @@ pub trait Engine: Send {
         solution: &Solution,
     ) -> Result<Option<f64>, ContactError>;
 
+    /// Radius (m) of the round flat punch that is as stiff as the contact while its shape does not change: for a contact of any
+    /// shape what the radius is for a disc, 0 out of contact. Also the convolutions that took.
+    ///
+    /// # Errors
+    /// [`ContactError`] where the stiffness cannot be computed.
+    fn tangent_radius_m(
+        &mut self,
+        _pressure: &[f64],
+        solution: &Solution,
+    ) -> Result<(f64, usize), ContactError> {
+        Ok((solution.contact_radius_m, 0))
+    }
+
     /// The contact pressure (Pa) along lines through the origin: from the axis to the edge of the contact, or along x and along y
     /// over all cells.
     fn pressure_lines(&self, pressure: &[f64], solution: &Solution) -> Vec<PressureLine>;

@@ -192,6 +192,19 @@ impl<'a, M: Hereditary> March<'a, M> {
         }
     }
 
+    /// As [`Engine::tangent_radius_m`], of the present instant; `None` before the first.
+    ///
+    /// # Errors
+    /// As [`Engine::tangent_radius_m`].
+    pub fn tangent_radius_m(&mut self) -> Result<Option<f64>, ContactError> {
+        let Some(solution) = &self.solution else {
+            return Ok(None);
+        };
+        let found = self.engine.tangent_radius_m(&self.pressure, solution)?;
+        self.work.convolutions += found.1 as u64;
+        Ok(Some(found.0))
+    }
+
     /// Refuses the present instant where the engine's own assumptions do not hold.
     ///
     /// # Errors

@@ -16,6 +16,7 @@ mod polonsky_keer;
 mod residual;
 mod spans;
 mod sums;
+mod tangent;
 mod windows;
 
 use std::sync::Arc;
@@ -82,6 +83,8 @@ pub struct HalfSpace {
     settings: SolverSettings,
     gap_m: Vec<f64>,
     bounded_pressure: bool,
+    /// Whether every contact is a disc.
+    round_contact: bool,
     /// Steps of an instant after which the fast way is left for the safe one.
     fast_steps: usize,
     /// Cells inside the grid in which contact is an error, because the gap beside them is not known.
@@ -128,6 +131,7 @@ impl HalfSpace {
         Self {
             settings,
             bounded_pressure,
+            round_contact: false,
             fast_steps: usize::MAX,
             end_of_data: Vec::new(),
             fields: ActiveSet::default(),
@@ -155,6 +159,12 @@ impl HalfSpace {
     /// where the fast one stalls, at will.
     pub fn by_safeguard_after(mut self, steps: usize) -> Self {
         self.fast_steps = steps;
+        self
+    }
+
+    /// The same engine for a convex body of revolution, whose contact is always a disc.
+    pub fn in_round_contact(mut self) -> Self {
+        self.round_contact = true;
         self
     }
 
@@ -418,6 +428,17 @@ impl Engine for HalfSpace {
     ) -> Result<Option<f64>, ContactError> {
         let peak = pressure.iter().copied().fold(0.0, f64::max);
         Ok(self.bounded_pressure.then_some(peak))
+    }
+
+    fn tangent_radius_m(
+        &mut self,
+        pressure: &[f64],
+        solution: &Solution,
+    ) -> Result<(f64, usize), ContactError> {
+        match self.round_contact || solution.contact_radius_m == 0.0 {
+            true => Ok((solution.contact_radius_m, 0)),
+            false => self.punch_radius_m(pressure),
+        }
     }
 
     fn pressure_lines(&self, pressure: &[f64], _solution: &Solution) -> Vec<PressureLine> {
