@@ -25,6 +25,8 @@ pub struct Axisymmetric {
     gap_m: Vec<f64>,
     edge: Edge,
     bounded_pressure: bool,
+    /// Radii (m) inside the contact at which the pressure is unbounded: an apex (0), sharp edges.
+    singular_radii_m: Vec<f64>,
     /// G + H per spring.
     offset_m: Vec<f64>,
     /// Active force differences per x^2, for the inverse Abel transform.
@@ -54,6 +56,10 @@ impl Axisymmetric {
             width_m,
             edge,
             bounded_pressure,
+            singular_radii_m: match bounded_pressure || edge == Edge::Rim {
+                true => Vec::new(),
+                false => vec![0.0],
+            },
             offset_m: vec![0.0; springs],
             slope: vec![0.0; springs + 1],
             roots: if bounded_pressure {
@@ -64,6 +70,13 @@ impl Axisymmetric {
             approach_m: 0.0,
             gap_m,
         }
+    }
+
+    /// The same row for a shape with an apex (0) or sharp edges at these radii (m), where the pressure is unbounded: not at the
+    /// axis alone, as is assumed of a shape without a rim whose pressure is not bounded.
+    pub fn singular_at(mut self, radii_m: Vec<f64>) -> Self {
+        self.singular_radii_m = radii_m;
+        self
     }
 
     /// Position of a spring (m).

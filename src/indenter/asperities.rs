@@ -73,6 +73,18 @@ impl Asperities {
             .iter()
             .map(alone)
             .fold(f64::INFINITY, f64::min);
+        self.half_widths_under_approach_m(approach_m)
+    }
+}
+
+impl Indenter for Asperities {
+    fn shape(&self) -> &'static str {
+        "asperities"
+    }
+
+    /// What each asperity alone would have for a contact (Hertz), as deep as it then is.
+    fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
+        let depth = |a: &Asperity| self.highest_m - a.height_m;
         let (mut x_m, mut y_m) = (0.0_f64, 0.0_f64);
         for asperity in self.asperities.iter().filter(|a| depth(a) < approach_m) {
             let contact_m = (asperity.radius_m * (approach_m - depth(asperity))).sqrt();
@@ -80,12 +92,6 @@ impl Asperities {
             y_m = y_m.max(asperity.center_y_m.abs() + contact_m);
         }
         (x_m, y_m)
-    }
-}
-
-impl Indenter for Asperities {
-    fn shape(&self) -> &'static str {
-        "asperities"
     }
 
     fn parameters(&self) -> Vec<Parameter> {

@@ -84,6 +84,29 @@ impl Indenter for Ellipsoid {
         x_m.max(y_m)
     }
 
+    /// The ellipse under this approach, to 5 %: its pressure p sqrt(1 - x^2/a^2 - y^2/b^2) on a half-space of compliance C
+    /// makes an approach C p b K and a curvature 1/R = 2 C p b (K - E) / (e a)^2 along the longer semi-axis a, e^2 = 1 - (b/a)^2
+    /// (K. L. Johnson, Contact Mechanics, 1985, section 4.2), with K = pi/2 + (pi/2 - 1) ln r as in
+    /// [`Ellipsoid::elastic_semi_axes_m`].
+    fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
+        use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
+        if let Some(sphere) = &self.sphere {
+            return sphere.half_widths_under_approach_m(approach_m);
+        }
+        let (rx, ry) = self.radii_m();
+        let ratio = rx.max(ry) / rx.min(ry);
+        let axis_ratio = ratio.powf(FRAC_2_PI);
+        let second = 1.0 + (FRAC_PI_2 - 1.0) / ratio;
+        let first = FRAC_PI_2 + (FRAC_PI_2 - 1.0) * ratio.ln();
+        let eccentricity_squared = 1.0 - axis_ratio.powi(-2);
+        let share = (first - second) / (eccentricity_squared * first);
+        let long_m = (2.0 * rx.max(ry) * approach_m.max(0.0) * share).sqrt();
+        match rx >= ry {
+            true => (long_m, long_m / axis_ratio),
+            false => (long_m / axis_ratio, long_m),
+        }
+    }
+
     /// A rectangle with the axis ratio of the contact, and cells likewise: both semi-axes get as many of them.
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
         let (x_m, y_m) = self.elastic_semi_axes_m(load_n, compliance_per_pa);

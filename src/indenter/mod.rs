@@ -11,6 +11,7 @@ mod flat_punch;
 mod height_map;
 mod power_law;
 mod profile;
+mod reach;
 mod rough;
 mod shifted;
 mod sphere;
@@ -24,6 +25,7 @@ pub use height_map::{
 };
 pub use power_law::PowerLaw;
 pub use profile::Profile;
+pub use reach::radius_under_approach_m;
 pub use rough::{Rough, Roughness};
 pub use shifted::Shifted;
 pub use sphere::Sphere;
@@ -226,6 +228,19 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
         None
     }
 
+    /// Half widths (m) along x and y of the rectangle about the origin that holds the contact under any approach up to this one
+    /// (m).
+    ///
+    /// Unless a shape knows better: of a convex body of revolution its contact held for ever; of any other a square beyond which
+    /// the gap is not below the approach, as far as lengths in steps of 9 % and 64 points along a side tell.
+    fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
+        let half_width_m = match self.axisymmetric() {
+            Some(body) => radius_under_approach_m(body, approach_m),
+            None => reach::square_below_m(self, approach_m),
+        };
+        (half_width_m, half_width_m)
+    }
+
     /// Whether an infinite gap means that the data end there and not the indenter, so that contact beside it is in doubt.
     fn ends_in_data(&self) -> bool {
         false
@@ -254,6 +269,15 @@ pub trait Axisymmetric {
 
     /// Whether the contact pressure is finite everywhere; an apex or a sharp edge makes it unbounded.
     fn has_bounded_pressure(&self) -> bool;
+
+    /// Radii (m) at which the shape has an apex (0) or a sharp edge, and the pressure of a contact around them is unbounded; the
+    /// rim of a shape that ends is none of them. An apex, unless a shape knows better.
+    fn singular_radii_m(&self) -> Vec<f64> {
+        match self.has_bounded_pressure() || self.contact_limit_m().is_some() {
+            true => Vec::new(),
+            false => vec![0.0],
+        }
+    }
 }
 
 /// A length that must be positive and finite.

@@ -12,7 +12,10 @@
 //! integral of r^2 g' / sqrt(x^2 - r^2) dr = -alpha (x^2 acos(r/x) + r s) / 2 - beta s (2 x^2 + r^2) / 3
 //! ```
 
-use super::{Axisymmetric, DataFile, Domain, Indenter, IndenterError, Parameter};
+use super::{
+    Axisymmetric, DataFile, Domain, Indenter, IndenterError, Parameter, radius_under_approach_m,
+    reach,
+};
 
 /// A slope that falls by no more than this share of the largest one is rounding of the table, not a profile that is not convex.
 const CONVEXITY_TOLERANCE: f64 = 1e-4;
@@ -54,8 +57,8 @@ pub struct Profile {
     end_m: f64,
     /// Radius at which the table ceases to be convex and rising, where it does.
     not_convex_at_m: Option<f64>,
-    /// Whether the tip is round and no edge runs around the body.
-    is_smooth: bool,
+    /// Radii (m) of an apex (0) and of edges that run around the body.
+    singular_m: Vec<f64>,
     source: Option<DataFile>,
 }
 
@@ -80,9 +83,13 @@ impl Profile {
             pieces.extend(interval(start, pair[1].0 - pair[0].0, secant, slopes));
         }
         let rounding = STRAIGHT_TOLERANCE * largest(&secants);
-        let smooth_joints = ends.windows(2).all(|e| (e[1].0 - e[0].1).abs() <= rounding);
+        let apex = ends.first().filter(|tip| tip.0 != 0.0).map(|_| 0.0);
+        let joints = ends.windows(2).zip(points.iter().skip(1));
+        let edges = joints
+            .filter(|(e, _)| (e[1].0 - e[0].1).abs() > rounding)
+            .map(|(_, point)| point.0);
         Ok(Self {
-            is_smooth: smooth_joints && ends.first().is_none_or(|e| e.0 == 0.0),
+            singular_m: apex.into_iter().chain(edges).collect(),
             pieces,
             end_m: points.last().map_or(0.0, |p| p.0),
             not_convex_at_m: not_convex.and_then(|i| points.get(i)).map(|p| p.0),
@@ -166,6 +173,21 @@ impl Profile {
             }
         }
         bound_m
+    }
+
+    /// The radius (m) from which on no gap is below this one (m); a piece is monotone, or too short to matter.
+    fn radius_below_m(&self, gap_m: f64) -> f64 {
+        let mut end_m = self.end_m;
+        for piece in self.pieces.iter().rev() {
+            if piece.gap_at_m(end_m) < gap_m {
+                return end_m;
+            }
+            if piece.gap_m < gap_m {
+                return reach::halved_m(piece.start_m, end_m, &|r_m| piece.gap_at_m(r_m) >= gap_m);
+            }
+            end_m = piece.start_m;
+        }
+        end_m
     }
 }
 
@@ -342,6 +364,15 @@ impl Indenter for Profile {
         }
     }
 
+    /// Of a profile that is not convex, how far out its gap is below the approach.
+    fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
+        let half_width_m = match self.not_convex_at_m {
+            None => radius_under_approach_m(self, approach_m),
+            Some(_) => self.radius_below_m(approach_m),
+        };
+        (half_width_m, half_width_m)
+    }
+
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
         let half_width_m = self.elastic_half_width_m(load_n, compliance_per_pa);
         Domain::Around {
@@ -381,8 +412,12 @@ impl Axisymmetric for Profile {
         Some(self.end_m)
     }
 
+    fn singular_radii_m(&self) -> Vec<f64> {
+        self.singular_m.clone()
+    }
+
     fn has_bounded_pressure(&self) -> bool {
-        self.is_smooth
+        self.singular_m.is_empty()
     }
 }
 

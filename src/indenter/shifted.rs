@@ -109,6 +109,11 @@ impl Indenter for Shifted {
         self.inner.own_cells()
     }
 
+    fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
+        let (x_m, y_m) = self.inner.half_widths_under_approach_m(approach_m);
+        (x_m + self.offset_x_m.abs(), y_m + self.offset_y_m.abs())
+    }
+
     fn ends_in_data(&self) -> bool {
         self.inner.ends_in_data()
     }

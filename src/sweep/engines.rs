@@ -30,6 +30,8 @@ pub enum EngineError {
     EndOfData { half_width_m: f64 },
 }
 
+/// The least half width of a domain.
+const SMALLEST_M: f64 = 1e-12;
 /// Room beyond the largest contact expected.
 const SPRING_ROOM: f64 = 1.02;
 /// How many enlargements of the domain there may be before a contact counts as failed.
@@ -69,7 +71,7 @@ impl EngineBuilder {
     ) -> Result<Self, EngineError> {
         let half_width_m = contact_half_width_m(indenter.as_ref(), largest);
         let mut builder = Self {
-            domain: contact_domain(indenter.as_ref(), largest, half_width_m),
+            domain: contact_domain(indenter.as_ref(), largest),
             indenter,
             solver,
             half_width_m,
@@ -216,7 +218,8 @@ impl EngineBuilder {
             None => axisymmetric::Edge::Open,
         };
         let bounded = self.indenter.pressure_is_bounded();
-        Ok(Axisymmetric::new(width_m, gaps, edge, bounded))
+        let springs = Axisymmetric::new(width_m, gaps, edge, bounded);
+        Ok(springs.singular_at(body.singular_radii_m()))
     }
 
     fn half_space(&self, growths: usize) -> Result<HalfSpace, EngineError> {
@@ -227,7 +230,10 @@ impl EngineBuilder {
             ..SolverSettings::default()
         };
         let bounded = self.indenter.pressure_is_bounded();
-        let engine = HalfSpace::new(operator, gaps, bounded, settings);
+        let mut engine = HalfSpace::new(operator, gaps, bounded, settings);
+        if self.indenter.axisymmetric().is_some() {
+            engine = engine.in_round_contact();
+        }
         Ok(if self.indenter.ends_in_data() {
             engine.ending_in_data()
         } else {
@@ -279,128 +285,52 @@ pub fn prescribed(control: Control, value: f64) -> Prescribed {
     }
 }
 
-/// Half the side (m) of the square that no contact leaves while a drive stays below its maximum.
-///
-/// Since the surface never rises above its rest position, a contact lies where the gap is below the approach; that of a body
-/// of revolution where the transformed gap is, since all its springs are shortened or at rest.
+/// Half the side (m) of the square that no contact leaves while a drive stays below its maximum; for springs, the radius about
+/// the indenter's own axis.
 fn contact_half_width_m(indenter: &dyn Indenter, largest: LargestContact) -> f64 {
     let maximum = largest.maximum;
     match (largest.control, indenter.axisymmetric()) {
         (Control::Load, _) => indenter.elastic_half_width_m(maximum, largest.compliance_per_pa),
-        (Control::Approach, Some(body)) => match body.contact_limit_m() {
-            Some(limit_m) => limit_m,
-            None => first_length_m(&|x_m| body.transformed_gap_m(x_m) >= maximum),
-        },
+        (Control::Approach, Some(body)) => indenter::radius_under_approach_m(body, maximum),
         (Control::Approach, None) => {
-            first_length_m(&|half_m| lowest_gap_on_square_m(indenter, half_m) >= maximum)
+            let (x_m, y_m) = indenter.half_widths_under_approach_m(maximum);
+            x_m.max(y_m)
         }
     }
 }
 
-/// The domain that holds the largest contact: under load control the indenter's own, under approach control a square of the
-/// half width found, unless the indenter comes with cells of its own.
-fn contact_domain(indenter: &dyn Indenter, largest: LargestContact, half_width_m: f64) -> Domain {
+/// The domain that holds the largest contact: under load control the indenter's own, under approach control as far as the
+/// approach reaches, unless the indenter comes with cells of its own.
+fn contact_domain(indenter: &dyn Indenter, largest: LargestContact) -> Domain {
     let own = indenter.domain(largest.maximum.max(0.0), largest.compliance_per_pa);
     match (largest.control, own) {
-        (Control::Approach, Domain::Around { limit_m, .. }) => Domain::Around {
-            half_width_x_m: half_width_m,
-            half_width_y_m: half_width_m,
-            cell_aspect_ratio: 1.0,
-            limit_m,
-        },
+        (
+            Control::Approach,
+            Domain::Around {
+                cell_aspect_ratio,
+                limit_m,
+                ..
+            },
+        ) => {
+            let (half_width_x_m, half_width_y_m) =
+                indenter.half_widths_under_approach_m(largest.maximum);
+            Domain::Around {
+                // Cells have a length, also where no contact is to be expected.
+                half_width_x_m: half_width_x_m.max(SMALLEST_M),
+                half_width_y_m: half_width_y_m.max(SMALLEST_M),
+                cell_aspect_ratio,
+                limit_m,
+            }
+        }
         (_, own) => own,
     }
 }
 
-/// The least gap on the border of a square about the origin.
-fn lowest_gap_on_square_m(indenter: &dyn Indenter, half_m: f64) -> f64 {
-    const POINTS: usize = 64;
-    let at = |k: usize| half_m * (2.0 * k as f64 / POINTS as f64 - 1.0);
-    let sides = |k: usize| {
-        let along = at(k);
-        let corners = [
-            (along, half_m),
-            (along, -half_m),
-            (half_m, along),
-            (-half_m, along),
-        ];
-        corners.into_iter()
-    };
-    (0..=POINTS)
-        .flat_map(sides)
-        .map(|(x_m, y_m)| indenter.gap_m(x_m, y_m))
-        .fold(f64::INFINITY, f64::min)
-}
-
-/// The least length (m) from which on `far` holds, to 1e-6 of it, between a picometre and a hundred thousand kilometres.
-fn first_length_m(far: &dyn Fn(f64) -> bool) -> f64 {
-    let (mut low, mut high) = (1e-12, 1e-12);
-    while !far(high) && high < 1e8 {
-        (low, high) = (high, 2.0 * high);
-    }
-    while high - low > 1e-6 * high {
-        let middle = 0.5 * (low + high);
-        if far(middle) {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
-    high
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::indenter::{Cone, FlatPunch, Sphere};
-
-    fn under_approach(approach_m: f64) -> LargestContact {
-        LargestContact {
-            control: Control::Approach,
-            maximum: approach_m,
-            compliance_per_pa: 1.0,
-        }
-    }
-
-    #[test]
-    fn an_approach_bounds_the_contact_by_the_transformed_gap() {
-        let width = |indenter: &dyn Indenter, approach_m| {
-            contact_half_width_m(indenter, under_approach(approach_m))
-        };
-        // a^2/R and (pi/2) a cot(alpha) equal the approach; bisection to 1e-6.
-        let sphere = Sphere::new(0.01).unwrap();
-        assert!((width(&sphere, 1e-6) / 1e-4 - 1.0).abs() < 2e-6);
-        let cone = Cone::new(1.2).unwrap();
-        let expected = 1e-6 * 1.2_f64.tan() / std::f64::consts::FRAC_PI_2;
-        assert!((width(&cone, 1e-6) / expected - 1.0).abs() < 2e-6);
-        let punch = FlatPunch::new(0.003).unwrap();
-        assert_eq!(width(&punch, 1e-6), 0.003);
-    }
-
-    #[test]
-    fn without_symmetry_the_contact_lies_where_the_gap_is_below_the_approach() {
-        /// Twice as steep along y as along x.
-        #[derive(Debug)]
-        struct Saddle;
-        impl Indenter for Saddle {
-            fn shape(&self) -> &'static str {
-                "saddle"
-            }
-            fn parameters(&self) -> Vec<indenter::Parameter> {
-                Vec::new()
-            }
-            fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
-                50.0 * (x_m * x_m + 2.0 * y_m * y_m)
-            }
-            fn axisymmetric(&self) -> Option<&dyn indenter::Axisymmetric> {
-                None
-            }
-            fn elastic_half_width_m(&self, _: f64, _: f64) -> f64 {
-                1.0
-            }
-        }
-        let found = contact_half_width_m(&Saddle, under_approach(1e-6));
-        let expected = (1e-6_f64 / 50.0).sqrt();
-        assert!((found / expected - 1.0).abs() < 2e-6);
-    }
+/// Why a drive that presses the indenter in to this approach (m) came to no contact at all.
+pub(super) fn missed_contact(approach_m: f64) -> String {
+    format!(
+        "the indenter is pressed in by up to {approach_m:.3e} m and yet no cell came into contact: its lowest point lies between \
+         cells that are too large for so small a contact (give more solver.cells; if the indenter lies off the origin, a smaller \
+         offset, since the cells reach from there to it)"
+    )
 }

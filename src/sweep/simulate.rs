@@ -20,7 +20,7 @@ use crate::history::{DirectMemory, March};
 use crate::material::MaterialError;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::body_material::Compliance;
-use crate::sweep::engines::{EngineBuilder, EngineError, LargestContact};
+use crate::sweep::engines::{EngineBuilder, EngineError, LargestContact, missed_contact};
 use crate::sweep::follow::{Following, MarchError};
 use crate::sweep::history_checkpoint::{HistoryCheckpoint, Stand};
 use crate::sweep::scenario::ScenarioPlan;
@@ -255,7 +255,15 @@ impl Simulation {
         }
         (outcome.domain_half_width_m, outcome.domain_enlarged) = domain.get();
         match ended {
-            Ok(()) => {}
+            Ok(()) => {
+                let approach_m = self.plan.drive.maximum();
+                if self.plan.drive.control() == Control::Approach
+                    && approach_m > 0.0
+                    && outcome.rows.iter().all(|row| row.load_n == 0.0)
+                {
+                    outcome.ended = SimulationEnd::Failed(missed_contact(approach_m));
+                }
+            }
             Err(MarchError::Interrupted) => outcome.ended = SimulationEnd::Interrupted,
             Err(error) => outcome.ended = SimulationEnd::Failed(self.place(&outcome, &error)),
         }

@@ -28,8 +28,14 @@ const LINE: usize = 64;
 /// Below an apex the pressure goes with -ln(r), whose mean over a disc of radius R is its value at R exp(-1/2); the disc of the
 /// area of a square has R = side / sqrt(pi).
 const MEAN_RADIUS: f64 = 0.342_198_280_312_215_9;
+const MEAN_DISTANCE: f64 = 0.183_939_720_585_721_16;
 /// Differences of spring lengths below this part of them are rounding.
 const ROUNDING: f64 = 1e-12;
+
+/// Whether two radii are one but for rounding.
+fn is_same(a_m: f64, b_m: f64) -> bool {
+    (a_m - b_m).abs() <= ROUNDING * a_m.max(b_m)
+}
 
 /// A function linear in x^2 between x_k and x_k+1: the slope d/d(x^2), in units of 1/m^2.
 #[derive(Debug, Clone, Copy)]
@@ -63,7 +69,7 @@ struct Meridian {
     rim_force: f64,
     shortening: Vec<Stretch>,
     contact_radius_m: f64,
-    is_singular_at_the_axis: bool,
+    singular_radii_m: Vec<f64>,
 }
 
 impl Meridian {
@@ -71,7 +77,7 @@ impl Meridian {
     fn pressure_pa(&self, r_m: f64) -> Option<f64> {
         if r_m >= self.contact_radius_m {
             Some(0.0)
-        } else if r_m == 0.0 && self.is_singular_at_the_axis {
+        } else if self.singular_radii_m.iter().any(|s_m| is_same(*s_m, r_m)) {
             None
         } else {
             Some(pressure_pa(
@@ -113,7 +119,7 @@ impl Axisymmetric {
             force,
             shortening: Vec::new(),
             contact_radius_m,
-            is_singular_at_the_axis: self.is_singular_at_the_axis(),
+            singular_radii_m: self.singular_radii_m.clone(),
         };
         let intervals = if contact_radius_m > 0.0 { LINE } else { 0 };
         let place_m = |k: usize| {
@@ -161,7 +167,11 @@ impl Axisymmetric {
             };
             let pressure_pa = meridian
                 .pressure_pa(r_m)
-                .or_else(|| meridian.pressure_pa(mean_radius_m))
+                .or_else(|| match r_m > 0.0 {
+                    // About an edge it goes with -ln of the distance, whose mean over a width h is that at h/(2 e).
+                    true => meridian.pressure_pa(r_m + MEAN_DISTANCE * grid.cell_area_m2().sqrt()),
+                    false => meridian.pressure_pa(mean_radius_m),
+                })
                 .unwrap_or(0.0);
             let displacement_m = displacement_m(&meridian.shortening, r_m);
             for &(_, cell) in ring {
@@ -180,7 +190,7 @@ impl Axisymmetric {
             force,
             shortening: self.shortening_stretches(response),
             contact_radius_m,
-            is_singular_at_the_axis: self.is_singular_at_the_axis(),
+            singular_radii_m: self.singular_radii_m.clone(),
         }
     }
 
@@ -232,9 +242,9 @@ impl Axisymmetric {
         Ok(())
     }
 
-    /// An apex, as opposed to a sharp rim, makes the pressure unbounded at the axis.
+    /// An apex makes the pressure unbounded at the axis.
     fn is_singular_at_the_axis(&self) -> bool {
-        !self.bounded_pressure && self.edge == Edge::Open
+        self.singular_radii_m.contains(&0.0)
     }
 
     /// The line force from the axis to the edge of the contact.
