@@ -260,6 +260,7 @@ impl Setup {
             cycle,
             interrupt,
             checkpoints,
+            marches_at_last: true,
         };
         let ended = match cycle.accuracy {
             Some(accuracy) => self.to_accuracy(&contact, accuracy, &mut record),
@@ -320,7 +321,10 @@ impl Setup {
             record.work += solved.work();
         }
         if let Some(result) = &mut record.result {
-            let distance = record.steady_distance.unwrap_or(0.0);
+            let mut distance = record.steady_distance.unwrap_or(0.0);
+            if self.plan.solver.engine == EngineKind::HalfSpace {
+                distance += instant_tolerance::SHARE * contact.cycle.tolerance;
+            }
             result.errors = error_bars(result, fine, distance, [&solved, &half], quarter.as_ref());
             if result.errors.is_none() {
                 record.message.get_or_insert_with(|| {
@@ -444,13 +448,23 @@ impl Setup {
                     engine.interrupted_by(Arc::clone(flag));
                 }
                 let (drive, omega) = (&contact.drive, contact.angular_frequency_rad_per_s);
-                engine.tolerate(self.instant_tolerance(drive, omega, contact.cycle.tolerance));
-                let mut solved: Vec<(usize, Stabilised)> = Vec::with_capacity(steps.len());
-                for &steps in steps {
-                    let start = solved.last().map(|(_, coarser)| coarser.memory.clone());
-                    solved.push((steps, contact.stabilise(engine, steps, start)?));
+                let needed = self.instant_tolerance(drive, omega, contact.cycle.tolerance);
+                engine.tolerate(needed);
+                if self.plan.solver.engine == EngineKind::HalfSpace
+                    && self.plan.solver.tolerance.is_none()
+                    && let Some(tighter) = instant_tolerance::tighter(needed)
+                {
+                    match contact.searching_alone().in_steps(engine, steps) {
+                        Ok(found) if found.iter().all(|(_, cycle)| cycle.result.is_some()) => {
+                            return Ok(found);
+                        }
+                        Ok(_) => engine.tolerate(tighter),
+                        // No tolerance of the cycle's will do: it is marched as it is.
+                        Err(CycleError::Contact(ContactError::NotConverged { .. })) => {}
+                        Err(error) => return Err(error.into()),
+                    }
                 }
-                Ok::<_, CaseError>(solved)
+                Ok::<_, CaseError>(contact.in_steps(engine, steps)?)
             },
         )?;
         Ok(Solved { nodes, cycles })

@@ -33,4 +33,5 @@ pub mod shard;
 pub mod simulate;
 mod stabilise;
 pub mod store;
+mod tangent_radius;
 pub mod warnings;

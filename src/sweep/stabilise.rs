@@ -5,14 +5,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::{self, BranchChange, Extrema, Loop, LoopError};
-use crate::drive::HarmonicDrive;
+use crate::drive::{Control, HarmonicDrive};
 use crate::history::{Dissipation, March, StepWeights, TimeRule, Work};
 use crate::material::Creep;
 use crate::steady::{self, Begin, SteadySettings};
 use crate::sweep::checkpoint::{Checkpoints, Level, Progress};
+use crate::sweep::engines::missed_contact;
 use crate::sweep::plan::{CyclePlan, Method};
 use crate::sweep::pressure::Pressures;
 use crate::sweep::record::{BranchLoss, CaseResult, CellLoss, SurfaceLoss};
+use crate::sweep::tangent_radius::TangentRadius;
 
 /// Cycles after which a direct search is given up for marching: twice what the hardest spectrum known needed.
 const SEARCH_CYCLES: usize = 40;
@@ -28,6 +30,8 @@ pub(super) struct Contact<'a> {
     pub cycle: CyclePlan,
     pub interrupt: &'a AtomicBool,
     pub checkpoints: &'a Checkpoints,
+    /// Whether a cycle that a direct search does not find is marched to.
+    pub marches_at_last: bool,
 }
 
 /// A cycle's end.
@@ -83,6 +87,34 @@ impl Contact<'_> {
         self.interrupt.load(Ordering::Relaxed)
     }
 
+    /// The same, whose direct search is not followed by a march.
+    pub(super) fn searching_alone(self) -> Self {
+        Self {
+            marches_at_last: self.cycle.method == Method::March,
+            ..self
+        }
+    }
+
+    /// The stabilised cycle in each of these numbers of steps, every one searched from the memory of the last, up to the first
+    /// that is not found.
+    pub(super) fn in_steps(
+        &self,
+        engine: &mut dyn Engine,
+        steps: &[usize],
+    ) -> Result<Vec<(usize, Stabilised)>, CycleError> {
+        let mut solved: Vec<(usize, Stabilised)> = Vec::with_capacity(steps.len());
+        for &steps in steps {
+            let start = solved.last().map(|(_, coarser)| coarser.memory.clone());
+            let cycle = self.stabilise(engine, steps, start)?;
+            let is_found = cycle.result.is_some();
+            solved.push((steps, cycle));
+            if !is_found && !self.marches_at_last {
+                break;
+            }
+        }
+        Ok(solved)
+    }
+
     /// The stabilised cycle in `steps` steps, searched from `start` where one is given.
     pub(super) fn stabilise(
         &self,
@@ -120,12 +152,16 @@ impl Contact<'_> {
             return self.march(level, engine, steps, Progress::unmarched(None));
         }
         let (direct, why) = match self.search(level, engine, steps, begin) {
-            Ok(stabilised) if stabilised.result.is_some() => return Ok(stabilised),
+            Ok(stabilised) if stabilised.result.is_some() || !self.marches_at_last => {
+                return Ok(stabilised);
+            }
             Ok(stabilised) => {
                 let message = stabilised.message.unwrap_or_default();
                 (stabilised.cycles, message)
             }
-            Err(CycleError::Contact(error @ ContactError::NotConverged { .. })) => {
+            Err(CycleError::Contact(error @ ContactError::NotConverged { .. }))
+                if self.marches_at_last =>
+            {
                 (0, error.to_string())
             }
             Err(error) => return Err(error),
@@ -240,6 +276,7 @@ struct Recording {
     samples: Loop,
     dissipation: Dissipation,
     pressures: Pressures,
+    tangent_radius: TangentRadius,
 }
 
 /// Cycles of one case in one number of steps.
@@ -306,6 +343,7 @@ impl<'a> Cycles<'a> {
                     let time_s = fraction * self.contact.period_s();
                     sample(march, &mut recording.samples, time_s)?;
                     recording.pressures.see(march, step, time_s)?;
+                    recording.tangent_radius.see(march, step)?;
                     solution
                 }
             };
@@ -356,12 +394,22 @@ impl<'a> Cycles<'a> {
             samples: Loop::default(),
             dissipation: Dissipation::new(contact.compliance, nodes, step_s, contact.time_rule),
             pressures: Pressures::new(&contact.drive, self.steps),
+            tangent_radius: TangentRadius::new(self.steps),
         };
         self.run(march, Some(&mut recording))?;
         if !self.is_within_tolerance() {
             return Ok(None);
         }
         contact.result(march, recording).map(Some)
+    }
+
+    /// Why there was no contact.
+    fn without_pressure(&self) -> String {
+        let drive = &self.contact.drive;
+        match drive.control() == Control::Approach && drive.maximum() > 0.0 {
+            true => missed_contact(drive.maximum()),
+            false => format!("no pressure arose in {} cycles", self.count),
+        }
     }
 
     fn ended(self, method: Method, march: &March<'_>, result: Option<CaseResult>) -> Stabilised {
@@ -371,7 +419,7 @@ impl<'a> Cycles<'a> {
                 "after {} cycles the estimated distance to the stabilised cycle is {distance:.1e}, above the tolerance {:.1e}",
                 self.count, self.contact.cycle.tolerance
             )),
-            (None, None) => Some(format!("no pressure arose in {} cycles", self.count)),
+            (None, None) => Some(self.without_pressure()),
         };
         Stabilised {
             method,
@@ -396,13 +444,16 @@ impl Contact<'_> {
             samples,
             dissipation,
             pressures,
+            tangent_radius,
         } = recording;
         let analysis = cycle::analyse(&samples.load_n, &samples.approach_m)?;
         let radii = &samples.contact_radius_m;
         // The mean over the period counts the seam once.
         let mean_radius_m =
             radii.iter().skip(1).sum::<f64>() / radii.len().saturating_sub(1).max(1) as f64;
-        let moduli = analysis.equivalent_moduli_pa(mean_radius_m, self.poisson_ratio);
+        let moduli = tangent_radius
+            .mean_m(mean_radius_m)
+            .and_then(|radius_m| analysis.equivalent_moduli_pa(radius_m, self.poisson_ratio));
         let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
         let extrema = |signal: &[f64]| {
             Extrema::of(signal).ok_or(LoopError::TooFewSamples {
