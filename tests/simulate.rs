@@ -340,8 +340,7 @@ fn halving_the_steps_chosen_by_a_factor_of_four_changes_little_and_of_second_ord
 }
 
 #[test]
-fn steps_far_longer_than_the_relaxation_time_are_damped_rather_than_taken_for_a_contact_that_is_no_disc()
- {
+fn steps_far_longer_than_the_relaxation_time_follow_a_growing_contact() {
     // Glass to rubber 1000 to 1, relaxing in 1 s, and steps of 30 s while the contact grows.
     let material = ZENER.replace(
         "[material.zener]\nspring = \"1 MPa\"\nkelvin_spring = \"1 MPa\"\ntime = \"10 s\"",
@@ -353,26 +352,24 @@ fn steps_far_longer_than_the_relaxation_time_are_damped_rather_than_taken_for_a_
     );
     let outcome = run(&[&material, &slow, "[time]\nstep = \"30 s\"\n"].concat());
     assert_eq!(outcome.ended, SimulationEnd::Done);
-    assert!(outcome.damped_throughout);
     // Lee and Radok with J from 1e-9 to 1e-6 1/Pa in a retardation time of 1000 s, and C = J/4.
-    for row in outcome.rows.iter().filter(|row| row.time_s > 300.0) {
+    let spring_m = outcome.domain_half_width_m / 400.0;
+    let rows = outcome.rows.iter().zip(&outcome.errors);
+    for (row, errors) in rows.filter(|(row, _)| row.time_s > 300.0) {
         let left = (-row.time_s / 1000.0).exp();
         let (glassy, rubbery) = (1e-9, 1e-6);
         let creep = rubbery - (rubbery - glassy) * left;
         let integrated = rubbery * row.time_s - (rubbery - glassy) * 1000.0 * (1.0 - left);
         let exact = contact_radius_m(0.25 * (0.01 * creep + 1e-6 * integrated));
-        // Known to a part of a spring's width.
-        let off = row.contact_radius_m / exact - 1.0;
-        assert!(off.abs() < 1e-3, "{row:?}: {off:e}");
+        // Steps thirty times the relaxation time leave the force of the spring just met too high or too low, so that the edge is
+        // known to one spring (of the width at the end); and not worse than the row says.
+        let off_m = (row.contact_radius_m - exact).abs();
+        assert!(off_m < spring_m, "{row:?}: {off_m:e} of {spring_m:e}");
+        assert!(
+            off_m < errors.contact_radius_m.unwrap(),
+            "{row:?}: {off_m:e}"
+        );
     }
-    // The same with short steps needs no damping beyond the first moments.
-    let short = run(&[
-        &material,
-        &slow.replace("5000", "5"),
-        "[time]\nstep = \"0.05 s\"\n",
-    ]
-    .concat());
-    assert!(!short.damped_throughout);
 }
 
 #[test]
@@ -588,8 +585,13 @@ fn a_scenario_prints_its_end_and_leaves_every_file() {
     let out = folder.path().join("reports/small");
     let history = fs::read_to_string(out.join("history.csv")).unwrap();
     assert!(history.starts_with(
-        "time_s,load_n,approach_m,contact_radius_m,contact_area_m2,peak_pressure_pa\n0e0,1e1,"
+        "time_s,load_n,approach_m,contact_radius_m,contact_area_m2,peak_pressure_pa,\
+         load_error_n,approach_error_m,contact_radius_error_m,peak_pressure_error_pa\n0e0,1e1,"
     ));
+    assert!(stdout.contains("+-"), "{stdout}");
+    // Of some load that is prescribed, rounding; none of the rest is empty.
+    let empty = |line: &str| line.split(',').any(str::is_empty);
+    assert!(!history.lines().any(empty), "{history}");
     let profile = fs::read_to_string(out.join("profiles/1.csv")).unwrap();
     assert!(profile.starts_with("radius_m,pressure_pa,displacement_m,gap_m\n0e0,"));
     let index = fs::read_to_string(out.join("profiles/index.csv")).unwrap();
@@ -605,6 +607,33 @@ fn a_scenario_prints_its_end_and_leaves_every_file() {
     }
     let summary = fs::read_to_string(out.join("summary.json")).unwrap();
     assert!(summary.contains("\"status\": \"done\""));
+}
+
+#[test]
+fn errors_are_left_out_where_nobody_asks_for_them_and_change_no_row() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    let history = |out: &str, more: &[&str]| {
+        let out = folder.path().join(out);
+        let mut command = program();
+        command
+            .args(["simulate", &file, "--quiet", "--out"])
+            .arg(&out);
+        command.args(more).assert().success();
+        let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
+        assert_eq!(resolved.contains("error_bars = false"), !more.is_empty());
+        fs::read_to_string(out.join("history.csv")).unwrap()
+    };
+    let with = history("with", &[]);
+    let without = history("flag", &["--no-error-bars"]);
+    assert_eq!(
+        without,
+        history("key", &["--set", "output.error_bars=false"])
+    );
+    for (with, without) in with.lines().zip(without.lines()).skip(1) {
+        let values = without.strip_suffix(",,,,").unwrap();
+        assert!(with.starts_with(values) && !with.ends_with(','), "{with}");
+    }
 }
 
 #[test]
@@ -928,6 +957,7 @@ fn a_dry_run_tells_steps_and_memory_and_writes_nothing() {
         .success()
         .stdout(
             contains("time steps on 1024 x 1024 cells (half-space engine)")
+                .and(contains("for the errors"))
                 .and(contains("Memory: about"))
                 .and(contains(" MB")),
         );

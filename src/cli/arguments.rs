@@ -235,6 +235,10 @@ pub(super) struct SimulateFlags {
     /// Change one key of the scenario file, for example indenter.radius='5 mm'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
+    /// Give no errors of the rows, which saves more than half of the time; the same as
+    /// --set output.error_bars=false
+    #[arg(long)]
+    pub(super) no_error_bars: bool,
     /// Number of threads, which share a large half-space grid [default: one per processor]; the
     /// results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]

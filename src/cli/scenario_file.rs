@@ -106,6 +106,7 @@ fn output(
     let place = table.key_location("field_cells");
     let default = OutputPlan::default().field_cells;
     let field_cells = table.positive_integer_or("field_cells", CELLS, default);
+    let error_bars = table.boolean_or("error_bars", OutputPlan::default().error_bars);
     table.finish();
     if let (Some(solver), Some(place)) = (solver, place)
         && solver.engine == EngineKind::HalfSpace
@@ -122,6 +123,7 @@ fn output(
         profiles_at_s: profiles?,
         fields_at_s: fields?,
         field_cells: field_cells?.value,
+        error_bars: error_bars?.value,
     })
 }
 

@@ -19,7 +19,11 @@ use crate::sweep::store::Store;
 
 /// Runs the command.
 pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
-    let document = open_document(&flags.file, &flags.set)?;
+    let mut set = flags.set.clone();
+    if flags.no_error_bars {
+        set.push("output.error_bars=false".to_owned());
+    }
+    let document = open_document(&flags.file, &set)?;
     meant_for::simulate(&document, &flags.file)?;
     let plan = scenario_file::plan(&document)?;
     let simulation = Simulation::new(plan).map_err(Failure::input)?;
@@ -31,12 +35,8 @@ pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
     let interrupt = interrupt_flag()?;
     let simulation = simulation.interrupted_by(Arc::clone(&interrupt));
     let checkpoint = HistoryCheckpoint::of(&store, Duration::from_secs(flags.checkpoint_every));
-    let stand = found(
-        &checkpoint,
-        simulation.schedule().moments.len(),
-        flags.quiet,
-    );
-    let bar = bar(simulation.schedule().moments.len(), flags.quiet);
+    let stand = found(&checkpoint, simulation.moments(), flags.quiet);
+    let bar = bar(simulation.moments(), flags.quiet);
     memory::warn_if_short(simulation.predicted_memory_bytes(), 1);
     let pool = run::pool(threads(flags.threads)).map_err(Failure::run)?;
     let (outcome, checkpoint) = pool.install({
@@ -61,11 +61,15 @@ fn foretold(simulation: &Simulation) -> String {
     let plan = simulation.plan();
     let free = memory::free_here();
     format!(
-        "{}\n\n{} time steps on {} ({} engine).\nMemory: about {}{free}.\n",
+        "{}\n\n{} time steps on {} ({} engine){}.\nMemory: about {}{free}.\n",
         plan.title,
         simulation.schedule().moments.len(),
         nodes(&plan.solver, plan.indenter.as_ref()),
         plan.solver.engine.name(),
+        match simulation.moments() - simulation.schedule().moments.len() {
+            0 => String::new(),
+            more => format!(";\n{more} more, most on fewer nodes, for the errors"),
+        },
         megabytes(simulation.predicted_memory_bytes()),
     )
 }

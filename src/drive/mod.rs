@@ -10,7 +10,7 @@ mod schedule;
 mod segments;
 
 pub use harmonic::HarmonicDrive;
-pub use schedule::{MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
+pub use schedule::{Fineness, MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
 pub use segments::{HistoryError, Joint, Segment, SegmentProblem, SegmentedDrive};
 
 /// What the drive prescribes.

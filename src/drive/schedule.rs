@@ -46,6 +46,24 @@ pub struct Schedule {
     pub moments: Vec<Moment>,
     /// For each time that was asked for, its moment; at a jump the one after it.
     pub requested: Vec<usize>,
+    /// For each moment its place in the schedule of fineness [`Fineness::FULL`], where it has one.
+    pub in_full: Vec<Option<usize>>,
+    /// Whether every smooth piece of the drive takes two steps or more, so that there are steps to leave out.
+    pub can_be_coarser: bool,
+}
+
+/// How a schedule differs from the one that the history is followed by, to tell the error of the latter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fineness {
+    /// Of the moments within a smooth piece of the drive every n-th, and its end.
+    EveryNth(usize),
+    /// Every step split into n.
+    Split(usize),
+}
+
+impl Fineness {
+    /// Every moment.
+    pub const FULL: Self = Self::EveryNth(1);
 }
 
 /// Why there is no schedule.
@@ -87,6 +105,19 @@ impl Schedule {
         steps: Steps,
         requested_s: &[f64],
     ) -> Result<Self, ScheduleError> {
+        Self::of_fineness(drive, steps, requested_s, Fineness::FULL)
+    }
+
+    /// The same with fewer or more steps. Where they are fewer, requested times may be left out, as other moments are.
+    ///
+    /// # Errors
+    /// As [`Schedule::new`].
+    pub fn of_fineness(
+        drive: &SegmentedDrive,
+        steps: Steps,
+        requested_s: &[f64],
+        fineness: Fineness,
+    ) -> Result<Self, ScheduleError> {
         if let Steps::Given { step_s } = steps
             && !(step_s.is_finite() && step_s > 0.0)
         {
@@ -95,30 +126,90 @@ impl Schedule {
         let requested_s = within(drive, requested_s)?;
         let mut exact_s = requested_s.clone();
         exact_s.sort_by(f64::total_cmp);
-        let mut moments: Vec<Moment> = Vec::new();
+        let mut schedule = Self {
+            moments: Vec::new(),
+            requested: Vec::new(),
+            in_full: Vec::new(),
+            can_be_coarser: true,
+        };
         let mut before: Option<&Piece> = None;
-        let mut since_joint = 0;
+        let (mut since_joint, mut full) = (0, 0);
         for piece in drive.pieces() {
             if before.is_none_or(|before| drive.jumps(before, piece)) {
-                moments.push(moment(drive, piece, 0.0, 0.0));
+                schedule.push(moment(drive, piece, 0.0, 0.0), Some(full))?;
+                full += 1;
             }
             if !piece.is_continued_table {
                 since_joint = 0;
             }
-            follow(
-                drive,
-                piece,
-                steps,
-                &exact_s,
+            let ends = ends(piece, &Pace::new(steps, piece), &exact_s)?;
+            schedule.can_be_coarser &= ends.len() > 1;
+            schedule.follow(
+                (drive, piece, steps),
+                (&ends, full),
+                fineness,
                 &mut since_joint,
-                &mut moments,
             )?;
+            full += ends.len();
             before = Some(piece);
         }
-        // The last moment at a time is the one after a jump.
-        let last_at = |time_s: &f64| moments.partition_point(|m| m.time_s <= *time_s) - 1;
-        let requested = requested_s.iter().map(last_at).collect();
-        Ok(Self { moments, requested })
+        if fineness == Fineness::FULL {
+            // The last moment at a time is the one after a jump.
+            let moments = &schedule.moments;
+            let last_at = |time_s: &f64| moments.partition_point(|m| m.time_s <= *time_s) - 1;
+            schedule.requested = requested_s.iter().map(last_at).collect();
+        }
+        Ok(schedule)
+    }
+
+    fn push(&mut self, moment: Moment, in_full: Option<usize>) -> Result<(), ScheduleError> {
+        if self.moments.len() >= MAX_MOMENTS {
+            return Err(ScheduleError::TooMany);
+        }
+        self.moments.push(moment);
+        self.in_full.push(in_full);
+        Ok(())
+    }
+
+    /// Adds those moments of one piece that the fineness keeps or brings, its end but not its beginning. `ends` are those of the
+    /// full schedule, the first of which is its moment number `full`; `since_joint` counts steps since the last joint that is
+    /// not the point of a table.
+    fn follow(
+        &mut self,
+        (drive, piece, steps): (&SegmentedDrive, &Piece, Steps),
+        (ends, full): (&[End], usize),
+        fineness: Fineness,
+        since_joint: &mut usize,
+    ) -> Result<(), ScheduleError> {
+        let pace = Pace::new(steps, piece);
+        let (mut since_s, mut full_since_s) = (0.0, 0.0);
+        for (k, end) in ends.iter().enumerate() {
+            // Of the full schedule: what settles there settles in all, which makes their errors comparable.
+            let grows = pace.is_settling(steps, piece, end.since_s - full_since_s);
+            full_since_s = end.since_s;
+            let parts = match fineness {
+                Fineness::EveryNth(n) if (k + 1) % n != 0 && k + 1 < ends.len() => continue,
+                Fineness::EveryNth(_) => 1,
+                Fineness::Split(parts) => parts,
+            };
+            let (begin_s, step_s) = (since_s, end.since_s - since_s);
+            let within = (1..parts).map(|part| {
+                let since_s = begin_s + step_s * part as f64 / parts as f64;
+                let time_s = piece.start_s + since_s;
+                (End { since_s, time_s }, None)
+            });
+            for (end, in_full) in within.chain([(*end, Some(full + k))]) {
+                let next = Moment {
+                    time_s: end.time_s,
+                    is_settling: *since_joint < SETTLING_STEPS || grows,
+                    ..moment(drive, piece, end.since_s, end.since_s - since_s)
+                };
+                self.push(next, in_full)?;
+                *since_joint += 1;
+                since_s = end.since_s;
+            }
+        }
+        Ok(())
     }
 }
 
@@ -150,23 +241,22 @@ fn moment(drive: &SegmentedDrive, piece: &Piece, since_s: f64, step_s: f64) -> M
     }
 }
 
-/// Adds the moments of one piece, its end but not its beginning. `since_joint` counts steps since the last joint that is not
-/// the point of a table.
-fn follow(
-    drive: &SegmentedDrive,
-    piece: &Piece,
-    steps: Steps,
-    exact_s: &[f64],
-    since_joint: &mut usize,
-    moments: &mut Vec<Moment>,
-) -> Result<(), ScheduleError> {
+/// The end of a step: the time since its piece began, and since the history began (s).
+#[derive(Debug, Clone, Copy)]
+struct End {
+    since_s: f64,
+    time_s: f64,
+}
+
+/// The ends of the steps of one piece.
+fn ends(piece: &Piece, pace: &Pace, exact_s: &[f64]) -> Result<Vec<End>, ScheduleError> {
     let first = exact_s.partition_point(|t| *t <= piece.start_s);
     let mut inside = exact_s[first..]
         .iter()
         .copied()
         .take_while(|t| *t < piece.end_s())
         .peekable();
-    let pace = Pace::new(steps, piece);
+    let mut ends = Vec::new();
     let mut since_s = 0.0;
     while since_s < piece.duration_s {
         let next_s = pace.after(since_s).min(piece.duration_s);
@@ -174,19 +264,16 @@ fn follow(
         let exact = inside.next_if(|t| *t - piece.start_s <= next_s * (1.0 + SAME_TIME));
         let next_s = exact.map_or(next_s, |t| t - piece.start_s);
         while inside.next_if(|t| *t - piece.start_s <= next_s).is_some() {}
-        if moments.len() >= MAX_MOMENTS || next_s <= since_s {
+        if ends.len() >= MAX_MOMENTS || next_s <= since_s {
             return Err(ScheduleError::TooMany);
         }
-        let step_s = next_s - since_s;
-        moments.push(Moment {
+        ends.push(End {
+            since_s: next_s,
             time_s: exact.unwrap_or(piece.start_s + next_s),
-            is_settling: *since_joint < SETTLING_STEPS || pace.is_settling(steps, piece, step_s),
-            ..moment(drive, piece, next_s, step_s)
         });
-        *since_joint += 1;
         since_s = next_s;
     }
-    Ok(())
+    Ok(ends)
 }
 
 /// The rhythm of the steps within one piece.
@@ -385,6 +472,44 @@ mod tests {
         }
         let schedule = Schedule::new(&history, Steps::Given { step_s: 1e3 }, &[]).unwrap();
         assert_eq!(schedule.moments.len(), times_s.len());
+    }
+
+    #[test]
+    fn fewer_steps_are_some_of_all_and_end_at_the_same_joints_and_jumps() {
+        let ramp = Segment::Ramp {
+            to: 5.0,
+            duration_s: 7.0,
+        };
+        let history = drive(vec![ramp, step(1.0, 20.0), step(2.0, 3.0)]);
+        for steps in [CHOSEN, Steps::Given { step_s: 0.3 }] {
+            let of = |fineness| Schedule::of_fineness(&history, steps, &[9.1], fineness).unwrap();
+            let full = of(Fineness::FULL);
+            assert!(full.can_be_coarser);
+            assert!(full.in_full.iter().enumerate().all(|(k, f)| *f == Some(k)));
+            for n in [2, 4] {
+                let fewer = of(Fineness::EveryNth(n));
+                let number = (fewer.moments.len() * n) as f64 / full.moments.len() as f64;
+                assert!((1.0..1.2).contains(&number), "{number}");
+                let mut sum = 0.0;
+                for (moment, place) in fewer.moments.iter().zip(&fewer.in_full) {
+                    let same = full.moments[place.unwrap()];
+                    assert_eq!((moment.time_s, moment.value), (same.time_s, same.value));
+                    sum += moment.step_s;
+                    assert!((sum - moment.time_s).abs() < 1e-12);
+                }
+                let jumps = |s: &Schedule| s.moments.iter().filter(|m| m.is_jump()).count();
+                assert_eq!((jumps(&fewer), jumps(&full)), (3, 3));
+                assert_eq!(fewer.moments.last().unwrap().time_s, 30.0);
+            }
+            let more = of(Fineness::Split(3));
+            assert_eq!(more.moments.len(), 3 * (full.moments.len() - 3) + 3);
+            let common = more.moments.iter().zip(&more.in_full);
+            let common: Vec<f64> = common.filter_map(|(m, f)| f.map(|_| m.time_s)).collect();
+            assert_eq!(common, times(&full));
+        }
+        // A single step between two joints leaves none out.
+        let long = Schedule::new(&history, Steps::Given { step_s: 10.0 }, &[]).unwrap();
+        assert!(!long.can_be_coarser);
     }
 
     #[test]

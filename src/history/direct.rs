@@ -275,6 +275,11 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
         vec![steps.collect(), self.increments.clone(), self.last.clone()]
     }
 
+    fn nodal_parts(state: &mut [Vec<f64>]) -> &mut [Vec<f64>] {
+        // The first part is of the steps.
+        state.get_mut(1..).unwrap_or_default()
+    }
+
     fn restore(&mut self, state: &[Vec<f64>]) -> bool {
         let [steps, increments, last] = state else {
             return false;

@@ -36,6 +36,11 @@ pub trait Hereditary {
     /// Everything it keeps, for [`Hereditary::restore`].
     fn state(&self) -> Vec<Vec<f64>>;
 
+    /// Those parts of a state that hold values per node, any number of fields one after another.
+    fn nodal_parts(state: &mut [Vec<f64>]) -> &mut [Vec<f64>] {
+        state
+    }
+
     /// Goes back to what a past of the same compliance kept. False, and nothing done, where the state is none of this
     /// compliance on this number of nodes.
     fn restore(&mut self, state: &[Vec<f64>]) -> bool;

@@ -15,7 +15,7 @@ use crate::contact::surface::{CellSurface, Surface};
 use crate::sweep::body_material::BodyMaterial;
 use crate::sweep::figure_plan::AxisUnits;
 use crate::sweep::scenario::{self, ScenarioPlan};
-use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
+use crate::sweep::simulate::{SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::store::Store;
 use crate::sweep::warnings;
 
@@ -28,7 +28,7 @@ pub fn write(
     plan: &ScenarioPlan,
     outcome: &SimulationOutcome,
 ) -> Result<Vec<String>, ReportError> {
-    store.write("history.csv", &history(&outcome.rows)?)?;
+    store.write("history.csv", &history(outcome)?)?;
     store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
     if !outcome.profiles.is_empty() {
         store.write("profiles/index.csv", &index(&outcome.profiles)?)?;
@@ -90,8 +90,8 @@ fn figures(
     Ok(left_out)
 }
 
-/// `history.csv`: one row per time step, two with the same time at a jump.
-fn history(rows: &[HistoryRow]) -> Result<Vec<u8>, ReportError> {
+/// `history.csv`: one row per time step, two with the same time at a jump. Errors are absolute.
+fn history(outcome: &SimulationOutcome) -> Result<Vec<u8>, ReportError> {
     let mut table = Table::new(
         "history.csv",
         &[
@@ -101,9 +101,14 @@ fn history(rows: &[HistoryRow]) -> Result<Vec<u8>, ReportError> {
             "contact_radius_m",
             "contact_area_m2",
             "peak_pressure_pa",
+            "load_error_n",
+            "approach_error_m",
+            "contact_radius_error_m",
+            "peak_pressure_error_pa",
         ],
     )?;
-    for row in rows {
+    for (place, row) in outcome.rows.iter().enumerate() {
+        let errors = outcome.errors.get(place).copied().unwrap_or_default();
         table.row(&[
             number(row.time_s),
             number(row.load_n),
@@ -111,6 +116,10 @@ fn history(rows: &[HistoryRow]) -> Result<Vec<u8>, ReportError> {
             number(row.contact_radius_m),
             number(row.contact_area_m2()),
             optional(row.peak_pressure_pa),
+            optional(errors.load_n),
+            optional(errors.approach_m),
+            optional(errors.contact_radius_m),
+            optional(errors.peak_pressure_pa),
         ])?;
     }
     table.finish()
@@ -276,8 +285,8 @@ struct Summary<'a> {
     domain_half_width_m: f64,
     domain_enlarged: usize,
     iterations: u64,
-    /// Whether every time step had to be damped: steps were long beside the material's shortest relaxation time.
-    damped_throughout: bool,
+    /// Why error columns are empty although they were asked for.
+    errors_missing: Option<&'a str>,
     program: &'a str,
     program_version: &'a str,
     scenario_hash: &'a str,
@@ -330,7 +339,7 @@ fn summary(
         domain_half_width_m: outcome.domain_half_width_m,
         domain_enlarged: outcome.domain_enlarged,
         iterations: outcome.iterations,
-        damped_throughout: outcome.damped_throughout,
+        errors_missing: outcome.errors_missing.as_deref(),
         program: env!("CARGO_PKG_NAME"),
         program_version: env!("CARGO_PKG_VERSION"),
         scenario_hash,

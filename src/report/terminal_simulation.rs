@@ -5,11 +5,12 @@ use std::fmt::Write;
 use crate::quantity::{Dimension, format_human};
 use crate::report::{fit, samples, terminal};
 use crate::sweep::body_material::BodyMaterial;
+use crate::sweep::history_errors::RowErrors;
 use crate::sweep::scenario::ScenarioPlan;
 use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome};
 use crate::sweep::warnings;
 
-/// Title, material where it comes from a table, extent of the history, its largest contact and its end.
+/// Title, material where it comes from a table, extent of the history, its largest contact and its end, with errors.
 pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
     let mut text = format!("{}\n\n", plan.title);
     let material = match &plan.material {
@@ -37,10 +38,17 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
             a
         }
     };
+    let place = |row: &HistoryRow| {
+        outcome
+            .rows
+            .iter()
+            .position(|other| std::ptr::eq(other, row))
+    };
+    let errors = |row: &HistoryRow| outcome.errors.get(place(row)?);
     if let Some(widest) = outcome.rows.iter().reduce(wider) {
-        line(&mut text, "widest", widest);
+        line(&mut text, "widest", widest, errors(widest));
     }
-    line(&mut text, "last", last);
+    line(&mut text, "last", last, errors(last));
     let _ = writeln!(
         text,
         "\n{} time steps, {} engine{}",
@@ -55,28 +63,48 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
     if !warnings.is_empty() {
         let _ = write!(text, "\n{warnings}");
     }
-    if outcome.damped_throughout {
-        text.push_str(
-            "Time steps are long beside the shortest relaxation time and were damped;\n\
-             a shorter [time] step gives sharper pressures at the contact's edge.\n",
-        );
+    if let Some(why) = &outcome.errors_missing {
+        let _ = writeln!(text, "Without errors: {why}.");
     }
     text
 }
 
-fn line(text: &mut String, name: &str, row: &HistoryRow) {
-    let human = |value: f64, dimension| format_human(value, dimension, 4);
-    let or_dash = |value: Option<f64>, dimension| match value {
-        Some(value) => human(value, dimension),
+/// A row, and its errors below it.
+fn line(text: &mut String, name: &str, row: &HistoryRow, errors: Option<&RowErrors>) {
+    let or_dash = |value: Option<f64>, dimension, digits| match value {
+        Some(value) => format_human(value, dimension, digits),
         None => "-".to_owned(),
     };
-    let _ = writeln!(
-        text,
-        "{name:<8}{:>14} {:>12} {:>12} {:>12} {:>12}",
-        human(row.time_s, Dimension::Time),
-        human(row.load_n, Dimension::Force),
-        or_dash(row.approach_m, Dimension::Length),
-        human(row.contact_radius_m, Dimension::Length),
-        or_dash(row.peak_pressure_pa, Dimension::Stress),
-    );
+    let mut add = |name: &str, time: String, values: [Option<f64>; 4], digits| {
+        let dimensions = [
+            Dimension::Force,
+            Dimension::Length,
+            Dimension::Length,
+            Dimension::Stress,
+        ];
+        let mut line = format!("{name:<8}{time:>14}");
+        for (value, dimension) in values.into_iter().zip(dimensions) {
+            // Writing to a String cannot fail.
+            let _ = write!(line, " {:>12}", or_dash(value, dimension, digits));
+        }
+        let _ = writeln!(text, "{line}");
+    };
+    let time = format_human(row.time_s, Dimension::Time, 4);
+    let radius_m = Some(row.contact_radius_m);
+    let values = [
+        Some(row.load_n),
+        row.approach_m,
+        radius_m,
+        row.peak_pressure_pa,
+    ];
+    add(name, time, values, 4);
+    if let Some(errors) = errors {
+        let values = [
+            errors.load_n,
+            errors.approach_m,
+            errors.contact_radius_m,
+            errors.peak_pressure_pa,
+        ];
+        add("", "+-".to_owned(), values, 2);
+    }
 }

@@ -21,6 +21,8 @@ pub(super) enum By {
 /// A scenario as it is computed so.
 pub(super) fn plan(plan: &ScenarioPlan, by: By) -> ScenarioPlan {
     let mut plan = plan.clone();
+    // The other engine and a refined run say more.
+    plan.output.error_bars = false;
     let shorter = |step_s: Option<f64>, factor: f64| step_s.map(|step_s| step_s / factor);
     match by {
         By::Springs => {

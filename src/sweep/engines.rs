@@ -11,6 +11,7 @@ use crate::contact::{ContactError, Engine, Prescribed};
 use crate::drive::Control;
 use crate::indenter::{self, Domain, Indenter};
 use crate::sweep::domain::{self, GROWTH};
+use crate::sweep::growing::{self, Layout};
 use crate::sweep::instant_tolerance;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 
@@ -94,6 +95,75 @@ impl EngineBuilder {
     /// Whether the cells are those of the indenter, whatever number of them was asked for.
     pub fn has_cells_of_its_own(&self) -> bool {
         self.solver.engine == EngineKind::HalfSpace && matches!(self.domain, Domain::Cells { .. })
+    }
+
+    /// The same on a domain this many times as wide, where the indenter's data reach so far.
+    ///
+    /// # Errors
+    /// [`EngineError::Grid`].
+    pub(super) fn scaled(&self, factor: f64) -> Result<Self, EngineError> {
+        let mut domain = self.domain;
+        if let Domain::Around {
+            half_width_x_m,
+            half_width_y_m,
+            ..
+        } = &mut domain
+        {
+            *half_width_x_m *= factor;
+            *half_width_y_m *= factor;
+        }
+        let mut builder = Self {
+            indenter: Arc::clone(&self.indenter),
+            solver: self.solver,
+            half_width_m: factor * self.half_width_m,
+            domain,
+            grid: None,
+            operator: Mutex::new(None),
+        };
+        if self.grid.is_some() {
+            builder.grid = Some(builder.grid(0)?);
+        }
+        Ok(builder)
+    }
+
+    /// How often the domain can be halved and still hold a contact no larger than this: not at all, where the contact might not
+    /// grow outwards from there.
+    pub(super) fn halvings_to(&self, first: LargestContact) -> usize {
+        /// Room beyond the first contact, whose size is an estimate.
+        const ROOM: f64 = 1.15;
+        let own = matches!(self.domain, Domain::Cells { .. });
+        let ends = self
+            .body()
+            .is_ok_and(|body| body.contact_limit_m().is_some());
+        let is_fixed = match self.solver.engine {
+            EngineKind::Axisymmetric => ends,
+            EngineKind::HalfSpace => {
+                own || !growing::is_convex_within(&*self.indenter, self.half_width_m())
+            }
+        };
+        if is_fixed {
+            return 0;
+        }
+        let wanted_m = ROOM * contact_half_width_m(self.indenter.as_ref(), first);
+        let halvings = (self.half_width_m() / wanted_m).log2();
+        // Nothing or no number where either width is zero.
+        (halvings.max(0.0) as usize).min(MAX_GROWTHS)
+    }
+
+    /// Half width (m) of the domain, and whether it can be wider.
+    pub(super) fn reach(&self) -> (f64, bool) {
+        self.enlarged_half_width_m(0)
+    }
+
+    /// Where the nodes are.
+    pub(super) fn layout(&self) -> Layout {
+        match self.grid {
+            Some(grid) => Layout::Cells(grid),
+            None => Layout::Springs {
+                springs: self.solver.springs,
+                width_m: self.half_width_m() / self.solver.springs as f64,
+            },
+        }
     }
 
     /// Number of nodes of an engine, on a domain of any size.

@@ -219,7 +219,7 @@ fn error(quantity: Quantity, ladder: &Ladder<'_>, orders: (f64, f64)) -> Option<
 }
 
 /// What is left of an error of which refining `ratio` times took `first` away, and `second.1` times `second.0` before.
-fn richardson(
+pub(super) fn richardson(
     first: f64,
     ratio: f64,
     second: Option<(f64, f64)>,

@@ -8,11 +8,12 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::drive::{Moment, Schedule};
-use crate::history::{Hereditary, March};
-use crate::sweep::engines::{self, AsContactError, EngineError};
+use crate::history::{Hereditary, March, StepState};
+use crate::sweep::engines::{self, EngineError};
+use crate::sweep::growing::{self, Layout};
 use crate::sweep::history_checkpoint::{HistoryCheckpoint, Stand};
 use crate::sweep::scenario::ScenarioPlan;
-use crate::sweep::simulate::{HistoryRow, Progress, SimulationOutcome, SurfaceRecord};
+use crate::sweep::simulate::{HistoryRow, Progress, SurfaceRecord};
 
 /// Why a march ended early.
 #[derive(Debug, thiserror::Error)]
@@ -23,6 +24,9 @@ pub(super) enum MarchError {
     Engine(#[from] EngineError),
     #[error("interrupted")]
     Interrupted,
+    /// The contact reached the edge, and goes on from here on a wider domain.
+    #[error("the contact has outgrown its domain")]
+    Outgrown(Box<StepState>),
 }
 
 impl From<ContactError> for MarchError {
@@ -34,23 +38,18 @@ impl From<ContactError> for MarchError {
     }
 }
 
-impl AsContactError for MarchError {
-    fn as_contact_error(&self) -> Option<&ContactError> {
-        match self {
-            Self::Contact(error) => Some(error),
-            _ => None,
-        }
-    }
-}
-
-impl MarchError {
-    /// Whether the contact does not look like a disc.
-    pub(super) fn is_of_a_disc(&self) -> bool {
-        matches!(
-            self,
-            Self::Contact(ContactError::NotADisc { .. } | ContactError::Ring { .. })
-        )
-    }
+/// A history as far as it was followed at one resolution.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Course {
+    pub(super) rows: Vec<HistoryRow>,
+    /// Profiles, then fields, in the order in which they were asked for.
+    pub(super) surfaces: [Vec<Option<SurfaceRecord>>; 2],
+    /// How often the contact moved to a domain twice as wide.
+    pub(super) growths: usize,
+    /// Contact iterations over all moments.
+    pub(super) iterations: u64,
+    /// Why it ended early, where it did.
+    pub(super) failed: Option<String>,
 }
 
 /// A history to follow, and how.
@@ -60,47 +59,48 @@ pub(super) struct Following<'a> {
     /// Per moment, whether the approach is undefined.
     pub(super) floating: &'a [bool],
     pub(super) field_grid: &'a Grid,
-    /// How often the domain has been enlarged.
-    pub(super) growths: usize,
+    /// Where the nodes are, and where those of a wider domain would be, if there can be one.
+    pub(super) layout: Layout,
+    pub(super) wider: Option<Layout>,
+    /// What was followed before, at other resolutions.
+    pub(super) finished: &'a [Course],
     pub(super) checkpoint: &'a HistoryCheckpoint,
     pub(super) interrupt: &'a AtomicBool,
     pub(super) progress: &'a Progress<'a>,
 }
 
 impl Following<'_> {
-    /// Marches to the end, from where an earlier run stood if that fits; what there is by then is in the outcome either way.
+    /// Marches to the end, from within a step where an earlier run stood if that fits; what there is by then is in the course
+    /// either way.
     pub(super) fn run<M: Hereditary>(
         &self,
         mut march: March<'_, M>,
-        stand: Option<Stand<'_>>,
-        outcome: &mut SimulationOutcome,
+        stand: Option<&StepState>,
+        course: &mut Course,
     ) -> Result<(), MarchError> {
-        outcome.rows.clear();
         let profiles = self.plan.output.profiles_at_s.len();
-        let (profiles, fields) = self.schedule.requested.split_at(profiles);
-        let mut kept = [Kept::new(profiles), Kept::new(fields)];
-        let mut within_step = false;
-        if let Some(stand) = stand
-            && self.fits(&stand, &kept)
-            && march.restore_step(&stand.step)
-        {
-            within_step = true;
-            outcome.rows = stand.rows.into_owned();
-            for (kept, surfaces) in kept.iter_mut().zip(stand.surfaces) {
-                kept.records = surfaces.into_owned();
-            }
+        // Surfaces are asked for at full resolution alone.
+        let wanted = (self.schedule.requested.split_at_checked(profiles)).unwrap_or_default();
+        let wanted = [wanted.0, wanted.1];
+        let within_step =
+            self.fits(course, wanted) && stand.is_some_and(|step| march.restore_step(step));
+        if !within_step {
+            *course = Course {
+                surfaces: wanted.map(|moments| vec![None; moments.len()]),
+                growths: course.growths,
+                ..Course::default()
+            };
         }
-        let ended = self.go_on(&mut march, within_step, outcome, &mut kept);
-        outcome.iterations = march.work().iterations;
-        [outcome.profiles, outcome.fields] = kept.map(Kept::finish);
+        let ended = self.go_on(&mut march, within_step, course, wanted);
+        course.iterations = march.work().iterations;
         ended
     }
 
-    /// Whether the stand can be one of this history.
-    fn fits(&self, stand: &Stand<'_>, kept: &[Kept<'_>; 2]) -> bool {
-        let mut surfaces = stand.surfaces.iter().zip(kept);
-        stand.rows.len() < self.schedule.moments.len()
-            && surfaces.all(|(stored, kept)| stored.len() == kept.records.len())
+    /// Whether the course can be one of this history.
+    fn fits(&self, course: &Course, wanted: [&[usize]; 2]) -> bool {
+        let mut surfaces = course.surfaces.iter().zip(wanted);
+        course.rows.len() < self.schedule.moments.len()
+            && surfaces.all(|(stored, wanted)| stored.len() == wanted.len())
     }
 
     /// Marches from moment to moment, and keeps what is asked for. `within_step`: the march stands within the first step.
@@ -108,71 +108,69 @@ impl Following<'_> {
         &self,
         march: &mut March<'_, M>,
         mut within_step: bool,
-        outcome: &mut SimulationOutcome,
-        kept: &mut [Kept<'_>; 2],
+        course: &mut Course,
+        wanted: [&[usize]; 2],
     ) -> Result<(), MarchError> {
         let moments = &self.schedule.moments;
+        let wanted = wanted.map(Wanted::new);
         let mut guess = Vec::new();
-        for (index, moment) in moments.iter().enumerate().skip(outcome.rows.len()) {
-            let weights = match outcome.damped_throughout || moment.is_settling {
+        for (index, moment) in moments.iter().enumerate().skip(course.rows.len()) {
+            let weights = match moment.is_settling {
                 true => march.settling_weights(moment.step_s),
                 false => march.weights(moment.step_s),
             };
             if !std::mem::take(&mut within_step) {
                 march.begin_step(&weights);
             }
-            if self.checkpoint.keeps() {
-                guess.clear();
-                guess.extend_from_slice(march.pressure());
-            }
+            guess.clear();
+            guess.extend_from_slice(march.pressure());
             let interrupted = self.interrupt.load(Ordering::Relaxed);
             if interrupted || self.checkpoint.is_due() {
-                self.keep(march, &guess, outcome, kept);
+                self.keep(march, &guess, course);
             }
             if interrupted {
                 return Err(MarchError::Interrupted);
             }
             let prescribed = engines::prescribed(self.plan.drive.control(), moment.value);
-            let solved = march.end_step(&weights, prescribed);
+            let solved = match (march.end_step(&weights, prescribed), &self.wider) {
+                (Err(ContactError::ReachedEdge { .. }), Some(wider)) => {
+                    let state = march.step_state(&guess);
+                    let state = growing::moved::<M>(state, &self.layout, wider);
+                    return Err(MarchError::Outgrown(Box::new(state)));
+                }
+                (solved, _) => solved,
+            };
             if solved == Err(ContactError::Interrupted) {
-                self.keep(march, &guess, outcome, kept);
+                self.keep(march, &guess, course);
             }
             let mut row = self.row(march, moment, prescribed, solved?, self.floating[index])?;
             if index == 0 && moment.value == 0.0 {
                 // First touch of an undisturbed body: zero by definition, whatever node lies nearest to the axis.
                 row.approach_m = Some(0.0);
             }
-            let [profiles, fields] = &mut *kept;
-            if profiles.wants(index)
+            let [profiles, fields] = &mut course.surfaces;
+            if wanted[0].has(index)
                 && let Some(surface) = march.surface()?
             {
-                profiles.keep(index, self.surface_record(row, surface));
+                wanted[0].keep(index, &self.surface_record(row, surface), profiles);
             }
-            if fields.wants(index)
+            if wanted[1].has(index)
                 && let Some(surface) = march.field(self.field_grid)?
             {
-                fields.keep(index, self.surface_record(row, surface));
+                wanted[1].keep(index, &self.surface_record(row, surface), fields);
             }
-            outcome.rows.push(row);
+            course.rows.push(row);
             (self.progress)(index + 1, moments.len());
         }
         Ok(())
     }
 
     /// Writes where the history stands: in the step whose guess this is.
-    fn keep<M: Hereditary>(
-        &self,
-        march: &March<'_, M>,
-        guess: &[f64],
-        outcome: &SimulationOutcome,
-        [profiles, fields]: &[Kept<'_>; 2],
-    ) {
+    fn keep<M: Hereditary>(&self, march: &March<'_, M>, guess: &[f64], course: &Course) {
         if self.checkpoint.keeps() {
             self.checkpoint.write(&Stand {
-                growths: self.growths,
-                damped_throughout: outcome.damped_throughout,
-                rows: Cow::Borrowed(&outcome.rows),
-                surfaces: [&profiles.records, &fields.records].map(|r| Cow::Borrowed(r.as_slice())),
+                finished: Cow::Borrowed(self.finished),
+                course: Cow::Borrowed(course),
                 step: march.step_state(guess),
             });
         }
@@ -187,7 +185,6 @@ impl Following<'_> {
         solution: Solution,
         floating: bool,
     ) -> Result<HistoryRow, ContactError> {
-        march.check_assumptions()?;
         let mut peak_pressure_pa = None;
         march.observe(&mut |engine, pressure, solution| {
             peak_pressure_pa = engine.peak_pressure_pa(pressure, solution)?;
@@ -243,34 +240,29 @@ impl Following<'_> {
 }
 
 /// Surfaces wanted at some moments, in the order of the wishes.
-struct Kept<'a> {
+struct Wanted<'a> {
     moments: &'a [usize],
-    wanted: HashSet<usize>,
-    records: Vec<Option<SurfaceRecord>>,
+    all: HashSet<usize>,
 }
 
-impl<'a> Kept<'a> {
+impl<'a> Wanted<'a> {
     fn new(moments: &'a [usize]) -> Self {
         Self {
             moments,
-            wanted: moments.iter().copied().collect(),
-            records: vec![None; moments.len()],
+            all: moments.iter().copied().collect(),
         }
     }
 
-    fn wants(&self, moment: usize) -> bool {
-        self.wanted.contains(&moment)
+    fn has(&self, moment: usize) -> bool {
+        self.all.contains(&moment)
     }
 
-    fn keep(&mut self, moment: usize, record: SurfaceRecord) {
-        for (wanted, slot) in self.moments.iter().zip(&mut self.records) {
+    /// Puts the record of a moment into every place where it is wanted.
+    fn keep(&self, moment: usize, record: &SurfaceRecord, records: &mut [Option<SurfaceRecord>]) {
+        for (wanted, slot) in self.moments.iter().zip(records) {
             if *wanted == moment {
                 *slot = Some(record.clone());
             }
         }
-    }
-
-    fn finish(self) -> Vec<SurfaceRecord> {
-        self.records.into_iter().flatten().collect()
     }
 }

@@ -1,7 +1,7 @@
 //! The checkpoint of a single history, from which an interrupted simulation goes on and ends with the very same bits.
 //!
-//! One file, `checkpoints/history`: the rows and surfaces so far, and where the march stands within the step that comes next,
-//! before its instant is solved. It says what it belongs to: build of the program and scenario. One that cannot be written
+//! One file, `checkpoints/history`: the rows and surfaces so far at each resolution, and where the march stands within the step
+//! that comes next, before its instant is solved. It says what it belongs to: build of the program and scenario. One that cannot be written
 //! costs nothing but the time it would have saved.
 
 use std::borrow::Cow;
@@ -16,6 +16,7 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{CellSurface, RadialSurface, Surface};
 use crate::history::{StepState, Work};
 use crate::sweep::checkpoint_file::{self, FOLDER, Key, Rhythm, Unusable, from_numbers, numbers};
+use crate::sweep::follow::Course;
 use crate::sweep::provenance::BUILD;
 use crate::sweep::simulate::{HistoryRow, SurfaceRecord};
 use crate::sweep::store::{Store, write_atomically};
@@ -42,12 +43,9 @@ pub enum Found {
 /// Where a history stands.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stand<'a> {
-    /// How often the domain had been enlarged.
-    pub(super) growths: usize,
-    pub(super) damped_throughout: bool,
-    pub(super) rows: Cow<'a, [HistoryRow]>,
-    /// Profiles, then fields, in the order in which they were asked for.
-    pub(super) surfaces: [Cow<'a, [Option<SurfaceRecord>]>; 2],
+    /// The history at the resolutions before, at their ends.
+    pub(super) finished: Cow<'a, [Course]>,
+    pub(super) course: Cow<'a, Course>,
     pub(super) step: StepState,
 }
 
@@ -133,13 +131,20 @@ impl HistoryCheckpoint {
 /// What is no array.
 #[derive(Serialize, Deserialize)]
 struct Text {
-    growths: usize,
-    damped_throughout: bool,
+    finished: Vec<CourseText>,
+    course: CourseText,
     work: Work,
     solved_iterations: Option<usize>,
     /// Numbers of arrays of the memory and of what the guesses look back on.
     memory: usize,
-    course: Option<usize>,
+    looked_back_on: Option<usize>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct CourseText {
+    growths: usize,
+    iterations: u64,
+    failed: Option<String>,
     surfaces: [Vec<Option<SurfaceText>>; 2],
 }
 
@@ -193,39 +198,49 @@ fn row_of(
 type Array<'a> = Cow<'a, [f64]>;
 
 impl<'a> Stand<'a> {
-    /// How many moments have their rows.
+    /// How many moments have their rows, at all resolutions together.
     pub fn steps_done(&self) -> usize {
-        self.rows.len()
+        let courses = self.finished.iter().chain([&*self.course]);
+        courses.map(|course| course.rows.len()).sum()
     }
 
-    /// Arrays: rows, last instant, guess, hereditary part, memory, what guesses look back on; then of each surface its row,
-    /// radii, pressure, displacement and gap.
+    /// Arrays: last instant, guess, hereditary part, memory, what guesses look back on; then of each course its rows, and of each
+    /// of its surfaces row, radii, pressure, displacement and gap.
     fn parts(&'a self) -> (Text, Vec<Array<'a>>) {
         let step = &self.step;
-        let rows: Vec<f64> = self.rows.iter().flat_map(row_numbers).collect();
         let mut arrays: Vec<Array<'a>> = vec![
-            rows.into(),
             numbers(step.solution).into(),
             (&step.guess).into(),
             (&step.history).into(),
         ];
-        let course = step.course.iter().flatten();
-        arrays.extend(step.memory.iter().chain(course).map(Array::from));
-        let surfaces = [0, 1].map(|which| {
-            let records = self.surfaces[which].iter();
-            let text = records.map(|record| Some(surface_parts(record.as_ref()?, &mut arrays)));
-            text.collect()
-        });
+        let looked_back_on = step.course.iter().flatten();
+        arrays.extend(step.memory.iter().chain(looked_back_on).map(Array::from));
+        let finished = self.finished.iter();
         let text = Text {
-            growths: self.growths,
-            damped_throughout: self.damped_throughout,
+            finished: finished.map(|c| course_parts(c, &mut arrays)).collect(),
+            course: course_parts(&self.course, &mut arrays),
             work: step.work,
             solved_iterations: step.solution.map(|s| s.iterations),
             memory: step.memory.len(),
-            course: step.course.as_ref().map(Vec::len),
-            surfaces,
+            looked_back_on: step.course.as_ref().map(Vec::len),
         };
         (text, arrays)
+    }
+}
+
+fn course_parts<'a>(course: &'a Course, arrays: &mut Vec<Array<'a>>) -> CourseText {
+    let rows: Vec<f64> = course.rows.iter().flat_map(row_numbers).collect();
+    arrays.push(rows.into());
+    let surfaces = [0, 1].map(|which| {
+        let records = course.surfaces[which].iter();
+        let text = records.map(|record| Some(surface_parts(record.as_ref()?, arrays)));
+        text.collect()
+    });
+    CourseText {
+        growths: course.growths,
+        iterations: course.iterations,
+        failed: course.failed.clone(),
+        surfaces,
     }
 }
 
@@ -258,40 +273,51 @@ impl Stand<'static> {
         let text: Text = serde_json::from_slice(text).ok()?;
         let mut arrays = arrays.into_iter();
         let mut next = || arrays.next();
-        let (rows, solution, guess, history) = (next()?, next()?, next()?, next()?);
-        let (rows, rest) = rows.as_chunks();
+        let (solution, guess, history) = (next()?, next()?, next()?);
         let several = |count: usize, next: &mut dyn FnMut() -> Option<Vec<f64>>| {
             (0..count).map(|_| next()).collect::<Option<Vec<_>>>()
         };
         let memory = several(text.memory, &mut next)?;
-        let course = match text.course {
+        let looked_back_on = match text.looked_back_on {
             Some(count) => Some(several(count, &mut next)?),
             None => None,
         };
-        let mut surfaces = [Vec::new(), Vec::new()];
-        for (texts, records) in text.surfaces.iter().zip(&mut surfaces) {
-            for text in texts {
-                records.push(match text {
-                    Some(text) => Some(surface_of(text, &mut next)?),
-                    None => None,
-                });
-            }
-        }
-        rest.is_empty().then_some(Self {
-            growths: text.growths,
-            damped_throughout: text.damped_throughout,
-            rows: rows.iter().map(row_of).collect(),
-            surfaces: surfaces.map(Cow::Owned),
+        let finished = text.finished.into_iter();
+        let finished = finished.map(|text| course_of(text, &mut next));
+        Some(Self {
+            finished: Cow::Owned(finished.collect::<Option<_>>()?),
+            course: Cow::Owned(course_of(text.course, &mut next)?),
             step: StepState {
                 memory,
                 guess,
                 history,
-                course,
+                course: looked_back_on,
                 solution: from_numbers(&solution, text.solved_iterations)?,
                 work: text.work,
             },
         })
     }
+}
+
+fn course_of(text: CourseText, next: &mut dyn FnMut() -> Option<Vec<f64>>) -> Option<Course> {
+    let rows = next()?;
+    let (rows, rest) = rows.as_chunks();
+    let mut surfaces = [Vec::new(), Vec::new()];
+    for (texts, records) in text.surfaces.iter().zip(&mut surfaces) {
+        for text in texts {
+            records.push(match text {
+                Some(text) => Some(surface_of(text, next)?),
+                None => None,
+            });
+        }
+    }
+    rest.is_empty().then(|| Course {
+        rows: rows.iter().map(row_of).collect(),
+        surfaces,
+        growths: text.growths,
+        iterations: text.iterations,
+        failed: text.failed,
+    })
 }
 
 fn surface_of(
@@ -361,10 +387,17 @@ mod tests {
             gap_m: Some(vec![f64::INFINITY, 0.0]),
         };
         Stand {
-            growths: 2,
-            damped_throughout: true,
-            rows: vec![row(0.1 + 0.2), row(1.0)].into(),
-            surfaces: [vec![Some(radial), None].into(), vec![Some(cells)].into()],
+            finished: Cow::Owned(vec![Course {
+                rows: vec![row(0.1 + 0.2), row(1.0)],
+                surfaces: [vec![Some(radial), None], vec![Some(cells)]],
+                growths: 2,
+                iterations: 7,
+                failed: Some("too \"steep\"".to_owned()),
+            }]),
+            course: Cow::Owned(Course {
+                rows: vec![row(5.0)],
+                ..Course::default()
+            }),
             step: StepState {
                 memory: vec![vec![1.0, 2.0], Vec::new()],
                 guess: vec![3.0],

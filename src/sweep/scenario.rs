@@ -35,6 +35,8 @@ pub struct OutputPlan {
     pub fields_at_s: Vec<f64>,
     /// Axisymmetric engine: cells per side of the square on which fields are given; the half-space engine has its own.
     pub field_cells: usize,
+    /// Whether the history is to be followed at coarser resolutions too, which tells the errors of its rows.
+    pub error_bars: bool,
 }
 
 impl Default for OutputPlan {
@@ -43,6 +45,7 @@ impl Default for OutputPlan {
             profiles_at_s: Vec::new(),
             fields_at_s: Vec::new(),
             field_cells: 128,
+            error_bars: true,
         }
     }
 }
@@ -74,6 +77,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         let times: Vec<String> = times.iter().map(|t| quoted(*t, Dimension::Time)).collect();
         let _ = writeln!(text, "{key} = [{}]", times.join(", "));
     }
+    let _ = writeln!(text, "error_bars = {}", plan.output.error_bars);
     if plan.solver.engine == EngineKind::Axisymmetric {
         let _ = writeln!(text, "field_cells = {}", plan.output.field_cells);
     }

@@ -253,13 +253,5 @@ pub(super) fn how(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
         "half width of the domain",
         &plain(outcome.domain_half_width_m, Dimension::Length, 4),
     );
-    facts.add(
-        "damping",
-        if outcome.damped_throughout {
-            "every step: steps were long beside the shortest relaxation time"
-        } else {
-            "after jumps alone"
-        },
-    );
     facts.html()
 }
