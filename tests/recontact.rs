@@ -8,7 +8,7 @@ use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
 use contact_dma::contact::surface::Surface;
-use contact_dma::contact::{ContactError, Engine, Instant, Prescribed};
+use contact_dma::contact::{Engine, Prescribed};
 use contact_dma::history::{March, TimeRule};
 use contact_dma::material::{Creep, CreepBranch};
 
@@ -376,7 +376,6 @@ fn twenty_cycles(engine: &mut dyn Engine, frequency: f64, steps: u32) -> Vec<(f6
             0 => march.jump(Prescribed::LoadN(load)),
             _ => march.step(&weights, Prescribed::LoadN(load)),
         };
-        march.check_assumptions().unwrap();
         let solution = solution.unwrap();
         signals.push((solution.approach_m, solution.contact_radius_m));
     }
@@ -458,7 +457,6 @@ fn tapping(engine: &mut dyn Engine, approach_m: f64, steps: u32) -> Vec<f64> {
         let solution = march
             .step(&weights, Prescribed::ApproachM(approach))
             .unwrap();
-        march.check_assumptions().unwrap();
         assert_eq!(solution.approach_m, approach);
         if approach <= 0.0 {
             assert_eq!((solution.load_n, solution.contact_radius_m), (0.0, 0.0));
@@ -486,32 +484,4 @@ fn a_tapping_indenter_meets_a_surface_that_has_not_recovered_and_both_engines_fe
     assert!(touched(second) > touched(first));
     let peak = |loads: &[f64]| loads[..steps as usize].iter().copied().fold(0.0, f64::max);
     assert!(peak(second) < 0.99 * peak(first));
-}
-
-#[test]
-fn an_axisymmetric_contact_that_opens_in_the_middle_is_refused_with_the_advice_to_use_the_half_space()
- {
-    // A sphere pressed deep and quickly, taken off, and a blunter one put into the dent: it stands on its rim.
-    let creep = maxwell();
-    let a = hertz_radius_m(LOAD_N, creep.compliance(TAU_S));
-    let count = 200;
-    let mut sharp = springs(count, 1.2 * a);
-    let mut march = March::new(&mut sharp, creep, TimeRule::Linear);
-    march.jump(Prescribed::LoadN(LOAD_N)).unwrap();
-    march.hold(TAU_S, Prescribed::LoadN(LOAD_N)).unwrap();
-    march.jump(Prescribed::LoadN(0.0)).unwrap();
-    let dent: Vec<f64> = march.hereditary().collect();
-    let width = 1.2 * a / count as f64;
-    let gap = |i: usize| ((i as f64 + 0.5) * width).powi(2) / (5.0 * RADIUS_M);
-    let mut blunt = Axisymmetric::new(width, (0..count).map(gap).collect(), Edge::Open, true);
-    let mut force = vec![0.0; count];
-    let instant = Instant {
-        history: &dent,
-        compliance_per_pa: COMPLIANCE,
-        prescribed: Prescribed::LoadN(0.01 * LOAD_N),
-    };
-    let solution = blunt.solve(&instant, &mut force).unwrap();
-    let error = blunt.check_assumptions(&force, &solution).unwrap_err();
-    assert!(matches!(error, ContactError::Ring { .. }), "{error}");
-    assert!(error.to_string().contains("solver.engine = \"half-space\""));
 }

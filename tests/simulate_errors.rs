@@ -281,10 +281,10 @@ fn cells_follow_a_contact_that_grows_fifty_times() {
     let growth = exact[exact.len() - 1].contact_radius_m / exact[0].contact_radius_m;
     assert!(growth > 50.0, "{growth}");
     let pairs = || outcome.rows.iter().zip(&exact);
-    // Ten to twenty cells to a radius, to a part of one.
+    // Ten to twenty cells to a radius: to half a cell of the finest.
     for (row, exact) in pairs() {
         let off = row.contact_radius_m / exact.contact_radius_m - 1.0;
-        assert!(off.abs() < 0.02, "{row:?}: {off:e}");
+        assert!(off.abs() < 0.025, "{row:?}: {off:e}");
         let off = row.approach_m.unwrap() / exact.approach_m.unwrap() - 1.0;
         assert!(off.abs() < 1e-3, "{row:?}: {off:e}");
     }

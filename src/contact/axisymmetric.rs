@@ -9,19 +9,23 @@
 //! p(r) = -(1/pi) * integral from r to infinity of f'(x) / sqrt(x^2 - r^2) dx,     a = last x with f > 0
 //! ```
 //!
-//! Springs stand at the midpoints x_i = (i + 1/2) dx. The midpoint rule is off by at most slope dx^2 / 8 in the spring
-//! that holds the contact edge: about 1e-6 of the load for 400 springs.
+//! Springs stand at the middle of their widths. The midpoint rule is off by at most slope dx^2 / 8 in the spring that holds the
+//! contact edge: about 1e-6 of the load for 400 springs. Widths may differ along the row: finer where the edge moves.
 
+mod monotone;
 mod profile;
 
 use super::half_space::grid::Grid;
 use super::surface::{PressureLine, Response, Surface};
 use super::{ContactError, Engine, Instant, Prescribed, Solution};
+use monotone::Monotone;
 
 /// The row of springs of one indenter.
 #[derive(Debug, Clone)]
 pub struct Axisymmetric {
-    width_m: f64,
+    /// Middle and width of every spring.
+    position_m: Vec<f64>,
+    width_m: Vec<f64>,
     gap_m: Vec<f64>,
     edge: Edge,
     bounded_pressure: bool,
@@ -31,8 +35,9 @@ pub struct Axisymmetric {
     offset_m: Vec<f64>,
     /// Active force differences per x^2, for the inverse Abel transform.
     slope: Vec<f64>,
-    /// sqrt((j+1)^2 - k(k+1)...) in units of the spring width: see [`root_table`].
-    roots: Vec<f64>,
+    /// sqrt(x_i^2 - r^2): see [`root_table`].
+    roots_m: Vec<f64>,
+    reported: Monotone,
     approach_m: f64,
 }
 
@@ -45,15 +50,46 @@ pub enum Edge {
     Rim,
 }
 
-/// The share of the peak pressure by which rounding and the discrete inverse transform may make a pressure negative.
-const DISC_TOLERANCE: f64 = 1e-3;
-
 impl Axisymmetric {
     /// A row of springs of this width (m) at x_i = (i + 1/2) width, with transformed gaps G(x_i) in metres.
     pub fn new(width_m: f64, gap_m: Vec<f64>, edge: Edge, bounded_pressure: bool) -> Self {
         let springs = gap_m.len();
+        let position_m = (0..springs).map(|i| (i as f64 + 0.5) * width_m).collect();
+        Self::at(
+            position_m,
+            vec![width_m; springs],
+            gap_m,
+            edge,
+            bounded_pressure,
+        )
+    }
+
+    /// A row of springs between these ascending places (m), the first of which is the axis, with the transformed gap G (m).
+    pub fn between(
+        places_m: &[f64],
+        transformed_gap_m: impl Fn(f64) -> f64,
+        edge: Edge,
+        bounded_pressure: bool,
+    ) -> Self {
+        let ends = places_m.windows(2);
+        let position_m: Vec<f64> = ends.clone().map(|e| 0.5 * (e[0] + e[1])).collect();
+        let width_m = ends.map(|ends| ends[1] - ends[0]).collect();
+        let gap_m = position_m
+            .iter()
+            .map(|&x_m| transformed_gap_m(x_m))
+            .collect();
+        Self::at(position_m, width_m, gap_m, edge, bounded_pressure)
+    }
+
+    fn at(
+        position_m: Vec<f64>,
+        width_m: Vec<f64>,
+        gap_m: Vec<f64>,
+        edge: Edge,
+        bounded_pressure: bool,
+    ) -> Self {
+        let springs = gap_m.len();
         Self {
-            width_m,
             edge,
             bounded_pressure,
             singular_radii_m: match bounded_pressure || edge == Edge::Rim {
@@ -62,12 +98,14 @@ impl Axisymmetric {
             },
             offset_m: vec![0.0; springs],
             slope: vec![0.0; springs + 1],
-            roots: if bounded_pressure {
-                root_table(springs)
-            } else {
-                Vec::new()
+            roots_m: match bounded_pressure {
+                true => root_table(&position_m),
+                false => Vec::new(),
             },
+            reported: Monotone::default(),
             approach_m: 0.0,
+            position_m,
+            width_m,
             gap_m,
         }
     }
@@ -81,12 +119,13 @@ impl Axisymmetric {
 
     /// Position of a spring (m).
     pub fn position_m(&self, spring: usize) -> f64 {
-        (spring as f64 + 0.5) * self.width_m
+        self.position_m[spring]
     }
 
-    /// Width of a spring (m).
-    pub fn width_m(&self) -> f64 {
-        self.width_m
+    /// The end of the row (m).
+    fn end_m(&self) -> f64 {
+        let last = self.position_m.last().zip(self.width_m.last());
+        last.map_or(0.0, |(x_m, width_m)| x_m + 0.5 * width_m)
     }
 
     /// Pressure (Pa) at the axis, then at every spring inside the contact, from the line forces (N/m).
@@ -99,8 +138,8 @@ impl Axisymmetric {
         contact_radius_m: f64,
         pressure: &mut [f64],
     ) -> usize {
-        let contact = force.iter().rposition(|&f| f > 0.0).map_or(0, |i| i + 1);
-        if contact == 0 || self.roots.is_empty() {
+        let contact = in_contact(force);
+        if contact == 0 || self.roots_m.is_empty() {
             return 0;
         }
         self.fill_slopes(force, contact, contact_radius_m);
@@ -112,27 +151,26 @@ impl Axisymmetric {
 
     /// Pressure (Pa) at the axis for row 0, at spring k for row k + 1, from slopes filled in before.
     fn pressure_of_row(&self, row: usize, contact: usize, contact_radius_m: f64) -> f64 {
-        let edge_squared = (contact_radius_m / self.width_m).powi(2);
         let last = contact - 1;
         let first = row.saturating_sub(1);
-        let squared_radius = if row == 0 {
+        let radius_m = if row == 0 {
             0.0
         } else {
-            (first as f64 + 0.5).powi(2)
+            self.position_m[first]
         };
-        // roots(row, i) = sqrt(x_i^2 - r^2) / width.
-        let roots = &self.roots[row_start(row, self.gap_m.len())..];
+        // roots(row, i) = sqrt(x_i^2 - r^2).
+        let roots_m = &self.roots_m[row_start(row, self.gap_m.len())..];
         let mut sum = 0.0;
-        let mut inner = if row == 0 { 0.0 } else { roots[0] };
+        let mut inner = if row == 0 { 0.0 } else { roots_m[0] };
         let slopes = &self.slope[if row == 0 { 0 } else { first + 1 }..=last];
-        let outer = &roots[if row == 0 { 0 } else { 1 }..];
+        let outer = &roots_m[if row == 0 { 0 } else { 1 }..];
         for (slope, &root) in slopes.iter().zip(outer) {
             sum += slope * (root - inner);
             inner = root;
         }
-        let rim = (edge_squared - squared_radius).max(0.0).sqrt();
-        sum += self.slope[last + 1] * (rim - inner).max(0.0);
-        -std::f64::consts::FRAC_2_PI * sum / self.width_m
+        let beyond = (contact_radius_m - radius_m).max(0.0) * (contact_radius_m + radius_m);
+        sum += self.slope[last + 1] * (beyond.sqrt() - inner).max(0.0);
+        -std::f64::consts::FRAC_2_PI * sum
     }
 
     /// The largest pressure (Pa) and the row where it is: sought among every eighth row, then around the best of them. A
@@ -150,38 +188,35 @@ impl Axisymmetric {
         around.fold(best, larger).1
     }
 
-    /// Slopes df/d(x^2) in units of the width: entry i lies between spring i - 1 and spring i, the last one ends at the edge.
+    /// Slopes df/d(x^2): entry i lies between spring i - 1 and spring i, the last one ends at the edge.
     fn fill_slopes(&mut self, force: &[f64], contact: usize, contact_radius_m: f64) {
+        let force = self.reported.of(&force[..contact], &self.width_m);
+        let between = |inner_m: f64, outer_m: f64| (outer_m - inner_m) * (outer_m + inner_m);
         for i in 1..contact {
-            self.slope[i] = (force[i] - force[i - 1]) / (2 * i) as f64;
+            let (inner_m, outer_m) = (self.position_m[i - 1], self.position_m[i]);
+            self.slope[i] = (force[i] - force[i - 1]) / between(inner_m, outer_m);
         }
-        // Inside the first spring the force goes on as the parabola of its neighbours.
-        self.slope[0] = if contact > 1 { self.slope[1] } else { 0.0 };
         let last = contact - 1;
-        let position = last as f64 + 0.5;
-        let edge = contact_radius_m / self.width_m;
-        let span = edge * edge - position * position;
+        let span = between(self.position_m[last], contact_radius_m);
         self.slope[contact] = if span > 0.0 { -force[last] / span } else { 0.0 };
-        if contact == 1 {
-            self.slope[0] = self.slope[1];
-        }
+        // Inside the first spring the force goes on as the parabola of its neighbours.
+        self.slope[0] = self.slope[1];
     }
 
-    /// Approach under a load: the root of W(delta) = (2 dx / A) * sum of max(0, delta - offset), which is convex and
+    /// Approach under a load: the root of W(delta) = (2/A) * sum of dx max(0, delta - offset), which is convex and
     /// piecewise linear, so that Newton's method ends exactly after finitely many passes from any start.
     fn approach_under_load(&self, load_n: f64, compliance_per_pa: f64) -> (f64, usize) {
         let lowest_m = self.offset_m.iter().copied().fold(f64::INFINITY, f64::min);
-        let target = load_n * compliance_per_pa / (2.0 * self.width_m);
+        let target = 0.5 * load_n * compliance_per_pa;
         if target <= 0.0 {
             return (lowest_m, 0);
         }
         let mut approach_m = self.approach_m.max(lowest_m);
         for pass in 1..=self.offset_m.len() + 2 {
-            let (sum, count) = sum_below(&self.offset_m, approach_m);
-            let next = if count == 0.0 {
-                lowest_m + target
-            } else {
-                (target + sum) / count
+            let (sum, width_m) = sum_below(&self.offset_m, &self.width_m, approach_m);
+            let next = match width_m > 0.0 {
+                true => (target + sum) / width_m,
+                false => lowest_m + target / self.end_m(),
             };
             if next == approach_m {
                 return (approach_m, pass);
@@ -200,11 +235,12 @@ impl Axisymmetric {
             (Some(&beyond), _) => {
                 let inside = approach_m - self.offset_m[last];
                 let share = inside / (inside + (beyond - approach_m));
-                Ok(self.position_m(last) + share * self.width_m)
+                let (inner_m, outer_m) = (self.position_m[last], self.position_m[last + 1]);
+                Ok(inner_m + share * (outer_m - inner_m))
             }
-            (None, Edge::Rim) => Ok((last + 1) as f64 * self.width_m),
+            (None, Edge::Rim) => Ok(self.end_m()),
             (None, Edge::Open) => Err(ContactError::ReachedEdge {
-                half_width_m: self.offset_m.len() as f64 * self.width_m,
+                half_width_m: self.end_m(),
             }),
         }
     }
@@ -230,13 +266,14 @@ impl Engine for Axisymmetric {
             Prescribed::ApproachM(approach_m) => (approach_m, 1),
         };
         let mut sum = 0.0;
-        for (force, offset) in force.iter_mut().zip(&self.offset_m) {
+        let springs = self.offset_m.iter().zip(&self.width_m);
+        for (force, (offset, width_m)) in force.iter_mut().zip(springs) {
             *force = ((approach_m - offset) / compliance).max(0.0);
-            sum += *force;
+            sum += *force * width_m;
         }
         self.approach_m = approach_m;
         Ok(Solution {
-            load_n: 2.0 * self.width_m * sum,
+            load_n: 2.0 * sum,
             approach_m,
             contact_radius_m: self.contact_radius(approach_m)?,
             iterations,
@@ -252,7 +289,7 @@ impl Engine for Axisymmetric {
         if !self.bounded_pressure {
             return Ok(None);
         }
-        let contact = force.iter().rposition(|&f| f > 0.0).map_or(0, |i| i + 1);
+        let contact = in_contact(force);
         if contact == 0 {
             return Ok(Some(0.0));
         }
@@ -263,15 +300,9 @@ impl Engine for Axisymmetric {
     }
 
     fn pressure_lines(&self, force: &[f64], solution: &Solution) -> Vec<PressureLine> {
+        let mut reported = Monotone::default();
+        let force = reported.of(force, &self.width_m);
         vec![self.pressure_line(force, solution.contact_radius_m)]
-    }
-
-    fn check_assumptions(
-        &mut self,
-        force: &[f64],
-        solution: &Solution,
-    ) -> Result<(), ContactError> {
-        self.check_disc(force, solution.approach_m, solution.contact_radius_m)
     }
 
     fn resume_from(&mut self, last: &Solution) {
@@ -292,38 +323,68 @@ impl Engine for Axisymmetric {
         Ok(0)
     }
 
-    fn load_per_nodal_pressure(&self) -> f64 {
-        2.0 * self.width_m
+    fn load_per_nodal_pressure(&self, node: usize) -> f64 {
+        2.0 * self.width_m[node]
+    }
+
+    fn surface_density(&mut self, nodal: &[f64], radius_m: f64) -> Result<Surface, ContactError> {
+        let undisturbed = vec![0.0; nodal.len()];
+        let response = Response::of_density(nodal, &undisturbed, radius_m);
+        Ok(Surface::Radial(self.radial_surface(&response)))
     }
 
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
-        Ok(Surface::Radial(self.radial_surface(response)))
+        let width_m = &self.width_m;
+        let mut reported = std::mem::take(&mut self.reported);
+        let pressure = reported.of(response.pressure, width_m);
+        let surface = self.radial_surface(&Response {
+            pressure,
+            ..*response
+        });
+        self.reported = reported;
+        Ok(Surface::Radial(surface))
     }
 
     fn field(&mut self, response: &Response<'_>, grid: &Grid) -> Result<Surface, ContactError> {
-        Ok(Surface::Cells(self.revolved_surface(response, grid)))
+        let mut reported = Monotone::default();
+        let pressure = reported.of(response.pressure, &self.width_m);
+        let response = Response {
+            pressure,
+            ..*response
+        };
+        Ok(Surface::Cells(self.revolved_surface(&response, grid)))
     }
 }
 
-/// Sum and number of the values below a bound. In lanes, without branches: this is the engine's innermost loop.
-fn sum_below(values: &[f64], bound: f64) -> (f64, f64) {
+/// Number of springs up to the last in contact.
+fn in_contact(force: &[f64]) -> usize {
+    force.iter().rposition(|&f| f > 0.0).map_or(0, |i| i + 1)
+}
+
+/// Over the values below a bound, the sum of value times weight, and that of the weights. In lanes, without branches: this is
+/// the engine's innermost loop.
+fn sum_below(values: &[f64], weights: &[f64], bound: f64) -> (f64, f64) {
     const LANES: usize = 8;
-    let (mut sums, mut counts) = ([0.0; LANES], [0.0; LANES]);
-    let chunks = values.chunks_exact(LANES);
-    let rest = chunks.remainder();
-    for chunk in chunks {
-        for ((value, sum), count) in chunk.iter().zip(&mut sums).zip(&mut counts) {
-            let below = *value < bound;
-            *sum += if below { *value } else { 0.0 };
-            *count += if below { 1.0 } else { 0.0 };
+    let (mut sums, mut totals) = ([0.0; LANES], [0.0; LANES]);
+    let (values, values_left) = values.as_chunks::<LANES>();
+    let (weights, weights_left) = weights.as_chunks::<LANES>();
+    for (values, weights) in values.iter().zip(weights) {
+        for lane in 0..LANES {
+            let weight = if values[lane] < bound {
+                weights[lane]
+            } else {
+                0.0
+            };
+            sums[lane] += weight * values[lane];
+            totals[lane] += weight;
         }
     }
-    let below = rest.iter().filter(|value| **value < bound);
-    let (sum, count) = below.fold((0.0, 0.0), |(s, c), value| (s + value, c + 1.0));
-    (
-        sum + sums.iter().sum::<f64>(),
-        count + counts.iter().sum::<f64>(),
-    )
+    let left = values_left.iter().zip(weights_left);
+    let below = left.filter(|(value, _)| **value < bound);
+    let start = (sums.iter().sum::<f64>(), totals.iter().sum::<f64>());
+    below.fold(start, |(sum, total), (value, weight)| {
+        (sum + weight * value, total + weight)
+    })
 }
 
 /// Where row `row` of the root table starts: row 0 (the axis) holds `springs` entries, row k + 1 those from spring k on.
@@ -337,13 +398,18 @@ fn row_start(row: usize, springs: usize) -> usize {
     }
 }
 
-/// sqrt(x_i^2 - r^2) in units of the spring width for r = 0, x_0, x_1, ... and i from the spring at r on.
-fn root_table(springs: usize) -> Vec<f64> {
+/// sqrt(x_i^2 - r^2) for r = 0, x_0, x_1, ... and i from the spring at r on.
+fn root_table(position_m: &[f64]) -> Vec<f64> {
+    let springs = position_m.len();
     let mut table = Vec::with_capacity(springs + springs * (springs + 1) / 2);
-    table.extend((0..springs).map(|i| i as f64 + 0.5));
-    for k in 0..springs {
-        // (i + 1/2)^2 - (k + 1/2)^2 = (i - k)(i + k + 1): no digits lost.
-        table.extend((k..springs).map(|i| (((i - k) * (i + k + 1)) as f64).sqrt()));
+    table.extend(position_m);
+    for (k, r_m) in position_m.iter().enumerate() {
+        // No digits lost.
+        table.extend(
+            position_m[k..]
+                .iter()
+                .map(|x_m| ((x_m - r_m) * (x_m + r_m)).sqrt()),
+        );
     }
     table
 }

@@ -76,16 +76,6 @@ pub enum ContactError {
         residual: f64,
         tolerance: f64,
     },
-    #[error(
-        "the pressure falls to {ratio:.2e} of its maximum at r = {radius_m:e} m: the contact is no longer a disc, which only \
-         the half-space engine can treat (set solver.engine = \"half-space\")"
-    )]
-    NotADisc { ratio: f64, radius_m: f64 },
-    #[error(
-        "springs around r = {radius_m:e} m are in contact while springs further inside are not: the contact is a ring, no \
-         longer a disc, which only the half-space engine can treat (set solver.engine = \"half-space\")"
-    )]
-    Ring { radius_m: f64 },
     #[error("interrupted")]
     Interrupted,
     #[error("{reason}")]
@@ -146,18 +136,6 @@ pub trait Engine: Send {
     /// over all cells.
     fn pressure_lines(&self, pressure: &[f64], solution: &Solution) -> Vec<PressureLine>;
 
-    /// Whether the engine's own assumptions hold for the instant last solved; cheap enough to ask at every one.
-    ///
-    /// # Errors
-    /// [`ContactError::NotADisc`] or [`ContactError::Ring`] from an engine that treats discs alone.
-    fn check_assumptions(
-        &mut self,
-        _pressure: &[f64],
-        _solution: &Solution,
-    ) -> Result<(), ContactError> {
-        Ok(())
-    }
-
     /// Gives the engine a flag that ends an instant under way with [`ContactError::Interrupted`]; engines whose instants are
     /// short need none.
     fn interrupted_by(&mut self, _flag: Arc<AtomicBool>) {}
@@ -180,9 +158,26 @@ pub trait Engine: Send {
         displacement: &mut [f64],
     ) -> Result<usize, ContactError>;
 
-    /// What the sum of the nodal pressures is multiplied by to give the load; and the sum of the products of nodal pressures
-    /// and displacements, to give an energy.
-    fn load_per_nodal_pressure(&self) -> f64;
+    /// What the nodal pressure of a node is multiplied by to give its part of the load.
+    fn load_per_nodal_pressure(&self, node: usize) -> f64;
+
+    /// The energy of nodal pressures over nodal displacements: the sum of their products, each times
+    /// [`Engine::load_per_nodal_pressure`].
+    fn work(&self, pressure: &[f64], displacement: &[f64]) -> f64 {
+        let products = pressure.iter().zip(displacement).enumerate();
+        products
+            .map(|(node, (p, u))| self.load_per_nodal_pressure(node) * p * u)
+            .sum()
+    }
+
+    /// The density over the surface of what adds up over the nodes like a pressure; nothing of it lies beyond `radius_m`.
+    ///
+    /// # Errors
+    /// As [`Engine::surface`].
+    fn surface_density(&mut self, nodal: &[f64], radius_m: f64) -> Result<Surface, ContactError> {
+        let undisturbed = vec![0.0; nodal.len()];
+        self.surface(&Response::of_density(nodal, &undisturbed, radius_m))
+    }
 
     /// Pressure and displacement of the surface, inside and outside the contact.
     ///

@@ -17,6 +17,18 @@ pub struct Response<'a> {
     pub contact_radius_m: f64,
 }
 
+impl<'a> Response<'a> {
+    /// What stands for a pressure that moves nothing, on a body without `history`.
+    pub fn of_density(nodal: &'a [f64], history: &'a [f64], radius_m: f64) -> Self {
+        Self {
+            pressure: nodal,
+            history,
+            compliance_per_pa: 0.0,
+            contact_radius_m: radius_m,
+        }
+    }
+}
+
 /// The surface at one instant. Displacements are positive into the body.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Surface {

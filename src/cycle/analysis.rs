@@ -105,6 +105,30 @@ pub fn analyse(load_n: &[f64], approach_m: &[f64]) -> Result<LoopAnalysis, LoopE
 }
 
 impl LoopAnalysis {
+    /// What rounding of the samples may leave in the energy loss (J): some units in the last place of the largest approach, over
+    /// the amplitude of the load, and likewise with the two exchanged.
+    pub fn rounding_j(&self) -> f64 {
+        let Some(first) = self.harmonics.first() else {
+            return 0.0;
+        };
+        let approach_m = self.approach_mean_m.abs() + first.approach_amplitude_m;
+        let load_n = self.load_mean_n.abs() + first.load_amplitude_n;
+        let products = first.load_amplitude_n * approach_m + first.approach_amplitude_m * load_n;
+        4.0 * f64::EPSILON * PI * products
+    }
+
+    /// The same loop with an energy loss (J) known from elsewhere, and the phase lag that belongs to it: of a load or an approach that
+    /// is sinusoidal only the first harmonic of the other dissipates.
+    #[must_use]
+    pub fn of_energy_loss(mut self, energy_loss_j: f64) -> Self {
+        if let Some(first) = self.harmonics.first() {
+            let whole_j = PI * first.load_amplitude_n * first.approach_amplitude_m;
+            self.phase_lag_rad = (energy_loss_j / whole_j).clamp(-1.0, 1.0).asin();
+        }
+        self.energy_loss_j = energy_loss_j;
+        self
+    }
+
     /// Storage and loss modulus (Pa) that instrumented indentation reads from the first harmonic, with contact radius a_0:
     /// E'/(1 - nu^2) = W_1 cos(phase lag) / (2 a_0 delta_1), E'' with the sine
     /// (G. Huang, B. Wang, H. Lu, Mech. Time-Depend. Mater. 8 (2004) 345, with 2 sqrt(R delta_0) for 2 a_0).

@@ -8,7 +8,7 @@ mod analysis;
 mod stabilisation;
 
 pub use analysis::{Harmonic, LoopAnalysis, LoopError, analyse};
-pub use stabilisation::{BranchChange, closure_error, steady_distance};
+pub use stabilisation::closure_error;
 
 /// One cycle of a contact, sampled uniformly, first and last sample one period apart.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]

@@ -4,7 +4,7 @@
 //! time and grow in proportion to the time since the joint; they grow no further than what resolves the drive itself. A
 //! value that is held needs no more than that, however long it is held, since the hereditary integral is exact for any step.
 
-use super::piece::{Form, Piece};
+use super::piece::Piece;
 use super::segments::SegmentedDrive;
 
 /// How long the time steps are.
@@ -27,12 +27,17 @@ pub struct Moment {
     pub value: f64,
     /// The segment, counted from 0.
     pub segment: usize,
-    /// Whether the body still settles after a joint, or the value is held: where such a step is long beside the times of
-    /// the body, it must not make it ring.
-    pub is_settling: bool,
+    /// The smooth piece of the drive, and the time since it began (s).
+    piece: usize,
+    since_s: f64,
 }
 
 impl Moment {
+    /// The piece of the drive that leads to it, and the time (s) since that began at a fraction of the step.
+    pub(super) fn place(&self, fraction: f64) -> (usize, f64) {
+        (self.piece, self.since_s - (1.0 - fraction) * self.step_s)
+    }
+
     /// Whether the drive jumps to this state from another one at the same time, or from before the history.
     pub fn is_jump(&self) -> bool {
         self.step_s == 0.0
@@ -85,8 +90,6 @@ pub const MAX_MOMENTS: usize = 2_000_000;
 /// The first step after a joint, as a part of the body's shortest time, and the growth of the time since the joint.
 const FIRST_STEP: f64 = 1e-2;
 const STEPS_PER_DECADE: f64 = 20.0;
-/// Steps after a joint in which the body settles, however long they are.
-const SETTLING_STEPS: usize = 4;
 /// Between the points of a table steps double, from no less than an eighth of the way to the next point.
 const TABLE_GROWTH: f64 = 2.0;
 const TABLE_FIRST_STEP: f64 = 0.125;
@@ -133,23 +136,15 @@ impl Schedule {
             can_be_coarser: true,
         };
         let mut before: Option<&Piece> = None;
-        let (mut since_joint, mut full) = (0, 0);
-        for piece in drive.pieces() {
+        let mut full = 0;
+        for (index, piece) in drive.pieces().iter().enumerate() {
             if before.is_none_or(|before| drive.jumps(before, piece)) {
-                schedule.push(moment(drive, piece, 0.0, 0.0), Some(full))?;
+                schedule.push(moment(drive, (index, piece), 0.0, 0.0), Some(full))?;
                 full += 1;
-            }
-            if !piece.is_continued_table {
-                since_joint = 0;
             }
             let ends = ends(piece, &Pace::new(steps, piece), &exact_s)?;
             schedule.can_be_coarser &= ends.len() > 1;
-            schedule.follow(
-                (drive, piece, steps),
-                (&ends, full),
-                fineness,
-                &mut since_joint,
-            )?;
+            schedule.follow(drive, (index, piece), (&ends, full), fineness)?;
             full += ends.len();
             before = Some(piece);
         }
@@ -172,21 +167,16 @@ impl Schedule {
     }
 
     /// Adds those moments of one piece that the fineness keeps or brings, its end but not its beginning. `ends` are those of the
-    /// full schedule, the first of which is its moment number `full`; `since_joint` counts steps since the last joint that is
-    /// not the point of a table.
+    /// full schedule, the first of which is its moment number `full`.
     fn follow(
         &mut self,
-        (drive, piece, steps): (&SegmentedDrive, &Piece, Steps),
+        drive: &SegmentedDrive,
+        (index, piece): (usize, &Piece),
         (ends, full): (&[End], usize),
         fineness: Fineness,
-        since_joint: &mut usize,
     ) -> Result<(), ScheduleError> {
-        let pace = Pace::new(steps, piece);
-        let (mut since_s, mut full_since_s) = (0.0, 0.0);
+        let mut since_s = 0.0;
         for (k, end) in ends.iter().enumerate() {
-            // Of the full schedule: what settles there settles in all, which makes their errors comparable.
-            let grows = pace.is_settling(steps, piece, end.since_s - full_since_s);
-            full_since_s = end.since_s;
             let parts = match fineness {
                 Fineness::EveryNth(n) if (k + 1) % n != 0 && k + 1 < ends.len() => continue,
                 Fineness::EveryNth(_) => 1,
@@ -201,11 +191,9 @@ impl Schedule {
             for (end, in_full) in within.chain([(*end, Some(full + k))]) {
                 let next = Moment {
                     time_s: end.time_s,
-                    is_settling: *since_joint < SETTLING_STEPS || grows,
-                    ..moment(drive, piece, end.since_s, end.since_s - since_s)
+                    ..moment(drive, (index, piece), end.since_s, end.since_s - since_s)
                 };
                 self.push(next, in_full)?;
-                *since_joint += 1;
                 since_s = end.since_s;
             }
         }
@@ -231,13 +219,19 @@ fn within(drive: &SegmentedDrive, requested_s: &[f64]) -> Result<Vec<f64>, Sched
     requested_s.iter().map(place).collect()
 }
 
-fn moment(drive: &SegmentedDrive, piece: &Piece, since_s: f64, step_s: f64) -> Moment {
+fn moment(
+    drive: &SegmentedDrive,
+    (index, piece): (usize, &Piece),
+    since_s: f64,
+    step_s: f64,
+) -> Moment {
     Moment {
         time_s: piece.start_s + since_s,
         step_s,
         value: drive.value_in(piece, since_s),
         segment: piece.segment,
-        is_settling: false,
+        piece: index,
+        since_s,
     }
 }
 
@@ -315,12 +309,6 @@ impl Pace {
                 }
             }
         }
-    }
-
-    /// Whether steps still grow, or the drive is held.
-    fn is_settling(&self, steps: Steps, piece: &Piece, step_s: f64) -> bool {
-        let grows = matches!(steps, Steps::Chosen { .. }) && !piece.is_continued_table;
-        matches!(piece.form, Form::Constant(_)) || grows && step_s < 0.99 * self.grid_s
     }
 
     /// The time after this one, both since the beginning of the piece.
@@ -440,15 +428,19 @@ mod tests {
         for (index, time_s) in schedule.requested.iter().zip([0.3, 17.7, 55.0]) {
             assert!((schedule.moments[*index].time_s - time_s).abs() < 1e-12);
         }
-        // The body settles while steps grow; on the ramp, once they are of one length, it follows.
-        let settling = |from: f64, to: f64| {
-            let mut inside = schedule
-                .moments
-                .iter()
-                .filter(|m| m.time_s > from && m.time_s < to);
-            inside.by_ref().all(|m| m.is_settling)
-        };
-        assert!(settling(0.0, 5.5) && !settling(5.0, 50.0));
+        // Within a step the drive is where it says it is.
+        for moment in schedule.moments.iter().filter(|m| !m.is_jump()) {
+            for fraction in [0.0, 0.25, 1.0] {
+                let time_s = moment.time_s - (1.0 - fraction) * moment.step_s;
+                let expected = if time_s <= 5.0 {
+                    1.0
+                } else {
+                    1.0 + (time_s - 5.0) / 25.0
+                };
+                let found = history.value_within(moment, fraction);
+                assert!((found - expected).abs() < 1e-12, "{time_s}: {found}");
+            }
+        }
         // Only the first state is a jump: the ramp goes on from the step.
         assert_eq!(schedule.moments.iter().filter(|m| m.is_jump()).count(), 1);
     }

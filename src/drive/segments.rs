@@ -1,6 +1,7 @@
 //! A drive history: segments one after another, each a step, a ramp, a polynomial, a sine or a table.
 
 use super::Control;
+use super::Moment;
 use super::piece::{Form, Piece};
 use crate::quantity::{Dimension, format_human};
 
@@ -207,6 +208,15 @@ impl SegmentedDrive {
             0.0
         } else {
             value
+        }
+    }
+
+    /// What is prescribed at a fraction of the step that leads to a moment of this drive, in the unit of its control.
+    pub fn value_within(&self, moment: &Moment, fraction: f64) -> f64 {
+        let (piece, since_s) = moment.place(fraction);
+        match self.pieces.get(piece) {
+            Some(piece) if fraction < 1.0 => self.value_in(piece, since_s),
+            _ => moment.value,
         }
     }
 

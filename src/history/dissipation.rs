@@ -13,7 +13,7 @@
 //! Where the indenter touches, the surface moves with it, so that the work it does per node is the integral of p d(delta).
 
 use super::memory::{Memory, TimeRule};
-use crate::contact::{ContactError, Engine, Solution};
+use crate::contact::{ContactError, Engine};
 use crate::material::Creep;
 
 /// Energies of a number of equal steps, added up.
@@ -21,9 +21,12 @@ pub struct Dissipation {
     nodes: usize,
     branches: Vec<Branch>,
     rule: TimeRule,
-    /// d at the start of the step, branch-major.
+    /// Memory at the start of the step; then d there. Branch-major.
     deviation: Vec<f64>,
-    /// Pressure at the start of the step; then its change over the step.
+    /// Pressure at the start of the last stage, at this fraction of the step; then that at the start of the step.
+    passed: f64,
+    pressure: Vec<f64>,
+    /// Its change over the step.
     change: Vec<f64>,
     /// B applied to d of one branch and to the change.
     of_deviation: Vec<f64>,
@@ -56,6 +59,8 @@ impl Dissipation {
             rule,
             deviation: vec![0.0; nodes * branches.len()],
             branches,
+            passed: 0.0,
+            pressure: vec![0.0; nodes],
             change: vec![0.0; nodes],
             of_deviation: vec![0.0; nodes],
             of_change: vec![0.0; nodes],
@@ -74,47 +79,53 @@ impl Dissipation {
     }
 
     /// Takes in the state at the start of a step.
-    pub(super) fn before(&mut self, memory: &Memory, pressure: &[f64]) {
-        let variables = memory.variables().chunks_exact(self.nodes);
-        for (deviation, memory) in self.deviation.chunks_exact_mut(self.nodes).zip(variables) {
-            for ((d, m), p) in deviation.iter_mut().zip(memory).zip(pressure) {
-                *d = p - m;
-            }
-        }
-        self.change.copy_from_slice(pressure);
+    pub(super) fn begin(&mut self, memory: &Memory) {
+        self.deviation.copy_from_slice(memory.variables());
     }
 
-    /// Takes in the state at its end; returns the convolutions that took.
-    pub(super) fn after(
+    /// Takes in the pressure at the start of a stage, at this fraction of the step.
+    pub(super) fn passes(&mut self, fraction: f64, pressure: &[f64]) {
+        self.passed = fraction;
+        self.pressure.copy_from_slice(pressure);
+    }
+
+    /// Takes in the pressure at the end of a stage, over which the indenter travelled so far.
+    pub(super) fn works(&mut self, pressure: &[f64], travel_m: f64) {
+        let pressures = self.pressure.iter().zip(pressure);
+        for (work, (old, new)) in self.nodal_work.iter_mut().zip(pressures) {
+            *work += 0.5 * (old + new) * travel_m;
+        }
+    }
+
+    /// Takes in the pressure at the end of a step; returns the convolutions that took. Within the step the pressure is linear
+    /// through its values at the start of the last stage and at the end.
+    pub(super) fn end(
         &mut self,
         engine: &mut dyn Engine,
         pressure: &[f64],
-        (start, end): (&Solution, &Solution),
     ) -> Result<usize, ContactError> {
-        let travel_m = end.approach_m - start.approach_m;
-        for ((work, old), new) in self
-            .nodal_work
-            .iter_mut()
-            .zip(&mut self.change)
-            .zip(pressure)
-        {
-            *work += 0.5 * (*old + new) * travel_m;
+        let (passed, rule) = (self.passed, self.rule);
+        for ((start, change), end) in self.pressure.iter_mut().zip(&mut self.change).zip(pressure) {
             // Under the constant rule the pressure stays as it was until the step is over.
-            *old = match self.rule {
-                TimeRule::Linear => new - *old,
+            *change = match rule {
+                TimeRule::Linear => (end - *start) / (1.0 - passed),
                 TimeRule::Constant => 0.0,
             };
+            *start -= passed * *change;
+        }
+        for deviation in self.deviation.chunks_exact_mut(self.nodes) {
+            for (d, p) in deviation.iter_mut().zip(&self.pressure) {
+                *d = p - *d;
+            }
         }
         let mut convolutions = engine.elastic_displacement(&self.change, &mut self.of_change)?;
-        let area = engine.load_per_nodal_pressure();
-        let changing = dot(&self.change, &self.of_change);
+        let changing = engine.work(&self.change, &self.of_change);
         let deviations = self.deviation.chunks_exact(self.nodes);
         for (branch, deviation) in self.branches.iter_mut().zip(deviations) {
             convolutions += engine.elastic_displacement(deviation, &mut self.of_deviation)?;
-            let decaying = dot(deviation, &self.of_deviation);
-            let mixed = dot(&self.change, &self.of_deviation);
-            branch.energy_j += area
-                * branch.compliance_per_pa
+            let decaying = engine.work(deviation, &self.of_deviation);
+            let mixed = engine.work(&self.change, &self.of_deviation);
+            branch.energy_j += branch.compliance_per_pa
                 * (branch.decaying * decaying
                     + 2.0 * branch.mixed * mixed
                     + branch.growing * changing);
@@ -152,10 +163,6 @@ fn growing_weight(z: f64) -> f64 {
         factorial *= f64::from(n + 2);
     }
     sum
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

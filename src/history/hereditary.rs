@@ -1,6 +1,36 @@
 //! What time marching asks of the body's past, however it is kept.
 
 use super::memory::{Memory, StepWeights, TimeRule};
+use crate::contact::Prescribed;
+
+/// A stage of a step: one instant is solved for each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stage<S> {
+    /// The fraction of the step at which the stage ends. An approach is prescribed as it is there.
+    pub end: f64,
+    /// The fraction of the step at which the pressure is the one found. A load is prescribed as it is there.
+    pub pressure_at: f64,
+    pub weights: S,
+}
+
+impl<S> Stage<S> {
+    /// A step in one stage.
+    pub fn whole(weights: S) -> Self {
+        Self {
+            end: 1.0,
+            pressure_at: 1.0,
+            weights,
+        }
+    }
+
+    /// What is prescribed in the stage, of a drive given at fractions of the step.
+    pub fn prescribed(&self, drive: impl Fn(f64) -> Prescribed) -> Prescribed {
+        match drive(self.end) {
+            Prescribed::LoadN(_) => drive(self.pressure_at),
+            approach => approach,
+        }
+    }
+}
 
 /// The past of a body: gives the hereditary part of the next instant, and takes in its pressure.
 ///
@@ -12,10 +42,9 @@ pub trait Hereditary {
     /// The step of `step_s` seconds, zero for a jump of the drive.
     fn weights(&self, step_s: f64, rule: TimeRule) -> Self::Step;
 
-    /// The same step while the body settles after a jump or in a hold, where steps grow long beside the times of relaxation
-    /// and a rule may ring; as it is, where nothing rings.
-    fn settling(&self, step: Self::Step) -> Self::Step {
-        step
+    /// The stages of such a step: more than one where one would ring.
+    fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage<Self::Step>> {
+        vec![Stage::whole(self.weights(step_s, rule))]
     }
 
     /// A (1/Pa) of a step.
@@ -53,8 +82,8 @@ impl Hereditary for Memory {
         StepWeights::new(self.compliance(), step_s, rule)
     }
 
-    fn settling(&self, step: StepWeights) -> StepWeights {
-        step.settling(self.compliance())
+    fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage<StepWeights>> {
+        Memory::stages(self, step_s, rule)
     }
 
     fn compliance_per_pa(step: &StepWeights) -> f64 {

@@ -4,7 +4,7 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use crate::history::extrapolation::Extrapolation;
-use crate::history::{Dissipation, Hereditary, Memory, StepWeights, TimeRule, Work};
+use crate::history::{Dissipation, Hereditary, Memory, Stage, StepWeights, TimeRule, Work};
 use crate::material::Creep;
 
 /// A contact moving through time, its past kept as memory variables or, as [`DirectMemory`](super::DirectMemory), in full.
@@ -36,6 +36,8 @@ pub struct MarchState {
 /// A march between the halves of a step, where a long instant may be given up: enough to go on from there, bit for bit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepState {
+    /// The stage of the step, from 0.
+    pub stage: usize,
     /// As [`Hereditary::state`].
     pub memory: Vec<Vec<f64>>,
     /// The pressure from which the instant is solved.
@@ -83,9 +85,25 @@ impl<'a, M: Hereditary> March<'a, M> {
         self.memory.weights(step_s, self.rule)
     }
 
-    /// Weights of a step in which the body settles after a jump or kink of the drive; see [`StepWeights::settling`].
-    pub fn settling_weights(&self, step_s: f64) -> M::Step {
-        self.memory.settling(self.weights(step_s))
+    /// The stages of a step of this length, to be used for as many equal steps as there are: one, or, for a body in which that
+    /// would ring, two ([`StepWeights::damped_stages`]).
+    pub fn stages(&self, step_s: f64) -> Vec<Stage<M::Step>> {
+        self.memory.stages(step_s, self.rule)
+    }
+
+    /// Moves on by one step in its stages; `drive` tells what is prescribed at a fraction of the step.
+    ///
+    /// # Errors
+    /// As [`March::step`].
+    pub fn step_in_stages(
+        &mut self,
+        stages: &[Stage<M::Step>],
+        drive: impl Fn(f64) -> Prescribed,
+    ) -> Result<(), ContactError> {
+        for stage in stages {
+            self.step(&stage.weights, stage.prescribed(&drive))?;
+        }
+        Ok(())
     }
 
     /// Moves on by one step to the instant at which the drive prescribes this value.
@@ -174,8 +192,8 @@ impl<'a, M: Hereditary> March<'a, M> {
             } else {
                 first_s * growth.powi(k)
             };
-            let weights = self.settling_weights(end_s - time_s);
-            self.step(&weights, prescribed)?;
+            let stages = self.stages(end_s - time_s);
+            self.step_in_stages(&stages, |_| prescribed)?;
             time_s = end_s;
         }
         Ok(())
@@ -203,17 +221,6 @@ impl<'a, M: Hereditary> March<'a, M> {
         let found = self.engine.tangent_radius_m(&self.pressure, solution)?;
         self.work.convolutions += found.1 as u64;
         Ok(Some(found.0))
-    }
-
-    /// Refuses the present instant where the engine's own assumptions do not hold.
-    ///
-    /// # Errors
-    /// As [`Engine::check_assumptions`].
-    pub fn check_assumptions(&mut self) -> Result<(), ContactError> {
-        match &self.solution {
-            Some(solution) => self.engine.check_assumptions(&self.pressure, solution),
-            None => Ok(()),
-        }
     }
 
     /// The surface at the present instant; `None` before the first.
@@ -264,9 +271,10 @@ impl<'a, M: Hereditary> March<'a, M> {
         &self.pressure
     }
 
-    /// Where the march stands between the halves of a step whose guess this is, for [`March::restore_step`].
-    pub fn step_state(&self, guess: &[f64]) -> StepState {
+    /// Where the march stands between the halves of a stage of a step whose guess this is, for [`March::restore_step`].
+    pub fn step_state(&self, stage: usize, guess: &[f64]) -> StepState {
         StepState {
+            stage,
             memory: self.memory.state(),
             guess: guess.to_vec(),
             history: self.history.clone(),
@@ -304,6 +312,14 @@ impl<'a, M: Hereditary> March<'a, M> {
         fits
     }
 
+    /// What the nodal pressure of each node is multiplied by to give its part of the load.
+    pub fn loads_per_nodal_pressure(&self) -> Vec<f64> {
+        let nodes = 0..self.engine.nodes();
+        nodes
+            .map(|node| self.engine.load_per_nodal_pressure(node))
+            .collect()
+    }
+
     /// The memory of the body.
     pub fn memory(&self) -> &M {
         &self.memory
@@ -317,23 +333,29 @@ impl<'a, M: Hereditary> March<'a, M> {
 
 /// What only the memory of a series can do.
 impl March<'_> {
-    /// A step as [`March::step`] takes it, whose dissipation is added up.
+    /// A step as [`March::step_in_stages`] takes it, whose dissipation is added up.
     ///
     /// # Errors
     /// As [`March::step`].
     pub fn step_dissipating(
         &mut self,
-        weights: &StepWeights,
-        prescribed: Prescribed,
+        stages: &[Stage<StepWeights>],
+        drive: impl Fn(f64) -> Prescribed,
         dissipation: &mut Dissipation,
-    ) -> Result<Solution, ContactError> {
-        dissipation.before(&self.memory, &self.pressure);
-        let start = self.solution;
-        let end = self.step(weights, prescribed)?;
-        let start = start.unwrap_or(end);
-        let convolutions = dissipation.after(self.engine, &self.pressure, (&start, &end))?;
+    ) -> Result<(), ContactError> {
+        dissipation.begin(&self.memory);
+        let mut from = 0.0;
+        for stage in stages {
+            let start = self.solution;
+            dissipation.passes(from, &self.pressure);
+            let solution = self.step(&stage.weights, stage.prescribed(&drive))?;
+            let travel_m = start.map_or(0.0, |start| solution.approach_m - start.approach_m);
+            dissipation.works(&self.pressure, travel_m);
+            from = stage.pressure_at;
+        }
+        let convolutions = dissipation.end(self.engine, &self.pressure)?;
         self.work.convolutions += convolutions as u64;
-        Ok(end)
+        Ok(())
     }
 
     /// The density over the surface of what adds up over the nodes like a pressure, such as
@@ -346,13 +368,7 @@ impl March<'_> {
         nodal: &[f64],
         radius_m: f64,
     ) -> Result<Surface, ContactError> {
-        let undisturbed = vec![0.0; nodal.len()];
-        self.engine.surface(&Response {
-            pressure: nodal,
-            history: &undisturbed,
-            compliance_per_pa: 0.0,
-            contact_radius_m: radius_m,
-        })
+        self.engine.surface_density(nodal, radius_m)
     }
 
     /// The state after this value was held for ever: every memory variable equals the pressure.

@@ -22,7 +22,7 @@ mod work;
 
 pub use direct::{ComplianceFunction, DirectMemory, DirectStep, Quadrature};
 pub use dissipation::Dissipation;
-pub use hereditary::Hereditary;
+pub use hereditary::{Hereditary, Stage};
 pub use march::{March, MarchState, Observer, StepState};
-pub use memory::{Memory, StepWeights, TimeRule};
+pub use memory::{Memory, StepWeights, TimeRule, order_of_steps};
 pub use work::Work;

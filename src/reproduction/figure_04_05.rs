@@ -81,19 +81,19 @@ fn there_and_back(
         |_, _| {},
         |engine| -> Result<(), ReproductionError> {
             worst = 0.0;
+            let mut before_m = 0.0;
             let mut march = March::new(engine, compliance.clone(), plan.solver.time_rule);
             let schedule = simulation.schedule();
             for (index, (moment, row)) in schedule.moments.iter().zip(&outcome.rows).enumerate() {
                 if interrupt.load(Ordering::Relaxed) {
                     return Err(ReproductionError::Interrupted);
                 }
-                let weights = if moment.is_settling {
-                    march.settling_weights(moment.step_s)
-                } else {
-                    march.weights(moment.step_s)
-                };
                 let approach_m = row.approach_m.unwrap_or(0.0);
-                march.step(&weights, Prescribed::ApproachM(approach_m))?;
+                let stages = march.stages(moment.step_s);
+                march.step_in_stages(&stages, |end| {
+                    Prescribed::ApproachM(before_m + end * (approach_m - before_m))
+                })?;
+                before_m = approach_m;
                 let profiles = schedule.requested.iter().zip(&outcome.profiles);
                 for (_, record) in profiles.filter(|(requested, _)| **requested == index) {
                     if let Some(surface) = march.surface()? {

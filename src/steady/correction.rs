@@ -16,6 +16,7 @@ use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::remaining::Remaining;
 use crate::material::Creep;
 
 /// Whether each node is in contact, step by step of a cycle.
@@ -73,15 +74,22 @@ struct Answer {
 pub(super) struct Correction {
     /// Root of the compliance per branch: its weight in the least squares.
     weights: Vec<f64>,
-    /// 1 - exp(-T/lambda) per branch, without cancellation.
-    forgotten: Vec<f64>,
+    remaining: Remaining,
+    /// What the nodal pressure of each node is multiplied by to give its part of the load.
+    loads: Vec<f64>,
+    steps: usize,
     /// Powers 0, 1, 2, ... of the answer to one step, out of contact and in contact. State: memory, load, D.
     free: Vec<DMatrix<f64>>,
     touching: Vec<DMatrix<f64>>,
 }
 
 impl Correction {
-    pub(super) fn new(compliance: &Creep, period_s: f64, steps: usize) -> Self {
+    pub(super) fn new(
+        compliance: &Creep,
+        (period_s, steps): (f64, usize),
+        remaining: Remaining,
+        loads: Vec<f64>,
+    ) -> Self {
         let branches = compliance.branches();
         let count = branches.len();
         let (load, approach) = (count, count + 1);
@@ -90,6 +98,10 @@ impl Correction {
         let mut rates = DMatrix::zeros(count + 2, count + 2);
         let mut free = DMatrix::identity(count + 2, count + 2);
         for (i, branch) in branches.iter().enumerate() {
+            rates[(load, i)] = -branch.compliance_per_pa / (instantaneous * step_s);
+            if remaining.is_held(i) {
+                continue;
+            }
             free[(i, i)] = (-step_s / branch.time_s).exp();
             for (j, other) in branches.iter().enumerate() {
                 rates[(i, j)] = -other.compliance_per_pa / (instantaneous * branch.time_s);
@@ -97,7 +109,6 @@ impl Correction {
             rates[(i, i)] -= branch.time_s.recip();
             // D is counted in units of C_0, which keeps the matrix free of units but for time.
             rates[(i, approach)] = branch.time_s.recip();
-            rates[(load, i)] = -branch.compliance_per_pa / (instantaneous * step_s);
         }
         rates[(load, approach)] = step_s.recip();
         let touching = (rates * step_s).exp();
@@ -106,10 +117,9 @@ impl Correction {
                 .iter()
                 .map(|b| b.compliance_per_pa.sqrt())
                 .collect(),
-            forgotten: branches
-                .iter()
-                .map(|b| -(-period_s / b.time_s).exp_m1())
-                .collect(),
+            remaining,
+            loads,
+            steps,
             free: powers(&free, steps),
             touching: powers(&touching, steps),
         }
@@ -120,25 +130,7 @@ impl Correction {
         self.weights.get(branch).copied().unwrap_or(0.0)
     }
 
-    /// The change m' - m over the cycle into `update`, branch-major over `nodes`; returns the estimated distance: the largest
-    /// over the branches of the root of the sum of squares of (m' - m)/(1 - E).
-    pub(super) fn distance(
-        &self,
-        start: &[f64],
-        end: &[f64],
-        nodes: usize,
-        update: &mut [f64],
-    ) -> f64 {
-        for ((change, end), start) in update.iter_mut().zip(end).zip(start) {
-            *change = end - start;
-        }
-        let norms = update.chunks_exact(nodes).zip(&self.forgotten);
-        norms
-            .map(|(branch, forgotten)| branch.iter().map(|c| c * c).sum::<f64>().sqrt() / forgotten)
-            .fold(0.0, f64::max)
-    }
-
-    /// Turns m' - m into dm.
+    /// Turns a change over a cycle, as [`Remaining::change`], into dm.
     pub(super) fn apply(&self, pattern: &ContactPattern, keep_mean_load: bool, update: &mut [f64]) {
         let (nodes, branches) = (pattern.nodes, self.weights.len());
         let mut answers: HashMap<Vec<usize>, Option<Answer>> = HashMap::new();
@@ -152,8 +144,8 @@ impl Correction {
             let change =
                 DVector::from_iterator(branches, (0..branches).map(|j| update[j * nodes + node]));
             let moved = &answer.inverse * change;
-            load += answer.load_by_memory.dot(&moved);
-            stiffness += answer.load_by_approach;
+            load += self.loads[node] * answer.load_by_memory.dot(&moved);
+            stiffness += self.loads[node] * answer.load_by_approach;
             for (j, value) in moved.iter().enumerate() {
                 update[j * nodes + node] = *value;
             }
@@ -183,11 +175,14 @@ impl Correction {
             };
             cycle = powers.get(length)? * cycle;
         }
-        let memory = cycle.view((0, 0), (count, count));
-        let by_approach = cycle
-            .view((0, count + 1), (count, 1))
-            .column(0)
-            .into_owned();
+        // Of a branch that is held it is the mean pressure that has to meet the memory.
+        let share = 1.0 / self.steps as f64;
+        let end = |row: usize, column: usize| match self.remaining.is_held(row) {
+            true => share * cycle[(count, column)],
+            false => cycle[(row, column)],
+        };
+        let memory = DMatrix::from_fn(count, count, end);
+        let by_approach = DVector::from_fn(count, |row, _| end(row, count + 1));
         let load_by_memory = cycle.view((count, 0), (1, count)).row(0).transpose();
         let inverse = (DMatrix::identity(count, count) - memory).try_inverse()?;
         let by_approach = &inverse * by_approach;

@@ -2,9 +2,10 @@
 
 use super::anderson::Anderson;
 use super::correction::{ContactPattern, Correction};
+use super::remaining::{MeanPressure, Remaining};
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::cycle;
-use crate::history::{March, MarchState, StepWeights};
+use crate::history::{March, MarchState, Stage, StepWeights};
 
 /// One cycle of the drive.
 pub struct Cycle<'a> {
@@ -118,7 +119,14 @@ pub fn find_from(
     settings: SteadySettings,
     watch: &Watch<'_>,
 ) -> Result<Steady, ContactError> {
-    let correction = Correction::new(march.memory().compliance(), cycle.period_s, cycle.steps);
+    let compliance = march.memory().compliance();
+    let remaining = Remaining::new(compliance, cycle.period_s);
+    let correction = Correction::new(
+        compliance,
+        (cycle.period_s, cycle.steps),
+        remaining.clone(),
+        march.loads_per_nodal_pressure(),
+    );
     let mut search = Search::begin(march, cycle, begin)?;
     let nodes = march.pressure().len();
     let mut run = Run::new(march, cycle);
@@ -134,7 +142,8 @@ pub fn find_from(
         }
         search.steady.cycles += 1;
         let end = march.memory().variables();
-        let memory = correction.distance(&search.start, end, nodes, &mut update) / run.scale;
+        remaining.change(&search.start, end, &run.mean, &mut update);
+        let memory = remaining.distance(&update, nodes) / run.scale;
         let closure = cycle::closure_error(&run.load_n, &run.approach_m);
         search.steady.distance = match closure {
             Some(closure) if memory.is_finite() => memory.max(closure),
@@ -236,8 +245,9 @@ impl Search {
 
 /// One cycle and what the search wants to know of it.
 struct Run {
-    weights: StepWeights,
+    stages: Vec<Stage<StepWeights>>,
     contact: ContactPattern,
+    mean: MeanPressure,
     /// Largest root of the sum of squares of the nodal pressures.
     scale: f64,
     load_n: Vec<f64>,
@@ -247,8 +257,9 @@ struct Run {
 impl Run {
     fn new(march: &March<'_>, cycle: &Cycle<'_>) -> Self {
         Self {
-            weights: march.weights(cycle.period_s / cycle.steps as f64),
+            stages: march.stages(cycle.period_s / cycle.steps as f64),
             contact: ContactPattern::new(march.pressure().len()),
+            mean: MeanPressure::new(march.pressure().len(), cycle.steps),
             scale: 0.0,
             load_n: Vec::with_capacity(cycle.steps + 1),
             approach_m: Vec::with_capacity(cycle.steps + 1),
@@ -270,13 +281,18 @@ impl Run {
         let share = 1.0 / cycle.steps as f64;
         let first = march.jump((cycle.drive)(0.0))?;
         self.sample(&first);
+        self.mean.add(0, march.pressure());
         for step in 1..=cycle.steps {
             if stop() {
                 return Ok(false);
             }
-            let solution = march.step(&self.weights, (cycle.drive)(step as f64 * share))?;
-            self.sample(&solution);
+            let begun = (step - 1) as f64;
+            march.step_in_stages(&self.stages, |end| (cycle.drive)((begun + end) * share))?;
+            if let Some(solution) = march.solution() {
+                self.sample(&solution);
+            }
             self.contact.push(march.pressure());
+            self.mean.add(step, march.pressure());
             let squares: f64 = march.pressure().iter().map(|p| p * p).sum();
             self.scale = self.scale.max(squares.sqrt());
         }

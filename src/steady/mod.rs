@@ -10,5 +10,7 @@
 mod anderson;
 mod correction;
 mod iteration;
+mod remaining;
 
 pub use iteration::{Begin, Cycle, SearchState, Steady, SteadySettings, Watch, find, find_from};
+pub use remaining::{MeanPressure, Remaining};

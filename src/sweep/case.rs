@@ -5,13 +5,13 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 
 use crate::contact::{ContactError, Engine};
-use crate::drive::HarmonicDrive;
-use crate::history::Work;
+use crate::drive::{Control, HarmonicDrive};
+use crate::history::{Work, order_of_steps};
 use crate::material::{Creep, MaterialError};
 use crate::sweep::archive::Purpose;
 use crate::sweep::checkpoint::Checkpoints;
 use crate::sweep::engines::{AsContactError, EngineBuilder, EngineError, LargestContact};
-use crate::sweep::error_bars::{ErrorBars, Ladder, Pair, Quantity};
+use crate::sweep::error_bars::{Bar, ErrorBars, InNodes, Ladder, Pair, Quantity};
 use crate::sweep::instant_tolerance;
 use crate::sweep::plan::{Case, EngineKind, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
@@ -36,6 +36,8 @@ pub enum SetupError {
 pub struct Setup {
     plan: SweepPlan,
     compliance: Creep,
+    /// Of the solids that the data leave possible beside the material.
+    alternatives: Vec<Creep>,
     relaxed_compliance_per_pa: f64,
     engines: Mutex<HashMap<EngineKey, Arc<EngineBuilder>>>,
     /// Ends an instant under way, where the engine's instants are long.
@@ -117,7 +119,13 @@ impl Setup {
         let relaxed_compliance_per_pa = compliance
             .equilibrium_compliance()
             .ok_or(SetupError::Fluid)?;
+        let mut alternatives = Vec::new();
+        for material in plan.material.alternatives() {
+            alternatives.push(material.contact_compliance()?);
+        }
+        alternatives.retain(|creep| creep.equilibrium_compliance().is_some());
         let setup = Self {
+            alternatives,
             relaxed_compliance_per_pa,
             compliance,
             engines: Mutex::default(),
@@ -162,18 +170,7 @@ impl Setup {
         if let Some(builder) = engines.get(&key) {
             return Ok(Arc::clone(builder));
         }
-        // No history within the drive's range makes a larger contact than its maximum held for ever.
-        let largest = LargestContact {
-            control: drive.control(),
-            maximum: drive.maximum(),
-            compliance_per_pa: self.relaxed_compliance_per_pa,
-        };
-        let solver = self.plan.solver.with_nodes(nodes);
-        let builder = Arc::new(EngineBuilder::new(
-            self.plan.indenter.clone(),
-            solver,
-            largest,
-        )?);
+        let builder = Arc::new(self.new_engines(drive, nodes)?);
         engines.insert(key, Arc::clone(&builder));
         Ok(builder)
     }
@@ -189,6 +186,65 @@ impl Setup {
         let needed =
             || instant_tolerance::of_a_cycle(&self.compliance, drive, omega, cycle_tolerance);
         self.plan.solver.tolerance.unwrap_or_else(needed)
+    }
+
+    fn new_engines(
+        &self,
+        drive: &HarmonicDrive,
+        nodes: usize,
+    ) -> Result<EngineBuilder, EngineError> {
+        // No history within the drive's range makes a larger contact than its maximum held for ever.
+        let largest = LargestContact {
+            control: drive.control(),
+            maximum: drive.maximum(),
+            compliance_per_pa: self.relaxed_compliance_per_pa,
+        };
+        let solver = self.plan.solver.with_nodes(nodes);
+        EngineBuilder::new(self.plan.indenter.clone(), solver, largest)
+    }
+
+    /// Engines for a case: those of its drive, with springs laid out for its cycle.
+    fn engines_of_case(
+        &self,
+        contact: &Contact<'_>,
+        nodes: usize,
+    ) -> Result<Arc<EngineBuilder>, EngineError> {
+        let drive = &contact.drive;
+        if self.plan.solver.engine == EngineKind::HalfSpace {
+            return self.engines(drive, nodes);
+        }
+        let of_drive = |maximum, compliance_per_pa| LargestContact {
+            control: drive.control(),
+            maximum,
+            compliance_per_pa,
+        };
+        let relaxed = self.relaxed_compliance_per_pa;
+        let answer = self
+            .compliance
+            .complex_compliance(contact.angular_frequency_rad_per_s);
+        // |C*| / C_inf under load control, |E*| / E_inf under approach control.
+        let mean = of_drive(drive.mean(), relaxed);
+        let (always, largest) = match drive.control() {
+            // The largest contact grows without falling until it is reached (E. H. Lee and J. R. M. Radok, J. Appl. Mech. 27
+            // (1960) 438); the least is that of the least load held for ever.
+            Control::Load => (
+                of_drive(drive.mean() - drive.amplitude(), relaxed),
+                of_drive(
+                    drive.mean() + drive.amplitude() * answer.norm() / relaxed,
+                    relaxed,
+                ),
+            ),
+            // A spring is always in contact where the force of the mean is larger than its oscillation.
+            Control::Approach => (
+                of_drive(
+                    drive.mean() - drive.amplitude() * relaxed / answer.norm(),
+                    relaxed,
+                ),
+                of_drive(drive.maximum(), relaxed),
+            ),
+        };
+        let builder = self.new_engines(drive, nodes)?;
+        Ok(Arc::new(builder.over_cycle([always, mean, largest])))
     }
 
     /// An engine of its own for a drive with so many springs or cells, on the domain before it is enlarged.
@@ -310,37 +366,133 @@ impl Setup {
         if record.result.is_none() || !bars {
             return Ok(());
         }
-        let coarse =
-            |nodes, steps: &[usize]| self.solve(contact, nodes, steps, &mut Domain::default());
-        let half = coarse(fine.nodes / 2, &self.steps_of_coarse(fine))?;
-        let quarter = match fine.nodes / 4 >= FEWEST_NODES {
-            true => Some(coarse(fine.nodes / 4, &[fine.steps / 2])?),
-            false => None,
-        };
-        for solved in std::iter::once(&half).chain(&quarter) {
-            record.work += solved.work();
-        }
+        let errors = self.error_bars(contact, record, &mut solved)?;
         if let Some(result) = &mut record.result {
-            let mut distance = record.steady_distance.unwrap_or(0.0);
-            if self.plan.solver.engine == EngineKind::HalfSpace {
-                distance += instant_tolerance::SHARE * contact.cycle.tolerance;
-            }
-            result.errors = error_bars(result, fine, distance, [&solved, &half], quarter.as_ref());
+            result.errors = errors;
             if result.errors.is_none() {
                 record.message.get_or_insert_with(|| {
-                    "no error bars: a coarser resolution did not stabilise".to_owned()
+                    "no error bars: no coarser resolution stabilised".to_owned()
                 });
             }
         }
         Ok(())
     }
 
-    /// Steps on half the nodes: as many as the difference between the two needs, and those that tell the order in the steps
-    /// where the full number of nodes is too dear for it.
-    fn steps_of_coarse(&self, fine: Resolution) -> Vec<usize> {
+    /// Error bars of a record's result, from what is coarser in steps on the same nodes and coarser in nodes at the same steps.
+    /// Where a coarser resolution does not stabilise, one between it and the result takes its place; the order of the error is then
+    /// not seen, and the lowest believed is taken. `None` where that fails too.
+    fn error_bars(
+        &self,
+        contact: &Contact<'_>,
+        record: &mut CaseRecord,
+        solved: &mut Solved,
+    ) -> Result<Option<ErrorBars>, CaseError> {
+        let (steps, nodes) = (record.steps, record.nodes);
+        let between = |fine: usize| 4 * (3 * fine / 16).max(1);
+        let mut middle = steps / 2;
+        if solved.result(middle).is_none() {
+            middle = between(steps);
+            let more = self.coarser(contact, nodes, &[middle], record)?;
+            solved.cycles.extend(more.cycles);
+        }
+        if solved.result(middle).is_none() {
+            return Ok(None);
+        }
+        let [half, quarter] = self.coarser_nodes(nodes);
+        let mut on_half =
+            self.coarser(contact, half, &self.steps_of_coarse(steps, middle), record)?;
+        if on_half.result(middle).is_none() {
+            on_half = self.coarser(contact, between(nodes), &[middle], record)?;
+        }
+        let on_quarter = match quarter >= FEWEST_NODES && on_half.nodes == half {
+            true => Some(self.coarser(contact, quarter, &[middle], record)?),
+            false => None,
+        };
+        let others = self.of_alternatives(contact, (on_half.nodes, middle), record)?;
+        let own = on_half.result(middle);
+        let others = others
+            .iter()
+            .filter_map(|other| own.zip(other.result(middle)));
+        let others: Vec<_> = others.collect();
+        let Some(result) = &record.result else {
+            return Ok(None);
+        };
+        let mut distance = record.steady_distance.unwrap_or(0.0);
+        if self.plan.solver.engine == EngineKind::HalfSpace {
+            distance += instant_tolerance::SHARE * contact.cycle.tolerance;
+        }
+        let on = [&*solved, &on_half];
+        let of_cycle = (distance, others.as_slice());
+        let in_nodes = match self.plan.solver.engine {
+            EngineKind::Axisymmetric => InNodes::SPRINGS,
+            EngineKind::HalfSpace => InNodes::CELLS,
+        };
+        Ok(error_bars(
+            (result, steps, middle),
+            of_cycle,
+            (order_of_steps(&self.compliance), in_nodes),
+            on,
+            on_quarter.as_ref(),
+        ))
+    }
+
+    /// The case at a coarse resolution with each of the materials that the data leave possible.
+    fn of_alternatives(
+        &self,
+        contact: &Contact<'_>,
+        (nodes, steps): (usize, usize),
+        record: &mut CaseRecord,
+    ) -> Result<Vec<Solved>, CaseError> {
+        // Checkpoints are of the material itself.
+        let checkpoints = Checkpoints::none();
+        let with = |compliance| Contact {
+            compliance,
+            checkpoints: &checkpoints,
+            ..*contact
+        };
+        let alternatives = self.alternatives.iter();
+        alternatives
+            .map(|compliance| self.coarser(&with(compliance), nodes, &[steps], record))
+            .collect()
+    }
+
+    /// A coarser resolution, whose work the record counts; without a result where it fails.
+    fn coarser(
+        &self,
+        contact: &Contact<'_>,
+        nodes: usize,
+        steps: &[usize],
+        record: &mut CaseRecord,
+    ) -> Result<Solved, CaseError> {
+        let solved = match self.solve(contact, nodes, steps, &mut Domain::default()) {
+            Err(CaseError::Cycle(CycleError::Interrupted)) => {
+                return Err(CaseError::Cycle(CycleError::Interrupted));
+            }
+            Err(_) => Solved {
+                nodes,
+                cycles: Vec::new(),
+            },
+            Ok(solved) => solved,
+        };
+        record.work += solved.work();
+        Ok(solved)
+    }
+
+    /// Numbers of nodes coarser than this one. On cells, ratios that put the edge of the contact elsewhere between two of them
+    /// each time; springs end where the edge turns, whatever their number.
+    fn coarser_nodes(&self, nodes: usize) -> [usize; 2] {
         match self.plan.solver.engine {
-            EngineKind::Axisymmetric => vec![fine.steps / 2],
-            EngineKind::HalfSpace => vec![fine.steps / 4, fine.steps / 2],
+            EngineKind::Axisymmetric => [nodes / 2, nodes / 4],
+            EngineKind::HalfSpace => [5 * nodes / 9, 3 * nodes / 10],
+        }
+    }
+
+    /// Steps on fewer nodes: as many as the difference between the two needs, and those that tell the order in the steps
+    /// where the full number of nodes is too dear for it.
+    fn steps_of_coarse(&self, steps: usize, middle: usize) -> Vec<usize> {
+        match self.plan.solver.engine {
+            EngineKind::HalfSpace if middle == steps / 2 => vec![steps / 4, middle],
+            _ => vec![middle],
         }
     }
 
@@ -371,37 +523,44 @@ impl Setup {
         };
         let mut contact = *contact;
         contact.cycle.error_bars = true;
-        let mut work = Work::default();
+        let (mut work, mut failure) = (Work::default(), None);
         for _ in 0..ROUNDS {
-            self.at_resolution(&contact, record)?;
+            let ended = self.at_resolution(&contact, record);
             work += record.work;
             record.work = work;
-            let Some(result) = &record.result else {
-                return Ok(());
-            };
-            let bar = result
-                .errors
-                .as_ref()
-                .and_then(|e| e.bar(Quantity::EnergyLoss));
-            let Some(bar) = bar else {
-                record.miss("no error could be estimated");
-                return Ok(());
-            };
-            let allowed_j = accuracy * result.analysis.energy_loss_j.abs();
-            if bar.total() <= allowed_j {
-                return Ok(());
-            }
-            // Half of what is allowed for each, of which the distance to the stabilised cycle takes its part from both.
-            let share_j = (0.5 * (allowed_j - bar.steady)).max(0.1 * allowed_j);
-            let next = Resolution {
-                steps: finer(record.steps, bar.steps, share_j),
-                nodes: finer(record.nodes, bar.nodes, share_j),
+            let next = match (ended, Self::loss_and_bar(record)) {
+                (Err(CaseError::Cycle(error)), _) if error.may_be_of_the_resolution() => {
+                    failure = Some(error.to_string());
+                    Self::twice(record)
+                }
+                (Err(error), _) => return Err(error),
+                (Ok(()), None) => {
+                    failure = record.message.clone();
+                    Self::twice(record)
+                }
+                (Ok(()), Some((loss_j, bar))) => {
+                    failure = None;
+                    let allowed_j = accuracy * loss_j.abs();
+                    if bar.total() <= allowed_j {
+                        return Ok(());
+                    }
+                    // Half of what is allowed for each, of which the distance to the stabilised cycle takes its part from both.
+                    let share_j = (0.5 * (allowed_j - bar.steady)).max(0.1 * allowed_j);
+                    Resolution {
+                        steps: finer(record.steps, bar.steps, share_j),
+                        nodes: finer(record.nodes, bar.nodes, share_j),
+                    }
+                }
             };
             let limit = self.finest();
             if next.steps > limit.steps || next.nodes > limit.nodes {
                 break;
             }
             (record.steps, record.nodes) = (next.steps, next.nodes);
+        }
+        if let Some(failure) = failure {
+            record.miss(&failure);
+            return Ok(());
         }
         let reached = record.energy_loss_error_j().zip(record.energy_loss_j());
         let reached = reached.map_or(f64::INFINITY, |(error, loss)| (error / loss).abs());
@@ -410,6 +569,21 @@ impl Setup {
             record.steps, record.nodes
         ));
         Ok(())
+    }
+
+    /// The loss (J) of a record and its bar, where it has both.
+    fn loss_and_bar(record: &CaseRecord) -> Option<(f64, Bar)> {
+        let result = record.result.as_ref()?;
+        let bar = result.errors.as_ref()?.bar(Quantity::EnergyLoss)?;
+        Some((result.analysis.energy_loss_j, bar))
+    }
+
+    /// Twice the resolution at which a record has no result, or no error of it.
+    fn twice(record: &CaseRecord) -> Resolution {
+        Resolution {
+            steps: 2 * record.steps,
+            nodes: 2 * record.nodes,
+        }
     }
 
     /// Beyond this an accuracy counts as out of reach.
@@ -426,7 +600,8 @@ impl Setup {
         }
     }
 
-    /// The case on so many nodes, in each of the numbers of steps, every one started from the memory of the last.
+    /// The case on so many nodes, in each of the numbers of steps, every one started from the memory of the last. Only the last
+    /// has to succeed.
     fn solve(
         &self,
         contact: &Contact<'_>,
@@ -434,7 +609,7 @@ impl Setup {
         steps: &[usize],
         domain: &mut Domain,
     ) -> Result<Solved, CaseError> {
-        let engines = self.engines(&contact.drive, nodes)?;
+        let engines = self.engines_of_case(contact, nodes)?;
         let cycles = engines.on_a_large_enough_domain(
             0,
             |half_width_m, growths| {
@@ -455,7 +630,10 @@ impl Setup {
                     && let Some(tighter) = instant_tolerance::tighter(needed)
                 {
                     match contact.searching_alone().in_steps(engine, steps) {
-                        Ok(found) if found.iter().all(|(_, cycle)| cycle.result.is_some()) => {
+                        Ok(found)
+                            if found.len() == steps.len()
+                                && found.iter().all(|(_, cycle)| cycle.result.is_some()) =>
+                        {
                             return Ok(found);
                         }
                         Ok(_) => engine.tolerate(tighter),
@@ -527,16 +705,16 @@ fn finer(now: usize, error: f64, allowed: f64) -> usize {
     4 * (wanted / 4.0).ceil() as usize
 }
 
-/// Error bars of the finest result, from what is coarser in steps on the same nodes and coarser in nodes at the same steps.
-/// `None` where one of them has no result.
+/// Error bars of the finest result, from what is coarser in steps on the same nodes and coarser in nodes at the same steps, from
+/// its distance to the stabilised cycle and from pairs of results for the material and an alternative. `None` where one of them has no result.
 fn error_bars(
-    result: &CaseResult,
-    fine: Resolution,
-    distance: f64,
+    (result, steps, middle): (&CaseResult, usize, usize),
+    (distance, alternatives): (f64, &[(&CaseResult, &CaseResult)]),
+    (order_in_steps, believed): (f64, InNodes),
     [solved, half]: [&Solved; 2],
     quarter: Option<&Solved>,
 ) -> Option<ErrorBars> {
-    let (middle, coarsest) = (fine.steps / 2, fine.steps / 4);
+    let coarsest = steps / 4;
     let pair = |finer, coarser, [fine, coarse]: [usize; 2]| Pair {
         finer,
         coarser,
@@ -547,17 +725,24 @@ fn error_bars(
         let results = on.result(middle).zip(on.result(coarsest));
         results.map(|(m, c)| pair(m, c, [middle, coarsest]))
     });
-    let steps = Ladder {
-        first: pair(result, solved.result(middle)?, [fine.steps, middle]),
-        second,
+    let on_middle = solved.result(middle)?;
+    let in_steps = Ladder {
+        first: pair(result, on_middle, [steps, middle]),
+        second: second.filter(|_| middle == steps / 2),
     };
     let on_half = half.result(middle)?;
-    let nodes = Ladder {
-        first: pair(solved.result(middle)?, on_half, [solved.nodes, half.nodes]),
+    let in_nodes = Ladder {
+        first: pair(on_middle, on_half, [solved.nodes, half.nodes]),
         second: quarter.and_then(|quarter| {
             let on_quarter = quarter.result(middle)?;
             Some(pair(on_half, on_quarter, [half.nodes, quarter.nodes]))
         }),
     };
-    Some(ErrorBars::estimate(result, &steps, &nodes, distance))
+    Some(ErrorBars::estimate(
+        result,
+        (&in_steps, order_in_steps),
+        (&in_nodes, believed),
+        distance,
+        alternatives,
+    ))
 }

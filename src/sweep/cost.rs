@@ -154,15 +154,16 @@ fn step_s(setup: &Setup) -> Result<f64, SetupError> {
     let compliance = setup.compliance().clone();
     let mut march = March::new(engine.as_mut(), compliance, plan.solver.time_rule);
     let steps = plan.cycle.steps as f64;
-    let weights = march.weights(std::f64::consts::TAU / omega / steps);
+    let stages = march.stages(std::f64::consts::TAU / omega / steps);
     let value = |value| prescribed(drive.control(), value);
     // A contact that cannot be solved costs what the attempt cost.
     let relaxed = march.relax(value(drive.mean())).is_ok();
     let (clock, mut taken) = (Instant::now(), 0_u32);
     while relaxed && (clock.elapsed() < MEASURED || taken < FEWEST_STEPS) {
         taken += 1;
-        let fraction = (f64::from(taken) / steps).fract();
-        if march.step(&weights, value(drive.value(fraction))).is_err() {
+        let fraction = |end: f64| ((f64::from(taken - 1) + end) / steps).fract();
+        let drive = |end| value(drive.value(fraction(end)));
+        if march.step_in_stages(&stages, drive).is_err() {
             break;
         }
     }

@@ -55,6 +55,9 @@ pub struct EngineBuilder {
     /// Half width of the largest contact (m), with room for springs.
     half_width_m: f64,
     domain: Domain,
+    /// Half widths (m) of the part of the surface that is always in contact during a cycle, of the contact under the mean, and of
+    /// the largest in it, where they are known beforehand.
+    extremes_m: Option<[f64; 3]>,
     /// The cells of the domain before it is enlarged, where the engine has any, and their operator once it is needed.
     grid: Option<Grid>,
     operator: Mutex<Option<Arc<Convolution>>>,
@@ -76,6 +79,7 @@ impl EngineBuilder {
             indenter,
             solver,
             half_width_m,
+            extremes_m: None,
             grid: None,
             operator: Mutex::new(None),
         };
@@ -90,6 +94,18 @@ impl EngineBuilder {
             }
         }
         Ok(builder)
+    }
+
+    /// The same for a stabilised cycle with these contacts: always there, under the mean, and largest. Springs are then dense
+    /// where the edge of the contact moves, and end where it turns.
+    #[must_use]
+    pub fn over_cycle(mut self, contacts: [LargestContact; 3]) -> Self {
+        let width_m = |contact: LargestContact| match contact.maximum > 0.0 {
+            true => contact_half_width_m(self.indenter.as_ref(), contact),
+            false => 0.0,
+        };
+        self.extremes_m = Some(contacts.map(width_m));
+        self
     }
 
     /// Whether the cells are those of the indenter, whatever number of them was asked for.
@@ -116,6 +132,7 @@ impl EngineBuilder {
             indenter: Arc::clone(&self.indenter),
             solver: self.solver,
             half_width_m: factor * self.half_width_m,
+            extremes_m: None,
             domain,
             grid: None,
             operator: Mutex::new(None),
@@ -138,7 +155,9 @@ impl EngineBuilder {
         let is_fixed = match self.solver.engine {
             EngineKind::Axisymmetric => ends,
             EngineKind::HalfSpace => {
-                own || !growing::is_convex_within(&*self.indenter, self.half_width_m())
+                // A small domain about the origin holds the first contact only if that is where the indenter is lowest.
+                own || self.indenter.gap_m(0.0, 0.0) > 0.0
+                    || !growing::is_convex_within(&*self.indenter, self.half_width_m())
             }
         };
         if is_fixed {
@@ -279,16 +298,16 @@ impl EngineBuilder {
     fn springs(&self, growths: usize) -> Result<Axisymmetric, EngineError> {
         let body = self.body()?;
         let springs = self.solver.springs;
-        let width_m = self.enlarged_half_width_m(growths).0 / springs as f64;
-        let gaps = (0..springs)
-            .map(|i| body.transformed_gap_m((i as f64 + 0.5) * width_m))
-            .collect();
+        let end_m = self.enlarged_half_width_m(growths).0;
+        let extremes_m = self.extremes_m.filter(|_| growths == 0);
+        let places_m = spring_places_m(end_m, extremes_m, springs);
         let edge = match body.contact_limit_m() {
             Some(_) => axisymmetric::Edge::Rim,
             None => axisymmetric::Edge::Open,
         };
         let bounded = self.indenter.pressure_is_bounded();
-        let springs = Axisymmetric::new(width_m, gaps, edge, bounded);
+        let gap_m = |x_m| body.transformed_gap_m(x_m);
+        let springs = Axisymmetric::between(&places_m, gap_m, edge, bounded);
         Ok(springs.singular_at(body.singular_radii_m()))
     }
 
@@ -353,6 +372,47 @@ pub fn prescribed(control: Control, value: f64) -> Prescribed {
         Control::Load => Prescribed::LoadN(value),
         Control::Approach => Prescribed::ApproachM(value),
     }
+}
+
+/// Where springs begin and end, from the axis to `end_m`. Where the contacts between which a cycle swings are known, half of the
+/// springs or more lie where the edge of the contact moves, so that however little it moves they resolve it, and it turns
+/// where one of them ends, whatever their number: errors of different numbers of springs then differ by their order alone. Half
+/// of these lie beyond the contact under the mean: above the spectrum a strongly relaxing body hardly lets the edge move there,
+/// and the force falls to zero, and the pressure has its peak, within as little.
+fn spring_places_m(end_m: f64, extremes_m: Option<[f64; 3]>, springs: usize) -> Vec<f64> {
+    /// Of the springs within the largest contact, the most that lie where contact never ends.
+    const FIXED: f64 = 0.5;
+    /// Parts of the largest contact narrower than this have no springs of their own.
+    const NARROWEST: f64 = 1e-12;
+    let evenly = |from_m: f64, to_m: f64, count: usize| {
+        let width_m = (to_m - from_m) / count as f64;
+        (0..count).map(move |i| from_m + i as f64 * width_m)
+    };
+    let uniform = || evenly(0.0, end_m, springs).chain([end_m]).collect();
+    let Some([always_m, mean_m, largest_m]) = extremes_m else {
+        return uniform();
+    };
+    let is_narrow = |from_m: f64, to_m: f64| to_m - from_m <= NARROWEST * largest_m;
+    if largest_m >= end_m || is_narrow(mean_m, largest_m) || is_narrow(always_m, mean_m) {
+        return uniform();
+    }
+    let count = |part: f64| (springs as f64 * part).round() as usize;
+    let fixed = count((always_m / largest_m).min(FIXED));
+    let always_m = if fixed > 0 { always_m } else { 0.0 };
+    let beyond = (springs - fixed) / 2;
+    let mut places_m: Vec<f64> = evenly(0.0, always_m, fixed)
+        .chain(evenly(always_m, mean_m, springs - fixed - beyond))
+        .chain(evenly(mean_m, largest_m, beyond))
+        .chain([largest_m])
+        .collect();
+    // Past the largest, for what discretisation adds, springs grow as fast as they may.
+    let (mut place_m, mut width_m) = (largest_m, (largest_m - mean_m) / beyond as f64);
+    while place_m < end_m {
+        place_m = (place_m + width_m).min(end_m);
+        width_m *= 2.0;
+        places_m.push(place_m);
+    }
+    places_m
 }
 
 /// Half the side (m) of the square that no contact leaves while a drive stays below its maximum; for springs, the radius about

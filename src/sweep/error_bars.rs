@@ -82,17 +82,17 @@ impl Quantity {
         }
     }
 
-    /// The lowest and the highest order in the nodes that are believed. What is read off at the edge of the contact, or at its
-    /// middle, jumps about with the place of the edge between two nodes, and seems to converge faster than it does; a pressure
-    /// at an apex may converge very slowly.
-    fn orders(self) -> (f64, f64) {
+    /// The lowest and the highest order in the nodes that are believed, the latter of what is smooth in them as given. What is
+    /// read off at the edge of the contact, or at its middle, jumps about with the place of the edge between two nodes, and seems
+    /// to converge faster than it does; a pressure at an apex may converge very slowly.
+    fn orders(self, smooth: f64) -> (f64, f64) {
         match self {
             Self::EnergyLoss
             | Self::PhaseLag
             | Self::ApproachMin
             | Self::ApproachMax
             | Self::Harmonic2
-            | Self::Harmonic3 => STEP_ORDERS,
+            | Self::Harmonic3 => (LOWEST_SMOOTH_ORDER, smooth),
             Self::StorageModulus
             | Self::LossModulus
             | Self::ContactRadiusMin
@@ -100,6 +100,16 @@ impl Quantity {
             | Self::PeakPressureMin
             | Self::PeakPressureMax => (0.3, 1.0),
         }
+    }
+
+    /// The lowest and the highest order in the time steps that are believed, the latter of what the whole cycle makes as given.
+    /// Extremes are read between samples, to the second.
+    fn orders_in_steps(self, of_cycle: f64) -> (f64, f64) {
+        let highest = match self {
+            Self::EnergyLoss | Self::PhaseLag | Self::LossModulus => of_cycle,
+            _ => of_cycle.min(2.0),
+        };
+        (LOWEST_SMOOTH_ORDER, highest)
     }
 
     /// What a distance to the stabilised cycle is relative to: a phase and harmonics are relative already.
@@ -121,6 +131,28 @@ impl Quantity {
     }
 }
 
+/// What is believed of an error in the nodes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct InNodes {
+    /// The highest order of what is smooth in them.
+    pub order: f64,
+    /// By what the estimate is multiplied.
+    pub safety: f64,
+}
+
+impl InNodes {
+    /// On springs, which end where the edge of the contact turns.
+    pub const SPRINGS: Self = Self {
+        order: 2.0,
+        safety: SAFETY,
+    };
+    /// On cells: the place of the edge between two of them, which moves, is felt in all quantities.
+    pub const CELLS: Self = Self {
+        order: 1.5,
+        safety: 3.0,
+    };
+}
+
 /// Estimated errors, absolute, in the units of the quantities.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ErrorBars {
@@ -136,12 +168,15 @@ pub struct Bar {
     pub nodes: f64,
     /// From the distance to the stabilised cycle.
     pub steady: f64,
+    /// From what the data leave open of which the material was fitted.
+    #[serde(default)]
+    pub material: f64,
 }
 
 impl Bar {
     /// The whole: parts of unknown sign add up.
     pub fn total(self) -> f64 {
-        self.steps + self.nodes + self.steady
+        self.steps + self.nodes + self.steady + self.material
     }
 }
 
@@ -168,22 +203,34 @@ const SAFETY: f64 = 1.5;
 /// What rounding leaves over the instants of a cycle, relative.
 const ROUNDING: f64 = 1e-12;
 
-/// Orders in the time steps that are believed: first for the constant rule, second for the linear one.
-const STEP_ORDERS: (f64, f64) = (1.0, 2.0);
+/// The lowest order believed, in the time steps and in the nodes of what is smooth in them: that of the constant rule.
+const LOWEST_SMOOTH_ORDER: f64 = 1.0;
 
 impl ErrorBars {
-    /// Errors of `result` from its coarser versions in steps and in nodes, and from its distance to the stabilised cycle.
+    /// Errors of `result` from its coarser versions in steps and in nodes, from its distance to the stabilised cycle, and from the
+    /// differences that other materials make which the data do not tell from this one. The order is the highest believed.
     pub fn estimate(
         result: &CaseResult,
-        steps: &Ladder<'_>,
-        nodes: &Ladder<'_>,
+        (steps, order_in_steps): (&Ladder<'_>, f64),
+        (nodes, believed): (&Ladder<'_>, InNodes),
         steady_distance: f64,
+        alternatives: &[(&CaseResult, &CaseResult)],
     ) -> Self {
+        let of_material = |quantity: Quantity| {
+            let difference = |(own, other): &(&CaseResult, &CaseResult)| {
+                Some((quantity.of(own)? - quantity.of(other)?).abs())
+            };
+            alternatives
+                .iter()
+                .filter_map(difference)
+                .fold(0.0, f64::max)
+        };
         let bar = |quantity: Quantity| {
             Some(Bar {
-                steps: SAFETY * error(quantity, steps, STEP_ORDERS)?,
-                nodes: SAFETY * error(quantity, nodes, quantity.orders())?,
+                steps: SAFETY * error(quantity, steps, quantity.orders_in_steps(order_in_steps))?,
+                nodes: believed.safety * error(quantity, nodes, quantity.orders(believed.order))?,
                 steady: (steady_distance + ROUNDING) * quantity.scale(result)?,
+                material: of_material(quantity),
             })
         };
         let bars = Quantity::ALL
@@ -218,7 +265,8 @@ fn error(quantity: Quantity, ladder: &Ladder<'_>, orders: (f64, f64)) -> Option<
     Some(richardson(first, ladder.first.ratio, second, orders))
 }
 
-/// What is left of an error of which refining `ratio` times took `first` away, and `second.1` times `second.0` before.
+/// What is left of an error of which refining `ratio` times took `first` away, and `second.1` times `second.0` before. Without the
+/// latter the order is not seen, and the lowest counts.
 pub(super) fn richardson(
     first: f64,
     ratio: f64,
@@ -226,7 +274,7 @@ pub(super) fn richardson(
     (lowest, highest): (f64, f64),
 ) -> f64 {
     let Some((second, second_ratio)) = second else {
-        return first / (ratio.powf(highest) - 1.0);
+        return first / (ratio.powf(lowest) - 1.0);
     };
     if first == 0.0 && second == 0.0 {
         return 0.0;
@@ -269,9 +317,9 @@ mod tests {
 
     #[test]
     fn a_difference_that_vanishes_by_accident_does_not_make_the_error_vanish() {
-        let estimate = richardson(0.0, 2.0, Some((1e-3, 2.0)), STEP_ORDERS);
+        let estimate = richardson(0.0, 2.0, Some((1e-3, 2.0)), (1.0, 2.0));
         assert!((estimate - 1e-3 / 12.0).abs() < 1e-18);
-        assert_eq!(richardson(0.0, 2.0, Some((0.0, 2.0)), STEP_ORDERS), 0.0);
-        assert_eq!(richardson(3.0, 2.0, None, STEP_ORDERS), 1.0);
+        assert_eq!(richardson(0.0, 2.0, Some((0.0, 2.0)), (1.0, 2.0)), 0.0);
+        assert_eq!(richardson(3.0, 2.0, None, (1.0, 2.0)), 3.0);
     }
 }

@@ -82,16 +82,18 @@ impl Following<'_> {
         // Surfaces are asked for at full resolution alone.
         let wanted = (self.schedule.requested.split_at_checked(profiles)).unwrap_or_default();
         let wanted = [wanted.0, wanted.1];
-        let within_step =
-            self.fits(course, wanted) && stand.is_some_and(|step| march.restore_step(step));
-        if !within_step {
+        let stand = stand.filter(|_| self.fits(course, wanted));
+        let stage = stand
+            .filter(|step| march.restore_step(step))
+            .map(|step| step.stage);
+        if stage.is_none() {
             *course = Course {
                 surfaces: wanted.map(|moments| vec![None; moments.len()]),
                 growths: course.growths,
                 ..Course::default()
             };
         }
-        let ended = self.go_on(&mut march, within_step, course, wanted);
+        let ended = self.go_on(&mut march, stage, course, wanted);
         course.iterations = march.work().iterations;
         ended
     }
@@ -103,11 +105,11 @@ impl Following<'_> {
             && surfaces.all(|(stored, wanted)| stored.len() == wanted.len())
     }
 
-    /// Marches from moment to moment, and keeps what is asked for. `within_step`: the march stands within the first step.
+    /// Marches from moment to moment, and keeps what is asked for. `stage`: the march stands within this one of the first step.
     fn go_on<M: Hereditary>(
         &self,
         march: &mut March<'_, M>,
-        mut within_step: bool,
+        mut stage: Option<usize>,
         course: &mut Course,
         wanted: [&[usize]; 2],
     ) -> Result<(), MarchError> {
@@ -115,35 +117,27 @@ impl Following<'_> {
         let wanted = wanted.map(Wanted::new);
         let mut guess = Vec::new();
         for (index, moment) in moments.iter().enumerate().skip(course.rows.len()) {
-            let weights = match moment.is_settling {
-                true => march.settling_weights(moment.step_s),
-                false => march.weights(moment.step_s),
-            };
-            if !std::mem::take(&mut within_step) {
-                march.begin_step(&weights);
-            }
-            guess.clear();
-            guess.extend_from_slice(march.pressure());
-            let interrupted = self.interrupt.load(Ordering::Relaxed);
-            if interrupted || self.checkpoint.is_due() {
-                self.keep(march, &guess, course);
-            }
-            if interrupted {
-                return Err(MarchError::Interrupted);
-            }
-            let prescribed = engines::prescribed(self.plan.drive.control(), moment.value);
-            let solved = match (march.end_step(&weights, prescribed), &self.wider) {
-                (Err(ContactError::ReachedEdge { .. }), Some(wider)) => {
-                    let state = march.step_state(&guess);
-                    let state = growing::moved::<M>(state, &self.layout, wider);
-                    return Err(MarchError::Outgrown(Box::new(state)));
+            let stages = march.stages(moment.step_s);
+            let first = stage.unwrap_or(0);
+            for (at, stage_of_step) in stages.iter().enumerate().skip(first) {
+                if stage.take().is_none() {
+                    march.begin_step(&stage_of_step.weights);
                 }
-                (solved, _) => solved,
-            };
-            if solved == Err(ContactError::Interrupted) {
-                self.keep(march, &guess, course);
+                guess.clear();
+                guess.extend_from_slice(march.pressure());
+                let drive = |at| {
+                    let value = self.plan.drive.value_within(moment, at);
+                    engines::prescribed(self.plan.drive.control(), value)
+                };
+                let prescribed = stage_of_step.prescribed(drive);
+                let weights = &stage_of_step.weights;
+                self.end_stage(march, weights, prescribed, (at, &guess), course)?;
             }
-            let mut row = self.row(march, moment, prescribed, solved?, self.floating[index])?;
+            let Some(solution) = march.solution() else {
+                continue;
+            };
+            let prescribed = engines::prescribed(self.plan.drive.control(), moment.value);
+            let mut row = self.row(march, moment, prescribed, solution, self.floating[index])?;
             if index == 0 && moment.value == 0.0 {
                 // First touch of an undisturbed body: zero by definition, whatever node lies nearest to the axis.
                 row.approach_m = Some(0.0);
@@ -165,13 +159,49 @@ impl Following<'_> {
         Ok(())
     }
 
-    /// Writes where the history stands: in the step whose guess this is.
-    fn keep<M: Hereditary>(&self, march: &March<'_, M>, guess: &[f64], course: &Course) {
+    /// Solves the instant of a stage.
+    fn end_stage<M: Hereditary>(
+        &self,
+        march: &mut March<'_, M>,
+        weights: &M::Step,
+        prescribed: Prescribed,
+        at: (usize, &[f64]),
+        course: &Course,
+    ) -> Result<(), MarchError> {
+        let interrupted = self.interrupt.load(Ordering::Relaxed);
+        if interrupted || self.checkpoint.is_due() {
+            self.keep(march, at, course);
+        }
+        if interrupted {
+            return Err(MarchError::Interrupted);
+        }
+        match (march.end_step(weights, prescribed), &self.wider) {
+            (Err(ContactError::ReachedEdge { .. }), Some(wider)) => {
+                let state = march.step_state(at.0, at.1);
+                let state = growing::moved::<M>(state, &self.layout, wider);
+                return Err(MarchError::Outgrown(Box::new(state)));
+            }
+            (Err(ContactError::Interrupted), _) => {
+                self.keep(march, at, course);
+                return Err(MarchError::Interrupted);
+            }
+            (solved, _) => solved?,
+        };
+        Ok(())
+    }
+
+    /// Writes where the history stands: in the stage of a step whose guess this is.
+    fn keep<M: Hereditary>(
+        &self,
+        march: &March<'_, M>,
+        (stage, guess): (usize, &[f64]),
+        course: &Course,
+    ) {
         if self.checkpoint.keeps() {
             self.checkpoint.write(&Stand {
                 finished: Cow::Borrowed(self.finished),
                 course: Cow::Borrowed(course),
-                step: march.step_state(guess),
+                step: march.step_state(stage, guess),
             });
         }
     }

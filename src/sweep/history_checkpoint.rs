@@ -131,6 +131,7 @@ impl HistoryCheckpoint {
 /// What is no array.
 #[derive(Serialize, Deserialize)]
 struct Text {
+    stage: usize,
     finished: Vec<CourseText>,
     course: CourseText,
     work: Work,
@@ -217,6 +218,7 @@ impl<'a> Stand<'a> {
         arrays.extend(step.memory.iter().chain(looked_back_on).map(Array::from));
         let finished = self.finished.iter();
         let text = Text {
+            stage: step.stage,
             finished: finished.map(|c| course_parts(c, &mut arrays)).collect(),
             course: course_parts(&self.course, &mut arrays),
             work: step.work,
@@ -288,6 +290,7 @@ impl Stand<'static> {
             finished: Cow::Owned(finished.collect::<Option<_>>()?),
             course: Cow::Owned(course_of(text.course, &mut next)?),
             step: StepState {
+                stage: text.stage,
                 memory,
                 guess,
                 history,
@@ -399,6 +402,7 @@ mod tests {
                 ..Course::default()
             }),
             step: StepState {
+                stage: 1,
                 memory: vec![vec![1.0, 2.0], Vec::new()],
                 guess: vec![3.0],
                 history: vec![4.0],

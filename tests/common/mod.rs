@@ -2,6 +2,8 @@
 
 #![allow(dead_code)] // Each test file uses its own part.
 
+pub mod solids;
+
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 

@@ -469,8 +469,12 @@ impl Engine for HalfSpace {
         Ok(1)
     }
 
-    fn load_per_nodal_pressure(&self) -> f64 {
+    fn load_per_nodal_pressure(&self, _node: usize) -> f64 {
         self.nodal_area_m2()
+    }
+
+    fn work(&self, pressure: &[f64], displacement: &[f64]) -> f64 {
+        self.nodal_area_m2() * sums::dot(pressure, displacement)
     }
 
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
