@@ -409,6 +409,16 @@ impl Setup {
             false => None,
         };
         let others = self.of_alternatives(contact, (on_half.nodes, middle), record)?;
+        let missing = others.iter().filter(|other| other.result(middle).is_none());
+        let missing = missing.count();
+        if missing > 0 {
+            record.message.get_or_insert_with(|| {
+                format!(
+                    "the error bars leave out {missing} of the {} materials that fit the data as well: no stabilised cycle was found with them",
+                    self.alternatives.len()
+                )
+            });
+        }
         let own = on_half.result(middle);
         let others = others
             .iter()
