@@ -5,6 +5,7 @@ mod common;
 
 use std::sync::Arc;
 
+use common::solids::Random;
 use common::{run_case, sweep_plan};
 use contact_dma::indenter::{Cone, FlatPunch, Indenter, PowerLaw, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
@@ -12,28 +13,6 @@ use contact_dma::sweep::error_bars::Quantity;
 use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::record::{CaseResult, Status};
 use rayon::prelude::*;
-
-/// SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, OOPSLA 2014): the same cases on every machine.
-struct Random(u64);
-
-impl Random {
-    /// Uniform between 0 and 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn power_of_ten(&mut self, low: f64, high: f64) -> f64 {
-        10_f64.powf(self.between(low, high))
-    }
-}
 
 /// One to three branches whose moduli add up to between a twentieth and a hundred times the equilibrium modulus.
 fn material(random: &mut Random) -> Material {

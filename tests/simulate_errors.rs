@@ -1,9 +1,12 @@
 //! Error columns of histories hold what they promise: over random materials, shapes and drives the true error of nearly every row
 //! lies inside.
 
+mod common;
+
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use common::solids::Random;
 use contact_dma::drive::{Control, Fineness, Segment, SegmentedDrive};
 use contact_dma::indenter::{Cone, Indenter, PowerLaw, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
@@ -14,36 +17,10 @@ use contact_dma::sweep::scenario::{OutputPlan, ScenarioPlan};
 use contact_dma::sweep::simulate::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 use rayon::prelude::*;
 
-/// SplitMix64 (G. L. Steele, D. Lea and C. H. Flood, OOPSLA 2014): the same cases on every machine.
-struct Random(u64);
-
-impl Random {
-    /// Uniform between 0 and 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
-    fn power_of_ten(&mut self, low: f64, high: f64) -> f64 {
-        10_f64.powf(self.between(low, high))
-    }
-
-    fn below(&mut self, count: usize) -> usize {
-        (count as f64 * self.unit()) as usize
-    }
-}
-
 /// One to four branches, whose moduli add up to a third to a hundred thousand times the equilibrium modulus, over up to six
 /// decades of relaxation times.
 fn material(random: &mut Random) -> Material {
-    let count = 1 + random.below(4);
+    let count = 1 + random.count(0, 3);
     let ratio = random.power_of_ten(-0.5, 5.0);
     let decades = random.between(0.5, 2.0);
     let branches = (0..count)
@@ -57,7 +34,7 @@ fn material(random: &mut Random) -> Material {
 }
 
 fn shape(random: &mut Random) -> Arc<dyn Indenter> {
-    match random.below(4) {
+    match random.count(0, 3) {
         0 | 1 => Arc::new(Sphere::new(0.01).unwrap()),
         2 => Arc::new(Cone::new(1.3).unwrap()),
         _ => Arc::new(PowerLaw::new(random.between(1.2, 4.0), 1e-3, 1e-4).unwrap()),
@@ -66,19 +43,19 @@ fn shape(random: &mut Random) -> Arc<dyn Indenter> {
 
 /// One to four ramps, holds and unloadings, from a hundredth of the shortest relaxation time to a thousand of it.
 fn drive(random: &mut Random) -> SegmentedDrive {
-    let (control, scale) = match random.below(2) {
+    let (control, scale) = match random.count(0, 1) {
         0 => (Control::Load, random.power_of_ten(-2.0, 1.0)),
         _ => (Control::Approach, random.power_of_ten(-6.0, -4.5)),
     };
     let mut last = 0.0;
-    let segments = (0..1 + random.below(4)).map(|_| {
+    let segments = (0..1 + random.count(0, 3)).map(|_| {
         let duration_s = random.power_of_ten(-2.0, 3.0);
-        let to = match random.below(5) {
+        let to = match random.count(0, 4) {
             0 => 0.0,
             1 => last * random.unit(),
             _ => scale * random.between(0.2, 1.0),
         };
-        match random.below(3) {
+        match random.count(0, 2) {
             0 => {
                 last = to;
                 Segment::Step { to, duration_s }

@@ -334,22 +334,18 @@ impl Engine for Axisymmetric {
     }
 
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
-        let width_m = &self.width_m;
-        let mut reported = std::mem::take(&mut self.reported);
-        let pressure = reported.of(response.pressure, width_m);
-        let surface = self.radial_surface(&Response {
-            pressure,
+        let mut reported = Monotone::default();
+        let response = Response {
+            pressure: reported.of(response.pressure, &self.width_m),
             ..*response
-        });
-        self.reported = reported;
-        Ok(Surface::Radial(surface))
+        };
+        Ok(Surface::Radial(self.radial_surface(&response)))
     }
 
     fn field(&mut self, response: &Response<'_>, grid: &Grid) -> Result<Surface, ContactError> {
         let mut reported = Monotone::default();
-        let pressure = reported.of(response.pressure, &self.width_m);
         let response = Response {
-            pressure,
+            pressure: reported.of(response.pressure, &self.width_m),
             ..*response
         };
         Ok(Surface::Cells(self.revolved_surface(&response, grid)))

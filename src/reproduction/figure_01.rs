@@ -92,7 +92,7 @@ fn claims(
         exact: Value::ClosedForm(exact),
         axisymmetric: springs,
         half_space: cells,
-        // Held exactly but for the settling rule of the time steps.
+        // Held exactly but for the error of the time steps.
         measure: Measure::relative(exact, 1e-3, 1e-3),
         verdict: Verdict::Agrees,
         note: String::new(),

@@ -129,7 +129,7 @@ pub fn find_from(
     );
     let mut search = Search::begin(march, cycle, begin)?;
     let nodes = march.pressure().len();
-    let mut run = Run::new(march, cycle);
+    let mut run = Run::new(march, cycle, &remaining);
     let mut update = vec![0.0; search.start.len()];
     let keep_mean_load = matches!(cycle.mean, Prescribed::LoadN(_));
     while search.steady.cycles < settings.max_cycles {
@@ -255,11 +255,11 @@ struct Run {
 }
 
 impl Run {
-    fn new(march: &March<'_>, cycle: &Cycle<'_>) -> Self {
+    fn new(march: &March<'_>, cycle: &Cycle<'_>, remaining: &Remaining) -> Self {
         Self {
             stages: march.stages(cycle.period_s / cycle.steps as f64),
             contact: ContactPattern::new(march.pressure().len()),
-            mean: MeanPressure::new(march.pressure().len(), cycle.steps),
+            mean: MeanPressure::new(remaining, march.pressure().len(), cycle.steps),
             scale: 0.0,
             load_n: Vec::with_capacity(cycle.steps + 1),
             approach_m: Vec::with_capacity(cycle.steps + 1),

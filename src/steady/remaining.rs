@@ -56,10 +56,15 @@ impl Remaining {
             .is_some_and(|branch| branch.held.is_some())
     }
 
+    /// Whether any does: the mean pressure of the cycle is then needed.
+    fn holds_any(&self) -> bool {
+        self.0.iter().any(|branch| branch.held.is_some())
+    }
+
     /// Into `change`: m' - m over the cycle per node, branch-major like the memory variables `start` and `end`; where the branch is
     /// held, the mean of the pressure less m.
     pub fn change(&self, start: &[f64], end: &[f64], pressure: &MeanPressure, change: &mut [f64]) {
-        let nodes = pressure.mean.len();
+        let nodes = pressure.nodes;
         let ends = start.chunks_exact(nodes).zip(end.chunks_exact(nodes));
         let fields = change.chunks_exact_mut(nodes).zip(ends);
         for (branch, (change, (start, end))) in self.0.iter().zip(fields) {
@@ -97,20 +102,23 @@ impl Remaining {
 }
 
 /// The mean over a cycle of the pressure per node, and its first moment about the middle of the cycle in parts of the period, by
-/// the trapezium rule over equal steps.
+/// the trapezium rule over equal steps. Nothing is added up where no branch is held.
 #[derive(Debug, Clone)]
 pub struct MeanPressure {
+    nodes: usize,
     mean: Vec<f64>,
     moment: Vec<f64>,
     steps: usize,
 }
 
 impl MeanPressure {
-    /// Over this many nodes and steps.
-    pub fn new(nodes: usize, steps: usize) -> Self {
+    /// Over this many nodes and steps, as far as these branches need it.
+    pub fn new(remaining: &Remaining, nodes: usize, steps: usize) -> Self {
+        let sums = if remaining.holds_any() { nodes } else { 0 };
         Self {
-            mean: vec![0.0; nodes],
-            moment: vec![0.0; nodes],
+            nodes,
+            mean: vec![0.0; sums],
+            moment: vec![0.0; sums],
             steps,
         }
     }
@@ -153,7 +161,7 @@ mod tests {
             let memory = |cycle: f64| -(-cycle * period_over_lambda).exp_m1();
             let remaining = Remaining::new(&one_branch(3.0), 3.0 * period_over_lambda);
             let mut change = [0.0];
-            let pressure = MeanPressure::new(1, 8);
+            let pressure = MeanPressure::new(&remaining, 1, 8);
             remaining.change(&[memory(7.0)], &[memory(8.0)], &pressure, &mut change);
             // The change is a difference of numbers near 1: 1e-16 over it.
             assert!((remaining.distance(&change, 1) - (1.0 - memory(7.0))).abs() < 1e-11);
@@ -167,7 +175,7 @@ mod tests {
             let remaining = Remaining::new(&one_branch(part.recip()), 1.0);
             assert!(remaining.is_held(0));
             let steps = 400;
-            let mut pressure = MeanPressure::new(1, steps);
+            let mut pressure = MeanPressure::new(&remaining, 1, steps);
             for step in 0..=steps {
                 let s = step as f64 / steps as f64;
                 pressure.add(step, &[2.0 + (std::f64::consts::TAU * s).sin() + s]);

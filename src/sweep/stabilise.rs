@@ -318,14 +318,15 @@ struct Cycles<'a> {
 
 impl<'a> Cycles<'a> {
     fn new(contact: &'a Contact<'a>, march: &March<'_>, steps: usize) -> Self {
+        let remaining = Remaining::new(contact.compliance, contact.period_s());
         Self {
             contact,
             stages: march.stages(contact.period_s() / steps as f64),
             steps,
             start: Vec::new(),
-            remaining: Remaining::new(contact.compliance, contact.period_s()),
             change: vec![0.0; march.memory().variables().len()],
-            mean: MeanPressure::new(march.pressure().len(), steps),
+            mean: MeanPressure::new(&remaining, march.pressure().len(), steps),
+            remaining,
             load_n: Vec::with_capacity(steps + 1),
             approach_m: Vec::with_capacity(steps + 1),
             count: 0,
