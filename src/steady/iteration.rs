@@ -60,6 +60,8 @@ pub struct SearchState {
     pub best: (f64, Vec<f64>, Vec<f64>),
     /// What the acceleration looks back on.
     pub anderson: Vec<Vec<f64>>,
+    /// Cycles since the best, and how often the search went back to it.
+    pub since_best: (usize, usize),
     pub cycles: usize,
     pub distance: f64,
 }
@@ -83,7 +85,11 @@ pub struct Watch<'a> {
 }
 
 /// Past updates that the acceleration looks back on.
-const DEPTH: usize = 12;
+const DEPTH: usize = 8;
+
+/// Cycles that may pass without a better memory before the acceleration starts anew from the best: at the edge of a strongly
+/// relaxing contact cells come and go between cycles, and what was learned of them leads in circles.
+const PATIENCE: usize = 10;
 
 /// By what factor a distance may exceed the best so far before the acceleration starts anew from the best.
 const SETBACK: f64 = 30.0;
@@ -165,6 +171,8 @@ struct Search {
     /// The best memory so far: its distance, itself, its update.
     best: (f64, Vec<f64>, Vec<f64>),
     anderson: Anderson,
+    /// Cycles since the best, and how often the search went back to it.
+    since_best: (usize, usize),
     steady: Steady,
 }
 
@@ -189,6 +197,7 @@ impl Search {
             best: (f64::INFINITY, start.clone(), vec![0.0; start.len()]),
             start,
             anderson: Anderson::new(DEPTH),
+            since_best: (0, 0),
             steady: Steady {
                 converged: false,
                 cycles: 0,
@@ -204,6 +213,7 @@ impl Search {
             start: state.start,
             best: state.best,
             anderson,
+            since_best: state.since_best,
             steady: Steady {
                 converged: false,
                 cycles: state.cycles,
@@ -218,6 +228,7 @@ impl Search {
             march: march.state(),
             best: self.best.clone(),
             anderson: self.anderson.state(),
+            since_best: self.since_best,
             cycles: self.steady.cycles,
             distance: self.steady.distance,
         }
@@ -225,19 +236,24 @@ impl Search {
 
     /// The memory to start the next cycle from, after one at distance `memory` that suggests `update`.
     fn advance(&mut self, memory: f64, update: &[f64], weight: &dyn Fn(usize) -> f64) {
-        if memory > SETBACK * self.best.0 {
-            // The acceleration went astray: back to the best memory, by half its own update.
-            self.anderson.reset();
-            self.start.copy_from_slice(&self.best.1);
-            for (m, dm) in self.start.iter_mut().zip(&self.best.2) {
-                *m += 0.5 * dm;
-            }
-            return;
-        }
+        let (since_best, setbacks) = self.since_best;
         if memory < self.best.0 {
+            self.since_best = (0, 0);
             self.best.0 = memory;
             self.best.1.copy_from_slice(&self.start);
             self.best.2.copy_from_slice(update);
+        } else if memory > SETBACK * self.best.0 || since_best >= PATIENCE {
+            // The acceleration went astray: back to the best memory, by half its own update, the next time by a quarter.
+            self.since_best = (0, setbacks + 1);
+            self.anderson.reset();
+            self.start.copy_from_slice(&self.best.1);
+            let part = 0.5 / (1_u64 << setbacks.min(30)) as f64;
+            for (m, dm) in self.start.iter_mut().zip(&self.best.2) {
+                *m += part * dm;
+            }
+            return;
+        } else {
+            self.since_best.0 += 1;
         }
         self.anderson.advance(&mut self.start, update, weight);
     }

@@ -236,6 +236,8 @@ struct ProgressText {
     searching: bool,
     after_search: Option<(usize, String)>,
     cycles: usize,
+    #[serde(default)]
+    since_best: (usize, usize),
     work: Work,
     solved_iterations: Option<usize>,
 }
@@ -276,6 +278,10 @@ impl Progress {
                 Self::Marching { after_search, .. } => after_search.clone(),
             },
             cycles,
+            since_best: match self {
+                Self::Searching(state) => state.since_best,
+                Self::Marching { .. } => (0, 0),
+            },
             work: march.work,
             solved_iterations: march.solution.map(|s| s.iterations),
         };
@@ -324,6 +330,7 @@ impl Progress {
             march,
             best: (best, best_memory, best_update),
             anderson: arrays.collect(),
+            since_best: text.since_best,
             cycles: text.cycles,
             distance,
         })))
@@ -369,6 +376,7 @@ mod tests {
             march: march(),
             best: (f64::INFINITY, vec![1.0, 2.0], vec![3.0, 4.0]),
             anderson: vec![vec![], vec![1e-300], vec![5.0], vec![6.0]],
+            since_best: (2, 1),
             cycles: 3,
             distance: f64::INFINITY,
         }));

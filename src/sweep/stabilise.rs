@@ -16,8 +16,9 @@ use crate::sweep::pressure::Pressures;
 use crate::sweep::record::{BranchLoss, CaseResult, CellLoss, SurfaceLoss};
 use crate::sweep::tangent_radius::TangentRadius;
 
-/// Cycles after which a direct search is given up for marching: twice what the hardest spectrum known needed.
-const SEARCH_CYCLES: usize = 40;
+/// Cycles after which a direct search is given up for marching, which takes many more where a search takes long: cells that
+/// come and go at the edge of a strongly relaxing contact may take 140.
+const SEARCH_CYCLES: usize = 200;
 
 /// Where rounding of load and approach is more than this part of the area of a loop, far above and below the spectrum, the loss is
 /// what the branches dissipate, which no rounding touches.
