@@ -89,7 +89,8 @@ fn summary(all: &[Vec<(Quantity, f64)>], quantity: Quantity) -> Option<(f64, f64
     Some((inside / ratios.len() as f64, *median))
 }
 
-fn check(name: &str, all: &[Vec<(Quantity, f64)>]) {
+/// Prints and asserts what lies inside; the median bar of the loss is at most so many times its error.
+fn check(name: &str, all: &[Vec<(Quantity, f64)>], largest_median: f64) {
     for quantity in Quantity::ALL {
         let Some((inside, median)) = summary(all, quantity) else {
             continue;
@@ -105,14 +106,11 @@ fn check(name: &str, all: &[Vec<(Quantity, f64)>]) {
         };
         let asked = match quantity {
             Quantity::EnergyLoss => 0.98,
-            // Where a strongly relaxing contact spreads, the pressure has its peak within a hair of the edge, which neither
-            // springs nor steps resolve; the bar does not always know. Of 60 solids 98 % are inside.
-            Quantity::PeakPressureMax => 0.85,
             _ => 0.95,
         };
         assert!(inside >= asked, "{name} {quantity:?}: {inside}");
         assert!(
-            quantity != Quantity::EnergyLoss || median <= 5.0,
+            quantity != Quantity::EnergyLoss || median <= largest_median,
             "{name}: median {median}"
         );
     }
@@ -124,20 +122,25 @@ fn ratios_of_all(cases: &[(SweepPlan, f64)], times: usize) -> Vec<Vec<(Quantity,
         .par_iter()
         .map(|(plan, omega)| found_and_exact(plan, *omega, times))
         .collect();
-    let failures: Vec<&String> = all.iter().filter_map(|case| case.as_ref().err()).collect();
-    for failure in &failures {
+    let all = without_failures(all);
+    all.iter()
+        .map(|[found, exact]| ratios(found, exact))
+        .collect()
+}
+
+/// What there is of every case; none may have failed.
+fn without_failures<T>(all: Vec<Result<T, String>>) -> Vec<T> {
+    let cases = all.len();
+    let (found, failures): (Vec<_>, Vec<_>) = all.into_iter().partition(Result::is_ok);
+    for failure in failures.iter().filter_map(|case| case.as_ref().err()) {
         println!("FAILED {failure}");
     }
     assert!(
         failures.is_empty(),
-        "{} of {} cases failed",
-        failures.len(),
-        all.len()
+        "{} of {cases} cases failed",
+        failures.len()
     );
-    all.iter()
-        .flatten()
-        .map(|[found, exact]| ratios(found, exact))
-        .collect()
+    found.into_iter().flatten().collect()
 }
 
 #[test]
@@ -148,6 +151,7 @@ fn no_case_fails_on_springs_and_true_errors_lie_inside_the_bars() {
     check(
         "springs",
         &ratios_of_all(&cases, from_environment("TIMES", 4) as usize),
+        5.0,
     );
 }
 
@@ -200,60 +204,71 @@ fn single_branches_of_any_strength_give_a_curve_without_gaps_and_a_punch_its_clo
     assert!(worst < 1e-4, "{worst:e}");
 }
 
+/// Sphere, cone and punch under an oscillation of 1e-6 to 1e-2 of the mean, at three frequencies for every solid.
+fn small_amplitudes(solids: u64, seed: u64) -> Vec<(SweepPlan, f64)> {
+    let mut random = Random(seed);
+    let cases = (0..solids).flat_map(|_| {
+        let material = solid(&mut random);
+        let mean_n = random.power_of_ten(-1.0, 1.0);
+        let amplitude_n = mean_n * random.power_of_ten(-6.0, -2.0);
+        let omegas = frequencies(&material);
+        let mut plan = sweep_plan(material, shape(&mut random), mean_n, amplitude_n);
+        plan.cycle.error_bars = true;
+        [omegas[2], omegas[4], omegas[6]].map(|omega| (plan.clone(), omega))
+    });
+    cases.collect()
+}
+
+/// Bar of the loss over its distance from the closed form.
+fn ratio_to_closed_form(plan: &SweepPlan, omega: f64) -> (f64, String) {
+    let found = solved(plan, omega).unwrap();
+    let compliance = plan.material.contact_compliance().unwrap();
+    let relaxed = compliance.equilibrium_compliance().unwrap();
+    let (mean_n, amplitude_n) = (plan.drive.mean(), plan.drive.amplitude());
+    let radius_m = plan.indenter.elastic_half_width_m(mean_n, relaxed);
+    let answer = compliance.complex_compliance(omega);
+    let exact_j = std::f64::consts::PI * amplitude_n.powi(2) * answer.im.abs() / (2.0 * radius_m);
+    let bars = found.errors.as_ref().unwrap();
+    let bar_j = bars.of(Quantity::EnergyLoss).unwrap();
+    let error_j = (found.analysis.energy_loss_j - exact_j).abs();
+    let what = format!(
+        "{:?}, {} {omega:e} rad/s, amplitude {:e}: off by {:.1e}, bar {:.1e} of the loss",
+        plan.solver.engine,
+        plan.indenter.shape(),
+        amplitude_n / mean_n,
+        error_j / exact_j,
+        bar_j / exact_j
+    );
+    // The closed form itself is off by up to a fifth of the relative amplitude: see the next test.
+    let of_formula_j = 0.2 * amplitude_n / mean_n * exact_j;
+    ((bar_j + of_formula_j) / error_j, what)
+}
+
 #[test]
 fn small_amplitudes_meet_the_closed_form_within_their_bars() {
-    let solids = from_environment("SOLIDS", 12);
-    let mut random = Random(from_environment("SEED", 77));
-    let cases: Vec<_> = (0..solids)
-        .flat_map(|_| {
-            let material = solid(&mut random);
-            let mean_n = random.power_of_ten(-1.0, 1.0);
-            let amplitude_n = mean_n * random.power_of_ten(-6.0, -2.0);
-            let omegas = frequencies(&material);
-            let mut plan = sweep_plan(material, shape(&mut random), mean_n, amplitude_n);
-            plan.cycle.error_bars = true;
-            [omegas[2], omegas[4], omegas[6]].map(|omega| (plan.clone(), omega))
-        })
-        .collect();
-    let ratios: Vec<(f64, String)> = cases
-        .par_iter()
-        .map(|(plan, omega)| {
-            let found = solved(plan, *omega).unwrap();
-            let compliance = plan.material.contact_compliance().unwrap();
-            let relaxed = compliance.equilibrium_compliance().unwrap();
-            let (mean_n, amplitude_n) = (plan.drive.mean(), plan.drive.amplitude());
-            let radius_m = plan.indenter.elastic_half_width_m(mean_n, relaxed);
-            let answer = compliance.complex_compliance(*omega);
-            // The closed form itself is off by up to a fifth of the relative amplitude: see the next test.
-            let exact_j =
-                std::f64::consts::PI * amplitude_n.powi(2) * answer.im.abs() / (2.0 * radius_m);
-            let bar_j = found
-                .errors
-                .as_ref()
-                .unwrap()
-                .of(Quantity::EnergyLoss)
-                .unwrap();
-            let error_j = (found.analysis.energy_loss_j - exact_j).abs();
-            let what = format!(
-                "{} {omega:e} rad/s, amplitude {:e}: bar {:.1e} of the loss",
-                plan.indenter.shape(),
-                amplitude_n / mean_n,
-                bar_j / exact_j
-            );
-            let of_formula_j = 0.2 * amplitude_n / mean_n * exact_j;
-            ((bar_j + of_formula_j) / error_j, what)
-        })
-        .collect();
-    let outside: Vec<_> = ratios.iter().filter(|(ratio, _)| *ratio < 1.0).collect();
-    println!(
-        "small amplitudes: {} of {} outside {outside:?}",
-        outside.len(),
-        ratios.len()
-    );
-    assert!(
-        outside.len() as f64 <= 0.02 * ratios.len() as f64,
-        "{outside:?}"
-    );
+    let seed = from_environment("SEED", 77);
+    let on_springs = small_amplitudes(from_environment("SOLIDS", 12), seed);
+    let mut on_cells = small_amplitudes(from_environment("CELL_SOLIDS", 4), seed + 1);
+    for (plan, _) in &mut on_cells {
+        plan.solver.engine = EngineKind::HalfSpace;
+        (plan.solver.cells, plan.cycle.steps) = (48, 48);
+    }
+    for (name, cases) in [("springs", on_springs), ("cells", on_cells)] {
+        let ratios: Vec<(f64, String)> = cases
+            .par_iter()
+            .map(|(plan, omega)| ratio_to_closed_form(plan, *omega))
+            .collect();
+        let outside: Vec<_> = ratios.iter().filter(|(ratio, _)| *ratio < 1.0).collect();
+        println!(
+            "small amplitudes on {name}: {} of {} outside {outside:#?}",
+            outside.len(),
+            ratios.len()
+        );
+        assert!(
+            outside.len() as f64 <= 0.02 * ratios.len() as f64,
+            "{outside:?}"
+        );
+    }
 }
 
 #[test]
@@ -310,6 +325,29 @@ fn far_above_the_spectrum_the_loss_goes_on_falling_like_one_over_the_frequency()
 }
 
 #[test]
+fn a_peak_of_the_pressure_in_a_layer_at_the_edge_that_steps_do_not_see_lies_within_the_bar() {
+    // Steps of 0.03 / omega beside relaxation times of 0.01 and 0.001 / omega: the peak is at the edge of the growing contact.
+    let mut beyond_bar_of_resolutions = 0;
+    for (ratio, tau_omega) in [(1e3, 1e-2), (1e3, 1e-3), (100.0, 1e-3)] {
+        let mut plan = sweep_plan(zener(ratio), Arc::new(Sphere::new(0.01).unwrap()), 1.0, 0.5);
+        let omega = tau_omega * ratio;
+        plan.cycle.error_bars = true;
+        let found = solved(&plan, omega).unwrap();
+        plan.cycle.error_bars = false;
+        (plan.cycle.steps, plan.solver.springs) = (3200, 1600);
+        let exact = solved(&plan, omega).unwrap();
+        let peak_pa = |result| Quantity::PeakPressureMax.of(result).unwrap();
+        let error_pa = (peak_pa(&found) - peak_pa(&exact)).abs();
+        let bars = found.errors.as_ref().unwrap();
+        let bar_pa = bars.of(Quantity::PeakPressureMax).unwrap();
+        println!("{ratio} {tau_omega}: error {error_pa:.2e}, bar {bar_pa:.2e} Pa");
+        assert!(error_pa < bar_pa, "{ratio} {tau_omega}");
+        beyond_bar_of_resolutions += usize::from(error_pa > 0.1 * peak_pa(&exact));
+    }
+    assert!(beyond_bar_of_resolutions > 0, "nothing was tried");
+}
+
+#[test]
 fn no_pressure_that_is_reported_pulls() {
     let mut random = Random(5);
     let cases = plans(&mut random, 4, |_| Arc::new(Sphere::new(0.01).unwrap()));
@@ -332,8 +370,8 @@ fn no_pressure_that_is_reported_pulls() {
 }
 
 #[test]
-fn no_case_fails_on_cells_and_the_true_loss_lies_inside_the_bar() {
-    let solids = from_environment("CELL_SOLIDS", 1);
+fn no_case_fails_on_cells_and_true_errors_lie_inside_the_bars() {
+    let solids = from_environment("CELL_SOLIDS", 3);
     let mut random = Random(from_environment("SEED", 4));
     let sphere_or_cone = |random: &mut Random| -> Arc<dyn Indenter> {
         match random.count(0, 1) {
@@ -342,42 +380,18 @@ fn no_case_fails_on_cells_and_the_true_loss_lies_inside_the_bar() {
         }
     };
     let cases = plans(&mut random, solids as usize, sphere_or_cone);
-    let ratios: Vec<_> = cases
+    let all: Vec<_> = cases
         .par_iter()
         .map(|(exact, omega)| {
             let mut on_cells = exact.clone();
             on_cells.solver.engine = EngineKind::HalfSpace;
-            on_cells.solver.cells = 48;
-            on_cells.cycle.steps = 48;
+            on_cells.solver.cells = from_environment("CELLS", 48) as usize;
+            on_cells.cycle.steps = from_environment("STEPS", 48) as usize;
             on_cells.cycle.error_bars = true;
-            let found = solved(&on_cells, *omega)?;
-            let loss_j = |result: &CaseResult| result.analysis.energy_loss_j;
-            let bar_j = found
-                .errors
-                .as_ref()
-                .and_then(|e| e.of(Quantity::EnergyLoss));
             // Springs in four times as many steps: exact beside the cells.
-            let error_j = loss_j(&found) - loss_j(&solved(exact, *omega)?);
-            Ok::<_, String>(bar_j.unwrap_or(0.0) / error_j.abs())
+            Ok::<_, String>(ratios(&solved(&on_cells, *omega)?, &solved(exact, *omega)?))
         })
         .collect();
-    let failures: Vec<_> = ratios
-        .iter()
-        .filter_map(|ratio| ratio.as_ref().err())
-        .collect();
-    assert!(failures.is_empty(), "{failures:?}");
-    let inside = ratios
-        .iter()
-        .flatten()
-        .filter(|ratio| **ratio >= 1.0)
-        .count();
-    println!("cells: {inside} of {} inside", ratios.len());
-    let mut outside: Vec<_> = ratios
-        .iter()
-        .flatten()
-        .filter(|ratio| **ratio < 1.0)
-        .collect();
-    outside.sort_by(|a, b| a.total_cmp(b));
-    // Coarse cells and few steps: of 180 cases (20 solids), 172 were inside.
-    assert!(inside as f64 >= 0.95 * ratios.len() as f64, "{outside:?}");
+    // The edge lies anywhere between two cells, and so the error anywhere below its bound.
+    check("cells", &without_failures(all), 15.0);
 }

@@ -10,6 +10,7 @@ use crate::history::{Work, order_of_steps};
 use crate::material::{Creep, MaterialError};
 use crate::sweep::archive::Purpose;
 use crate::sweep::checkpoint::Checkpoints;
+use crate::sweep::edge_layer::EdgeLayer;
 use crate::sweep::engines::{AsContactError, EngineBuilder, EngineError, LargestContact};
 use crate::sweep::error_bars::{Bar, ErrorBars, InNodes, Ladder, Pair, Quantity};
 use crate::sweep::instant_tolerance;
@@ -106,7 +107,7 @@ struct Domain {
 
 /// Fewest steps and nodes that a coarser resolution may have: below, a cycle has no shape, and its error says nothing.
 const FEWEST_STEPS: usize = 8;
-const FEWEST_NODES: usize = 16;
+const FEWEST_NODES: usize = 12;
 
 impl Setup {
     /// Checks the plan against the physics and prepares what the cases share.
@@ -437,13 +438,18 @@ impl Setup {
             EngineKind::Axisymmetric => InNodes::SPRINGS,
             EngineKind::HalfSpace => InNodes::CELLS,
         };
-        Ok(error_bars(
+        let bars = error_bars(
             (result, steps, middle),
             of_cycle,
             (order_of_steps(&self.compliance), in_nodes),
             on,
             on_quarter.as_ref(),
-        ))
+        );
+        let layer = EdgeLayer::new(self.plan.indenter.as_ref(), contact.compliance);
+        Ok(bars.map(|bars| match layer {
+            Some(layer) => bars.with_higher_peak(layer.higher_peak_pa(result)),
+            None => bars,
+        }))
     }
 
     /// The case at a coarse resolution with each of the materials that the data leave possible.

@@ -117,9 +117,8 @@ impl Quantity {
         let value = self.of(result)?;
         Some(match self {
             Self::Harmonic2 | Self::Harmonic3 => 1.0,
-            Self::ApproachMin | Self::ApproachMax => {
-                result.approach_m.maximum - result.approach_m.minimum
-            }
+            // What is missing of a memory adds to the whole approach, not to its range alone.
+            Self::ApproachMin | Self::ApproachMax => result.approach_m.maximum.abs(),
             Self::ContactRadiusMin | Self::ContactRadiusMax => result.contact_radius_m.maximum,
             Self::PeakPressureMin | Self::PeakPressureMax => {
                 result.peak_pressure_pa.map_or(0.0, |p| p.maximum)
@@ -136,21 +135,31 @@ impl Quantity {
 pub struct InNodes {
     /// The highest order of what is smooth in them.
     pub order: f64,
-    /// By what the estimate is multiplied.
-    pub safety: f64,
+    /// By what the estimate for the loss is multiplied, and that for any other quantity.
+    pub safety: (f64, f64),
 }
 
 impl InNodes {
     /// On springs, which end where the edge of the contact turns.
     pub const SPRINGS: Self = Self {
         order: 2.0,
-        safety: SAFETY,
+        safety: (SAFETY, SAFETY),
     };
-    /// On cells: the place of the edge between two of them, which moves, is felt in all quantities.
+    /// On cells: the place of the edge between two of them, which moves, is felt in all quantities, least in what a whole cycle and
+    /// the whole contact make. Of 250 random solids on 40 to 100 cells (`tests/random_solids.rs`), this leaves all losses inside,
+    /// and of every other quantity 93 % and more.
     pub const CELLS: Self = Self {
         order: 1.5,
-        safety: 3.0,
+        safety: (1.2, 3.0),
     };
+
+    fn safety_of(self, quantity: Quantity) -> f64 {
+        let (of_loss, of_others) = self.safety;
+        match quantity {
+            Quantity::EnergyLoss => of_loss,
+            _ => of_others,
+        }
+    }
 }
 
 /// Estimated errors, absolute, in the units of the quantities.
@@ -228,7 +237,8 @@ impl ErrorBars {
         let bar = |quantity: Quantity| {
             Some(Bar {
                 steps: SAFETY * error(quantity, steps, quantity.orders_in_steps(order_in_steps))?,
-                nodes: believed.safety * error(quantity, nodes, quantity.orders(believed.order))?,
+                nodes: believed.safety_of(quantity)
+                    * error(quantity, nodes, quantity.orders(believed.order))?,
                 steady: (steady_distance + ROUNDING) * quantity.scale(result)?,
                 material: of_material(quantity),
             })
@@ -238,6 +248,15 @@ impl ErrorBars {
             .filter_map(|quantity| Some((quantity, bar(quantity)?)))
             .collect();
         Self { bars }
+    }
+
+    /// The same for a largest pressure that may be this much (Pa) larger, which no difference between resolutions told.
+    #[must_use]
+    pub fn with_higher_peak(mut self, excess_pa: f64) -> Self {
+        if let Some(bar) = self.bars.get_mut(&Quantity::PeakPressureMax) {
+            bar.steps += excess_pa;
+        }
+        self
     }
 
     /// The error of a quantity.

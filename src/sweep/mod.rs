@@ -8,6 +8,7 @@ pub mod checkpoint_file;
 pub mod cost;
 pub mod difference;
 pub mod domain;
+mod edge_layer;
 pub mod elastic_scale;
 pub mod engines;
 pub mod error_bars;
