@@ -245,19 +245,28 @@ impl Axisymmetric {
 }
 
 /// Where (m) between two places a gap equals its mean over them, and that mean (m): the mean by Gauss' rule of three points, the place
-/// with the gap's slope taken as constant.
+/// by the secant method. Where the gap does not rise, the middle.
 fn place_of_mean(from_m: f64, to_m: f64, gap_m: impl Fn(f64) -> f64) -> (f64, f64) {
+    /// Of which one or two are enough but beside an apex.
+    const STEPS: usize = 8;
     let (middle_m, half_m) = (0.5 * (from_m + to_m), 0.5 * (to_m - from_m));
     let beside_m = half_m * 0.6_f64.sqrt();
     let at_middle_m = gap_m(middle_m);
     let beside = gap_m(middle_m - beside_m) + gap_m(middle_m + beside_m);
     let mean_m = (5.0 * beside + 8.0 * at_middle_m) / 18.0;
     let rise_m = gap_m(to_m) - gap_m(from_m);
-    let offset_m = match rise_m > 0.0 {
-        true => 2.0 * half_m * (mean_m - at_middle_m) / rise_m,
-        false => 0.0,
-    };
-    (middle_m + offset_m.clamp(-half_m, half_m), mean_m)
+    let (mut place_m, mut off_m) = (middle_m, at_middle_m - mean_m);
+    let mut slope = rise_m / (2.0 * half_m);
+    for _ in 0..STEPS {
+        if slope.is_nan() || slope <= 0.0 || off_m.abs() <= 1e-14 * rise_m {
+            break;
+        }
+        let next_m = (place_m - off_m / slope).clamp(from_m, to_m);
+        let next_off_m = gap_m(next_m) - mean_m;
+        slope = (next_off_m - off_m) / (next_m - place_m);
+        (place_m, off_m) = (next_m, next_off_m);
+    }
+    (place_m, mean_m)
 }
 
 impl Engine for Axisymmetric {
@@ -467,10 +476,13 @@ mod tests {
             let gap_m = |x: f64| x.powi(exponent);
             let (place_m, mean_m) = place_of_mean(1.0, 1.1, gap_m);
             let whole = 1.1_f64.powi(exponent + 1) - 1.0;
-            // Gauss' rule of three points is exact up to the fifth power; the place is good to the third order of the width.
+            // Gauss' rule of three points is exact up to the fifth power.
             assert!((mean_m / (whole / (0.1 * f64::from(exponent + 1))) - 1.0).abs() < 1e-13);
-            assert!((gap_m(place_m) / mean_m - 1.0).abs() < 1e-4, "{exponent}");
+            assert!((gap_m(place_m) / mean_m - 1.0).abs() < 1e-13, "{exponent}");
         }
+        // From the axis on, where a paraboloid is flat.
+        let (place_m, _) = place_of_mean(0.0, 1.0, |x| x * x);
+        assert!((place_m - 1.0 / 3.0_f64.sqrt()).abs() < 1e-13);
         assert_eq!(place_of_mean(0.0, 1.0, |_| 0.0), (0.5, 0.0));
     }
 }
