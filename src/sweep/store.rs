@@ -68,7 +68,7 @@ pub struct Store {
     pub(super) sweep_hash: String,
     /// Whether records of a newer program may be replaced.
     pub(super) force: bool,
-    lock: Arc<FolderLock>,
+    pub(super) lock: Arc<FolderLock>,
 }
 
 /// The resolved sweep file inside the folder.
