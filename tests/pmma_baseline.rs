@@ -25,7 +25,7 @@ fn main_job() -> Outcome {
     let setup = Setup::new(sweep_file::plan(&document).unwrap()).unwrap();
     let text = resolved::resolved_text(setup.plan());
     let folder = tempfile::TempDir::new().unwrap();
-    let store = Store::open(folder.path(), &text, &resolved::hash(&text), false).unwrap();
+    let store = Store::open(folder.path(), &text, false).unwrap();
     run::run(&setup, &store, 2, &AtomicBool::new(false), &Silent).unwrap()
 }
 

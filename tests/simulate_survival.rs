@@ -10,7 +10,10 @@ use std::path::Path;
 use std::process::Child;
 use std::time::{Duration, Instant, SystemTime};
 
-use kills::{Random, assert_same, newest, results, set_clock_back_and_forth, signal, wait_for};
+use kills::{
+    Random, assert_same, leave_half_a_file, newest, results, set_clock_back_and_forth, signal,
+    wait_for,
+};
 use predicates::prelude::*;
 use predicates::str::contains;
 use program::{program, write};
@@ -215,8 +218,7 @@ fn a_damaged_checkpoint_is_named_and_not_used() {
     fs::write(&path, bytes).unwrap();
     // What was being written when the process was killed is swept out of every folder.
     for name in ["profiles", "fields"] {
-        fs::create_dir_all(out.join(name)).unwrap();
-        fs::write(out.join(name).join(".contact-dma-left-over"), "half").unwrap();
+        leave_half_a_file(&out.join(name));
     }
     simulate(&file, &out, &[])
         .success()

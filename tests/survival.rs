@@ -10,7 +10,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, Stdio};
 use std::time::{Duration, Instant};
 
-use kills::{Random, assert_same, newest, results, set_clock_back_and_forth, signal, wait_for};
+use kills::{
+    Random, assert_same, leave_half_a_file, newest, results, set_clock_back_and_forth, signal,
+    wait_for,
+};
 use predicates::prelude::*;
 use predicates::str::contains;
 use program::{program, write};
@@ -285,8 +288,7 @@ fn a_clock_that_jumps_between_interruption_and_resumption_changes_nothing() {
         signal(&child, "-TERM");
         assert_eq!(child.wait().unwrap().code(), Some(130));
         // What a killed process leaves is swept out, however old or young it claims to be.
-        let left_over = out.join(".contact-dma-left-over");
-        fs::write(&left_over, "half").unwrap();
+        let left_over = leave_half_a_file(&out);
         set_clock_back_and_forth(&out);
         let kept = fs::read_dir(out.join("records")).map_or(0, Iterator::count);
         sweep(&file, &out, &[])

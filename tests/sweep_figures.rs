@@ -39,7 +39,7 @@ struct Swept {
 fn swept(plan: SweepPlan) -> Swept {
     let folder = TempDir::new().unwrap();
     let setup = Setup::new(plan).unwrap();
-    let store = Store::open(folder.path(), "a sweep", "hash", false).unwrap();
+    let store = Store::open(folder.path(), "a sweep", false).unwrap();
     let outcome = run::run(&setup, &store, 2, &AtomicBool::new(false), &Silent).unwrap();
     let left_out = report::write_sweep(&store, setup.plan(), &outcome).unwrap();
     Swept {
@@ -188,7 +188,7 @@ fn every_figure_is_known_by_name_so_that_another_sweep_clears_it() {
     let two = swept(with_amplitudes(pmma(&omegas), &[1.0, 10.0]));
     assert!(one.left_out.is_empty() && two.left_out.is_empty());
     let known: BTreeSet<String> = files::of_sweep()
-        .chain(["resolved.toml".to_owned()])
+        .chain([".contact-dma.lock", "resolved.toml"].map(str::to_owned))
         .collect();
     for swept in [&one, &two] {
         assert!(top_level(swept.folder.path()).is_subset(&known));
@@ -196,9 +196,9 @@ fn every_figure_is_known_by_name_so_that_another_sweep_clears_it() {
     assert_eq!(one.figures().len(), 9);
     let all: BTreeSet<String> = files::FIGURES.map(str::to_owned).into();
     assert_eq!(two.figures(), all);
-    Store::open(two.folder.path(), "another sweep", "hash", true).unwrap();
+    Store::open(two.folder.path(), "another sweep", true).unwrap();
     let left: Vec<String> = top_level(two.folder.path()).into_iter().collect();
-    assert_eq!(left, ["resolved.toml"]);
+    assert_eq!(left, [".contact-dma.lock", "resolved.toml"]);
 }
 
 #[test]
@@ -260,7 +260,7 @@ fn an_earlier_run_that_came_further_leaves_no_figures_beside_new_tables() {
     let mut interrupted = swept.outcome.clone();
     interrupted.records.truncate(1);
     interrupted.peaks.clear();
-    let store = Store::open(swept.folder.path(), "a sweep", "hash", false).unwrap();
+    let store = Store::open(swept.folder.path(), "a sweep", false).unwrap();
     report::write_sweep(&store, &pmma(&[0.004, 0.008, 0.02]), &interrupted).unwrap();
     assert!(!swept.figures().contains("cole-cole"));
     assert!(swept.figures().contains("loops"));

@@ -41,8 +41,8 @@ use arguments::{Arguments, Command};
 use diagnostic::Diagnostics;
 use document::Document;
 
-use crate::sweep::resolved;
-use crate::sweep::store::{Store, StoreError};
+use crate::sweep::run::RunError;
+use crate::sweep::store::Store;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -147,11 +147,8 @@ fn open_store(
 ) -> Result<Store, Failure> {
     let stem = file.file_stem().unwrap_or_default();
     let default = Path::new("reports").join(stem);
-    let hash = resolved::hash(resolved);
-    Store::open(out.unwrap_or(&default), resolved, &hash, force).map_err(|error| match error {
-        StoreError::OtherSweep { .. } => Failure::input(error),
-        other => Failure::run(other),
-    })
+    let store = Store::open(out.unwrap_or(&default), resolved, force);
+    store.map_err(|error| sweep::failure(RunError::Store(error)))
 }
 
 /// Prints to standard output. A reader that has seen enough (`| head`) is no error.

@@ -26,7 +26,7 @@ pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
     let mut parts = Vec::new();
     for folder in &flags.parts {
-        parts.push(Store::reopen(folder).map_err(|e| failure(RunError::Store(e)))?);
+        parts.push(Store::reopen_to_read(folder).map_err(|e| failure(RunError::Store(e)))?);
     }
     let Some((_, resolved)) = parts.first() else {
         return Err(Failure::Input("there is nothing to merge".to_owned()));
@@ -42,8 +42,7 @@ pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
         }
     }
     let setup = setup_of(&flags.parts[0], resolved, &[])?;
-    let hash = resolved::hash(resolved);
-    let out = Store::open(&flags.out, resolved, &hash, flags.force);
+    let out = Store::open(&flags.out, resolved, flags.force);
     let out = out.map_err(|error| failure(RunError::Store(error)))?;
     let cases = setup.plan().cases();
     let progress = Shown::new(cases.len(), flags.quiet);

@@ -74,6 +74,7 @@ pub(super) fn failure(error: RunError) -> Failure {
         RunError::Store(
             StoreError::NewerProgram { .. }
             | StoreError::OtherSweep { .. }
+            | StoreError::InUse { .. }
             | StoreError::NoSweep { .. },
         ) => Failure::input(error),
         other => Failure::run(other),

@@ -241,8 +241,7 @@ mod tests {
 
     fn store(folder: &tempfile::TempDir) -> Store {
         let text = "title = \"a\"\n";
-        let hash = crate::sweep::resolved::hash(text);
-        Store::open(folder.path(), text, &hash, false).unwrap()
+        Store::open(folder.path(), text, false).unwrap()
     }
 
     #[test]

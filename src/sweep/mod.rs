@@ -14,6 +14,7 @@ pub mod engines;
 pub mod error_bars;
 pub mod figure_plan;
 pub mod files;
+mod folder_lock;
 mod follow;
 pub mod growing;
 pub mod history_checkpoint;

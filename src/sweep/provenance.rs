@@ -117,7 +117,8 @@ impl Stopwatch {
     }
 }
 
-fn host() -> Option<String> {
+/// The name of this machine, where the system tells it as Linux does.
+pub(super) fn host() -> Option<String> {
     let name = fs::read_to_string("/proc/sys/kernel/hostname").ok()?;
     Some(name.trim().to_owned())
 }

@@ -557,7 +557,6 @@ mod tests {
     use crate::sweep::figure_plan::FigurePlan;
     use crate::sweep::history_checkpoint::Found;
     use crate::sweep::plan::SolverPlan;
-    use crate::sweep::resolved;
     use crate::sweep::scenario::OutputPlan;
     use crate::sweep::store::Store;
 
@@ -691,7 +690,7 @@ mod tests {
         let whole = simulation.run(&AtomicBool::new(false), &|_, _| {});
         assert_eq!(whole.ended, SimulationEnd::Done);
         let folder = tempfile::TempDir::new().unwrap();
-        let store = Store::open(folder.path(), "", &resolved::hash(""), false).unwrap();
+        let store = Store::open(folder.path(), "", false).unwrap();
         let (mut runs, mut grown) = (0, 0);
         let outcome = loop {
             let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);

@@ -19,7 +19,7 @@ use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::checkpoint::Checkpoints;
 use contact_dma::sweep::history_checkpoint::{Found, HistoryCheckpoint};
 use contact_dma::sweep::plan::{Case, EngineKind};
-use contact_dma::sweep::resolved::{hash, resolved_text};
+use contact_dma::sweep::resolved::resolved_text;
 use contact_dma::sweep::run::Outcome;
 use contact_dma::sweep::simulate::Simulation;
 use contact_dma::sweep::store::Store;
@@ -255,7 +255,7 @@ impl Folder {
         let plan = sweep_file::plan(&document).ok().unwrap();
         let setup = Setup::new(plan).unwrap();
         let resolved = resolved_text(setup.plan());
-        let store = Store::open(folder.path(), &resolved, &hash(&resolved), false).unwrap();
+        let store = Store::open(folder.path(), &resolved, false).unwrap();
         let case = setup.plan().cases()[0];
         Self {
             folder,
@@ -487,7 +487,7 @@ impl Histories {
     fn run(&self, which: usize, steps: usize) -> bool {
         let simulation = &self.simulations[which];
         let resolved = scenario::resolved_text(simulation.plan());
-        let store = Store::open(self.folder.path(), &resolved, &hash(&resolved), true).unwrap();
+        let store = Store::open(self.folder.path(), &resolved, true).unwrap();
         let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
         let stand = match checkpoint.find() {
             Found::Stand(stand) => Some(*stand),

@@ -46,6 +46,15 @@ pub fn assert_same(found: &Path, expected: &Path) {
     }
 }
 
+/// Leaves what a process of this machine that is killed while it writes into this folder leaves; its path.
+pub fn leave_half_a_file(folder: &Path) -> PathBuf {
+    let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap();
+    let path = folder.join(format!(".contact-dma-{}~left", host.trim()));
+    fs::create_dir_all(folder).unwrap();
+    fs::write(&path, "half").unwrap();
+    path
+}
+
 /// Starts the program with these arguments and an output folder.
 pub fn start(arguments: &[&str], out: &Path) -> Child {
     Process::new(assert_cmd::cargo::cargo_bin("contact-dma"))
