@@ -130,7 +130,7 @@ fn one_figure_alone_is_the_same_figure() {
         .arg(folder.path())
         .assert()
         .success()
-        .stdout(contains("1 figures, 7 claims: 7 agree"));
+        .stdout(contains("1 figures: 7 numbers of the paper (7 agree)"));
     let expected = [
         "README.md",
         "claims.csv",

@@ -132,24 +132,17 @@ fn plans() -> Result<Plans, Failure> {
 
 /// What is printed at the end.
 fn text(made: &[Figure], folder: &Path) -> String {
-    let claims = || made.iter().flat_map(|figure| &figure.claims);
-    let count = Count::of(claims());
-    let mut text = format!(
-        "{} figures, {} claims: {} agree with the paper, {} disagree, {} are not stated there{}\n",
-        made.len(),
-        count.all,
-        count.agree,
-        count.disagree,
-        count.not_stated,
-        count.undefined_text()
+    let mut text = wrapped(
+        &format!("{} figures: {}", made.len(), Count::of(made).text()),
+        80,
+        "",
+        "  ",
     );
-    for claim in claims().filter(|claim| claim.judged() == Verdict::Disagrees) {
+    let statements = made.iter().flat_map(|figure| &figure.statements);
+    for statement in statements.filter(|s| s.verdict == Verdict::Disagrees) {
         let line = format!(
-            "figure {}, {}: {} here, {} in the paper",
-            claim.figure,
-            claim.quantity,
-            claim.exact_text(),
-            claim.paper
+            "disagrees: figure {}, {}; the paper: {}",
+            statement.figure, statement.computed, statement.paper
         );
         text.push_str(&wrapped(&line, 80, "  ", "    "));
     }

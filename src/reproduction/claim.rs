@@ -1,4 +1,4 @@
-//! Claims: one number each, as the paper states it, as it is, and as both engines compute it.
+//! Claims: one number each, as it is, as both engines compute it, and what the paper states of it.
 
 use super::number::{difference, significant};
 use super::{Figure, ReproductionError};
@@ -9,14 +9,33 @@ use crate::report::table::Table;
 pub struct Claim {
     pub figure: u8,
     pub quantity: String,
-    /// What the paper states.
-    pub paper: String,
     pub exact: Value,
     pub axisymmetric: Option<f64>,
     pub half_space: Option<f64>,
     pub measure: Measure,
-    pub verdict: Verdict,
+    pub stated: Stated,
     pub note: String,
+}
+
+/// What the paper states of a value, and whether that is what comes out.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Stated {
+    /// Its words; of several statements one after the other.
+    pub paper: String,
+    verdict: Verdict,
+}
+
+impl Stated {
+    /// Adds a statement. One that disagrees is heard.
+    pub(super) fn add(&mut self, paper: &str, verdict: Verdict) {
+        if !self.paper.is_empty() {
+            self.paper.push(' ');
+        }
+        self.paper.push_str(paper);
+        if self.verdict != Verdict::Disagrees {
+            self.verdict = verdict;
+        }
+    }
 }
 
 /// The value computed values are held against; `None` where it is undefined.
@@ -46,11 +65,12 @@ pub struct Measure {
 }
 
 /// Whether what the paper states is what comes out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Verdict {
     Agrees,
     Disagrees,
     /// The paper says nothing of it that could be compared.
+    #[default]
     NotStated,
     /// There is no value that could be compared.
     Undefined,
@@ -83,43 +103,6 @@ impl Value {
             Self::ClosedForm(_) => "closed form",
             Self::Refined(_) | Self::Count(_) => "refined",
             Self::Difference => "difference",
-        }
-    }
-}
-
-/// How many claims there are, by verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Count {
-    pub all: usize,
-    pub agree: usize,
-    pub disagree: usize,
-    pub not_stated: usize,
-    pub undefined: usize,
-}
-
-impl Count {
-    /// Counts them.
-    pub fn of<'a>(claims: impl Iterator<Item = &'a Claim> + Clone) -> Self {
-        let count = |verdict| {
-            claims
-                .clone()
-                .filter(|claim| claim.judged() == verdict)
-                .count()
-        };
-        Self {
-            all: claims.clone().count(),
-            agree: count(Verdict::Agrees),
-            disagree: count(Verdict::Disagrees),
-            not_stated: count(Verdict::NotStated),
-            undefined: count(Verdict::Undefined),
-        }
-    }
-
-    /// What is to be said of claims without a value; nothing where all have one.
-    pub fn undefined_text(&self) -> String {
-        match self.undefined {
-            0 => String::new(),
-            count => format!(", {count} are undefined"),
         }
     }
 }
@@ -179,7 +162,7 @@ impl Claim {
     pub fn judged(&self) -> Verdict {
         match self.is_undefined() {
             true => Verdict::Undefined,
-            false => self.verdict,
+            false => self.stated.verdict,
         }
     }
 
@@ -238,7 +221,7 @@ impl Claim {
         };
         [
             self.quantity.clone(),
-            self.paper.clone(),
+            self.stated.paper.clone(),
             exact,
             self.value_text(self.axisymmetric),
             self.value_text(self.half_space),
@@ -285,7 +268,7 @@ pub(super) fn table(figures: &[Figure]) -> Result<Vec<u8>, ReproductionError> {
         table.row(&[
             claim.figure.to_string(),
             claim.quantity.clone(),
-            claim.paper.clone(),
+            claim.stated.paper.clone(),
             claim.exact_text(),
             claim.exact.source().to_owned(),
             claim.value_text(claim.axisymmetric),
@@ -313,12 +296,14 @@ mod tests {
         Claim {
             figure: 10,
             quantity: "largest pressure / p_H".to_owned(),
-            paper: "drawn".to_owned(),
             exact,
             axisymmetric: Some(1.5),
             half_space: None,
             measure,
-            verdict: Verdict::Agrees,
+            stated: Stated {
+                paper: String::new(),
+                verdict: Verdict::Agrees,
+            },
             note: String::new(),
         }
     }

@@ -8,7 +8,7 @@ use super::claim::Value;
 use super::look::{Member, evenly, spread};
 use super::number::datum;
 use super::scale::{ProfilePoint, at, largest};
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict, series_of};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Stated, series_of};
 use crate::contact::Prescribed;
 use crate::contact::surface::Surface;
 use crate::drive::Control;
@@ -47,12 +47,11 @@ pub(super) fn figure_5(
     let back = Claim {
         figure: 5,
         quantity: "driven by the approach instead: largest difference of the pressure at any node".to_owned(),
-        paper: "good agreement".to_owned(),
         exact: Value::Difference,
         axisymmetric: back.first().copied(),
         half_space: back.get(1).copied(),
         measure: Measure::absolute("of the peak", 1e-6, 1e-6),
-        verdict: Verdict::Agrees,
+        stated: Stated::default(),
         note: "the approach that load control gave, imposed at the same times, gives the pressure back".to_owned(),
     };
     let caption = "Pressure under a step load on a Zener half-space of two equal springs. Lines: closed form. Symbols: \
@@ -236,6 +235,7 @@ impl StepFigure {
             panels: vec![chart],
             data: table.finish()?,
             claims,
+            statements: Vec::new(),
         })
     }
 
@@ -249,12 +249,11 @@ impl StepFigure {
             let pressure = |radius: f64, place: &str, note: &str| Claim {
                 figure: self.number,
                 quantity: format!("pressure {place} at t = {time} τ"),
-                paper: "matches Ting's solution; drawn".to_owned(),
                 exact: Value::ClosedForm(Some(self.pressure(radius, time))),
                 axisymmetric: at(&springs, radius, |p| p.pressure),
                 half_space: at(&cells, radius, |p| p.pressure),
                 measure: Measure::absolute("of p_H", 2e-3, 0.01),
-                verdict: Verdict::Agrees,
+                stated: Stated::default(),
                 note: note.to_owned(),
             };
             claims.push(pressure(0.0, "on the axis", ""));
@@ -285,12 +284,11 @@ impl StepFigure {
         Claim {
             figure: self.number,
             quantity: format!("contact radius / a_H at t = {time} τ"),
-            paper: "equation (3)".to_owned(),
             exact: Value::ClosedForm(Some(self.radius(time))),
             axisymmetric: found(&self.springs),
             half_space: found(&self.on_cells),
             measure: Measure::absolute("of a_H", 1e-3, 0.5 * self.cell),
-            verdict: Verdict::Agrees,
+            stated: Stated::default(),
             note: String::new(),
         }
     }

@@ -7,7 +7,7 @@ use super::by_engine::{By, cell_m, simulate};
 use super::claim::Value;
 use super::look::{Member, spread};
 use super::number::datum;
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict, series_of};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Stated, series_of};
 use crate::reference::step_load::maxwell_falling_ramp_cubed_radius;
 use crate::reference::transient::maxwell_half_sine_cubed_radius;
 use crate::report::chart::{Axis, Chart, LegendPlace, Series};
@@ -153,6 +153,7 @@ pub(super) fn figures(
         panels: vec![chart],
         data: table.finish()?,
         claims,
+        statements: Vec::new(),
     }])
 }
 
@@ -216,18 +217,15 @@ fn case_claims(case: &Case, computed: &Computed) -> Vec<Claim> {
             "case {}: contact radius, largest error at any time",
             case.number
         ),
-        paper: PAPER.to_owned(),
         exact: Value::Difference,
         axisymmetric: Some(computed.deviation(&computed.springs)),
         half_space: Some(computed.deviation(&computed.cells)),
         measure: Measure::absolute("of a_H", 2e-3, 0.5 * computed.cell),
-        verdict: Verdict::Agrees,
+        stated: Stated::default(),
         note: format!("half a cell is {:.4} a_H", 0.5 * computed.cell),
     });
     claims
 }
-
-const PAPER: &str = "matches Ting's solution; drawn";
 
 /// The value of an extremum and its time.
 fn extremum_claims(case: &Case, computed: &Computed, extremum: &Extremum) -> [Claim; 2] {
@@ -244,12 +242,11 @@ fn extremum_claims(case: &Case, computed: &Computed, extremum: &Extremum) -> [Cl
             "case {}: {} contact radius / a_H",
             case.number, extremum.what
         ),
-        paper: PAPER.to_owned(),
         exact: value,
         axisymmetric: springs.map(|found| found.1),
         half_space: cells.map(|found| found.1),
         measure: Measure::absolute("of a_H", 5e-4, 0.5 * computed.cell),
-        verdict: Verdict::Agrees,
+        stated: Stated::default(),
         note: String::new(),
     };
     let when = Claim {
@@ -257,7 +254,6 @@ fn extremum_claims(case: &Case, computed: &Computed, extremum: &Extremum) -> [Cl
             "case {}: time of the {} contact radius / τ",
             case.number, extremum.what
         ),
-        paper: "extrema of radius and load need not coincide".to_owned(),
         exact: time,
         axisymmetric: springs.map(|found| found.0),
         half_space: cells.map(|found| found.0),

@@ -8,7 +8,7 @@ use super::claim::Value;
 use super::look::{Member, evenly, spread};
 use super::number::{datum, optional_datum};
 use super::scale::{ProfilePoint, at, largest};
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict, series_of};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Stated, series_of};
 use crate::reference::step_load::StepLoad;
 use crate::report::chart::{Axis, Chart, LegendPlace, Series};
 use crate::report::table::Table;
@@ -69,6 +69,7 @@ pub(super) fn figures(
         panels,
         data: table.finish()?,
         claims,
+        statements: Vec::new(),
     }])
 }
 
@@ -181,12 +182,11 @@ impl Body {
             let displacement = |radius: f64, place: &str| Claim {
                 figure: 7,
                 quantity: format!("{}: displacement / δ_H {place}, {}", self.name, label(time)),
-                paper: self.paper(time).to_owned(),
                 exact: Value::ClosedForm(self.displacement(radius, time)),
                 axisymmetric: at(&springs, radius, |p| Some(p.displacement)),
                 half_space: at(&cells, radius, |p| Some(p.displacement)),
                 measure: Measure::absolute("of δ_H", 2e-3, 5e-3),
-                verdict: Verdict::Agrees,
+                stated: Stated::default(),
                 note: String::new(),
             };
             let outside = self.outside;
@@ -221,14 +221,6 @@ impl Body {
         claims
     }
 
-    fn paper(&self, time: f64) -> &'static str {
-        match (time < UNLOADED, self.name) {
-            (true, _) => "drawn",
-            (_, "Maxwell") => "the dashpot's part persists indefinitely",
-            _ => "recovered gradually, expected to vanish",
-        }
-    }
-
     /// How the dent on the axis changes from just after unloading to the end.
     fn what_is_left(&self) -> Option<Claim> {
         let first = self.times.iter().position(|t| *t >= UNLOADED)?;
@@ -248,12 +240,11 @@ impl Body {
                 "{}: dent at {time} τ over the dent just after unloading",
                 self.name
             ),
-            paper: self.paper(*time).to_owned(),
             exact: Value::ClosedForm(exact),
             axisymmetric: left(&self.springs),
             half_space: left(&self.on_cells),
             measure: Measure::relative(exact, 1e-9, 1e-9),
-            verdict: Verdict::Agrees,
+            stated: Stated::default(),
             note: "nothing is solved after unloading: the memory alone decides".to_owned(),
         })
     }

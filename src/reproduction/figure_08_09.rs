@@ -7,7 +7,7 @@ use super::claim::Value;
 use super::cycles::{Cycles, FromRest};
 use super::look::{Member, SPRINGS, cells_label, spread};
 use super::number::{datum, optional_datum, short};
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Stated};
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Marker, Series};
 use crate::report::table::Table;
 use crate::sweep::scenario::{ScenarioPlan, resolved_text};
@@ -99,6 +99,7 @@ fn figure_8(slow: &History, fast: &History, cycles: &Cycles) -> Result<Figure, R
         panels,
         data: table.finish()?,
         claims: cycle_claims(cycles),
+        statements: Vec::new(),
     })
 }
 
@@ -107,25 +108,17 @@ fn cycle_claims(cycles: &Cycles) -> Vec<Claim> {
     for from_rest in &cycles.from_rest {
         for (part, percent) in [(0.01, "1 %"), (0.001, "0.1 %")] {
             let count = |losses: &[f64]| FromRest::cycles_to(losses, part);
-            let paper = match from_rest.f {
-                f if f < 0.15 => {
-                    "steady state attained almost immediately; only the first loading is unique"
-                }
-                f if f > 1.45 => "a maximum of 10 cycles were necessary",
-                _ => "a specific, but limited, number of cycles",
-            };
             claims.push(Claim {
                 figure: 8,
                 quantity: format!(
                     "cycles until the approach is nowhere {percent} of its largest from the stabilised loop, f = {}",
                     short(from_rest.f)
                 ),
-                paper: paper.to_owned(),
                 exact: Value::Count(count(&from_rest.refined)),
                 axisymmetric: count(&from_rest.springs),
                 half_space: count(&from_rest.cells),
                 measure: Measure::absolute("cycles", 0.0, 0.0),
-                verdict: Verdict::Agrees,
+                stated: Stated::default(),
                 note: format!(
                     "half-space engine on {0} × {0} cells, {1} steps per cycle",
                     cycles.cells_from_rest,
@@ -216,6 +209,7 @@ fn figure_9(history: &History, cycles: &Cycles) -> Result<Figure, ReproductionEr
         panels: vec![chart],
         data: table.finish()?,
         claims: claims_9(history, cycles)?,
+        statements: Vec::new(),
     })
 }
 
@@ -244,15 +238,14 @@ fn claims_9(history: &History, cycles: &Cycles) -> Result<Vec<Claim>, Reproducti
         Some(vertex(&signal)? - 7.5)
     };
     let case = cycles.case(1.0)?;
-    let claim = |quantity: &str, paper: &str, exact, springs, cells, measure, note: &str| Claim {
+    let claim = |quantity: &str, exact, springs, cells, measure, note: &str| Claim {
         figure: 9,
         quantity: quantity.to_owned(),
-        paper: paper.to_owned(),
         exact,
         axisymmetric: springs,
         half_space: cells,
         measure,
-        verdict: Verdict::Agrees,
+        stated: Stated::default(),
         note: note.to_owned(),
     };
     let note = format!(
@@ -262,7 +255,6 @@ fn claims_9(history: &History, cycles: &Cycles) -> Result<Vec<Claim>, Reproducti
     Ok(vec![
         claim(
             "approach in the eighth cycle less that in the seventh, largest difference / δ_H",
-            "parameters of the 7th and 8th cycle coincide",
             Value::Difference,
             Some(change(&history.springs)),
             Some(change(&history.cells)),
@@ -271,7 +263,6 @@ fn claims_9(history: &History, cycles: &Cycles) -> Result<Vec<Claim>, Reproducti
         ),
         claim(
             "maximum of the approach after that of the load / τ, f = 1",
-            "a hysteretic delay; drawn",
             Value::ClosedForm(Some(case.closed.lag)),
             lag(&history.springs),
             lag(&history.cells),
@@ -280,22 +271,13 @@ fn claims_9(history: &History, cycles: &Cycles) -> Result<Vec<Claim>, Reproducti
         ),
         claim(
             "cycles within eight τ",
-            "f = 0.1 in the caption, eight cycles in eight τ",
             Value::Count(Some(8.0)),
             Some(cycles_within(&history.springs)),
             Some(cycles_within(&history.cells)),
             Measure::absolute("cycles", 0.0, 0.0),
             "f = 1; with f = 0.1 there would be 0.8 cycles",
         ),
-    ]
-    .into_iter()
-    .map(|mut claim| {
-        if claim.quantity.starts_with("cycles within") {
-            claim.verdict = Verdict::Disagrees;
-        }
-        claim
-    })
-    .collect())
+    ])
 }
 
 /// Maxima of the load in a history.

@@ -8,7 +8,7 @@ use super::look::{Member, SPRINGS, cells_label, evenly, spread};
 use super::number::{datum, optional_datum, short};
 use super::scale::{ProfilePoint, at};
 use super::stabilised::Stabilised;
-use super::{Claim, Figure, Measure, ReproductionError, Verdict};
+use super::{Claim, Figure, Measure, ReproductionError, Stated};
 use crate::cycle::Extrema;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, LineStyle, Mark, Marker, Series};
 use crate::report::table::Table;
@@ -108,6 +108,7 @@ fn figure_10(cycles: &Cycles) -> Result<Figure, ReproductionError> {
         panels: vec![chart],
         data: table.finish()?,
         claims: claims_10(cycles)?,
+        statements: Vec::new(),
     })
 }
 
@@ -118,20 +119,18 @@ fn claims_10(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
     for &f in &cycles.shown[2] {
         let case = cycles.case(f)?;
         let on_cells = largest_on_cells(case, cycles);
-        let claim = |quantity: &str, paper: &str, exact, springs, cells, measure| Claim {
+        let claim = |quantity: &str, exact, springs, cells, measure| Claim {
             figure: 10,
             quantity: format!("{quantity}, f = {}", short(f)),
-            paper: paper.to_owned(),
             exact,
             axisymmetric: springs,
             half_space: cells,
             measure,
-            verdict: Verdict::Agrees,
+            stated: Stated::default(),
             note: String::new(),
         };
         claims.push(claim(
             "largest contact radius / a_H",
-            "amplitude decays with increasing frequency",
             Value::ClosedForm(case.closed.largest_radius),
             Some(radius(&case.springs, scale)),
             on_cells[0],
@@ -139,7 +138,6 @@ fn claims_10(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
         ));
         claims.push(claim(
             "largest pressure / p_H",
-            "amplitude increases with increasing frequency",
             Value::Refined(pressure(&case.refined, scale)),
             pressure(&case.springs, scale),
             on_cells[2],
@@ -147,7 +145,6 @@ fn claims_10(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
         ));
         claims.push(claim(
             "largest approach / δ_H",
-            "drawn in figures 8 and 12",
             Value::ClosedForm(case.closed.largest_approach),
             Some(case.springs.approach_m.maximum / scale.approach_m),
             on_cells[1],
@@ -212,6 +209,7 @@ fn figure_11(cycles: &Cycles) -> Result<Figure, ReproductionError> {
         panels: vec![chart],
         data: table.finish()?,
         claims: claims_11(cycles)?,
+        statements: Vec::new(),
     })
 }
 
@@ -220,29 +218,35 @@ fn claims_11(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
     let mut claims = Vec::new();
     for &f in &cycles.shown[1] {
         let case = cycles.case(f)?;
-        for (quarter, branch) in [(1, "loading"), (3, "unloading")] {
-            let at = |radii: &[f64]| {
-                let place = quarter * radii.len().saturating_sub(1) / 4;
-                radii
-                    .get(place)
-                    .map(|radius_m| radius_m / scale.contact_radius_m)
-            };
-            let exact = at(&case.refined.samples.contact_radius_m);
-            let cell = case.on_cells.spacing_m / scale.contact_radius_m;
+        let cell = case.on_cells.spacing_m / scale.contact_radius_m;
+        // At these quarters of the cycle; exact, on springs, on cells.
+        let at = |quarter: usize| {
+            let samples = [
+                &case.refined.samples,
+                &case.springs.samples,
+                &case.on_cells.samples,
+            ];
+            samples.map(|samples| {
+                let radii = &samples.contact_radius_m;
+                let radius_m = radii.get(quarter * radii.len().saturating_sub(1) / 4)?;
+                Some(radius_m / scale.contact_radius_m)
+            })
+        };
+        let (loading, unloading) = (at(1), at(3));
+        let wider = [0, 1, 2].map(|k| Some(unloading[k]? - loading[k]?));
+        for (quantity, [exact, springs, cells], within_cells) in [
+            ("contact radius / a_H under W₀/2, loading", loading, 0.5),
+            ("contact radius / a_H under W₀/2, unloading", unloading, 0.5),
+            ("wider on unloading by / a_H, under W₀/2", wider, 1.0),
+        ] {
             claims.push(Claim {
                 figure: 11,
-                quantity: format!(
-                    "contact radius / a_H under W₀/2, {branch}, f = {}",
-                    short(f)
-                ),
-                paper:
-                    "more conformal on the descending branch, the more so the lower the frequency"
-                        .to_owned(),
+                quantity: format!("{quantity}, f = {}", short(f)),
                 exact: Value::Refined(exact),
-                axisymmetric: at(&case.springs.samples.contact_radius_m),
-                half_space: at(&case.on_cells.samples.contact_radius_m),
-                measure: Measure::absolute("of a_H", 2e-3, 0.5 * cell),
-                verdict: Verdict::Agrees,
+                axisymmetric: springs,
+                half_space: cells,
+                measure: Measure::absolute("of a_H", 2e-3, within_cells * cell),
+                stated: Stated::default(),
                 note: String::new(),
             });
         }
@@ -252,12 +256,11 @@ fn claims_11(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
                 "pressure at the quarters of a cycle, largest difference between the engines, f = {}",
                 short(f)
             ),
-            paper: "drawn".to_owned(),
             exact: Value::Difference,
             axisymmetric: None,
             half_space: pressure_difference(case, cycles),
             measure: Measure::absolute("of p_H", 0.0, 0.01),
-            verdict: Verdict::Agrees,
+            stated: Stated::default(),
             note: "but within two cells of the edge of the contact".to_owned(),
         });
     }
@@ -308,6 +311,7 @@ fn figure_12(cycles: &Cycles) -> Result<Figure, ReproductionError> {
         panels: vec![loops, losses],
         data: table.finish()?,
         claims: claims_12(cycles)?,
+        statements: Vec::new(),
     })
 }
 
@@ -393,12 +397,11 @@ fn claims_12(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
     let claim = |quantity: String, exact: f64, springs, cells| Claim {
         figure: 12,
         quantity,
-        paper: "energy loss decays with increasing frequency".to_owned(),
         exact: Value::Refined(Some(exact)),
         axisymmetric: Some(springs),
         half_space: Some(cells),
         measure: Measure::relative(Some(exact), 2e-3, 2e-3),
-        verdict: Verdict::Agrees,
+        stated: Stated::default(),
         note: String::new(),
     };
     let mut claims = Vec::new();
@@ -421,7 +424,6 @@ fn claims_12(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
     let note = "the loss decays over the paper's four frequencies, but rises to this maximum before: it vanishes as f does";
     claims.push(Claim {
         measure: Measure::relative(Some(refined.0), 5e-3, 5e-3),
-        verdict: Verdict::Disagrees,
         note: note.to_owned(),
         ..claim(
             "f of the largest loss".to_owned(),
@@ -430,15 +432,11 @@ fn claims_12(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
             on_cells.0,
         )
     });
-    claims.push(Claim {
-        verdict: Verdict::NotStated,
-        paper: String::new(),
-        ..claim(
-            "largest loss over all frequencies / (W₀ δ_H)".to_owned(),
-            refined.1,
-            springs.1,
-            on_cells.1,
-        )
-    });
+    claims.push(claim(
+        "largest loss over all frequencies / (W₀ δ_H)".to_owned(),
+        refined.1,
+        springs.1,
+        on_cells.1,
+    ));
     Ok(claims)
 }

@@ -11,7 +11,7 @@ use super::cycles::{STEPS_ON_CELLS, peak};
 use super::look::{SPRINGS, cells_label};
 use super::number::datum;
 use super::stabilised::{by_sweep, stabilised};
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Verdict};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Stated};
 use crate::drive::{Segment, SegmentedDrive};
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Mark, Marker, Series};
 use crate::report::table::Table;
@@ -91,6 +91,7 @@ pub(super) fn figures(
         panels: panels(&closed, &touched, plan.solver.cells, scenario.solver.cells),
         data: table.finish()?,
         claims: claims(&loops, &work, largest, most)?,
+        statements: Vec::new(),
     }])
 }
 
@@ -278,17 +279,16 @@ fn claims(
     let at = |curve: &Curve, omega: f64| -> [Option<f64>; 3] {
         [&curve.refined, &curve.springs, &curve.cells].map(|points| value(points, omega))
     };
-    let claim = |quantity: &str, paper: &str, found: [Option<f64>; 3], accuracy: f64| {
+    let claim = |quantity: &str, found: [Option<f64>; 3], accuracy: f64| {
         let [exact, springs, cells] = found;
         Claim {
             figure: 13,
             quantity: quantity.to_owned(),
-            paper: paper.to_owned(),
             exact: Value::Refined(exact),
             axisymmetric: springs,
             half_space: cells,
             measure: Measure::relative(exact, accuracy, accuracy),
-            verdict: Verdict::Disagrees,
+            stated: Stated::default(),
             note: String::new(),
         }
     };
@@ -313,7 +313,6 @@ fn claims(
     let micro = |found: [Option<f64>; 3]| found.map(|value| value.map(|joule| 1e6 * joule));
     let loop_maxima = [largest.1, of_loops[0].1, of_loops[1].1];
     let work_maxima = [most.1, of_work[0].1, of_work[1].1];
-    let asymptote = "decays to an asymptotic value; the axis begins at 0.91";
     let closed_note =
         "the area of a closed loop vanishes with ω and with 1/ω: it has no asymptote above zero";
     let work_note =
@@ -323,33 +322,27 @@ fn claims(
             note: "the maximum of the area of the stabilised loop".to_owned(),
             ..claim(
                 "stabilised loop: ω of the largest loss / rad·s⁻¹",
-                "0.0031",
                 pair(largest.0, of_loops.map(|p| p.0)),
                 0.02,
             )
         },
         Claim {
-            verdict: Verdict::NotStated,
             ..claim(
                 "stabilised loop: largest loss / µJ, W₀ = 10 N, R = 10 mm",
-                "",
                 micro(pair(largest.1, of_loops.map(|p| p.1))),
                 2e-3,
             )
         },
         Claim {
-            verdict: Verdict::NotStated,
             note: "PMMA has two relaxation times, and the loss a second maximum".to_owned(),
             ..claim(
                 "stabilised loop: loss at the second maximum, 0.0757 rad/s / µJ",
-                "",
                 micro(at(loops, 0.0757)),
                 2e-3,
             )
         },
         claim(
             "stabilised loop: loss at 0.0031 rad/s, share of the largest",
-            "1",
             shares(at(loops, PAPER_PEAK), loop_maxima),
             2e-3,
         ),
@@ -357,7 +350,6 @@ fn claims(
             note: closed_note.to_owned(),
             ..claim(
                 "stabilised loop: loss at 0.3 rad/s, share of the largest",
-                asymptote,
                 shares(at(loops, HIGHEST), loop_maxima),
                 2e-3,
             )
@@ -366,26 +358,21 @@ fn claims(
             note: "near the paper's maximum, not at it".to_owned(),
             ..claim(
                 "work from first touch: ω of the largest / rad·s⁻¹",
-                "0.0031",
                 pair(most.0, of_work.map(|p| p.0)),
                 0.03,
             )
         },
         Claim {
-            verdict: Verdict::Agrees,
             note: work_note.to_owned(),
             ..claim(
                 "work from first touch: at 0.3 rad/s, share of the largest",
-                asymptote,
                 shares(at(work, HIGHEST), work_maxima),
                 2e-3,
             )
         },
         Claim {
-            verdict: Verdict::NotStated,
             ..claim(
                 "work from first touch: at 0.001 rad/s, share of the largest",
-                "",
                 shares(at(work, 0.001), work_maxima),
                 2e-3,
             )

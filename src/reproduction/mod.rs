@@ -26,6 +26,7 @@ mod page;
 mod readme;
 mod scale;
 mod stabilised;
+mod statement;
 mod wording;
 
 use std::collections::BTreeMap;
@@ -34,7 +35,9 @@ use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-pub use claim::{Claim, Count, Measure, Verdict};
+pub use claim::{Claim, Measure, Stated, Verdict};
+pub use statement::{Count, Judged};
+
 pub use scale::Scale;
 
 use crate::contact::ContactError;
@@ -149,6 +152,8 @@ pub struct Figure {
     /// The data behind it, as CSV.
     pub data: Vec<u8>,
     pub claims: Vec<Claim>,
+    /// What the paper states of them.
+    pub statements: Vec<Judged>,
 }
 
 impl Figure {
@@ -244,6 +249,7 @@ pub fn make(
     })?;
     let mut made: Vec<Figure> = made.into_iter().flatten().collect();
     made.sort_by_key(|figure| figure.number);
+    statement::judge(&mut made)?;
     Ok(made)
 }
 

@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::claim::{COLUMNS, Count};
+use super::claim::COLUMNS;
+use super::statement::Count;
 use super::wording::{self, EXPLANATION, FIGURE_13};
 use super::{Claim, Figure, ReproductionError, SCENARIOS, SWEEPS};
 use crate::report::page::Pictures;
@@ -29,7 +30,6 @@ pub(super) fn page(
     pictures: &Pictures,
     claims: &[u8],
 ) -> Result<String, ReproductionError> {
-    let count = Count::of(figures.iter().flat_map(|figure| &figure.claims));
     let sections: String = figures
         .iter()
         .map(|figure| section(figure, pictures))
@@ -37,11 +37,7 @@ pub(super) fn page(
     let main = filled(
         MAIN,
         &[
-            ("all", &count.all.to_string()),
-            ("agree", &count.agree.to_string()),
-            ("disagree", &count.disagree.to_string()),
-            ("not_stated", &count.not_stated.to_string()),
-            ("undefined", &count.undefined_text()),
+            ("count", &escaped(&Count::of(figures).text())),
             ("disagreements", &disagreements(figures)),
             ("contents", &contents(figures)),
             ("explanation", &paragraphs(EXPLANATION)),
@@ -99,28 +95,26 @@ fn disagreements(figures: &[Figure]) -> String {
     format!("<div class=\"problems\">\n<p>What disagrees:</p>\n<ul>\n{items}</ul>\n</div>\n{more}")
 }
 
-/// How many numbers of each figure agree.
+/// What the paper states, figure by figure.
 fn contents(figures: &[Figure]) -> String {
     let mut html = String::from(
-        "<table>\n<thead><tr><th scope=\"col\" class=\"text\">figure</th><th scope=\"col\">numbers</th>\
-         <th scope=\"col\">agree</th><th scope=\"col\">disagree</th><th scope=\"col\">not stated</th>\
-         <th scope=\"col\" class=\"text\">what it shows</th></tr></thead>\n<tbody>\n",
+        "<table>\n<thead><tr><th scope=\"col\" class=\"text\">figure</th><th scope=\"col\" class=\"text\">the paper states</th>\
+         <th scope=\"col\" class=\"text\">kind</th><th scope=\"col\" class=\"text\">verdict</th></tr></thead>\n<tbody>\n",
     );
-    for figure in figures {
-        let count = Count::of(figure.claims.iter());
-        let shown = figure.caption.split_inclusive(". ").next();
+    for statement in figures.iter().flat_map(|figure| &figure.statements) {
+        let number = statement.figure;
+        let kind = if statement.is_number {
+            "number"
+        } else {
+            "words"
+        };
         // Writing to a String cannot fail.
         let _ = writeln!(
             html,
-            "<tr><th scope=\"row\"><a href=\"#{}\">Figure {}</a></th><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
-             <td class=\"text wide\">{}</td></tr>",
-            figure.name(),
-            figure.number,
-            count.all,
-            count.agree,
-            count.disagree,
-            count.not_stated,
-            readable(shown.unwrap_or_default().trim())
+            "<tr><th scope=\"row\"><a href=\"#figure-{number:02}\">Figure {number}</a></th><td class=\"text wide\">{}</td>\
+             <td class=\"text\">{kind}</td><td class=\"text\">{}</td></tr>",
+            readable(&statement.paper),
+            statement.verdict.name()
         );
     }
     html.push_str("</tbody>\n</table>");

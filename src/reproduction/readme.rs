@@ -3,7 +3,8 @@
 use std::fmt::Write;
 
 use super::Figure;
-use super::claim::{COLUMNS, Count};
+use super::claim::COLUMNS;
+use super::statement::Count;
 use super::wording::{self, EXPLANATION, FIGURE_13};
 
 const OPENING: &str = "\
@@ -25,16 +26,12 @@ flowcharts.
 /// The page: opening, explanation, what disagrees, then figure by figure.
 pub(super) fn text(figures: &[Figure]) -> String {
     let mut text = format!("{OPENING}{EXPLANATION}");
-    let count = Count::of(figures.iter().flat_map(|figure| &figure.claims));
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
-        "\n**{} claims**: {} agree with the paper, {} disagree, {} are not stated there{}. As a table: [claims.csv](claims.csv).",
-        count.all,
-        count.agree,
-        count.disagree,
-        count.not_stated,
-        count.undefined_text()
+        "\n**{}.** All values: [claims.csv](claims.csv); the statements, and how each is held against the values: \
+         [claims.toml](../../sweeps/spinu-2018/claims.toml).",
+        Count::of(figures).text()
     );
     disagreements(&mut text, figures);
     for figure in figures {
@@ -64,6 +61,17 @@ fn section(text: &mut String, figure: &Figure) {
         "\n## Figure {}\n\n![Figure {}]({name}.png)\n\n{} Data: [{name}.csv]({name}.csv); [SVG]({name}.svg).\n",
         figure.number, figure.number, figure.caption
     );
+    text.push_str("| the paper states | number | verdict |\n|---|---|---|\n");
+    for statement in &figure.statements {
+        let kind = if statement.is_number { "yes" } else { "" };
+        let _ = writeln!(
+            text,
+            "| {} | {kind} | {} |",
+            statement.paper,
+            statement.verdict.name()
+        );
+    }
+    text.push('\n');
     let _ = writeln!(
         text,
         "| {} |\n|{}",

@@ -29,20 +29,19 @@ maximum of the load, has its maximum near the paper's and falls to 0.91 at 0.3 r
 is not said there.
 ";
 
-/// A sentence for each claim that disagrees with the paper.
+/// A sentence for each statement of the paper that disagrees.
 pub(super) fn disagreeing(figures: &[Figure]) -> Vec<String> {
-    let claims = figures.iter().flat_map(|figure| &figure.claims);
-    claims
-        .filter(|claim| claim.judged() == Verdict::Disagrees)
-        .map(|claim| {
+    let statements = figures.iter().flat_map(|figure| &figure.statements);
+    statements
+        .filter(|statement| statement.verdict == Verdict::Disagrees)
+        .map(|statement| {
+            let note = match statement.note.is_empty() {
+                true => String::new(),
+                false => format!(" ({})", statement.note),
+            };
             format!(
-                "Figure {}, {}: the paper has {}, computed is {}{}{}.",
-                claim.figure,
-                claim.quantity,
-                claim.paper,
-                claim.exact_text(),
-                if claim.note.is_empty() { "" } else { "; " },
-                claim.note
+                "Figure {}: \u{201c}{}\u{201d} Computed: {}{note}.",
+                statement.figure, statement.paper, statement.computed
             )
         })
         .collect()
