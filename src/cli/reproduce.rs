@@ -135,14 +135,15 @@ fn text(made: &[Figure], folder: &Path) -> String {
     let claims = || made.iter().flat_map(|figure| &figure.claims);
     let count = Count::of(claims());
     let mut text = format!(
-        "{} figures, {} claims: {} agree with the paper, {} disagree, {} are not stated there\n",
+        "{} figures, {} claims: {} agree with the paper, {} disagree, {} are not stated there{}\n",
         made.len(),
         count.all,
         count.agree,
         count.disagree,
-        count.not_stated
+        count.not_stated,
+        count.undefined_text()
     );
-    for claim in claims().filter(|claim| claim.verdict == Verdict::Disagrees) {
+    for claim in claims().filter(|claim| claim.judged() == Verdict::Disagrees) {
         let line = format!(
             "figure {}, {}: {} here, {} in the paper",
             claim.figure,

@@ -19,24 +19,24 @@ pub struct Claim {
     pub note: String,
 }
 
-/// The value computed values are held against.
+/// The value computed values are held against; `None` where it is undefined.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value {
     /// From a formula.
-    ClosedForm(f64),
+    ClosedForm(Option<f64>),
     /// From the axisymmetric engine, refined.
-    Refined(f64),
+    Refined(Option<f64>),
     /// Zero: the computed values are differences themselves.
     Difference,
     /// A whole number, from the axisymmetric engine, refined.
-    Count(f64),
+    Count(Option<f64>),
 }
 
 /// How computed values are compared, and how near they must come.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measure {
-    /// Differences are divided by this and named so.
-    pub unit: f64,
+    /// Differences are divided by this and named so; `None` where they are relative to a value that is undefined.
+    pub unit: Option<f64>,
     pub unit_name: &'static str,
     /// Largest differences allowed.
     pub axisymmetric: f64,
@@ -52,6 +52,8 @@ pub enum Verdict {
     Disagrees,
     /// The paper says nothing of it that could be compared.
     NotStated,
+    /// There is no value that could be compared.
+    Undefined,
 }
 
 impl Verdict {
@@ -61,16 +63,17 @@ impl Verdict {
             Self::Agrees => "agrees",
             Self::Disagrees => "disagrees",
             Self::NotStated => "not stated",
+            Self::Undefined => UNDEFINED,
         }
     }
 }
 
 impl Value {
-    /// The number.
-    pub fn number(self) -> f64 {
+    /// The number, where it is defined.
+    pub fn number(self) -> Option<f64> {
         match self {
             Self::ClosedForm(value) | Self::Refined(value) | Self::Count(value) => value,
-            Self::Difference => 0.0,
+            Self::Difference => Some(0.0),
         }
     }
 
@@ -91,6 +94,7 @@ pub struct Count {
     pub agree: usize,
     pub disagree: usize,
     pub not_stated: usize,
+    pub undefined: usize,
 }
 
 impl Count {
@@ -99,7 +103,7 @@ impl Count {
         let count = |verdict| {
             claims
                 .clone()
-                .filter(|claim| claim.verdict == verdict)
+                .filter(|claim| claim.judged() == verdict)
                 .count()
         };
         Self {
@@ -107,6 +111,15 @@ impl Count {
             agree: count(Verdict::Agrees),
             disagree: count(Verdict::Disagrees),
             not_stated: count(Verdict::NotStated),
+            undefined: count(Verdict::Undefined),
+        }
+    }
+
+    /// What is to be said of claims without a value; nothing where all have one.
+    pub fn undefined_text(&self) -> String {
+        match self.undefined {
+            0 => String::new(),
+            count => format!(", {count} are undefined"),
         }
     }
 }
@@ -123,14 +136,17 @@ pub(super) const COLUMNS: [&str; 8] = [
     "note",
 ];
 
+/// What stands in place of a value that is undefined.
+const UNDEFINED: &str = "undefined";
+
 /// Differences below this depend on the tolerance of the half-space solver.
 const UNRESOLVED: f64 = 1e-6;
 
 impl Measure {
     /// Relative to the exact value.
-    pub fn relative(exact: f64, axisymmetric: f64, half_space: f64) -> Self {
+    pub fn relative(exact: Option<f64>, axisymmetric: f64, half_space: f64) -> Self {
         Self {
-            unit: exact.abs(),
+            unit: exact.map(f64::abs),
             unit_name: "relative",
             axisymmetric,
             half_space,
@@ -141,7 +157,7 @@ impl Measure {
     /// In the normalised unit of the quantity itself.
     pub fn absolute(unit_name: &'static str, axisymmetric: f64, half_space: f64) -> Self {
         Self {
-            unit: 1.0,
+            unit: Some(1.0),
             unit_name,
             axisymmetric,
             half_space,
@@ -151,11 +167,29 @@ impl Measure {
 }
 
 impl Claim {
-    /// The exact value as printed.
+    /// Whether there is no value to compare: no exact one, or of a difference none that is computed.
+    pub fn is_undefined(&self) -> bool {
+        match self.exact {
+            Value::Difference => self.axisymmetric.or(self.half_space).is_none(),
+            value => value.number().is_none(),
+        }
+    }
+
+    /// The verdict, which a value that is undefined does not allow.
+    pub fn judged(&self) -> Verdict {
+        match self.is_undefined() {
+            true => Verdict::Undefined,
+            false => self.verdict,
+        }
+    }
+
+    /// The exact value as printed; empty where it is undefined, and of a difference.
     pub fn exact_text(&self) -> String {
         match self.exact {
-            Value::ClosedForm(value) | Value::Refined(value) => significant(value, 5),
-            Value::Count(value) => format!("{value}"),
+            Value::ClosedForm(value) | Value::Refined(value) => {
+                value.map(|value| significant(value, 5)).unwrap_or_default()
+            }
+            Value::Count(value) => value.map(|value| value.to_string()).unwrap_or_default(),
             Value::Difference => String::new(),
         }
     }
@@ -172,9 +206,9 @@ impl Claim {
         }
     }
 
-    /// By how much a computed value differs.
+    /// By how much a computed value differs; `None` where one of the two is undefined.
     pub fn error(&self, value: Option<f64>) -> Option<f64> {
-        value.map(|value| (value - self.exact.number()) / self.measure.unit)
+        Some((value? - self.exact.number()?) / self.measure.unit?)
     }
 
     /// The same as printed; empty where the value is itself a difference or a count.
@@ -198,6 +232,7 @@ impl Claim {
             .join(", ");
         let exact = match self.exact {
             Value::Difference => String::new(),
+            _ if self.is_undefined() => UNDEFINED.to_owned(),
             Value::ClosedForm(_) => self.exact_text(),
             Value::Refined(_) | Value::Count(_) => format!("{} (refined)", self.exact_text()),
         };
@@ -212,16 +247,17 @@ impl Claim {
             } else {
                 format!("{errors} {}", self.measure.unit_name)
             },
-            self.verdict.name().to_owned(),
+            self.judged().name().to_owned(),
             self.note.clone(),
         ]
     }
 
-    /// Whether both engines come as near as they must.
-    pub fn is_accurate(&self) -> bool {
+    /// Whether both engines come as near as they must; `None` where the value is undefined.
+    pub fn is_accurate(&self) -> Option<bool> {
         let near = |value, allowed| self.error(value).is_none_or(|e: f64| e.abs() <= allowed);
-        near(self.axisymmetric, self.measure.axisymmetric)
-            && near(self.half_space, self.measure.half_space)
+        let both = near(self.axisymmetric, self.measure.axisymmetric)
+            && near(self.half_space, self.measure.half_space);
+        (!self.is_undefined()).then_some(both)
     }
 }
 
@@ -257,10 +293,91 @@ pub(super) fn table(figures: &[Figure]) -> Result<Vec<u8>, ReproductionError> {
             claim.measure.unit_name.to_owned(),
             claim.error_text(claim.axisymmetric),
             claim.error_text(claim.half_space),
-            if claim.is_accurate() { "yes" } else { "no" }.to_owned(),
-            claim.verdict.name().to_owned(),
+            match claim.is_accurate() {
+                Some(true) => "yes".to_owned(),
+                Some(false) => "no".to_owned(),
+                None => String::new(),
+            },
+            claim.judged().name().to_owned(),
             claim.note.clone(),
         ])?;
     }
     Ok(table.finish()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn claim(exact: Value, measure: Measure) -> Claim {
+        Claim {
+            figure: 10,
+            quantity: "largest pressure / p_H".to_owned(),
+            paper: "drawn".to_owned(),
+            exact,
+            axisymmetric: Some(1.5),
+            half_space: None,
+            measure,
+            verdict: Verdict::Agrees,
+            note: String::new(),
+        }
+    }
+
+    #[test]
+    fn a_claim_whose_value_is_undefined_says_so_and_has_no_error() {
+        let relative = Measure::relative(None, 1e-3, 1e-3);
+        let absolute = Measure::absolute("of p_H", 1e-3, 1e-3);
+        for (value, measure) in [
+            (Value::ClosedForm(None), relative),
+            (Value::Refined(None), absolute),
+            (Value::Count(None), absolute),
+        ] {
+            let claim = claim(value, measure);
+            assert!(claim.is_undefined());
+            assert_eq!(claim.judged(), Verdict::Undefined);
+            assert_eq!(claim.is_accurate(), None);
+            assert_eq!(claim.error(claim.axisymmetric), None);
+            let cells = claim.cells();
+            assert_eq!([cells[2].as_str(), &cells[5]], ["undefined", ""]);
+            // What is computed stands nevertheless.
+            assert!(cells[3].starts_with("1.5") && cells[4].is_empty());
+            assert_eq!(cells[6], "undefined");
+            let count = Count::of([&claim].into_iter());
+            assert_eq!((count.all, count.agree, count.undefined), (1, 0, 1));
+            assert_eq!(count.undefined_text(), ", 1 are undefined");
+        }
+    }
+
+    #[test]
+    fn the_table_of_claims_has_empty_cells_where_a_value_is_undefined() {
+        let figure = Figure {
+            number: 10,
+            caption: String::new(),
+            panels: Vec::new(),
+            data: Vec::new(),
+            claims: vec![claim(
+                Value::Refined(None),
+                Measure::absolute("of p_H", 1e-3, 1e-3),
+            )],
+        };
+        let text = String::from_utf8(table(&[figure]).unwrap()).unwrap();
+        let row = text.lines().nth(1).unwrap();
+        assert_eq!(
+            row,
+            "10,largest pressure / p_H,drawn,,refined,1.5000,,of p_H,,,,undefined,"
+        );
+    }
+
+    #[test]
+    fn a_difference_that_no_engine_has_is_undefined() {
+        let measure = Measure::absolute("of p_H", 1e-3, 1e-3);
+        let computed = claim(Value::Difference, measure);
+        assert_eq!(computed.judged(), Verdict::Agrees);
+        let lacking = Claim {
+            axisymmetric: None,
+            ..computed
+        };
+        assert_eq!(lacking.judged(), Verdict::Undefined);
+        assert_eq!(lacking.is_accurate(), None);
+    }
 }

@@ -29,11 +29,11 @@ pub(super) struct Case {
     pub(super) closed: ClosedForms,
 }
 
-/// What is known exactly of a stabilised cycle, normalised.
+/// What is known exactly of a stabilised cycle, normalised; its largest values only where the body is solid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct ClosedForms {
-    pub(super) largest_radius: f64,
-    pub(super) largest_approach: f64,
+    pub(super) largest_radius: Option<f64>,
+    pub(super) largest_approach: Option<f64>,
     /// By how much the maximum of the approach comes after that of the load (tau).
     pub(super) lag: f64,
 }
@@ -46,6 +46,15 @@ pub(super) struct FromRest {
     pub(super) cells: Vec<f64>,
 }
 
+/// What a cycle at one frequency comes to, normalised.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CurvePoint {
+    pub(super) f: f64,
+    pub(super) loss: f64,
+    pub(super) largest_radius: f64,
+    pub(super) largest_pressure: Option<f64>,
+}
+
 /// Everything that the five figures show.
 pub(super) struct Cycles {
     pub(super) scale: Scale,
@@ -54,8 +63,8 @@ pub(super) struct Cycles {
     pub(super) cells: usize,
     /// Cells per side for the cycles from rest.
     pub(super) cells_from_rest: usize,
-    /// (f, loss, largest radius, largest pressure) over frequency by the axisymmetric engine, normalised.
-    pub(super) curve: Vec<[f64; 4]>,
+    /// Over frequency, by the axisymmetric engine.
+    pub(super) curve: Vec<CurvePoint>,
     /// f of figures 10, 11 and 12.
     pub(super) shown: [Vec<f64>; 3],
 }
@@ -116,12 +125,12 @@ fn compute(plans: &Plans, interrupt: &AtomicBool) -> Result<Cycles, Reproduction
         .par_iter()
         .map(|&f| {
             let result = by_sweep(plan, TAU * f / tau_s, 1, interrupt)?;
-            Ok([
+            Ok(CurvePoint {
                 f,
-                loss(&result, &scale),
-                radius(&result, &scale),
-                pressure(&result, &scale),
-            ])
+                loss: loss(&result, &scale),
+                largest_radius: radius(&result, &scale),
+                largest_pressure: pressure(&result, &scale),
+            })
         })
         .collect::<Result<Vec<_>, ReproductionError>>()?;
     Ok(Cycles {
@@ -145,9 +154,9 @@ pub(super) fn radius(result: &CaseResult, scale: &Scale) -> f64 {
     result.contact_radius_m.maximum / scale.contact_radius_m
 }
 
-/// Largest pressure of a cycle / p_H.
-pub(super) fn pressure(result: &CaseResult, scale: &Scale) -> f64 {
-    result.peak_pressure_pa.map_or(0.0, |p| p.maximum) / scale.pressure_pa
+/// Largest pressure of a cycle / p_H, where the pressure is bounded.
+pub(super) fn pressure(result: &CaseResult, scale: &Scale) -> Option<f64> {
+    Some(result.peak_pressure_pa?.maximum / scale.pressure_pa)
 }
 
 fn case(
@@ -165,9 +174,7 @@ fn case(
         angular_frequency_rad_per_s: omega,
         contact_compliance: &scale.contact_compliance,
     };
-    let (radius_m, approach_m) = contact
-        .sphere_maxima(scale.sphere_radius_m)
-        .unwrap_or((0.0, 0.0));
+    let maxima = contact.sphere_maxima(scale.sphere_radius_m);
     let steps = plan.cycle.steps;
     Ok(Case {
         f,
@@ -182,8 +189,8 @@ fn case(
             interrupt,
         )?,
         closed: ClosedForms {
-            largest_radius: radius_m / scale.contact_radius_m,
-            largest_approach: approach_m / scale.approach_m,
+            largest_radius: maxima.map(|(radius_m, _)| radius_m / scale.contact_radius_m),
+            largest_approach: maxima.map(|(_, approach_m)| approach_m / scale.approach_m),
             lag: -compliance.arg() / omega / tau_s,
         },
     })

@@ -85,7 +85,7 @@ fn claims(
     cells: &[(f64, f64)],
 ) -> Result<Vec<Claim>, ReproductionError> {
     let last = |points: &[(f64, f64)]| points.last().map(|point| point.1);
-    let computed = |quantity: &str, exact: f64, springs, cells| Claim {
+    let computed = |quantity: &str, exact: Option<f64>, springs, cells| Claim {
         figure: 1,
         quantity: quantity.to_owned(),
         paper: "equation (8); drawn".to_owned(),
@@ -102,11 +102,11 @@ fn claims(
             axisymmetric: None,
             half_space: None,
             note: "the scale of the computed loads".to_owned(),
-            ..computed("Ψ(0) / MPa", modulus(0.0), None, None)
+            ..computed("Ψ(0) / MPa", Some(modulus(0.0)), None, None)
         },
         computed(
             "Ψ(1000 s) / MPa",
-            modulus(1000.0),
+            Some(modulus(1000.0)),
             last(springs),
             last(cells),
         ),
@@ -139,7 +139,7 @@ fn claims(
         ));
     }
     for (quantity, value, paper) in constants {
-        let exact = value.unwrap_or(0.0) / MEGA;
+        let exact = value.map(|value| value / MEGA);
         claims.push(Claim {
             paper: format!("{paper}, equation (10)"),
             axisymmetric: None,

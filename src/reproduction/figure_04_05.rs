@@ -7,7 +7,7 @@ use super::by_engine::{self, By, cell_m};
 use super::claim::Value;
 use super::look::{Member, evenly, spread};
 use super::number::datum;
-use super::scale::{ProfilePoint, at};
+use super::scale::{ProfilePoint, at, largest};
 use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict, series_of};
 use crate::contact::Prescribed;
 use crate::contact::surface::Surface;
@@ -198,8 +198,11 @@ impl StepFigure {
                 .collect::<Vec<_>>();
             let inside = |outcome: &SimulationOutcome, every: usize| -> Vec<(f64, f64)> {
                 let profile = self.profile(outcome, k);
-                let loaded = profile.iter().step_by(every).filter(|p| p.pressure > 0.0);
-                loaded.map(|p| (p.radius, p.pressure)).collect()
+                let loaded = profile
+                    .iter()
+                    .step_by(every)
+                    .filter_map(|p| Some((p.radius, p.pressure?)));
+                loaded.filter(|(_, pressure)| *pressure > 0.0).collect()
             };
             let springs = spread(&inside(&self.springs, 1), 30);
             let cells = inside(&self.on_cells, 6);
@@ -247,7 +250,7 @@ impl StepFigure {
                 figure: self.number,
                 quantity: format!("pressure {place} at t = {time} τ"),
                 paper: "matches Ting's solution; drawn".to_owned(),
-                exact: Value::ClosedForm(self.pressure(radius, time)),
+                exact: Value::ClosedForm(Some(self.pressure(radius, time))),
                 axisymmetric: at(&springs, radius, |p| p.pressure),
                 half_space: at(&cells, radius, |p| p.pressure),
                 measure: Measure::absolute("of p_H", 2e-3, 0.01),
@@ -262,8 +265,8 @@ impl StepFigure {
             claims.push(self.radius_claim(k, time));
             claims.push(Claim {
                 exact: Value::Difference,
-                axisymmetric: Some(self.deviation(&springs, time)),
-                half_space: Some(self.deviation(&cells, time)),
+                axisymmetric: self.deviation(&springs, time),
+                half_space: self.deviation(&cells, time),
                 ..pressure(
                     0.0,
                     "anywhere but within two cells of the edge, largest error",
@@ -283,7 +286,7 @@ impl StepFigure {
             figure: self.number,
             quantity: format!("contact radius / a_H at t = {time} τ"),
             paper: "equation (3)".to_owned(),
-            exact: Value::ClosedForm(self.radius(time)),
+            exact: Value::ClosedForm(Some(self.radius(time))),
             axisymmetric: found(&self.springs),
             half_space: found(&self.on_cells),
             measure: Measure::absolute("of a_H", 1e-3, 0.5 * self.cell),
@@ -292,8 +295,8 @@ impl StepFigure {
         }
     }
 
-    /// Largest difference from the closed form, away from the edge of the contact.
-    fn deviation(&self, profile: &[ProfilePoint], time: f64) -> f64 {
+    /// Largest difference from the closed form, away from the edge of the contact; `None` of no points.
+    fn deviation(&self, profile: &[ProfilePoint], time: f64) -> Option<f64> {
         let edge = self.radius(time);
         let away = |p: &&ProfilePoint| (p.radius - edge).abs() > EDGE_CELLS * self.cell;
         // Springs stand closer than need be looked at.
@@ -302,7 +305,7 @@ impl StepFigure {
             .iter()
             .step_by(every)
             .filter(away)
-            .map(|p| (p.pressure - self.pressure(p.radius, time)).abs());
-        differences.fold(0.0, f64::max)
+            .map(|p| Some((p.pressure? - self.pressure(p.radius, time)).abs()));
+        largest(differences)
     }
 }

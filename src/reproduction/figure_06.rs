@@ -235,9 +235,8 @@ fn extremum_claims(case: &Case, computed: &Computed, extremum: &Extremum) -> [Cl
     let springs = find(&computed.springs, extremum, 10);
     let cells = find(&computed.cells, extremum, 2);
     let [time, value] = match (extremum.known, find(&computed.exact, extremum, 20)) {
-        (Some((time, value)), _) => [time, value].map(Value::ClosedForm),
-        (None, Some((time, value))) => [time, value].map(Value::Refined),
-        (None, None) => [0.0, 0.0].map(Value::Refined),
+        (Some((time, value)), _) => [Some(time), Some(value)].map(Value::ClosedForm),
+        (None, found) => [found.map(|f| f.0), found.map(|f| f.1)].map(Value::Refined),
     };
     let radius = Claim {
         figure: 6,

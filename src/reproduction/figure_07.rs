@@ -6,8 +6,8 @@ use std::sync::atomic::AtomicBool;
 use super::by_engine::{By, simulate};
 use super::claim::Value;
 use super::look::{Member, evenly, spread};
-use super::number::datum;
-use super::scale::{ProfilePoint, at};
+use super::number::{datum, optional_datum};
+use super::scale::{ProfilePoint, at, largest};
 use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Verdict, series_of};
 use crate::reference::step_load::StepLoad;
 use crate::report::chart::{Axis, Chart, LegendPlace, Series};
@@ -99,8 +99,8 @@ fn body(
 }
 
 impl Body {
-    /// Displacement by the closed form, normalised.
-    fn displacement(&self, radius: f64, time: f64) -> f64 {
+    /// Displacement by the closed form, normalised; `None` where that form is not defined.
+    fn displacement(&self, radius: f64, time: f64) -> Option<f64> {
         let r_m = radius * self.scale.contact_radius_m;
         let found_m = if time < UNLOADED {
             Some(self.exact.displacement_m(r_m, time))
@@ -109,7 +109,7 @@ impl Body {
             self.exact
                 .displacement_after_unloading_m(r_m, UNLOADED, since)
         };
-        found_m.unwrap_or(0.0) / self.scale.approach_m
+        Some(found_m? / self.scale.approach_m)
     }
 
     fn profile(&self, outcome: &SimulationOutcome, k: usize) -> Vec<ProfilePoint> {
@@ -127,11 +127,11 @@ impl Body {
                 step: k,
                 of: self.times.len(),
             };
-            let points = |profile: Vec<ProfilePoint>| -> Vec<(f64, f64)> {
-                let pairs: Vec<_> = profile.iter().map(|p| (p.radius, p.displacement)).collect();
-                spread(&pairs, 16)
+            let points = |profile: Vec<ProfilePoint>| -> Vec<(f64, Option<f64>)> {
+                let pairs = profile.iter().map(|p| (p.radius, Some(p.displacement)));
+                spread(&pairs.collect::<Vec<_>>(), 16)
             };
-            let line: Vec<(f64, f64)> = evenly(0.0, REACH, 60)
+            let line: Vec<(f64, Option<f64>)> = evenly(0.0, REACH, 60)
                 .into_iter()
                 .map(|r| (r, self.displacement(r, time)))
                 .collect();
@@ -148,7 +148,7 @@ impl Body {
                 ("half-space", &cells),
             ] {
                 for (r, u) in points {
-                    let [time, r, u] = [time, *r, *u].map(datum);
+                    let ([time, r], u) = ([time, *r].map(datum), optional_datum(*u));
                     let row = [
                         self.name.to_owned(),
                         time,
@@ -160,6 +160,7 @@ impl Body {
                     table.row(&row)?;
                 }
             }
+            let [line, springs, cells] = [line, springs, cells].map(drawn);
             series.push(member.line(line).label(label(time)));
             series.extend(member.engines(springs, cells, self.cells));
         }
@@ -182,8 +183,8 @@ impl Body {
                 quantity: format!("{}: displacement / δ_H {place}, {}", self.name, label(time)),
                 paper: self.paper(time).to_owned(),
                 exact: Value::ClosedForm(self.displacement(radius, time)),
-                axisymmetric: at(&springs, radius, |p| p.displacement),
-                half_space: at(&cells, radius, |p| p.displacement),
+                axisymmetric: at(&springs, radius, |p| Some(p.displacement)),
+                half_space: at(&cells, radius, |p| Some(p.displacement)),
                 measure: Measure::absolute("of δ_H", 2e-3, 5e-3),
                 verdict: Verdict::Agrees,
                 note: String::new(),
@@ -198,8 +199,8 @@ impl Body {
                 let differences = profile
                     .iter()
                     .step_by(every)
-                    .map(|p| (p.displacement - self.displacement(p.radius, time)).abs());
-                Some(differences.fold(0.0, f64::max))
+                    .map(|p| Some((p.displacement - self.displacement(p.radius, time)?).abs()));
+                largest(differences)
             };
             let anywhere = Claim {
                 exact: Value::Difference,
@@ -233,11 +234,14 @@ impl Body {
         let first = self.times.iter().position(|t| *t >= UNLOADED)?;
         let last = self.times.len() - 1;
         let left = |outcome: &SimulationOutcome| {
-            let on_axis = |k| at(&self.profile(outcome, k), 0.0, |p| p.displacement);
+            let on_axis = |k| at(&self.profile(outcome, k), 0.0, |p| Some(p.displacement));
             Some(on_axis(last)? / on_axis(first)?)
         };
         let time = self.times.get(last)?;
-        let exact = self.displacement(0.0, *time) / self.displacement(0.0, UNLOADED);
+        let on_axis = |time| self.displacement(0.0, time);
+        let exact = on_axis(*time)
+            .zip(on_axis(UNLOADED))
+            .map(|(after, before)| after / before);
         Some(Claim {
             figure: 7,
             quantity: format!(
@@ -253,6 +257,11 @@ impl Body {
             note: "nothing is solved after unloading: the memory alone decides".to_owned(),
         })
     }
+}
+
+/// Points with a value absent where the y is.
+fn drawn(points: Vec<(f64, Option<f64>)>) -> Vec<Option<(f64, f64)>> {
+    points.into_iter().map(|(x, y)| Some((x, y?))).collect()
 }
 
 fn label(time: f64) -> String {

@@ -121,7 +121,7 @@ fn cycle_claims(cycles: &Cycles) -> Vec<Claim> {
                     short(from_rest.f)
                 ),
                 paper: paper.to_owned(),
-                exact: Value::Count(count(&from_rest.refined).unwrap_or(0.0)),
+                exact: Value::Count(count(&from_rest.refined)),
                 axisymmetric: count(&from_rest.springs),
                 half_space: count(&from_rest.cells),
                 measure: Measure::absolute("cycles", 0.0, 0.0),
@@ -272,7 +272,7 @@ fn claims_9(history: &History, cycles: &Cycles) -> Result<Vec<Claim>, Reproducti
         claim(
             "maximum of the approach after that of the load / τ, f = 1",
             "a hysteretic delay; drawn",
-            Value::ClosedForm(case.closed.lag),
+            Value::ClosedForm(Some(case.closed.lag)),
             lag(&history.springs),
             lag(&history.cells),
             Measure::absolute("of a cycle", 1e-3, 2e-3),
@@ -281,7 +281,7 @@ fn claims_9(history: &History, cycles: &Cycles) -> Result<Vec<Claim>, Reproducti
         claim(
             "cycles within eight τ",
             "f = 0.1 in the caption, eight cycles in eight τ",
-            Value::Count(8.0),
+            Value::Count(Some(8.0)),
             Some(cycles_within(&history.springs)),
             Some(cycles_within(&history.cells)),
             Measure::absolute("cycles", 0.0, 0.0),

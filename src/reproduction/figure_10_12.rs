@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use super::claim::Value;
-use super::cycles::{Case, Cycles, loss, peak, pressure, radius};
+use super::cycles::{Case, CurvePoint, Cycles, loss, peak, pressure, radius};
 use super::look::{Member, SPRINGS, cells_label, evenly, spread};
-use super::number::{datum, short};
-use super::scale::ProfilePoint;
+use super::number::{datum, optional_datum, short};
+use super::scale::{ProfilePoint, at};
 use super::stabilised::Stabilised;
 use super::{Claim, Figure, Measure, ReproductionError, Verdict};
 use crate::cycle::Extrema;
@@ -22,22 +22,20 @@ pub(super) fn figures(cycles: &Cycles) -> Result<Vec<Figure>, ReproductionError>
     ])
 }
 
-/// What a cycle on cells came to, normalised: largest radius, approach and pressure.
-fn largest_on_cells(case: &Case, cycles: &Cycles) -> [f64; 3] {
+/// What a cycle on cells came to, normalised: largest radius, approach and pressure. The pressure is `None` where an instant
+/// has none.
+fn largest_on_cells(case: &Case, cycles: &Cycles) -> [Option<f64>; 3] {
     let scale = &cycles.scale;
     let samples = &case.on_cells.samples;
-    let largest = |signal: &[f64]| Extrema::of(signal).map_or(0.0, |e| e.maximum);
-    let pressures: Vec<f64> = samples
-        .peak_pressure_pa
-        .iter()
-        .map(|p| p.unwrap_or(0.0))
-        .collect();
+    let largest = |signal: &[f64]| Extrema::of(signal).map(|e| e.maximum);
+    let pressures: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
     // A radius that is counted in cells has no parabola through its maximum.
-    let radius_m = samples.contact_radius_m.iter().copied().fold(0.0, f64::max);
+    let radius_m = samples.contact_radius_m.iter().copied().reduce(f64::max);
+    let over = |value: Option<f64>, unit: f64| value.map(|value| value / unit);
     [
-        radius_m / scale.contact_radius_m,
-        largest(&samples.approach_m) / scale.approach_m,
-        largest(&pressures) / scale.pressure_pa,
+        over(radius_m, scale.contact_radius_m),
+        over(largest(&samples.approach_m), scale.approach_m),
+        over(pressures.and_then(|p| largest(&p)), scale.pressure_pa),
     ]
 }
 
@@ -50,32 +48,30 @@ fn figure_10(cycles: &Cycles) -> Result<Figure, ReproductionError> {
             .iter()
             .any(|shown| (shown / f - 1.0).abs() < 1e-9)
     };
-    let springs: Vec<[f64; 4]> = cycles
+    let springs: Vec<CurvePoint> = cycles
         .curve
         .iter()
-        .filter(|row| swept(row[0]))
+        .filter(|point| swept(point.f))
         .copied()
         .collect();
-    for [f, _, radius, pressure] in &springs {
-        let [f, radius, pressure] = [*f, *radius, *pressure].map(datum);
+    for point in &springs {
+        let [f, radius] = [point.f, point.largest_radius].map(datum);
+        let pressure = optional_datum(point.largest_pressure);
         table.row(&["axisymmetric".to_owned(), f, radius, pressure])?;
     }
     let (mut radii, mut pressures) = (Vec::new(), Vec::new());
     for &f in &cycles.shown[2] {
         let [radius, _, pressure] = largest_on_cells(cycles.case(f)?, cycles);
-        radii.push((f, radius));
-        pressures.push((f, pressure));
-        let [f, radius, pressure] = [f, radius, pressure].map(datum);
-        table.row(&["half-space".to_owned(), f, radius, pressure])?;
+        radii.push(radius.map(|radius| (f, radius)));
+        pressures.push(pressure.map(|pressure| (f, pressure)));
+        let [radius, pressure] = [radius, pressure].map(optional_datum);
+        table.row(&["half-space".to_owned(), datum(f), radius, pressure])?;
     }
-    let equilibrium = scale
-        .contact_compliance
-        .equilibrium_compliance()
-        .unwrap_or(0.0);
+    let equilibrium = scale.contact_compliance.equilibrium_compliance();
     let instantaneous = scale.contact_compliance.instantaneous_compliance();
     let closed = evenly(0.1, 1.5, 140).into_iter().map(|f| {
         let modulus = scale.contact_compliance.complex_compliance(TAU * f).norm();
-        (f, (0.5 * (equilibrium + modulus) / instantaneous).cbrt())
+        Some((f, (0.5 * (equilibrium? + modulus) / instantaneous).cbrt()))
     });
     let chart = Chart::new(
         Axis::linear("frequency f = ωτ/2π").range(0.0, 1.5),
@@ -87,7 +83,7 @@ fn figure_10(cycles: &Cycles) -> Result<Figure, ReproductionError> {
             .label("a / Hertz radius, closed form"),
     )
     .series(
-        Series::scatter(springs.iter().map(|row| (row[0], row[2])))
+        Series::scatter(springs.iter().map(|p| (p.f, p.largest_radius)))
             .color(0)
             .marker(Marker::Cross)
             .label(SPRINGS),
@@ -99,7 +95,7 @@ fn figure_10(cycles: &Cycles) -> Result<Figure, ReproductionError> {
             .label(cells_label(cycles.cells)),
     )
     .series(
-        Series::line(springs.iter().map(|row| (row[0], row[3])))
+        Series::line(springs.iter().map(|p| Some((p.f, p.largest_pressure?))))
             .color(1)
             .style(LineStyle::Dashed)
             .label("p / Hertz peak pressure, axisymmetric engine"),
@@ -127,8 +123,8 @@ fn claims_10(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
             quantity: format!("{quantity}, f = {}", short(f)),
             paper: paper.to_owned(),
             exact,
-            axisymmetric: Some(springs),
-            half_space: Some(cells),
+            axisymmetric: springs,
+            half_space: cells,
             measure,
             verdict: Verdict::Agrees,
             note: String::new(),
@@ -137,7 +133,7 @@ fn claims_10(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
             "largest contact radius / a_H",
             "amplitude decays with increasing frequency",
             Value::ClosedForm(case.closed.largest_radius),
-            radius(&case.springs, scale),
+            Some(radius(&case.springs, scale)),
             on_cells[0],
             Measure::absolute("of a_H", 1e-3, 0.5 * cell(case)),
         ));
@@ -153,7 +149,7 @@ fn claims_10(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
             "largest approach / δ_H",
             "drawn in figures 8 and 12",
             Value::ClosedForm(case.closed.largest_approach),
-            case.springs.approach_m.maximum / scale.approach_m,
+            Some(case.springs.approach_m.maximum / scale.approach_m),
             on_cells[1],
             Measure::absolute("of δ_H", 1e-3, 2e-3),
         ));
@@ -172,12 +168,12 @@ fn figure_11(cycles: &Cycles) -> Result<Figure, ReproductionError> {
     let loaded = |cycle: &Stabilised, k: usize, beyond: usize| -> Vec<(f64, f64)> {
         let profile = cycle.surfaces.get(k).map(|surface| scale.profile(surface));
         let points = profile.unwrap_or_default();
-        let contact = points
-            .iter()
-            .take_while(|p: &&ProfilePoint| p.pressure > 0.0);
+        let contact = points.iter().take_while(|p| is_loaded(p));
         let shown = contact.count() + beyond;
         let shown = points.iter().take(shown);
-        shown.map(|p| (p.radius, p.pressure)).collect()
+        shown
+            .filter_map(|p| Some((p.radius, p.pressure?)))
+            .collect()
     };
     for &f in &cycles.shown[1] {
         let case = cycles.case(f)?;
@@ -231,7 +227,7 @@ fn claims_11(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
                     .get(place)
                     .map(|radius_m| radius_m / scale.contact_radius_m)
             };
-            let exact = at(&case.refined.samples.contact_radius_m).unwrap_or(0.0);
+            let exact = at(&case.refined.samples.contact_radius_m);
             let cell = case.on_cells.spacing_m / scale.contact_radius_m;
             claims.push(Claim {
                 figure: 11,
@@ -259,7 +255,7 @@ fn claims_11(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
             paper: "drawn".to_owned(),
             exact: Value::Difference,
             axisymmetric: None,
-            half_space: Some(pressure_difference(case, cycles)),
+            half_space: pressure_difference(case, cycles),
             measure: Measure::absolute("of p_H", 0.0, 0.01),
             verdict: Verdict::Agrees,
             note: "but within two cells of the edge of the contact".to_owned(),
@@ -268,24 +264,35 @@ fn claims_11(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
     Ok(claims)
 }
 
-/// Largest difference of the pressure between the engines over the surfaces kept, away from the edge of the contact.
-fn pressure_difference(case: &Case, cycles: &Cycles) -> f64 {
+/// Whether there is pressure at a point.
+fn is_loaded(point: &ProfilePoint) -> bool {
+    point.pressure.is_some_and(|pressure| pressure > 0.0)
+}
+
+/// Largest difference of the pressure between the engines over the surfaces kept, away from the edge of the contact; `None`
+/// where a pressure is undefined.
+fn pressure_difference(case: &Case, cycles: &Cycles) -> Option<f64> {
     let scale = &cycles.scale;
     let cell = case.on_cells.spacing_m / scale.contact_radius_m;
     let mut worst = 0.0_f64;
     for (springs, cells) in case.on_springs.surfaces.iter().zip(&case.on_cells.surfaces) {
         let (springs, cells) = (scale.profile(springs), scale.profile(cells));
-        let loaded = springs.iter().filter(|p| p.pressure > 0.0);
+        let loaded = springs.iter().filter(|p| is_loaded(p));
         let edge = loaded.map(|p| p.radius).fold(0.0, f64::max);
+        // Springs stand where there is contact at some instant: beyond them nothing presses.
+        let reach = springs.last()?.radius;
         for point in cells
             .iter()
             .filter(|p| (p.radius - edge).abs() > 2.0 * cell)
         {
-            let expected = super::scale::at(&springs, point.radius, |p| p.pressure);
-            worst = worst.max((point.pressure - expected.unwrap_or(0.0)).abs());
+            let expected = match point.radius > reach {
+                true => Some(0.0),
+                false => at(&springs, point.radius, |p| p.pressure),
+            };
+            worst = worst.max((point.pressure? - expected?).abs());
         }
     }
-    worst
+    Some(worst)
 }
 
 fn figure_12(cycles: &Cycles) -> Result<Figure, ReproductionError> {
@@ -348,7 +355,7 @@ fn loops_panel(cycles: &Cycles, table: &mut Table) -> Result<Chart, Reproduction
 
 fn losses_panel(cycles: &Cycles, table: &mut Table) -> Result<Chart, ReproductionError> {
     let scale = &cycles.scale;
-    let line: Vec<(f64, f64)> = cycles.curve.iter().map(|row| (row[0], row[1])).collect();
+    let line: Vec<(f64, f64)> = cycles.curve.iter().map(|p| (p.f, p.loss)).collect();
     let cells = cycles
         .cases
         .iter()
@@ -387,10 +394,10 @@ fn claims_12(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
         figure: 12,
         quantity,
         paper: "energy loss decays with increasing frequency".to_owned(),
-        exact: Value::Refined(exact),
+        exact: Value::Refined(Some(exact)),
         axisymmetric: Some(springs),
         half_space: Some(cells),
-        measure: Measure::relative(exact, 2e-3, 2e-3),
+        measure: Measure::relative(Some(exact), 2e-3, 2e-3),
         verdict: Verdict::Agrees,
         note: String::new(),
     };
@@ -413,7 +420,7 @@ fn claims_12(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
     let on_cells = peak(on_cells);
     let note = "the loss decays over the paper's four frequencies, but rises to this maximum before: it vanishes as f does";
     claims.push(Claim {
-        measure: Measure::relative(refined.0, 5e-3, 5e-3),
+        measure: Measure::relative(Some(refined.0), 5e-3, 5e-3),
         verdict: Verdict::Disagrees,
         note: note.to_owned(),
         ..claim(

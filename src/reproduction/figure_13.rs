@@ -174,7 +174,10 @@ fn work(scenario: &ScenarioPlan, interrupt: &AtomicBool) -> Result<Curve, Reprod
                 .iter()
                 .filter_map(|row| Some((row.load_n, row.approach_m?)))
                 .collect();
-            Ok((omega, integral(&points)))
+            let work_j = integral(&points).ok_or_else(|| {
+                ReproductionError::Unfit(format!("{omega} rad/s: the history has no approach"))
+            })?;
+            Ok((omega, work_j))
         });
         works.collect()
     };
@@ -186,14 +189,14 @@ fn work(scenario: &ScenarioPlan, interrupt: &AtomicBool) -> Result<Curve, Reprod
 }
 
 /// Integral of W d(delta) from first touch. The jump follows Hertz' curve W ~ delta^(3/2), whose work is two fifths of load
-/// times approach.
-fn integral(points: &[(f64, f64)]) -> f64 {
-    let jump = points.first().map_or(0.0, |(w, d)| 0.4 * w * d);
+/// times approach. `None` of no points.
+fn integral(points: &[(f64, f64)]) -> Option<f64> {
+    let jump = points.first().map(|(w, d)| 0.4 * w * d)?;
     let parts = points.windows(2).map(|pair| {
         let [(w0, d0), (w1, d1)] = [pair[0], pair[1]];
         0.5 * (w0 + w1) * (d1 - d0)
     });
-    jump + parts.sum::<f64>()
+    Some(jump + parts.sum::<f64>())
 }
 
 /// The scenario with another frequency in its sine.
@@ -277,7 +280,6 @@ fn claims(
     };
     let claim = |quantity: &str, paper: &str, found: [Option<f64>; 3], accuracy: f64| {
         let [exact, springs, cells] = found;
-        let exact = exact.unwrap_or(0.0);
         Claim {
             figure: 13,
             quantity: quantity.to_owned(),
@@ -397,8 +399,10 @@ mod tests {
 
     #[test]
     fn the_work_along_the_curve_of_hertz_is_two_fifths_of_load_times_approach() {
-        assert!((integral(&[(10.0, 2e-6)]) - 8e-6).abs() < 1e-20);
+        let work_j = |points: &[(f64, f64)]| integral(points).unwrap();
+        assert!((work_j(&[(10.0, 2e-6)]) - 8e-6).abs() < 1e-20);
         // Then held while the approach creeps.
-        assert!((integral(&[(10.0, 2e-6), (10.0, 3e-6)]) - 18e-6).abs() < 1e-20);
+        assert!((work_j(&[(10.0, 2e-6), (10.0, 3e-6)]) - 18e-6).abs() < 1e-20);
+        assert_eq!(integral(&[]), None);
     }
 }

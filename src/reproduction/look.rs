@@ -19,31 +19,31 @@ impl Member {
     }
 
     /// A closed form, or the exact solution in its place.
-    pub(super) fn line(self, points: Vec<(f64, f64)>) -> Series {
+    pub(super) fn line<P: Into<Option<(f64, f64)>>>(self, points: Vec<P>) -> Series {
         Series::line(points)
             .color(self.color())
             .style(LineStyle::nth(self.step))
     }
 
     /// Points computed by the axisymmetric engine.
-    pub(super) fn springs(self, points: Vec<(f64, f64)>) -> Series {
+    pub(super) fn springs<P: Into<Option<(f64, f64)>>>(self, points: Vec<P>) -> Series {
         Series::scatter(points)
             .color(self.color())
             .marker(Marker::Cross)
     }
 
     /// Points computed by the half-space engine.
-    pub(super) fn cells(self, points: Vec<(f64, f64)>) -> Series {
+    pub(super) fn cells<P: Into<Option<(f64, f64)>>>(self, points: Vec<P>) -> Series {
         Series::scatter(points)
             .color(self.color())
             .marker(Marker::Ring)
     }
 
     /// Both, named in the legend where this is the last of the family.
-    pub(super) fn engines(
+    pub(super) fn engines<P: Into<Option<(f64, f64)>>>(
         self,
-        springs: Vec<(f64, f64)>,
-        cells: Vec<(f64, f64)>,
+        springs: Vec<P>,
+        cells: Vec<P>,
         side: usize,
     ) -> [Series; 2] {
         let (springs, cells) = (self.springs(springs), self.cells(cells));

@@ -41,6 +41,7 @@ pub(super) fn page(
             ("agree", &count.agree.to_string()),
             ("disagree", &count.disagree.to_string()),
             ("not_stated", &count.not_stated.to_string()),
+            ("undefined", &count.undefined_text()),
             ("disagreements", &disagreements(figures)),
             ("contents", &contents(figures)),
             ("explanation", &paragraphs(EXPLANATION)),
@@ -146,7 +147,7 @@ fn section(figure: &Figure, pictures: &Pictures) -> String {
 
 fn row(claim: &Claim) -> String {
     let cells = claim.cells();
-    let mut html = format!("<tr data-verdict=\"{}\">", claim.verdict.name());
+    let mut html = format!("<tr data-verdict=\"{}\">", claim.judged().name());
     for (column, cell) in COLUMNS.iter().zip(&cells) {
         let cell = readable(cell);
         let _ = match *column {

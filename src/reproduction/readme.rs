@@ -29,8 +29,12 @@ pub(super) fn text(figures: &[Figure]) -> String {
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
-        "\n**{} claims**: {} agree with the paper, {} disagree, {} are not stated there. As a table: [claims.csv](claims.csv).",
-        count.all, count.agree, count.disagree, count.not_stated
+        "\n**{} claims**: {} agree with the paper, {} disagree, {} are not stated there{}. As a table: [claims.csv](claims.csv).",
+        count.all,
+        count.agree,
+        count.disagree,
+        count.not_stated,
+        count.undefined_text()
     );
     disagreements(&mut text, figures);
     for figure in figures {

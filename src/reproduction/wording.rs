@@ -33,7 +33,7 @@ is not said there.
 pub(super) fn disagreeing(figures: &[Figure]) -> Vec<String> {
     let claims = figures.iter().flat_map(|figure| &figure.claims);
     claims
-        .filter(|claim| claim.verdict == Verdict::Disagrees)
+        .filter(|claim| claim.judged() == Verdict::Disagrees)
         .map(|claim| {
             format!(
                 "Figure {}, {}: the paper has {}, computed is {}{}{}.",
