@@ -572,6 +572,21 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
     };
     report().success().stdout(contains("Peak: "));
     assert_same(&out, &whole);
+    // Without the losses that locate the peak everything else is drawn, and what the peak takes is said.
+    let peaks = folder.path().join("peaks");
+    fs::rename(out.join("peaks"), &peaks).unwrap();
+    fs::remove_file(out.join("energy-loss.svg")).unwrap();
+    report().success().stdout(
+        contains("Peak not located: losses near ")
+            .and(contains("have no record in"))
+            .and(contains("`contact-dma sweep FILE --out "))
+            .and(contains("nterrupted").not()),
+    );
+    assert!(out.join("energy-loss.svg").exists());
+    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
+    assert!(summary.contains("\"interrupted\": false"), "{summary}");
+    fs::remove_dir_all(out.join("peaks")).unwrap_or_default();
+    fs::rename(&peaks, out.join("peaks")).unwrap();
     // A record that is gone leaves a gap; nothing is solved for it.
     fs::remove_file(out.join("records/0005.json")).unwrap();
     report().code(3).stdout(contains("59 of 60 cases are done"));
