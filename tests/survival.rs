@@ -594,6 +594,20 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
 }
 
 #[test]
+fn more_threads_than_any_machine_has_a_use_for_are_not_started() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (few, many) = (folder.path().join("few"), folder.path().join("many"));
+    sweep(&file, &few, &["--quiet", "--threads", "1"]).success();
+    sweep(&file, &many, &["--quiet", "--threads", "100000"]).success();
+    assert_same(&few, &many);
+    let run = fs::read(many.join("run.json")).unwrap();
+    let run: serde_json::Value = serde_json::from_slice(&run).unwrap();
+    let processors = std::thread::available_parallelism().unwrap().get();
+    assert_eq!(run["threads"], 4 * processors);
+}
+
+#[test]
 fn pictures_and_run_json_say_where_they_come_from() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
