@@ -71,7 +71,6 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
             solver: solver?,
             figures: FigurePlan::default(),
         };
-        plan.solver = on_own_cells(plan.solver, plan.indenter.as_ref());
         let scale = || ElasticScale::of_sweep(&plan).map(drop);
         plan.figures = figures.checked(scale, &problems)?;
         Some(plan)
@@ -88,17 +87,6 @@ pub(super) fn default_solver(indenter: Option<&dyn Indenter>) -> SolverPlan {
     SolverPlan {
         engine,
         ..SolverPlan::default()
-    }
-}
-
-/// The solver with the cells that an indenter brings, where it brings any.
-pub(super) fn on_own_cells(solver: SolverPlan, indenter: &dyn Indenter) -> SolverPlan {
-    match indenter.own_cells() {
-        Some((cells_x, cells_y)) => SolverPlan {
-            cells: cells_x.max(cells_y),
-            ..solver
-        },
-        None => solver,
     }
 }
 
