@@ -292,3 +292,23 @@ fn a_map_is_told_by_its_own_cells_whatever_the_plan_asks_for() {
     assert!(caption.contains("20 × 15 cells of the map"), "{caption}");
     assert!(!caption.contains("128"), "{caption}");
 }
+
+#[test]
+fn an_elastic_body_loses_nothing_and_is_not_asked_for_a_wider_sweep() {
+    for engine in [EngineKind::Axisymmetric, EngineKind::HalfSpace] {
+        let relaxation = Relaxation::new(1e9, Vec::new()).unwrap();
+        let body = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap();
+        let mut plan = pmma(&[0.01, 0.1, 1.0]);
+        plan.material = body;
+        plan.cycle.steps = 32;
+        plan.solver.engine = engine;
+        plan.solver.cells = 32;
+        let told = report::terminal::peaks(&plan, &swept(plan.clone()).outcome);
+        assert!(told.contains("an elastic body loses nothing"), "{told}");
+        for record in &swept(plan).outcome.records {
+            // Not -0 either, which a table would show.
+            let loss_j = record.energy_loss_j().unwrap();
+            assert_eq!(loss_j.to_bits(), 0.0_f64.to_bits(), "{engine:?}: {loss_j}");
+        }
+    }
+}

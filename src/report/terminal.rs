@@ -182,6 +182,8 @@ fn no_peak(plan: &SweepPlan, outcome: &Outcome) -> &'static str {
     let converged = outcome.count(Status::Converged);
     if converged == 0 {
         "No peak: no case converged.\n"
+    } else if outcome.retardation_times_s().is_empty() {
+        "No peak: the material has no branches; an elastic body loses nothing.\n"
     } else if plan.angular_frequencies_rad_per_s.len() < 3 {
         "No peak: it takes at least three frequencies to enclose one.\n"
     } else {
