@@ -170,7 +170,8 @@ pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
         );
     }
     for problem in &outcome.peak_problems {
-        let _ = writeln!(text, "Peak not located: {problem}");
+        let line = format!("Peak not located: {problem}");
+        text.push_str(&wrapped(&line, 80, "", "  "));
     }
     if text.is_empty() && !outcome.interrupted {
         text.push_str(no_peak(plan, outcome));
