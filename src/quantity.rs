@@ -174,7 +174,7 @@ pub enum QuantityError {
     /// A unit that does not exist.
     #[error(
         "'{text}' has the unknown unit '{unit}'{}; {expected} is written for example \"{}\"",
-        did_you_mean(suggestions),
+        instead(unit, suggestions),
         expected.example()
     )]
     UnknownUnit {
@@ -237,6 +237,14 @@ pub enum QuantityError {
 }
 
 /// `: did you mean "MPa" or "mPa"?`, or nothing.
+/// What to write instead of an unknown unit, in brackets: what it is in known units, else the units that look like it.
+fn instead(unit: &str, suggestions: &[String]) -> String {
+    match units::conversion(unit) {
+        Some(equal) => format!(" (1 {unit} is {equal})"),
+        None => did_you_mean(suggestions),
+    }
+}
+
 fn did_you_mean(suggestions: &[String]) -> String {
     if suggestions.is_empty() {
         return String::new();
@@ -631,6 +639,11 @@ mod tests {
             "'5 mpa' has the unknown unit 'mpa' (did you mean \"MPa\" or \"mPa\"?); a stress or modulus is written for example \"1973 MPa\""
         );
         assert!(message("5 furlong", Dimension::Length).contains("'furlong'; a length"));
+        // What is near in letters may be far in meaning: a force is no mass.
+        assert_eq!(
+            message("1 kgf", Dimension::Force),
+            "'1 kgf' has the unknown unit 'kgf' (1 kgf is 9.80665 N); a force is written for example \"10 N\""
+        );
         // Words before numbers do not confuse the parts of a compound unit.
         assert!(
             message("5 rad/S", Dimension::AngularFrequency).contains("'S' (did you mean \"s\"?)")

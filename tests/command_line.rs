@@ -279,6 +279,24 @@ fn materials_without_a_stabilised_contact_are_refused_with_the_reason() {
 }
 
 #[test]
+fn segments_beside_a_sweep_are_told_of_both_commands() {
+    let folder = TempDir::new().unwrap();
+    let segments = r#"segments = [{ kind = "step", to = "10 N", duration = "5 s" }]"#;
+    let both = SMALL.replace("mean = \"10 N\"\namplitude = \"5 N\"", segments);
+    let file = write(&folder, "both.toml", &both);
+    for command in ["sweep", "simulate"] {
+        program()
+            .args([command, &file])
+            .assert()
+            .code(2)
+            .stdout("")
+            .stderr(contains("segments in [drive]").and(contains("beside a table [sweep]")))
+            .stderr(contains("`contact-dma simulate ").and(contains("`contact-dma sweep ")))
+            .stderr(contains("unknown key").not());
+    }
+}
+
+#[test]
 fn several_mistakes_are_reported_at_once() {
     refused(
         "radius = \"10 mm\"\n\n[drive]\nmean = \"10 N\"",

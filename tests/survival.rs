@@ -574,10 +574,44 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
     };
     report().success().stdout(contains("Peak: "));
     assert_same(&out, &whole);
+    // Without the losses that locate the peak everything else is drawn, and what the peak takes is said.
+    let peaks = folder.path().join("peaks");
+    fs::rename(out.join("peaks"), &peaks).unwrap();
+    fs::remove_file(out.join("energy-loss.svg")).unwrap();
+    let printed = report().success().get_output().stdout.clone();
+    let printed = String::from_utf8(printed).unwrap();
+    let words = printed.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "Peak not located: losses near ",
+        " have no record in ",
+        "`contact-dma sweep FILE --out ",
+    ] {
+        assert!(words.contains(said), "{printed}");
+    }
+    assert!(!words.contains("nterrupted"), "{printed}");
+    assert!(out.join("energy-loss.svg").exists());
+    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
+    assert!(summary.contains("\"interrupted\": false"), "{summary}");
+    fs::remove_dir_all(out.join("peaks")).unwrap_or_default();
+    fs::rename(&peaks, out.join("peaks")).unwrap();
     // A record that is gone leaves a gap; nothing is solved for it.
     fs::remove_file(out.join("records/0005.json")).unwrap();
     report().code(3).stdout(contains("59 of 60 cases are done"));
     assert!(!out.join("records/0005.json").exists());
+}
+
+#[test]
+fn more_threads_than_any_machine_has_a_use_for_are_not_started() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (few, many) = (folder.path().join("few"), folder.path().join("many"));
+    sweep(&file, &few, &["--quiet", "--threads", "1"]).success();
+    sweep(&file, &many, &["--quiet", "--threads", "100000"]).success();
+    assert_same(&few, &many);
+    let run = fs::read(many.join("run.json")).unwrap();
+    let run: serde_json::Value = serde_json::from_slice(&run).unwrap();
+    let processors = std::thread::available_parallelism().unwrap().get();
+    assert_eq!(run["threads"], 4 * processors);
 }
 
 #[test]

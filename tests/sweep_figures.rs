@@ -11,7 +11,7 @@ use std::sync::atomic::AtomicBool;
 
 use common::{pmma_material, sweep_plan};
 use contact_dma::drive::{Control, HarmonicDrive};
-use contact_dma::indenter::{FlatPunch, Sphere};
+use contact_dma::indenter::{FlatPunch, HeightMap, MapEdge, MapQuantity, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation};
 use contact_dma::report;
 use contact_dma::sweep::case::Setup;
@@ -264,4 +264,51 @@ fn an_earlier_run_that_came_further_leaves_no_figures_beside_new_tables() {
     report::write_sweep(&store, &pmma(&[0.004, 0.008, 0.02]), &interrupted).unwrap();
     assert!(!swept.figures().contains("cole-cole"));
     assert!(swept.figures().contains("loops"));
+}
+
+#[test]
+fn a_map_is_told_by_its_own_cells_whatever_the_plan_asks_for() {
+    let place = |i: usize, n: usize| 40e-6 * (i as f64 - 0.5 * (n as f64 - 1.0));
+    let gap = |k: usize| {
+        let (x, y) = (place(k % 20, 20), place(k / 20, 15));
+        (x * x + y * y) / (2.0 * 10e-3)
+    };
+    let gaps = (0..20 * 15).map(gap).collect();
+    let map = HeightMap::new(
+        (20, 15),
+        (40e-6, 40e-6),
+        gaps,
+        MapQuantity::Gap,
+        MapEdge::Unknown,
+    );
+    let mut plan = sweep_plan(pmma_material(), Arc::new(map.unwrap()), 1.0, 0.5);
+    plan.angular_frequencies_rad_per_s = vec![0.008];
+    plan.cycle.steps = 32;
+    plan.solver.engine = EngineKind::HalfSpace;
+    assert_eq!(plan.solver.cells, 128);
+    let swept = swept(plan);
+    assert_eq!(swept.outcome.records[0].nodes, 20);
+    let caption = fs::read_to_string(swept.folder.path().join("loops.caption.txt")).unwrap();
+    assert!(caption.contains("20 × 15 cells of the map"), "{caption}");
+    assert!(!caption.contains("128"), "{caption}");
+}
+
+#[test]
+fn an_elastic_body_loses_nothing_and_is_not_asked_for_a_wider_sweep() {
+    for engine in [EngineKind::Axisymmetric, EngineKind::HalfSpace] {
+        let relaxation = Relaxation::new(1e9, Vec::new()).unwrap();
+        let body = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap();
+        let mut plan = pmma(&[0.01, 0.1, 1.0]);
+        plan.material = body;
+        plan.cycle.steps = 32;
+        plan.solver.engine = engine;
+        plan.solver.cells = 32;
+        let told = report::terminal::peaks(&plan, &swept(plan.clone()).outcome);
+        assert!(told.contains("an elastic body loses nothing"), "{told}");
+        for record in &swept(plan).outcome.records {
+            // Not -0 either, which a table would show.
+            let loss_j = record.energy_loss_j().unwrap();
+            assert_eq!(loss_j.to_bits(), 0.0_f64.to_bits(), "{engine:?}: {loss_j}");
+        }
+    }
 }

@@ -345,7 +345,7 @@ mod tests {
             let _ = reader.positive_integer(key, 1..=10);
             let _ = reader.string(key);
             let _ = reader.boolean(key);
-            let _ = reader.choice(key, &["load", "approach"]);
+            let _ = reader.choice_of(key, &[("load", ()), ("approach", ())]);
             let _ = reader.quantities(key, Dimension::Time);
             if depth < 3 {
                 let inner = reader.optional_table(key);
@@ -355,7 +355,7 @@ mod tests {
                 }
             }
         }
-        let _ = reader.one_of(&["a", "b"]);
+        let _ = reader.one_of(&[("a", ()), ("b", ())]);
         reader.finish();
     }
 

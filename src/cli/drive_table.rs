@@ -4,6 +4,8 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use super::separator;
+
 /// Points of one table; more would take longer to follow than to measure.
 const MAX_POINTS: usize = 200_000;
 /// Largest file read, bytes.
@@ -51,6 +53,11 @@ fn parse(bytes: &[u8], value_column: &str) -> Result<TableColumns, String> {
             .position(|name| name.trim_start_matches('\u{feff}') == wanted);
         place.ok_or_else(|| {
             let found: Vec<&str> = header.iter().collect();
+            let line = found.join(",");
+            let line = line.trim_start_matches('\u{feff}');
+            if let Some((by, mended)) = separator::other_than_comma(line, |name| name == wanted) {
+                return format!("line 1: the columns are separated by {by}; {}", separator::help(&mended));
+            }
             format!(
                 "line 1: no column `{wanted}` among `{}`; the columns {TIME_COLUMN} and {value_column} are needed",
                 found.join("`, `")
@@ -135,6 +142,14 @@ mod tests {
         let cases = [
             ("time,load_n\n0,1\n", "line 1: no column `time_s`"),
             ("time_s,approach_m\n0,1\n", "line 1: no column `load_n`"),
+            (
+                "time_s;load_n\n0;1,5\n",
+                "line 1: the columns are separated by semicolons; separate columns by commas, as in `time_s,load_n`",
+            ),
+            (
+                "time_s load_n\n0 1\n",
+                "line 1: the columns are separated by spaces",
+            ),
             ("time_s,load_n\n0,1\n1\n", "line 3: 1 cells"),
             (
                 "time_s,load_n\n0,1\n1,two\n",

@@ -150,7 +150,7 @@ impl Asked {
 /// The width: a length, or that of a journal's columns.
 fn width(table: &mut TableReader<'_>, problems: &Problems) -> Option<Option<Located<f64>>> {
     if table.has("column") && table.has("width") {
-        table.one_of(&["width", "column"])?;
+        table.one_of(&[("width", ()), ("column", ())])?;
     }
     if table.has("column") {
         return table.choice_of("column", &COLUMNS).map(Some);

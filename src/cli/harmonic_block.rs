@@ -42,6 +42,12 @@ pub(super) fn read(mut table: TableReader<'_>, problems: &Problems) -> Option<Ha
         .ok()
 }
 
+/// The keys of a frequency: the dimension of each, and the factor from it to rad/s.
+pub(super) const FREQUENCIES: [(&str, (Dimension, f64)); 2] = [
+    ("angular_frequency", (Dimension::AngularFrequency, 1.0)),
+    ("frequency", (Dimension::Frequency, std::f64::consts::TAU)),
+];
+
 /// The dimension of the drive's values.
 pub(super) fn dimension(control: Control) -> Dimension {
     match control {

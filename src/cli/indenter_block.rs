@@ -34,16 +34,29 @@ use crate::indenter::{
 use crate::quantity::Dimension;
 use crate::sweep::resolved;
 
-const SHAPES: [&str; 9] = [
-    "sphere",
-    "cone",
-    "flat-punch",
-    "ellipsoid",
-    "power-law",
-    "profile",
-    "height-map",
-    "asperities",
-    "rough",
+#[derive(Debug, Clone, Copy)]
+enum Shape {
+    Sphere,
+    Cone,
+    FlatPunch,
+    Ellipsoid,
+    PowerLaw,
+    Profile,
+    HeightMap,
+    Asperities,
+    Rough,
+}
+
+const SHAPES: [(&str, Shape); 9] = [
+    ("sphere", Shape::Sphere),
+    ("cone", Shape::Cone),
+    ("flat-punch", Shape::FlatPunch),
+    ("ellipsoid", Shape::Ellipsoid),
+    ("power-law", Shape::PowerLaw),
+    ("profile", Shape::Profile),
+    ("height-map", Shape::HeightMap),
+    ("asperities", Shape::Asperities),
+    ("rough", Shape::Rough),
 ];
 
 /// More asperities than this are a height map.
@@ -67,18 +80,18 @@ pub(super) fn read(table: TableReader<'_>, folder: &Path, problems: &Problems) -
         folder,
         problems,
     };
-    let shape = block.table.choice("shape", &SHAPES)?;
+    let shape = block.table.choice_of("shape", &SHAPES)?;
     let offset = block.offset();
     let made = match shape.value {
-        "sphere" => block.single("radius", Dimension::Length, "10 mm", Sphere::new),
-        "cone" => block.single("half_angle", Dimension::Angle, "70 deg", Cone::new),
-        "flat-punch" => block.single("radius", Dimension::Length, "10 mm", FlatPunch::new),
-        "ellipsoid" => block.ellipsoid(&shape),
-        "power-law" => block.power_law(&shape),
-        "profile" => block.profile(),
-        "height-map" => block.height_map(),
-        "asperities" => block.asperities(),
-        _ => block.rough(&shape),
+        Shape::Sphere => block.single("radius", Dimension::Length, "10 mm", Sphere::new),
+        Shape::Cone => block.single("half_angle", Dimension::Angle, "70 deg", Cone::new),
+        Shape::FlatPunch => block.single("radius", Dimension::Length, "10 mm", FlatPunch::new),
+        Shape::Ellipsoid => block.ellipsoid(&shape),
+        Shape::PowerLaw => block.power_law(&shape),
+        Shape::Profile => block.profile(),
+        Shape::HeightMap => block.height_map(),
+        Shape::Asperities => block.asperities(),
+        Shape::Rough => block.rough(&shape),
     };
     block.table.finish();
     let (made, offset) = (made?, offset?);
@@ -178,12 +191,12 @@ impl Block<'_> {
         Some(Some((x.value, y.value)))
     }
 
-    fn ellipsoid(&mut self, shape: &Located<&str>) -> Made {
+    fn ellipsoid(&mut self, shape: &Located<Shape>) -> Made {
         let (x_m, y_m) = (self.length("radius_x"), self.length("radius_y"));
         self.made(shape, Ellipsoid::new(x_m?, y_m?))
     }
 
-    fn power_law(&mut self, shape: &Located<&str>) -> Made {
+    fn power_law(&mut self, shape: &Located<Shape>) -> Made {
         let exponent = self.table.number("exponent");
         let (radius_m, height_m) = (self.length("radius"), self.length("height"));
         let (exponent, radius_m, height_m) = (exponent?, radius_m?, height_m?);
@@ -234,7 +247,7 @@ impl Block<'_> {
         self.made(&place, Asperities::new(all?))
     }
 
-    fn rough(&mut self, shape: &Located<&str>) -> Made {
+    fn rough(&mut self, shape: &Located<Shape>) -> Made {
         let cells = self.table.positive_integer("cells", ROUGH_CELLS);
         let spacing_m = self.length("spacing");
         let hurst = self.table.number("hurst_exponent");

@@ -13,15 +13,33 @@ use crate::material::{
 use crate::quantity::Dimension;
 use crate::sweep::body_material::BodyMaterial;
 
+/// A way to give a material.
+#[derive(Debug, Clone, Copy)]
+enum Form {
+    Library,
+    Table(TableForm),
+}
+
+/// A way that is a table of its own.
+#[derive(Debug, Clone, Copy)]
+enum TableForm {
+    Relaxation,
+    Creep,
+    Maxwell,
+    Zener,
+    KelvinVoigt,
+    Measured,
+}
+
 /// The ways to give a material; exactly one of them.
-const BLOCKS: [&str; 7] = [
-    "library",
-    "relaxation",
-    "creep",
-    "maxwell",
-    "zener",
-    "kelvin_voigt",
-    "table",
+const FORMS: [(&str, Form); 7] = [
+    ("library", Form::Library),
+    ("relaxation", Form::Table(TableForm::Relaxation)),
+    ("creep", Form::Table(TableForm::Creep)),
+    ("maxwell", Form::Table(TableForm::Maxwell)),
+    ("zener", Form::Table(TableForm::Zener)),
+    ("kelvin_voigt", Form::Table(TableForm::KelvinVoigt)),
+    ("table", Form::Table(TableForm::Measured)),
 ];
 
 pub(super) const KINDS: [(&str, ModulusKind); 2] = [
@@ -67,15 +85,15 @@ pub(super) fn read_body(
         return None;
     }
     let asked_for_nu = block.has("poisson_ratio");
-    let chosen = block.one_of(&BLOCKS);
+    let chosen = block.one_of(&FORMS);
     let measured = measured(&mut block, problems, chosen);
     let material = match chosen {
-        Some("library") => {
+        Some((_, Form::Library)) => {
             let nu = poisson_ratio.map(|nu| nu.value);
             from_library(&mut block, problems, nu).map(BodyMaterial::from)
         }
-        Some(key) => {
-            let material = from_block(&mut block, folder, direct_sum, problems, key);
+        Some((key, Form::Table(form))) => {
+            let material = from_block(&mut block, folder, direct_sum, problems, (key, form));
             match (material, &poisson_ratio) {
                 (Some(build), Some(nu)) => at_block(&mut block, problems, key, build(nu.value)),
                 (_, None) if !asked_for_nu => {
@@ -88,7 +106,7 @@ pub(super) fn read_body(
         }
         None => None,
     };
-    let place = chosen.and_then(|key| block.key_location(key));
+    let place = chosen.and_then(|(key, _)| block.key_location(key));
     if chosen.is_some() {
         block.finish();
     }
@@ -138,13 +156,13 @@ fn from_library(
 fn measured(
     block: &mut TableReader<'_>,
     problems: &Problems,
-    chosen: Option<&str>,
+    chosen: Option<(&str, Form)>,
 ) -> Option<Option<(f64, f64)>> {
     if !block.has("measured") {
         return Some(None);
     }
     let times = block.quantities("measured", Dimension::Time)?;
-    if let Some(key @ ("library" | "table")) = chosen {
+    if let Some((key, Form::Library | Form::Table(TableForm::Measured))) = chosen {
         problems
             .at(&times, format!("`{key}` says itself when it was measured"))
             .help("leave out `measured`");
@@ -177,30 +195,36 @@ fn from_block(
     folder: &Path,
     direct_sum: DirectSum,
     problems: &Problems,
-    key: &str,
+    (key, form): (&str, TableForm),
 ) -> Option<Build> {
     let mut table = block.table(key)?;
-    let build: Option<Build> = match key {
-        "relaxation" => {
+    let build: Option<Build> = match form {
+        TableForm::Relaxation => {
             let kind = table.choice_of("modulus", &KINDS).map(|kind| kind.value);
             with_alternatives(block, &mut table, problems, |table| {
                 relaxation(table, problems, kind)
             })
         }
-        "creep" => {
+        TableForm::Creep => {
             let kind = table.choice_of("compliance", &KINDS).map(|kind| kind.value);
             with_alternatives(block, &mut table, problems, |table| {
                 creep(table, problems, kind)
             })
         }
-        "table" => material_table::read(&mut table, folder, direct_sum, problems).map(of_table),
-        "maxwell" => pair(&mut table, problems, "modulus").map(|[modulus, time]| -> Build {
-            Box::new(move |nu| series(Maxwell::new(modulus, time)?.material(nu)))
-        }),
-        "kelvin_voigt" => pair(&mut table, problems, "spring").map(|[spring, time]| -> Build {
-            Box::new(move |nu| series(KelvinVoigt::new(spring, time)?.material(nu)))
-        }),
-        _ => zener(&mut table, problems),
+        TableForm::Measured => {
+            material_table::read(&mut table, folder, direct_sum, problems).map(of_table)
+        }
+        TableForm::Maxwell => {
+            pair(&mut table, problems, "modulus").map(|[modulus, time]| -> Build {
+                Box::new(move |nu| series(Maxwell::new(modulus, time)?.material(nu)))
+            })
+        }
+        TableForm::KelvinVoigt => {
+            pair(&mut table, problems, "spring").map(|[spring, time]| -> Build {
+                Box::new(move |nu| series(KelvinVoigt::new(spring, time)?.material(nu)))
+            })
+        }
+        TableForm::Zener => zener(&mut table, problems),
     };
     table.finish();
     build

@@ -40,6 +40,15 @@ enum Evaluation {
 const EVALUATIONS: [(&str, Evaluation); 2] =
     [("fit", Evaluation::Fit), ("direct", Evaluation::Direct)];
 
+/// Where the values of a table stand.
+#[derive(Debug, Clone, Copy)]
+enum Source {
+    File,
+    WrittenOut,
+}
+
+const SOURCES: [(&str, Source); 2] = [("file", Source::File), ("times", Source::WrittenOut)];
+
 /// The material of a table, but for its Poisson ratio.
 pub(super) enum TableMaterial {
     /// As a series, with the report of the fit.
@@ -55,7 +64,7 @@ pub(super) fn read(
     direct_sum: DirectSum,
     problems: &Problems,
 ) -> Option<TableMaterial> {
-    let source = table.one_of(&["file", "times"]);
+    let source = table.one_of(&SOURCES);
     let face = table.choice_of("quantity", &table_file::QUANTITIES);
     let kind = table.choice_of("modulus", &KINDS);
     let evaluation = table.choice_of_or("evaluation", &EVALUATIONS, Evaluation::Fit);
@@ -78,9 +87,9 @@ pub(super) fn read(
         // In its place beside `times`, which was reported.
         table.has("values");
     }
-    let data = match source? {
-        "file" => from_file(table, folder, face, kind, problems),
-        _ => written_out(table, face, kind, problems),
+    let data = match source?.1 {
+        Source::File => from_file(table, folder, face, kind, problems),
+        Source::WrittenOut => written_out(table, face, kind, problems),
     };
     let (data, evaluation) = (data?, evaluation?.value);
     // A problem with the key was reported.

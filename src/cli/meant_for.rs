@@ -1,4 +1,5 @@
-//! Sweeps given to `simulate`, and scenarios given to `sweep`: one sentence instead of a list of keys that do not fit.
+//! Sweeps given to `simulate`, scenarios given to `sweep`, and files that are both: one sentence instead of a list of keys that
+//! do not fit.
 
 use std::path::Path;
 
@@ -8,22 +9,33 @@ use super::document::Document;
 
 /// Refuses a scenario.
 pub(super) fn sweep(document: &Document, file: &Path) -> Result<(), Failure> {
-    match !has_sweep(document) && has_segments(document) {
-        true => Err(other(
+    match (has_sweep(document), has_segments(document)) {
+        (false, true) => Err(other(
             file,
             "a scenario: its [drive] has segments",
             "simulate",
         )),
-        false => Ok(()),
+        (true, true) => Err(both(file)),
+        (_, false) => Ok(()),
     }
 }
 
 /// Refuses a sweep.
 pub(super) fn simulate(document: &Document, file: &Path) -> Result<(), Failure> {
-    match has_sweep(document) && !has_segments(document) {
-        true => Err(other(file, "a sweep: it has a table [sweep]", "sweep")),
-        false => Ok(()),
+    match (has_sweep(document), has_segments(document)) {
+        (true, false) => Err(other(file, "a sweep: it has a table [sweep]", "sweep")),
+        (true, true) => Err(both(file)),
+        (false, _) => Ok(()),
     }
+}
+
+fn both(file: &Path) -> Failure {
+    let file = file.display();
+    Failure::Input(format!(
+        "{file} has segments in [drive], which are a scenario, beside a table [sweep]\n\
+         = help: for one history leave out [sweep] and [cycle] and run `contact-dma simulate {file}`;\n\
+         \x20       for a sweep give [drive] a mean and an amplitude in place of segments and run `contact-dma sweep {file}`"
+    ))
 }
 
 fn has_sweep(document: &Document) -> bool {

@@ -23,6 +23,7 @@ mod progress;
 mod reproduce;
 pub mod scenario_file;
 mod segments_block;
+mod separator;
 mod simulate;
 mod stored;
 mod sweep;

@@ -18,6 +18,7 @@ use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
 use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::run::useful_threads;
 
 const DEFAULT_FOLDER: &str = "reports/spinu-2018";
 
@@ -43,7 +44,7 @@ pub(super) struct ReproduceFlags {
     /// sweep file does; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
-    /// Number of threads [default: one per processor]; the results do not depend on it
+    /// Number of threads [default: one per processor; at most four]; the results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
     /// Print nothing but errors
@@ -75,10 +76,7 @@ pub(super) fn run(flags: &ReproduceFlags) -> Result<Ended, Failure> {
     } else {
         flags.figures.clone()
     };
-    let threads = flags.threads.map_or_else(
-        || std::thread::available_parallelism().map_or(1, usize::from),
-        NonZeroUsize::get,
-    );
+    let threads = useful_threads(flags.threads);
     let interrupt = interrupt_flag()?;
     let finished = |number: u8| {
         if !flags.quiet {

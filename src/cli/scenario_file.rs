@@ -4,7 +4,7 @@ use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Located, TableReader};
 use super::figures_block::{self, Figures};
 use super::material_table::DirectSum;
-use super::sweep_file::{CELLS, default_solver, on_own_cells, optional, solver};
+use super::sweep_file::{CELLS, default_solver, optional, solver};
 use super::{indenter_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::quantity::{Dimension, format_human};
@@ -58,7 +58,6 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
             solver: solver?,
             figures: FigurePlan::default(),
         };
-        plan.solver = on_own_cells(plan.solver, plan.indenter.as_ref());
         let scale = || ElasticScale::of_scenario(&plan).map(drop);
         plan.figures = figures.checked(scale, &problems)?;
         Some(plan)

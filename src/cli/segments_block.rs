@@ -5,14 +5,38 @@ use std::path::Path;
 use super::diagnostic::{Location, Problems};
 use super::document::{Located, TableReader};
 use super::drive_table;
-use super::harmonic_block::{CONTROLS, dimension};
+use super::harmonic_block::{CONTROLS, FREQUENCIES, dimension};
 use crate::drive::{Control, HistoryError, Segment, SegmentProblem, SegmentedDrive};
 use crate::quantity::Dimension;
 
 /// More segments than this belong into a table.
 const MAX_SEGMENTS: usize = 10_000;
 
-const KINDS: [&str; 5] = ["step", "ramp", "polynomial", "sine", "table"];
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    Step,
+    Ramp,
+    Polynomial,
+    Sine,
+    Table,
+}
+
+const KINDS: [(&str, Kind); 5] = [
+    ("step", Kind::Step),
+    ("ramp", Kind::Ramp),
+    ("polynomial", Kind::Polynomial),
+    ("sine", Kind::Sine),
+    ("table", Kind::Table),
+];
+
+/// Where the values of a table stand.
+#[derive(Debug, Clone, Copy)]
+enum Source {
+    File,
+    WrittenOut,
+}
+
+const SOURCES: [(&str, Source); 2] = [("file", Source::File), ("times", Source::WrittenOut)];
 
 /// A segment, and where the part of it stands that most of its problems come from.
 struct Placed {
@@ -81,19 +105,19 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn segment(&self, mut table: TableReader<'_>) -> Option<Placed> {
-        let kind = table.choice("kind", &KINDS)?.value;
+        let kind = table.choice_of("kind", &KINDS)?.value;
         let placed = match kind {
-            "step" => self.to(&mut table, |to, duration_s| Segment::Step {
+            Kind::Step => self.to(&mut table, |to, duration_s| Segment::Step {
                 to,
                 duration_s,
             }),
-            "ramp" => self.to(&mut table, |to, duration_s| Segment::Ramp {
+            Kind::Ramp => self.to(&mut table, |to, duration_s| Segment::Ramp {
                 to,
                 duration_s,
             }),
-            "polynomial" => self.polynomial(&mut table),
-            "sine" => self.sine(&mut table),
-            _ => self.table(&mut table),
+            Kind::Polynomial => self.polynomial(&mut table),
+            Kind::Sine => self.sine(&mut table),
+            Kind::Table => self.table(&mut table),
         };
         table.finish();
         placed
@@ -145,12 +169,8 @@ impl Reader<'_> {
         let amplitude = table.quantity("amplitude", dimension(self.control));
         let place = amplitude.as_ref().map(|a| a.location.clone());
         let amplitude = self.positive(amplitude, "an amplitude");
-        let key = table.one_of(&["angular_frequency", "frequency"]);
-        let frequency = key.and_then(|key| {
-            let (dimension, to_angular) = match key {
-                "frequency" => (Dimension::Frequency, std::f64::consts::TAU),
-                _ => (Dimension::AngularFrequency, 1.0),
-            };
+        let key = table.one_of(&FREQUENCIES);
+        let frequency = key.and_then(|(key, (dimension, to_angular))| {
             let value = self.positive(table.quantity(key, dimension), "a frequency");
             value.map(|value| value * to_angular)
         });
@@ -169,19 +189,27 @@ impl Reader<'_> {
     }
 
     fn table(&self, table: &mut TableReader<'_>) -> Option<Placed> {
-        if table.one_of(&["file", "times"])? == "times" {
-            let times = table.quantities("times", Dimension::Time);
-            let values = table.quantities("values", dimension(self.control));
-            let (times, values) = (times?, values?);
-            let plain = |list: &[Located<f64>]| list.iter().map(|v| v.value).collect();
-            return Some(Placed {
-                segment: Segment::Table {
-                    times_s: plain(&times.value),
-                    values: plain(&values.value),
-                },
-                place: values.location,
-            });
+        match table.one_of(&SOURCES)?.1 {
+            Source::File => self.table_of_file(table),
+            Source::WrittenOut => self.table_written_out(table),
         }
+    }
+
+    fn table_written_out(&self, table: &mut TableReader<'_>) -> Option<Placed> {
+        let times = table.quantities("times", Dimension::Time);
+        let values = table.quantities("values", dimension(self.control));
+        let (times, values) = (times?, values?);
+        let plain = |list: &[Located<f64>]| list.iter().map(|v| v.value).collect();
+        Some(Placed {
+            segment: Segment::Table {
+                times_s: plain(&times.value),
+                values: plain(&values.value),
+            },
+            place: values.location,
+        })
+    }
+
+    fn table_of_file(&self, table: &mut TableReader<'_>) -> Option<Placed> {
         let file = table.string("file")?;
         let column = match self.control {
             Control::Load => "load_n",

@@ -8,7 +8,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use super::arguments::SimulateFlags;
 use super::plan::{megabytes, nodes};
-use super::sweep::{interrupt_flag, threads};
+use super::sweep::interrupt_flag;
 use super::{Ended, Failure, meant_for, memory, open_document, open_store, print, scenario_file};
 use crate::report::{self, terminal_simulation};
 use crate::sweep::history_checkpoint::{Found, HistoryCheckpoint, Stand};
@@ -38,7 +38,7 @@ pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
     let stand = found(&checkpoint, simulation.moments(), flags.quiet);
     let bar = bar(simulation.moments(), flags.quiet);
     memory::warn_if_short(simulation.predicted_memory_bytes(), 1);
-    let pool = run::pool(threads(flags.threads)).map_err(Failure::run)?;
+    let pool = run::pool(run::useful_threads(flags.threads)).map_err(Failure::run)?;
     let (outcome, checkpoint) = pool.install({
         let (simulation, interrupt, bar) = (&simulation, &interrupt, &bar);
         move || {

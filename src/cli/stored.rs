@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::arguments::{MergeFlags, OutputFormat, ReportFlags};
 use super::document::Document;
 use super::progress::Shown;
-use super::sweep::{Job, failure, interrupt_flag, threads};
+use super::sweep::{Job, failure, interrupt_flag};
 use super::{Ended, Failure, sweep_file};
 use crate::sweep::case::Setup;
 use crate::sweep::difference;
@@ -54,7 +54,7 @@ pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
     }
     let interrupt = interrupt_flag()?;
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
-    let options = Options::on_threads(threads(flags.threads));
+    let options = Options::on_threads(run::useful_threads(flags.threads));
     let outcome = run::run_with(&setup, &out, &options, &interrupt, &progress);
     progress.finish();
     let job = Job {

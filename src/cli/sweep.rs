@@ -1,6 +1,5 @@
 //! `contact-dma sweep`: from a sweep file to the folder of results.
 
-use std::num::NonZeroUsize;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -35,7 +34,7 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
     let interrupt = interrupt_flag()?;
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
     let options = Options {
-        threads: threads(flags.threads),
+        threads: run::useful_threads(flags.threads),
         checkpoint_every: Duration::from_secs(flags.checkpoint_every),
     };
     memory::warn_if_short(setup.predicted_memory_bytes(), options.threads);
@@ -58,14 +57,6 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
     progress.finish();
     job.found = progress.found();
     job.finish(&outcome.map_err(failure)?)
-}
-
-/// The number of threads asked for, or one per processor.
-pub(super) fn threads(asked: Option<NonZeroUsize>) -> usize {
-    match asked {
-        Some(threads) => threads.get(),
-        None => std::thread::available_parallelism().map_or(1, usize::from),
-    }
 }
 
 /// A folder whose contents must not be used is an input that is wrong; anything else that stops a run is not.

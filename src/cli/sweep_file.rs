@@ -71,7 +71,6 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
             solver: solver?,
             figures: FigurePlan::default(),
         };
-        plan.solver = on_own_cells(plan.solver, plan.indenter.as_ref());
         let scale = || ElasticScale::of_sweep(&plan).map(drop);
         plan.figures = figures.checked(scale, &problems)?;
         Some(plan)
@@ -88,17 +87,6 @@ pub(super) fn default_solver(indenter: Option<&dyn Indenter>) -> SolverPlan {
     SolverPlan {
         engine,
         ..SolverPlan::default()
-    }
-}
-
-/// The solver with the cells that an indenter brings, where it brings any.
-pub(super) fn on_own_cells(solver: SolverPlan, indenter: &dyn Indenter) -> SolverPlan {
-    match indenter.own_cells() {
-        Some((cells_x, cells_y)) => SolverPlan {
-            cells: cells_x.max(cells_y),
-            ..solver
-        },
-        None => solver,
     }
 }
 
@@ -197,7 +185,8 @@ fn varied(
     drive: &HarmonicDrive,
     problems: &Problems,
 ) -> Option<DriveAxis> {
-    let key = table.one_of(&["amplitude", "mean"])?;
+    let (key, varied) =
+        table.one_of(&[("amplitude", Varied::Amplitude), ("mean", Varied::Mean)])?;
     let dimension = harmonic_block::dimension(drive.control());
     let location = table.key_location(key);
     let values = match table.form(key) {
@@ -208,10 +197,6 @@ fn varied(
     };
     table.finish();
     let (values, location) = (values?, location?);
-    let varied = match key {
-        "amplitude" => Varied::Amplitude,
-        _ => Varied::Mean,
-    };
     let mut drives = Vec::with_capacity(values.len());
     for value in values {
         let (mean, amplitude) = match varied {
@@ -232,11 +217,7 @@ fn varied(
 
 /// Angular frequencies in rad/s, ascending.
 fn frequencies(table: &mut TableReader<'_>, problems: &Problems) -> Option<Vec<f64>> {
-    let key = table.one_of(&["angular_frequency", "frequency"])?;
-    let (dimension, to_angular) = match key {
-        "frequency" => (Dimension::Frequency, std::f64::consts::TAU),
-        _ => (Dimension::AngularFrequency, 1.0),
-    };
+    let (key, (dimension, to_angular)) = table.one_of(&harmonic_block::FREQUENCIES)?;
     let values = match table.form(key) {
         Some(Form::Table) => table
             .table(key)
@@ -291,6 +272,14 @@ fn spoken(key: &str) -> String {
     key.replace('_', " ")
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Spacing {
+    Logarithmic,
+    Linear,
+}
+
+const SPACINGS: [(&str, Spacing); 2] = [("log", Spacing::Logarithmic), ("linear", Spacing::Linear)];
+
 fn range(
     mut table: TableReader<'_>,
     problems: &Problems,
@@ -300,7 +289,7 @@ fn range(
     let from = table.quantity("from", dimension);
     let to = table.quantity("to", dimension);
     let points = table.positive_integer("points", 1..=MAX_POINTS);
-    let spacing = table.choice_or("spacing", &["log", "linear"], "log");
+    let spacing = table.choice_of_or("spacing", &SPACINGS, Spacing::Logarithmic);
     table.finish();
     let (from, to, points, spacing) = (from?, to?, points?, spacing?);
     let what = spoken(key);
@@ -324,25 +313,22 @@ fn range(
             .help("for one point write a list with one entry");
         return None;
     }
-    Some(spaced(
-        from.value,
-        to.value,
-        points.value,
-        spacing.value == "log",
-    ))
+    Some(spaced(from.value, to.value, points.value, spacing.value))
 }
 
 /// `points` values from `from` to `to`, both exact.
-fn spaced(from: f64, to: f64, points: usize, logarithmic: bool) -> Vec<f64> {
+fn spaced(from: f64, to: f64, points: usize, spacing: Spacing) -> Vec<f64> {
     let last = points - 1;
     let between = |a: f64, b: f64, i: usize| a + (b - a) * i as f64 / last as f64;
     (0..points)
         .map(|i| match i {
             0 => from,
             _ if i == last => to,
-            // Through decimal logarithms, so that decades come out as written.
-            _ if logarithmic => 10_f64.powf(between(from.log10(), to.log10(), i)),
-            _ => between(from, to, i),
+            _ => match spacing {
+                // Through decimal logarithms, so that decades come out as written.
+                Spacing::Logarithmic => 10_f64.powf(between(from.log10(), to.log10(), i)),
+                Spacing::Linear => between(from, to, i),
+            },
         })
         .collect()
 }

@@ -12,6 +12,7 @@ use std::sync::Arc;
 
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use super::document::{cannot_read, not_utf8};
+use super::separator;
 use crate::material::tabulated::{TableColumn, TableError, Tabulated};
 use crate::material::{GivenFace, ModulusKind};
 
@@ -171,6 +172,11 @@ fn column(
         [] => {
             let known: Vec<String> = names.iter().map(|(name, _)| format!("`{name}`")).collect();
             let line = Location::new(source, header.span.clone());
+            let is_wanted = |name: &str| {
+                let name = name.to_ascii_lowercase();
+                names.iter().any(|(known, _)| *known == name)
+            };
+            let separated = separator::other_than_comma(line.text(), is_wanted);
             let missing = Diagnostic::at(&line, format!("no column `{}`", names[0].0));
             let (word, other) = other(face.unwrap_or(GivenFace::Creep));
             Err(if face.is_some() && !find(&value_names(other)).is_empty() {
@@ -179,8 +185,10 @@ fn column(
                 missing
                     .because("numbers")
                     .help("begin the table with a line of column names")
-            } else if header.cells.len() == 1 && header.cells[0].text.contains([';', '\t']) {
-                missing.help("separate columns by commas, and write a decimal point")
+            } else if let Some((found, mended)) = separated {
+                missing
+                    .because(format!("separated by {found}"))
+                    .help(separator::help(&mended))
             } else {
                 missing.help(format!("name the column of {what} {}", known.join(" or ")))
             })
@@ -430,9 +438,20 @@ mod tests {
          --> data.csv:1:1
           |
         1 | time_s;creep_compliance_per_pa
-          | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
+          | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ separated by semicolons
           |
-          = help: separate columns by commas, and write a decimal point
+          = help: separate columns by commas, as in `time_s,creep_compliance_per_pa`,
+                  and write a decimal point
+        ");
+        insta::assert_snapshot!(refusal("time_s creep_compliance_per_pa\n0 4e-10\n"), @r"
+        error: no column `time_s`
+         --> data.csv:1:1
+          |
+        1 | time_s creep_compliance_per_pa
+          | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ separated by spaces
+          |
+          = help: separate columns by commas, as in `time_s,creep_compliance_per_pa`,
+                  and write a decimal point
         ");
         insta::assert_snapshot!(refusal("time,time_s,creep_compliance_per_pa\n"), @r"
         error: the table has two columns of times

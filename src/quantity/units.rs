@@ -151,6 +151,26 @@ const WORDS: [(&str, &str); 18] = [
     ("angstrom", "Å"),
 ];
 
+/// Units that are not read, and what one of them is in units that are.
+const FOREIGN: [(&str, &str); 9] = [
+    ("kgf", "9.80665 N"),
+    ("kp", "9.80665 N"),
+    ("gf", "9.80665 mN"),
+    ("lbf", "4.4482216 N"),
+    ("dyn", "10 µN"),
+    ("bar", "0.1 MPa"),
+    ("psi", "6894.7573 Pa"),
+    ("ksi", "6.8947573 MPa"),
+    ("inch", "25.4 mm"),
+];
+
+/// What one of a unit that is not read is in units that are.
+pub(super) fn conversion(unknown: &str) -> Option<&'static str> {
+    let lower = unknown.to_lowercase();
+    let known = FOREIGN.iter().find(|(unit, _)| *unit == lower);
+    known.map(|(_, equal)| *equal)
+}
+
 /// The prefix of a power of ten, empty for one that has none.
 pub(super) fn prefix_symbol(power: i32) -> &'static str {
     PREFIXES

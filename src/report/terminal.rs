@@ -170,7 +170,8 @@ pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
         );
     }
     for problem in &outcome.peak_problems {
-        let _ = writeln!(text, "Peak not located: {problem}");
+        let line = format!("Peak not located: {problem}");
+        text.push_str(&wrapped(&line, 80, "", "  "));
     }
     if text.is_empty() && !outcome.interrupted {
         text.push_str(no_peak(plan, outcome));
@@ -182,6 +183,8 @@ fn no_peak(plan: &SweepPlan, outcome: &Outcome) -> &'static str {
     let converged = outcome.count(Status::Converged);
     if converged == 0 {
         "No peak: no case converged.\n"
+    } else if outcome.retardation_times_s().is_empty() {
+        "No peak: the material has no branches; an elastic body loses nothing.\n"
     } else if plan.angular_frequencies_rad_per_s.len() < 3 {
         "No peak: it takes at least three frequencies to enclose one.\n"
     } else {

@@ -140,16 +140,11 @@ fn largest(
         let losses = omegas
             .iter()
             .map(|&omega| by_sweep(plan, omega, 1, interrupt));
-        let losses: Result<Vec<search::Loss>, _> = losses
-            .map(|r| Ok::<_, ReproductionError>((r?.analysis.energy_loss_j, None)))
-            .collect();
-        losses.map_err(|error| search::PeakError::Case {
-            angular_frequency_rad_per_s: bracket[1].0,
-            reason: error.to_string(),
-        })
+        losses
+            .map(|result| Ok((result?.analysis.energy_loss_j, None)))
+            .collect()
     };
-    let found = search::refine(&bracket, &losses)
-        .map_err(|error| ReproductionError::Unfit(error.to_string()))?;
+    let found = search::refine::<ReproductionError>(&bracket, &losses)?;
     // The loss is flat about its maximum: the refined one nearest to it is as large.
     Ok((found.angular_frequency_rad_per_s, bracket[1].1))
 }

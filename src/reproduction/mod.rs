@@ -52,7 +52,9 @@ use crate::sweep::case::SetupError;
 use crate::sweep::engines::{AsContactError, EngineError};
 use crate::sweep::figure_plan::{FigurePlan, Format};
 use crate::sweep::files;
+use crate::sweep::peak::PeakError;
 use crate::sweep::plan::SweepPlan;
+use crate::sweep::run::{self, RunError};
 use crate::sweep::scenario::ScenarioPlan;
 use crate::sweep::simulate::SimulationError;
 use crate::sweep::store::{StoreError, write_atomically};
@@ -125,9 +127,11 @@ pub enum ReproductionError {
     #[error(transparent)]
     Chart(#[from] ChartError),
     #[error(transparent)]
+    Peak(#[from] PeakError),
+    #[error(transparent)]
     Store(#[from] StoreError),
-    #[error("cannot start {threads} threads: {reason}")]
-    Threads { threads: usize, reason: String },
+    #[error(transparent)]
+    Run(#[from] RunError),
     #[error("interrupted")]
     Interrupted,
 }
@@ -167,7 +171,7 @@ impl Figure {
         let numbers: Vec<String> = self
             .claims
             .iter()
-            .filter(|claim| claim.exact != claim::Value::Difference)
+            .filter(|claim| !claim.exact_text().is_empty())
             .take(NUMBERS_IN_CAPTION)
             .map(|claim| format!("{}: {}", claim.quantity, claim.exact_text()))
             .collect();
@@ -227,13 +231,7 @@ pub fn make(
     interrupt: &AtomicBool,
     finished: &(dyn Fn(u8) + Sync),
 ) -> Result<Vec<Figure>, ReproductionError> {
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|error| ReproductionError::Threads {
-            threads,
-            reason: error.to_string(),
-        })?;
+    let pool = run::pool(threads)?;
     let wanted = |numbers: &[u8]| numbers.iter().any(|number| figures.contains(number));
     let made: Vec<Vec<Figure>> = pool.install(|| {
         let makers = MAKERS.par_iter().with_max_len(1);

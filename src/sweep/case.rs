@@ -115,7 +115,8 @@ impl Setup {
     /// # Errors
     /// [`SetupError`] where the material cannot make a contact or has no stabilised cycle, or the engine cannot treat the
     /// indenter.
-    pub fn new(plan: SweepPlan) -> Result<Self, SetupError> {
+    pub fn new(mut plan: SweepPlan) -> Result<Self, SetupError> {
+        plan.solver = plan.solver.on_own_cells(plan.indenter.as_ref());
         let compliance = plan.material.contact_compliance()?;
         let relaxed_compliance_per_pa = compliance
             .equilibrium_compliance()

@@ -1,7 +1,5 @@
 //! Peaks of the curves that a sweep has sampled: bracketed by its cases, then located by solving between them.
 
-use std::cell::RefCell;
-
 use crate::drive::HarmonicDrive;
 use crate::sweep::case::{Aim, Resolution};
 use crate::sweep::peak::{self, Loss, PeakError, Point};
@@ -11,9 +9,28 @@ use crate::sweep::run::Outcome;
 use crate::sweep::search::Search;
 use crate::sweep::store::StoreError;
 
+/// Why a peak that the cases bracket has no place.
+#[derive(Debug, thiserror::Error)]
+enum LocateError {
+    #[error(transparent)]
+    Peak(#[from] PeakError),
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    #[error("interrupted")]
+    Interrupted,
+    #[error(
+        "losses near {angular_frequency_rad_per_s:.4e} rad/s that it takes have no record in {folder}, and none is computed \
+         here: `contact-dma sweep FILE --out {folder}` with the file of this sweep computes them"
+    )]
+    NoRecords {
+        angular_frequency_rad_per_s: f64,
+        folder: String,
+    },
+}
+
 impl Search<'_> {
-    /// Locates the peaks of every curve; false where it was interrupted, or a case that it takes has no record and none is
-    /// solved.
+    /// Locates the peaks of every curve; false where it was interrupted. Where nothing is solved, a peak whose losses have no
+    /// records is a peak that was not located.
     pub fn locate_peaks(&self, outcome: &mut Outcome) -> Result<bool, StoreError> {
         let plan = self.setup.plan();
         let brackets: Vec<Bracket> = (plan.drives().iter())
@@ -22,14 +39,8 @@ impl Search<'_> {
         self.progress.locating_peaks(brackets.len());
         let mut whole = true;
         for bracket in &brackets {
-            let failed = RefCell::new(None);
-            let losses = |omegas: &[f64]| self.losses_at(bracket, omegas, &failed);
-            let found = peak::refine(&bracket.points, &losses);
-            if let Some(error) = failed.into_inner() {
-                return Err(error);
-            }
-            whole &= found != Err(PeakError::Interrupted);
-            match found {
+            let losses = |omegas: &[f64]| self.losses_at(bracket, omegas);
+            match peak::refine(&bracket.points, &losses) {
                 Ok(mut found) => {
                     if plan.axis.is_some() {
                         found.drive_mean = Some(bracket.drive.mean());
@@ -37,33 +48,34 @@ impl Search<'_> {
                     }
                     outcome.peaks.push(found);
                 }
-                Err(error) => outcome.peak_problems.push(error.to_string()),
+                Err(LocateError::Store(error)) => return Err(error),
+                Err(LocateError::Interrupted) => whole = false,
+                Err(error @ (LocateError::Peak(_) | LocateError::NoRecords { .. })) => {
+                    outcome.peak_problems.push(error.to_string());
+                }
             }
         }
         (outcome.peaks).sort_by(|a, b| b.energy_loss_j.total_cmp(&a.energy_loss_j));
         Ok(whole)
     }
 
-    /// Losses at frequencies inside a bracket. `failed` receives an error of the folder.
-    fn losses_at(
-        &self,
-        bracket: &Bracket,
-        omegas: &[f64],
-        failed: &RefCell<Option<StoreError>>,
-    ) -> Result<Vec<Loss>, PeakError> {
+    /// Losses at frequencies inside a bracket.
+    fn losses_at(&self, bracket: &Bracket, omegas: &[f64]) -> Result<Vec<Loss>, LocateError> {
         let case = |(index, omega): (usize, &f64)| Case {
             index,
             angular_frequency_rad_per_s: *omega,
             drive: bracket.drive,
         };
         let cases: Vec<Case> = omegas.iter().enumerate().map(case).collect();
-        let records = self.records_of(Aim::Loss(bracket.resolution), &cases);
-        let records = records.map_err(|error| {
-            failed.replace(Some(error));
-            PeakError::Interrupted
-        })?;
+        let records = self.records_of(Aim::Loss(bracket.resolution), &cases)?;
         if records.len() < omegas.len() {
-            return Err(PeakError::Interrupted);
+            return Err(match self.checkpoint_every {
+                Some(_) => LocateError::Interrupted,
+                None => LocateError::NoRecords {
+                    angular_frequency_rad_per_s: bracket.points[1].0,
+                    folder: self.store.folder().display().to_string(),
+                },
+            });
         }
         let loss = |record: &CaseRecord| {
             let omega = record.angular_frequency_rad_per_s;

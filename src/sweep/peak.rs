@@ -36,15 +36,13 @@ pub enum PeakError {
         "the peak near {angular_frequency_rad_per_s:e} rad/s did not settle to the accuracy asked for"
     )]
     NotSettled { angular_frequency_rad_per_s: f64 },
-    #[error("interrupted")]
-    Interrupted,
 }
 
 /// A loss and its error (J), where it has one.
 pub type Loss = (f64, Option<f64>);
 
-/// Computes the losses at several frequencies (rad/s).
-pub type Losses<'a> = dyn Fn(&[f64]) -> Result<Vec<Loss>, PeakError> + 'a;
+/// Computes the losses at several frequencies (rad/s), or says in its own terms why there are none.
+pub type Losses<'a, E> = dyn Fn(&[f64]) -> Result<Vec<Loss>, E> + 'a;
 
 /// Accuracy to which a peak's frequency is located, relative.
 pub const RELATIVE_ACCURACY: f64 = 1e-3;
@@ -68,8 +66,8 @@ pub fn brackets(curve: &[Point]) -> Vec<[Point; 3]> {
 /// Locates the maximum inside a bracket.
 ///
 /// # Errors
-/// [`PeakError`]: where a loss cannot be computed or the iteration does not settle; no value is then returned.
-pub fn refine(bracket: &[Point; 3], losses: &Losses<'_>) -> Result<Peak, PeakError> {
+/// Those of `losses`, and [`PeakError`] where the iteration does not settle; no value is then returned.
+pub fn refine<E: From<PeakError>>(bracket: &[Point; 3], losses: &Losses<'_, E>) -> Result<Peak, E> {
     let logarithms = bracket.map(|(omega, _)| omega.ln());
     let (lower, upper) = (logarithms[0], logarithms[2]);
     let mut centre =
@@ -105,9 +103,9 @@ pub fn refine(bracket: &[Point; 3], losses: &Losses<'_>) -> Result<Peak, PeakErr
         }
         half_width = (0.5 * half_width).max(0.1);
     }
-    Err(PeakError::NotSettled {
+    Err(E::from(PeakError::NotSettled {
         angular_frequency_rad_per_s: centre.exp(),
-    })
+    }))
 }
 
 /// By how much the errors move a vertex found at `at`, and the error of the loss there. Errors of one discretisation vary
@@ -200,7 +198,7 @@ mod tests {
                 let brackets = brackets(&sampled(start, ratio, 60));
                 assert_eq!(brackets.len(), 1);
                 let exact = |omegas: &[f64]| Ok(omegas.iter().map(|&o| (loss(o), None)).collect());
-                let peak = refine(&brackets[0], &exact).unwrap();
+                let peak = refine::<PeakError>(&brackets[0], &exact).unwrap();
                 let relative = peak.angular_frequency_rad_per_s / low - 1.0;
                 assert!(relative.abs() < RELATIVE_ACCURACY, "{relative}");
                 assert!((peak.energy_loss_j / loss(low) - 1.0).abs() < 1e-5);
@@ -220,8 +218,8 @@ mod tests {
         };
         let bracket = brackets(&sampled(1e-4, 10f64.powf(0.1), 41))[0];
         let (a, b) = (
-            refine(&bracket, &clean).unwrap(),
-            refine(&bracket, &noisy).unwrap(),
+            refine::<PeakError>(&bracket, &clean).unwrap(),
+            refine::<PeakError>(&bracket, &noisy).unwrap(),
         );
         let moved = a.angular_frequency_rad_per_s / b.angular_frequency_rad_per_s - 1.0;
         assert!(moved.abs() < RELATIVE_ACCURACY);
@@ -240,8 +238,8 @@ mod tests {
             Ok(omegas.iter().map(point).collect())
         };
         let bracket = brackets(&sampled(1e-4, 10f64.powf(0.1), 41))[0];
-        let found = refine(&bracket, &computed).unwrap();
-        let exact = refine(&bracket, &truth).unwrap();
+        let found = refine::<PeakError>(&bracket, &computed).unwrap();
+        let exact = refine::<PeakError>(&bracket, &truth).unwrap();
         let away = (found.angular_frequency_rad_per_s - exact.angular_frequency_rad_per_s).abs();
         assert!(away > 0.0 && away <= found.angular_frequency_uncertainty_rad_per_s);
         let error_j = found.energy_loss_error_j.unwrap();

@@ -183,6 +183,18 @@ impl SolverPlan {
         }
     }
 
+    /// The same with the cells that an indenter brings, where it brings any.
+    #[must_use]
+    pub fn on_own_cells(self, indenter: &dyn Indenter) -> Self {
+        match indenter.own_cells() {
+            Some((cells_x, cells_y)) => Self {
+                cells: cells_x.max(cells_y),
+                ..self
+            },
+            None => self,
+        }
+    }
+
     /// The same engine with another number of them.
     #[must_use]
     pub fn with_nodes(self, nodes: usize) -> Self {
@@ -221,5 +233,30 @@ impl Default for SolverPlan {
             cells: 128,
             tolerance: None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::indenter::{HeightMap, MapEdge, MapQuantity, Shifted, Sphere};
+
+    #[test]
+    fn the_cells_of_a_map_are_those_of_the_plan_whatever_was_asked_for() {
+        let heights = (0..200 * 150).map(|i| 1e-9 * f64::from(i % 7)).collect();
+        let map = HeightMap::new(
+            (200, 150),
+            (1e-6, 1e-6),
+            heights,
+            MapQuantity::Gap,
+            MapEdge::Unknown,
+        )
+        .unwrap();
+        let map: Arc<dyn Indenter> = Arc::new(map);
+        let sphere: Arc<dyn Indenter> = Arc::new(Sphere::new(0.01).unwrap());
+        let moved = |inner: &Arc<dyn Indenter>| Shifted::new(Arc::clone(inner), 1e-6, 0.0).unwrap();
+        let cells = |indenter: &dyn Indenter| SolverPlan::default().on_own_cells(indenter).cells;
+        assert_eq!([cells(map.as_ref()), cells(&moved(&map))], [200, 200]);
+        assert_eq!([cells(sphere.as_ref()), cells(&moved(&sphere))], [128, 128]);
     }
 }

@@ -3,6 +3,7 @@
 //! The folder is the memory of a sweep. A case whose record is there is not solved again, be it from an earlier run, another
 //! process at work in the same folder, or a merged part: the outcome is the same, bit for bit.
 
+use std::num::NonZeroUsize;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
@@ -165,11 +166,23 @@ pub fn collect(setup: &Setup, store: &Store, progress: &dyn Progress) -> Result<
     search.outcome(records, !missing.is_empty())
 }
 
-/// Threads to work on.
+/// Threads for every processor at most. More than one gains nothing, and each takes memory; a few do no harm.
+const THREADS_PER_PROCESSOR: usize = 4;
+
+/// As many threads as are asked for, but no more than this machine has a use for; without a number, one per processor.
+pub fn useful_threads(asked: Option<NonZeroUsize>) -> usize {
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    asked.map_or(processors, |asked| {
+        (asked.get()).min(THREADS_PER_PROCESSOR * processors)
+    })
+}
+
+/// Threads to work on, no more than are useful.
 ///
 /// # Errors
 /// [`RunError::Threads`] where they cannot be started.
 pub fn pool(threads: usize) -> Result<ThreadPool, RunError> {
+    let threads = useful_threads(NonZeroUsize::new(threads));
     let pool = ThreadPoolBuilder::new().num_threads(threads).build();
     pool.map_err(|error| RunError::Threads {
         threads,
@@ -188,5 +201,21 @@ impl Outcome {
     /// Number of cases with this status.
     pub fn count(&self, status: Status) -> usize {
         self.records.iter().filter(|r| r.status == status).count()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_more_threads_are_started_than_the_processors_have_a_use_for() {
+        let processors = std::thread::available_parallelism().map_or(1, usize::from);
+        let useful = |asked: usize| useful_threads(NonZeroUsize::new(asked));
+        assert_eq!([0, 1, 2].map(useful), [processors, 1, 2]);
+        for many in [100_000, usize::MAX] {
+            assert_eq!(useful(many), 4 * processors);
+            assert_eq!(pool(many).unwrap().current_num_threads(), 4 * processors);
+        }
     }
 }

@@ -97,7 +97,8 @@ impl<'a> Search<'a> {
         if !outcome.interrupted {
             outcome.interrupted = !self.locate_peaks(&mut outcome)?;
         }
-        if !outcome.interrupted {
+        // Where nothing is solved, another process may be at work in the folder.
+        if self.checkpoint_every.is_some() && !outcome.interrupted {
             self.store.remove_checkpoints();
         }
         Ok(outcome)

@@ -146,7 +146,11 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Simulation::new`].
-    pub fn of_fineness(plan: ScenarioPlan, fineness: Fineness) -> Result<Self, SimulationError> {
+    pub fn of_fineness(
+        mut plan: ScenarioPlan,
+        fineness: Fineness,
+    ) -> Result<Self, SimulationError> {
+        plan.solver = plan.solver.on_own_cells(plan.indenter.as_ref());
         let compliance = plan.material.compliance()?;
         let steps = match plan.step_s {
             Some(step_s) => Steps::Given { step_s },

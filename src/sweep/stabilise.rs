@@ -463,8 +463,11 @@ impl Contact<'_> {
         } = recording;
         let mut analysis = cycle::analyse(&samples.load_n, &samples.approach_m)?;
         let energies = dissipation.branch_energies_j();
-        if analysis.rounding_j() > LARGEST_ROUNDING * analysis.energy_loss_j.abs() {
-            analysis = analysis.of_energy_loss(energies.iter().sum());
+        // A body without branches is elastic and loses nothing: what its loop encloses is rounding.
+        let is_rounding = analysis.rounding_j() > LARGEST_ROUNDING * analysis.energy_loss_j.abs();
+        if is_rounding || energies.is_empty() {
+            // The sum of nothing would be -0.
+            analysis = analysis.of_energy_loss(energies.iter().fold(0.0, |sum, e| sum + e));
         }
         let radii = &samples.contact_radius_m;
         // The mean over the period counts the seam once.

@@ -98,15 +98,18 @@ impl<'a> TableReader<'a> {
         self.find(key).map(|entry| entry.key.clone())
     }
 
-    /// Which one of `keys` is present. None, or more than one, is a problem, and reported.
-    pub fn one_of(&mut self, keys: &[&'static str]) -> Option<&'static str> {
-        let present: Vec<(&'static str, &Entry)> = keys
+    /// Which one of these keys is present, and the value that belongs to it: `&[("file", Source::File), ...]`. None, or more than
+    /// one, is a problem, and reported.
+    pub fn one_of<T: Copy>(&mut self, choices: &[(&'static str, T)]) -> Option<(&'static str, T)> {
+        let present: Vec<(&'static str, T, &Entry)> = choices
             .iter()
-            .filter_map(|key| Some((*key, self.find(key)?)))
+            .filter_map(|(key, value)| Some((*key, *value, self.find(key)?)))
             .collect();
         match present.as_slice() {
-            [(key, _)] => Some(key),
+            [(key, value, _)] => Some((key, *value)),
             [] => {
+                let keys: Vec<&str> = choices.iter().map(|(key, _)| *key).collect();
+                let keys = keys.as_slice();
                 let message = match self.path.as_str() {
                     "" => format!("missing one of {}", in_backticks(keys)),
                     path => format!("`{path}` needs one of {}", in_backticks(keys)),
@@ -115,11 +118,11 @@ impl<'a> TableReader<'a> {
                 self.report_missing(keys, problem);
                 None
             }
-            [(_, entry), others @ ..] => {
-                let given: Vec<&str> = present.iter().map(|(key, _)| *key).collect();
+            [(_, _, entry), others @ ..] => {
+                let given: Vec<&str> = present.iter().map(|(key, ..)| *key).collect();
                 let message = format!("only one of {} may be given", in_backticks(&given));
                 let problem = Diagnostic::at(&entry.key, message).because("one of them");
-                let problem = others.iter().fold(problem, |problem, (_, entry)| {
+                let problem = others.iter().fold(problem, |problem, (_, _, entry)| {
                     problem.label(&entry.key, "another")
                 });
                 self.problems.push(problem.help("remove all but one"));
@@ -375,21 +378,6 @@ impl TableReader<'_> {
         self.or(key, &Boolean, default)
     }
 
-    /// One of `words`.
-    pub fn choice(&mut self, key: &str, words: &[&'static str]) -> Option<Located<&'static str>> {
-        self.choice_of(key, &themselves(words))
-    }
-
-    /// One of `words`, with a default.
-    pub fn choice_or(
-        &mut self,
-        key: &str,
-        words: &[&'static str],
-        default: &'static str,
-    ) -> Option<Located<&'static str>> {
-        self.choice_of_or(key, &themselves(words), default)
-    }
-
     /// The value that belongs to one of a few words: `&[("load", Control::Load), ...]`.
     pub fn choice_of<T: Copy>(&mut self, key: &str, choices: &[(&str, T)]) -> Option<Located<T>> {
         self.required(key, &Choice(choices))
@@ -469,10 +457,6 @@ impl TableReader<'_> {
     }
 }
 
-fn themselves<'a>(words: &[&'a str]) -> Vec<(&'a str, &'a str)> {
-    words.iter().map(|word| (*word, *word)).collect()
-}
-
 /// The dotted key of `key` in the table `path`.
 fn join(path: &str, key: &str) -> String {
     match path {
@@ -533,7 +517,7 @@ mod tests {
     fn read_sweep(mut root: TableReader<'_>) {
         let _ = root.optional_string("title");
         if let Some(mut drive) = root.table("drive") {
-            let _ = drive.choice("control", &["load", "approach"]);
+            let _ = drive.choice_of("control", &[("load", ()), ("approach", ())]);
             let _ = drive.quantity("mean", Dimension::Force);
             let _ = drive.quantity("amplitude", Dimension::Force);
             let _ = drive.quantity_or("phase", Dimension::Angle, 0.0);
@@ -1132,7 +1116,7 @@ tolerance = 1e-400
 
     #[test]
     fn one_of_several_keys_must_be_given_and_only_one() {
-        let keys = ["library", "relaxation", "creep"];
+        let keys = ["library", "relaxation", "creep"].map(|key| (key, ()));
         let read = |mut root: TableReader<'_>| {
             let mut material = root.table("material").expect("it is there");
             assert_eq!(material.one_of(&keys), None);

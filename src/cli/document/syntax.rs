@@ -16,6 +16,15 @@ const DUPLICATE: &str = "duplicate key";
 /// What `toml` says of a value that is a bare word, or of none at all.
 const UNQUOTED: &str = "string values must be quoted";
 
+/// What `toml` says of a bare word that begins like `nan` or `inf`.
+const NO_FLOAT: &str = "invalid float";
+
+/// Quotation marks of text processors, which TOML does not know.
+const CURLY: [char; 8] = ['“', '”', '„', '‟', '‘', '’', '«', '»'];
+
+/// What other languages write where there is no value.
+const NO_VALUE: [&str; 5] = ["none", "null", "nil", "na", "undefined"];
+
 /// One error of `toml`, as far as it is needed here.
 struct Fault<'a> {
     description: &'a str,
@@ -106,15 +115,29 @@ fn explain(source: &Arc<Source>, fault: &Fault<'_>) -> Diagnostic {
         UNQUOTED | "invalid literal string" if written.is_empty() => {
             Diagnostic::at(&place, "a value is missing").because("expected a value here")
         }
-        UNQUOTED => {
-            let problem = Diagnostic::at(&place, "text must be in quotes")
-                .because("not a number, a boolean or quoted text");
-            match quoted_assignment(source.text(), &span, written) {
-                Some(mended) => problem.help(format!("write `{mended}`")),
-                None => problem,
-            }
+        UNQUOTED | NO_FLOAT if NO_VALUE.contains(&written.to_ascii_lowercase().as_str()) => {
+            Diagnostic::at(&place, format!("`{written}` is no value"))
+                .because("TOML has no empty value")
+                .help("leave the key out where it has no value")
+        }
+        UNQUOTED => unquoted(source.text(), &place, &span),
+        NO_FLOAT if written.starts_with(char::is_alphabetic) => {
+            unquoted(source.text(), &place, &span)
         }
         _ => other(source.text(), fault, &place, &span),
+    }
+}
+
+/// Text without quotes, or within quotes that are none.
+fn unquoted(text: &str, place: &Location, span: &Range<usize>) -> Diagnostic {
+    let because = match place.text().starts_with(CURLY) {
+        true => "curly quotes, which TOML does not read as quotes",
+        false => "not a number, a boolean or quoted text",
+    };
+    let problem = Diagnostic::at(place, "text must be in quotes").because(because);
+    match quoted_assignment(text, span, place.text()) {
+        Some(mended) => problem.help(format!("write `{mended}`")),
+        None => problem,
     }
 }
 
@@ -147,7 +170,7 @@ fn given_twice(source: &Arc<Source>, place: &Location, span: &Range<usize>) -> D
     .help("keep one of the two")
 }
 
-/// `key = "value"`, when `value` is all there is behind the key, else `"value"`. `None` for a value that
+/// `key = "value"`, in straight quotes, when `value` is all there is behind the key, else `"value"`. `None` for a value that
 /// quotes alone do not mend.
 fn quoted_assignment(text: &str, span: &Range<usize>, value: &str) -> Option<String> {
     let spoils = |character: char| "\"'\\`".contains(character) || character.is_control();
@@ -155,11 +178,12 @@ fn quoted_assignment(text: &str, span: &Range<usize>, value: &str) -> Option<Str
         return None;
     }
     let line = &text[line_around(text, span.start)];
+    let inside = value.trim_matches(CURLY);
     Some(match line.split_once('=') {
         Some((key, rest)) if before_comment(rest) == value => {
-            format!("{} = \"{value}\"", key.trim())
+            format!("{} = \"{inside}\"", key.trim())
         }
-        _ => format!("\"{value}\""),
+        _ => format!("\"{inside}\""),
     })
 }
 
@@ -251,6 +275,56 @@ mod tests {
           |           ^^^^ not a number, a boolean or quoted text
           |
           = help: write `control = "load"`
+        "#);
+    }
+
+    #[test]
+    fn curly_quotes_are_mended_to_straight_ones() {
+        insta::assert_snapshot!(refusal("mean = “10 N”\ncontrol = ‘load’ # x\n"), @r#"
+        error: text must be in quotes
+         --> sweep.toml:1:8
+          |
+        1 | mean = “10 N”
+          |        ^^^^^^ curly quotes, which TOML does not read as quotes
+          |
+          = help: write `mean = "10 N"`
+
+        error: text must be in quotes
+         --> sweep.toml:2:11
+          |
+        2 | control = ‘load’ # x
+          |           ^^^^^^ curly quotes, which TOML does not read as quotes
+          |
+          = help: write `control = "load"`
+        "#);
+    }
+
+    #[test]
+    fn the_empty_value_of_another_language_is_no_nan() {
+        insta::assert_snapshot!(refusal("hold = None\nphase = null\nname = nylon\n"), @r#"
+        error: `None` is no value
+         --> sweep.toml:1:8
+          |
+        1 | hold = None
+          |        ^^^^ TOML has no empty value
+          |
+          = help: leave the key out where it has no value
+
+        error: `null` is no value
+         --> sweep.toml:2:9
+          |
+        2 | phase = null
+          |         ^^^^ TOML has no empty value
+          |
+          = help: leave the key out where it has no value
+
+        error: text must be in quotes
+         --> sweep.toml:3:8
+          |
+        3 | name = nylon
+          |        ^^^^^ not a number, a boolean or quoted text
+          |
+          = help: write `name = "nylon"`
         "#);
     }
 
