@@ -336,6 +336,39 @@ mod tests {
     }
 
     #[test]
+    fn numbers_and_words_are_counted_apart_and_a_trend_once() {
+        let mut figure = Figure {
+            number: 10,
+            caption: String::new(),
+            panels: Vec::new(),
+            data: Vec::new(),
+            claims: [Some(2.0), Some(1.0)].map(|v| claim("radius", v)).to_vec(),
+            statements: Vec::new(),
+        };
+        figure.claims.push(claim("depth", None));
+        figure.claims.push(claim("another", Some(7.0)));
+        for text in [
+            "rows = [\"radius\"]\nqualitative = \"falls\"",
+            "rows = [\"radius\"]\nat_most = 1.5",
+            "rows = [\"depth\"]\nat_most = 1.5",
+        ] {
+            let text = format!("figure = 10\npaper = \"p\"\n{text}");
+            let statement: Statement = toml::from_str(&text).unwrap();
+            let judged = statement.judged(&mut figure.claims).unwrap();
+            figure.statements.push(judged);
+        }
+        // One that disagrees is heard.
+        assert_eq!(figure.claims[0].judged(), Verdict::Disagrees);
+        let count = Count::of([&figure]);
+        assert_eq!((count.numbers, count.words), ([0, 1, 1], [1, 0, 0]));
+        assert_eq!(
+            count.text(),
+            "2 numbers of the paper (1 disagree, 1 are undefined), 1 statements in words (1 agree); 1 values more are computed that \
+             are not stated there"
+        );
+    }
+
+    #[test]
     fn the_file_can_be_read_and_states_something_of_every_figure() {
         let statements = statements().unwrap();
         for figure in super::super::FIGURES {
