@@ -269,6 +269,14 @@ impl Store {
         for name in files::of_sweep().chain(of_scenarios) {
             self.remove(&name)?;
         }
+        let entries = fs::read_dir(&self.folder).map_err(failed(self.folder.clone()))?;
+        let names = entries.flatten().map(|entry| entry.file_name());
+        for name in names.filter_map(|name| name.into_string().ok()) {
+            // What shards leave beside their records.
+            if name.starts_with("run-") && name.ends_with(".json") {
+                self.remove(&name)?;
+            }
+        }
         Ok(())
     }
 
@@ -395,7 +403,9 @@ mod tests {
     fn a_plan_at_work_is_replaced_by_nobody_and_one_at_rest_when_forced() {
         let folder = tempfile::TempDir::new().unwrap();
         let at_work = Store::open(folder.path(), PLAN, false).unwrap();
-        at_work.write("records/0000.json", b"{}").unwrap();
+        for name in ["records/0000.json", "run-1-of-2.json"] {
+            at_work.write(name, b"{}").unwrap();
+        }
         for plan in [PLAN, OTHER] {
             let refused = Store::open(folder.path(), plan, true).unwrap_err();
             assert!(matches!(&refused, StoreError::InUse { running, .. } if running == "\"one\""));
@@ -413,7 +423,8 @@ mod tests {
             StoreError::OtherSweep { at_work: false, .. }
         ));
         Store::open(folder.path(), OTHER, true).unwrap();
-        assert!(!folder.path().join("records").exists());
+        let left = ["records", "run-1-of-2.json"].map(|name| folder.path().join(name).exists());
+        assert_eq!(left, [false; 2]);
         assert_eq!(read_plan(folder.path()).unwrap(), OTHER);
     }
 
