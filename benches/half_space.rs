@@ -19,7 +19,7 @@ use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::Sphere;
 use contact_dma::material::library;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::figure_plan::FigurePlan;
+use contact_dma::sweep::figures::figure_plan::FigurePlan;
 use contact_dma::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
 
 /// Width (m) of a domain of four radii of the largest contact under this load.

@@ -16,7 +16,7 @@ use contact_dma::history::TimeRule;
 use contact_dma::indenter::Sphere;
 use contact_dma::material::library;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::figure_plan::FigurePlan;
+use contact_dma::sweep::figures::figure_plan::FigurePlan;
 use contact_dma::sweep::plan::{CyclePlan, EngineKind, Method, SolverPlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 

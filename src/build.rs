@@ -19,21 +19,8 @@ const ROOMS: [&str; 9] = [
     "quantity", "material", "indenter", "drive", "contact", "history", "cycle", "steady", "sweep",
 ];
 
-/// Files among them that neither compute a number nor say what a record or checkpoint holds: they keep, find, compare, share
-/// out, foretell the cost.
-const ASIDE: [&str; 11] = [
-    "archive.rs",
-    "checkpoint_file.rs",
-    "cost.rs",
-    "difference.rs",
-    "files.rs",
-    "folder_lock.rs",
-    "merge.rs",
-    "provenance.rs",
-    "sealed.rs",
-    "shard.rs",
-    "store.rs",
-];
+/// Folders among them that make none: what keeps, finds, compares and shares out, and how figures look.
+const ASIDE: [&str; 2] = ["sweep/bookkeeping/", "sweep/figures/"];
 
 /// Crates whose arithmetic they rest on.
 const CRATES: [&str; 8] = [
@@ -104,10 +91,7 @@ pub fn identity(root: &Path) -> io::Result<String> {
             sources.push((format!("{room}.rs"), file));
         }
     }
-    sources.retain(|(name, _)| {
-        let inside = name.strip_prefix("sweep/");
-        !inside.is_some_and(|file| ASIDE.contains(&file))
-    });
+    sources.retain(|(name, _)| !ASIDE.iter().any(|folder| name.starts_with(folder)));
     sources.sort();
     let mut hash = Sha256::new();
     for (name, path) in sources {

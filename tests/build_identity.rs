@@ -6,7 +6,7 @@ mod build;
 use std::fs;
 use std::path::Path;
 
-use contact_dma::sweep::provenance::BUILD;
+use contact_dma::sweep::bookkeeping::provenance::BUILD;
 use tempfile::TempDir;
 
 fn copy(from: &Path, to: &Path) {
@@ -83,7 +83,10 @@ fn what_makes_no_number_changes_nothing() {
         sources.with("src/cli/sweep.rs", |text| {
             format!("{text}// more\nconst A: u8 = 1;\n")
         }),
-        sources.with("src/sweep/store.rs", |text| {
+        sources.with("src/sweep/figures/figure_plan.rs", |text| {
+            text.replace("FONT_SIZE_PT: f64 = 8.0", "FONT_SIZE_PT: f64 = 9.0")
+        }),
+        sources.with("src/sweep/bookkeeping/store.rs", |text| {
             text.replace("cannot", "can not")
         }),
         sources.with("Cargo.lock", with_version_of("clap")),

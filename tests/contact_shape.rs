@@ -11,7 +11,7 @@ use contact_dma::contact::{Engine, Instant, Prescribed};
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
 use contact_dma::indenter::{Asperities, Asperity, Ellipsoid, Indenter, Profile, Shifted, Sphere};
 use contact_dma::sweep::body_material::BodyMaterial;
-use contact_dma::sweep::figure_plan::FigurePlan;
+use contact_dma::sweep::figures::figure_plan::FigurePlan;
 use contact_dma::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
 use contact_dma::sweep::scenario::{OutputPlan, ScenarioPlan};
 use contact_dma::sweep::simulate::{Simulation, SimulationEnd, SimulationOutcome};

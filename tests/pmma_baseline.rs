@@ -5,12 +5,12 @@ use std::sync::atomic::AtomicBool;
 
 use contact_dma::cli::document::Document;
 use contact_dma::cli::sweep_file;
+use contact_dma::sweep::bookkeeping::store::Store;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::peak::Peak;
 use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::resolved;
 use contact_dma::sweep::run::{self, Outcome, Progress};
-use contact_dma::sweep::store::Store;
 
 struct Silent;
 

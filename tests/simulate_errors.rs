@@ -10,7 +10,7 @@ use common::solids::Random;
 use contact_dma::drive::{Control, Fineness, Segment, SegmentedDrive};
 use contact_dma::indenter::{Cone, Indenter, PowerLaw, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
-use contact_dma::sweep::figure_plan::FigurePlan;
+use contact_dma::sweep::figures::figure_plan::FigurePlan;
 use contact_dma::sweep::history_errors::RowErrors;
 use contact_dma::sweep::plan::{EngineKind, SolverPlan};
 use contact_dma::sweep::scenario::{OutputPlan, ScenarioPlan};

@@ -8,8 +8,8 @@ use clap_complete::Shell;
 
 use super::compare;
 use crate::material::{GivenFace, ModulusKind};
-use crate::sweep::checkpoint_file;
-use crate::sweep::shard::Shard;
+use crate::sweep::bookkeeping::checkpoint_file;
+use crate::sweep::bookkeeping::shard::Shard;
 
 /// Dynamic mechanical analysis by contact: what a viscoelastic half-space dissipates under an oscillating indenter.
 #[derive(Debug, Parser)]

@@ -3,7 +3,7 @@
 use super::diagnostic::Problems;
 use super::document::{Located, TableReader};
 use crate::quantity::{Dimension, format_human};
-use crate::sweep::figure_plan::{AxisUnits, COLUMNS, FigurePlan, Format};
+use crate::sweep::figures::figure_plan::{AxisUnits, COLUMNS, FigurePlan, Format};
 
 /// Sides (m), text (pt) and resolutions beyond these are a slip of the pen rather than a wish.
 const SIDE_M: std::ops::RangeInclusive<f64> = 0.02..=1.0;

@@ -13,9 +13,9 @@ use crate::report::figure::press::Press;
 use crate::report::page::{self, Pictures, material::About};
 use crate::report::terminal::wrapped;
 use crate::report::{self, material::MaterialReport};
-use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::bookkeeping::store::write_atomically;
+use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::resolved;
-use crate::sweep::store::write_atomically;
 
 /// Runs one of the subcommands.
 pub(super) fn run(command: &MaterialCommand) -> Result<Ended, Failure> {

@@ -8,9 +8,9 @@ use crate::report::caption::Setting;
 use crate::report::figure::press::Press;
 use crate::report::page::{self, Pictures, material::About};
 use crate::report::{self, figure};
-use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::bookkeeping::store::write_atomically;
+use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::resolved;
-use crate::sweep::store::write_atomically;
 
 /// Runs the command.
 pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {

@@ -42,8 +42,8 @@ use arguments::{Arguments, Command};
 use diagnostic::Diagnostics;
 use document::Document;
 
+use crate::sweep::bookkeeping::store::Store;
 use crate::sweep::run::RunError;
-use crate::sweep::store::Store;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,8 +7,8 @@ use super::{Ended, Failure, meant_for, open_document, print, sweep_file};
 use crate::indenter::Indenter;
 use crate::quantity::{Dimension, format_human};
 use crate::report::terminal::frequency;
+use crate::sweep::bookkeeping::cost::Cost;
 use crate::sweep::case::Setup;
-use crate::sweep::cost::Cost;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 
 /// Cases listed before the rest is counted.

@@ -17,7 +17,7 @@ use crate::report::terminal::wrapped;
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
-use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::run::useful_threads;
 
 const DEFAULT_FOLDER: &str = "reports/spinu-2018";

@@ -9,8 +9,8 @@ use super::{indenter_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::body_material::BodyMaterial;
-use crate::sweep::elastic_scale::ElasticScale;
-use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::figures::elastic_scale::ElasticScale;
+use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::scenario::{OutputPlan, ScenarioPlan};
 

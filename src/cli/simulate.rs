@@ -11,11 +11,11 @@ use super::plan::{megabytes, nodes};
 use super::sweep::interrupt_flag;
 use super::{Ended, Failure, meant_for, memory, open_document, open_store, print, scenario_file};
 use crate::report::{self, terminal_simulation};
+use crate::sweep::bookkeeping::store::Store;
 use crate::sweep::history_checkpoint::{Found, HistoryCheckpoint, Stand};
 use crate::sweep::run;
 use crate::sweep::scenario;
 use crate::sweep::simulate::{Simulation, SimulationEnd, SimulationOutcome};
-use crate::sweep::store::Store;
 
 /// Runs the command.
 pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {

@@ -8,15 +8,15 @@ use super::document::Document;
 use super::progress::Shown;
 use super::sweep::{Job, failure, interrupt_flag};
 use super::{Ended, Failure, sweep_file};
+use crate::sweep::bookkeeping::difference;
+use crate::sweep::bookkeeping::merge;
+use crate::sweep::bookkeeping::provenance::Stopwatch;
+use crate::sweep::bookkeeping::store::{RESOLVED, Store};
 use crate::sweep::case::Setup;
-use crate::sweep::difference;
-use crate::sweep::figure_plan::without_figures;
-use crate::sweep::merge;
+use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::plan::Case;
-use crate::sweep::provenance::Stopwatch;
 use crate::sweep::resolved;
 use crate::sweep::run::{self, Options, Progress, RunError};
-use crate::sweep::store::{RESOLVED, Store};
 
 /// Names of cases in a message before the rest is counted.
 const NAMED: usize = 10;

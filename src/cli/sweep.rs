@@ -9,13 +9,13 @@ use super::arguments::{OutputFormat, SweepFlags};
 use super::progress::Shown;
 use super::{Ended, Failure, meant_for, memory, open_document, open_store, print, sweep_file};
 use crate::report::{self, terminal};
+use crate::sweep::bookkeeping::provenance::{Circumstances, Stopwatch};
+use crate::sweep::bookkeeping::shard::{self, Shard};
+use crate::sweep::bookkeeping::store::{Store, StoreError};
 use crate::sweep::case::Setup;
-use crate::sweep::provenance::{Circumstances, Stopwatch};
 use crate::sweep::record::Status;
 use crate::sweep::resolved;
 use crate::sweep::run::{self, Options, Outcome, RunError};
-use crate::sweep::shard::{self, Shard};
-use crate::sweep::store::{Store, StoreError};
 
 /// Runs the command.
 pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {

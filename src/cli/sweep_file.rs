@@ -10,8 +10,8 @@ use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::Dimension;
-use crate::sweep::elastic_scale::ElasticScale;
-use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::figures::elastic_scale::ElasticScale;
+use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::instant_tolerance;
 use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 

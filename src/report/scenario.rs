@@ -13,10 +13,10 @@ use super::table::{Table, number, optional};
 use super::{ReportError, figure, npy, page, vti};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::sweep::body_material::BodyMaterial;
-use crate::sweep::figure_plan::AxisUnits;
+use crate::sweep::bookkeeping::store::Store;
+use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::scenario::{self, ScenarioPlan};
 use crate::sweep::simulate::{SimulationEnd, SimulationOutcome, SurfaceRecord};
-use crate::sweep::store::Store;
 use crate::sweep::warnings;
 
 /// Writes everything, as far as the simulation came. Returns what was left out and why.

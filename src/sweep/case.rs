@@ -8,7 +8,7 @@ use crate::contact::{ContactError, Engine};
 use crate::drive::{Control, HarmonicDrive};
 use crate::history::{Work, order_of_steps};
 use crate::material::{Creep, MaterialError};
-use crate::sweep::archive::Purpose;
+use crate::sweep::bookkeeping::archive::Purpose;
 use crate::sweep::checkpoint::Checkpoints;
 use crate::sweep::edge_layer::EdgeLayer;
 use crate::sweep::engines::{AsContactError, EngineBuilder, EngineError, LargestContact};

@@ -18,13 +18,15 @@ use serde::{Deserialize, Serialize};
 
 use crate::history::{MarchState, Work};
 use crate::steady::SearchState;
-use crate::sweep::archive::{Purpose, case_name};
-use crate::sweep::checkpoint_file::{self, FOLDER, Key, Rhythm, from_numbers, numbers};
+use crate::sweep::bookkeeping::archive::{Purpose, case_name};
+use crate::sweep::bookkeeping::checkpoint_file::{
+    self, FOLDER, Key, Rhythm, from_numbers, numbers,
+};
+use crate::sweep::bookkeeping::provenance::BUILD;
+use crate::sweep::bookkeeping::store::{Store, write_atomically};
 use crate::sweep::plan::{Case, Method};
-use crate::sweep::provenance::BUILD;
 use crate::sweep::record::CaseResult;
 use crate::sweep::stabilise::Stabilised;
-use crate::sweep::store::{Store, write_atomically};
 
 /// The checkpoints of one case, in the hands of the thread that solves it.
 pub struct Checkpoints {

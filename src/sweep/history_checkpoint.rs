@@ -15,11 +15,13 @@ use serde::{Deserialize, Serialize};
 use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{CellSurface, RadialSurface, Surface};
 use crate::history::{StepState, Work};
-use crate::sweep::checkpoint_file::{self, FOLDER, Key, Rhythm, Unusable, from_numbers, numbers};
+use crate::sweep::bookkeeping::checkpoint_file::{
+    self, FOLDER, Key, Rhythm, Unusable, from_numbers, numbers,
+};
+use crate::sweep::bookkeeping::provenance::BUILD;
+use crate::sweep::bookkeeping::store::{Store, write_atomically};
 use crate::sweep::follow::Course;
-use crate::sweep::provenance::BUILD;
 use crate::sweep::simulate::{HistoryRow, SurfaceRecord};
-use crate::sweep::store::{Store, write_atomically};
 
 /// Where the checkpoint of a history lies, and when it is written.
 pub struct HistoryCheckpoint {

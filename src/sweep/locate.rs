@@ -1,13 +1,13 @@
 //! Peaks of the curves that a sweep has sampled: bracketed by its cases, then located by solving between them.
 
 use crate::drive::HarmonicDrive;
+use crate::sweep::bookkeeping::store::StoreError;
 use crate::sweep::case::{Aim, Resolution};
 use crate::sweep::peak::{self, Loss, PeakError, Point};
 use crate::sweep::plan::Case;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::run::Outcome;
 use crate::sweep::search::Search;
-use crate::sweep::store::StoreError;
 
 /// Why a peak that the cases bracket has no place.
 #[derive(Debug, thiserror::Error)]

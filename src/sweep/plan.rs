@@ -6,7 +6,7 @@ use crate::drive::HarmonicDrive;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
-use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::peak::Peak;
 
 /// Everything a sweep needs to know. Two equal plans give equal results, bit for bit.

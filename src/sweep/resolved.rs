@@ -10,7 +10,7 @@ use crate::history::TimeRule;
 use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{GivenFace, Material, ModulusKind, Relaxation};
 use crate::quantity::{Dimension, format_si};
-use crate::sweep::figure_plan::without_figures;
+use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::plan::{SolverPlan, SweepPlan};
 
 /// The plan as the text of a sweep file.

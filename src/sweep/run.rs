@@ -9,14 +9,14 @@ use std::time::Duration;
 
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
-use crate::sweep::archive::Purpose;
+use crate::sweep::bookkeeping::archive::Purpose;
+use crate::sweep::bookkeeping::checkpoint_file;
+use crate::sweep::bookkeeping::shard::{self, Shard};
+use crate::sweep::bookkeeping::store::{Store, StoreError};
 use crate::sweep::case::Setup;
-use crate::sweep::checkpoint_file;
 use crate::sweep::peak::Peak;
 use crate::sweep::record::{CaseRecord, Status};
 use crate::sweep::search::Search;
-use crate::sweep::shard::{self, Shard};
-use crate::sweep::store::{Store, StoreError};
 
 /// Why a sweep stopped without an outcome.
 #[derive(Debug, thiserror::Error)]

@@ -7,7 +7,7 @@ use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::body_material::BodyMaterial;
-use crate::sweep::figure_plan::FigurePlan;
+use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::resolved;
 

@@ -8,7 +8,8 @@ use std::time::Duration;
 
 use rayon::ThreadPool;
 
-use crate::sweep::archive::{Kept, OF_ANOTHER_BUILD, Purpose};
+use crate::sweep::bookkeeping::archive::{Kept, OF_ANOTHER_BUILD, Purpose};
+use crate::sweep::bookkeeping::store::{Store, StoreError};
 use crate::sweep::case::{Aim, Setup};
 use crate::sweep::checkpoint::Checkpoints;
 use crate::sweep::locate::curve_of;
@@ -16,7 +17,6 @@ use crate::sweep::plan::Case;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::refine;
 use crate::sweep::run::{Outcome, Progress, RunError};
-use crate::sweep::store::{Store, StoreError};
 
 /// What solving more cases takes.
 pub(super) struct Search<'a> {

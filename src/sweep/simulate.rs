@@ -558,11 +558,11 @@ mod tests {
     use crate::drive::{Segment, SegmentedDrive};
     use crate::indenter::{Axisymmetric, Indenter, Parameter, Sphere};
     use crate::material::library;
-    use crate::sweep::figure_plan::FigurePlan;
+    use crate::sweep::bookkeeping::store::Store;
+    use crate::sweep::figures::figure_plan::FigurePlan;
     use crate::sweep::history_checkpoint::Found;
     use crate::sweep::plan::SolverPlan;
     use crate::sweep::scenario::OutputPlan;
-    use crate::sweep::store::Store;
 
     /// (time, whether the approach is undefined) at every unloaded moment.
     fn unloaded(segments: Vec<Segment>) -> Vec<(f64, bool)> {

@@ -17,7 +17,7 @@ use contact_dma::indenter::Indenter;
 use contact_dma::material::classical::{Maxwell, Zener};
 use contact_dma::material::{Creep, Material, library};
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::figure_plan::FigurePlan;
+use contact_dma::sweep::figures::figure_plan::FigurePlan;
 use contact_dma::sweep::plan::{Case, CyclePlan, SolverPlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 

@@ -5,8 +5,8 @@ use super::{prefix, scientific};
 use crate::drive::Control;
 use crate::quantity::{Dimension, format_human};
 use crate::report::ReportError;
-use crate::sweep::elastic_scale::ElasticScale;
-use crate::sweep::figure_plan::AxisUnits;
+use crate::sweep::figures::elastic_scale::ElasticScale;
+use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::scenario::ScenarioPlan;
 

@@ -16,7 +16,7 @@ use crate::report::comparison::{
     Column, ColumnComparison, Comparison, PeakComparison, Place, Source, SweepTable, Tolerances,
 };
 use crate::report::figure::scientific;
-use crate::sweep::difference;
+use crate::sweep::bookkeeping::difference;
 use crate::sweep::peak::Peak;
 
 const MAIN: &str = include_str!("comparison.html");

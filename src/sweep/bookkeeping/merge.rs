@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use crate::sweep::archive::{Kept, OF_ANOTHER_BUILD, Purpose};
+use crate::sweep::bookkeeping::archive::{Kept, OF_ANOTHER_BUILD, Purpose};
+use crate::sweep::bookkeeping::store::{Store, StoreError};
 use crate::sweep::plan::Case;
-use crate::sweep::store::{Store, StoreError};
 
 /// Copies the records of all parts into `out` and returns the cases of the sweep that none of them has. `told` hears of
 /// records that cannot be used, and of cases whose records differ; of these the first stays.

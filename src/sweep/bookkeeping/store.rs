@@ -14,12 +14,12 @@ use std::sync::{Arc, LazyLock};
 
 use tempfile::NamedTempFile;
 
-use crate::sweep::checkpoint_file;
-use crate::sweep::difference;
-use crate::sweep::figure_plan::without_figures;
-use crate::sweep::files;
-use crate::sweep::folder_lock::{FolderLock, Others};
-use crate::sweep::provenance;
+use crate::sweep::bookkeeping::checkpoint_file;
+use crate::sweep::bookkeeping::difference;
+use crate::sweep::bookkeeping::files;
+use crate::sweep::bookkeeping::folder_lock::{FolderLock, Others};
+use crate::sweep::bookkeeping::provenance;
+use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::resolved::hash;
 use crate::sweep::scenario;
 
@@ -64,11 +64,11 @@ pub enum StoreError {
 /// A folder that holds the results of one sweep.
 #[derive(Debug, Clone)]
 pub struct Store {
-    pub(super) folder: PathBuf,
-    pub(super) sweep_hash: String,
+    pub(in crate::sweep) folder: PathBuf,
+    pub(in crate::sweep) sweep_hash: String,
     /// Whether records of a newer program may be replaced.
-    pub(super) force: bool,
-    pub(super) lock: Arc<FolderLock>,
+    pub(in crate::sweep) force: bool,
+    pub(in crate::sweep) lock: Arc<FolderLock>,
 }
 
 /// The resolved sweep file inside the folder.
@@ -233,7 +233,7 @@ impl Store {
     }
 
     /// Removes the checkpoints of all cases.
-    pub(super) fn remove_checkpoints(&self) {
+    pub(in crate::sweep) fn remove_checkpoints(&self) {
         // There are none, most often.
         let _ = fs::remove_dir_all(self.folder.join(checkpoint_file::FOLDER));
     }

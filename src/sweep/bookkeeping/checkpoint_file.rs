@@ -15,7 +15,7 @@ use crate::contact::Solution;
 pub const EVERY: Duration = Duration::from_secs(10);
 
 /// The folder of all checkpoints.
-pub(super) const FOLDER: &str = "checkpoints";
+pub(in crate::sweep) const FOLDER: &str = "checkpoints";
 
 /// What has run for less than this is sooner computed again than read.
 const WORTH_KEEPING: Duration = Duration::from_secs(1);
@@ -27,15 +27,15 @@ const MARK: &[u8; 8] = b"CDMACHK\x01";
 const HASH_BYTES: usize = 32;
 
 /// What a checkpoint belongs to.
-pub(super) type Key = [u8; HASH_BYTES];
+pub(in crate::sweep) type Key = [u8; HASH_BYTES];
 
 /// The key of what this text names.
-pub(super) fn key(owner: &str) -> Key {
+pub(in crate::sweep) fn key(owner: &str) -> Key {
     Sha256::digest(owner).into()
 }
 
 /// Says when to write, by the time that has passed on a clock that never jumps.
-pub(super) struct Rhythm {
+pub(in crate::sweep) struct Rhythm {
     every: Duration,
     began: Instant,
     written: Cell<Instant>,
@@ -45,7 +45,7 @@ pub(super) struct Rhythm {
 
 impl Rhythm {
     /// Begins now.
-    pub(super) fn new(every: Duration) -> Self {
+    pub(in crate::sweep) fn new(every: Duration) -> Self {
         let now = Instant::now();
         Self {
             every,
@@ -56,19 +56,19 @@ impl Rhythm {
     }
 
     /// Whether enough has been computed for its state to be worth keeping.
-    pub(super) fn is_wanted(&self) -> bool {
+    pub(in crate::sweep) fn is_wanted(&self) -> bool {
         self.began.elapsed() >= WORTH_KEEPING.min(self.every)
     }
 
     /// Whether it is time to write.
-    pub(super) fn is_due(&self) -> bool {
+    pub(in crate::sweep) fn is_due(&self) -> bool {
         let waited = self.written.get().elapsed();
         let cost = self.cost.get().saturating_mul(SHARE);
         waited >= self.every && (self.every.is_zero() || waited >= cost)
     }
 
     /// Takes the time of a write.
-    pub(super) fn written<T>(&self, write: impl FnOnce() -> T) -> T {
+    pub(in crate::sweep) fn written<T>(&self, write: impl FnOnce() -> T) -> T {
         let begun = Instant::now();
         let ended = write();
         self.cost.set(begun.elapsed());
@@ -78,7 +78,7 @@ impl Rhythm {
 }
 
 /// An instant's numbers but for its iterations; none where there was no instant.
-pub(super) fn numbers(solution: Option<Solution>) -> Vec<f64> {
+pub(in crate::sweep) fn numbers(solution: Option<Solution>) -> Vec<f64> {
     solution.map_or(Vec::new(), |s| {
         let convolutions = s.convolutions as f64;
         vec![s.load_n, s.approach_m, s.contact_radius_m, convolutions]
@@ -86,7 +86,10 @@ pub(super) fn numbers(solution: Option<Solution>) -> Vec<f64> {
 }
 
 /// What [`numbers`] and the iterations were made from; `None` where they were made from nothing alike.
-pub(super) fn from_numbers(numbers: &[f64], iterations: Option<usize>) -> Option<Option<Solution>> {
+pub(in crate::sweep) fn from_numbers(
+    numbers: &[f64],
+    iterations: Option<usize>,
+) -> Option<Option<Solution>> {
     match (numbers, iterations) {
         (&[load_n, approach_m, contact_radius_m, convolutions], Some(iterations)) => {
             Some(Some(Solution {
@@ -103,7 +106,7 @@ pub(super) fn from_numbers(numbers: &[f64], iterations: Option<usize>) -> Option
     }
 }
 
-pub(super) fn encode(key: &Key, text: &[u8], arrays: &[&[f64]]) -> Vec<u8> {
+pub(in crate::sweep) fn encode(key: &Key, text: &[u8], arrays: &[&[f64]]) -> Vec<u8> {
     let values: usize = arrays.iter().map(|array| array.len() + 1).sum();
     let mut bytes = Vec::with_capacity(2 * HASH_BYTES + 24 + text.len() + 8 * values);
     let length = |length: usize| (length as u64).to_le_bytes();
@@ -122,7 +125,7 @@ pub(super) fn encode(key: &Key, text: &[u8], arrays: &[&[f64]]) -> Vec<u8> {
 }
 
 /// The text and the arrays of a checkpoint.
-pub(super) type Content<'a> = (&'a [u8], Vec<Vec<f64>>);
+pub(in crate::sweep) type Content<'a> = (&'a [u8], Vec<Vec<f64>>);
 
 /// Why a checkpoint is not used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -134,7 +137,7 @@ pub enum Unusable {
 }
 
 /// The content of a checkpoint that is whole and has this key.
-pub(super) fn decode<'a>(bytes: &'a [u8], key: &Key) -> Result<Content<'a>, Unusable> {
+pub(in crate::sweep) fn decode<'a>(bytes: &'a [u8], key: &Key) -> Result<Content<'a>, Unusable> {
     let whole = || {
         let (content, hash) = bytes.split_at_checked(bytes.len().checked_sub(HASH_BYTES)?)?;
         let is_whole = Sha256::digest(content).as_slice() == hash;

@@ -2,7 +2,7 @@
 //!
 //! The system releases it when its process ends, however it ends: a killed process leaves no folder locked. A network file
 //! system may have no locks, or keep them to each machine. Work then goes on without, and the plan in the folder protects the
-//! results: it is published exclusively, compared before every write, and named by every record; see [`crate::sweep::store`].
+//! results: it is published exclusively, compared before every write, and named by every record; see [`crate::sweep::bookkeeping::store`].
 
 use std::fs::{File, TryLockError};
 use std::io::ErrorKind;
@@ -13,7 +13,7 @@ const LOCK: &str = ".contact-dma.lock";
 
 /// Who else is at work in a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Others {
+pub(in crate::sweep) enum Others {
     Absent,
     AtWork,
     /// The file system has no locks.
@@ -22,14 +22,14 @@ pub(super) enum Others {
 
 /// The lock of a folder as this process has it; released when it is dropped.
 #[derive(Debug)]
-pub(super) struct FolderLock {
+pub(in crate::sweep) struct FolderLock {
     /// `None` where the file can neither be created nor opened.
     file: Option<File>,
 }
 
 impl FolderLock {
     /// The lock of a folder, not taken yet.
-    pub(super) fn of(folder: &Path) -> Self {
+    pub(in crate::sweep) fn of(folder: &Path) -> Self {
         let path = folder.join(LOCK);
         // NFS asks for a file open for writing to lock it exclusively.
         let file = File::options()
@@ -44,12 +44,12 @@ impl FolderLock {
     }
 
     /// A lock that protects nothing, for folders that are only read.
-    pub(super) fn none() -> Self {
+    pub(in crate::sweep) fn none() -> Self {
         Self { file: None }
     }
 
     /// Takes the lock exclusively where nobody else has it.
-    pub(super) fn try_exclusive(&self) -> Others {
+    pub(in crate::sweep) fn try_exclusive(&self) -> Others {
         match self.file.as_ref().map(File::try_lock) {
             Some(Ok(())) => Others::Absent,
             Some(Err(TryLockError::WouldBlock)) => Others::AtWork,
@@ -59,7 +59,7 @@ impl FolderLock {
 
     /// Exchanges an exclusive lock, or none, for a shared one, after waiting for one that clears the folder. Others may come
     /// between the two: what was found in the folder before must be checked again.
-    pub(super) fn share(&self) {
+    pub(in crate::sweep) fn share(&self) {
         let Some(file) = &self.file else { return };
         self.release();
         // Any other error: the file system has no locks.
@@ -70,7 +70,7 @@ impl FolderLock {
     }
 
     /// Gives the lock back.
-    pub(super) fn release(&self) {
+    pub(in crate::sweep) fn release(&self) {
         if let Some(file) = &self.file {
             // Where there are no locks, none is held.
             let _ = file.unlock();

@@ -6,8 +6,8 @@ use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 
+use crate::sweep::bookkeeping::store::{Store, StoreError};
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::store::{Store, StoreError};
 
 /// What the numbers of this program come from: the SHA-256 of its sources as far as they make numbers; see `src/build.rs`. Records
 /// of another build may be others.
@@ -118,7 +118,7 @@ impl Stopwatch {
 }
 
 /// The name of this machine, where the system tells it as Linux does.
-pub(super) fn host() -> Option<String> {
+pub(in crate::sweep) fn host() -> Option<String> {
     let name = fs::read_to_string("/proc/sys/kernel/hostname").ok()?;
     Some(name.trim().to_owned())
 }

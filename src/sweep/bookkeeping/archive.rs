@@ -6,11 +6,11 @@ use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
 
+use crate::sweep::bookkeeping::provenance::BUILD;
+use crate::sweep::bookkeeping::sealed;
+use crate::sweep::bookkeeping::store::{Store, StoreError};
 use crate::sweep::plan::Case;
-use crate::sweep::provenance::BUILD;
 use crate::sweep::record::CaseRecord;
-use crate::sweep::sealed;
-use crate::sweep::store::{Store, StoreError};
 
 /// What a case was solved for, which decides where its record lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -71,7 +71,7 @@ pub const OF_ANOTHER_BUILD: &str = concat!(
 );
 
 /// The name of a case in the folder, without its ending: the same in every process that solves it.
-pub(super) fn case_name(purpose: Purpose, case: &Case) -> String {
+pub(in crate::sweep) fn case_name(purpose: Purpose, case: &Case) -> String {
     match purpose {
         Purpose::Sweep => format!("{:04}", case.index),
         Purpose::Peak => format!(
