@@ -6,7 +6,11 @@ mod build;
 use std::fs;
 use std::path::Path;
 
+use contact_dma::cli::document::Document;
+use contact_dma::cli::sweep_file;
 use contact_dma::sweep::bookkeeping::provenance::BUILD;
+use contact_dma::sweep::plan::SweepPlan;
+use contact_dma::sweep::resolved;
 use tempfile::TempDir;
 
 fn copy(from: &Path, to: &Path) {
@@ -120,4 +124,134 @@ fn whatever_may_make_another_number_makes_another_identity() {
     others.sort();
     others.dedup();
     assert_eq!(others.len(), 7);
+}
+
+/// A sweep in which every key has a value that may be changed alone.
+const SWEEP: &str = r#"title = "every key"
+[material]
+name = "a"
+poisson_ratio = 0.4
+measured = ["1 ms", "1000 s"]
+[material.relaxation]
+modulus = "shear"
+equilibrium = "1 MPa"
+branches = [{ modulus = "2 MPa", time = "1 s" }]
+[[material.alternative]]
+equilibrium = "2 MPa"
+branches = [{ modulus = "1 MPa", time = "1 s" }]
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+control = "load"
+mean = "10 N"
+amplitude = "5 N"
+phase = "0 deg"
+hold = "0 s"
+[sweep]
+frequency = ["1 Hz", "2 Hz"]
+refine = false
+[cycle]
+steps = 200
+method = "direct"
+tolerance = 1e-4
+max_cycles = 1000
+error_bars = true
+accuracy = 1e-2
+[solver]
+engine = "axisymmetric"
+cells = 128
+springs = 400
+time_rule = "linear"
+tolerance = 1e-9
+"#;
+
+/// What each key may be changed to.
+const CHANGES: &[&str] = &[
+    "title=b",
+    "material.name=b",
+    "material.poisson_ratio=0.41",
+    "material.measured=[\"1 ms\", \"1001 s\"]",
+    "material.relaxation.modulus=longitudinal",
+    "material.relaxation.equilibrium=1.1 MPa",
+    "material.relaxation.branches=[{ modulus = \"2.1 MPa\", time = \"1 s\" }]",
+    "material.relaxation.branches=[{ modulus = \"2 MPa\", time = \"1.1 s\" }]",
+    "material.alternative=[{ equilibrium = \"2.1 MPa\", branches = [{ modulus = \"1 MPa\", time = \"1 s\" }] }]",
+    "indenter.shape=flat-punch",
+    "indenter.radius=11 mm",
+    "drive.control=approach",
+    "drive.mean=11 N",
+    "drive.amplitude=4 N",
+    "drive.phase=1 deg",
+    "drive.hold=1 s",
+    "sweep.frequency=[\"1 Hz\", \"2.1 Hz\"]",
+    "sweep.drive.amplitude=[\"1 N\", \"2 N\"]",
+    "sweep.refine=true",
+    "cycle.steps=204",
+    "cycle.method=march",
+    "cycle.tolerance=1e-5",
+    "cycle.max_cycles=999",
+    "cycle.error_bars=false",
+    "cycle.accuracy=2e-2",
+    "solver.engine=half-space",
+    "solver.cells=64",
+    "solver.springs=300",
+    "solver.time_rule=constant",
+    "solver.tolerance=1e-10",
+];
+
+fn plan_with(changes: &[&str]) -> SweepPlan {
+    let mut document = Document::parse("every-key.toml", SWEEP).ok().unwrap();
+    for change in changes {
+        document.set(change).ok().unwrap();
+    }
+    sweep_file::plan(&document).unwrap_or_else(|why| panic!("{changes:?}: {why}"))
+}
+
+#[test]
+fn every_key_of_a_sweep_makes_another_sweep_and_the_look_of_its_figures_does_not() {
+    let identity = |plan: &SweepPlan| resolved::hash(&resolved::resolved_text(plan));
+    let base = plan_with(&[]);
+    let mut seen = vec![identity(&base)];
+    for change in CHANGES {
+        // What a key excludes is taken away with it.
+        let changes = match *change {
+            "drive.control=approach" => vec![*change, "drive.mean=10 um", "drive.amplitude=5 um"],
+            change => vec![change],
+        };
+        let plan = plan_with(&changes);
+        assert_ne!(
+            format!("{plan:?}"),
+            format!("{base:?}"),
+            "{change}: the same plan"
+        );
+        let found = identity(&plan);
+        assert!(!seen.contains(&found), "{change}: the same sweep");
+        seen.push(found);
+    }
+    let looks = [
+        "figures.width=90 mm",
+        "figures.titles=false",
+        "figures.axes=normalised",
+    ];
+    for look in looks {
+        assert_eq!(identity(&plan_with(&[look])), seen[0], "{look}");
+    }
+}
+
+#[test]
+fn what_an_indenter_is_read_from_may_lie_anywhere() {
+    let text = "[indenter]\nshape = \"map\"\nfile = \"/a/b.csv\"\nsha256 = \"12\"\nheight_unit = \"1 m\"\n";
+    let moved = text.replace("/a/b", "/c/d");
+    assert_eq!(resolved::hash(text), resolved::hash(&moved));
+    assert_ne!(
+        resolved::hash(text),
+        resolved::hash(&text.replace("12", "13"))
+    );
+    // A line that only looks like one counts.
+    let title = "title = \"\"\"\nfile = 1\n\"\"\"\n";
+    assert_ne!(
+        resolved::hash(title),
+        resolved::hash(&title.replace('1', "2"))
+    );
 }

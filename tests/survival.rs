@@ -739,3 +739,57 @@ fn a_comparison_finds_a_shifted_peak_and_a_missing_case() {
         .code(2)
         .stderr(contains("no column nothing"));
 }
+
+#[test]
+fn a_sweep_that_was_moved_with_its_data_and_renamed_goes_on() {
+    let folder = TempDir::new().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let sweep = |file: &str, data: &str| {
+        let text = CHEAP
+            .replace(
+                "shape = \"sphere\"\nradius = \"10 mm\"",
+                "shape = \"profile\"\nfile = \"DATA\"",
+            )
+            .replace("points = 60", "points = 3")
+            .replace("DATA", data);
+        fs::write(at(file), text).unwrap();
+    };
+    let run = |file: &str, out: &str| {
+        let mut command = program();
+        command
+            .args(["sweep", "--quiet"])
+            .arg(at(file))
+            .arg("--out")
+            .arg(at(out));
+        command.assert()
+    };
+    let found = |out: &str| {
+        let text = fs::read_to_string(at(out).join("run.json")).unwrap();
+        let run: serde_json::Value = serde_json::from_str(&text).unwrap();
+        (run["cases_computed"].as_u64(), run["cases_found"].as_u64())
+    };
+    fs::create_dir(at("here")).unwrap();
+    let tip = "r_m,gap_m\n0,0\n1e-3,5e-5\n2e-3,2e-4\n4e-3,8e-4\n";
+    fs::write(at("here/tip.csv"), tip).unwrap();
+    sweep("here/sweep.toml", "tip.csv");
+    run("here/sweep.toml", "here/out").success();
+    assert_eq!(found("here/out"), (Some(3), Some(0)));
+
+    fs::rename(at("here"), at("there")).unwrap();
+    fs::rename(at("there/tip.csv"), at("there/point.csv")).unwrap();
+    fs::remove_file(at("there/sweep.toml")).unwrap();
+    sweep("there/other.toml", "point.csv");
+    run("there/other.toml", "there/out").success();
+    assert_eq!(found("there/out"), (Some(0), Some(3)));
+    // The folder knows where the data lie now.
+    program()
+        .arg("report")
+        .arg(at("there/out"))
+        .assert()
+        .success();
+
+    fs::write(at("there/point.csv"), tip.replace("8e-4", "9e-4")).unwrap();
+    run("there/other.toml", "there/out")
+        .code(2)
+        .stderr(contains("sha256"));
+}

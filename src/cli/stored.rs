@@ -13,9 +13,8 @@ use crate::sweep::bookkeeping::merge;
 use crate::sweep::bookkeeping::provenance::Stopwatch;
 use crate::sweep::bookkeeping::store::{RESOLVED, Store};
 use crate::sweep::case::Setup;
-use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::plan::Case;
-use crate::sweep::resolved;
+use crate::sweep::resolved::{self, identity};
 use crate::sweep::run::{self, Options, Progress, RunError};
 
 /// Names of cases in a message before the rest is counted.
@@ -32,12 +31,12 @@ pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
         return Err(Failure::Input("there is nothing to merge".to_owned()));
     };
     for (part, other) in &parts {
-        if without_figures(other) != without_figures(resolved) {
+        if identity(other) != identity(resolved) {
             return Err(Failure::Input(format!(
                 "{} holds a part of another sweep than {}:\n{}",
                 part.folder().display(),
                 flags.parts[0].display(),
-                difference::lines(without_figures(resolved), without_figures(other), 12)
+                difference::lines(&identity(resolved), &identity(other), 12)
             )));
         }
     }
@@ -126,11 +125,11 @@ fn setup_of(folder: &Path, text: &str, set: &[String]) -> Result<Setup, Failure>
         }
         plan = sweep_file::plan(&document)?;
         let changed = resolved::resolved_text(&plan);
-        if without_figures(&changed) != without_figures(text) {
+        if identity(&changed) != identity(text) {
             return Err(Failure::Input(format!(
                 "`report` solves nothing, and --set can change [figures] alone; this is another sweep:\n{}for it run \
                  `contact-dma sweep`",
-                difference::lines(without_figures(text), without_figures(&changed), NAMED)
+                difference::lines(&identity(text), &identity(&changed), NAMED)
             )));
         }
     }

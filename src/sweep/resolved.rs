@@ -1,5 +1,5 @@
 //! The resolved sweep: every default written out, with units, as a sweep file that gives the same plan again; and its hash,
-//! which the `[figures]` table at its end does not enter.
+//! which neither the `[figures]` table at its end enters nor the place where a data file lies.
 
 use std::fmt::Write;
 
@@ -145,9 +145,21 @@ fn inline_table(table: &[Parameter]) -> String {
     format!("    {{ {} }},\n", entries.join(", "))
 }
 
-/// SHA-256 of the resolved text without its `[figures]`, in hexadecimal.
+/// SHA-256 of the [`identity`], in hexadecimal.
 pub fn hash(resolved: &str) -> String {
-    hash_of_bytes(without_figures(resolved).as_bytes())
+    hash_of_bytes(identity(resolved).as_bytes())
+}
+
+/// What makes a resolved sweep or scenario the one that it is: its text without how its figures look, and without the path of a
+/// data file, whose content stands in the line below.
+pub fn identity(resolved: &str) -> String {
+    let lines: Vec<&str> = without_figures(resolved).split_inclusive('\n').collect();
+    let is_place = |k: usize| {
+        let next = lines.get(k + 1).copied().unwrap_or_default();
+        lines[k].starts_with("file = ") && next.starts_with("sha256 = ")
+    };
+    let kept = (0..lines.len()).filter(|&k| !is_place(k));
+    kept.map(|k| lines[k]).collect()
 }
 
 /// SHA-256 of any bytes, in hexadecimal.

@@ -19,8 +19,7 @@ use crate::sweep::bookkeeping::difference;
 use crate::sweep::bookkeeping::files;
 use crate::sweep::bookkeeping::folder_lock::{FolderLock, Others};
 use crate::sweep::bookkeeping::provenance;
-use crate::sweep::figures::figure_plan::without_figures;
-use crate::sweep::resolved::hash;
+use crate::sweep::resolved::{hash, identity};
 use crate::sweep::scenario;
 
 /// Why the folder cannot be used.
@@ -180,17 +179,17 @@ impl Store {
         let existing = fs::read(&path).map_err(|source| StoreError::Read { path, source })?;
         if !is_same(&existing, resolved) {
             let existing = String::from_utf8_lossy(&existing);
-            let (existing, resolved) = (without_figures(&existing), without_figures(resolved));
+            let (existing, resolved) = (identity(&existing), identity(resolved));
             self.lock.release();
             return Err(StoreError::OtherSweep {
                 path: self.folder.clone(),
                 at_work: self.lock.try_exclusive() == Others::AtWork,
-                difference: difference::lines(existing, resolved, LINES_SHOWN),
+                difference: difference::lines(&existing, &resolved, LINES_SHOWN),
             });
         }
         match existing == resolved.as_bytes() {
             true => Ok(()),
-            // The same sweep, whose figures are to look otherwise.
+            // The same sweep, whose figures are to look otherwise or whose data lie elsewhere.
             false => self.write(RESOLVED, resolved.as_bytes()),
         }
     }
@@ -295,10 +294,9 @@ impl Store {
     }
 }
 
-/// Whether a folder's resolved file is of the same sweep, however its figures look.
+/// Whether a folder's resolved file is of the same sweep, however its figures look and wherever its data lie.
 fn is_same(existing: &[u8], resolved: &str) -> bool {
-    let existing = std::str::from_utf8(existing).map(without_figures);
-    existing == Ok(without_figures(resolved))
+    std::str::from_utf8(existing).is_ok_and(|existing| identity(existing) == identity(resolved))
 }
 
 /// What is said of a folder that holds another sweep.
