@@ -66,7 +66,7 @@ fn a_sweep_prints_its_table_and_leaves_every_file() {
         .assert()
         .success()
         .stdout(contains("loss / cycle").and(contains("converged")))
-        .stdout(contains("Peak: ").and(contains("at ω = 8.4")))
+        .stdout(contains("Peak: ").and(contains("at ω = (8.4")))
         .stdout(contains("Results in reports/small"));
     let out = folder.path().join("reports/small");
     for name in [

@@ -198,6 +198,23 @@ fn the_first_sweep_prints_what_its_guide_shows() {
 }
 
 #[test]
+fn input_files() {
+    let printed = follow("input_files");
+    assert!(printed.contains("pmma"), "{printed}");
+}
+
+#[test]
+fn figures() {
+    follow("figures");
+}
+
+#[test]
+fn validation() {
+    let printed = follow("validation");
+    assert!(printed.contains("7 agree"), "{printed}");
+}
+
+#[test]
 fn own_material() {
     follow("own_material");
 }
@@ -242,5 +259,7 @@ fn every_guide_is_followed_here_and_named_in_the_readme() {
             assert!(readme.contains(&format!("(src/guide/{name})")), "{guide}");
         }
     }
-    assert_eq!(guides, 7);
+    assert_eq!(guides, 10);
+    // What it is, two commands, where to read on.
+    assert!(readme.len() < 9 * 1024, "{}", readme.len());
 }

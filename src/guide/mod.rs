@@ -4,11 +4,14 @@
 //! | guide | what it answers |
 //! |---|---|
 //! | [`first_sweep`] | from nothing to a curve of the energy loss, in five minutes |
+//! | [`input_files`] | every key of a sweep file and of a file of one drive history |
 //! | [`own_material`] | how a material is given: series, tables of measured data, code |
 //! | [`own_indenter`] | how a shape is given: profile, height map, code |
 //! | [`own_loading`] | what drives the contact: oscillations about a mean, histories, records |
-//! | [`cluster`] | sweeps on several machines: shards, Slurm, what survives what |
-//! | [`results`] | what every number means, and how far it can be trusted |
+//! | [`cluster`] | sweeps on several machines: shards, Slurm; what a folder remembers, how results are compared |
+//! | [`results`] | what is written, what every number means, and how far it can be trusted |
+//! | [`figures`] | figures in the size and look of a journal |
+//! | [`validation`] | the two engines, and what they were held against |
 //! | [`validity`] | what the model leaves out, and how to see that it matters |
 //!
 //! In the guides a block that follows a sentence with a file's name in it is that file; commands are for a shell in the folder
@@ -16,6 +19,10 @@
 
 pub mod first_sweep {
     #![doc = include_str!("first_sweep.md")]
+}
+
+pub mod input_files {
+    #![doc = include_str!("input_files.md")]
 }
 
 pub mod own_material {
@@ -36,6 +43,14 @@ pub mod cluster {
 
 pub mod results {
     #![doc = include_str!("results.md")]
+}
+
+pub mod figures {
+    #![doc = include_str!("figures.md")]
+}
+
+pub mod validation {
+    #![doc = include_str!("validation.md")]
 }
 
 pub mod validity {

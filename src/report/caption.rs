@@ -1,6 +1,6 @@
 //! Captions: what a figure shows, of what, with which numbers, and how it was computed, as one paragraph to paste into a paper.
 
-use super::page::number::plain;
+use super::number::plain;
 use super::page::{how, question};
 use crate::indenter::{Indenter, Value};
 use crate::material::Material;

@@ -8,6 +8,7 @@ pub mod fit;
 pub mod machine;
 pub mod material;
 pub mod npy;
+pub mod number;
 pub mod page;
 pub mod samples;
 pub mod scenario;

@@ -6,6 +6,7 @@ use super::figure;
 use super::figure::units::Units;
 use crate::history::Work;
 use crate::quantity::{Dimension, format_human};
+use crate::report::number::with_error_on_terminal;
 use crate::sweep::peak::Peak;
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::{CaseRecord, Status};
@@ -129,16 +130,6 @@ impl fmt::Display for Measured {
     }
 }
 
-/// The same in running text.
-fn spoken(value: f64, error: Option<f64>, dimension: Dimension) -> String {
-    let measured = Measured::new(Some(value), error, dimension);
-    let value = measured.value.unwrap_or_default();
-    match measured.error {
-        Some(error) => format!("{value} ± {error}"),
-        None => value,
-    }
-}
-
 /// Peaks, largest first; where there are none, why. Of a sweep of two axes the largest alone: each drive has its own.
 pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
     let mut text = String::new();
@@ -156,12 +147,12 @@ pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
         let _ = writeln!(
             text,
             "{what}: {} at ω = {}{}",
-            spoken(
+            with_error_on_terminal(
                 peak.energy_loss_j,
                 peak.energy_loss_error_j,
                 Dimension::Energy
             ),
-            spoken(
+            with_error_on_terminal(
                 peak.angular_frequency_rad_per_s,
                 Some(peak.angular_frequency_uncertainty_rad_per_s),
                 Dimension::AngularFrequency,
@@ -293,8 +284,11 @@ mod tests {
     }
 
     #[test]
-    fn a_number_has_the_digits_that_its_error_leaves_it() {
-        let joule = |value, error| spoken(value, error, Dimension::Energy);
+    fn a_number_of_the_table_has_the_digits_that_its_error_leaves_it() {
+        let joule = |value, error| {
+            let text = Measured::loss(Some(value), error).to_string();
+            text.trim().to_owned()
+        };
         assert_eq!(joule(3.50901e-6, Some(2.8e-10)), "3.5090 µJ ± 0.0003");
         assert_eq!(joule(3.50901e-6, Some(2.8e-9)), "3.509 µJ ± 0.003");
         assert_eq!(joule(91.47e-9, Some(9.6e-11)), "91.5 nJ ± 0.1");
@@ -303,8 +297,6 @@ mod tests {
         // Beyond seven digits the error is told with an exponent.
         assert_eq!(joule(3.50901e-6, Some(2.8e-15)), "3.509010 µJ ± 3e-9");
         assert_eq!(joule(3.5e-6, Some(5e-6)), "3.50 µJ ± 5");
-        let omega = spoken(8.4398e-3, Some(1.3e-6), Dimension::AngularFrequency);
-        assert_eq!(omega, "8.440e-3 rad/s ± 0.000002");
     }
 
     #[test]

@@ -107,7 +107,7 @@ impl Value {
     }
 }
 
-/// What [`Claim::cells`] are.
+/// What [`Claim::cells_below`] are.
 pub(super) const COLUMNS: [&str; 8] = [
     "quantity",
     "the paper",
@@ -205,8 +205,18 @@ impl Claim {
         }
     }
 
+    /// The claim as a row to be read, below another one: what the paper states of both stands once.
+    pub(super) fn cells_below(&self, above: Option<&Claim>) -> [String; 8] {
+        let mut cells = self.cells();
+        let is_same = |above: &Claim| above.stated.paper == self.stated.paper;
+        if !self.stated.paper.is_empty() && above.is_some_and(is_same) {
+            cells[1] = "as above".to_owned();
+        }
+        cells
+    }
+
     /// The claim as a row to be read.
-    pub(super) fn cells(&self) -> [String; 8] {
+    fn cells(&self) -> [String; 8] {
         let errors = [self.axisymmetric, self.half_space]
             .map(|value| self.error_text(value))
             .into_iter()

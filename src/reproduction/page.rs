@@ -98,24 +98,32 @@ fn disagreements(figures: &[Figure]) -> String {
 /// What the paper states, figure by figure.
 fn contents(figures: &[Figure]) -> String {
     let mut html = String::from(
-        "<table>\n<thead><tr><th scope=\"col\" class=\"text\">figure</th><th scope=\"col\" class=\"text\">the paper states</th>\
-         <th scope=\"col\" class=\"text\">kind</th><th scope=\"col\" class=\"text\">verdict</th></tr></thead>\n<tbody>\n",
+        "<table class=\"claims\">\n<thead><tr><th scope=\"col\" class=\"text\">figure</th>\
+         <th scope=\"col\" class=\"text\">the paper states</th><th scope=\"col\" class=\"text\">kind</th>\
+         <th scope=\"col\" class=\"text\">verdict</th></tr></thead>\n<tbody>\n",
     );
-    for statement in figures.iter().flat_map(|figure| &figure.statements) {
-        let number = statement.figure;
-        let kind = if statement.is_number {
-            "number"
-        } else {
-            "words"
-        };
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            html,
-            "<tr><th scope=\"row\"><a href=\"#figure-{number:02}\">Figure {number}</a></th><td class=\"text wide\">{}</td>\
-             <td class=\"text\">{kind}</td><td class=\"text\">{}</td></tr>",
-            readable(&statement.paper),
-            statement.verdict.name()
+    for figure in figures {
+        let mut name = format!(
+            "<a href=\"#{}\">Figure {}</a>",
+            figure.name(),
+            figure.number
         );
+        for statement in &figure.statements {
+            let kind = if statement.is_number {
+                "number"
+            } else {
+                "words"
+            };
+            // Writing to a String cannot fail.
+            let _ = writeln!(
+                html,
+                "<tr><th scope=\"row\">{name}</th><td class=\"text wide\">{}</td><td class=\"text\">{kind}</td>\
+                 <td class=\"text\">{}</td></tr>",
+                readable(&statement.paper),
+                statement.verdict.name()
+            );
+            name = format!("Figure {}", figure.number);
+        }
     }
     html.push_str("</tbody>\n</table>");
     html
@@ -124,7 +132,9 @@ fn contents(figures: &[Figure]) -> String {
 fn section(figure: &Figure, pictures: &Pictures) -> String {
     let name = figure.name();
     let picture = pictures.inline(&name).unwrap_or_default();
-    let rows: String = figure.claims.iter().map(row).collect();
+    let above = std::iter::once(None).chain(figure.claims.iter().map(Some));
+    let rows = figure.claims.iter().zip(above);
+    let rows: String = rows.map(|(claim, above)| row(claim, above)).collect();
     let heads: String = COLUMNS
         .iter()
         .map(|column| format!("<th scope=\"col\"{}>{column}</th>", kind(column)))
@@ -139,8 +149,8 @@ fn section(figure: &Figure, pictures: &Pictures) -> String {
     )
 }
 
-fn row(claim: &Claim) -> String {
-    let cells = claim.cells();
+fn row(claim: &Claim, above: Option<&Claim>) -> String {
+    let cells = claim.cells_below(above);
     let mut html = format!("<tr data-verdict=\"{}\">", claim.judged().name());
     for (column, cell) in COLUMNS.iter().zip(&cells) {
         let cell = readable(cell);

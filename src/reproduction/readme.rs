@@ -78,7 +78,9 @@ fn section(text: &mut String, figure: &Figure) {
         COLUMNS.join(" | "),
         "---|".repeat(COLUMNS.len())
     );
+    let mut above = None;
     for claim in &figure.claims {
-        let _ = writeln!(text, "| {} |", claim.cells().join(" | "));
+        let _ = writeln!(text, "| {} |", claim.cells_below(above).join(" | "));
+        above = Some(claim);
     }
 }

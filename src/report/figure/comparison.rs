@@ -7,7 +7,7 @@ use crate::report::ReportError;
 use crate::report::caption::{Caption, Setting};
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
 use crate::report::comparison::{Comparison, CurvePoint, Place};
-use crate::report::page::number::plain;
+use crate::report::number::plain;
 
 const NAME: &str = "comparison";
 const WIDTH_PX: u32 = 800;

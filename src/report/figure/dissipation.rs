@@ -7,7 +7,7 @@ use crate::quantity::{Dimension, format_human};
 use crate::report::ReportError;
 use crate::report::caption::{Caption, listed};
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
-use crate::report::page::number::plain;
+use crate::report::number::plain;
 use crate::report::table::{Table, number};
 use crate::sweep::record::{CaseRecord, CaseResult};
 

@@ -7,7 +7,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::{HeatMap, MapShape, Scale};
-use crate::report::page::number::{plain, with_error};
+use crate::report::number::{plain, with_error};
 use crate::report::table::{Table, number, optional};
 use crate::sweep::record::{CaseRecord, CaseResult, SurfaceLoss};
 

@@ -9,7 +9,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{Caption, listed};
 use crate::report::chart::{Axis, Chart, Color, Series};
-use crate::report::page::number::plain;
+use crate::report::number::plain;
 use crate::report::table::{Table, number, optional};
 use crate::report::work_line::{WorkAlong, WorkLine};
 use crate::sweep::record::CaseRecord;

@@ -7,7 +7,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, Color, Mark, Marker, Series};
-use crate::report::page::number::with_error;
+use crate::report::number::with_error;
 use crate::report::table::{Table, number, optional};
 use crate::sweep::peak::Peak;
 use crate::sweep::plan::SweepPlan;

@@ -6,7 +6,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::{self, Axis, Chart, Series};
-use crate::report::page::number::plain;
+use crate::report::number::plain;
 use crate::sweep::simulate::{HistoryRow, SimulationOutcome};
 
 const NAME: &str = "history";

@@ -7,7 +7,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{Caption, listed};
 use crate::report::chart::{Axis, Chart, Color, Series};
-use crate::report::page::number::{plain, with_error};
+use crate::report::number::{plain, with_error};
 use crate::report::table::{Table, number};
 use crate::sweep::record::{CaseRecord, CaseResult};
 

@@ -7,7 +7,7 @@ use super::{Drawn, Figure};
 use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{self, Caption};
-use crate::report::page::number::with_error;
+use crate::report::number::with_error;
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::run::Outcome;

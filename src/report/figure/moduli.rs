@@ -7,7 +7,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
-use crate::report::page::number::plain;
+use crate::report::number::plain;
 use crate::report::table::Table;
 use crate::sweep::error_bars::Quantity;
 use crate::sweep::plan::SweepPlan;

@@ -8,7 +8,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{Caption, Setting};
 use crate::report::chart::{HeatMap, MapShape, Scale};
-use crate::report::page::number::plain;
+use crate::report::number::plain;
 use crate::sweep::simulate::SurfaceRecord;
 
 const NAME: &str = "pressure-map";

@@ -6,7 +6,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{Caption, listed};
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
-use crate::report::page::number::plain;
+use crate::report::number::plain;
 use crate::report::scenario::{ProfilePoint, lines};
 use crate::report::table::{Table, number, optional};
 use crate::sweep::simulate::SurfaceRecord;

@@ -5,7 +5,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Series};
-use crate::report::page::number::plain;
+use crate::report::number::plain;
 use crate::report::table::Table;
 
 /// The figure, from (time in s, relaxation modulus in Pa, creep compliance in 1/Pa).

@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::html::escaped;
-use super::number::{plain, with_error};
 use crate::quantity::Dimension;
+use crate::report::number::{plain, with_error};
 use crate::report::terminal;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::resolved::drive_dimension;

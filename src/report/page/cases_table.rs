@@ -3,8 +3,8 @@
 use std::fmt::Write;
 
 use super::html::escaped;
-use super::number::{cell, digits};
 use crate::report::figure::prefix;
+use crate::report::number::{cell, digits};
 use crate::sweep::error_bars::Quantity;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseRecord;

@@ -7,7 +7,6 @@ use serde::Serialize;
 use super::compact::rounded;
 use super::frame::{Frame, Input, InputFile, PLOT, QUANTITIES};
 use super::html::{escaped, filled, json_for_script};
-use super::number::{cell, with_error};
 use super::pictures::Pictures;
 use crate::quantity::Dimension;
 use crate::report::ReportError;
@@ -16,6 +15,7 @@ use crate::report::comparison::{
     Column, ColumnComparison, Comparison, PeakComparison, Place, Source, SweepTable, Tolerances,
 };
 use crate::report::figure::scientific;
+use crate::report::number::{cell, with_error};
 use crate::sweep::bookkeeping::difference;
 use crate::sweep::peak::Peak;
 

@@ -30,11 +30,18 @@ function significant(value, digits = 4) {
 /** Without zeros at the end of the decimals. */
 const trimmed = (text) => text.replace(/(\.\d*?)0+(?=$| )/, "$1").replace(/\.(?=$| )/, "");
 
-/** An error in the unit of its value: "± 0.00027 µJ". */
+/** One digit, never less than the number itself. */
+function roundedUp(error) {
+  const unit = 10 ** Math.floor(Math.log10(error));
+  return Math.ceil((error / unit) * (1 - 1e-9)) * unit;
+}
+
+/** An error in the unit of its value: "± 0.0003 µJ". */
 function errorOf(value, error, unit) {
   if (error === null || error === undefined) return "";
   const scale = scaleFor(Math.abs(value), unit);
-  return `± ${significant(error * scale.factor, 2)}${scale.unit === "°" ? "" : " "}${scale.unit}`.trim();
+  const shown = error > 0 ? roundedUp(error * scale.factor) : error;
+  return `± ${significant(shown, 1)}${scale.unit === "°" ? "" : " "}${scale.unit}`.trim();
 }
 
 /** A value with its unit: "3.509 µJ". */

@@ -10,7 +10,6 @@ pub mod frame;
 pub(super) mod how;
 pub mod html;
 pub mod material;
-pub(super) mod number;
 mod pictures;
 pub(super) mod question;
 mod simulation;

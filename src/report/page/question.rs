@@ -3,11 +3,11 @@
 use std::fmt::Write;
 
 use super::html::escaped;
-use super::number::plain;
 use crate::drive::HarmonicDrive;
 use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{GivenFace, Material, ModulusKind};
 use crate::quantity::Dimension;
+use crate::report::number::plain;
 use crate::sweep::plan::{SweepPlan, Varied};
 use crate::sweep::resolved::drive_dimension;
 

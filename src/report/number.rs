@@ -1,0 +1,191 @@
+//! Numbers with their errors and units, to be read.
+
+use crate::quantity::{Dimension, format_human};
+use crate::report::figure::scientific;
+
+/// A value with its error, in one unit and of one power of ten: the error has one digit and is never less than it is, the value has
+/// as many decimals.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Measured {
+    pub value: String,
+    pub error: String,
+    /// By what power of ten both are to be multiplied, where that is not 0.
+    pub power: i32,
+    pub unit: String,
+}
+
+/// Digits of a value beyond which an error is not followed.
+const MOST_DECIMALS: i32 = 9;
+
+impl Measured {
+    /// `None` where there is no error, or no value but zero to take the unit from.
+    pub fn new(value: f64, error: Option<f64>, dimension: Dimension) -> Option<Self> {
+        let error = error.filter(|e| *e > 0.0 && e.is_finite())?;
+        if value == 0.0 || !value.is_finite() {
+            return None;
+        }
+        // The unit and the power that the value alone would be written with.
+        let human = format_human(value, dimension, 17);
+        let (number, unit) = human.split_once(' ').unwrap_or((&human, ""));
+        let number: f64 = number.parse().unwrap_or(value);
+        let exponent = number.abs().log10().floor() as i32;
+        let power = if (-2..5).contains(&exponent) {
+            0
+        } else {
+            exponent
+        };
+        let scale = 10_f64.powi(power);
+        let error = number / value * error / scale;
+        let decimals = (-exponent_rounded_up(error)).clamp(0, MOST_DECIMALS) as usize;
+        let unit_of_error = 10_f64.powi(exponent_rounded_up(error).max(-MOST_DECIMALS));
+        let error = (error / unit_of_error * (1.0 - 1e-9)).ceil() * unit_of_error;
+        Some(Self {
+            value: format!("{:.decimals$}", number / scale),
+            error: format!("{error:.decimals$}"),
+            power,
+            unit: unit.to_owned(),
+        })
+    }
+}
+
+/// The power of ten of an error that is rounded up to one digit.
+fn exponent_rounded_up(error: f64) -> i32 {
+    let exponent = error.log10().floor();
+    let digit = (error / 10_f64.powf(exponent) * (1.0 - 1e-9)).ceil();
+    exponent as i32 + i32::from(digit > 9.0)
+}
+
+/// Value and error to be read: `3.5090 ± 0.0003 µJ`, `(8.440 ± 0.003) × 10⁻³ rad/s`.
+pub(super) fn with_error(value: f64, error: Option<f64>, dimension: Dimension) -> String {
+    written(value, error, dimension, &|power| {
+        format!(" × {}", scientific(10_f64.powi(power), 1))
+    })
+}
+
+/// The same where powers cannot be raised: `(8.440 ± 0.003)e-3 rad/s`.
+pub(super) fn with_error_on_terminal(
+    value: f64,
+    error: Option<f64>,
+    dimension: Dimension,
+) -> String {
+    written(value, error, dimension, &|power| format!("e{power}"))
+}
+
+fn written(
+    value: f64,
+    error: Option<f64>,
+    dimension: Dimension,
+    tens: &dyn Fn(i32) -> String,
+) -> String {
+    let Some(measured) = Measured::new(value, error, dimension) else {
+        return format_human(value, dimension, 5);
+    };
+    let Measured {
+        value,
+        error,
+        power,
+        unit,
+    } = measured;
+    match power {
+        0 => format!("{value} ± {error} {unit}"),
+        power => format!("({value} ± {error}){} {unit}", tens(power)),
+    }
+}
+
+/// A number as a person would write it: `10 N`, `10⁻⁴ rad/s`. At most `significant` digits.
+pub(super) fn plain(value: f64, dimension: Dimension, significant: usize) -> String {
+    let human = format_human(value, dimension, significant);
+    let (number, unit) = human.split_once(' ').unwrap_or((&human, ""));
+    let number: f64 = number.parse().unwrap_or(value);
+    format!("{} {unit}", scientific(number, significant))
+}
+
+/// At most five significant digits without a unit: a dash for what is absent.
+pub(super) fn cell(value: Option<f64>) -> String {
+    match value {
+        Some(value) => scientific(value, 5),
+        None => "–".to_owned(),
+    }
+}
+
+/// So many significant digits without a unit, zeros at the end too, for a column of like numbers; a dash for what is absent.
+pub(super) fn digits(value: Option<f64>, significant: usize) -> String {
+    let Some(value) = value else {
+        return "–".to_owned();
+    };
+    let decimals = significant.saturating_sub(1);
+    let written = format!("{value:.decimals$e}");
+    let (mantissa, exponent) = written.split_once('e').unwrap_or((&written, "0"));
+    match exponent.parse::<i32>().unwrap_or(0) {
+        exponent @ -2..5 => {
+            let decimals = (decimals as i32 - exponent).max(0) as usize;
+            format!("{value:.decimals$}").replace('-', "−")
+        }
+        exponent => {
+            let tens = scientific(10_f64.powi(exponent), 1);
+            format!("{} × {tens}", mantissa.replace('-', "−"))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_has_one_digit_rounded_up_and_its_value_as_many_decimals() {
+        let joule = |value, error| with_error(value, error, Dimension::Energy);
+        assert_eq!(joule(3.50901e-6, Some(2.8e-10)), "3.5090 ± 0.0003 µJ");
+        assert_eq!(joule(3.50901e-6, Some(2.1e-9)), "3.509 ± 0.003 µJ");
+        // 0.096 is 0.1.
+        assert_eq!(joule(91.47e-9, Some(9.6e-11)), "91.5 ± 0.1 nJ");
+        assert_eq!(joule(91.47e-9, Some(0.0)), "91.470 nJ");
+        assert_eq!(joule(3.6e-6, Some(5e-6)), "4 ± 5 µJ");
+        assert_eq!(joule(3.6e-6, Some(1e-6)), "4 ± 1 µJ");
+        // Further than nine decimals no error is followed.
+        assert_eq!(
+            joule(3.50901e-6, Some(2.8e-19)),
+            "3.509010000 ± 0.000000001 µJ"
+        );
+        let omega = |value, error| {
+            let written = [with_error, with_error_on_terminal];
+            written.map(|text| text(value, Some(error), Dimension::AngularFrequency))
+        };
+        assert_eq!(
+            omega(8.4401e-3, 2.1e-6),
+            ["(8.440 ± 0.003) × 10⁻³ rad/s", "(8.440 ± 0.003)e-3 rad/s"]
+        );
+        assert_eq!(
+            omega(8.4e-7, 2.1e-9),
+            ["(8.40 ± 0.03) × 10⁻⁷ rad/s", "(8.40 ± 0.03)e-7 rad/s"]
+        );
+        assert_eq!(omega(0.075691, 2.1e-6)[1], "0.075691 ± 0.000003 rad/s");
+        assert_eq!(with_error(2.0, None, Dimension::Force), "2.0000 N");
+        assert_eq!(with_error(0.0, Some(1.0), Dimension::Force), "0 N");
+    }
+
+    #[test]
+    fn a_column_keeps_the_zeros_at_the_end() {
+        let texts = [3.5, -365.0, 0.01, 1e5, 9.99999, 0.0].map(|v| digits(Some(v), 5));
+        assert_eq!(
+            texts,
+            [
+                "3.5000",
+                "−365.00",
+                "0.010000",
+                "1.0000 × 10⁵",
+                "10.000",
+                "0.0000"
+            ]
+        );
+        assert_eq!(digits(None, 5), "–");
+    }
+
+    #[test]
+    fn a_plain_number_has_no_more_digits_than_it_needs() {
+        assert_eq!(plain(10.0, Dimension::Force, 4), "10 N");
+        assert_eq!(plain(0.01, Dimension::Length, 6), "10 mm");
+        assert_eq!(plain(1e-4, Dimension::AngularFrequency, 3), "10⁻⁴ rad/s");
+        assert_eq!(plain(0.0, Dimension::Angle, 4), "0 rad");
+    }
+}
