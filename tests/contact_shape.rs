@@ -6,29 +6,15 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use common::{pmma_material, run_case, springs, sweep_plan};
+use common::{on_cells, pmma_material, run_case, springs, sweep_plan};
 use contact_dma::contact::{Engine, Instant, Prescribed};
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
 use contact_dma::indenter::{Asperities, Asperity, Ellipsoid, Indenter, Profile, Shifted, Sphere};
 use contact_dma::sweep::body_material::BodyMaterial;
 use contact_dma::sweep::figures::figure_plan::FigurePlan;
-use contact_dma::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
 use contact_dma::sweep::scenario::{OutputPlan, ScenarioPlan};
 use contact_dma::sweep::simulate::{Simulation, SimulationEnd, SimulationOutcome};
-
-fn on_cells(mut plan: SweepPlan, cells: usize) -> SweepPlan {
-    plan.cycle = CyclePlan {
-        steps: 48,
-        error_bars: false,
-        ..CyclePlan::default()
-    };
-    plan.solver = SolverPlan {
-        engine: EngineKind::HalfSpace,
-        cells,
-        ..SolverPlan::default()
-    };
-    plan
-}
 
 fn bump(center_x_m: f64) -> Asperity {
     Asperity {
@@ -60,7 +46,7 @@ fn a_contact_off_the_axis_is_found_under_approach_and_under_load_control() {
     alone.drive = HarmonicDrive::new(Control::Approach, 5e-6, 2e-6, 0.0, 0.0).unwrap();
     let alone_n = run_case(&alone, 0.01).result.unwrap().analysis;
     for (shape, count) in off_the_axis() {
-        let load = on_cells(sweep_plan(pmma_material(), shape, 10.0, 5.0), 96);
+        let load = on_cells(sweep_plan(pmma_material(), shape, 10.0, 5.0), 96, 48);
         let approach = SweepPlan {
             drive: alone.drive,
             ..load.clone()
@@ -88,7 +74,7 @@ fn a_ring_off_the_axis_is_found_under_approach_control() {
         (2e-3, 1e-5),
     ];
     let ring: Arc<dyn Indenter> = Arc::new(Profile::new(&ring).unwrap());
-    let mut plan = on_cells(sweep_plan(pmma_material(), ring, 10.0, 5.0), 64);
+    let mut plan = on_cells(sweep_plan(pmma_material(), ring, 10.0, 5.0), 64, 48);
     plan.drive = HarmonicDrive::new(Control::Approach, 1e-6, 5e-7, 0.0, 0.0).unwrap();
     let found = run_case(&plan, 0.01);
     assert!(
@@ -153,7 +139,7 @@ fn moduli_of_a_contact_of_any_shape_are_the_materials_at_small_amplitude() {
         (Arc::new(Ellipsoid::new(1.0, 0.01).unwrap()), 1.56),
     ];
     for (shape, by_area) in shapes {
-        let mut plan = on_cells(sweep_plan(material.clone(), shape, 10.0, 1e-3), 96);
+        let mut plan = on_cells(sweep_plan(material.clone(), shape, 10.0, 1e-3), 96, 48);
         plan.cycle.tolerance = 1e-5;
         let found = run_case(&plan, omega);
         let result = found

@@ -4,12 +4,12 @@ mod common;
 
 use std::sync::Arc;
 
-use common::{run_case, sweep_plan};
+use common::{on_cells, run_case, sweep_plan};
 use contact_dma::indenter::{Cone, Ellipsoid, Indenter, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
 use contact_dma::sweep::error_bars::Quantity;
 use contact_dma::sweep::instant_tolerance::SHARE;
-use contact_dma::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::{SolverPlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 
 /// A solid of 1 GPa at once and `ratio` times less at rest, with a relaxation time of 1 s.
@@ -21,20 +21,6 @@ fn solid(ratio: f64, poisson_ratio: f64) -> Material {
     };
     let relaxation = Relaxation::new(equilibrium_pa, vec![branch]).unwrap();
     Material::from_relaxation(relaxation, ModulusKind::Longitudinal, poisson_ratio).unwrap()
-}
-
-fn on_cells(mut plan: SweepPlan, cells: usize, steps: usize) -> SweepPlan {
-    plan.cycle = CyclePlan {
-        steps,
-        error_bars: false,
-        ..CyclePlan::default()
-    };
-    plan.solver = SolverPlan {
-        engine: EngineKind::HalfSpace,
-        cells,
-        ..SolverPlan::default()
-    };
-    plan
 }
 
 /// The same case at tolerances far tighter than the program chooses: the tightest with which a search does not end in rounding.

@@ -9,13 +9,13 @@ mod common;
 use std::sync::Arc;
 
 use common::solids::{Random, frequencies, shape, solid};
-use common::{pmma_material, run_case, sweep_plan};
+use common::{on_cells, pmma_material, run_case, sweep_plan};
 use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
 use contact_dma::material::{
     Creep, CreepBranch, Material, ModulusKind, Relaxation, RelaxationBranch,
 };
 use contact_dma::sweep::error_bars::Quantity;
-use contact_dma::sweep::plan::{EngineKind, SweepPlan};
+use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::record::CaseResult;
 use rayon::prelude::*;
 
@@ -248,12 +248,12 @@ fn ratio_to_closed_form(plan: &SweepPlan, omega: f64) -> (f64, String) {
 fn small_amplitudes_meet_the_closed_form_within_their_bars() {
     let seed = from_environment("SEED", 77);
     let on_springs = small_amplitudes(from_environment("SOLIDS", 12), seed);
-    let mut on_cells = small_amplitudes(from_environment("CELL_SOLIDS", 4), seed + 1);
-    for (plan, _) in &mut on_cells {
-        plan.solver.engine = EngineKind::HalfSpace;
-        (plan.solver.cells, plan.cycle.steps) = (48, 48);
+    let mut coarse = small_amplitudes(from_environment("CELL_SOLIDS", 4), seed + 1);
+    for (plan, _) in &mut coarse {
+        *plan = on_cells(plan.clone(), 48, 48);
+        plan.cycle.error_bars = true;
     }
-    for (name, cases) in [("springs", on_springs), ("cells", on_cells)] {
+    for (name, cases) in [("springs", on_springs), ("cells", coarse)] {
         let ratios: Vec<(f64, String)> = cases
             .par_iter()
             .map(|(plan, omega)| ratio_to_closed_form(plan, *omega))
@@ -372,6 +372,7 @@ fn no_pressure_that_is_reported_pulls() {
 #[test]
 fn no_case_fails_on_cells_and_true_errors_lie_inside_the_bars() {
     let solids = from_environment("CELL_SOLIDS", 3);
+    let [cells, steps] = ["CELLS", "STEPS"].map(|name| from_environment(name, 48) as usize);
     let mut random = Random(from_environment("SEED", 4));
     let sphere_or_cone = |random: &mut Random| -> Arc<dyn Indenter> {
         match random.count(0, 1) {
@@ -383,13 +384,10 @@ fn no_case_fails_on_cells_and_true_errors_lie_inside_the_bars() {
     let all: Vec<_> = cases
         .par_iter()
         .map(|(exact, omega)| {
-            let mut on_cells = exact.clone();
-            on_cells.solver.engine = EngineKind::HalfSpace;
-            on_cells.solver.cells = from_environment("CELLS", 48) as usize;
-            on_cells.cycle.steps = from_environment("STEPS", 48) as usize;
-            on_cells.cycle.error_bars = true;
+            let mut coarse = on_cells(exact.clone(), cells, steps);
+            coarse.cycle.error_bars = true;
             // Springs in four times as many steps: exact beside the cells.
-            Ok::<_, String>(ratios(&solved(&on_cells, *omega)?, &solved(exact, *omega)?))
+            Ok::<_, String>(ratios(&solved(&coarse, *omega)?, &solved(exact, *omega)?))
         })
         .collect();
     // The edge lies anywhere between two cells, and so the error anywhere below its bound.

@@ -83,7 +83,7 @@ pub(super) struct SweepFlags {
     /// Folder for the results [default: reports/<name of the file>]
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
-    /// Number of threads [default: one per processor; at most four]; the results do not depend on it
+    /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
     /// Change one key of the sweep file, for example drive.amplitude='2 N'; may be repeated
@@ -142,7 +142,7 @@ pub(super) struct MergeFlags {
     /// Folder for the whole
     #[arg(long, value_name = "DIR")]
     pub(super) out: PathBuf,
-    /// Number of threads [default: one per processor; at most four]
+    /// Number of threads [default: one per processor, at most four for each]
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
     /// Replace the results of a different sweep in the output folder
@@ -239,7 +239,7 @@ pub(super) struct SimulateFlags {
     /// --set output.error_bars=false
     #[arg(long)]
     pub(super) no_error_bars: bool,
-    /// Number of threads, which share a large half-space grid [default: one per processor; at most four]; the
+    /// Number of threads, which share a large half-space grid [default: one per processor, at most four for each]; the
     /// results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<std::num::NonZeroUsize>,

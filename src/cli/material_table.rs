@@ -15,6 +15,7 @@ use super::diagnostic::Problems;
 use super::document::{Located, TableReader};
 use super::material_block::KINDS;
 use super::table_file;
+use super::table_source::{TABLE_SOURCES, TableSource};
 use crate::material::fit::{self, Fit, FitError};
 use crate::material::tabulated::{TableColumn, Tabulated};
 use crate::material::{GivenFace, ModulusKind};
@@ -40,15 +41,6 @@ enum Evaluation {
 const EVALUATIONS: [(&str, Evaluation); 2] =
     [("fit", Evaluation::Fit), ("direct", Evaluation::Direct)];
 
-/// Where the values of a table stand.
-#[derive(Debug, Clone, Copy)]
-enum Source {
-    File,
-    WrittenOut,
-}
-
-const SOURCES: [(&str, Source); 2] = [("file", Source::File), ("times", Source::WrittenOut)];
-
 /// The material of a table, but for its Poisson ratio.
 pub(super) enum TableMaterial {
     /// As a series, with the report of the fit.
@@ -64,7 +56,7 @@ pub(super) fn read(
     direct_sum: DirectSum,
     problems: &Problems,
 ) -> Option<TableMaterial> {
-    let source = table.one_of(&SOURCES);
+    let source = table.one_of(&TABLE_SOURCES);
     let face = table.choice_of("quantity", &table_file::QUANTITIES);
     let kind = table.choice_of("modulus", &KINDS);
     let evaluation = table.choice_of_or("evaluation", &EVALUATIONS, Evaluation::Fit);
@@ -88,8 +80,8 @@ pub(super) fn read(
         table.has("values");
     }
     let data = match source?.1 {
-        Source::File => from_file(table, folder, face, kind, problems),
-        Source::WrittenOut => written_out(table, face, kind, problems),
+        TableSource::File => from_file(table, folder, face, kind, problems),
+        TableSource::WrittenOut => written_out(table, face, kind, problems),
     };
     let (data, evaluation) = (data?, evaluation?.value);
     // A problem with the key was reported.

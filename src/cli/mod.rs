@@ -29,6 +29,7 @@ mod stored;
 mod sweep;
 pub mod sweep_file;
 mod table_file;
+mod table_source;
 
 use std::ffi::OsString;
 use std::fmt::Display;

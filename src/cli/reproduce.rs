@@ -44,7 +44,7 @@ pub(super) struct ReproduceFlags {
     /// sweep file does; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
-    /// Number of threads [default: one per processor; at most four]; the results do not depend on it
+    /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
     /// Print nothing but errors

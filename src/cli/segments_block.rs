@@ -6,6 +6,7 @@ use super::diagnostic::{Location, Problems};
 use super::document::{Located, TableReader};
 use super::drive_table;
 use super::harmonic_block::{CONTROLS, FREQUENCIES, dimension};
+use super::table_source::{TABLE_SOURCES, TableSource};
 use crate::drive::{Control, HistoryError, Segment, SegmentProblem, SegmentedDrive};
 use crate::quantity::Dimension;
 
@@ -28,15 +29,6 @@ const KINDS: [(&str, Kind); 5] = [
     ("sine", Kind::Sine),
     ("table", Kind::Table),
 ];
-
-/// Where the values of a table stand.
-#[derive(Debug, Clone, Copy)]
-enum Source {
-    File,
-    WrittenOut,
-}
-
-const SOURCES: [(&str, Source); 2] = [("file", Source::File), ("times", Source::WrittenOut)];
 
 /// A segment, and where the part of it stands that most of its problems come from.
 struct Placed {
@@ -189,9 +181,9 @@ impl Reader<'_> {
     }
 
     fn table(&self, table: &mut TableReader<'_>) -> Option<Placed> {
-        match table.one_of(&SOURCES)?.1 {
-            Source::File => self.table_of_file(table),
-            Source::WrittenOut => self.table_written_out(table),
+        match table.one_of(&TABLE_SOURCES)?.1 {
+            TableSource::File => self.table_of_file(table),
+            TableSource::WrittenOut => self.table_written_out(table),
         }
     }
 

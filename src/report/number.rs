@@ -35,10 +35,9 @@ impl Measured {
             exponent
         };
         let scale = 10_f64.powi(power);
-        let error = number / value * error / scale;
-        let decimals = (-exponent_rounded_up(error)).clamp(0, MOST_DECIMALS) as usize;
-        let unit_of_error = 10_f64.powi(exponent_rounded_up(error).max(-MOST_DECIMALS));
-        let error = (error / unit_of_error * (1.0 - 1e-9)).ceil() * unit_of_error;
+        let least = 10_f64.powi(-MOST_DECIMALS);
+        let error = one_digit((number / value * error / scale).max(least));
+        let decimals = (-power_of_ten(error)).max(0) as usize;
         Some(Self {
             value: format!("{:.decimals$}", number / scale),
             error: format!("{error:.decimals$}"),
@@ -48,11 +47,15 @@ impl Measured {
     }
 }
 
-/// The power of ten of an error that is rounded up to one digit.
-fn exponent_rounded_up(error: f64) -> i32 {
-    let exponent = error.log10().floor();
-    let digit = (error / 10_f64.powf(exponent) * (1.0 - 1e-9)).ceil();
-    exponent as i32 + i32::from(digit > 9.0)
+/// One digit, never less than the number itself.
+pub(super) fn one_digit(error: f64) -> f64 {
+    let unit = 10_f64.powf(error.log10().floor());
+    (error / unit * (1.0 - 1e-9)).ceil() * unit
+}
+
+/// The power of ten of a number's first digit, of one too that lies a rounding below its power of ten.
+pub(super) fn power_of_ten(number: f64) -> i32 {
+    (number.abs() * (1.0 + 1e-9)).log10().floor() as i32
 }
 
 /// Value and error to be read: `3.5090 ± 0.0003 µJ`, `(8.440 ± 0.003) × 10⁻³ rad/s`.

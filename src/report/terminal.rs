@@ -6,7 +6,7 @@ use super::figure;
 use super::figure::units::Units;
 use crate::history::Work;
 use crate::quantity::{Dimension, format_human};
-use crate::report::number::with_error_on_terminal;
+use crate::report::number::{one_digit, power_of_ten, with_error_on_terminal};
 use crate::sweep::peak::Peak;
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::{CaseRecord, Status};
@@ -88,9 +88,10 @@ impl Measured {
             let value = value.map(|value| format_human(value, dimension, 4));
             return Self { value, error: None };
         };
-        let power = |number: f64| (number.abs() * (1.0 + 1e-9)).log10().floor();
-        let digits = power(value) - power(one_digit(error)) + 1.0;
-        let digits = digits.clamp(3.0, 7.0) as usize;
+        let digits = power_of_ten(value)
+            .saturating_sub(power_of_ten(one_digit(error)))
+            .saturating_add(1);
+        let digits = digits.clamp(3, 7) as usize;
         let text = format_human(value, dimension, digits);
         // The unit with its prefix is what makes the number of the value.
         let number = text.split(' ').next().and_then(|n| n.parse::<f64>().ok());
@@ -102,20 +103,12 @@ impl Measured {
     }
 }
 
-/// One digit, never less than the number itself.
-fn one_digit(error: f64) -> f64 {
-    let unit = 10_f64.powf(error.log10().floor());
-    (error / unit * (1.0 - 1e-9)).ceil() * unit
-}
-
 /// The number so rounded, in fixed notation where that takes no more than six decimals.
 fn rounded_up(error: f64) -> String {
     let error = one_digit(error);
-    // The rounded number may lie a rounding below its power of ten.
-    let power = (error * (1.0 + 1e-9)).log10().floor();
-    match power {
-        p if p >= 0.0 => format!("{error:.0}"),
-        p if p >= -6.0 => format!("{error:.*}", -p as usize),
+    match power_of_ten(error) {
+        0.. => format!("{error:.0}"),
+        power @ -6.. => format!("{error:.*}", -power as usize),
         _ => format!("{error:.0e}"),
     }
 }

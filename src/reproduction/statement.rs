@@ -158,8 +158,8 @@ impl Statement {
             return Err(self.unfit(&format!("no value is named {rows}")));
         }
         let verdict = self.verdict(&meant)?;
-        let values: Vec<String> = meant.iter().map(|claim| claim.exact_text()).collect();
-        let values: Vec<String> = values.into_iter().filter(|text| !text.is_empty()).collect();
+        let values = meant.iter().map(|claim| claim.exact_text());
+        let values: Vec<String> = values.filter(|text| !text.is_empty()).collect();
         let mut notes: Vec<&str> = Vec::new();
         for claim in &meant {
             if !claim.note.is_empty() && !notes.contains(&claim.note.as_str()) {

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use crate::contact::{ContactError, Engine};
 use crate::drive::{Control, HarmonicDrive};
 use crate::history::{Work, order_of_steps};
-use crate::material::{Creep, MaterialError};
+use crate::material::{Creep, MaterialError, Relaxation};
 use crate::sweep::bookkeeping::archive::Purpose;
 use crate::sweep::checkpoint::Checkpoints;
 use crate::sweep::edge_layer::EdgeLayer;
@@ -37,6 +37,8 @@ pub enum SetupError {
 pub struct Setup {
     plan: SweepPlan,
     compliance: Creep,
+    /// Its inverse, unless the body answers an instant with no finite modulus.
+    relaxation: Option<Relaxation>,
     /// Of the solids that the data leave possible beside the material.
     alternatives: Vec<Creep>,
     relaxed_compliance_per_pa: f64,
@@ -129,6 +131,7 @@ impl Setup {
         let setup = Self {
             alternatives,
             relaxed_compliance_per_pa,
+            relaxation: compliance.to_relaxation().ok(),
             compliance,
             engines: Mutex::default(),
             interrupt: None,
@@ -446,7 +449,11 @@ impl Setup {
             on,
             on_quarter.as_ref(),
         );
-        let layer = EdgeLayer::new(self.plan.indenter.as_ref(), contact.compliance);
+        let indenter = self.plan.indenter.as_ref();
+        let layer = self
+            .relaxation
+            .as_ref()
+            .and_then(|relaxation| EdgeLayer::new(indenter, relaxation));
         Ok(bars.map(|bars| match layer {
             Some(layer) => bars.with_higher_peak(layer.higher_peak_pa(result)),
             None => bars,

@@ -16,7 +16,7 @@
 //! large where the surface is still bent from the last cycle.
 
 use crate::indenter::{Axisymmetric, Indenter};
-use crate::material::{Creep, RelaxationBranch};
+use crate::material::{Relaxation, RelaxationBranch};
 use crate::sweep::record::CaseResult;
 
 /// The maximum of Dawson's integral.
@@ -37,15 +37,18 @@ struct Instant {
 /// The edge of an indenter on a body.
 pub(super) struct EdgeLayer<'a> {
     body: &'a dyn Axisymmetric,
-    branches: Vec<RelaxationBranch>,
+    branches: &'a [RelaxationBranch],
 }
 
 impl<'a> EdgeLayer<'a> {
-    /// `None` where the indenter is not one of revolution, or the body answers an instant with no finite modulus.
-    pub fn new(indenter: &'a dyn Indenter, compliance: &Creep) -> Option<Self> {
-        let body = indenter.axisymmetric()?;
-        let branches = compliance.to_relaxation().ok()?.branches().to_vec();
-        Some(Self { body, branches })
+    /// On a body whose contact relaxes like this, with moduli that are the inverse of its contact compliance (Pa). `None` where the
+    /// indenter is not one of revolution.
+    pub fn new(indenter: &'a dyn Indenter, relaxation: &'a Relaxation) -> Option<Self> {
+        let branches = relaxation.branches();
+        Some(Self {
+            body: indenter.axisymmetric()?,
+            branches,
+        })
     }
 
     /// By how much (Pa) the largest pressure of a recorded cycle may be larger than it seems.
@@ -62,29 +65,23 @@ impl<'a> EdgeLayer<'a> {
                 })
             })
             .collect();
-        let excess_pa = self.excess_pa(&course);
-        let (mut seen, mut possible) = (0.0_f64, 0.0_f64);
-        for (instant, excess_pa) in course.iter().zip(excess_pa) {
-            seen = seen.max(instant.peak_pressure_pa);
-            possible = possible.max(instant.peak_pressure_pa + excess_pa);
-        }
-        possible - seen
+        let pressures_pa = course.iter().map(|instant| instant.peak_pressure_pa);
+        let seen_pa = pressures_pa.fold(0.0, f64::max);
+        let steps = course.windows(2);
+        let possible_pa =
+            steps.map(|step| step[1].peak_pressure_pa + self.excess_pa(step[0], step[1]));
+        possible_pa.fold(seen_pa, f64::max) - seen_pa
     }
 
-    /// By how much (Pa) the peak pressure of each instant may be larger than its own, for what the layer holds beyond the time between
-    /// the instants.
-    fn excess_pa(&self, course: &[Instant]) -> Vec<f64> {
-        let excess = |k: usize| {
-            let before = course.get(k.checked_sub(1)?)?;
-            let now = course[k];
-            let step_s = now.time_s - before.time_s;
-            let advance_m = now.contact_radius_m - before.contact_radius_m;
-            let grows = advance_m > 0.0 && step_s > 0.0;
-            grows.then(|| self.excess_of_step_pa(now, advance_m, step_s))
-        };
-        (0..course.len())
-            .map(|k| excess(k).unwrap_or(0.0))
-            .collect()
+    /// By how much (Pa) the peak pressure may be larger than it seems, for what the layer holds beyond the time from an instant to the
+    /// next.
+    fn excess_pa(&self, before: Instant, now: Instant) -> f64 {
+        let step_s = now.time_s - before.time_s;
+        let advance_m = now.contact_radius_m - before.contact_radius_m;
+        match advance_m > 0.0 && step_s > 0.0 {
+            true => self.excess_of_step_pa(now, advance_m, step_s),
+            false => 0.0,
+        }
     }
 
     fn excess_of_step_pa(&self, now: Instant, advance_m: f64, step_s: f64) -> f64 {
@@ -92,7 +89,7 @@ impl<'a> EdgeLayer<'a> {
         let slope = self.slope(radius_m - advance_m, radius_m);
         let (mut held, mut unseen) = (0.0, 0.0);
         let (mut force, mut steeper) = (0.0, 0.0);
-        for branch in &self.branches {
+        for branch in self.branches {
             let steps = step_s / branch.time_s;
             let layer_m = (advance_m / steps).min(radius_m);
             let part = std::f64::consts::FRAC_2_PI * DAWSON * (0.5 * layer_m / radius_m).sqrt();

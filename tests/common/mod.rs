@@ -18,7 +18,7 @@ use contact_dma::material::classical::{Maxwell, Zener};
 use contact_dma::material::{Creep, Material, library};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::figures::figure_plan::FigurePlan;
-use contact_dma::sweep::plan::{Case, CyclePlan, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::{Case, CyclePlan, EngineKind, SolverPlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 
 /// The axisymmetric engine for this indenter: so many springs over the half width.
@@ -198,4 +198,19 @@ pub fn root_mean_square(values: impl IntoIterator<Item = f64>) -> f64 {
         count += 1.0;
     }
     (sum / count).sqrt()
+}
+
+/// The same sweep on so many cells and in so many steps, without error bars.
+pub fn on_cells(mut plan: SweepPlan, cells: usize, steps: usize) -> SweepPlan {
+    plan.cycle = CyclePlan {
+        steps,
+        error_bars: false,
+        ..CyclePlan::default()
+    };
+    plan.solver = SolverPlan {
+        engine: EngineKind::HalfSpace,
+        cells,
+        ..SolverPlan::default()
+    };
+    plan
 }

@@ -65,6 +65,8 @@ pub enum StoreError {
 pub struct Store {
     pub(in crate::sweep) folder: PathBuf,
     pub(in crate::sweep) sweep_hash: String,
+    /// The resolved file as it was when the folder was opened.
+    pub(in crate::sweep) resolved: Arc<str>,
     /// Whether records of a newer program may be replaced.
     pub(in crate::sweep) force: bool,
     pub(in crate::sweep) lock: Arc<FolderLock>,
@@ -108,6 +110,7 @@ impl Store {
         let store = Self {
             folder: folder.to_path_buf(),
             sweep_hash: hash(resolved),
+            resolved: resolved.into(),
             force,
             lock: Arc::new(FolderLock::of(folder)),
         };
@@ -149,6 +152,7 @@ impl Store {
         let store = Self {
             folder: folder.to_path_buf(),
             sweep_hash: hash(&resolved),
+            resolved: resolved.as_str().into(),
             force: false,
             lock: Arc::new(FolderLock::none()),
         };
@@ -223,7 +227,10 @@ impl Store {
         let path = self.folder.join(name);
         let file = temporary(&path, bytes)?;
         match read_plan(&self.folder) {
-            Ok(resolved) if hash(&resolved) == self.sweep_hash => rename(file, &path),
+            // Most often it is as it was, which is sooner seen than hashed; the sweep is the same with other figures too.
+            Ok(resolved) if *resolved == *self.resolved || hash(&resolved) == self.sweep_hash => {
+                rename(file, &path)
+            }
             Ok(_) | Err(StoreError::NoSweep { .. }) => Err(StoreError::TakenOver {
                 path: self.folder.clone(),
             }),
