@@ -20,7 +20,12 @@ const ROOMS: [&str; 9] = [
 ];
 
 /// Folders among them that make none: what keeps, finds, compares and shares out, and how figures look.
-const ASIDE: [&str; 2] = ["sweep/bookkeeping/", "sweep/figures/"];
+const ASIDE: [&str; 4] = [
+    "sweep/figures/",
+    "sweep/scales/",
+    "sweep/share/",
+    "sweep/store/",
+];
 
 /// Crates whose arithmetic they rest on.
 const CRATES: [&str; 8] = [

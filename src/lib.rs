@@ -41,9 +41,10 @@
 //! | [`steady`] | the stabilised cycle found directly |
 //! | [`mod@reference`] | closed forms and slow independent solvers; no production room imports it, but for `reproduction` |
 //! | [`sweep`] | plans, cases in parallel, records on disk, peaks; single histories |
+//! | [`input`] | sweep and scenario files, and the data files they name, to plans |
 //! | [`report`] | tables and figures, from records alone |
 //! | [`reproduction`] | the base paper, figure by figure; knows `reference` too, to draw closed forms and compare with them |
-//! | [`cli`] | flags and files to plans |
+//! | [`cli`] | flags to plans, outcomes to text and exit codes |
 //! | [`guide`] | how to use the program; text alone |
 //!
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
@@ -56,6 +57,7 @@ pub mod drive;
 pub mod guide;
 pub mod history;
 pub mod indenter;
+pub mod input;
 pub mod material;
 pub mod quantity;
 pub mod reference;

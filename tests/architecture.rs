@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms from top to bottom.
-const ROOMS: [&str; 14] = [
+const ROOMS: [&str; 15] = [
     "quantity",
     "material",
     "indenter",
@@ -15,10 +15,16 @@ const ROOMS: [&str; 14] = [
     "steady",
     "reference",
     "sweep",
+    "input",
     "report",
     "reproduction",
     "cli",
     "guide",
+];
+
+/// Folders of the room `sweep` from top to bottom.
+const SWEEP: [&str; 10] = [
+    "figures", "plan", "record", "engine", "store", "case", "history", "scales", "share", "search",
 ];
 
 /// Rooms that do not know one another, although one stands above the other.
@@ -46,14 +52,19 @@ fn production(text: &str) -> String {
 
 /// Rooms named as `crate::room` in the code.
 fn rooms_used(code: &str) -> Vec<&'static str> {
-    let named = |room: &&&str| {
-        code.match_indices(&format!("crate::{room}"))
+    used(code, "crate::", &ROOMS)
+}
+
+/// Those of these names that the code has behind this prefix.
+fn used(code: &str, prefix: &str, names: &[&'static str]) -> Vec<&'static str> {
+    let named = |name: &&&str| {
+        code.match_indices(&format!("{prefix}{name}"))
             .any(|(at, found)| {
                 let next = code[at + found.len()..].chars().next();
                 !next.is_some_and(|c| c.is_alphanumeric() || c == '_')
             })
     };
-    ROOMS.iter().filter(named).copied().collect()
+    names.iter().filter(named).copied().collect()
 }
 
 fn rooms() -> Vec<(usize, PathBuf, Vec<&'static str>)> {
@@ -89,6 +100,32 @@ fn a_room_uses_only_rooms_above_it() {
             );
         }
     }
+}
+
+#[test]
+fn a_folder_of_the_sweep_uses_only_folders_above_it() {
+    let sweep = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/sweep");
+    let mut seen = 0;
+    for path in sources(&sweep) {
+        let inside = path.strip_prefix(&sweep).unwrap();
+        let folder = inside.components().next().unwrap().as_os_str();
+        let Some(own) = SWEEP.iter().position(|name| *name == folder) else {
+            assert_eq!(inside, Path::new("mod.rs"), "not on the map");
+            continue;
+        };
+        seen += 1;
+        let code = production(&fs::read_to_string(&path).unwrap());
+        assert!(!code.contains("sweep::{"), "{}", inside.display());
+        for name in used(&code, "crate::sweep::", &SWEEP) {
+            let other = SWEEP.iter().position(|folder| *folder == name).unwrap();
+            assert!(
+                other <= own,
+                "{} uses {name}, which is below it",
+                inside.display()
+            );
+        }
+    }
+    assert!(seen > 20, "the sources were not found");
 }
 
 #[test]

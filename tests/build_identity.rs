@@ -6,11 +6,11 @@ mod build;
 use std::fs;
 use std::path::Path;
 
-use contact_dma::cli::document::Document;
-use contact_dma::cli::sweep_file;
-use contact_dma::sweep::bookkeeping::provenance::BUILD;
+use contact_dma::input::document::Document;
+use contact_dma::input::sweep_file;
 use contact_dma::sweep::plan::SweepPlan;
-use contact_dma::sweep::resolved;
+use contact_dma::sweep::plan::resolved;
+use contact_dma::sweep::store::provenance::BUILD;
 use tempfile::TempDir;
 
 fn copy(from: &Path, to: &Path) {
@@ -90,7 +90,7 @@ fn what_makes_no_number_changes_nothing() {
         sources.with("src/sweep/figures/figure_plan.rs", |text| {
             text.replace("FONT_SIZE_PT: f64 = 8.0", "FONT_SIZE_PT: f64 = 9.0")
         }),
-        sources.with("src/sweep/bookkeeping/store.rs", |text| {
+        sources.with("src/sweep/store/mod.rs", |text| {
             text.replace("cannot", "can not")
         }),
         sources.with("Cargo.lock", with_version_of("clap")),
@@ -110,7 +110,7 @@ fn whatever_may_make_another_number_makes_another_identity() {
         sources.with("src/quantity.rs", |text| {
             text.replace("fn parse", "fn parse_it")
         }),
-        sources.with("src/sweep/record.rs", |text| {
+        sources.with("src/sweep/record/mod.rs", |text| {
             text.replace("pub steps", "pub the_steps")
         }),
         sources.with("src/steady/iteration.rs", |text| {

@@ -10,11 +10,11 @@ use common::{on_cells, pmma_material, run_case, springs, sweep_plan};
 use contact_dma::contact::{Engine, Instant, Prescribed};
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
 use contact_dma::indenter::{Asperities, Asperity, Ellipsoid, Indenter, Profile, Shifted, Sphere};
-use contact_dma::sweep::body_material::BodyMaterial;
 use contact_dma::sweep::figures::figure_plan::FigurePlan;
+use contact_dma::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
+use contact_dma::sweep::plan::body_material::BodyMaterial;
+use contact_dma::sweep::plan::scenario::{OutputPlan, ScenarioPlan};
 use contact_dma::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
-use contact_dma::sweep::scenario::{OutputPlan, ScenarioPlan};
-use contact_dma::sweep::simulate::{Simulation, SimulationEnd, SimulationOutcome};
 
 fn bump(center_x_m: f64) -> Asperity {
     Asperity {

@@ -9,8 +9,8 @@ use common::solids::Random;
 use common::{run_case, sweep_plan};
 use contact_dma::indenter::{Cone, FlatPunch, Indenter, PowerLaw, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
-use contact_dma::sweep::error_bars::Quantity;
 use contact_dma::sweep::plan::SweepPlan;
+use contact_dma::sweep::record::error_bars::Quantity;
 use contact_dma::sweep::record::{CaseResult, Status};
 use rayon::prelude::*;
 

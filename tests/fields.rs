@@ -6,11 +6,11 @@ mod program;
 use std::fs;
 use std::sync::atomic::AtomicBool;
 
-use contact_dma::cli::document::Document;
-use contact_dma::cli::scenario_file;
 use contact_dma::contact::surface::{CellSurface, Surface};
+use contact_dma::input::document::Document;
+use contact_dma::input::scenario_file;
 use contact_dma::reference::elastic::Hertz;
-use contact_dma::sweep::simulate::{Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
+use contact_dma::sweep::history::{Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use program::{program, write};
 use tempfile::TempDir;
 

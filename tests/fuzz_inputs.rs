@@ -8,12 +8,12 @@ use std::cell::Cell;
 use std::fs;
 use std::path::Path;
 
-use contact_dma::cli::document::Document;
-use contact_dma::cli::sweep_file;
+use contact_dma::input::document::Document;
+use contact_dma::input::sweep_file;
 use contact_dma::report::comparison::{Comparison, SweepTable, Tolerances};
-use contact_dma::sweep::bookkeeping::sealed;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::resolved::resolved_text;
+use contact_dma::sweep::plan::resolved::resolved_text;
+use contact_dma::sweep::store::sealed;
 use inputs::{CheckpointFiles, Histories, Records, Table, Tables};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -328,7 +328,7 @@ fn valid() -> impl Strategy<Value = String> {
 
 #[test]
 fn every_valid_sweep_resolves_to_itself_and_splits_into_shards_without_loss() {
-    use contact_dma::sweep::bookkeeping::shard::{self, Shard};
+    use contact_dma::sweep::share::shard::{self, Shard};
     runner(200)
         .run(&(valid(), 1..9_usize), |(text, parts)| {
             let plan = |text: &str| {

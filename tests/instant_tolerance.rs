@@ -7,10 +7,10 @@ use std::sync::Arc;
 use common::{on_cells, run_case, sweep_plan};
 use contact_dma::indenter::{Cone, Ellipsoid, Indenter, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
-use contact_dma::sweep::error_bars::Quantity;
-use contact_dma::sweep::instant_tolerance::SHARE;
+use contact_dma::sweep::plan::instant_tolerance::SHARE;
 use contact_dma::sweep::plan::{SolverPlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
+use contact_dma::sweep::record::error_bars::Quantity;
 
 /// A solid of 1 GPa at once and `ratio` times less at rest, with a relaxation time of 1 s.
 fn solid(ratio: f64, poisson_ratio: f64) -> Material {

@@ -10,8 +10,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Child, Command as Process, Output, Stdio};
 
-use contact_dma::sweep::bookkeeping::sealed;
-use contact_dma::sweep::resolved::hash;
+use contact_dma::sweep::plan::resolved::hash;
+use contact_dma::sweep::store::sealed;
 use kills::{assert_same, signal, wait_for};
 use predicates::prelude::*;
 use predicates::str::contains;

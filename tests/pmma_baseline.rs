@@ -3,14 +3,14 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use contact_dma::cli::document::Document;
-use contact_dma::cli::sweep_file;
-use contact_dma::sweep::bookkeeping::store::Store;
+use contact_dma::input::document::Document;
+use contact_dma::input::sweep_file;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::peak::Peak;
+use contact_dma::sweep::plan::resolved;
 use contact_dma::sweep::record::CaseRecord;
-use contact_dma::sweep::resolved;
-use contact_dma::sweep::run::{self, Outcome, Progress};
+use contact_dma::sweep::search::peak::Peak;
+use contact_dma::sweep::search::run::{self, Outcome, Progress};
+use contact_dma::sweep::store::Store;
 
 struct Silent;
 

@@ -14,9 +14,9 @@ use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
 use contact_dma::material::{
     Creep, CreepBranch, Material, ModulusKind, Relaxation, RelaxationBranch,
 };
-use contact_dma::sweep::error_bars::Quantity;
 use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::record::CaseResult;
+use contact_dma::sweep::record::error_bars::Quantity;
 use rayon::prelude::*;
 
 fn from_environment(name: &str, default: u64) -> u64 {

@@ -6,8 +6,6 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use contact_dma::cli::document::Document;
-use contact_dma::cli::sweep_file;
 use contact_dma::contact::axisymmetric::{Axisymmetric as Springs, Edge};
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
@@ -18,13 +16,16 @@ use contact_dma::indenter::{
     Asperities, Asperity, Cone, Ellipsoid, HeightMap, Indenter, MapEdge, MapQuantity, PowerLaw,
     Profile, Rough, Roughness, Shifted, Sphere,
 };
+use contact_dma::input::document::Document;
+use contact_dma::input::sweep_file;
 use contact_dma::material::{Creep, library};
 use contact_dma::reference::elastic::{ConeContact, Hertz};
 use contact_dma::reference::elliptic::EllipticHertz;
 use contact_dma::reference::power_law::PowerLawContact;
 use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::engine::domain;
+use contact_dma::sweep::plan::resolved;
 use contact_dma::sweep::record::{CaseRecord, Status};
-use contact_dma::sweep::{domain, resolved};
 
 const LOAD_N: f64 = 10.0;
 const COMPLIANCE_PER_PA: f64 = 4e-10;

@@ -11,10 +11,10 @@ use contact_dma::drive::{Control, Fineness, Segment, SegmentedDrive};
 use contact_dma::indenter::{Cone, Indenter, PowerLaw, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
 use contact_dma::sweep::figures::figure_plan::FigurePlan;
-use contact_dma::sweep::history_errors::RowErrors;
+use contact_dma::sweep::history::errors::RowErrors;
+use contact_dma::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
+use contact_dma::sweep::plan::scenario::{OutputPlan, ScenarioPlan};
 use contact_dma::sweep::plan::{EngineKind, SolverPlan};
-use contact_dma::sweep::scenario::{OutputPlan, ScenarioPlan};
-use contact_dma::sweep::simulate::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 use rayon::prelude::*;
 
 /// One to four branches, whose moduli add up to a third to a hundred thousand times the equilibrium modulus, over up to six

@@ -17,9 +17,9 @@ use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
 use contact_dma::material::Material;
 use contact_dma::reference::elastic::flat_punch_approach_m;
 use contact_dma::reference::steady::HarmonicContact;
-use contact_dma::sweep::peak;
 use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
 use contact_dma::sweep::record::{CaseResult, Status};
+use contact_dma::sweep::search::peak;
 
 const RADIUS_M: f64 = 0.01;
 const PUNCH_RADIUS_M: f64 = 5e-4;

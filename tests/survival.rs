@@ -136,7 +136,7 @@ fn a_record_of_a_newer_program_is_not_replaced_unless_told_to() {
     let newer = content.replace(&here, "\"program_version\":\"1000.0.0\"");
     fs::write(
         &path,
-        contact_dma::sweep::bookkeeping::sealed::seal(newer.as_bytes()),
+        contact_dma::sweep::store::sealed::seal(newer.as_bytes()),
     )
     .unwrap();
     sweep(&file, &out, &one)
@@ -149,7 +149,7 @@ fn a_record_of_a_newer_program_is_not_replaced_unless_told_to() {
 
 /// Makes a record one of another build of the same version.
 fn of_another_build(path: &Path) {
-    use contact_dma::sweep::bookkeeping::{provenance::BUILD, sealed};
+    use contact_dma::sweep::store::{provenance::BUILD, sealed};
     let bytes = fs::read(path).unwrap();
     let content = std::str::from_utf8(sealed::unseal(&bytes).unwrap()).unwrap();
     let here = format!("\"build\":\"{BUILD}\"");
@@ -451,7 +451,7 @@ fn a_full_disk_is_told_and_what_was_whole_before_stays_whole() {
     for entry in records {
         let path = entry.unwrap().path();
         let bytes = fs::read(&path).unwrap();
-        let whole = contact_dma::sweep::bookkeeping::sealed::unseal(&bytes).is_some();
+        let whole = contact_dma::sweep::store::sealed::unseal(&bytes).is_some();
         assert!(whole, "{} is half-written", path.display());
     }
 }
@@ -631,10 +631,7 @@ fn pictures_and_run_json_say_where_they_come_from() {
     let hash = summary["sweep_hash"].as_str().unwrap();
     assert_eq!(run["sweep_hash"], hash);
     assert_eq!(run["program_version"], env!("CARGO_PKG_VERSION"));
-    assert_eq!(
-        run["build"],
-        contact_dma::sweep::bookkeeping::provenance::BUILD
-    );
+    assert_eq!(run["build"], contact_dma::sweep::store::provenance::BUILD);
     assert_eq!(
         (&run["threads"], &run["cases_computed"]),
         (&2.into(), &60.into())

@@ -14,12 +14,12 @@ use contact_dma::drive::{Control, HarmonicDrive};
 use contact_dma::indenter::{FlatPunch, HeightMap, MapEdge, MapQuantity, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation};
 use contact_dma::report;
-use contact_dma::sweep::bookkeeping::files;
-use contact_dma::sweep::bookkeeping::store::Store;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::{DriveAxis, EngineKind, SweepPlan, Varied};
 use contact_dma::sweep::record::CaseRecord;
-use contact_dma::sweep::run::{self, Outcome, Progress};
+use contact_dma::sweep::search::run::{self, Outcome, Progress};
+use contact_dma::sweep::store::Store;
+use contact_dma::sweep::store::files;
 use tempfile::TempDir;
 
 struct Silent;

@@ -8,8 +8,8 @@ use clap_complete::Shell;
 
 use super::compare;
 use crate::material::{GivenFace, ModulusKind};
-use crate::sweep::bookkeeping::checkpoint_file;
-use crate::sweep::bookkeeping::shard::Shard;
+use crate::sweep::share::shard::Shard;
+use crate::sweep::store::checkpoint_file;
 
 /// Dynamic mechanical analysis by contact: what a viscoelastic half-space dissipates under an oscillating indenter.
 #[derive(Debug, Parser)]

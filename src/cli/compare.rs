@@ -10,8 +10,8 @@ use crate::report::comparison::{self, Comparison, RunFacts, Source, SweepTable, 
 use crate::report::figure::{self, press::Press};
 use crate::report::page::comparison::Compared;
 use crate::report::page::{self, Pictures};
-use crate::sweep::bookkeeping::store::{RESOLVED, write_atomically};
 use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::store::{RESOLVED, write_atomically};
 
 /// A result larger than this is none of a sweep.
 const MAX_BYTES: u64 = 256_000_000;

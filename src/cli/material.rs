@@ -3,19 +3,20 @@
 use std::path::Path;
 
 use super::arguments::{MaterialCommand, ShowFlags};
-use super::diagnostic::Problems;
-use super::document::Document;
-use super::material_table::DirectSum;
-use super::{Ended, Failure, material_block, material_fit, print};
+use super::{Ended, Failure, material_fit, print};
+use crate::input::diagnostic::Problems;
+use crate::input::document::Document;
+use crate::input::material_block;
+use crate::input::material_table::DirectSum;
 use crate::material::{Material, library};
 use crate::report::caption::Setting;
 use crate::report::figure::press::Press;
 use crate::report::page::{self, Pictures, material::About};
 use crate::report::terminal::wrapped;
 use crate::report::{self, material::MaterialReport};
-use crate::sweep::bookkeeping::store::write_atomically;
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::resolved;
+use crate::sweep::plan::resolved;
+use crate::sweep::store::write_atomically;
 
 /// Runs one of the subcommands.
 pub(super) fn run(command: &MaterialCommand) -> Result<Ended, Failure> {

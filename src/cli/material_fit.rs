@@ -1,16 +1,17 @@
 //! `contact-dma material fit`: from a table of measured data to a material block.
 
 use super::arguments::FitFlags;
-use super::{Ended, Failure, print, table_file};
+use super::{Ended, Failure, print};
+use crate::input::table_file;
 use crate::material::Material;
 use crate::material::fit;
 use crate::report::caption::Setting;
 use crate::report::figure::press::Press;
 use crate::report::page::{self, Pictures, material::About};
 use crate::report::{self, figure};
-use crate::sweep::bookkeeping::store::write_atomically;
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::resolved;
+use crate::sweep::plan::resolved;
+use crate::sweep::store::write_atomically;
 
 /// Runs the command.
 pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {

@@ -4,8 +4,8 @@
 use std::path::Path;
 
 use super::Failure;
-use super::diagnostic::Problems;
-use super::document::Document;
+use crate::input::diagnostic::Problems;
+use crate::input::document::Document;
 
 /// Refuses a scenario.
 pub(super) fn sweep(document: &Document, file: &Path) -> Result<(), Failure> {

@@ -5,31 +5,16 @@
 
 mod arguments;
 mod compare;
-pub mod diagnostic;
-pub mod document;
-mod drive_table;
-pub mod field_file;
-mod figures_block;
-mod harmonic_block;
-mod indenter_block;
 mod material;
-mod material_block;
 mod material_fit;
-mod material_table;
 mod meant_for;
 mod memory;
 mod plan;
 mod progress;
 mod reproduce;
-pub mod scenario_file;
-mod segments_block;
-mod separator;
 mod simulate;
 mod stored;
 mod sweep;
-pub mod sweep_file;
-mod table_file;
-mod table_source;
 
 use std::ffi::OsString;
 use std::fmt::Display;
@@ -40,11 +25,11 @@ use std::process::ExitCode;
 use clap::{CommandFactory, Parser};
 
 use arguments::{Arguments, Command};
-use diagnostic::Diagnostics;
-use document::Document;
 
-use crate::sweep::bookkeeping::store::Store;
-use crate::sweep::run::RunError;
+use crate::input::diagnostic::Diagnostics;
+use crate::input::document::Document;
+use crate::sweep::search::run::RunError;
+use crate::sweep::store::Store;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,13 +3,14 @@
 use std::fmt::Write;
 
 use super::arguments::PlanFlags;
-use super::{Ended, Failure, meant_for, open_document, print, sweep_file};
+use super::{Ended, Failure, meant_for, open_document, print};
 use crate::indenter::Indenter;
+use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
 use crate::report::terminal::frequency;
-use crate::sweep::bookkeeping::cost::Cost;
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{EngineKind, SolverPlan};
+use crate::sweep::share::cost::Cost;
 
 /// Cases listed before the rest is counted.
 const LISTED: usize = 100;

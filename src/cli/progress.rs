@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::report::terminal::frequency;
 use crate::sweep::record::CaseRecord;
-use crate::sweep::run::Progress;
+use crate::sweep::search::run::Progress;
 
 /// Shows progress on standard error.
 pub(super) struct Shown {

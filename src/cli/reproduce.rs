@@ -7,18 +7,19 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::arguments::threads;
-use super::diagnostic::Problems;
-use super::document::Document;
-use super::figures_block::{self, Figures};
 use super::sweep::interrupt_flag;
-use super::sweep_file::optional;
-use super::{Ended, Failure, print, scenario_file, sweep_file};
+use super::{Ended, Failure, print};
+use crate::input::diagnostic::Problems;
+use crate::input::document::Document;
+use crate::input::figures_block::{self, Figures};
+use crate::input::sweep_file::optional;
+use crate::input::{scenario_file, sweep_file};
 use crate::report::terminal::wrapped;
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::run::useful_threads;
+use crate::sweep::search::run::useful_threads;
 
 const DEFAULT_FOLDER: &str = "reports/spinu-2018";
 

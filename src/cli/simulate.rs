@@ -9,13 +9,14 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use super::arguments::SimulateFlags;
 use super::plan::{megabytes, nodes};
 use super::sweep::interrupt_flag;
-use super::{Ended, Failure, meant_for, memory, open_document, open_store, print, scenario_file};
+use super::{Ended, Failure, meant_for, memory, open_document, open_store, print};
+use crate::input::scenario_file;
 use crate::report::{self, terminal_simulation};
-use crate::sweep::bookkeeping::store::Store;
-use crate::sweep::history_checkpoint::{Found, HistoryCheckpoint, Stand};
-use crate::sweep::run;
-use crate::sweep::scenario;
-use crate::sweep::simulate::{Simulation, SimulationEnd, SimulationOutcome};
+use crate::sweep::history::checkpoint::{Found, HistoryCheckpoint, Stand};
+use crate::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
+use crate::sweep::plan::scenario;
+use crate::sweep::search::run;
+use crate::sweep::store::Store;
 
 /// Runs the command.
 pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {

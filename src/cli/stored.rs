@@ -4,18 +4,19 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::arguments::{MergeFlags, OutputFormat, ReportFlags};
-use super::document::Document;
 use super::progress::Shown;
 use super::sweep::{Job, failure, interrupt_flag};
-use super::{Ended, Failure, sweep_file};
-use crate::sweep::bookkeeping::difference;
-use crate::sweep::bookkeeping::merge;
-use crate::sweep::bookkeeping::provenance::Stopwatch;
-use crate::sweep::bookkeeping::store::{RESOLVED, Store};
+use super::{Ended, Failure};
+use crate::input::document::Document;
+use crate::input::sweep_file;
 use crate::sweep::case::Setup;
 use crate::sweep::plan::Case;
-use crate::sweep::resolved::{self, identity};
-use crate::sweep::run::{self, Options, Progress, RunError};
+use crate::sweep::plan::resolved::{self, identity};
+use crate::sweep::search::run::{self, Options, Progress, RunError};
+use crate::sweep::store::difference;
+use crate::sweep::store::merge;
+use crate::sweep::store::provenance::Stopwatch;
+use crate::sweep::store::{RESOLVED, Store};
 
 /// Names of cases in a message before the rest is counted.
 const NAMED: usize = 10;

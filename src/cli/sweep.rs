@@ -7,15 +7,16 @@ use std::time::Duration;
 
 use super::arguments::{OutputFormat, SweepFlags};
 use super::progress::Shown;
-use super::{Ended, Failure, meant_for, memory, open_document, open_store, print, sweep_file};
+use super::{Ended, Failure, meant_for, memory, open_document, open_store, print};
+use crate::input::sweep_file;
 use crate::report::{self, terminal};
-use crate::sweep::bookkeeping::provenance::{Circumstances, Stopwatch};
-use crate::sweep::bookkeeping::shard::{self, Shard};
-use crate::sweep::bookkeeping::store::{Store, StoreError};
 use crate::sweep::case::Setup;
+use crate::sweep::plan::resolved;
 use crate::sweep::record::Status;
-use crate::sweep::resolved;
-use crate::sweep::run::{self, Options, Outcome, RunError};
+use crate::sweep::search::run::{self, Options, Outcome, RunError};
+use crate::sweep::share::shard::{self, Shard};
+use crate::sweep::store::provenance::{Circumstances, Stopwatch};
+use crate::sweep::store::{Store, StoreError};
 
 /// Runs the command.
 pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {

@@ -5,10 +5,10 @@ use super::page::{how, question};
 use crate::indenter::{Indenter, Value};
 use crate::material::Material;
 use crate::quantity::Dimension;
+use crate::sweep::history::SimulationOutcome;
+use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
-use crate::sweep::run::Outcome;
-use crate::sweep::scenario::ScenarioPlan;
-use crate::sweep::simulate::SimulationOutcome;
+use crate::sweep::search::run::Outcome;
 
 /// What a figure itself has to say.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]

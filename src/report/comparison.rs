@@ -16,8 +16,8 @@ pub use source::{RunFacts, Source};
 
 use result::Row;
 
-use crate::sweep::error_bars::Quantity;
-use crate::sweep::peak::Peak;
+use crate::sweep::record::error_bars::Quantity;
+use crate::sweep::search::peak::Peak;
 
 /// How much two values may differ.
 #[derive(Debug, Clone, PartialEq)]

@@ -4,7 +4,7 @@ use serde_json::{Map, Value};
 
 use super::{ReportError, summary, table};
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::run::Outcome;
+use crate::sweep::search::run::Outcome;
 
 /// `{"summary": as in summary.json, "cases": one object per row of sweep.csv}`; an absent value is null.
 ///

@@ -20,12 +20,12 @@ pub mod terminal_simulation;
 pub mod vti;
 pub mod work_line;
 
-use crate::sweep::bookkeeping::files;
-use crate::sweep::bookkeeping::store::{Store, StoreError};
-use crate::sweep::figures::elastic_scale::NoScale;
 use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::run::Outcome;
+use crate::sweep::scales::elastic::NoScale;
+use crate::sweep::search::run::Outcome;
+use crate::sweep::store::files;
+use crate::sweep::store::{Store, StoreError};
 use caption::Setting;
 use chart::{ChartError, Letters};
 use figure::press::{self, Press};

@@ -12,12 +12,12 @@ use super::page::Pictures;
 use super::table::{Table, number, optional};
 use super::{ReportError, figure, npy, page, vti};
 use crate::contact::surface::{CellSurface, Surface};
-use crate::sweep::body_material::BodyMaterial;
-use crate::sweep::bookkeeping::store::Store;
 use crate::sweep::figures::figure_plan::AxisUnits;
-use crate::sweep::scenario::{self, ScenarioPlan};
-use crate::sweep::simulate::{SimulationEnd, SimulationOutcome, SurfaceRecord};
-use crate::sweep::warnings;
+use crate::sweep::history::outside_model;
+use crate::sweep::history::{SimulationEnd, SimulationOutcome, SurfaceRecord};
+use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::scenario::{self, ScenarioPlan};
+use crate::sweep::store::Store;
 
 /// Writes everything, as far as the simulation came. Returns what was left out and why.
 ///
@@ -316,7 +316,7 @@ fn summary(
         .iter()
         .map(|row| row.peak_pressure_pa)
         .collect();
-    let warnings = warnings::of_history(plan, outcome).into_iter();
+    let warnings = outside_model::warnings(plan, outcome).into_iter();
     let warnings = warnings.map(|warning| Warned {
         code: warning.code(),
         message: warning.to_string(),

@@ -3,11 +3,11 @@
 use serde::Serialize;
 
 use super::ReportError;
-use crate::sweep::peak::{Peak, RELATIVE_ACCURACY};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::Status;
-use crate::sweep::run::Outcome;
-use crate::sweep::warnings::{self, OverCases};
+use crate::sweep::record::warning::{self, OverCases};
+use crate::sweep::search::peak::{Peak, RELATIVE_ACCURACY};
+use crate::sweep::search::run::Outcome;
 
 #[derive(Serialize)]
 struct Summary<'a> {
@@ -54,7 +54,7 @@ pub fn summary(
             not_converged: outcome.count(Status::NotConverged),
             failed: outcome.count(Status::Failed),
         },
-        warnings: warnings::over_cases(&outcome.records),
+        warnings: warning::over_cases(&outcome.records),
         interrupted: outcome.interrupted,
         engine: plan.solver.engine.name(),
         program: env!("CARGO_PKG_NAME"),

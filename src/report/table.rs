@@ -4,7 +4,7 @@ use super::ReportError;
 use super::work_line::WorkLine;
 use crate::cycle::Loop;
 use crate::drive::Control;
-use crate::sweep::error_bars::Quantity;
+use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::record::{CaseRecord, CaseResult, PressureProfile};
 
 /// A table being written.

@@ -7,11 +7,11 @@ use super::figure::units::Units;
 use crate::history::Work;
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::{one_digit, power_of_ten, with_error_on_terminal};
-use crate::sweep::peak::Peak;
 use crate::sweep::plan::{DriveAxis, SweepPlan};
+use crate::sweep::record::warning;
 use crate::sweep::record::{CaseRecord, Status};
-use crate::sweep::run::Outcome;
-use crate::sweep::warnings;
+use crate::sweep::search::peak::Peak;
+use crate::sweep::search::run::Outcome;
 
 /// One line per case: frequency, loss with its error, phase, cycles, status; an absent value is a dash. A sweep of two axes
 /// has one line per drive instead: its cases are too many to be read.
@@ -133,7 +133,7 @@ pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
     for (rank, peak) in outcome.peaks.iter().take(shown).enumerate() {
         let what = if rank == 0 { "Peak" } else { "Lower peak" };
         let under = plan.axis.as_ref().and_then(|axis| {
-            let value = axis.varied.of_peak(peak)?;
+            let value = peak.drive(axis.varied)?;
             let value = Units::default().drive_value(plan.drive.control(), value);
             Some(format!(", {} {value}", axis.varied.name()))
         });
@@ -216,7 +216,7 @@ pub fn problems(outcome: &Outcome) -> String {
 
 /// What lies outside the model, or was not estimated: one line for each kind, whatever the number of cases.
 pub fn warnings_of_sweep(outcome: &Outcome) -> String {
-    warned(warnings::over_cases(&outcome.records))
+    warned(warning::over_cases(&outcome.records))
 }
 
 /// Warnings, one after another.

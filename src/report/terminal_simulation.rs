@@ -4,11 +4,11 @@ use std::fmt::Write;
 
 use crate::quantity::{Dimension, format_human};
 use crate::report::{fit, samples, terminal};
-use crate::sweep::body_material::BodyMaterial;
-use crate::sweep::history_errors::RowErrors;
-use crate::sweep::scenario::ScenarioPlan;
-use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome};
-use crate::sweep::warnings;
+use crate::sweep::history::errors::RowErrors;
+use crate::sweep::history::outside_model;
+use crate::sweep::history::{HistoryRow, SimulationEnd, SimulationOutcome};
+use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::scenario::ScenarioPlan;
 
 /// Title, material where it comes from a table, extent of the history, its largest contact and its end, with errors.
 pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
@@ -59,7 +59,7 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
             n => format!(", domain enlarged {n} times"),
         }
     );
-    let warnings = terminal::warned(warnings::of_history(plan, outcome));
+    let warnings = terminal::warned(outside_model::warnings(plan, outcome));
     if !warnings.is_empty() {
         let _ = write!(text, "\n{warnings}");
     }

@@ -3,9 +3,9 @@
 use std::sync::atomic::AtomicBool;
 
 use super::ReproductionError;
+use crate::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::EngineKind;
-use crate::sweep::scenario::ScenarioPlan;
-use crate::sweep::simulate::{Simulation, SimulationEnd, SimulationOutcome};
+use crate::sweep::plan::scenario::ScenarioPlan;
 
 /// How a scenario is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -10,7 +10,7 @@ use super::{Claim, Figure, Measure, Plans, ReproductionError, Stated, series_of}
 use crate::material::Material;
 use crate::report::chart::{Axis, Chart, LegendPlace};
 use crate::report::table::Table;
-use crate::sweep::simulate::SimulationOutcome;
+use crate::sweep::history::SimulationOutcome;
 
 const MEGA: f64 = 1e-6;
 

@@ -16,9 +16,9 @@ use crate::history::March;
 use crate::reference::step_load::StepLoad;
 use crate::report::chart::{Axis, Chart, Series};
 use crate::report::table::Table;
-use crate::sweep::engines::{EngineBuilder, LargestContact};
-use crate::sweep::scenario::ScenarioPlan;
-use crate::sweep::simulate::{Simulation, SimulationOutcome};
+use crate::sweep::engine::{EngineBuilder, LargestContact};
+use crate::sweep::history::{Simulation, SimulationOutcome};
+use crate::sweep::plan::scenario::ScenarioPlan;
 
 /// Figure 4.
 pub(super) fn figure_4(

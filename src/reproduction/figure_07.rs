@@ -12,7 +12,7 @@ use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Stated, ser
 use crate::reference::step_load::StepLoad;
 use crate::report::chart::{Axis, Chart, LegendPlace, Series};
 use crate::report::table::Table;
-use crate::sweep::simulate::SimulationOutcome;
+use crate::sweep::history::SimulationOutcome;
 
 /// When the load is taken off, in tau; the last instant under load is written as a time just before.
 const UNLOADED: f64 = 2.0;

@@ -10,8 +10,8 @@ use super::number::{datum, optional_datum, short};
 use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Stated};
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Marker, Series};
 use crate::report::table::Table;
-use crate::sweep::scenario::{ScenarioPlan, resolved_text};
-use crate::sweep::simulate::{HistoryRow, SimulationOutcome};
+use crate::sweep::history::{HistoryRow, SimulationOutcome};
+use crate::sweep::plan::scenario::{ScenarioPlan, resolved_text};
 
 /// A history by both engines.
 #[derive(Clone)]

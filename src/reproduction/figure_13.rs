@@ -15,9 +15,9 @@ use super::{Claim, Figure, Measure, Plans, ReproductionError, Stated};
 use crate::drive::{Segment, SegmentedDrive};
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Mark, Marker, Series};
 use crate::report::table::Table;
-use crate::sweep::peak as search;
+use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{EngineKind, SweepPlan};
-use crate::sweep::scenario::ScenarioPlan;
+use crate::sweep::search::peak as search;
 
 /// Where the paper has its maximum, and what it shows at the highest frequency (rad/s).
 const PAPER_PEAK: f64 = 0.0031;

@@ -48,16 +48,16 @@ use crate::report::ReportError;
 use crate::report::chart::{self, Chart, ChartError, Letters};
 use crate::report::figure::Picture;
 use crate::report::page::Pictures;
-use crate::sweep::bookkeeping::files;
-use crate::sweep::bookkeeping::store::{StoreError, write_atomically};
 use crate::sweep::case::SetupError;
-use crate::sweep::engines::{AsContactError, EngineError};
+use crate::sweep::engine::{AsContactError, EngineError};
 use crate::sweep::figures::figure_plan::{FigurePlan, Format};
-use crate::sweep::peak::PeakError;
+use crate::sweep::history::SimulationError;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::run::{self, RunError};
-use crate::sweep::scenario::ScenarioPlan;
-use crate::sweep::simulate::SimulationError;
+use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::search::peak::PeakError;
+use crate::sweep::search::run::{self, RunError};
+use crate::sweep::store::files;
+use crate::sweep::store::{StoreError, write_atomically};
 
 /// The figures of the paper that show computed results; 2 and 3 are flowcharts.
 pub const FIGURES: [u8; 11] = [1, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13];

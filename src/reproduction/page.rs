@@ -11,7 +11,7 @@ use super::{Claim, Figure, ReproductionError, SCENARIOS, SWEEPS};
 use crate::report::page::Pictures;
 use crate::report::page::frame::{Frame, Input, InputFile};
 use crate::report::page::html::{escaped, filled, json_for_script};
-use crate::sweep::resolved;
+use crate::sweep::plan::resolved;
 
 const MAIN: &str = include_str!("page.html");
 const SCRIPT: &str = include_str!("page.js");

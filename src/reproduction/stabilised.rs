@@ -13,7 +13,7 @@ use crate::cycle::{self, Loop};
 use crate::history::March;
 use crate::steady::{self, SteadySettings};
 use crate::sweep::case::{Setup, SetupError};
-use crate::sweep::engines::{EngineBuilder, LargestContact, prescribed};
+use crate::sweep::engine::{EngineBuilder, LargestContact, prescribed};
 use crate::sweep::plan::{Case, EngineKind, SolverPlan, SweepPlan};
 use crate::sweep::record::CaseResult;
 

@@ -1,30 +1,27 @@
 //! Frequency sweeps: what to compute, cases in parallel, records on disk, peak search; and single drive histories.
+//!
+//! A folder uses those above it in this table; a test holds it to that.
+//!
+//! | folder | what it knows |
+//! |---|---|
+//! | [`figures`] | how figures look |
+//! | [`plan`] | what to compute: sweeps and scenarios with every default filled in, as values and as text |
+//! | [`record`] | what a case came to, its error bars, and what is said of it |
+//! | [`engine`] | engines on a domain that holds the contact |
+//! | [`store`] | the folder of results: files whole or not at all, where they come from |
+//! | [`case`] | one case: the stabilised cycle on several resolutions |
+//! | [`mod@history`] | one drive history from its beginning to its end |
+//! | [`scales`] | units of the elastic contact for figures |
+//! | [`share`] | what cases cost, and how they are shared out |
+//! | [`search`] | all cases in parallel, frequencies added where the curve asks for them and peaks |
 
-pub mod body_material;
-pub mod bookkeeping;
 pub mod case;
-pub mod checkpoint;
-pub mod domain;
-mod edge_layer;
-pub mod engines;
-pub mod error_bars;
+pub mod engine;
 pub mod figures;
-mod follow;
-pub mod growing;
-pub mod history_checkpoint;
-pub mod history_errors;
-pub mod instant_tolerance;
-mod locate;
-pub mod peak;
+pub mod history;
 pub mod plan;
-mod pressure;
 pub mod record;
-pub mod refine;
-pub mod resolved;
-pub mod run;
-pub mod scenario;
-mod search;
-pub mod simulate;
-mod stabilise;
-mod tangent_radius;
-pub mod warnings;
+pub mod scales;
+pub mod search;
+pub mod share;
+pub mod store;

@@ -2,7 +2,7 @@
 
 use super::result::Row;
 use super::{ComparisonError, CurvePoint, Place, SweepTable};
-use crate::sweep::error_bars::Quantity;
+use crate::sweep::record::error_bars::Quantity;
 
 /// One column: the value of every case of either result, in the order of [`super::Comparison::curve`].
 #[derive(Debug, Clone, PartialEq)]

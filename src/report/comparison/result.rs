@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use serde::Deserialize;
 
 use super::Place;
-use crate::sweep::peak::Peak;
+use crate::sweep::search::peak::Peak;
 
 /// Why a result cannot be compared.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

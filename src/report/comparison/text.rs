@@ -6,7 +6,7 @@ use super::{Comparison, PeakComparison, Place};
 use crate::report::ReportError;
 use crate::report::table::{Table, number, optional};
 use crate::report::terminal::{frequency, wrapped};
-use crate::sweep::peak::Peak;
+use crate::sweep::search::peak::Peak;
 
 /// Names of cases shown before the rest is counted.
 const NAMED: usize = 10;

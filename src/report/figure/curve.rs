@@ -4,7 +4,7 @@ use super::units::Units;
 use crate::drive::HarmonicDrive;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::{CaseRecord, CaseResult};
-use crate::sweep::run::Outcome;
+use crate::sweep::search::run::Outcome;
 
 /// The cases under one drive, in ascending frequency.
 pub struct Curve<'a> {

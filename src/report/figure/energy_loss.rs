@@ -9,9 +9,9 @@ use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, Color, Mark, Marker, Series};
 use crate::report::number::with_error;
 use crate::report::table::{Table, number, optional};
-use crate::sweep::peak::Peak;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::run::Outcome;
+use crate::sweep::search::peak::Peak;
+use crate::sweep::search::run::Outcome;
 
 /// Curves in one figure; more cannot be told apart.
 const CURVES: usize = 8;
@@ -139,7 +139,7 @@ fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>]) -> Caption
             "Lower peak"
         };
         let under = plan.axis.as_ref().and_then(|axis| {
-            let value = axis.varied.of_peak(peak)?;
+            let value = peak.drive(axis.varied)?;
             let value = Units::default().drive_value(plan.drive.control(), value);
             Some(format!(", {} {value}", axis.varied.name()))
         });

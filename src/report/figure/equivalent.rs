@@ -10,10 +10,10 @@ use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::Series;
 use crate::report::table::{Table, number, optional};
-use crate::sweep::error_bars::Quantity;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseRecord;
-use crate::sweep::run::Outcome;
+use crate::sweep::record::error_bars::Quantity;
+use crate::sweep::search::run::Outcome;
 
 /// What indentation reads from one loop, and what it stands for.
 #[derive(Debug, Clone, Copy)]

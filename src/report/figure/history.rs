@@ -7,7 +7,7 @@ use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::{self, Axis, Chart, Series};
 use crate::report::number::plain;
-use crate::sweep::simulate::{HistoryRow, SimulationOutcome};
+use crate::sweep::history::{HistoryRow, SimulationOutcome};
 
 const NAME: &str = "history";
 /// Points of a curve beyond which only the extremes of each stretch are drawn.

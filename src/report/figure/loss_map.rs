@@ -10,7 +10,7 @@ use crate::report::caption::{self, Caption};
 use crate::report::number::with_error;
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
-use crate::sweep::run::Outcome;
+use crate::sweep::search::run::Outcome;
 
 /// The figure.
 ///
@@ -26,7 +26,7 @@ pub fn figure(
     let losses = outcome.records.iter().filter_map(|r| r.energy_loss_j());
     let (factor, unit) = units.energy(losses.fold(0.0, f64::max));
     let rings = outcome.peaks.iter().filter_map(|peak| {
-        let value = axis.varied.of_peak(peak)?;
+        let value = peak.drive(axis.varied)?;
         Some((peak.angular_frequency_rad_per_s, value))
     });
     let mapped = Mapped {

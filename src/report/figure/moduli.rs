@@ -9,9 +9,9 @@ use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
 use crate::report::number::plain;
 use crate::report::table::Table;
-use crate::sweep::error_bars::Quantity;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::run::Outcome;
+use crate::sweep::record::error_bars::Quantity;
+use crate::sweep::search::run::Outcome;
 
 /// One frequency of a material: rad/s, then Pa, then 1/Pa.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -9,7 +9,7 @@ use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Marker, Series};
 use crate::sweep::plan::{DriveAxis, SweepPlan};
-use crate::sweep::run::Outcome;
+use crate::sweep::search::run::Outcome;
 
 /// Frequencies in one figure; more cannot be told apart.
 const FREQUENCIES: usize = 5;

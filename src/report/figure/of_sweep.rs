@@ -9,7 +9,7 @@ use super::{
 };
 use crate::report::ReportError;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::run::Outcome;
+use crate::sweep::search::run::Outcome;
 
 /// The figures, and what was left out and why.
 ///

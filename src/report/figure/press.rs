@@ -9,9 +9,9 @@ use crate::report::chart::{
     self, Chart, ChartError, Color, HeatMap, LegendPlace, Letters, LineStyle, MapShape,
 };
 use crate::report::page::Pictures;
-use crate::sweep::bookkeeping::files;
-use crate::sweep::bookkeeping::store::StoreError;
 use crate::sweep::figures::figure_plan::{FigurePlan, Format, PaperSize};
+use crate::sweep::store::StoreError;
+use crate::sweep::store::files;
 
 /// Writes one file: its name, its bytes.
 pub type WriteFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 'a;

@@ -9,7 +9,7 @@ use crate::report::ReportError;
 use crate::report::caption::{Caption, Setting};
 use crate::report::chart::{HeatMap, MapShape, Scale};
 use crate::report::number::plain;
-use crate::sweep::simulate::SurfaceRecord;
+use crate::sweep::history::SurfaceRecord;
 
 const NAME: &str = "pressure-map";
 const WIDTH_PX: u32 = 800;

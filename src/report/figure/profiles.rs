@@ -9,7 +9,7 @@ use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
 use crate::report::number::plain;
 use crate::report::scenario::{ProfilePoint, lines};
 use crate::report::table::{Table, number, optional};
-use crate::sweep::simulate::SurfaceRecord;
+use crate::sweep::history::SurfaceRecord;
 
 const NAME: &str = "profiles";
 /// Curves in one figure; more cannot be told apart.

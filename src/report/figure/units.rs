@@ -5,10 +5,10 @@ use super::{prefix, scientific};
 use crate::drive::Control;
 use crate::quantity::{Dimension, format_human};
 use crate::report::ReportError;
-use crate::sweep::figures::elastic_scale::ElasticScale;
 use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::scenario::ScenarioPlan;
+use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::scales::elastic::ElasticScale;
 
 /// The units of a result's figures.
 #[derive(Debug, Clone, PartialEq, Default)]

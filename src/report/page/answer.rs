@@ -7,8 +7,8 @@ use crate::quantity::Dimension;
 use crate::report::number::{plain, with_error};
 use crate::report::terminal;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::resolved::drive_dimension;
-use crate::sweep::run::Outcome;
+use crate::sweep::plan::resolved::drive_dimension;
+use crate::sweep::search::run::Outcome;
 
 /// Peaks as a list, largest first; where there are none, why.
 pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {

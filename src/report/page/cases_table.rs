@@ -5,10 +5,10 @@ use std::fmt::Write;
 use super::html::escaped;
 use crate::report::figure::prefix;
 use crate::report::number::{cell, digits};
-use crate::sweep::error_bars::Quantity;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseRecord;
-use crate::sweep::run::Outcome;
+use crate::sweep::record::error_bars::Quantity;
+use crate::sweep::search::run::Outcome;
 
 /// A column: its name in sweep.csv, its heading, its SI unit where it takes a prefix, and its value.
 struct Column {

@@ -16,8 +16,8 @@ use crate::report::comparison::{
 };
 use crate::report::figure::scientific;
 use crate::report::number::{cell, with_error};
-use crate::sweep::bookkeeping::difference;
-use crate::sweep::peak::Peak;
+use crate::sweep::search::peak::Peak;
+use crate::sweep::store::difference;
 
 const MAIN: &str = include_str!("comparison.html");
 const SCRIPT: &str = include_str!("comparison.js");

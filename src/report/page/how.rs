@@ -6,7 +6,7 @@ use crate::indenter::Indenter;
 use crate::report::terminal;
 use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
-use crate::sweep::run::Outcome;
+use crate::sweep::search::run::Outcome;
 
 /// The section of a sweep.
 pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> String {

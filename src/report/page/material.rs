@@ -11,7 +11,7 @@ use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::material::{GivenFace, Material};
 use crate::report::ReportError;
-use crate::sweep::resolved;
+use crate::sweep::plan::resolved;
 
 const MATERIAL: &str = include_str!("material.html");
 const SCRIPT: &str = include_str!("material.js");

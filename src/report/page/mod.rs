@@ -20,12 +20,13 @@ pub use pictures::Pictures;
 
 use super::ReportError;
 use crate::report::table;
+use crate::sweep::history::SimulationOutcome;
+use crate::sweep::history::outside_model;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::resolved;
-use crate::sweep::run::Outcome;
-use crate::sweep::scenario::{self, ScenarioPlan};
-use crate::sweep::simulate::SimulationOutcome;
-use crate::sweep::warnings;
+use crate::sweep::plan::resolved;
+use crate::sweep::plan::scenario::{self, ScenarioPlan};
+use crate::sweep::record::warning;
+use crate::sweep::search::run::Outcome;
 use frame::{Frame, HEAT, Input, InputFile, MODULI, PLOT, QUANTITIES, TABLE};
 use html::{filled, json_for_script};
 
@@ -58,7 +59,7 @@ pub fn sweep(
             ("problems", &answer::problems(outcome)),
             (
                 "warnings",
-                &answer::warned(warnings::over_cases(&outcome.records)),
+                &answer::warned(warning::over_cases(&outcome.records)),
             ),
             (
                 "varied",
@@ -111,7 +112,7 @@ pub fn simulation(
             ("problems", &simulation::problems(outcome)),
             (
                 "warnings",
-                &answer::warned(warnings::of_history(plan, outcome)),
+                &answer::warned(outside_model::warnings(plan, outcome)),
             ),
             ("figure", &figure),
             ("question", &simulation::question(plan)),

@@ -8,8 +8,8 @@ use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{GivenFace, Material, ModulusKind};
 use crate::quantity::Dimension;
 use crate::report::number::plain;
+use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::plan::{SweepPlan, Varied};
-use crate::sweep::resolved::drive_dimension;
 
 /// A list of names and values being written.
 #[derive(Default)]

@@ -11,10 +11,10 @@ use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::number::plain;
 use crate::report::scenario::lines;
-use crate::sweep::body_material::BodyMaterial;
-use crate::sweep::resolved::drive_dimension;
-use crate::sweep::scenario::ScenarioPlan;
-use crate::sweep::simulate::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
+use crate::sweep::history::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
+use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::resolved::drive_dimension;
+use crate::sweep::plan::scenario::ScenarioPlan;
 
 /// Moments of the history that the page carries.
 const MOMENTS: usize = 1500;

@@ -9,10 +9,10 @@ use crate::material::{Material, ModulusKind};
 use crate::report::figure::moduli::ModulusPoint;
 use crate::report::material::MaterialReport;
 use crate::report::work_line::WorkLine;
-use crate::sweep::peak::Peak;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::{CaseRecord, CaseResult};
-use crate::sweep::run::Outcome;
+use crate::sweep::search::peak::Peak;
+use crate::sweep::search::run::Outcome;
 
 /// Everything the script of the page knows.
 #[derive(Serialize)]

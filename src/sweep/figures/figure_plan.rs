@@ -38,7 +38,7 @@ pub enum Format {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum AxisUnits {
     Si,
-    /// Units of the elastic contact: see [`crate::sweep::figures::elastic_scale::ElasticScale`].
+    /// Units of the elastic contact: see [`crate::sweep::scales::elastic::ElasticScale`].
     Normalised,
 }
 

@@ -1,4 +1,3 @@
-//! How figures are to look, and the units that they may be in: no part of the results.
+//! How figures are to look: no part of the results.
 
-pub mod elastic_scale;
 pub mod figure_plan;

@@ -1,0 +1,70 @@
+//! What of a case lies outside the model, or was not estimated.
+
+use crate::sweep::engine::slope::{ROUNDING, of_slope, slope_of_case};
+use crate::sweep::plan::{EngineKind, SweepPlan};
+use crate::sweep::record::CaseRecord;
+use crate::sweep::record::warning::{NoErrorBars, Warning};
+
+/// What is to be said of a case, once it is solved.
+pub(in crate::sweep) fn warnings(
+    plan: &SweepPlan,
+    record: &CaseRecord,
+    error_bars_wanted: bool,
+) -> Vec<Warning> {
+    let omega = record.angular_frequency_rad_per_s;
+    let window = plan.material.measured_window_s();
+    let mut warnings: Vec<Warning> = of_frequency(window, omega).into_iter().collect();
+    let Some(result) = &record.result else {
+        return warnings;
+    };
+    let slope = slope_of_case(plan.indenter.as_ref(), result);
+    let modulus_pa = plan.material.longitudinal_complex_modulus(omega).norm();
+    let radius_m = result.contact_radius_m.maximum;
+    warnings.extend(of_slope(slope, radius_m, modulus_pa));
+    if error_bars_wanted && result.errors.is_none() {
+        let own =
+            plan.solver.engine == EngineKind::HalfSpace && plan.indenter.own_cells().is_some();
+        warnings.push(Warning::NoErrorBars {
+            because: match own {
+                true => NoErrorBars::OwnCells,
+                false => NoErrorBars::NoCoarserResult,
+            },
+        });
+    }
+    warnings
+}
+
+/// A frequency against the times (s) in which the material was measured.
+fn of_frequency(window_s: Option<(f64, f64)>, omega: f64) -> Option<Warning> {
+    let (first_measured_s, last_measured_s) = window_s?;
+    if omega * last_measured_s < 1.0 - ROUNDING {
+        return Some(Warning::BelowMeasured {
+            angular_frequency_rad_per_s: omega,
+            last_measured_s,
+        });
+    }
+    (omega * first_measured_s > 1.0 + ROUNDING).then_some(Warning::AboveMeasured {
+        angular_frequency_rad_per_s: omega,
+        first_measured_s,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frequency_within_the_measured_times_is_not_warned_of() {
+        let window = Some((0.1, 1000.0));
+        // The ends themselves, with the rounding of one over them.
+        for omega in [1e-3, 1.0, 10.0, 1.0 / 1000.0, 1.0 / 0.1] {
+            assert_eq!(of_frequency(window, omega), None);
+        }
+        let code = |omega| of_frequency(window, omega).map(|warning| warning.code());
+        assert_eq!(code(0.99e-3), Some("below-measured"));
+        assert_eq!(code(10.1), Some("above-measured"));
+        // A table that begins at 0 s tells of every high frequency.
+        assert_eq!(of_frequency(Some((0.0, 1000.0)), 1e12), None);
+        assert_eq!(of_frequency(None, 1e12), None);
+    }
+}

@@ -1,0 +1,766 @@
+//! One drive history from its beginning to its end: the march, and what is kept of it.
+//!
+//! # Out of contact
+//!
+//! Under a load of zero, or with the indenter retracted beyond the surface, there is no contact: no pressure, contact radius
+//! 0, and the surface recovers freely until it is met again, where it may still be deformed. Under load control the indenter
+//! may then be anywhere clear of the surface, and its approach is undefined (`None`). One case is different: where a drive
+//! that does not jump touches zero load at a single instant, the approach has a limit there, that at which the indenter just
+//! touches the surface. Both engines return it, and it is reported for exactly these instants; those at which the history
+//! begins or ends count, provided that the load is above zero on the other side.
+
+pub mod checkpoint;
+pub mod errors;
+mod follow;
+pub mod outside_model;
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use crate::contact::surface::Surface;
+use crate::contact::{ContactError, Engine};
+use crate::drive::{Control, Fineness, MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
+use crate::history::{DirectMemory, March, StepState};
+use crate::material::MaterialError;
+use crate::quantity::{Dimension, format_human};
+use crate::sweep::engine::{
+    EngineBuilder, EngineError, LargestContact, MAX_GROWTHS, missed_contact,
+};
+use crate::sweep::history::checkpoint::{HistoryCheckpoint, Stand};
+use crate::sweep::history::errors::{Followed, Plan, RowErrors};
+use crate::sweep::history::follow::{Course, Following, MarchError};
+use crate::sweep::plan::EngineKind;
+use crate::sweep::plan::body_material::Compliance;
+use crate::sweep::plan::scenario::ScenarioPlan;
+
+/// Why a simulation cannot be set up.
+#[derive(Debug, Clone, thiserror::Error)]
+pub enum SimulationError {
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    #[error(transparent)]
+    Schedule(#[from] ScheduleError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(
+        "{steps} time steps on {nodes} nodes are too many for the direct sum, which keeps the pressure of every step (at most \
+         {MAX_DIRECT_STEPS} steps and {} GB) and whose cost grows with their square: set a longer [time] step, fewer cells, \
+         or material.table.evaluation = \"fit\"",
+        MAX_DIRECT_BYTES / 1_000_000_000
+    )]
+    DirectSum { steps: usize, nodes: usize },
+}
+
+/// Steps of a direct sum: half of their square are evaluations of the compliance, a minute for as many as this.
+const MAX_DIRECT_STEPS: usize = 20_000;
+/// Memory of a direct sum, bytes.
+const MAX_DIRECT_BYTES: usize = 2_000_000_000;
+
+/// A scenario, ready to run.
+pub struct Simulation {
+    plan: ScenarioPlan,
+    compliance: Compliance,
+    /// The history itself, and the coarser ones that tell its errors.
+    levels: Vec<Level>,
+    errors: Plan,
+    /// Why there are no errors, where they were asked for.
+    without_errors: Option<String>,
+    /// How often the domain of the largest contact is halved for the first.
+    halvings: usize,
+    /// Ends an instant under way, where the engine's instants are long.
+    interrupt: Option<Arc<AtomicBool>>,
+}
+
+/// One resolution of the history.
+struct Level {
+    schedule: Schedule,
+    /// Per moment, whether the approach is undefined.
+    floating: Vec<bool>,
+    /// On the domain of the largest contact.
+    engines: EngineBuilder,
+}
+
+/// One row of the history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HistoryRow {
+    pub time_s: f64,
+    pub load_n: f64,
+    /// `None` where the indenter is clear of the surface under load control.
+    pub approach_m: Option<f64>,
+    pub contact_radius_m: f64,
+    /// `None` where the indenter's shape makes the pressure unbounded.
+    pub peak_pressure_pa: Option<f64>,
+}
+
+/// The surface at a requested time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SurfaceRecord {
+    pub row: HistoryRow,
+    pub surface: Surface,
+    /// Gap between indenter and surface per point, infinite where there is no indenter; `None` where the approach is
+    /// undefined.
+    pub gap_m: Option<Vec<f64>>,
+}
+
+/// What a simulation came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SimulationOutcome {
+    /// One row per moment; two with the same time at a jump.
+    pub rows: Vec<HistoryRow>,
+    /// At the requested times, in the order in which they were requested, as far as the march came.
+    pub profiles: Vec<SurfaceRecord>,
+    pub fields: Vec<SurfaceRecord>,
+    /// Errors of the rows, where they were asked for and the history is whole.
+    pub errors: Vec<RowErrors>,
+    /// Why errors are missing although they were asked for.
+    pub errors_missing: Option<String>,
+    /// Half width of the computational domain (m) at the end, and how often it had to be enlarged beyond the largest contact
+    /// predicted.
+    pub domain_half_width_m: f64,
+    pub domain_enlarged: usize,
+    /// Contact iterations over all moments.
+    pub iterations: u64,
+    pub ended: SimulationEnd,
+}
+
+/// How a simulation ended.
+#[derive(Debug, Clone, PartialEq)]
+pub enum SimulationEnd {
+    Done,
+    /// It was stopped from outside.
+    Interrupted,
+    /// The next moment could not be solved.
+    Failed(String),
+}
+
+/// Hears of progress: moments done, moments in all.
+pub type Progress<'p> = dyn Fn(usize, usize) + 'p;
+
+impl Simulation {
+    /// Checks the plan against the physics, lays out the time steps and sizes the domain.
+    ///
+    /// # Errors
+    /// [`SimulationError`] where the material cannot make a contact, a requested time lies outside the history, or the engine
+    /// cannot treat the indenter or give what is asked for.
+    pub fn new(plan: ScenarioPlan) -> Result<Self, SimulationError> {
+        Self::of_fineness(plan, Fineness::FULL)
+    }
+
+    /// The same with fewer or more time steps, to see what they do; nothing but the full history is given errors, profiles and
+    /// fields.
+    ///
+    /// # Errors
+    /// As [`Simulation::new`].
+    pub fn of_fineness(
+        mut plan: ScenarioPlan,
+        fineness: Fineness,
+    ) -> Result<Self, SimulationError> {
+        plan.solver = plan.solver.on_own_cells(plan.indenter.as_ref());
+        let compliance = plan.material.compliance()?;
+        let steps = match plan.step_s {
+            Some(step_s) => Steps::Given { step_s },
+            None => Steps::Chosen {
+                shortest_time_s: plan.material.shortest_time_s(),
+            },
+        };
+        let largest = LargestContact {
+            control: plan.drive.control(),
+            maximum: plan.drive.maximum(),
+            // A solid or fluid meets no more than its compliance at the end, and no more than the largest load.
+            compliance_per_pa: compliance.largest_per_pa(plan.drive.duration_s()),
+        };
+        let level = |fineness, nodes| -> Result<Level, SimulationError> {
+            let schedule = schedule(&plan, steps, fineness)?;
+            let solver = plan.solver.with_nodes(nodes);
+            Ok(Level {
+                floating: floating(plan.drive.control(), &schedule.moments),
+                schedule,
+                engines: EngineBuilder::new(plan.indenter.clone(), solver, largest)?,
+            })
+        };
+        let full = level(fineness, plan.solver.nodes())?;
+        let (moments, nodes) = (full.schedule.moments.len(), full.engines.nodes());
+        if matches!(compliance, Compliance::Samples(_)) && !direct_sum_fits(moments, nodes) {
+            let steps = moments;
+            return Err(SimulationError::DirectSum { steps, nodes });
+        }
+        let nodes = plan.solver.nodes();
+        let wanted = plan.output.error_bars && fineness == Fineness::FULL;
+        let error_plan = || error_plan(&plan, &compliance, &full).map_err(Some);
+        let (errors, without_errors) = match wanted.then(error_plan).unwrap_or(Err(None)) {
+            Ok(errors) => (errors, None),
+            Err(why) => (Plan::without_errors(nodes), why),
+        };
+        let halvings = halvings(&full, largest, &compliance);
+        let mut levels = vec![full];
+        for resolution in errors.resolutions.iter().skip(1) {
+            levels.push(level(resolution.fineness, resolution.nodes)?);
+        }
+        Ok(Self {
+            levels,
+            errors,
+            without_errors,
+            halvings,
+            compliance,
+            plan,
+            interrupt: None,
+        })
+    }
+
+    /// The same, with the flag handed to [`Simulation::run`] known to the engine too, so that it is heard within an instant.
+    #[must_use]
+    pub fn interrupted_by(mut self, flag: Arc<AtomicBool>) -> Self {
+        self.interrupt = Some(flag);
+        self
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &ScenarioPlan {
+        &self.plan
+    }
+
+    /// Memory (bytes) that the history takes while it runs, a checkpoint included, which one that ends within seconds does not
+    /// write. Within 20 % of what was measured on 1024 x 1024 and 2048 x 2048 cells, for a contact that stays inside its domain.
+    pub fn predicted_memory_bytes(&self) -> u64 {
+        /// What the program takes whatever it computes.
+        const PROGRAM_BYTES: u64 = 15_000_000;
+        /// Fields of a checkpoint besides the memory variables; and what a number of it takes, as it is and in the file being
+        /// written, as measured.
+        const KEPT_FIELDS: usize = 3;
+        const KEPT_BYTES: usize = 19;
+        let variables = match &self.compliance {
+            Compliance::Series(creep) => {
+                creep.branches().len() + usize::from(creep.viscosity_pa_s().is_some())
+            }
+            // The sum over the past needs every pressure of it.
+            Compliance::Samples(_) => self.schedule().moments.len(),
+        };
+        // Coarser levels take less, one after another.
+        let engines = &self.levels[0].engines;
+        let kept = engines.nodes() * (variables + KEPT_FIELDS);
+        PROGRAM_BYTES + engines.predicted_memory_bytes(variables) + (kept * KEPT_BYTES) as u64
+    }
+
+    /// The time steps.
+    pub fn schedule(&self) -> &Schedule {
+        &self.levels[0].schedule
+    }
+
+    /// Moments at all resolutions together.
+    pub fn moments(&self) -> usize {
+        let moments = self.levels.iter().map(|level| level.schedule.moments.len());
+        moments.sum()
+    }
+
+    /// Runs the history, on domains that grow with the contact, and then at the coarser resolutions that tell its errors. An
+    /// instant that cannot be solved ends it, as does `interrupt`; what came before is in the outcome either way.
+    pub fn run(&self, interrupt: &AtomicBool, progress: &Progress<'_>) -> SimulationOutcome {
+        self.run_from(None, &HistoryCheckpoint::none(), interrupt, progress)
+    }
+
+    /// As [`Simulation::run`], from where an earlier run of the same scenario stood; the outcome is the same, bit for bit. An
+    /// interruption leaves a new checkpoint.
+    pub fn run_from(
+        &self,
+        stand: Option<Stand<'_>>,
+        checkpoint: &HistoryCheckpoint,
+        interrupt: &AtomicBool,
+        progress: &Progress<'_>,
+    ) -> SimulationOutcome {
+        let (mut finished, mut begun) = match stand {
+            Some(stand) if self.fits(&stand) => {
+                let begun = (stand.course.into_owned(), stand.step);
+                (stand.finished.into_owned(), Some(begun))
+            }
+            _ => (Vec::new(), None),
+        };
+        let all = self.moments();
+        let mut ended = SimulationEnd::Done;
+        while let Some(level) = self.levels.get(finished.len()) {
+            let before: usize = finished.iter().map(|course| course.rows.len()).sum();
+            let (course, result) = self.follow(
+                level,
+                begun.take(),
+                &Run {
+                    finished: &finished,
+                    checkpoint,
+                    interrupt,
+                    progress: &|done, _| progress(before + done, all),
+                },
+            );
+            finished.push(course);
+            match (result, finished.len()) {
+                (Ok(()), 1) if self.misses(&finished[0]) => {
+                    let approach_m = self.plan.drive.maximum();
+                    ended = SimulationEnd::Failed(missed_contact(approach_m));
+                }
+                (Ok(()), _) => {}
+                (Err(MarchError::Interrupted), _) => ended = SimulationEnd::Interrupted,
+                (Err(error), 1) => {
+                    ended = SimulationEnd::Failed(place(level, &finished[0], &error));
+                }
+                // A coarser resolution that fails takes its part of the errors with it, and nothing else.
+                (Err(error), last) => {
+                    finished[last - 1].failed = Some(place(level, &finished[last - 1], &error));
+                }
+            }
+            if ended != SimulationEnd::Done {
+                break;
+            }
+        }
+        self.outcome(finished, ended)
+    }
+
+    /// Whether contact is prescribed but never made.
+    fn misses(&self, course: &Course) -> bool {
+        let drive = &self.plan.drive;
+        drive.control() == Control::Approach
+            && drive.maximum() > 0.0
+            && course.rows.iter().all(|row| row.load_n == 0.0)
+    }
+
+    /// Whether the stand can be one of this history.
+    fn fits(&self, stand: &Stand<'_>) -> bool {
+        let mut courses = stand.finished.iter().chain([&*stand.course]);
+        stand.finished.len() < self.levels.len()
+            && courses.all(|course| course.growths <= self.halvings + MAX_GROWTHS)
+    }
+
+    fn outcome(&self, mut courses: Vec<Course>, ended: SimulationEnd) -> SimulationOutcome {
+        let mut errors = Vec::new();
+        let mut errors_missing = self.without_errors.clone();
+        if ended == SimulationEnd::Done {
+            let followed = courses.iter().zip(&self.levels);
+            let followed = followed.map(|(course, level)| Followed {
+                rows: &course.rows,
+                in_full: &level.schedule.in_full,
+            });
+            errors = self.errors.errors(&followed.collect::<Vec<_>>());
+            let failed = courses.iter().find_map(|course| course.failed.as_ref());
+            errors_missing = errors_missing.or(failed.map(|why| {
+                format!("the coarser history that tells the errors could not be followed: {why}")
+            }));
+        }
+        let iterations = courses.iter().map(|course| course.iterations).sum();
+        let Course {
+            rows,
+            surfaces,
+            growths,
+            ..
+        } = courses.swap_remove(0);
+        let [profiles, fields] = surfaces.map(|s| s.into_iter().flatten().collect());
+        SimulationOutcome {
+            rows,
+            profiles,
+            fields,
+            errors,
+            errors_missing,
+            // What a domain came to be is a domain that could be built.
+            domain_half_width_m: (self.domain(&self.levels[0], growths))
+                .map_or(0.0, |engines| engines.reach().0),
+            domain_enlarged: growths.saturating_sub(self.halvings),
+            iterations,
+            ended,
+        }
+    }
+
+    /// Follows the history at one resolution, from where it was begun, on domains that grow with the contact.
+    fn follow(
+        &self,
+        level: &Level,
+        begun: Option<(Course, StepState)>,
+        run: &Run<'_>,
+    ) -> (Course, Result<(), MarchError>) {
+        let (mut course, mut step) = match begun {
+            Some((course, step)) => (course, Some(step)),
+            None => (Course::default(), None),
+        };
+        loop {
+            match self.follow_on_domain(level, step.take(), &mut course, run) {
+                Err(MarchError::Outgrown(state)) => {
+                    step = Some(*state);
+                    course.growths += 1;
+                }
+                ended => return (course, ended),
+            }
+        }
+    }
+
+    /// The same on the domain that the course has come to.
+    fn follow_on_domain(
+        &self,
+        level: &Level,
+        step: Option<StepState>,
+        course: &mut Course,
+        run: &Run<'_>,
+    ) -> Result<(), MarchError> {
+        let engines = self.domain(level, course.growths)?;
+        let (half_width_m, can_grow) = engines.reach();
+        let wider = match can_grow && course.growths < self.halvings + MAX_GROWTHS {
+            true => Some(self.domain(level, course.growths + 1)?.layout()),
+            false => None,
+        };
+        let mut engine = engines.engine(0)?;
+        if let Some(flag) = &self.interrupt {
+            engine.interrupted_by(Arc::clone(flag));
+        }
+        let following = Following {
+            plan: &self.plan,
+            schedule: &level.schedule,
+            floating: &level.floating,
+            field_grid: &engines.field_grid(self.plan.output.field_cells, 0)?,
+            layout: engines.layout(),
+            wider,
+            finished: run.finished,
+            checkpoint: run.checkpoint,
+            interrupt: run.interrupt,
+            progress: run.progress,
+        };
+        match self.march(engine.as_mut(), &following, step.as_ref(), course) {
+            Err(MarchError::Contact(ContactError::ReachedEdge { .. })) if !can_grow => {
+                Err(EngineError::EndOfData { half_width_m }.into())
+            }
+            ended => ended,
+        }
+    }
+
+    /// Engines on the domain that the contact needs after it has outgrown so many: each is twice as wide as the one before.
+    fn domain(&self, level: &Level, growths: usize) -> Result<EngineBuilder, EngineError> {
+        let doublings = growths as i32 - self.halvings as i32;
+        level.engines.scaled(2_f64.powi(doublings))
+    }
+
+    fn march(
+        &self,
+        engine: &mut dyn Engine,
+        following: &Following<'_>,
+        step: Option<&StepState>,
+        course: &mut Course,
+    ) -> Result<(), MarchError> {
+        let rule = self.plan.solver.time_rule;
+        match &self.compliance {
+            Compliance::Series(creep) => {
+                let march = March::new(engine, creep.clone(), rule);
+                following.run(march, step, course)
+            }
+            Compliance::Samples(curve) => {
+                let steps = following.schedule.moments.len();
+                let memory = DirectMemory::with_room_for(curve.clone(), engine.nodes(), steps);
+                let march = March::with_memory(engine, memory, rule);
+                following.run(march, step, course)
+            }
+        }
+    }
+}
+
+/// What a run hands to every resolution.
+struct Run<'a> {
+    finished: &'a [Course],
+    checkpoint: &'a HistoryCheckpoint,
+    interrupt: &'a AtomicBool,
+    progress: &'a Progress<'a>,
+}
+
+fn schedule(
+    plan: &ScenarioPlan,
+    steps: Steps,
+    fineness: Fineness,
+) -> Result<Schedule, ScheduleError> {
+    let output = &plan.output;
+    let requested_s = [&output.profiles_at_s[..], &output.fields_at_s[..]].concat();
+    Schedule::of_fineness(&plan.drive, steps, &requested_s, fineness)
+}
+
+fn direct_sum_fits(steps: usize, nodes: usize) -> bool {
+    let bytes = steps.saturating_mul(nodes).saturating_mul(size_of::<f64>());
+    steps <= MAX_DIRECT_STEPS && bytes <= MAX_DIRECT_BYTES
+}
+
+/// The resolutions that tell the errors; otherwise why there are none.
+fn error_plan(plan: &ScenarioPlan, compliance: &Compliance, full: &Level) -> Result<Plan, String> {
+    if full.engines.has_cells_of_its_own() {
+        let why = "the cells are those of the map, of which there are no fewer";
+        return Err(why.to_owned());
+    }
+    // An even number of cells keeps the symmetry of a quarter.
+    let multiple = match plan.solver.engine {
+        EngineKind::Axisymmetric => 1,
+        EngineKind::HalfSpace => 2,
+    };
+    let nodes = errors::coarser_nodes(plan.solver.nodes(), multiple)
+        .ok_or_else(|| "there are too few nodes to leave any out".to_owned())?;
+    let can_be_coarser = full.schedule.can_be_coarser;
+    let doubled = 2 * full.schedule.moments.len();
+    let fits = match compliance {
+        Compliance::Series(_) => doubled <= MAX_MOMENTS,
+        Compliance::Samples(_) => direct_sum_fits(doubled, full.engines.nodes()),
+    };
+    if !can_be_coarser && !fits {
+        let why = "there are no steps to leave out, and too many to be halved";
+        return Err(why.to_owned());
+    }
+    Ok(Plan::with_errors(can_be_coarser, plan.solver.engine, nodes))
+}
+
+/// How often the domain of the largest contact can be halved for the first.
+fn halvings(full: &Level, largest: LargestContact, compliance: &Compliance) -> usize {
+    let first = full.schedule.moments.iter().find(|m| m.value > 0.0);
+    first.map_or(0, |moment| {
+        full.engines.halvings_to(LargestContact {
+            maximum: moment.value,
+            compliance_per_pa: compliance.largest_per_pa(moment.time_s),
+            ..largest
+        })
+    })
+}
+
+/// An error with the time and segment at which it arose: those of the first moment without a row.
+fn place(level: &Level, course: &Course, error: &MarchError) -> String {
+    match level.schedule.moments.get(course.rows.len()) {
+        Some(moment) => format!(
+            "at {}, in segment {} of the drive: {error}",
+            format_human(moment.time_s, Dimension::Time, 6),
+            moment.segment + 1
+        ),
+        None => error.to_string(),
+    }
+}
+
+impl HistoryRow {
+    /// Contact area (m^2).
+    pub fn contact_area_m2(&self) -> f64 {
+        std::f64::consts::PI * self.contact_radius_m * self.contact_radius_m
+    }
+}
+
+/// Per moment, whether the indenter is clear of the surface at a place that the drive does not say.
+fn floating(control: Control, moments: &[Moment]) -> Vec<bool> {
+    if control == Control::Approach {
+        return vec![false; moments.len()];
+    }
+    let is_loaded = |moment: &Moment| moment.value > 0.0;
+    let is_touch = |index: usize| {
+        let before = index.checked_sub(1).and_then(|i| moments.get(i));
+        let after = moments.get(index + 1);
+        let jumps = (index > 0 && moments[index].is_jump()) || after.is_some_and(Moment::is_jump);
+        let neighbours = [before, after];
+        !jumps && neighbours.into_iter().flatten().all(is_loaded)
+    };
+    moments
+        .iter()
+        .enumerate()
+        .map(|(index, moment)| !is_loaded(moment) && !is_touch(index))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+    use std::sync::atomic::Ordering;
+    use std::time::Duration;
+
+    use super::*;
+    use crate::drive::{Segment, SegmentedDrive};
+    use crate::indenter::{Axisymmetric, Indenter, Parameter, Sphere};
+    use crate::material::library;
+    use crate::sweep::figures::figure_plan::FigurePlan;
+    use crate::sweep::history::checkpoint::Found;
+    use crate::sweep::plan::SolverPlan;
+    use crate::sweep::plan::scenario::OutputPlan;
+    use crate::sweep::store::Store;
+
+    /// (time, whether the approach is undefined) at every unloaded moment.
+    fn unloaded(segments: Vec<Segment>) -> Vec<(f64, bool)> {
+        let drive = SegmentedDrive::new(Control::Load, segments).unwrap();
+        let schedule = Schedule::new(&drive, Steps::Given { step_s: 1.0 }, &[]).unwrap();
+        let floating = floating(Control::Load, &schedule.moments);
+        let moments = schedule.moments.iter().zip(floating);
+        moments
+            .filter(|(m, _)| m.value == 0.0)
+            .map(|(m, floating)| (m.time_s, floating))
+            .collect()
+    }
+
+    fn ramp(to: f64, duration_s: f64) -> Segment {
+        Segment::Ramp { to, duration_s }
+    }
+
+    #[test]
+    fn a_single_touch_of_a_continuous_drive_has_an_approach_and_a_rest_out_of_contact_has_none() {
+        let up_and_down = [ramp(1.0, 2.0), ramp(0.0, 2.0)];
+        let twice = [up_and_down.to_vec(), up_and_down.to_vec()].concat();
+        assert_eq!(unloaded(twice), [(0.0, false), (4.0, false), (8.0, false)]);
+        let rest = [up_and_down.to_vec(), vec![ramp(0.0, 2.0), ramp(1.0, 1.0)]].concat();
+        assert_eq!(
+            unloaded(rest),
+            [(0.0, false), (4.0, true), (5.0, true), (6.0, true)]
+        );
+    }
+
+    #[test]
+    fn a_load_that_jumps_to_or_from_zero_leaves_the_indenter_anywhere() {
+        let step = |to| Segment::Step {
+            to,
+            duration_s: 1.0,
+        };
+        assert_eq!(
+            unloaded(vec![step(1.0), ramp(0.0, 1.0), step(1.0)]),
+            [(2.0, true)]
+        );
+        assert_eq!(
+            unloaded(vec![step(1.0), step(0.0), ramp(1.0, 1.0)]),
+            [(1.0, true), (2.0, true)]
+        );
+        let table = Segment::Table {
+            times_s: vec![0.0, 1.0, 1.0, 2.0],
+            values: vec![1.0, 1.0, 0.0, 1.0],
+        };
+        assert_eq!(unloaded(vec![table]), [(1.0, true)]);
+    }
+
+    /// A sphere of 10 mm of which no more is known than 0.1 mm around its apex.
+    #[derive(Debug)]
+    struct Cap(Sphere);
+
+    impl Indenter for Cap {
+        fn shape(&self) -> &'static str {
+            "cap"
+        }
+        fn parameters(&self) -> Vec<Parameter> {
+            Vec::new()
+        }
+        fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
+            self.0.gap_m(x_m, y_m)
+        }
+        fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+            Some(self)
+        }
+        fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
+            self.0.elastic_half_width_m(load_n, compliance_per_pa)
+        }
+    }
+
+    impl Axisymmetric for Cap {
+        fn transformed_gap_m(&self, x_m: f64) -> f64 {
+            100.0 * x_m * x_m
+        }
+        fn contact_limit_m(&self) -> Option<f64> {
+            None
+        }
+        fn known_radius_m(&self) -> Option<f64> {
+            Some(1e-4)
+        }
+        fn has_bounded_pressure(&self) -> bool {
+            true
+        }
+    }
+
+    /// A sphere of 10 mm whose contact is foretold far too small.
+    #[derive(Debug)]
+    struct Underrated(Sphere);
+
+    impl Indenter for Underrated {
+        fn shape(&self) -> &'static str {
+            self.0.shape()
+        }
+        fn parameters(&self) -> Vec<Parameter> {
+            self.0.parameters()
+        }
+        fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
+            self.0.gap_m(x_m, y_m)
+        }
+        fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+            self.0.axisymmetric()
+        }
+        fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
+            0.2 * self.0.elastic_half_width_m(load_n, compliance_per_pa)
+        }
+    }
+
+    #[test]
+    fn a_history_interrupted_every_third_step_ends_as_if_undisturbed_on_domains_that_grow_too() {
+        let segments = vec![ramp(10.0, 6.0), ramp(2.0, 6.0)];
+        let plan = ScenarioPlan {
+            title: "underrated".to_owned(),
+            material: library::find("pmma").unwrap().material().unwrap().into(),
+            indenter: Arc::new(Underrated(Sphere::new(0.01).unwrap())),
+            drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
+            step_s: Some(0.5),
+            output: OutputPlan {
+                profiles_at_s: vec![9.0, 1.0],
+                fields_at_s: vec![2.0],
+                field_cells: 8,
+                error_bars: true,
+            },
+            solver: SolverPlan::default(),
+            figures: FigurePlan::default(),
+        };
+        let simulation = Simulation::new(plan).unwrap();
+        let whole = simulation.run(&AtomicBool::new(false), &|_, _| {});
+        assert_eq!(whole.ended, SimulationEnd::Done);
+        let folder = tempfile::TempDir::new().unwrap();
+        let store = Store::open(folder.path(), "", false).unwrap();
+        let (mut runs, mut grown) = (0, 0);
+        let outcome = loop {
+            let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
+            let stand = match checkpoint.find() {
+                Found::Stand(stand) => Some(*stand),
+                Found::Nothing => None,
+                Found::Unusable { path, reason } => panic!("{}: {reason}", path.display()),
+            };
+            grown = stand
+                .as_ref()
+                .map_or(0, |stand| stand.course.growths)
+                .max(grown);
+            let (interrupt, steps) = (AtomicBool::new(false), Cell::new(0));
+            let outcome = simulation.run_from(stand, &checkpoint, &interrupt, &|_, _| {
+                steps.set(steps.get() + 1);
+                interrupt.store(steps.get() == 3, Ordering::Relaxed);
+            });
+            runs += 1;
+            if outcome.ended != SimulationEnd::Interrupted {
+                break outcome;
+            }
+        };
+        assert_eq!(outcome, whole);
+        assert_eq!(grown, whole.domain_enlarged + simulation.halvings);
+        assert!(runs > 8 && grown > 0, "{runs} runs, {grown} times enlarged");
+    }
+
+    #[test]
+    fn a_history_that_cannot_go_on_keeps_what_came_before_and_says_where_it_stopped() {
+        let segments = vec![
+            Segment::Step {
+                to: 0.0,
+                duration_s: 3.0,
+            },
+            ramp(10.0, 2.0),
+        ];
+        let plan = ScenarioPlan {
+            title: "cap".to_owned(),
+            material: library::find("pmma").unwrap().material().unwrap().into(),
+            indenter: Arc::new(Cap(Sphere::new(0.01).unwrap())),
+            drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
+            step_s: Some(1.0),
+            output: OutputPlan::default(),
+            solver: SolverPlan::default(),
+            figures: FigurePlan::default(),
+        };
+        let simulation = Simulation::new(plan).unwrap();
+        let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});
+        let SimulationEnd::Failed(message) = &outcome.ended else {
+            panic!("{outcome:?}")
+        };
+        for part in ["at 4.00000 s", "segment 2", "not known"] {
+            assert!(message.contains(part), "{message}");
+        }
+        let times: Vec<f64> = outcome.rows.iter().map(|row| row.time_s).collect();
+        assert_eq!(times, [0.0, 1.0, 2.0, 3.0]);
+        // An interruption keeps what came before too: here nothing.
+        let outcome = simulation.run(&AtomicBool::new(true), &|_, _| {});
+        assert_eq!(
+            (outcome.ended, outcome.rows.len()),
+            (SimulationEnd::Interrupted, 0)
+        );
+    }
+}

@@ -1,0 +1,153 @@
+//! What of a history lies outside the model.
+
+use crate::drive::{Segment, SegmentedDrive};
+use crate::sweep::engine::domain;
+use crate::sweep::engine::slope::{Patch, ROUNDING, of_slope, slope_of_body};
+use crate::sweep::history::{HistoryRow, SimulationOutcome};
+use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::record::warning::Warning;
+
+/// What is to be said of a history, as far as it came.
+pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning> {
+    let window = measured_window_s(&plan.material);
+    let mut warnings = of_times(window, &plan.drive);
+    let wider = |a, b| {
+        let (a, b): (&HistoryRow, &HistoryRow) = (a, b);
+        match b.contact_radius_m > a.contact_radius_m {
+            true => b,
+            false => a,
+        }
+    };
+    if let Some(widest) = outcome.rows.iter().reduce(wider)
+        && let Some(modulus_pa) = creep_modulus_pa(&plan.material, widest.time_s)
+    {
+        let slope = slope_of_history(plan, outcome, widest);
+        warnings.extend(of_slope(slope, widest.contact_radius_m, modulus_pa));
+    }
+    warnings
+}
+
+/// The times of a drive against those in which the material was measured.
+fn of_times(window_s: Option<(f64, f64)>, drive: &SegmentedDrive) -> Vec<Warning> {
+    let Some((first_measured_s, last_measured_s)) = window_s else {
+        return Vec::new();
+    };
+    let (shortest_s, time_s) = (shortest_s(drive), drive.duration_s());
+    let shorter = (shortest_s < first_measured_s * (1.0 - ROUNDING)).then_some(
+        Warning::ShorterThanMeasured {
+            time_s: shortest_s,
+            first_measured_s,
+        },
+    );
+    let longer =
+        (time_s > last_measured_s * (1.0 + ROUNDING)).then_some(Warning::LongerThanMeasured {
+            time_s,
+            last_measured_s,
+        });
+    shorter.into_iter().chain(longer).collect()
+}
+
+/// The shortest time (s) within which a drive changes: 0 where it jumps.
+fn shortest_s(drive: &SegmentedDrive) -> f64 {
+    let jumps = (drive.joints().iter()).any(|joint| {
+        joint
+            .after
+            .is_some_and(|after| after != joint.before.unwrap_or(0.0))
+    });
+    if jumps {
+        return 0.0;
+    }
+    let of_segment = |segment: &Segment| match segment {
+        Segment::Step { duration_s, .. }
+        | Segment::Ramp { duration_s, .. }
+        | Segment::Polynomial { duration_s, .. } => *duration_s,
+        Segment::Sine {
+            angular_frequency_rad_per_s,
+            ..
+        } => angular_frequency_rad_per_s.recip(),
+        Segment::Table { times_s, .. } => times_s.last().copied().unwrap_or(f64::INFINITY),
+    };
+    let times_s = drive.segments().iter().map(of_segment);
+    times_s.fold(f64::INFINITY, f64::min)
+}
+
+/// First and last time (s) at which the material of a history was measured, where that is known.
+fn measured_window_s(material: &BodyMaterial) -> Option<(f64, f64)> {
+    match material {
+        BodyMaterial::Series(material) => material.measured_window_s(),
+        BodyMaterial::Samples(sampled) => {
+            let times_s = sampled.table().times_s();
+            Some((*times_s.first()?, *times_s.last()?))
+        }
+    }
+}
+
+/// One over the longitudinal creep compliance (Pa) after this time.
+fn creep_modulus_pa(material: &BodyMaterial, time_s: f64) -> Option<f64> {
+    let poisson_ratio = match material {
+        BodyMaterial::Series(material) => material.poisson_ratio(),
+        BodyMaterial::Samples(sampled) => sampled.poisson_ratio(),
+    };
+    let contact_per_pa = material.compliance().ok()?.largest_per_pa(time_s);
+    Some((1.0 - poisson_ratio * poisson_ratio) / contact_per_pa)
+}
+
+/// Slope within the widest contact of a history. Of a shape that is no body of revolution the contact is taken as that lowest part
+/// of it which has the area of the contact.
+fn slope_of_history(
+    plan: &ScenarioPlan,
+    outcome: &SimulationOutcome,
+    widest: &HistoryRow,
+) -> Option<f64> {
+    /// Cells along the longer side of the domain, where the shape has none of its own.
+    const CELLS: usize = 128;
+    let indenter = plan.indenter.as_ref();
+    if let Some(body) = indenter.axisymmetric() {
+        let approach_m = outcome.rows.iter().filter_map(|row| row.approach_m);
+        let approach_m = approach_m.fold(0.0, f64::max);
+        return slope_of_body(body, widest.contact_radius_m, approach_m);
+    }
+    let load_n = outcome.rows.iter().fold(0.0, |a, row| row.load_n.max(a));
+    let compliance = plan.material.compliance().ok()?;
+    let compliance_per_pa = compliance.largest_per_pa(plan.drive.duration_s());
+    let grid = domain::grid(&indenter.domain(load_n, compliance_per_pa), CELLS, 0).ok()?;
+    Patch::lowest(indenter, &grid, widest.contact_area_m2()).steepest()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drive::Control;
+
+    #[test]
+    fn a_drive_that_is_faster_or_longer_than_the_measurement_is_warned_of() {
+        let ramp = |to, duration_s| Segment::Ramp { to, duration_s };
+        let step = |to, duration_s| Segment::Step { to, duration_s };
+        let codes = |segments: Vec<Segment>| -> Vec<&str> {
+            let drive = SegmentedDrive::new(Control::Load, segments).unwrap();
+            let warnings = of_times(Some((1.0, 100.0)), &drive);
+            warnings.iter().map(Warning::code).collect()
+        };
+        assert!(codes(vec![ramp(1.0, 1.0), ramp(0.5, 99.0)]).is_empty());
+        assert_eq!(codes(vec![step(1.0, 10.0)]), ["shorter-than-measured"]);
+        // A step to the value that is held already is no jump.
+        assert!(codes(vec![ramp(1.0, 2.0), step(1.0, 5.0)]).is_empty());
+        assert_eq!(
+            codes(vec![ramp(1.0, 0.5), ramp(0.5, 100.0)]),
+            ["shorter-than-measured", "longer-than-measured"]
+        );
+        let sine = |angular_frequency_rad_per_s| Segment::Sine {
+            mean: 1.0,
+            amplitude: 0.5,
+            angular_frequency_rad_per_s,
+            phase_rad: 0.0,
+            cycles: 2.0,
+        };
+        assert!(codes(vec![ramp(1.0, 2.0), sine(0.9)]).is_empty());
+        assert_eq!(
+            codes(vec![ramp(1.0, 2.0), sine(1.1)]),
+            ["shorter-than-measured"]
+        );
+    }
+}

@@ -1,0 +1,259 @@
+//! The resolved sweep: every default written out, with units, as a sweep file that gives the same plan again; and its hash,
+//! which neither the `[figures]` table at its end enters nor the place where a data file lies.
+
+use std::fmt::Write;
+
+use sha2::{Digest, Sha256};
+
+use crate::drive::Control;
+use crate::history::TimeRule;
+use crate::indenter::{Indenter, Parameter, Value};
+use crate::material::{GivenFace, Material, ModulusKind, Relaxation};
+use crate::quantity::{Dimension, format_si};
+use crate::sweep::figures::figure_plan::without_figures;
+use crate::sweep::plan::{SolverPlan, SweepPlan};
+
+/// The plan as the text of a sweep file.
+pub fn resolved_text(plan: &SweepPlan) -> String {
+    let mut text = opening_text(
+        &plan.title,
+        &material_text(&plan.material),
+        plan.indenter.as_ref(),
+    );
+    let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
+    let mut line = |content: &str| {
+        text.push_str(content);
+        text.push('\n');
+    };
+    let drive = &plan.drive;
+    line(&format!(
+        "\n[drive]\ncontrol = \"{}\"",
+        drive.control().name()
+    ));
+    let dimension = drive_dimension(drive.control());
+    line(&format!("mean = {}", quantity(drive.mean(), dimension)));
+    let amplitude = quantity(drive.amplitude(), dimension);
+    line(&format!("amplitude = {amplitude}"));
+    line(&format!(
+        "phase = {}",
+        quantity(drive.phase_rad(), Dimension::Angle)
+    ));
+    line(&format!(
+        "hold = {}",
+        quantity(drive.hold_s(), Dimension::Time)
+    ));
+    line("\n[sweep]");
+    if let Some(axis) = &plan.axis {
+        let values = axis.drives.iter().map(|drive| axis.varied.value(drive));
+        let values: Vec<String> = values.map(|value| quantity(value, dimension)).collect();
+        let list = values.join(", ");
+        line(&format!("drive.{} = [{list}]", axis.varied.name()));
+    }
+    if plan.refine {
+        line("refine = true");
+    }
+    line("angular_frequency = [");
+    for &omega in &plan.angular_frequencies_rad_per_s {
+        line(&format!(
+            "    {},",
+            quantity(omega, Dimension::AngularFrequency)
+        ));
+    }
+    line("]\n\n[cycle]");
+    line(&format!("steps = {}", plan.cycle.steps));
+    line(&format!("method = \"{}\"", plan.cycle.method.name()));
+    line(&format!("tolerance = {:e}", plan.cycle.tolerance));
+    line(&format!("max_cycles = {}", plan.cycle.max_cycles));
+    line(&format!("error_bars = {}", plan.cycle.error_bars));
+    if let Some(accuracy) = plan.cycle.accuracy {
+        line(&format!("accuracy = {accuracy:e}"));
+    }
+    line("");
+    text.push_str(&solver_text(&plan.solver, plan.indenter.as_ref()));
+    text.push_str(&plan.figures.text());
+    text
+}
+
+/// What sweeps and scenarios have in common at their beginning: title, material, indenter.
+pub(in crate::sweep) fn opening_text(
+    title: &str,
+    material: &str,
+    indenter: &dyn Indenter,
+) -> String {
+    let mut text = format!("title = {}\n\n{material}", toml_string(title));
+    let mut line = |content: &str| {
+        text.push_str(content);
+        text.push('\n');
+    };
+    line("\n[indenter]");
+    line(&format!("shape = \"{}\"", indenter.shape()));
+    for parameter in indenter.parameters() {
+        line(&format!("{} = {}", parameter.key, value(&parameter.value)));
+    }
+    text
+}
+
+/// The `[solver]` block, at the end of both.
+pub(in crate::sweep) fn solver_text(solver: &SolverPlan, indenter: &dyn Indenter) -> String {
+    let cells = match indenter.own_cells() {
+        Some(_) => String::new(),
+        None => format!("cells = {}\n", solver.cells),
+    };
+    let rule = match solver.time_rule {
+        TimeRule::Linear => "linear",
+        TimeRule::Constant => "constant",
+    };
+    let tolerance = solver.tolerance.map(|t| format!("tolerance = {t:e}\n"));
+    format!(
+        "[solver]\nengine = \"{}\"\n{cells}springs = {}\n{}time_rule = \"{rule}\"\n",
+        solver.engine.name(),
+        solver.springs,
+        tolerance.unwrap_or_default(),
+    )
+}
+
+/// What kind of quantity a drive's values are.
+pub fn drive_dimension(control: Control) -> Dimension {
+    match control {
+        Control::Load => Dimension::Force,
+        Control::Approach => Dimension::Length,
+    }
+}
+
+/// A setting of the indenter as TOML.
+fn value(value: &Value) -> String {
+    let list = |items: Vec<String>| format!("[{}]", items.join(", "));
+    let quoted = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
+    match value {
+        Value::Quantity(value, dimension) => quoted(*value, *dimension),
+        Value::Quantities(values, dimension) => {
+            list(values.iter().map(|&v| quoted(v, *dimension)).collect())
+        }
+        // Debug keeps the decimal point that TOML asks of a float.
+        Value::Number(number) => format!("{number:?}"),
+        Value::Integer(integer) => integer.to_string(),
+        Value::Text(text) => toml_string(text),
+        Value::Tables(tables) => {
+            let rows: Vec<String> = tables.iter().map(|t| inline_table(t)).collect();
+            format!("[\n{}]", rows.concat())
+        }
+    }
+}
+
+/// One line of an array of tables.
+fn inline_table(table: &[Parameter]) -> String {
+    let entries: Vec<String> = table
+        .iter()
+        .map(|parameter| format!("{} = {}", parameter.key, value(&parameter.value)))
+        .collect();
+    format!("    {{ {} }},\n", entries.join(", "))
+}
+
+/// SHA-256 of the [`identity`], in hexadecimal.
+pub fn hash(resolved: &str) -> String {
+    hash_of_bytes(identity(resolved).as_bytes())
+}
+
+/// What makes a resolved sweep or scenario the one that it is: its text without how its figures look, and without the path of a
+/// data file, whose content stands in the line below.
+pub fn identity(resolved: &str) -> String {
+    let lines: Vec<&str> = without_figures(resolved).split_inclusive('\n').collect();
+    let is_place = |k: usize| {
+        let next = lines.get(k + 1).copied().unwrap_or_default();
+        lines[k].starts_with("file = ") && next.starts_with("sha256 = ")
+    };
+    let kept = (0..lines.len()).filter(|&k| !is_place(k));
+    kept.map(|k| lines[k]).collect()
+}
+
+/// SHA-256 of any bytes, in hexadecimal.
+pub fn hash_of_bytes(bytes: &[u8]) -> String {
+    let mut hash = String::with_capacity(64);
+    for byte in Sha256::digest(bytes) {
+        // Writing to a String cannot fail.
+        let _ = write!(hash, "{byte:02x}");
+    }
+    hash
+}
+
+/// The material as the block of a sweep file that gives the same material again.
+pub fn material_text(material: &Material) -> String {
+    let mut text = String::new();
+    material_lines(material, &mut |line| {
+        text.push_str(line);
+        text.push('\n');
+    });
+    text
+}
+
+fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
+    let kind = match material.kind() {
+        ModulusKind::Shear => "shear",
+        ModulusKind::Longitudinal => "longitudinal",
+    };
+    line("[material]");
+    if let Some(name) = material.name() {
+        line(&format!("name = {}", toml_string(name)));
+    }
+    line(&format!("poisson_ratio = {:?}", material.poisson_ratio()));
+    if let Some((first_s, last_s)) = material.measured_window_s() {
+        let [first, last] = [first_s, last_s].map(|time_s| format_si(time_s, Dimension::Time));
+        line(&format!("measured = [\"{first}\", \"{last}\"]"));
+    }
+    match given_relaxation(material) {
+        Some(_) => line(&format!("\n[material.relaxation]\nmodulus = \"{kind}\"")),
+        None => line(&format!("\n[material.creep]\ncompliance = \"{kind}\"")),
+    }
+    series_lines(material, line);
+    for alternative in material.alternatives() {
+        line("\n[[material.alternative]]");
+        series_lines(alternative, line);
+    }
+}
+
+/// The relaxation modulus of a material that was given by it.
+fn given_relaxation(material: &Material) -> Option<&Relaxation> {
+    let given = material.given() == GivenFace::Relaxation;
+    material.relaxation().filter(|_| given)
+}
+
+/// The numbers of the function that was given.
+fn series_lines(material: &Material, line: &mut dyn FnMut(&str)) {
+    let mut quantity = |key: &str, value, dimension| {
+        line(&format!("{key} = \"{}\"", format_si(value, dimension)));
+    };
+    let (key, dimension, branches): (_, _, Vec<_>) = match given_relaxation(material) {
+        Some(relaxation) => {
+            let equilibrium_pa = relaxation.equilibrium_modulus();
+            quantity("equilibrium", equilibrium_pa, Dimension::Stress);
+            let branches = relaxation.branches().iter();
+            let branches = branches.map(|b| (b.modulus_pa, b.time_s)).collect();
+            ("modulus", Dimension::Stress, branches)
+        }
+        None => {
+            let creep = material.creep();
+            let instantaneous_per_pa = creep.instantaneous_compliance();
+            quantity("instantaneous", instantaneous_per_pa, Dimension::Compliance);
+            if let Some(viscosity) = creep.viscosity_pa_s() {
+                quantity("viscosity", viscosity, Dimension::Viscosity);
+            }
+            let branches = creep.branches().iter();
+            let branches = branches.map(|b| (b.compliance_per_pa, b.time_s)).collect();
+            ("compliance", Dimension::Compliance, branches)
+        }
+    };
+    line("branches = [");
+    for (strength, time_s) in branches {
+        let strength = format_si(strength, dimension);
+        let time = format_si(time_s, Dimension::Time);
+        line(&format!(
+            "    {{ {key} = \"{strength}\", time = \"{time}\" }},"
+        ));
+    }
+    line("]");
+}
+
+/// A TOML basic string.
+pub(in crate::sweep) fn toml_string(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}

@@ -1,0 +1,141 @@
+//! A scenario as it will be run: one drive history, every default filled in, every value checked; and its resolved text.
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use crate::drive::{Control, Segment, SegmentedDrive};
+use crate::indenter::Indenter;
+use crate::quantity::{Dimension, format_si};
+use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::resolved;
+use crate::sweep::plan::{EngineKind, SolverPlan};
+
+/// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
+#[derive(Debug, Clone)]
+pub struct ScenarioPlan {
+    pub title: String,
+    pub material: BodyMaterial,
+    pub indenter: Arc<dyn Indenter>,
+    pub drive: SegmentedDrive,
+    /// Time step (s); `None`: chosen from drive and material.
+    pub step_s: Option<f64>,
+    pub output: OutputPlan,
+    pub solver: SolverPlan,
+    /// How the figures look; no part of the results.
+    pub figures: FigurePlan,
+}
+
+/// What is written beside the history.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputPlan {
+    /// Times (s) at which profiles along a radius, or along the axes of the grid, are kept.
+    pub profiles_at_s: Vec<f64>,
+    /// Times (s) at which whole fields are kept.
+    pub fields_at_s: Vec<f64>,
+    /// Axisymmetric engine: cells per side of the square on which fields are given; the half-space engine has its own.
+    pub field_cells: usize,
+    /// Whether the history is to be followed at coarser resolutions too, which tells the errors of its rows.
+    pub error_bars: bool,
+}
+
+impl Default for OutputPlan {
+    fn default() -> Self {
+        Self {
+            profiles_at_s: Vec::new(),
+            fields_at_s: Vec::new(),
+            field_cells: 128,
+            error_bars: true,
+        }
+    }
+}
+
+/// Every figure a scenario may have. Their files at the top of its folder are replaced by later runs, and summary.json, which a
+/// sweep has too.
+pub const FIGURES: [&str; 3] = ["history", "profiles", "pressure-map"];
+
+/// The plan as the text of a scenario file that gives the same plan again; tables are written out.
+pub fn resolved_text(plan: &ScenarioPlan) -> String {
+    let mut text =
+        resolved::opening_text(&plan.title, &plan.material.text(), plan.indenter.as_ref());
+    let control = plan.drive.control();
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "\n[drive]\ncontrol = \"{}\"", control.name());
+    text.push_str("segments = [\n");
+    for segment in plan.drive.segments() {
+        let _ = writeln!(text, "    {{ {} }},", segment_text(segment, control));
+    }
+    text.push_str("]\n");
+    if let Some(step_s) = plan.step_s {
+        let _ = writeln!(text, "\n[time]\nstep = {}", quoted(step_s, Dimension::Time));
+    }
+    text.push_str("\n[output]\n");
+    for (key, times) in [
+        ("profiles_at", &plan.output.profiles_at_s),
+        ("fields_at", &plan.output.fields_at_s),
+    ] {
+        let times: Vec<String> = times.iter().map(|t| quoted(*t, Dimension::Time)).collect();
+        let _ = writeln!(text, "{key} = [{}]", times.join(", "));
+    }
+    let _ = writeln!(text, "error_bars = {}", plan.output.error_bars);
+    if plan.solver.engine == EngineKind::Axisymmetric {
+        let _ = writeln!(text, "field_cells = {}", plan.output.field_cells);
+    }
+    text.push('\n');
+    text.push_str(&resolved::solver_text(&plan.solver, plan.indenter.as_ref()));
+    text.push_str(&plan.figures.text());
+    text
+}
+
+fn quoted(value: f64, dimension: Dimension) -> String {
+    format!("\"{}\"", format_si(value, dimension))
+}
+
+/// The keys of a segment as they stand within the braces of an inline table.
+fn segment_text(segment: &Segment, control: Control) -> String {
+    let value = |value: f64| quoted(value, resolved::drive_dimension(control));
+    let time = |time_s: f64| quoted(time_s, Dimension::Time);
+    // `{:?}` writes a float as TOML reads it, with a point or an exponent, and loses no bit.
+    let list = |values: &[f64]| {
+        let numbers: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
+        format!("[{}]", numbers.join(", "))
+    };
+    match segment {
+        Segment::Step { to, duration_s } => format!(
+            "kind = \"step\", to = {}, duration = {}",
+            value(*to),
+            time(*duration_s)
+        ),
+        Segment::Ramp { to, duration_s } => format!(
+            "kind = \"ramp\", to = {}, duration = {}",
+            value(*to),
+            time(*duration_s)
+        ),
+        Segment::Polynomial {
+            coefficients,
+            duration_s,
+        } => format!(
+            "kind = \"polynomial\", coefficients = {}, duration = {}",
+            list(coefficients),
+            time(*duration_s)
+        ),
+        Segment::Sine {
+            mean,
+            amplitude,
+            angular_frequency_rad_per_s,
+            phase_rad,
+            cycles,
+        } => format!(
+            "kind = \"sine\", mean = {}, amplitude = {}, angular_frequency = {}, phase = {}, cycles = {cycles:?}",
+            value(*mean),
+            value(*amplitude),
+            quoted(*angular_frequency_rad_per_s, Dimension::AngularFrequency),
+            quoted(*phase_rad, Dimension::Angle)
+        ),
+        Segment::Table { times_s, values } => format!(
+            "kind = \"table\", times = {}, values = {}",
+            list(times_s),
+            list(values)
+        ),
+    }
+}

@@ -1,0 +1,208 @@
+//! What one case came to: the record that is stored, and from which tables and figures are made without solving again.
+
+pub mod error_bars;
+pub mod warning;
+
+use serde::{Deserialize, Serialize};
+
+use crate::contact::surface::PressureLine;
+use crate::cycle::{Extrema, Loop, LoopAnalysis};
+use crate::drive::{Control, HarmonicDrive};
+use crate::history::Work;
+use crate::sweep::plan::Method;
+use crate::sweep::record::error_bars::ErrorBars;
+use crate::sweep::record::warning::Warning;
+
+/// How a case ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Status {
+    /// The stabilised cycle was reached within the tolerance.
+    Converged,
+    /// The cycle was not stabilised, or not to the accuracy asked for, before the limits were met: there is no result.
+    NotConverged,
+    /// An instant could not be solved: there is no result.
+    Failed,
+}
+
+impl Status {
+    /// The name used in every output.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::NotConverged => "not-converged",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// One frequency's record.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CaseRecord {
+    /// Position in the sweep, from 0, in ascending frequency.
+    pub index: usize,
+    pub angular_frequency_rad_per_s: f64,
+    /// Mean and amplitude of the drive (N or m).
+    pub drive_mean: f64,
+    pub drive_amplitude: f64,
+    pub status: Status,
+    /// Why there is no result, or what else a reader should know.
+    pub message: Option<String>,
+    /// What lies outside the model, or was not estimated.
+    #[serde(default)]
+    pub warnings: Vec<Warning>,
+    /// How the cycle was reached in the end.
+    pub method: Method,
+    /// Time steps per cycle, and springs or cells, of the result.
+    pub steps: usize,
+    pub nodes: usize,
+    /// Cycles solved at this resolution, the recorded one included.
+    pub cycles: usize,
+    /// Estimated distance of the recorded cycle to the stabilised one.
+    pub steady_distance: Option<f64>,
+    /// Half width of the computational domain (m) and how often it had to be enlarged.
+    pub domain_half_width_m: f64,
+    pub domain_enlarged: usize,
+    /// What the case cost, coarser resolutions too.
+    pub work: Work,
+    /// Only for a converged case.
+    pub result: Option<CaseResult>,
+}
+
+/// The stabilised cycle of one frequency.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CaseResult {
+    pub analysis: LoopAnalysis,
+    /// E' and E'' (Pa) that indentation reads from the loop; `None` where the contact radius vanishes.
+    pub storage_modulus_pa: Option<f64>,
+    pub loss_modulus_pa: Option<f64>,
+    pub approach_m: Extrema,
+    pub contact_radius_m: Extrema,
+    /// `None` where the indenter's shape makes the pressure unbounded.
+    pub peak_pressure_pa: Option<Extrema>,
+    /// Errors of the numbers above; `None` where they were not asked for or could not be estimated.
+    pub errors: Option<ErrorBars>,
+    /// Energy (J) that each branch of the creep compliance dissipates over the cycle, shortest retardation time first.
+    pub branches: Vec<BranchLoss>,
+    /// Where the energy goes in.
+    pub surface_loss: SurfaceLoss,
+    /// The pressure over the contact at the quarters of the drive's oscillation.
+    #[serde(default)]
+    pub pressures: Vec<PressureProfile>,
+    /// The cycle itself.
+    pub samples: Loop,
+}
+
+/// What one branch dissipates over a cycle.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct BranchLoss {
+    pub retardation_time_s: f64,
+    pub energy_loss_j: f64,
+}
+
+/// Density over the surface (J/m2) of the work that the indenter does on it over a cycle, the integral of p d(delta): its
+/// integral over the surface is the energy loss.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum SurfaceLoss {
+    /// Along a radius, axis first; `None` where it is unbounded, at an apex.
+    Radial {
+        radius_m: Vec<f64>,
+        density_j_per_m2: Vec<Option<f64>>,
+    },
+    Cells(CellLoss),
+}
+
+/// The same at the centres of cells, row by row, of the smallest rectangle that holds all contact of the cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CellLoss {
+    /// Centre of the first cell, and spacing (m).
+    pub first_x_m: f64,
+    pub first_y_m: f64,
+    pub spacing_x_m: f64,
+    pub spacing_y_m: f64,
+    pub cells_x: usize,
+    /// Single precision: seven digits are more than the grid resolves.
+    pub density_j_per_m2: Vec<f32>,
+}
+
+/// An instant of the cycle, by what the drive does there. At the two that have the mean, all that differs is what the body
+/// remembers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Quarter {
+    Greatest,
+    MeanFalling,
+    Least,
+    MeanRising,
+}
+
+/// The contact pressure at one instant of the stabilised cycle: at the time step nearest to a quarter of the oscillation.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PressureProfile {
+    pub quarter: Quarter,
+    /// Since the start of the cycle.
+    pub time_s: f64,
+    pub load_n: f64,
+    pub approach_m: f64,
+    pub contact_radius_m: f64,
+    /// Along the radius, or along x and along y through the centre of the cells.
+    pub lines: Vec<PressureLine>,
+}
+
+impl Quarter {
+    /// In the order in which the drive passes them.
+    pub const ALL: [Self; 4] = [
+        Self::Greatest,
+        Self::MeanFalling,
+        Self::Least,
+        Self::MeanRising,
+    ];
+
+    /// The name in every output: "greatest load".
+    pub fn name(self, control: Control) -> String {
+        let value = control.name();
+        match self {
+            Self::Greatest => format!("greatest {value}"),
+            Self::MeanFalling => format!("mean {value} falling"),
+            Self::Least => format!("least {value}"),
+            Self::MeanRising => format!("mean {value} rising"),
+        }
+    }
+}
+
+impl CaseRecord {
+    /// Energy loss per cycle (J) of a converged case.
+    pub fn energy_loss_j(&self) -> Option<f64> {
+        self.result.as_ref().map(|r| r.analysis.energy_loss_j)
+    }
+
+    /// Its estimated error (J).
+    pub fn energy_loss_error_j(&self) -> Option<f64> {
+        use crate::sweep::record::error_bars::Quantity::EnergyLoss;
+        self.result.as_ref()?.errors.as_ref()?.of(EnergyLoss)
+    }
+
+    /// Whether the case ran under this drive.
+    pub fn is_under(&self, drive: &HarmonicDrive) -> bool {
+        self.drive_mean == drive.mean() && self.drive_amplitude == drive.amplitude()
+    }
+
+    /// Load frequency (Hz).
+    pub fn frequency_hz(&self) -> f64 {
+        self.angular_frequency_rad_per_s / std::f64::consts::TAU
+    }
+}
+
+impl CaseResult {
+    /// Energy (J) dissipated by all branches.
+    pub fn dissipated_j(&self) -> f64 {
+        self.branches.iter().map(|b| b.energy_loss_j).sum()
+    }
+
+    /// By how much the dissipation differs from the area of the loop, relative to it: zero but for discretisation.
+    /// `None` for a loop without area.
+    pub fn energy_imbalance(&self) -> Option<f64> {
+        let loss = self.analysis.energy_loss_j;
+        (loss != 0.0).then(|| self.dissipated_j() / loss - 1.0)
+    }
+}

@@ -1,0 +1,154 @@
+//! Peaks of the curves that a sweep has sampled: bracketed by its cases, then located by solving between them.
+
+use crate::drive::HarmonicDrive;
+use crate::sweep::case::{Aim, Resolution};
+use crate::sweep::plan::Case;
+use crate::sweep::record::CaseRecord;
+use crate::sweep::search::Search;
+use crate::sweep::search::peak::{self, Loss, PeakError, Point};
+use crate::sweep::search::run::Outcome;
+use crate::sweep::store::StoreError;
+
+/// Why a peak that the cases bracket has no place.
+#[derive(Debug, thiserror::Error)]
+enum LocateError {
+    #[error(transparent)]
+    Peak(#[from] PeakError),
+    #[error(transparent)]
+    Store(#[from] StoreError),
+    #[error("interrupted")]
+    Interrupted,
+    #[error(
+        "losses near {angular_frequency_rad_per_s:.4e} rad/s that it takes have no record in {folder}, and none is computed \
+         here: `contact-dma sweep FILE --out {folder}` with the file of this sweep computes them"
+    )]
+    NoRecords {
+        angular_frequency_rad_per_s: f64,
+        folder: String,
+    },
+}
+
+impl Search<'_> {
+    /// Locates the peaks of every curve; false where it was interrupted. Where nothing is solved, a peak whose losses have no
+    /// records is a peak that was not located.
+    pub fn locate_peaks(&self, outcome: &mut Outcome) -> Result<bool, StoreError> {
+        let plan = self.setup.plan();
+        let brackets: Vec<Bracket> = (plan.drives().iter())
+            .flat_map(|drive| Bracket::of_curve(&outcome.records, drive))
+            .collect();
+        self.progress.locating_peaks(brackets.len());
+        let mut whole = true;
+        for bracket in &brackets {
+            let losses = |omegas: &[f64]| self.losses_at(bracket, omegas);
+            match peak::refine(&bracket.points, &losses) {
+                Ok(mut found) => {
+                    if plan.axis.is_some() {
+                        found.drive_mean = Some(bracket.drive.mean());
+                        found.drive_amplitude = Some(bracket.drive.amplitude());
+                    }
+                    outcome.peaks.push(found);
+                }
+                Err(LocateError::Store(error)) => return Err(error),
+                Err(LocateError::Interrupted) => whole = false,
+                Err(error @ (LocateError::Peak(_) | LocateError::NoRecords { .. })) => {
+                    outcome.peak_problems.push(error.to_string());
+                }
+            }
+        }
+        (outcome.peaks).sort_by(|a, b| b.energy_loss_j.total_cmp(&a.energy_loss_j));
+        Ok(whole)
+    }
+
+    /// Losses at frequencies inside a bracket.
+    fn losses_at(&self, bracket: &Bracket, omegas: &[f64]) -> Result<Vec<Loss>, LocateError> {
+        let case = |(index, omega): (usize, &f64)| Case {
+            index,
+            angular_frequency_rad_per_s: *omega,
+            drive: bracket.drive,
+        };
+        let cases: Vec<Case> = omegas.iter().enumerate().map(case).collect();
+        let records = self.records_of(Aim::Loss(bracket.resolution), &cases)?;
+        if records.len() < omegas.len() {
+            return Err(match self.checkpoint_every {
+                Some(_) => LocateError::Interrupted,
+                None => LocateError::NoRecords {
+                    angular_frequency_rad_per_s: bracket.points[1].0,
+                    folder: self.store.folder().display().to_string(),
+                },
+            });
+        }
+        let loss = |record: &CaseRecord| {
+            let omega = record.angular_frequency_rad_per_s;
+            let loss_j = record.energy_loss_j().ok_or_else(|| PeakError::Case {
+                angular_frequency_rad_per_s: omega,
+                reason: record.message.clone().unwrap_or_default(),
+            })?;
+            let error_j = bracket.relative_error_at(omega).map(|e| e * loss_j.abs());
+            Ok((loss_j, error_j))
+        };
+        records.iter().map(loss).collect()
+    }
+}
+
+/// Three neighbouring cases of one curve, the middle one with the largest loss.
+///
+/// All losses inside are computed at the resolution of the middle case, so that they have one and the same error of
+/// discretisation, which then hardly moves their maximum; that error is read between the three.
+struct Bracket {
+    drive: HarmonicDrive,
+    points: [Point; 3],
+    resolution: Resolution,
+    /// Relative errors of the three losses, where all have one.
+    relative_errors: Option<[f64; 3]>,
+}
+
+impl Bracket {
+    fn of_curve(records: &[CaseRecord], drive: &HarmonicDrive) -> Vec<Self> {
+        let at = |omega: f64| {
+            (records.iter()).find(|r| r.is_under(drive) && r.angular_frequency_rad_per_s == omega)
+        };
+        let relative = |point: &Point| {
+            let error_j = at(point.0)?.energy_loss_error_j()?;
+            (point.1 != 0.0).then(|| (error_j / point.1).abs())
+        };
+        peak::brackets(&curve_of(records, drive))
+            .into_iter()
+            .filter_map(|points| {
+                let [a, b, c] = points.each_ref().map(relative);
+                let middle = at(points[1].0)?;
+                Some(Self {
+                    drive: *drive,
+                    points,
+                    resolution: Resolution {
+                        steps: middle.steps,
+                        nodes: middle.nodes,
+                    },
+                    relative_errors: a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]),
+                })
+            })
+            .collect()
+    }
+
+    /// Relative error of the loss at a frequency inside, linear in its logarithm between the three cases.
+    fn relative_error_at(&self, omega: f64) -> Option<f64> {
+        let errors = self.relative_errors?;
+        let at = |i: usize| (self.points[i].0, errors[i]);
+        let ((from, first), (to, last)) = match omega < self.points[1].0 {
+            true => (at(0), at(1)),
+            false => (at(1), at(2)),
+        };
+        let fraction = ((omega / from).ln() / (to / from).ln()).clamp(0.0, 1.0);
+        Some(first + fraction * (last - first))
+    }
+}
+
+/// Loss over frequency under one drive, ascending.
+pub(in crate::sweep) fn curve_of(records: &[CaseRecord], drive: &HarmonicDrive) -> Vec<Point> {
+    let mut curve: Vec<Point> = records
+        .iter()
+        .filter(|r| r.is_under(drive))
+        .filter_map(|r| Some((r.angular_frequency_rad_per_s, r.energy_loss_j()?)))
+        .collect();
+    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+    curve
+}

@@ -1,0 +1,252 @@
+//! The work behind a sweep: cases that have records are read, the others solved in parallel, frequencies added where the
+//! curve is not resolved.
+
+mod locate;
+pub mod peak;
+pub mod refine;
+pub mod run;
+
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::Duration;
+
+use rayon::ThreadPool;
+
+use crate::sweep::case::checkpoint::Checkpoints;
+use crate::sweep::case::{Aim, Setup};
+use crate::sweep::plan::Case;
+use crate::sweep::record::CaseRecord;
+use crate::sweep::search::locate::curve_of;
+use crate::sweep::search::run::{Outcome, Progress, RunError};
+use crate::sweep::store::archive::{Kept, OF_ANOTHER_BUILD, Purpose};
+use crate::sweep::store::{Store, StoreError};
+
+/// What solving more cases takes.
+pub(in crate::sweep) struct Search<'a> {
+    pub pool: &'a ThreadPool,
+    pub setup: &'a Setup,
+    pub store: &'a Store,
+    /// Time between two checkpoints of a long case; without one, cases that have no record are not solved.
+    pub checkpoint_every: Option<Duration>,
+    pub interrupt: &'a AtomicBool,
+    pub progress: &'a dyn Progress,
+    /// Where nothing is solved: whether it was said that records of another build are drawn.
+    told_of_builds: AtomicBool,
+}
+
+/// How often a neighbourhood may be halved before it is left as it is.
+const REFINEMENTS: usize = 6;
+
+impl<'a> Search<'a> {
+    /// A search among the records there are, which solves nothing.
+    pub fn of_records(
+        pool: &'a ThreadPool,
+        setup: &'a Setup,
+        store: &'a Store,
+        interrupt: &'a AtomicBool,
+        progress: &'a dyn Progress,
+    ) -> Self {
+        Self {
+            pool,
+            setup,
+            store,
+            checkpoint_every: None,
+            interrupt,
+            progress,
+            told_of_builds: AtomicBool::new(false),
+        }
+    }
+
+    /// The same, solving cases that have no record, those that take long with a checkpoint every so often.
+    pub fn solving(mut self, checkpoint_every: Duration) -> Self {
+        self.checkpoint_every = Some(checkpoint_every);
+        self
+    }
+
+    /// The records of cases of the sweep, and how many of these have none in the end.
+    pub fn planned(&self, cases: &[Case]) -> Result<(Vec<CaseRecord>, usize), StoreError> {
+        let (mut records, lacking) = self.known(Purpose::Sweep, cases)?;
+        if !records.is_empty() {
+            self.progress.cases_found(records.len(), cases.len());
+        }
+        records.extend(self.compute(Aim::Plan, &lacking)?);
+        records.sort_by_key(|r| r.index);
+        let missing = cases.len() - records.len();
+        Ok((records, missing))
+    }
+
+    /// What is left to do once the cases planned have records: refinement, order, peaks.
+    pub fn outcome(
+        &self,
+        mut records: Vec<CaseRecord>,
+        mut interrupted: bool,
+    ) -> Result<Outcome, RunError> {
+        let plan = self.setup.plan();
+        if plan.refine && !interrupted {
+            interrupted = self.refine(&mut records)?;
+        }
+        let drives = plan.drives();
+        let drive = |r: &CaseRecord| drives.iter().position(|drive| r.is_under(drive));
+        records.sort_by(|a, b| {
+            let omegas = [a, b].map(|r| r.angular_frequency_rad_per_s);
+            (drive(a).cmp(&drive(b))).then(omegas[0].total_cmp(&omegas[1]))
+        });
+        let mut outcome = Outcome {
+            interrupted,
+            records,
+            peaks: Vec::new(),
+            peak_problems: Vec::new(),
+        };
+        if !outcome.interrupted {
+            outcome.interrupted = !self.locate_peaks(&mut outcome)?;
+        }
+        // Where nothing is solved, another process may be at work in the folder.
+        if self.checkpoint_every.is_some() && !outcome.interrupted {
+            self.store.remove_checkpoints();
+        }
+        Ok(outcome)
+    }
+
+    /// Adds frequencies where the records do not resolve their curve; says whether it was interrupted.
+    fn refine(&self, records: &mut Vec<CaseRecord>) -> Result<bool, StoreError> {
+        for _ in 0..REFINEMENTS {
+            let mut added = Vec::new();
+            for drive in self.setup.plan().drives() {
+                for omega in refine::candidates(&curve_of(records, drive)) {
+                    added.push(Case {
+                        index: records.len() + added.len(),
+                        angular_frequency_rad_per_s: omega,
+                        drive: *drive,
+                    });
+                }
+            }
+            if added.is_empty() {
+                break;
+            }
+            let more = self.records_of(Aim::Plan, &added)?;
+            let interrupted = more.len() < added.len();
+            records.extend(more);
+            if interrupted {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// The records of these cases, solved where there are none; fewer after an interruption.
+    pub fn records_of(&self, aim: Aim, cases: &[Case]) -> Result<Vec<CaseRecord>, StoreError> {
+        let (mut records, lacking) = self.known(aim.purpose(), cases)?;
+        records.extend(self.compute(aim, &lacking)?);
+        records.sort_by_key(|r| r.index);
+        Ok(records)
+    }
+
+    /// The usable records of these cases, and the cases that have none.
+    pub fn known(
+        &self,
+        purpose: Purpose,
+        cases: &[Case],
+    ) -> Result<(Vec<CaseRecord>, Vec<Case>), StoreError> {
+        let (mut records, mut lacking) = (Vec::new(), Vec::new());
+        for case in cases {
+            match self.store.load_case(purpose, case)? {
+                Kept::Intact(record) => records.push(*record),
+                Kept::Absent => lacking.push(*case),
+                Kept::OfAnotherBuild { path, record } if self.checkpoint_every.is_none() => {
+                    if !self.told_of_builds.swap(true, Ordering::Relaxed) {
+                        let path = path.display();
+                        self.progress.told(&format!(
+                            "{path}: {OF_ANOTHER_BUILD}; it and those like it are shown as they are"
+                        ));
+                    }
+                    records.push(*record);
+                }
+                Kept::OfAnotherBuild { path, .. } => {
+                    self.lacks(&path, OF_ANOTHER_BUILD);
+                    lacking.push(*case);
+                }
+                Kept::Unusable { path, reason } => {
+                    self.lacks(&path, &reason);
+                    lacking.push(*case);
+                }
+            }
+        }
+        Ok((records, lacking))
+    }
+
+    /// Tells why a record is not used.
+    fn lacks(&self, path: &Path, reason: &str) {
+        let then = match self.checkpoint_every {
+            Some(_) => "the case is computed again",
+            None => "the case is left out",
+        };
+        let path = path.display();
+        self.progress.told(&format!("{path}: {reason}; {then}"));
+    }
+
+    /// Solves these cases in parallel, the dearest first: each thread takes the next from a common counter, so that the
+    /// uneven cases end together.
+    fn compute(&self, aim: Aim, cases: &[Case]) -> Result<Vec<CaseRecord>, StoreError> {
+        let Some(every) = self.checkpoint_every else {
+            return Ok(Vec::new());
+        };
+        let mut order: Vec<&Case> = cases.iter().collect();
+        let cost = |case: &Case| self.setup.predicted_cycles(case);
+        order.sort_by(|a, b| cost(b).total_cmp(&cost(a)).then(a.index.cmp(&b.index)));
+        let next = AtomicUsize::new(0);
+        let failure: Mutex<Option<StoreError>> = Mutex::new(None);
+        let stop = AtomicBool::new(false);
+        let parts: Vec<Vec<CaseRecord>> = self.pool.broadcast(|_| {
+            let mut done = Vec::new();
+            while !stop.load(Ordering::Relaxed) && !self.interrupt.load(Ordering::Relaxed) {
+                let Some(case) = order.get(next.fetch_add(1, Ordering::Relaxed)) else {
+                    break;
+                };
+                match self.compute_one(aim, case, every) {
+                    Ok(Some(record)) => done.push(record),
+                    Ok(None) => break,
+                    Err(error) => {
+                        stop.store(true, Ordering::Relaxed);
+                        if let Ok(mut slot) = failure.lock() {
+                            slot.get_or_insert(error);
+                        }
+                        break;
+                    }
+                }
+            }
+            done
+        });
+        match failure.into_inner().ok().flatten() {
+            Some(error) => Err(error),
+            None => Ok(parts.into_iter().flatten().collect()),
+        }
+    }
+
+    /// Solves a case and stores its record, unless another process has done so meanwhile; `None` where it was interrupted.
+    fn compute_one(
+        &self,
+        aim: Aim,
+        case: &Case,
+        every: Duration,
+    ) -> Result<Option<CaseRecord>, StoreError> {
+        let purpose = aim.purpose();
+        let record = match self.store.load_case(purpose, case)? {
+            Kept::Intact(record) => *record,
+            Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
+                let checkpoints = Checkpoints::of(self.store, purpose, case, every);
+                let found = (self.setup).run_for(aim, &checkpoints, case, self.interrupt);
+                let Some(record) = found else {
+                    return Ok(None);
+                };
+                self.store.save_case(purpose, case, &record)?;
+                checkpoints.remove();
+                record
+            }
+        };
+        if purpose == Purpose::Sweep {
+            self.progress.case_finished(&record);
+        }
+        Ok(Some(record))
+    }
+}

@@ -1,0 +1,203 @@
+//! About what a sweep costs: time from steps taken on this machine, memory from what a case keeps.
+
+use std::time::{Duration, Instant};
+
+use crate::history::March;
+use crate::sweep::case::{Setup, SetupError};
+use crate::sweep::engine::prescribed;
+use crate::sweep::plan::{Case, EngineKind, Method, SweepPlan};
+
+/// What a sweep costs; good to a factor of two or so, as the number of cycles and of contact iterations is not known before.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cost {
+    /// Per case, in the order of the sweep.
+    pub cases: Vec<CaseCost>,
+    /// Memory (bytes) of a case under way; every thread has one.
+    pub memory_bytes: u64,
+    /// Time (s) of one step of the full number of nodes, as measured.
+    pub step_s: f64,
+}
+
+/// What a case costs on one thread.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CaseCost {
+    pub case: Case,
+    /// Cycles of the full number of steps and nodes.
+    pub cycles: f64,
+    pub time_s: f64,
+}
+
+/// Cells of the grid on which steps are taken, at most: larger ones are foretold from it.
+const CELLS_MEASURED: usize = 128;
+/// Steps are taken for this long, but no fewer than some.
+const MEASURED: Duration = Duration::from_millis(200);
+const FEWEST_STEPS: u32 = 4;
+/// Time (s) below which a shard is not worth its start.
+const SHARD_S: f64 = 600.0;
+
+impl Cost {
+    /// Measures and foretells.
+    ///
+    /// # Errors
+    /// [`SetupError`] where no engine can be made. Where no step can be taken, the measured time is that of the attempt.
+    pub fn of(setup: &Setup) -> Result<Self, SetupError> {
+        let plan = setup.plan();
+        let step_s = step_s(setup)?;
+        let cases = plan.cases().into_iter().map(|case| {
+            let cycles = setup.predicted_cycles(&case);
+            let work: f64 = levels(plan, cycles)
+                .iter()
+                .map(|level| {
+                    level.cycles * level.steps as f64 * relative_step(plan, level.nodes) * step_s
+                })
+                .sum();
+            CaseCost {
+                case,
+                cycles,
+                time_s: work,
+            }
+        });
+        Ok(Self {
+            cases: cases.collect(),
+            memory_bytes: setup.predicted_memory_bytes(),
+            step_s,
+        })
+    }
+
+    /// Time (s) of all cases on one thread.
+    pub fn time_s(&self) -> f64 {
+        self.cases.iter().map(|case| case.time_s).sum()
+    }
+
+    /// A sensible number of shards for processes of one thread each: none of them shorter than about ten minutes.
+    pub fn shards(&self) -> usize {
+        let wanted = (self.time_s() / SHARD_S).ceil() as usize;
+        wanted.clamp(1, self.cases.len().max(1))
+    }
+}
+
+impl Setup {
+    /// Predicted cost of a case, in cycles: marching at a high frequency needs many to forget the start.
+    pub fn predicted_cycles(&self, case: &Case) -> f64 {
+        let slowest_s = self
+            .compliance()
+            .branches()
+            .iter()
+            .map(|b| b.time_s)
+            .fold(0.0, f64::max);
+        let cycles_to_forget = slowest_s * case.angular_frequency_rad_per_s / std::f64::consts::TAU;
+        let to_tolerance = -self.plan().cycle.tolerance.ln();
+        match self.plan().cycle.method {
+            Method::Direct => 6.0,
+            Method::March => {
+                (2.0 + cycles_to_forget * to_tolerance).min(self.plan().cycle.max_cycles as f64)
+            }
+        }
+    }
+}
+
+/// Cycles on one number of nodes in one number of steps.
+struct Level {
+    nodes: usize,
+    steps: usize,
+    cycles: f64,
+}
+
+/// The levels of a case: its own resolution, and coarser ones for the error bars, each started from the one before.
+fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
+    let (nodes, steps) = (plan.solver.nodes(), plan.cycle.steps);
+    let level = |coarser_nodes, coarser_steps, cycles| Level {
+        nodes: nodes / coarser_nodes,
+        steps: steps / coarser_steps,
+        cycles,
+    };
+    let has_bars = plan.cycle.error_bars && plan.indenter.own_cells().is_none();
+    if !has_bars && plan.cycle.accuracy.is_none() {
+        return vec![level(1, 1, cycles)];
+    }
+    // A search from the memory of coarser steps needs about half as many cycles.
+    let again = match plan.cycle.method {
+        Method::Direct => 0.5 * cycles,
+        Method::March => cycles,
+    };
+    let mut levels = vec![level(1, 1, again), level(1, 2, again)];
+    levels.push(match plan.solver.engine {
+        EngineKind::Axisymmetric => level(1, 4, cycles),
+        EngineKind::HalfSpace => level(2, 4, cycles),
+    });
+    levels.extend([level(2, 2, again), level(4, 2, cycles)]);
+    levels
+}
+
+/// Time of a step on so many nodes, relative to one on the full number.
+fn relative_step(plan: &SweepPlan, nodes: usize) -> f64 {
+    let ratio = nodes as f64 / plan.solver.nodes() as f64;
+    match plan.solver.engine {
+        EngineKind::Axisymmetric => ratio,
+        EngineKind::HalfSpace => ratio * ratio,
+    }
+}
+
+/// Time (s) of one step, from steps of the middle frequency after the body was relaxed under the mean.
+fn step_s(setup: &Setup) -> Result<f64, SetupError> {
+    let plan = setup.plan();
+    let nodes = match plan.solver.engine {
+        EngineKind::Axisymmetric => plan.solver.nodes(),
+        EngineKind::HalfSpace if plan.indenter.own_cells().is_some() => plan.solver.nodes(),
+        EngineKind::HalfSpace => plan.solver.nodes().min(CELLS_MEASURED),
+    };
+    let drive = plan.drives().first().unwrap_or(&plan.drive);
+    let omegas = &plan.angular_frequencies_rad_per_s;
+    let omega = omegas.get(omegas.len() / 2).copied().unwrap_or(1.0);
+    let mut engine = setup.engine(drive, nodes)?;
+    engine.tolerate(setup.instant_tolerance(drive, omega, plan.cycle.tolerance));
+    let compliance = setup.compliance().clone();
+    let mut march = March::new(engine.as_mut(), compliance, plan.solver.time_rule);
+    let steps = plan.cycle.steps as f64;
+    let stages = march.stages(std::f64::consts::TAU / omega / steps);
+    let value = |value| prescribed(drive.control(), value);
+    // A contact that cannot be solved costs what the attempt cost.
+    let relaxed = march.relax(value(drive.mean())).is_ok();
+    let (clock, mut taken) = (Instant::now(), 0_u32);
+    while relaxed && (clock.elapsed() < MEASURED || taken < FEWEST_STEPS) {
+        taken += 1;
+        let fraction = |end: f64| ((f64::from(taken - 1) + end) / steps).fract();
+        let drive = |end| value(drive.value(fraction(end)));
+        if march.step_in_stages(&stages, drive).is_err() {
+            break;
+        }
+    }
+    let measured = clock.elapsed().as_secs_f64() / f64::from(taken.max(1));
+    Ok(measured / relative_step(plan, nodes))
+}
+
+/// What the program takes whatever it computes, most of it for pictures (bytes).
+const PROGRAM_BYTES: u64 = 25_000_000;
+
+impl Setup {
+    /// Memory (bytes) that a case under way takes: engine and march, what the search for the stabilised cycle looks back on, where
+    /// it was in contact at which step, and what is told of its surface. Within 20 % of what was measured on 512 x 512 and
+    /// 1024 x 1024 cells, for a contact that stays inside its domain.
+    pub fn predicted_memory_bytes(&self) -> u64 {
+        /// Memories of the body that a search keeps after the usual number of cycles, those of the recorded cycle included.
+        const MEMORIES: usize = 20;
+        /// A value per cell of the surface in the record, as a number and as text, and in the picture made of it.
+        const TOLD_BYTES: usize = 40;
+        let plan = self.plan();
+        let branches = self.compliance().branches().len();
+        let drives = plan.drives().iter();
+        let of_engine = |drive| {
+            let engines = self.engines(drive, plan.solver.nodes()).ok()?;
+            let told = TOLD_BYTES * engines.surface_cells();
+            let engine = engines.predicted_memory_bytes(branches) + told as u64;
+            Some((engine, engines.nodes()))
+        };
+        let (engine, nodes) = drives.filter_map(of_engine).max().unwrap_or_default();
+        let searched = match plan.cycle.method {
+            Method::Direct => nodes * plan.cycle.steps,
+            Method::March => 0,
+        };
+        let memories = nodes * branches * MEMORIES * size_of::<f64>();
+        PROGRAM_BYTES + engine + (memories + searched) as u64
+    }
+}

@@ -1,0 +1,4 @@
+//! What cases cost, and how they are shared out: no part of the results.
+
+pub mod cost;
+pub mod shard;

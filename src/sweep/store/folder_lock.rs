@@ -1,0 +1,107 @@
+//! The lock of a result folder: shared by the processes at work in it, exclusive for the one that removes what is there.
+//!
+//! The system releases it when its process ends, however it ends: a killed process leaves no folder locked. A network file
+//! system may have no locks, or keep them to each machine. Work then goes on without, and the plan in the folder protects the
+//! results: it is published exclusively, compared before every write, and named by every record; see [`crate::sweep::store`].
+
+use std::fs::{File, TryLockError};
+use std::io::ErrorKind;
+use std::path::Path;
+
+/// The file that is locked. It is empty and stays: were it removed, two processes could hold locks on two files of this name.
+const LOCK: &str = ".contact-dma.lock";
+
+/// Who else is at work in a folder.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::sweep) enum Others {
+    Absent,
+    AtWork,
+    /// The file system has no locks.
+    Unknown,
+}
+
+/// The lock of a folder as this process has it; released when it is dropped.
+#[derive(Debug)]
+pub(in crate::sweep) struct FolderLock {
+    /// `None` where the file can neither be created nor opened.
+    file: Option<File>,
+}
+
+impl FolderLock {
+    /// The lock of a folder, not taken yet.
+    pub(in crate::sweep) fn of(folder: &Path) -> Self {
+        let path = folder.join(LOCK);
+        // NFS asks for a file open for writing to lock it exclusively.
+        let file = File::options()
+            .read(true)
+            .write(true)
+            .create(true)
+            .truncate(false)
+            .open(&path);
+        // Another user's, in a folder of several.
+        let file = file.or_else(|_| File::open(&path));
+        Self { file: file.ok() }
+    }
+
+    /// A lock that protects nothing, for folders that are only read.
+    pub(in crate::sweep) fn none() -> Self {
+        Self { file: None }
+    }
+
+    /// Takes the lock exclusively where nobody else has it.
+    pub(in crate::sweep) fn try_exclusive(&self) -> Others {
+        match self.file.as_ref().map(File::try_lock) {
+            Some(Ok(())) => Others::Absent,
+            Some(Err(TryLockError::WouldBlock)) => Others::AtWork,
+            Some(Err(TryLockError::Error(_))) | None => Others::Unknown,
+        }
+    }
+
+    /// Exchanges an exclusive lock, or none, for a shared one, after waiting for one that clears the folder. Others may come
+    /// between the two: what was found in the folder before must be checked again.
+    pub(in crate::sweep) fn share(&self) {
+        let Some(file) = &self.file else { return };
+        self.release();
+        // Any other error: the file system has no locks.
+        while file
+            .lock_shared()
+            .is_err_and(|error| error.kind() == ErrorKind::Interrupted)
+        {}
+    }
+
+    /// Gives the lock back.
+    pub(in crate::sweep) fn release(&self) {
+        if let Some(file) = &self.file {
+            // Where there are no locks, none is held.
+            let _ = file.unlock();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lock_is_shared_by_many_or_held_by_one_and_dropping_it_releases_it() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let [one, two, three] = [(); 3].map(|()| FolderLock::of(folder.path()));
+        assert_eq!(one.try_exclusive(), Others::Absent);
+        assert_eq!(two.try_exclusive(), Others::AtWork);
+        one.share();
+        two.share();
+        assert_eq!(three.try_exclusive(), Others::AtWork);
+        drop(one);
+        assert_eq!(three.try_exclusive(), Others::AtWork);
+        drop(two);
+        assert_eq!(three.try_exclusive(), Others::Absent);
+    }
+
+    #[test]
+    fn where_there_can_be_no_lock_nobody_is_said_to_be_absent_or_at_work() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let nowhere = FolderLock::of(&folder.path().join("nowhere"));
+        nowhere.share();
+        assert_eq!(nowhere.try_exclusive(), Others::Unknown);
+    }
+}

@@ -1,0 +1,466 @@
+//! The folder of a sweep: which sweep it belongs to, and every file written whole or not at all.
+//!
+//! A folder has one plan, its `resolved.toml`. Of several processes that begin at once one publishes it; those of the same
+//! sweep, its shards say, work beside it, and any other is refused. Whoever works in the folder shares its lock, and only the one that
+//! holds it alone replaces a plan (`--force`) or removes what killed processes have left. Machines that do not see
+//! one another's locks are safe all the same: a plan is compared before every file takes its name, so that a process whose folder
+//! was replaced stops, and a record names its plan and is never read under another.
+
+pub mod archive;
+pub mod checkpoint_file;
+pub mod difference;
+pub mod files;
+pub(in crate::sweep) mod folder_lock;
+pub mod merge;
+pub mod provenance;
+pub mod sealed;
+
+use std::fs::{self, Permissions};
+use std::io::{self, Write};
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, LazyLock};
+
+use tempfile::NamedTempFile;
+
+use crate::sweep::plan::resolved::{hash, identity};
+use crate::sweep::plan::scenario;
+use crate::sweep::store::folder_lock::{FolderLock, Others};
+
+/// Why the folder cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    #[error("cannot create the folder {path}: {source}")]
+    Create { path: PathBuf, source: io::Error },
+    #[error("cannot write {path}: {source}")]
+    Write { path: PathBuf, source: io::Error },
+    #[error("cannot read {path}: {source}")]
+    Read { path: PathBuf, source: io::Error },
+    #[error("cannot encode {path}: {reason}")]
+    Encode { path: PathBuf, reason: String },
+    #[error("{path} {}\n{difference}", of_other(*.at_work))]
+    OtherSweep {
+        path: PathBuf,
+        /// Whether a process is at work there.
+        at_work: bool,
+        difference: String,
+    },
+    #[error(
+        "{path} is in use: {running} runs there, and --force does not replace what runs; wait until it has ended, stop it, or \
+         choose another folder with --out"
+    )]
+    InUse { path: PathBuf, running: String },
+    #[error(
+        "{path} was taken from this run: its {RESOLVED} was replaced or removed meanwhile, so nothing more is written there; run \
+         again with another folder (--out)"
+    )]
+    TakenOver { path: PathBuf },
+    #[error(
+        "{path} was written by version {version} of the program, newer than this one ({}): use that version, choose another \
+         folder with --out, or compute again with --force",
+        env!("CARGO_PKG_VERSION")
+    )]
+    NewerProgram { path: PathBuf, version: String },
+    #[error("{path} is no folder of a sweep: {reason}")]
+    NoSweep { path: PathBuf, reason: String },
+}
+
+/// A folder that holds the results of one sweep.
+#[derive(Debug, Clone)]
+pub struct Store {
+    pub(in crate::sweep) folder: PathBuf,
+    pub(in crate::sweep) sweep_hash: String,
+    /// The resolved file as it was when the folder was opened.
+    pub(in crate::sweep) resolved: Arc<str>,
+    /// Whether records of a newer program may be replaced.
+    pub(in crate::sweep) force: bool,
+    pub(in crate::sweep) lock: Arc<FolderLock>,
+}
+
+/// The resolved sweep file inside the folder.
+pub const RESOLVED: &str = "resolved.toml";
+
+/// What a sweep leaves in its folder besides single files: folders with one file per case.
+const CASE_FOLDERS: [&str; 6] = [
+    "records",
+    "loops",
+    "pressures",
+    "work",
+    "peaks",
+    "checkpoints",
+];
+/// How many changed lines of a resolved sweep a message shows.
+const LINES_SHOWN: usize = 12;
+/// How the names of files begin that have not taken their own name yet: with the machine, so that none removes those of another,
+/// of whose locks it may not know.
+static TEMPORARY: LazyLock<String> = LazyLock::new(|| {
+    let mut host = provenance::host().unwrap_or_default();
+    host.retain(|c| c.is_ascii_alphanumeric() || "-.".contains(c));
+    format!(".contact-dma-{host}~")
+});
+/// The same of a scenario: folders with one file per requested time.
+const SURFACE_FOLDERS: [&str; 2] = ["profiles", "fields"];
+
+impl Store {
+    /// Opens (or creates) a folder for a sweep whose resolved text is given, and proves that it can be written.
+    ///
+    /// # Errors
+    /// [`StoreError::OtherSweep`] where the folder holds another sweep's results and `force` is not given,
+    /// [`StoreError::InUse`] where it is given and another process is at work there.
+    pub fn open(folder: &Path, resolved: &str, force: bool) -> Result<Self, StoreError> {
+        fs::create_dir_all(folder).map_err(|source| StoreError::Create {
+            path: folder.to_path_buf(),
+            source,
+        })?;
+        let store = Self {
+            folder: folder.to_path_buf(),
+            sweep_hash: hash(resolved),
+            resolved: resolved.into(),
+            force,
+            lock: Arc::new(FolderLock::of(folder)),
+        };
+        let others = store.lock.try_exclusive();
+        if others == Others::Absent {
+            store.remove_stale_temporaries();
+        }
+        if force {
+            if others == Others::AtWork {
+                return Err(store.in_use());
+            }
+            store.replace(resolved)?;
+        }
+        store.lock.share();
+        store.publish(resolved)?;
+        Ok(store)
+    }
+
+    /// Opens a folder in which a sweep has been computed, to draw its results again; the resolved sweep is returned with it.
+    ///
+    /// # Errors
+    /// [`StoreError`] where the folder holds none.
+    pub fn reopen(folder: &Path) -> Result<(Self, String), StoreError> {
+        // A folder of something else is left as it is, without a lock.
+        read_plan(folder)?;
+        let lock = FolderLock::of(folder);
+        lock.share();
+        let (store, resolved) = Self::reopen_to_read(folder)?;
+        let lock = Arc::new(lock);
+        Ok((Self { lock, ..store }, resolved))
+    }
+
+    /// As [`Store::reopen`], where nothing is to be written into the folder.
+    ///
+    /// # Errors
+    /// As [`Store::reopen`].
+    pub fn reopen_to_read(folder: &Path) -> Result<(Self, String), StoreError> {
+        let resolved = read_plan(folder)?;
+        let store = Self {
+            folder: folder.to_path_buf(),
+            sweep_hash: hash(&resolved),
+            resolved: resolved.as_str().into(),
+            force: false,
+            lock: Arc::new(FolderLock::none()),
+        };
+        Ok((store, resolved))
+    }
+
+    /// Replaces another sweep's plan and results, where there are any.
+    fn replace(&self, resolved: &str) -> Result<(), StoreError> {
+        let path = self.folder.join(RESOLVED);
+        match fs::read(&path) {
+            Ok(existing) if is_same(&existing, resolved) => Ok(()),
+            Ok(_) => {
+                // Killed between the two, it leaves the plan of what is gone, never results of another.
+                self.clear()?;
+                write_atomically(&path, resolved.as_bytes())
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            Err(source) => Err(StoreError::Read { path, source }),
+        }
+    }
+
+    /// Makes this sweep the plan of the folder, unless it is, or another one is.
+    fn publish(&self, resolved: &str) -> Result<(), StoreError> {
+        let path = self.folder.join(RESOLVED);
+        if create_atomically(&path, resolved.as_bytes())? {
+            return Ok(());
+        }
+        let existing = fs::read(&path).map_err(|source| StoreError::Read { path, source })?;
+        if !is_same(&existing, resolved) {
+            let existing = String::from_utf8_lossy(&existing);
+            let (existing, resolved) = (identity(&existing), identity(resolved));
+            self.lock.release();
+            return Err(StoreError::OtherSweep {
+                path: self.folder.clone(),
+                at_work: self.lock.try_exclusive() == Others::AtWork,
+                difference: difference::lines(&existing, &resolved, LINES_SHOWN),
+            });
+        }
+        match existing == resolved.as_bytes() {
+            true => Ok(()),
+            // The same sweep, whose figures are to look otherwise or whose data lie elsewhere.
+            false => self.write(RESOLVED, resolved.as_bytes()),
+        }
+    }
+
+    fn in_use(&self) -> StoreError {
+        let title = || {
+            let plan: toml::Table = read_plan(&self.folder).ok()?.parse().ok()?;
+            Some(plan.get("title")?.to_string())
+        };
+        StoreError::InUse {
+            path: self.folder.clone(),
+            running: title().unwrap_or_else(|| "a sweep or scenario".to_owned()),
+        }
+    }
+
+    /// The folder.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Hash of the resolved sweep.
+    pub fn sweep_hash(&self) -> &str {
+        &self.sweep_hash
+    }
+
+    /// Writes a file of the folder whole or not at all: into a temporary file beside it, which then takes its name.
+    ///
+    /// # Errors
+    /// [`StoreError::Write`] with the path; [`StoreError::TakenOver`] where the folder is of another sweep by now.
+    pub fn write(&self, name: impl AsRef<Path>, bytes: &[u8]) -> Result<(), StoreError> {
+        let path = self.folder.join(name);
+        let file = temporary(&path, bytes)?;
+        match read_plan(&self.folder) {
+            // Most often it is as it was, which is sooner seen than hashed; the sweep is the same with other figures too.
+            Ok(resolved) if *resolved == *self.resolved || hash(&resolved) == self.sweep_hash => {
+                rename(file, &path)
+            }
+            Ok(_) | Err(StoreError::NoSweep { .. }) => Err(StoreError::TakenOver {
+                path: self.folder.clone(),
+            }),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Removes the checkpoints of all cases.
+    pub(in crate::sweep) fn remove_checkpoints(&self) {
+        // There are none, most often.
+        let _ = fs::remove_dir_all(self.folder.join(checkpoint_file::FOLDER));
+    }
+
+    /// Removes what killed processes of this machine have left half-written; for the one that holds the lock alone.
+    fn remove_stale_temporaries(&self) {
+        let folders = CASE_FOLDERS.iter().chain(&SURFACE_FOLDERS);
+        let folders = folders.map(|name| self.folder.join(name));
+        for folder in std::iter::once(self.folder.clone()).chain(folders) {
+            let Ok(entries) = fs::read_dir(folder) else {
+                continue;
+            };
+            for entry in entries.flatten() {
+                let name = entry.file_name();
+                if name.to_string_lossy().starts_with(TEMPORARY.as_str()) {
+                    // Gone already, or not ours to remove: no reason to stop.
+                    let _ = fs::remove_file(entry.path());
+                }
+            }
+        }
+    }
+
+    /// Removes what an earlier sweep left, before another takes the folder.
+    fn clear(&self) -> Result<(), StoreError> {
+        let failed = |path: PathBuf| move |source| StoreError::Write { path, source };
+        for folder in CASE_FOLDERS.into_iter().chain(SURFACE_FOLDERS) {
+            let path = self.folder.join(folder);
+            if path.is_dir() {
+                fs::remove_dir_all(&path).map_err(failed(path.clone()))?;
+            }
+        }
+        let of_scenarios = scenario::FIGURES.into_iter().flat_map(files::of_figure);
+        for name in files::of_sweep().chain(of_scenarios) {
+            self.remove(&name)?;
+        }
+        let entries = fs::read_dir(&self.folder).map_err(failed(self.folder.clone()))?;
+        let names = entries.flatten().map(|entry| entry.file_name());
+        for name in names.filter_map(|name| name.into_string().ok()) {
+            // What shards leave beside their records.
+            if name.starts_with("run-") && name.ends_with(".json") {
+                self.remove(&name)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes a file of the folder, where there is one.
+    ///
+    /// # Errors
+    /// [`StoreError::Write`] with the path.
+    pub fn remove(&self, name: &str) -> Result<(), StoreError> {
+        let path = self.folder.join(name);
+        match fs::remove_file(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                Err(StoreError::Write { path, source })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Whether a folder's resolved file is of the same sweep, however its figures look and wherever its data lie.
+fn is_same(existing: &[u8], resolved: &str) -> bool {
+    std::str::from_utf8(existing).is_ok_and(|existing| identity(existing) == identity(resolved))
+}
+
+/// What is said of a folder that holds another sweep.
+fn of_other(at_work: bool) -> &'static str {
+    match at_work {
+        true => {
+            "is in use: a different sweep or scenario runs there; choose another folder with --out, or wait until it has ended"
+        }
+        false => {
+            "holds results of a different sweep or scenario; choose another folder with --out, or replace them with --force"
+        }
+    }
+}
+
+/// The resolved sweep of a folder.
+fn read_plan(folder: &Path) -> Result<String, StoreError> {
+    let path = folder.join(RESOLVED);
+    fs::read_to_string(&path).map_err(|source| match source.kind() {
+        io::ErrorKind::NotFound => StoreError::NoSweep {
+            path: folder.to_path_buf(),
+            reason: format!("it has no {RESOLVED}"),
+        },
+        _ => StoreError::Read { path, source },
+    })
+}
+
+/// Writes a file whole or not at all, creating its folder where needed. The umask decides its permissions.
+///
+/// # Errors
+/// [`StoreError`] with the path.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
+    rename(temporary(path, bytes)?, path)
+}
+
+/// The same, unless there is a file of that name: of several that try at once one does. Says whether it did.
+fn create_atomically(path: &Path, bytes: &[u8]) -> Result<bool, StoreError> {
+    match temporary(path, bytes)?.persist_noclobber(path) {
+        Ok(_) => Ok(true),
+        Err(_) if path.exists() => Ok(false),
+        // A file system with neither renames that replace nothing nor hard links: of two that begin there within this moment, the
+        // one that is replaced finds so at its next write.
+        Err(_) => write_atomically(path, bytes).map(|()| true),
+    }
+}
+
+/// A whole file beside the one whose name it is to take, in a folder that is created where needed.
+fn temporary(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder).map_err(|source| StoreError::Create {
+        path: folder.to_path_buf(),
+        source,
+    })?;
+    let write = || {
+        // tempfile's own default is readable by the owner alone.
+        let mut file = tempfile::Builder::new()
+            .prefix(TEMPORARY.as_str())
+            .permissions(Permissions::from_mode(0o666))
+            .tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        Ok(file)
+    };
+    write().map_err(|source| StoreError::Write {
+        path: path.to_path_buf(),
+        source,
+    })
+}
+
+/// Gives a temporary file its name.
+fn rename(file: NamedTempFile, path: &Path) -> Result<(), StoreError> {
+    let persisted = file.persist(path);
+    persisted.map(drop).map_err(|error| StoreError::Write {
+        path: path.to_path_buf(),
+        source: error.error,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PLAN: &str = "title = \"one\"\n";
+    const OTHER: &str = "title = \"other\"\n";
+
+    #[test]
+    fn a_file_half_written_is_removed_when_nobody_of_its_machine_can_be_writing_it() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let at_work = Store::open(folder.path(), PLAN, false).unwrap();
+        let name = |of: &str| folder.path().join(format!("{of}half"));
+        let (own, foreign) = (name(TEMPORARY.as_str()), name(".contact-dma-elsewhere~"));
+        for path in [&own, &foreign] {
+            fs::write(path, "").unwrap();
+        }
+        drop(Store::open(folder.path(), PLAN, false).unwrap());
+        assert!(own.exists());
+        drop(at_work);
+        drop(Store::open(folder.path(), PLAN, false).unwrap());
+        assert!(!own.exists() && foreign.exists());
+    }
+
+    #[test]
+    fn a_plan_at_work_is_replaced_by_nobody_and_one_at_rest_when_forced() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let at_work = Store::open(folder.path(), PLAN, false).unwrap();
+        for name in ["records/0000.json", "run-1-of-2.json"] {
+            at_work.write(name, b"{}").unwrap();
+        }
+        for plan in [PLAN, OTHER] {
+            let refused = Store::open(folder.path(), plan, true).unwrap_err();
+            assert!(matches!(&refused, StoreError::InUse { running, .. } if running == "\"one\""));
+        }
+        let refused = Store::open(folder.path(), OTHER, false).unwrap_err();
+        assert!(matches!(
+            refused,
+            StoreError::OtherSweep { at_work: true, .. }
+        ));
+        drop(at_work);
+        assert!(folder.path().join("records/0000.json").exists());
+        let refused = Store::open(folder.path(), OTHER, false).unwrap_err();
+        assert!(matches!(
+            refused,
+            StoreError::OtherSweep { at_work: false, .. }
+        ));
+        Store::open(folder.path(), OTHER, true).unwrap();
+        let left = ["records", "run-1-of-2.json"].map(|name| folder.path().join(name).exists());
+        assert_eq!(left, [false; 2]);
+        assert_eq!(read_plan(folder.path()).unwrap(), OTHER);
+    }
+
+    /// As a machine does whose locks are not seen here.
+    #[test]
+    fn a_run_whose_plan_was_replaced_or_removed_writes_nothing_more() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let store = Store::open(folder.path(), PLAN, false).unwrap();
+        let refused = || {
+            let written = store.write("records/0000.json", b"{}");
+            matches!(written, Err(StoreError::TakenOver { .. }))
+        };
+        write_atomically(&folder.path().join(RESOLVED), OTHER.as_bytes()).unwrap();
+        assert!(refused());
+        fs::remove_file(folder.path().join(RESOLVED)).unwrap();
+        assert!(refused());
+        let mut records = fs::read_dir(folder.path().join("records")).unwrap();
+        assert!(records.next().is_none());
+    }
+
+    #[test]
+    fn a_name_is_taken_once() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let path = folder.path().join(RESOLVED);
+        assert!(create_atomically(&path, PLAN.as_bytes()).unwrap());
+        assert!(!create_atomically(&path, OTHER.as_bytes()).unwrap());
+        assert_eq!(read_plan(folder.path()).unwrap(), PLAN);
+    }
+}
