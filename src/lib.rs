@@ -47,9 +47,13 @@
 //! | [`cli`] | flags to plans, outcomes to text and exit codes |
 //! | [`guide`] | how to use the program; text alone |
 //!
+//! [`report`] and [`reproduction`] are there with the feature `report`, [`cli`] with the feature `cli`; both are on by default.
+//! With `default-features = false` everything above them is built without their dependencies.
+//!
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
 //! bit for bit.
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod contact;
 pub mod cycle;
@@ -57,11 +61,15 @@ pub mod drive;
 pub mod guide;
 pub mod history;
 pub mod indenter;
+// Some of it is used by the command line alone.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub mod input;
 pub mod material;
 pub mod quantity;
 pub mod reference;
+#[cfg(feature = "report")]
 pub mod report;
+#[cfg(feature = "report")]
 pub mod reproduction;
 pub mod steady;
 pub mod sweep;
