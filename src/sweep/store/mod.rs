@@ -28,6 +28,7 @@ use crate::sweep::store::folder_lock::{FolderLock, Others};
 
 /// Why the folder cannot be used.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum StoreError {
     #[error("cannot create the folder {path}: {source}")]
     Create { path: PathBuf, source: io::Error },
