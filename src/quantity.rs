@@ -3,6 +3,16 @@
 //! Reading is exact: the digits and the power of ten of the prefix are turned into a double
 //! together, so `"0.1 mm"` is the double nearest to 1e-4 and not the double nearest to 0.1 times
 //! 1e-3. (Minutes, hours, days and degrees are no powers of ten and cost one more rounding.)
+//!
+//! ```
+//! use contact_dma::quantity::{Dimension, format_human, parse};
+//!
+//! let radius_m = parse("10 mm", Dimension::Length)?;
+//! assert_eq!(radius_m, 0.01);
+//! assert_eq!(format_human(radius_m, Dimension::Length, 4), "10.00 mm");
+//! assert!(parse("10 N", Dimension::Length).is_err());
+//! # Ok::<(), contact_dma::quantity::QuantityError>(())
+//! ```
 
 mod units;
 
@@ -135,6 +145,7 @@ impl fmt::Display for Dimension {
 
 /// Why a text is not a quantity of the expected dimension.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum QuantityError {
     /// Nothing that begins like a number.
     #[error(

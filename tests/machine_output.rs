@@ -1,5 +1,7 @@
 //! What other programs read: JSON on standard output and nothing else, and no colours where no person looks.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/program.rs"]
 mod program;
 

@@ -1,6 +1,8 @@
 //! The pressure over the contact that a case's record holds, and the line of work density: against the load, the signals of the
 //! cycle, and from one engine to the other.
 
+#![cfg(feature = "report")]
+
 mod common;
 
 use std::f64::consts::PI;

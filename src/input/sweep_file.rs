@@ -15,13 +15,8 @@ use crate::sweep::plan::instant_tolerance;
 use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 use crate::sweep::scales::elastic::ElasticScale;
 
-/// Frequencies, steps, cycles and nodes beyond these are a slip of the pen rather than a wish.
-const MAX_POINTS: usize = 100_000;
-const MAX_CASES: usize = 1_000_000;
-const STEPS: std::ops::RangeInclusive<usize> = 8..=1_000_000;
-const CYCLES: std::ops::RangeInclusive<usize> = 1..=100_000_000;
-const SPRINGS: std::ops::RangeInclusive<usize> = 10..=10_000;
-pub(crate) const CELLS: std::ops::RangeInclusive<usize> = 8..=4096;
+const MAX_POINTS: usize = SweepPlan::MAX_POINTS;
+const MAX_CASES: usize = SweepPlan::MAX_CASES;
 
 /// The plan that a sweep file asks for.
 ///
@@ -80,14 +75,7 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
 
 /// The solver where the file asks for none: springs where the indenter allows them, cells elsewhere.
 pub(crate) fn default_solver(indenter: Option<&dyn Indenter>) -> SolverPlan {
-    let engine = match indenter {
-        Some(indenter) if indenter.axisymmetric().is_none() => EngineKind::HalfSpace,
-        _ => EngineKind::Axisymmetric,
-    };
-    SolverPlan {
-        engine,
-        ..SolverPlan::default()
-    }
+    indenter.map_or_else(SolverPlan::default, SolverPlan::of_indenter)
 }
 
 /// A table that may be left out, with every default.
@@ -199,12 +187,7 @@ fn varied(
     let (values, location) = (values?, location?);
     let mut drives = Vec::with_capacity(values.len());
     for value in values {
-        let (mean, amplitude) = match varied {
-            Varied::Amplitude => (drive.mean(), value),
-            Varied::Mean => (value, drive.amplitude()),
-        };
-        let (phase_rad, hold_s) = (drive.phase_rad(), drive.hold_s());
-        match HarmonicDrive::new(drive.control(), mean, amplitude, phase_rad, hold_s) {
+        match varied.drive(drive, value) {
             Ok(drive) => drives.push(drive),
             Err(error) => {
                 problems.at(&location, error.to_string());
@@ -335,11 +318,12 @@ fn spaced(from: f64, to: f64, points: usize, spacing: Spacing) -> Vec<f64> {
 
 fn cycle(mut table: TableReader<'_>, problems: &Problems) -> Option<CyclePlan> {
     let default = CyclePlan::default();
-    let steps = table.positive_integer_or("steps", STEPS, default.steps);
+    let steps = table.positive_integer_or("steps", CyclePlan::STEPS, default.steps);
     let methods = [Method::Direct, Method::March].map(|m| (m.name(), m));
     let method = table.choice_of_or("method", &methods, default.method);
     let tolerance = tolerance(&mut table, problems, default.tolerance);
-    let max_cycles = table.positive_integer_or("max_cycles", CYCLES, default.max_cycles);
+    let max_cycles =
+        table.positive_integer_or("max_cycles", CyclePlan::MAX_CYCLES, default.max_cycles);
     let error_bars = table.boolean_or("error_bars", default.error_bars);
     let accuracy = match table.has("accuracy") {
         true => Some(accuracy(&mut table, problems)),
@@ -367,8 +351,8 @@ pub(crate) fn solver(
 ) -> Option<SolverPlan> {
     let engines = [EngineKind::Axisymmetric, EngineKind::HalfSpace].map(|e| (e.name(), e));
     let engine = table.choice_of_or("engine", &engines, default.engine);
-    let cells = table.positive_integer_or("cells", CELLS, default.cells);
-    let springs = table.positive_integer_or("springs", SPRINGS, default.springs);
+    let cells = table.positive_integer_or("cells", SolverPlan::CELLS, default.cells);
+    let springs = table.positive_integer_or("springs", SolverPlan::SPRINGS, default.springs);
     let tolerance = match table.has("tolerance") {
         true => tolerance(&mut table, problems, instant_tolerance::OF_A_HISTORY).map(Some),
         false => Some(default.tolerance),
@@ -391,7 +375,7 @@ pub(crate) fn solver(
 /// A relative accuracy of the loss: below 1, and above what the finest resolution could reach.
 fn accuracy(table: &mut TableReader<'_>, problems: &Problems) -> Option<f64> {
     let accuracy = table.number("accuracy")?;
-    if accuracy.value >= 1e-8 && accuracy.value < 1.0 {
+    if CyclePlan::ACCURACY.contains(&accuracy.value) {
         return Some(accuracy.value);
     }
     problems
@@ -403,7 +387,7 @@ fn accuracy(table: &mut TableReader<'_>, problems: &Problems) -> Option<f64> {
 /// A relative tolerance: below 1, and above what rounding leaves.
 fn tolerance(table: &mut TableReader<'_>, problems: &Problems, default: f64) -> Option<f64> {
     let tolerance = table.number_or("tolerance", default)?;
-    if tolerance.value >= 1e-13 && tolerance.value < 1.0 {
+    if CyclePlan::TOLERANCE.contains(&tolerance.value) {
         return Some(tolerance.value);
     }
     problems

@@ -1,4 +1,27 @@
 //! Tables and figures, from records alone: nothing here solves anything.
+//!
+//! ```
+//! use contact_dma::prelude::*;
+//! use contact_dma::report;
+//! use contact_dma::sweep::case::Setup;
+//! use contact_dma::sweep::plan::resolved::resolved_text;
+//! use contact_dma::sweep::store::Store;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = tempfile::tempdir()?;
+//! # let folder = folder.path();
+//! let pmma = library::find("pmma").ok_or("not in the library")?.material()?;
+//! let sweep = Sweep::new(pmma, Sphere::new(0.01)?, HarmonicDrive::load(10.0, 5.0)?);
+//! let sweep = sweep.title("PMMA").steps(32)?.springs(32)?.frequencies_hz([1e-4, 1e-3, 1e-2])?;
+//! let outcome = sweep.clone().solve()?;
+//! // As the program prepares it: the half-space engine takes its cells from some indenters.
+//! let setup = Setup::new(sweep.into_plan())?;
+//! let store = Store::open(folder, &resolved_text(setup.plan()), false)?;
+//! report::write_sweep(&store, setup.plan(), &outcome)?;
+//! assert!(folder.join("sweep.csv").exists() && folder.join("energy-loss.svg").exists());
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod caption;
 pub mod chart;

@@ -490,13 +490,13 @@ impl Histories {
         let resolved = scenario::resolved_text(simulation.plan());
         let store = Store::open(self.folder.path(), &resolved, true).unwrap();
         let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
-        let stand = match checkpoint.find() {
-            Found::Stand(stand) => Some(*stand),
+        let state = match checkpoint.find() {
+            Found::State(state) => Some(*state),
             Found::Nothing | Found::Unusable { .. } => None,
         };
-        let accepted = stand.is_some();
+        let accepted = state.is_some();
         let interrupt = AtomicBool::new(false);
-        let _ = simulation.run_from(stand, &checkpoint, &interrupt, &|done, _| {
+        let _ = simulation.run_from(state, &checkpoint, &interrupt, &|done, _| {
             interrupt.store(done >= steps, Ordering::Relaxed);
         });
         accepted
