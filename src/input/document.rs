@@ -148,7 +148,7 @@ impl Document {
     /// The file cannot be read, has more than [`MAX_BYTES`], or is refused by [`Document::from_bytes`].
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
         let name = path.display().to_string();
-        let bytes = read_limited(path).map_err(|error| cannot_read(&name, &error))?;
+        let bytes = read_limited(path, MAX_BYTES).map_err(|error| cannot_read(&name, &error))?;
         let document = Self::from_bytes(&name, &bytes)?;
         Ok(document.in_folder(path.parent().unwrap_or(Path::new(""))))
     }
@@ -228,9 +228,9 @@ impl Document {
 }
 
 /// At most one byte more than is allowed, so that an endless file ends.
-fn read_limited(path: &Path) -> io::Result<Vec<u8>> {
+pub(crate) fn read_limited(path: &Path, most: usize) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    let limit = MAX_BYTES as u64 + 1;
+    let limit = most as u64 + 1;
     File::open(path)?.take(limit).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
