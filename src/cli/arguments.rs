@@ -86,7 +86,8 @@ pub(super) struct SweepFlags {
     /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
-    /// Change one key of the sweep file, for example drive.amplitude='2 N'; may be repeated
+    /// Change one key of the sweep file, for example drive.amplitude='2 N' or indenter.asperities.0.radius='1 mm' (items of a list count
+    /// from 0); KEY= removes a key; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
     /// Choose steps and nodes such that the error of every loss is below this part of it; the same as

@@ -204,11 +204,13 @@ impl Document {
     ///
     /// What is not TOML counts as a string, so `drive.mean=10 N` needs no inner quotes; but what opens with a
     /// quote, bracket or brace must be TOML. Tables on the way to the key are made when missing; a value that
-    /// is there is replaced whole. Problems with the value found later point into the flag.
+    /// is there is replaced whole. Items of lists have numbers from 0 (`asperities.1.radius`); without a value the
+    /// key is removed. Keys of the file that the new one excludes, as a cone excludes a radius, are removed too.
+    /// Problems with the value found later point into the flag.
     ///
     /// # Errors
-    /// No `=`, a key that is not dotted words, a value that opens as TOML but is not, or a key below
-    /// something that is not a table. The document is then unchanged.
+    /// No `=`, a key that is not dotted words, a value that opens as TOML but is not, a key below
+    /// something that is neither table nor list, nothing to remove. The document is then unchanged.
     pub fn set(&mut self, argument: &str) -> Result<(), Diagnostics> {
         let source = Source::flag(format!("{}{argument}", assignment::PREFIX), self.flags);
         self.flags = self.flags.saturating_add(1);
