@@ -107,11 +107,21 @@ impl<T> Located<T> {
 
 impl Located<String> {
     /// The file that this value names: from `folder`, where the document lies; for a value set by a flag, from the working
-    /// folder, as for any path on a command line.
+    /// folder, as for any path on a command line. What is not beside a link to a document is looked for beside the document.
     pub fn path_from(&self, folder: &Path) -> PathBuf {
-        match self.location.source().is_flag() {
-            true => PathBuf::from(&self.value),
-            false => folder.join(&self.value),
+        let source = self.location.source();
+        if source.is_flag() {
+            return PathBuf::from(&self.value);
+        }
+        let beside = folder.join(&self.value);
+        let target = || {
+            let document = std::fs::canonicalize(source.name()).ok()?;
+            let file = document.parent()?.join(&self.value);
+            file.exists().then_some(file)
+        };
+        match beside.exists() {
+            true => beside,
+            false => target().unwrap_or(beside),
         }
     }
 
