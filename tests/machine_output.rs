@@ -50,6 +50,112 @@ fn json_holds_the_summary_and_every_column_of_every_case() {
     }
 }
 
+/// Runs the program in a folder and reads what it prints as JSON; exit codes may be those of a command that did its work.
+fn json(folder: &TempDir, arguments: &[&str]) -> Value {
+    let output = program()
+        .current_dir(folder.path())
+        .args(arguments)
+        .args(["--format", "json"])
+        .env("COLUMNS", "40")
+        .output()
+        .unwrap();
+    let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(output.status.success(), "{arguments:?}: {stderr}");
+    let value: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(value.is_object());
+    value
+}
+
+#[test]
+fn every_command_that_finds_something_prints_it_as_one_object() {
+    let folder = TempDir::new().unwrap();
+    let file = &write(&folder, "small.toml", &pmma_sweep(THREE));
+    let plan = json(&folder, &["plan", file]);
+    assert_eq!(plan["cases"].as_array().unwrap().len(), 3);
+    assert_eq!(plan["cases"][1]["angular_frequency_rad_per_s"], 0.008);
+    assert!(plan["time_on_one_thread_s"].as_f64().unwrap() > 0.0 && plan["cells"].is_null());
+    assert_eq!(
+        json(&folder, &["sweep", file, "--dry-run"])["springs"],
+        plan["springs"]
+    );
+    let sweep = json(&folder, &["sweep", file, "--no-figures", "--out", "a"]);
+    assert_eq!(json(&folder, &["report", "a"]), sweep);
+    for (shard, out) in [("1/2", "b"), ("2/2", "c")] {
+        let part = json(&folder, &["sweep", file, "--shard", shard, "--out", out]);
+        assert_eq!(part["shard"], shard);
+        assert_eq!(part["cases_done"], part["cases_of_shard"]);
+    }
+    assert_eq!(json(&folder, &["merge", "b", "c", "--out", "d"]), sweep);
+    let comparison = json(&folder, &["compare", "a", "d"]);
+    assert_eq!(
+        (&comparison["differs"], &comparison["cases_compared"]),
+        (&false.into(), &3.into())
+    );
+    let columns = comparison["columns"].as_array().unwrap();
+    let loss = columns
+        .iter()
+        .find(|c| c["name"] == "energy_loss_j")
+        .unwrap();
+    assert!(loss["largest_relative_difference"].is_null());
+    let scenario = pmma_sweep("").replace(
+        "mean = \"10 N\"\namplitude = \"5 N\"",
+        "segments = [{ kind = \"ramp\", to = 1, duration = 1 }]",
+    );
+    let scenario = &write(
+        &folder,
+        "ramp.toml",
+        &format!("{scenario}[solver]\nsprings = 50\n"),
+    );
+    let dry = json(&folder, &["simulate", scenario, "--dry-run"]);
+    let history = json(&folder, &["simulate", scenario, "--no-figures"]);
+    let rows = history["history"].as_array().unwrap();
+    assert_eq!(rows.len(), dry["time_steps"].as_u64().unwrap() as usize);
+    assert_eq!(rows.last().unwrap()["load_n"], 1.0);
+    assert_eq!(history["summary"]["title"], "PMMA under a sphere");
+    assert!(!folder.path().join("reports/ramp/index.html").exists());
+}
+
+#[test]
+fn materials_are_printed_as_objects_too() {
+    let folder = TempDir::new().unwrap();
+    let list = json(&folder, &["material", "list"]);
+    let names = list["materials"].as_array().unwrap();
+    assert!(names.iter().any(|material| material["name"] == "pmma"));
+    let shown = json(&folder, &["material", "show", "pmma"]);
+    assert_eq!(shown["relaxation"]["equilibrium_modulus_pa"], 1.973e9);
+    assert!(
+        shown["peaks"]["loss_modulus"][0]["loss_modulus_pa"]
+            .as_f64()
+            .unwrap()
+            > 1e7
+    );
+    assert!(shown["fit"].is_null());
+    let branches = shown["creep"]["branches"].as_array().unwrap();
+    let first = shown["creep"]["instantaneous_compliance_per_pa"]
+        .as_f64()
+        .unwrap();
+    let rows = (0..40).map(|k| {
+        let time_s = 10_f64.powf(f64::from(k) / 10.0 - 1.0);
+        let creep = branches.iter().map(|branch| {
+            let of = |key: &str| branch[key].as_f64().unwrap();
+            of("compliance_per_pa") * -(-time_s / of("time_s")).exp_m1()
+        });
+        format!("{time_s},{}\n", first + creep.sum::<f64>())
+    });
+    let table = format!(
+        "time_s,creep_compliance_per_pa\n{}",
+        rows.collect::<String>()
+    );
+    write(&folder, "creep.csv", &table);
+    let arguments =
+        "material fit creep.csv --quantity creep --modulus longitudinal --poisson-ratio 0.38";
+    let fit = json(&folder, &arguments.split(' ').collect::<Vec<_>>());
+    assert_eq!(fit["fit"]["samples"], 40);
+    assert!(fit["fit"]["relative_misfit_rms"].as_f64().unwrap() < 1e-3);
+    let block = fit["material_toml"].as_str().unwrap();
+    assert!(block.contains("[material.creep]"), "{block}");
+}
+
 #[test]
 fn nothing_that_is_piped_or_asked_to_be_plain_is_coloured() {
     let folder = TempDir::new().unwrap();

@@ -83,6 +83,28 @@ pub fn write_sweep(
     plan: &SweepPlan,
     outcome: &Outcome,
 ) -> Result<Vec<String>, ReportError> {
+    tables_of_sweep(store, plan, outcome)?;
+    figures_of_sweep(store, plan, outcome)
+}
+
+/// As [`write_sweep`], without figures and page; those of an earlier run, which may show less, are removed.
+///
+/// # Errors
+/// As [`write_sweep`].
+pub fn write_tables_of_sweep(
+    store: &Store,
+    plan: &SweepPlan,
+    outcome: &Outcome,
+) -> Result<Vec<String>, ReportError> {
+    tables_of_sweep(store, plan, outcome)?;
+    for file in files::FIGURES.into_iter().flat_map(files::of_figure) {
+        store.remove(&file)?;
+    }
+    store.remove("index.html")?;
+    Ok(Vec::new())
+}
+
+fn tables_of_sweep(store: &Store, plan: &SweepPlan, outcome: &Outcome) -> Result<(), ReportError> {
     let branches = outcome.retardation_times_s().len();
     store.write("sweep.csv", &table::sweep(&outcome.records, branches)?)?;
     for record in &outcome.records {
@@ -97,6 +119,14 @@ pub fn write_sweep(
     }
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
     store.write("summary.json", &summary)?;
+    Ok(())
+}
+
+fn figures_of_sweep(
+    store: &Store,
+    plan: &SweepPlan,
+    outcome: &Outcome,
+) -> Result<Vec<String>, ReportError> {
     let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
     let stamp = Stamp::of(store.sweep_hash());
     let units = Units::of_sweep(plan)?.sentence();

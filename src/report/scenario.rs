@@ -17,7 +17,10 @@ use crate::sweep::history::outside_model;
 use crate::sweep::history::{SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::scenario::{self, ScenarioPlan};
-use crate::sweep::store::Store;
+use crate::sweep::store::{Store, files};
+
+/// The table of time steps.
+const HISTORY: &str = "history.csv";
 
 /// Writes everything, as far as the simulation came. Returns what was left out and why.
 ///
@@ -28,7 +31,47 @@ pub fn write(
     plan: &ScenarioPlan,
     outcome: &SimulationOutcome,
 ) -> Result<Vec<String>, ReportError> {
-    store.write("history.csv", &history(outcome)?)?;
+    tables(store, plan, outcome)?;
+    let pictures = Pictures::default();
+    let left_out = figures(store, plan, outcome, &pictures)?;
+    if plan.figures.axes != AxisUnits::Si
+        && let Some(svg) = figure::history::svg(outcome)?
+    {
+        // The page shows SI units throughout, since its own script draws in them.
+        pictures.see("history.svg", svg.as_bytes());
+    }
+    let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
+    store.write("index.html", page.as_bytes())?;
+    Ok(left_out)
+}
+
+/// As [`write`], without figures and page; those of an earlier run, which may show less, are removed.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_tables(
+    store: &Store,
+    plan: &ScenarioPlan,
+    outcome: &SimulationOutcome,
+) -> Result<Vec<String>, ReportError> {
+    tables(store, plan, outcome)?;
+    let maps = (0..outcome.fields.len()).map(figure::pressure_map::file);
+    let drawn = scenario::FIGURES.into_iter().map(str::to_owned).chain(maps);
+    let drawn = drawn.flat_map(|name| files::of_figure(&name));
+    // The data of the figure of the history are the table itself.
+    for file in drawn.filter(|file| file != HISTORY) {
+        store.remove(&file)?;
+    }
+    store.remove("index.html")?;
+    Ok(Vec::new())
+}
+
+fn tables(
+    store: &Store,
+    plan: &ScenarioPlan,
+    outcome: &SimulationOutcome,
+) -> Result<(), ReportError> {
+    store.write(HISTORY, &history(outcome)?)?;
     store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
     if !outcome.profiles.is_empty() {
         store.write("profiles/index.csv", &index(&outcome.profiles)?)?;
@@ -42,17 +85,7 @@ pub fn write(
             write_fields(store, k, record)?;
         }
     }
-    let pictures = Pictures::default();
-    let left_out = figures(store, plan, outcome, &pictures)?;
-    if plan.figures.axes != AxisUnits::Si
-        && let Some(svg) = figure::history::svg(outcome)?
-    {
-        // The page shows SI units throughout, since its own script draws in them.
-        pictures.see("history.svg", svg.as_bytes());
-    }
-    let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
-    store.write("index.html", page.as_bytes())?;
-    Ok(left_out)
+    Ok(())
 }
 
 fn figures(
