@@ -4,12 +4,14 @@
 //! together, so `"0.1 mm"` is the double nearest to 1e-4 and not the double nearest to 0.1 times
 //! 1e-3. (Minutes, hours, days and degrees are no powers of ten and cost one more rounding.)
 
+mod frequency;
 mod units;
 
 use std::fmt;
 
 use thiserror::Error;
 
+pub use frequency::FrequencyUnit;
 use units::{Exponents, Unit, UnitProblem};
 
 /// What kind of quantity a number is.
@@ -120,7 +122,8 @@ impl Dimension {
                 [0, 0, -1, 1, 0],
                 (0, 0),
             ),
-            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1], (-15, 12)),
+            // As angular frequencies: those of a sweep are read beside one another.
+            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1], (0, 12)),
             Self::Energy => profile("an energy", "J", "3.5 µJ", [2, 1, -2, 0, 0], (-15, 12)),
         }
     }
