@@ -5,7 +5,6 @@ mod answer;
 mod cases_table;
 mod compact;
 pub mod comparison;
-pub mod drawing;
 pub mod frame;
 pub(super) mod how;
 pub mod html;
