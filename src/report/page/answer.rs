@@ -1,8 +1,8 @@
 //! The answer in words: peaks with their uncertainty, and the cases that have none.
 
-use std::fmt::Write;
+use maud::{Markup, html};
 
-use super::html::escaped;
+use super::question::list;
 use crate::quantity::Dimension;
 use crate::report::number::{plain, with_error};
 use crate::report::terminal;
@@ -11,13 +11,12 @@ use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::search::run::Outcome;
 
 /// Peaks as a list, largest first; where there are none, why.
-pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
+pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     if outcome.peaks.is_empty() {
         let why = terminal::peaks(plan, outcome);
-        return format!("<p class=\"peaks\">{}</p>", escaped(why.trim()));
+        return html! { p class="peaks" { (why.trim()) } };
     }
-    let mut html = String::from("<ul class=\"peaks\">\n");
-    for (rank, peak) in outcome.peaks.iter().enumerate() {
+    let lines = outcome.peaks.iter().enumerate().map(|(rank, peak)| {
         let what = if rank == 0 { "Peak" } else { "Lower peak" };
         let loss = with_error(
             peak.energy_loss_j,
@@ -38,33 +37,25 @@ pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
             let value = plain(value, drive_dimension(plan.drive.control()), 4);
             Some(format!(", {} {value}", axis.varied.name()))
         });
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            html,
-            "<li>{what}: <strong>{}</strong> per cycle at ω = <strong>{}</strong>{}</li>",
-            escaped(&loss),
-            escaped(&omega),
-            escaped(&varied.unwrap_or_default())
-        );
-    }
-    html.push_str("</ul>");
-    html
+        html! {
+            li { (what) ": " strong { (loss) } " per cycle at ω = " strong { (omega) } (varied.unwrap_or_default()) }
+        }
+    });
+    html! { ul class="peaks" { @for line in lines { (line) } } }
 }
 
 /// Warnings as a list; nothing where there are none.
-pub(super) fn warned(warnings: impl IntoIterator<Item = impl std::fmt::Display>) -> String {
-    let lines = warnings.into_iter();
-    let lines: String = lines
-        .map(|warning| format!("<li>{}</li>\n", escaped(&warning.to_string())))
-        .collect();
-    if lines.is_empty() {
-        return String::new();
+pub(super) fn warned(warnings: impl IntoIterator<Item = impl std::fmt::Display>) -> Markup {
+    let lines: Vec<String> = warnings.into_iter().map(|w| w.to_string()).collect();
+    html! {
+        @if !lines.is_empty() {
+            div class="warnings" { p { "To be kept in mind:" } (list(&lines)) }
+        }
     }
-    format!("<div class=\"warnings\">\n<p>To be kept in mind:</p>\n<ul>\n{lines}</ul>\n</div>")
 }
 
 /// What has no result or could not be located, each with its reason; nothing where there is no such thing.
-pub(super) fn problems(outcome: &Outcome) -> String {
+pub(super) fn problems(outcome: &Outcome) -> Markup {
     let cases = outcome.records.iter().filter(|r| r.result.is_none());
     let cases = cases.map(|r| {
         format!(
@@ -81,13 +72,10 @@ pub(super) fn problems(outcome: &Outcome) -> String {
             "The sweep was interrupted: the cases that are missing here were not computed."
                 .to_owned()
         }))
-        .map(|line| format!("<li>{}</li>\n", escaped(&line)))
         .collect();
-    if lines.is_empty() {
-        return String::new();
+    html! {
+        @if !lines.is_empty() {
+            div class="problems" { p { "Without a result, and so not drawn:" } (list(&lines)) }
+        }
     }
-    format!(
-        "<div class=\"problems\">\n<p>Without a result, and so not drawn:</p>\n<ul>\n{}</ul>\n</div>",
-        lines.concat()
-    )
 }

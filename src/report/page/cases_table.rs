@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::html::escaped;
+use maud::Render;
+
 use crate::report::figure::prefix;
 use crate::report::number::{cell, digits};
 use crate::sweep::plan::SweepPlan;
@@ -45,7 +46,7 @@ pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
             html,
             "<th scope=\"col\" data-column=\"{}\">{}{unit}</th>",
             column.name,
-            escaped(&column.heading)
+            column.heading.render().into_string()
         );
     }
     html.push_str("<th scope=\"col\" class=\"text\" data-column=\"status\">status</th></tr></thead>\n<tbody>\n");

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
+use maud::{Markup, PreEscaped};
+
 use crate::report::chart::Drawing;
 
 /// The pictures of a result by name, as elements of a page.
@@ -32,8 +34,8 @@ impl Pictures {
     }
 
     /// The picture of this name as a part of a page.
-    pub fn inline(&self, name: &str) -> Option<String> {
+    pub fn inline(&self, name: &str) -> Option<Markup> {
         let pictures = self.by_name.lock().unwrap_or_else(PoisonError::into_inner);
-        pictures.get(name).cloned()
+        pictures.get(name).cloned().map(PreEscaped)
     }
 }
