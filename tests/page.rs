@@ -371,7 +371,7 @@ fn a_page_of_a_comparison_names_what_differs() {
         "<li>1 case is missing in the new result</li>",
         "<li>1 case is only in the new result</li>",
         "<li>dissipated_j differs in 1 of 1 cases, at most by ",
-        "<h3>Missing in the new result: 1</h3>\n<ul>\n<li>ω = 4.000e-3 rad/s (mean 10, amplitude 5)</li>",
+        "<h3>Missing in the new result: 1</h3><ul><li>ω = 4.000e-3 rad/s (mean 10, amplitude 5)</li>",
         "dissipated_j 10⁻⁹.",
     ] {
         assert!(page.contains(said), "{said}");

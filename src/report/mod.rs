@@ -42,7 +42,6 @@ pub mod profile_lines;
 pub mod quantities;
 pub mod samples;
 pub mod scenario;
-pub mod stamp;
 pub mod summary;
 pub mod table;
 pub mod terminal;
@@ -58,11 +57,10 @@ use crate::sweep::search::run::Outcome;
 use crate::sweep::store::files;
 use crate::sweep::store::{Store, StoreError};
 use caption::Setting;
-use chart::{ChartError, Letters};
+use chart::ChartError;
 use figure::press::{self, Press};
 use figure::units::Units;
 use page::Pictures;
-use stamp::Stamp;
 use work_line::WorkLine;
 
 /// Why a report cannot be written.
@@ -140,12 +138,11 @@ fn figures_of_sweep(
     outcome: &Outcome,
 ) -> Result<Vec<String>, ReportError> {
     let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
-    let stamp = Stamp::of(store.sweep_hash());
     let units = Units::of_sweep(plan)?.sentence();
-    let pictures = Pictures::default();
+    let pictures = Pictures::of_sweep(store.sweep_hash());
     let press = Press {
         plan: &plan.figures,
-        write: &|name, bytes| store.write(name, &stamp.on(name, bytes)),
+        write: &|name, bytes| store.write(name, bytes),
         pictures: &pictures,
     };
     press.figures(&figures, &Setting::of_sweep(plan, outcome, units))?;
@@ -178,12 +175,12 @@ fn picture_in_si(
     in_si.figures.axes = AxisUnits::Si;
     let (figures, _) = figure::of_sweep::figures(&in_si, outcome)?;
     for figure in figures.iter().filter(|f| page::FIGURES.contains(&f.name)) {
-        let svg = figure.picture.to_svg(Letters::Outlines);
-        let svg = svg.map_err(|source| ReportError::Chart {
+        let drawing = figure.picture.draw();
+        let drawing = drawing.map_err(|source| ReportError::Chart {
             name: figure.name,
             source,
         })?;
-        pictures.see(&format!("{}.svg", figure.name), svg.as_bytes());
+        pictures.insert(figure.name, &drawing);
     }
     Ok(())
 }

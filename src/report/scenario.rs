@@ -39,10 +39,10 @@ pub fn write(
     let pictures = Pictures::default();
     let left_out = figures(store, plan, outcome, &pictures)?;
     if plan.figures.axes != AxisUnits::Si
-        && let Some(svg) = figure::history::svg(outcome)?
+        && let Some(history) = figure::history::in_si(outcome)?
     {
         // The page shows SI units throughout, since its own script draws in them.
-        pictures.see("history.svg", svg.as_bytes());
+        pictures.insert("history", &history);
     }
     let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
     store.write("index.html", page.as_bytes())?;

@@ -45,7 +45,7 @@ use crate::cycle::LoopError;
 use crate::material::Material;
 use crate::material::MaterialError;
 use crate::report::ReportError;
-use crate::report::chart::{self, Chart, ChartError, Letters};
+use crate::report::chart::{Chart, ChartError};
 use crate::report::figure::Picture;
 use crate::report::page::Pictures;
 use crate::sweep::case::SetupError;
@@ -271,8 +271,8 @@ pub fn files(
                 panels => Picture::Stack(panels.to_vec()),
             };
             let caption = figure.full_caption();
-            let svg = chart::described(&picture.as_asked(plan, Letters::Outlines)?, &caption);
-            pictures.see(&format!("{name}.svg"), svg.as_bytes());
+            let drawing = picture.as_asked(plan)?.described(caption.as_str());
+            pictures.insert(&name, &drawing);
             let text = format!("{caption}\n").into_bytes();
             let mut files = vec![
                 (format!("{name}{}", files::CAPTION), text),
@@ -280,13 +280,11 @@ pub fn files(
             ];
             for format in &plan.formats {
                 files.push(match (format, plan.resolution()) {
-                    (Format::Svg, _) => (format!("{name}.svg"), svg.clone().into_bytes()),
-                    (Format::Pdf, _) => (format!("{name}.pdf"), picture.to_pdf(plan, &caption)?),
-                    (Format::Png, Some(dpi)) => {
-                        (format!("{name}.png"), chart::to_png_at(&svg, dpi)?)
-                    }
+                    (Format::Svg, _) => (format!("{name}.svg"), drawing.to_svg().into_bytes()),
+                    (Format::Pdf, _) => (format!("{name}.pdf"), drawing.to_pdf()?),
+                    (Format::Png, Some(dpi)) => (format!("{name}.png"), drawing.to_png_at(dpi)?),
                     // The page of the repository shows one resolution.
-                    (Format::Png, None) => (format!("{name}.png"), chart::to_png(&svg, 1.0)?),
+                    (Format::Png, None) => (format!("{name}.png"), drawing.to_png(1.0)?),
                 });
             }
             Ok(files)

@@ -1,7 +1,6 @@
 //! index.html: the figures with their claims in one page, in the frame that all pages have.
 
-use std::fmt::Write;
-
+use maud::{Markup, PreEscaped, Render, html};
 use serde::Serialize;
 
 use super::claim::COLUMNS;
@@ -10,10 +9,9 @@ use super::wording::{self, EXPLANATION, FIGURE_13};
 use super::{Claim, Figure, ReproductionError, SCENARIOS, SWEEPS};
 use crate::report::page::Pictures;
 use crate::report::page::frame::{Frame, Input, InputFile};
-use crate::report::page::html::{escaped, filled, json_for_script};
+use crate::report::page::html::json_for_script;
 use crate::sweep::plan::resolved;
 
-const MAIN: &str = include_str!("page.html");
 const SCRIPT: &str = include_str!("page.js");
 
 /// What the script of the page knows.
@@ -30,20 +28,21 @@ pub(super) fn page(
     pictures: &Pictures,
     claims: &[u8],
 ) -> Result<String, ReproductionError> {
-    let sections: String = figures
-        .iter()
-        .map(|figure| section(figure, pictures))
-        .collect();
-    let main = filled(
-        MAIN,
-        &[
-            ("count", &escaped(&Count::of(figures).text())),
-            ("disagreements", &disagreements(figures)),
-            ("contents", &contents(figures)),
-            ("explanation", &paragraphs(EXPLANATION)),
-            ("figures", &sections),
-        ],
-    )?;
+    let main = html! {
+        section aria-labelledby="answer" class="answer" {
+            h2 id="answer" { "What agrees with the paper" }
+            p class="peaks" { (Count::of(figures).text()) "." }
+            (disagreements(figures))
+            h3 { "Statement by statement" }
+            section class="scroll" tabindex="0" aria-label="Statements, may be scrolled" { (contents(figures)) }
+        }
+        section aria-labelledby="reading-heading" {
+            h2 id="reading-heading" { "How to read the numbers" }
+            (paragraphs(EXPLANATION))
+            (controls())
+        }
+        @for figure in figures { (section(figure, pictures)) }
+    };
     let names: Vec<(String, &str)> = SCENARIOS
         .iter()
         .chain(&SWEEPS)
@@ -75,115 +74,136 @@ pub(super) fn page(
         data: json_for_script(&data)?,
         script: &[SCRIPT],
     };
-    Ok(frame.page()?)
+    Ok(frame.page())
+}
+
+fn controls() -> Markup {
+    let choices = [
+        ("", "every number"),
+        ("agrees", "what agrees"),
+        ("disagrees", "what disagrees"),
+        ("not stated", "what the paper does not state"),
+    ];
+    html! {
+        div class="live controls" role="group" aria-label="Numbers shown" {
+            label {
+                "Show "
+                select id="verdict" { @for (value, text) in choices { option value=(value) { (text) } } }
+            }
+            button type="button" id="copy" { "Copy all as CSV" }
+            button type="button" id="download-csv" { "Download claims.csv" }
+            span id="copied" role="status" {}
+        }
+    }
 }
 
 /// Nothing where everything agrees.
-fn disagreements(figures: &[Figure]) -> String {
+fn disagreements(figures: &[Figure]) -> Markup {
     let lines = wording::disagreeing(figures);
-    if lines.is_empty() {
-        return String::new();
+    html! {
+        @if !lines.is_empty() {
+            div class="problems" {
+                p { "What disagrees:" }
+                ul { @for line in &lines { li { (readable(line)) } } }
+            }
+            @if figures.iter().any(|figure| figure.number == 13) { (paragraphs(FIGURE_13)) }
+        }
     }
-    let items: String = lines
-        .iter()
-        .map(|line| format!("<li>{}</li>\n", readable(line)))
-        .collect();
-    let more = match figures.iter().any(|figure| figure.number == 13) {
-        true => paragraphs(FIGURE_13),
-        false => String::new(),
-    };
-    format!("<div class=\"problems\">\n<p>What disagrees:</p>\n<ul>\n{items}</ul>\n</div>\n{more}")
 }
 
 /// What the paper states, figure by figure.
-fn contents(figures: &[Figure]) -> String {
-    let mut html = String::from(
-        "<table class=\"claims\">\n<thead><tr><th scope=\"col\" class=\"text\">figure</th>\
-         <th scope=\"col\" class=\"text\">the paper states</th><th scope=\"col\" class=\"text\">kind</th>\
-         <th scope=\"col\" class=\"text\">verdict</th></tr></thead>\n<tbody>\n",
-    );
-    for figure in figures {
-        let mut name = format!(
-            "<a href=\"#{}\">Figure {}</a>",
-            figure.name(),
-            figure.number
-        );
-        for statement in &figure.statements {
-            let kind = if statement.is_number {
-                "number"
-            } else {
-                "words"
-            };
-            // Writing to a String cannot fail.
-            let _ = writeln!(
-                html,
-                "<tr><th scope=\"row\">{name}</th><td class=\"text wide\">{}</td><td class=\"text\">{kind}</td>\
-                 <td class=\"text\">{}</td></tr>",
-                readable(&statement.paper),
-                statement.verdict.name()
-            );
-            name = format!("Figure {}", figure.number);
+fn contents(figures: &[Figure]) -> Markup {
+    html! {
+        table class="claims" {
+            thead {
+                tr {
+                    @for heading in ["figure", "the paper states", "kind", "verdict"] {
+                        th scope="col" class="text" { (heading) }
+                    }
+                }
+            }
+            tbody {
+                @for figure in figures {
+                    @for (place, statement) in figure.statements.iter().enumerate() {
+                        tr {
+                            th scope="row" {
+                                @if place == 0 {
+                                    a href={ "#" (figure.name()) } { "Figure " (figure.number) }
+                                } @else {
+                                    "Figure " (figure.number)
+                                }
+                            }
+                            td class="text wide" { (readable(&statement.paper)) }
+                            td class="text" { (if statement.is_number { "number" } else { "words" }) }
+                            td class="text" { (statement.verdict.name()) }
+                        }
+                    }
+                }
+            }
         }
     }
-    html.push_str("</tbody>\n</table>");
-    html
 }
 
-fn section(figure: &Figure, pictures: &Pictures) -> String {
-    let name = figure.name();
-    let picture = pictures.inline(&name).unwrap_or_default();
+fn section(figure: &Figure, pictures: &Pictures) -> Markup {
+    let (name, number) = (figure.name(), figure.number);
     let above = std::iter::once(None).chain(figure.claims.iter().map(Some));
-    let rows = figure.claims.iter().zip(above);
-    let rows: String = rows.map(|(claim, above)| row(claim, above)).collect();
-    let heads: String = COLUMNS
-        .iter()
-        .map(|column| format!("<th scope=\"col\"{}>{column}</th>", kind(column)))
-        .collect();
-    format!(
-        "<section aria-labelledby=\"{name}\" class=\"reproduced\">\n<h2 id=\"{name}\">Figure {number}</h2>\n\
-         <figure class=\"scroll\" tabindex=\"0\" aria-label=\"Figure {number}, may be scrolled\">{picture}</figure>\n<p>{caption}</p>\n\
-         <section class=\"scroll\" tabindex=\"0\" aria-label=\"Numbers of figure {number}, may be scrolled\">\n\
-         <table class=\"claims\">\n<thead><tr>{heads}</tr></thead>\n<tbody>\n{rows}</tbody>\n</table>\n</section>\n</section>\n",
-        number = figure.number,
-        caption = readable(&figure.caption),
-    )
+    html! {
+        section aria-labelledby=(name) class="reproduced" {
+            h2 id=(name) { "Figure " (number) }
+            figure class="scroll" tabindex="0" aria-label={ "Figure " (number) ", may be scrolled" } {
+                @if let Some(picture) = pictures.inline(&name) { (picture) }
+            }
+            p { (readable(&figure.caption)) }
+            section class="scroll" tabindex="0" aria-label={ "Numbers of figure " (number) ", may be scrolled" } {
+                table class="claims" {
+                    thead {
+                        tr { @for column in COLUMNS { th scope="col" class=[kind(column)] { (column) } } }
+                    }
+                    tbody {
+                        @for (claim, above) in figure.claims.iter().zip(above) { (row(claim, above)) }
+                    }
+                }
+            }
+        }
+    }
 }
 
-fn row(claim: &Claim, above: Option<&Claim>) -> String {
+fn row(claim: &Claim, above: Option<&Claim>) -> Markup {
     let cells = claim.cells_below(above);
-    let mut html = format!("<tr data-verdict=\"{}\">", claim.judged().name());
-    for (column, cell) in COLUMNS.iter().zip(&cells) {
-        let cell = readable(cell);
-        let _ = match *column {
-            "quantity" => write!(html, "<th scope=\"row\">{cell}</th>"),
-            column => write!(html, "<td{}>{cell}</td>", kind(column)),
-        };
+    html! {
+        tr data-verdict=(claim.judged().name()) {
+            @for (column, cell) in COLUMNS.iter().zip(&cells) {
+                @match *column {
+                    "quantity" => th scope="row" { (readable(cell)) },
+                    column => td class=[kind(column)] { (readable(cell)) },
+                }
+            }
+        }
     }
-    html + "</tr>\n"
 }
 
 /// Columns of words stand on the left.
-fn kind(column: &str) -> &'static str {
+fn kind(column: &str) -> Option<&'static str> {
     match column {
-        "quantity" | "verdict" => " class=\"text\"",
-        "the paper" | "note" => " class=\"text wide\"",
-        _ => "",
+        "quantity" | "verdict" => Some("text"),
+        "the paper" | "note" => Some("text wide"),
+        _ => None,
     }
 }
 
 /// Paragraphs parted by empty lines, with `**` and `*` as in README.md.
-fn paragraphs(text: &str) -> String {
-    let paragraphs = text.trim().split("\n\n");
-    let marked = |text: &str| emphasised(&emphasised(&readable(text), "**", "strong"), "*", "em");
-    paragraphs
-        .map(|text| format!("<p>{}</p>\n", marked(text)))
-        .collect()
+fn paragraphs(text: &str) -> Markup {
+    let marked = |text: &str| {
+        let strong = emphasised(&readable(text).into_string(), "**", "strong");
+        PreEscaped(emphasised(&strong, "*", "em"))
+    };
+    html! { @for text in text.trim().split("\n\n") { p { (marked(text)) } } }
 }
 
 /// Escaped, and an index such as that of a_H set as one.
-fn readable(text: &str) -> String {
+fn readable(text: &str) -> Markup {
     let mut html = String::with_capacity(text.len());
-    let escaped = escaped(text);
+    let escaped = text.render().into_string();
     let mut parts = escaped.split('_');
     html.push_str(parts.next().unwrap_or_default());
     for part in parts {
@@ -196,7 +216,7 @@ fn readable(text: &str) -> String {
             _ => html.push_str(&format!("_{part}")),
         }
     }
-    html
+    PreEscaped(html)
 }
 
 /// What stands between each pair of `mark` within an element of that name.
@@ -218,11 +238,11 @@ mod tests {
     #[test]
     fn stars_become_elements_and_the_rest_is_escaped() {
         assert_eq!(
-            paragraphs("**Units** are *a* < b,\nand\n\nmore\n"),
-            "<p><strong>Units</strong> are <em>a</em> &lt; b,\nand</p>\n<p>more</p>\n"
+            paragraphs("**Units** are *a* < b,\nand\n\nmore\n").into_string(),
+            "<p><strong>Units</strong> are <em>a</em> &lt; b,\nand</p><p>more</p>"
         );
         assert_eq!(
-            readable("a_H²/R, δ_H, energy_loss_j"),
+            readable("a_H²/R, δ_H, energy_loss_j").into_string(),
             "a<sub>H</sub>²/R, δ<sub>H</sub>, energy_loss_j"
         );
     }

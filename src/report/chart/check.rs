@@ -25,11 +25,8 @@ pub(super) fn check(chart: &Chart) -> Result<(), ChartError> {
     for mark in &chart.marks {
         check_mark(chart, mark)?;
     }
-    if chart
-        .series
-        .iter()
-        .all(|series| series.points.iter().flatten().next().is_none())
-    {
+    let shown = |series: &Series| series.points.iter().any(Option::is_some);
+    if chart.map.is_none() && !chart.series.iter().any(shown) {
         return Err(empty(chart));
     }
     Ok(())
@@ -44,10 +41,11 @@ pub(super) fn empty(chart: &Chart) -> ChartError {
 
 /// What the chart shows, in words.
 pub(super) fn subject(chart: &Chart) -> String {
-    chart
-        .title
-        .clone()
-        .unwrap_or_else(|| format!("{} against {}", chart.y.label, chart.x.label))
+    match (&chart.title, &chart.map) {
+        (Some(title), _) => title.clone(),
+        (None, Some(map)) => format!("{} over the surface", map.value_label),
+        (None, None) => format!("{} against {}", chart.y.label, chart.x.label),
+    }
 }
 
 /// What a mark is called in an error.

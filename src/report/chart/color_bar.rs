@@ -1,50 +1,48 @@
 //! The colour bar of a heat map: the scale of its colours, right of the frame.
 
-use super::canvas::{Anchor, Canvas, Direction};
+use std::sync::Arc;
+
+use super::ChartError;
+use super::canvas::{Canvas, Direction, HPos};
+use super::color_map::LEVELS;
 use super::geometry::Rect;
-use super::heat_map::HeatMap;
+use super::heat_map::{Boxes, HeatMap};
 use super::layout::crisp;
 use super::look::*;
 use super::scale::AxisMap;
 use super::text::{ASCENT_EM, CAPITAL_EM, DESCENT_EM, widths_em};
 use super::ticks::{self, Ticks};
-use super::{ChartError, Scale};
 
 /// From the frame to the colour bar, and its width.
 const BAR_GAP: f64 = 22.0;
 const BAR_WIDTH: f64 = 20.0;
 
-/// The colour bar, right of the frame.
+/// A map with the range of its colours and the bar that explains them.
 pub(super) struct Bar {
-    scale: Scale,
-    low: f64,
-    high: f64,
+    pub(super) map: Arc<HeatMap>,
+    /// The values at the two ends.
+    pub(super) range: (f64, f64),
     pub(super) ticks: Ticks,
     widest_label: f64,
     label_em: f64,
 }
 
 impl Bar {
-    pub(super) fn new(map: &HeatMap, (low, high): (f64, f64)) -> Result<Self, ChartError> {
-        let scale = map.value_scale;
+    /// # Errors
+    /// [`ChartError`] where the values of the map cannot be drawn.
+    pub(super) fn new(map: &Arc<HeatMap>) -> Result<Self, ChartError> {
+        let range = map.checked_range()?;
         // Along a bar of unit length; the frame's height is not known yet.
-        let unit = AxisMap {
-            scale,
-            low,
-            high,
-            from_px: 0.0,
-            to_px: 1.0,
-        };
-        let ticks = ticks::choose(scale, low, high, |ticks| {
+        let unit = along(map, range, (0.0, 1.0));
+        let ticks = ticks::choose(map.value_scale, range.0, range.1, |ticks| {
             let apart = |pair: &[ticks::Tick]| unit.px(pair[1].value) - unit.px(pair[0].value);
             ticks.windows(2).all(|pair| apart(pair) >= 1.0 / 9.0)
         });
         let widths = widths_em(ticks.major.iter().map(|tick| tick.label.as_str()))?;
         let label_em = widths_em([map.value_label.as_str()])?;
         Ok(Self {
-            scale,
-            low,
-            high,
+            map: Arc::clone(map),
+            range,
             widest_label: TICK_TEXT * widths.into_iter().fold(0.0, f64::max),
             label_em: label_em.first().copied().unwrap_or(0.0),
             ticks,
@@ -56,7 +54,7 @@ impl Bar {
         BAR_GAP + BAR_WIDTH + MAJOR_TICK + TICK_GAP + self.widest_label + label
     }
 
-    pub(super) fn rect(&self, frame: &Rect) -> Rect {
+    fn rect(&self, frame: &Rect) -> Rect {
         Rect {
             left: crisp(frame.right + BAR_GAP),
             right: crisp(frame.right + BAR_GAP + BAR_WIDTH),
@@ -64,53 +62,38 @@ impl Bar {
         }
     }
 
-    pub(super) fn along(&self, frame: &Rect) -> AxisMap {
-        AxisMap {
-            scale: self.scale,
-            low: self.low,
-            high: self.high,
-            from_px: frame.bottom,
-            to_px: frame.top,
+    /// Adds a box for each colour of the bar.
+    pub(super) fn strips(&self, frame: &Rect, boxes: &mut Boxes) {
+        let bar = self.rect(frame);
+        let y = |level: usize| bar.bottom - bar.height() * level as f64 / LEVELS as f64;
+        for level in 0..LEVELS {
+            let (top, bottom) = (y(level + 1), y(level));
+            boxes.add(level, Rect { top, bottom, ..bar });
         }
     }
 
-    pub(super) fn draw(
-        &self,
-        (map, height_px): (&HeatMap, f64),
-        frame: &Rect,
-        along: &AxisMap,
-        canvas: &Canvas<'_>,
-    ) -> Result<(), ChartError> {
-        let Rect {
-            left,
-            top,
-            right,
-            bottom,
-        } = self.rect(frame);
-        let outline = [
-            (left, top),
-            (right, top),
-            (right, bottom),
-            (left, bottom),
-            (left, top),
-        ];
-        canvas.line(&outline, FRAME_STROKE, FRAME)?;
-        for &value in &self.ticks.minor {
+    /// The sides of the frame that a chart leaves open, outline, ticks and labels of the bar.
+    pub(super) fn draw(&self, frame: &Rect, height_px: f64, canvas: &Canvas) {
+        let [top_left, top_right, bottom_right, _] = frame.corners();
+        canvas.line(&[top_left, top_right, bottom_right], FRAME_STROKE, FRAME);
+        let bar = self.rect(frame);
+        let right = bar.right;
+        canvas.outline(&bar, FRAME_STROKE, FRAME);
+        let along = along(&self.map, self.range, (frame.bottom, frame.top));
+        for (value, length) in self.ticks.lengths() {
             let y = crisp(along.px(value));
-            canvas.line(&[(right, y), (right + MINOR_TICK, y)], FRAME_STROKE, FRAME)?;
+            canvas.line(&[(right, y), (right + length, y)], FRAME_STROKE, FRAME);
         }
-        let level = (Anchor::Start, Direction::Level);
+        let level = (HPos::Left, Direction::Level);
         for tick in &self.ticks.major {
-            let y = crisp(along.px(tick.value));
-            canvas.line(&[(right, y), (right + MAJOR_TICK, y)], FRAME_STROKE, FRAME)?;
             let at = (
                 right + MAJOR_TICK + TICK_GAP,
                 along.px(tick.value) + CAPITAL_EM / 2.0 * TICK_TEXT,
             );
-            canvas.text(&tick.label, at, TICK_TEXT, TEXT, level)?;
+            canvas.text(&tick.label, at, TICK_TEXT, level);
         }
         // A label too long for the frame may be as long as the picture; beyond that it is set smaller rather than cut off.
-        let room = frame.bottom - frame.top + LABEL_TEXT;
+        let room = frame.height() + LABEL_TEXT;
         let (room, middle) = match self.label_em * LABEL_TEXT <= room {
             true => (room, (frame.top + frame.bottom) / 2.0),
             false => (height_px - 2.0 * MARGIN, height_px / 2.0),
@@ -118,7 +101,18 @@ impl Bar {
         let size = LABEL_TEXT.min(room / self.label_em.max(1e-9));
         let beside = right + MAJOR_TICK + TICK_GAP + self.widest_label + LABEL_GAP;
         let at = (beside + LABEL_TEXT * ASCENT_EM, middle);
-        let upwards = (Anchor::Middle, Direction::Upwards);
-        canvas.text(&map.value_label, at, size, TEXT, upwards)
+        let upwards = (HPos::Center, Direction::Upwards);
+        canvas.text(&self.map.value_label, at, size, upwards);
+    }
+}
+
+/// The map of values to lengths along a bar between these two ends.
+fn along(map: &HeatMap, (low, high): (f64, f64), (from_px, to_px): (f64, f64)) -> AxisMap {
+    AxisMap {
+        scale: map.value_scale,
+        low,
+        high,
+        from_px,
+        to_px,
     }
 }

@@ -1,8 +1,12 @@
-//! Draws a chart: grid, data, marks, axes, texts, in this order from back to front.
+//! Draws charts: what lies below, data, marks, axes, texts, in this order from back to front.
 
-use super::canvas::{Anchor, Canvas, Direction, at_real_size};
-use super::check::check;
+use std::borrow::Cow;
+
+use super::canvas::{Canvas, Direction, HPos};
+use super::check::{check, subject};
+use super::color_bar::Bar;
 use super::curves::{Curve, ErrorBar, Obstacles, curves};
+use super::drawing::{Drawing, Shape};
 use super::geometry::{Point, Rect};
 use super::layout::{Layout, Reserve, Widths, crisp, lay_out, ranges};
 use super::legend::{Block, Legend, Outside};
@@ -10,7 +14,9 @@ use super::look::*;
 use super::place::{self, AIR, PlacedLabel};
 use super::stroke::dashes;
 use super::text::{CAPITAL_EM, DESCENT_EM};
-use super::{Chart, ChartError, Color, LegendPlace, LineStyle, MarkPlace, Series, marker};
+use super::{
+    Chart, ChartError, Color, LegendPlace, LineStyle, MarkPlace, Series, Size, heat_map, marker,
+};
 
 /// Everything in its place.
 pub(super) struct Arrangement {
@@ -18,16 +24,61 @@ pub(super) struct Arrangement {
     pub(super) curves: Vec<Curve>,
     pub(super) legend: Option<Legend>,
     pub(super) labels: Vec<PlacedLabel>,
+    /// The colours of a map.
+    pub(super) bar: Option<Bar>,
 }
 
-/// The chart as SVG of the right size that still contains text; its frame begins no further left than `left`.
-pub(super) fn draw(chart: &Chart, left: f64) -> Result<String, ChartError> {
+impl Chart {
+    /// The finished picture.
+    ///
+    /// # Errors
+    /// [`ChartError`] where the chart has no point, or a value, text or range that cannot be drawn.
+    pub fn draw(&self) -> Result<Drawing, ChartError> {
+        stack(std::slice::from_ref(self))
+    }
+}
+
+/// The charts as one picture, one above another, the first at the top: quantities of one history, each on its own axis. Leave the x
+/// label of all but the last empty, and the frames, which are in line, move together.
+///
+/// # Errors
+/// [`ChartError::EmptyStack`] without a chart; otherwise as [`Chart::draw`].
+pub fn stack(charts: &[Chart]) -> Result<Drawing, ChartError> {
+    let charts = charts.iter().map(heat_map::to_scale);
+    let charts: Vec<Cow<'_, Chart>> = charts.collect::<Result<_, _>>()?;
+    let mut left = 0.0_f64;
+    if charts.len() > 1 {
+        for chart in &charts {
+            left = left.max(arrange(chart)?.layout.frame.left);
+        }
+    }
+    let width_px = charts.iter().map(|chart| chart.size.width_px).max();
+    let mut size = Size {
+        width_px: width_px.ok_or(ChartError::EmptyStack)?,
+        height_px: 0,
+    };
+    let mut drawn = Vec::new();
+    for chart in &charts {
+        drawn.push((size.height_px, shapes(chart, left)?));
+        size.height_px += chart.size.height_px;
+    }
+    let titles: Vec<String> = charts.iter().map(|chart| subject(chart)).collect();
+    Ok(Drawing {
+        size,
+        paper: None,
+        title: titles.join("; "),
+        description: None,
+        sweep_hash: None,
+        charts: drawn,
+    })
+}
+
+/// The shapes of a chart whose frame begins no further left than `left`.
+fn shapes(chart: &Chart, left: f64) -> Result<Vec<Shape>, ChartError> {
     let arrangement = arrange_beside(chart, left)?;
-    let mut svg = String::new();
-    let canvas = Canvas::new(&mut svg, chart.size);
-    paint(chart, &arrangement, &canvas)?;
-    canvas.finish()?;
-    at_real_size(&svg, chart.size)
+    let canvas = Canvas::new(chart.size);
+    paint(chart, &arrangement, &canvas);
+    canvas.finish()
 }
 
 /// Decides where everything goes.
@@ -38,7 +89,13 @@ pub(super) fn arrange(chart: &Chart) -> Result<Arrangement, ChartError> {
 /// As [`arrange`], with a frame that begins no further left than `left`.
 fn arrange_beside(chart: &Chart, left: f64) -> Result<Arrangement, ChartError> {
     check(chart)?;
-    let beside = |reserve: Reserve| Reserve { left, ..reserve };
+    let bar = chart.map.as_ref().map(Bar::new).transpose()?;
+    let of_bar = bar.as_ref().map_or(0.0, Bar::total_width);
+    let beside = |reserve: Reserve| Reserve {
+        left,
+        right: reserve.right + of_bar,
+        ..reserve
+    };
     let widths = Widths::measure(chart)?;
     let ranges = ranges(chart)?;
     let plain = lay_out(chart, &ranges, &widths, beside(Reserve::default()))?;
@@ -90,188 +147,147 @@ fn arrange_beside(chart: &Chart, left: f64) -> Result<Arrangement, ChartError> {
         curves,
         legend,
         labels,
+        bar,
     })
 }
 
-fn paint(chart: &Chart, arrangement: &Arrangement, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn paint(chart: &Chart, arrangement: &Arrangement, canvas: &Canvas) {
     let Arrangement {
         layout,
         curves,
         legend,
         labels,
+        bar,
     } = arrangement;
-    grid(layout, canvas)?;
+    match bar {
+        Some(bar) => heat_map::colors(bar, layout, canvas),
+        None => grid(layout, canvas),
+    }
     for (series, curve) in chart.series.iter().zip(curves) {
         for fill in &curve.fills {
-            canvas.polygon(fill, series.color, opacity(series))?;
+            canvas.polygon(fill, series.color, opacity(series));
         }
     }
-    mark_lines(chart, layout, canvas)?;
+    mark_lines(chart, layout, canvas);
     for (series, curve) in chart.series.iter().zip(curves) {
-        line(series, &curve.parts, canvas)?;
+        line(series, &curve.parts, canvas);
     }
-    axes(layout, canvas)?;
+    axes(layout, canvas);
+    if let Some(bar) = bar {
+        bar.draw(&layout.frame, f64::from(chart.size.height_px), canvas);
+        heat_map::dots(bar, layout, canvas);
+    }
     // Below the markers, so that no ring hides a data point.
-    mark_rings(chart, layout, canvas)?;
+    mark_rings(chart, layout, canvas);
     for (series, curve) in chart.series.iter().zip(curves) {
         for bar in &curve.error_bars {
-            error_bar(bar, series.color, canvas)?;
+            error_bar(bar, series.color, canvas);
         }
-        markers(series, &curve.points, canvas)?;
+        markers(series, &curve.points, canvas);
     }
     if let Some(legend) = legend {
-        draw_legend(chart, curves, legend, canvas)?;
+        draw_legend(chart, curves, legend, canvas);
     }
     for label in labels {
-        mark_label(chart, label, canvas)?;
+        mark_label(chart, label, canvas);
     }
-    texts(layout, canvas)
-}
-
-/// Title and axis labels.
-pub(super) fn texts(layout: &Layout, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+    // Title and axis labels.
     for text in &layout.texts {
-        canvas.text(&text.text, text.at, text.size, TEXT, text.hold)?;
+        canvas.text(&text.text, text.at, text.size, text.hold);
     }
-    Ok(())
 }
 
-fn grid(layout: &Layout, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn grid(layout: &Layout, canvas: &Canvas) {
     let frame = &layout.frame;
     let upright = |value: f64| [frame.top, frame.bottom].map(|y| (crisp(layout.x.px(value)), y));
     let level = |value: f64| [frame.left, frame.right].map(|x| (x, crisp(layout.y.px(value))));
-    for &value in &layout.x_ticks.minor {
-        canvas.line(&upright(value), MINOR_GRID_STROKE, MINOR_GRID)?;
+    let (x, y) = (&layout.x_ticks, &layout.y_ticks);
+    let minor = x.minor.iter().map(|&value| upright(value));
+    for line in minor.chain(y.minor.iter().map(|&value| level(value))) {
+        canvas.line(&line, MINOR_GRID_STROKE, MINOR_GRID);
     }
-    for &value in &layout.y_ticks.minor {
-        canvas.line(&level(value), MINOR_GRID_STROKE, MINOR_GRID)?;
+    let major = x.major.iter().map(|tick| upright(tick.value));
+    for line in major.chain(y.major.iter().map(|tick| level(tick.value))) {
+        canvas.line(&line, MAJOR_GRID_STROKE, MAJOR_GRID);
     }
-    for tick in &layout.x_ticks.major {
-        canvas.line(&upright(tick.value), MAJOR_GRID_STROKE, MAJOR_GRID)?;
-    }
-    for tick in &layout.y_ticks.major {
-        canvas.line(&level(tick.value), MAJOR_GRID_STROKE, MAJOR_GRID)?;
-    }
-    let closing = [
-        (frame.left, frame.top),
-        (frame.right, frame.top),
-        (frame.right, frame.bottom),
-    ];
-    canvas.line(&closing, MAJOR_GRID_STROKE, MAJOR_GRID)
+    let [top_left, top_right, bottom_right, _] = frame.corners();
+    canvas.line(
+        &[top_left, top_right, bottom_right],
+        MAJOR_GRID_STROKE,
+        MAJOR_GRID,
+    );
 }
 
 /// The left and lower side of the frame, the ticks and their labels.
-pub(super) fn axes(layout: &Layout, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn axes(layout: &Layout, canvas: &Canvas) {
     let frame = &layout.frame;
-    let draw_ticks = |minor: &[f64], major: &[f64], ends: &dyn Fn(f64, f64) -> [Point; 2]| {
-        let all = minor
-            .iter()
-            .map(|&value| (value, MINOR_TICK))
-            .chain(major.iter().map(|&value| (value, MAJOR_TICK)));
-        for (value, length) in all {
-            canvas.line(&ends(value, length), FRAME_STROKE, FRAME)?;
-        }
-        Ok::<(), ChartError>(())
-    };
-    let majors = |ticks: &super::ticks::Ticks| {
-        ticks
-            .major
-            .iter()
-            .map(|tick| tick.value)
-            .collect::<Vec<_>>()
-    };
-    draw_ticks(
-        &layout.x_ticks.minor,
-        &majors(&layout.x_ticks),
-        &|value, length| {
-            let x = crisp(layout.x.px(value));
-            [(x, frame.bottom), (x, frame.bottom + length)]
-        },
-    )?;
-    draw_ticks(
-        &layout.y_ticks.minor,
-        &majors(&layout.y_ticks),
-        &|value, length| {
-            let y = crisp(layout.y.px(value));
-            [(frame.left - length, y), (frame.left, y)]
-        },
-    )?;
-    for tick in &layout.x_ticks.major {
-        let at = (
-            layout.x.px(tick.value),
-            frame.bottom + MAJOR_TICK + TICK_GAP + CAPITAL_EM * TICK_TEXT,
-        );
-        canvas.text(
-            &tick.label,
-            at,
-            TICK_TEXT,
-            TEXT,
-            (Anchor::Middle, Direction::Level),
-        )?;
+    for (value, length) in layout.x_ticks.lengths() {
+        let x = crisp(layout.x.px(value));
+        let ends = [(x, frame.bottom), (x, frame.bottom + length)];
+        canvas.line(&ends, FRAME_STROKE, FRAME);
     }
+    for (value, length) in layout.y_ticks.lengths() {
+        let y = crisp(layout.y.px(value));
+        let ends = [(frame.left - length, y), (frame.left, y)];
+        canvas.line(&ends, FRAME_STROKE, FRAME);
+    }
+    let below = frame.bottom + MAJOR_TICK + TICK_GAP + CAPITAL_EM * TICK_TEXT;
+    for tick in &layout.x_ticks.major {
+        let at = (layout.x.px(tick.value), below);
+        let hold = (HPos::Center, Direction::Level);
+        canvas.text(&tick.label, at, TICK_TEXT, hold);
+    }
+    let beside = frame.left - MAJOR_TICK - TICK_GAP;
     for tick in &layout.y_ticks.major {
         let at = (
-            frame.left - MAJOR_TICK - TICK_GAP,
+            beside,
             layout.y.px(tick.value) + CAPITAL_EM / 2.0 * TICK_TEXT,
         );
-        canvas.text(
-            &tick.label,
-            at,
-            TICK_TEXT,
-            TEXT,
-            (Anchor::End, Direction::Level),
-        )?;
+        canvas.text(&tick.label, at, TICK_TEXT, (HPos::Right, Direction::Level));
     }
-    let corner = [
-        (frame.left, frame.top),
-        (frame.left, frame.bottom),
-        (frame.right, frame.bottom),
-    ];
-    canvas.line(&corner, FRAME_STROKE, FRAME)
+    let [top_left, _, bottom_right, bottom_left] = frame.corners();
+    canvas.line(&[top_left, bottom_left, bottom_right], FRAME_STROKE, FRAME);
 }
 
-fn line(series: &Series, parts: &[Vec<Point>], canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn line(series: &Series, parts: &[Vec<Point>], canvas: &Canvas) {
     let Some(style) = series.line else {
-        return Ok(());
+        return;
     };
     for part in parts {
         for stroke in dashes(part, style) {
-            canvas.line(&stroke, LINE_STROKE, series.color)?;
+            canvas.line(&stroke, LINE_STROKE, series.color);
         }
     }
-    Ok(())
 }
 
-fn markers(series: &Series, points: &[Point], canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn markers(series: &Series, points: &[Point], canvas: &Canvas) {
     for &point in points {
         match series.marker {
-            Some(shape) => marker::draw(canvas, shape, point, series.color)?,
+            Some(shape) => marker::draw(canvas, shape, point, series.color),
             // A point without neighbours would leave no trace of a line.
-            None => canvas.disc(point, 1.2 * LINE_STROKE, series.color)?,
+            None => canvas.disc(point, 1.2 * LINE_STROKE, series.color),
         }
     }
-    Ok(())
 }
 
-fn error_bar(bar: &ErrorBar, color: Color, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn error_bar(bar: &ErrorBar, color: Color, canvas: &Canvas) {
     canvas.line(
         &[(bar.x, bar.top), (bar.x, bar.bottom)],
         ERROR_STROKE,
         color,
-    )?;
+    );
     for (y, cap) in [(bar.top, bar.caps[0]), (bar.bottom, bar.caps[1])] {
         if cap {
             canvas.line(
                 &[(bar.x - ERROR_CAP, y), (bar.x + ERROR_CAP, y)],
                 ERROR_STROKE,
                 color,
-            )?;
+            );
         }
     }
-    Ok(())
 }
 
-fn mark_lines(chart: &Chart, layout: &Layout, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn mark_lines(chart: &Chart, layout: &Layout, canvas: &Canvas) {
     let frame = &layout.frame;
     for mark in &chart.marks {
         let ends = match mark.place {
@@ -284,30 +300,28 @@ fn mark_lines(chart: &Chart, layout: &Layout, canvas: &Canvas<'_>) -> Result<(),
             }
         };
         for stroke in dashes(&ends, LineStyle::Dashed) {
-            canvas.line(&stroke, MARK_STROKE, mark.color)?;
+            canvas.line(&stroke, MARK_STROKE, mark.color);
         }
     }
-    Ok(())
 }
 
-fn mark_rings(chart: &Chart, layout: &Layout, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn mark_rings(chart: &Chart, layout: &Layout, canvas: &Canvas) {
     for mark in &chart.marks {
         if let MarkPlace::Point { x, y } = mark.place {
-            canvas.circle(layout.px((x, y)), MARK_RING, MARK_STROKE, mark.color)?;
+            canvas.circle(layout.px((x, y)), MARK_RING, MARK_STROKE, mark.color);
         }
     }
-    Ok(())
 }
 
-fn mark_label(chart: &Chart, label: &PlacedLabel, canvas: &Canvas<'_>) -> Result<(), ChartError> {
+fn mark_label(chart: &Chart, label: &PlacedLabel, canvas: &Canvas) {
     let Some(mark) = chart.marks.get(label.mark) else {
-        return Ok(());
+        return;
     };
     if let Some((from, to)) = label.leader {
-        canvas.line(&[from, to], LEADER_STROKE, mark.color)?;
+        canvas.line(&[from, to], LEADER_STROKE, mark.color);
     }
     // The grid must not run through the text.
-    canvas.rect(&label.rect.grown(-1.0), WHITE, 1.0)?;
+    canvas.rect(&label.rect.grown(-1.0), WHITE, 1.0);
     let middle = (label.rect.top + label.rect.bottom) / 2.0;
     let baseline = middle + (CAPITAL_EM - DESCENT_EM * 0.35) / 2.0 * label.text_px;
     let text = mark.label.as_deref().unwrap_or("");
@@ -315,33 +329,14 @@ fn mark_label(chart: &Chart, label: &PlacedLabel, canvas: &Canvas<'_>) -> Result
         text,
         (label.rect.left + AIR, baseline),
         label.text_px,
-        TEXT,
-        (Anchor::Start, Direction::Level),
-    )
+        (HPos::Left, Direction::Level),
+    );
 }
 
-fn draw_legend(
-    chart: &Chart,
-    curves: &[Curve],
-    legend: &Legend,
-    canvas: &Canvas<'_>,
-) -> Result<(), ChartError> {
+fn draw_legend(chart: &Chart, curves: &[Curve], legend: &Legend, canvas: &Canvas) {
     if legend.framed {
-        let Rect {
-            left,
-            top,
-            right,
-            bottom,
-        } = legend.rect;
-        canvas.rect(&legend.rect, WHITE, 1.0)?;
-        let outline = [
-            (left, top),
-            (right, top),
-            (right, bottom),
-            (left, bottom),
-            (left, top),
-        ];
-        canvas.line(&outline, MAJOR_GRID_STROKE, MAJOR_GRID)?;
+        canvas.rect(&legend.rect, WHITE, 1.0);
+        canvas.outline(&legend.rect, MAJOR_GRID_STROKE, MAJOR_GRID);
     }
     for &(place, at) in &legend.entries {
         let Some(series) = chart.series.get(place) else {
@@ -350,9 +345,9 @@ fn draw_legend(
         let end = (at.0 + LEGEND_SAMPLE, at.1);
         let middle = (at.0 + LEGEND_SAMPLE / 2.0, at.1);
         if series.fill_to.is_some() {
-            canvas.rect(&swatch(series, at), series.color, opacity(series))?;
+            canvas.rect(&swatch(series, at), series.color, opacity(series));
         }
-        line(series, &[vec![at, end]], canvas)?;
+        line(series, &[vec![at, end]], canvas);
         // Bars that all hide behind their markers are not explained either.
         let has_bars = |curve: &Curve| !curve.error_bars.is_empty();
         if curves.get(place).is_some_and(has_bars) {
@@ -362,23 +357,16 @@ fn draw_legend(
                 bottom: at.1 + 8.0,
                 caps: [true, true],
             };
-            error_bar(&bar, series.color, canvas)?;
+            error_bar(&bar, series.color, canvas);
         }
         if series.marker.is_some() {
-            markers(series, &[middle], canvas)?;
+            markers(series, &[middle], canvas);
         }
         let baseline = at.1 + CAPITAL_EM / 2.0 * legend.text_px;
         let text = series.label.as_deref().unwrap_or("");
-        let hold = (Anchor::Start, Direction::Level);
-        canvas.text(
-            text,
-            (end.0 + LEGEND_GAP, baseline),
-            legend.text_px,
-            TEXT,
-            hold,
-        )?;
+        let hold = (HPos::Left, Direction::Level);
+        canvas.text(text, (end.0 + LEGEND_GAP, baseline), legend.text_px, hold);
     }
-    Ok(())
 }
 
 /// How much of its colour an area has.
@@ -594,5 +582,46 @@ mod tests {
                 "{width} {height}"
             );
         }
+    }
+
+    fn panel(x_label: &str, largest: f64) -> Chart {
+        let points = (0..=10).map(|k| (f64::from(k), largest * f64::from(k)));
+        Chart::new(Axis::linear(x_label), Axis::linear("load W / N"))
+            .series(Series::line(points))
+            .size(800, 260)
+    }
+
+    #[test]
+    fn the_picture_is_as_high_as_its_charts_and_has_no_text() {
+        let charts = [panel("", 1.0), panel("", 1e4), panel("time t / s", 0.1)];
+        let drawing = stack(&charts).unwrap();
+        let svg = drawing.to_svg();
+        assert!(svg.starts_with(r#"<svg width="800" height="780""#));
+        for unwanted in ["<text", "href", "url("] {
+            assert!(!svg.contains(unwanted), "{unwanted}");
+        }
+        let png = drawing.to_png(1.0).unwrap();
+        let number = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
+        assert_eq!((number(16), number(20)), (800, 780));
+    }
+
+    #[test]
+    fn the_frames_are_in_line_whatever_their_labels() {
+        let (narrow, wide) = (panel("", 1.0), panel("", 123_456.0));
+        let left = |chart: &Chart| arrange(chart).unwrap().layout.frame.left;
+        assert!(left(&narrow) < left(&wide));
+        // The wide chart is the same in company as alone; the narrow one makes room.
+        let both = [wide, narrow];
+        // What is drawn of one chart of a stack.
+        let paths = |charts: &[Chart], place: usize| {
+            let (_, shapes) = stack(charts).unwrap().charts.swap_remove(place);
+            shapes
+                .into_iter()
+                .map(|shape| shape.path)
+                .collect::<Vec<_>>()
+        };
+        assert_eq!(paths(&both[..1], 0), paths(&both, 0));
+        assert_ne!(paths(&both[1..], 0), paths(&both, 1));
+        assert!(matches!(stack(&[]), Err(ChartError::EmptyStack)));
     }
 }

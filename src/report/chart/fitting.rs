@@ -66,9 +66,10 @@ mod tests {
         let high = fitting_height_px(&chart).unwrap();
         let arrangement = arrange(&chart.clone().size(481, high)).unwrap();
         let sizes = arrangement.layout.texts.iter().map(|text| text.size);
+        let sizes: Vec<f64> = sizes.collect();
         // Full size but for rounding: nothing is set smaller.
         assert!(
-            sizes.clone().all(|size| size > 0.999 * LABEL_TEXT),
+            sizes.iter().all(|size| *size > 0.999 * LABEL_TEXT),
             "{sizes:?}"
         );
         let label = &arrangement.layout.texts[1];
@@ -78,7 +79,8 @@ mod tests {
         let length = Widths::measure(&chart).unwrap().height_of_y_label_px() - 2.0 * MARGIN;
         assert!(
             label.at.1 - length / 2.0 >= legend.bottom,
-            "{label:?} {legend:?}"
+            "{:?} {legend:?}",
+            label.at
         );
         assert!(!fits(&chart).unwrap() && fits(&chart.clone().size(481, high)).unwrap());
         // A chart that is high enough keeps its height, but for the legend.

@@ -21,6 +21,12 @@ impl Rect {
         }
     }
 
+    /// Clockwise from the upper left.
+    pub(super) fn corners(&self) -> [Point; 4] {
+        let (left, top, right, bottom) = (self.left, self.top, self.right, self.bottom);
+        [(left, top), (right, top), (right, bottom), (left, bottom)]
+    }
+
     pub(super) fn width(&self) -> f64 {
         self.right - self.left
     }

@@ -1,26 +1,24 @@
-//! A heat map: values on a grid of cells as colours, with a colour bar. Over a surface, lengths along both axes are to one
-//! scale; elsewhere axes and colours may be logarithmic, with contour lines at the labels of the colour bar.
+//! A heat map, the layer of a chart below everything else: values on a grid of cells as colours, with a colour bar. Over a
+//! surface, lengths along both axes are to one scale; elsewhere axes and colours may be logarithmic, with contour lines at the
+//! labels of the colour bar.
 //!
 //! Thousands of cells as single shapes would make a picture of megabytes, in which seams show between the shapes. So cells of
-//! one colour side by side are one box, all boxes of a colour are one path, and edges are not smoothed. Frame, ticks and
-//! texts are drawn as in any chart.
+//! one colour side by side are one box, all boxes of a colour are one path, and edges are not smoothed.
 
-use std::fmt::Write;
+use std::borrow::Cow;
+use std::sync::Arc;
 
-use super::canvas::{Canvas, at_real_size};
-use super::check::check;
+use super::canvas::Canvas;
 use super::color_bar::Bar;
 use super::color_map::{LEVELS, color, level};
 use super::contour;
-use super::draw::{axes, texts};
+use super::draw::arrange;
+use super::drawing::{FINE, Paint};
 use super::geometry::{Point, Rect};
-use super::layout::{Layout, Reserve, Widths, lay_out, ranges};
+use super::layout::Layout;
 use super::look::*;
-use super::render::{Letters, finished};
 use super::scale::AxisMap;
-use super::ticks::Ticks;
-use super::turned::discs;
-use super::{Axis, Chart, ChartError, Color, Scale, Series};
+use super::{Axis, Chart, ChartError, Color, Scale};
 
 /// The shape of a map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,60 +67,57 @@ pub struct HeatMap {
 /// More cells per side than this are not seen in a picture: blocks of cells are averaged.
 const MOST_CELLS: usize = 256;
 
-/// The map as SVG that needs no font and refers to no other file.
-///
-/// # Errors
-/// [`ChartError`]: a wrong number of values, none at all, one that is not finite, ranges or texts that cannot be drawn.
-pub fn heat_map_to_svg(map: &HeatMap, letters: Letters) -> Result<String, ChartError> {
-    let range = map.checked_range()?;
-    let chart = map.chart();
-    check(&chart)?;
-    let bar = Bar::new(map, range)?;
-    let (chart, layout) = shaped(map, chart, &bar)?;
-    let bar_map = bar.along(&layout.frame);
-    let mut svg = String::new();
-    let canvas = Canvas::new(&mut svg, chart.size);
-    axes(&layout, &canvas)?;
-    let Rect {
-        left,
-        top,
-        right,
-        bottom,
-    } = layout.frame;
-    canvas.line(
-        &[(left, top), (right, top), (right, bottom)],
-        FRAME_STROKE,
-        FRAME,
-    )?;
-    let height_px = f64::from(chart.size.height_px);
-    bar.draw((map, height_px), &layout.frame, &bar_map, &canvas)?;
-    dots(map, &layout, range, &canvas)?;
-    texts(&layout, &canvas)?;
-    canvas.finish()?;
-    let title = map.title.clone();
-    let title = title.unwrap_or_else(|| format!("{} over the surface", map.value_label));
-    let svg = finished(
-        &at_real_size(&svg, chart.size)?,
-        chart.size,
-        &title,
-        letters,
-    )?;
-    // Below all ink: right behind the title.
-    let (head, ink) = svg.split_once("</title>").ok_or_else(|| ChartError::Draw {
-        reason: "the picture has no title".to_owned(),
-    })?;
-    let (discs, cells) = match map.shape {
-        MapShape::Turned => (discs(map, &layout, range), String::new()),
-        MapShape::ToScale | MapShape::HeightPx(_) => (String::new(), cells(map, &layout, range)),
+impl From<HeatMap> for Chart {
+    /// The chart whose axes are those of the grid.
+    fn from(map: HeatMap) -> Self {
+        let axis = |label: &str, (low, high), scale| Axis {
+            scale,
+            ..Axis::linear(label).range(low, high)
+        };
+        let chart = Self::new(
+            axis(&map.x_label, map.x_range, map.x_scale),
+            axis(&map.y_label, map.y_range, map.y_scale),
+        );
+        let width_px = map.width_px;
+        let height_px = match map.shape {
+            MapShape::HeightPx(height_px) => height_px,
+            MapShape::ToScale | MapShape::Turned => width_px,
+        };
+        Self {
+            title: map.title.clone(),
+            legend: None,
+            map: Some(Arc::new(map)),
+            ..chart
+        }
+        .size(width_px, height_px)
+    }
+}
+
+/// The chart; where it is a map to scale, so high that lengths along y are to the scale of those along x.
+pub(super) fn to_scale(chart: &Chart) -> Result<Cow<'_, Chart>, ChartError> {
+    let Some(map) = chart.map.as_deref().filter(|map| map.is_to_scale()) else {
+        return Ok(Cow::Borrowed(chart));
     };
-    let colours = cells + &strips(&bar.rect(&layout.frame));
-    let lines = contours(map, &layout, range, &bar.ticks);
-    Ok(format!(
-        "{head}</title>\n{discs} <g shape-rendering=\"crispEdges\">\n{colours} </g>\n{lines}{ink}"
+    // Far from too low to be laid out.
+    let square = chart.clone().size(chart.size.width_px, chart.size.width_px);
+    let frame = arrange(&square)?.layout.frame;
+    let shape = (map.y_range.1 - map.y_range.0) / (map.x_range.1 - map.x_range.0);
+    let around = f64::from(square.size.height_px) - frame.height();
+    let height = around + frame.width() * shape;
+    Ok(Cow::Owned(
+        square.size(chart.size.width_px, height.round().max(1.0) as u32),
     ))
 }
 
 impl HeatMap {
+    /// Whether the map decides on the height of its chart.
+    pub fn is_to_scale(&self) -> bool {
+        match self.shape {
+            MapShape::ToScale | MapShape::Turned => true,
+            MapShape::HeightPx(_) => false,
+        }
+    }
+
     fn subject(&self) -> String {
         self.title
             .clone()
@@ -130,7 +125,7 @@ impl HeatMap {
     }
 
     /// The values at the ends of the colour bar.
-    fn checked_range(&self) -> Result<(f64, f64), ChartError> {
+    pub(super) fn checked_range(&self) -> Result<(f64, f64), ChartError> {
         let (columns, rows) = (self.columns, self.rows);
         if columns.checked_mul(rows) != Some(self.values.len()) {
             return Err(ChartError::CellCount {
@@ -190,111 +185,61 @@ impl HeatMap {
             Scale::Log => level(value.log10(), (low.log10(), high.log10())),
         }
     }
+}
 
-    /// A chart with the axes of the map; what it shows is not drawn.
-    fn chart(&self) -> Chart {
-        let corners = [
-            (self.x_range.0, self.y_range.0),
-            (self.x_range.1, self.y_range.1),
-        ];
-        let axis = |label: &str, (low, high), scale| Axis {
-            scale,
-            ..Axis::linear(label).range(low, high)
-        };
-        let chart = Chart::new(
-            axis(&self.x_label, self.x_range, self.x_scale),
-            axis(&self.y_label, self.y_range, self.y_scale),
-        )
-        .series(Series::line(corners))
-        .legend(None)
-        .size(self.width_px, self.width_px);
-        match &self.title {
-            Some(title) => chart.title(title.clone()),
-            None => chart,
+/// Everything below the ink: cells or discs, the colours of the bar, contour lines.
+pub(super) fn colors(bar: &Bar, layout: &Layout, canvas: &Canvas) {
+    let mut boxes = Boxes::new();
+    match bar.map.shape {
+        MapShape::Turned => discs(bar, layout, canvas),
+        MapShape::ToScale | MapShape::HeightPx(_) => {
+            cells(bar, layout, &mut boxes);
+            boxes.draw(canvas);
         }
     }
-}
-
-/// Lays the chart out as high as asked for, or so high that lengths along y are to the scale of those along x.
-fn shaped(map: &HeatMap, chart: Chart, bar: &Bar) -> Result<(Chart, Layout), ChartError> {
-    let reserve = Reserve {
-        right: bar.total_width(),
-        ..Reserve::default()
-    };
-    let laid = |chart: &Chart| lay_out(chart, &ranges(chart)?, &Widths::measure(chart)?, reserve);
-    if let MapShape::HeightPx(height) = map.shape {
-        let chart = chart.size(map.width_px, height);
-        let layout = laid(&chart)?;
-        return Ok((chart, layout));
+    let mut boxes = Boxes::new();
+    bar.strips(&layout.frame, &mut boxes);
+    boxes.draw(canvas);
+    if bar.map.contours && bar.map.shape != MapShape::Turned {
+        contours(bar, layout, canvas);
     }
-    let layout = laid(&chart)?;
-    let shape = (map.y_range.1 - map.y_range.0) / (map.x_range.1 - map.x_range.0);
-    let around = f64::from(chart.size.height_px) - layout.frame.height();
-    let height = around + layout.frame.width() * shape;
-    let chart = chart.size(map.width_px, height.round().max(1.0) as u32);
-    let layout = laid(&chart)?;
-    Ok((chart, layout))
 }
 
-/// One path per colour: its boxes, given in px.
-struct Paths {
-    boxes: Vec<String>,
-}
+/// Boxes by the level of their colour.
+pub(super) struct Boxes(Vec<Vec<Rect>>);
 
-impl Paths {
+impl Boxes {
     fn new() -> Self {
-        Self {
-            boxes: vec![String::new(); LEVELS],
-        }
+        Self(vec![Vec::new(); LEVELS])
     }
 
-    fn add(&mut self, level: usize, rect: &Rect) {
-        let Rect {
-            left,
-            top,
-            right,
-            bottom,
-        } = rect;
-        // Writing to a String cannot fail.
-        let _ = write!(
-            self.boxes[level],
-            "M{left:.2} {top:.2}H{right:.2}V{bottom:.2}H{left:.2}Z"
-        );
+    pub(super) fn add(&mut self, level: usize, rect: Rect) {
+        self.0[level].push(rect);
     }
 
-    fn finish(self) -> String {
-        let mut text = String::new();
-        for (level, boxes) in self.boxes.iter().enumerate() {
-            if !boxes.is_empty() {
-                let [red, green, blue] = color(level).rgb();
-                let _ = writeln!(
-                    text,
-                    "  <path fill=\"#{red:02x}{green:02x}{blue:02x}\" d=\"{boxes}\"/>"
-                );
-            }
+    /// One path per colour.
+    fn draw(self, canvas: &Canvas) {
+        for (level, boxes) in self.0.iter().enumerate() {
+            let paint = Paint::Fill {
+                color: color(level).rgb(),
+                opacity: 1.0,
+                crisp: true,
+            };
+            canvas.path(paint, |pen| boxes.iter().for_each(|rect| pen.rect(rect)));
         }
-        text
     }
 }
 
 /// The cells, those of one colour side by side as one box.
-fn cells(map: &HeatMap, layout: &Layout, range: (f64, f64)) -> String {
+fn cells(bar: &Bar, layout: &Layout, boxes: &mut Boxes) {
+    let map = &bar.map;
     let block = map.columns.max(map.rows).div_ceil(MOST_CELLS).max(1);
     let (columns, rows) = (map.columns.div_ceil(block), map.rows.div_ceil(block));
-    let x = |column: usize| {
-        along(
-            &layout.x,
-            (column * block).min(map.columns) as f64,
-            map.columns,
-        )
+    let edge = |axis: &AxisMap, place: usize, count: usize| {
+        along(axis, (place * block).min(count) as f64, count)
     };
-    let y = |row: usize| along(&layout.y, (row * block).min(map.rows) as f64, map.rows);
-    let mut paths = Paths::new();
     for row in 0..rows {
-        let at = |column| {
-            let value = block_mean(map, block, column, row)?;
-            Some(map.level(value, range))
-        };
+        let at = |column| Some(map.level(block_mean(map, block, column, row)?, bar.range));
         let mut column = 0;
         while column < columns {
             let here = at(column);
@@ -304,16 +249,41 @@ fn cells(map: &HeatMap, layout: &Layout, range: (f64, f64)) -> String {
             }
             if let Some(level) = here {
                 let rect = Rect {
-                    left: x(first),
-                    right: x(column),
-                    top: y(row + 1),
-                    bottom: y(row),
+                    left: edge(&layout.x, first, map.columns),
+                    right: edge(&layout.x, column, map.columns),
+                    top: edge(&layout.y, row + 1, map.rows),
+                    bottom: edge(&layout.y, row, map.rows),
                 };
-                paths.add(level, &rect);
+                boxes.add(level, rect);
             }
         }
     }
-    paths.finish()
+}
+
+/// A profile turned about an axis: one disc per change of colour, from the edge of the map inwards. Circles stay round at any size,
+/// and take a twentieth of the room of cells.
+fn discs(bar: &Bar, layout: &Layout, canvas: &Canvas) {
+    let (map, frame) = (&bar.map, &layout.frame);
+    let center = (
+        0.5 * (frame.left + frame.right),
+        0.5 * (frame.top + frame.bottom),
+    );
+    let ring = 0.5 * frame.width() / map.values.len().max(1) as f64;
+    // Blank is what the paper is.
+    let mut below = None;
+    for (place, value) in map.values.iter().enumerate().rev() {
+        let level = value.map(|value| map.level(value, bar.range));
+        if level == below {
+            continue;
+        }
+        below = level;
+        let paint = Paint::Fill {
+            color: level.map_or(WHITE, color).rgb(),
+            opacity: 1.0,
+            crisp: false,
+        };
+        canvas.path(paint, |pen| pen.circle(center, ring * (place + 1) as f64));
+    }
 }
 
 /// So many of `count` cells along an axis, in px.
@@ -327,11 +297,8 @@ fn contrast(level: usize) -> Color {
 }
 
 /// The contour lines, one path for each labelled value.
-fn contours(map: &HeatMap, layout: &Layout, range: (f64, f64), ticks: &Ticks) -> String {
-    let mut text = String::new();
-    if !map.contours || map.shape == MapShape::Turned {
-        return text;
-    }
+fn contours(bar: &Bar, layout: &Layout, canvas: &Canvas) {
+    let map = &bar.map;
     // On the scale of the colours the values are closer to linear between the cells.
     let scaled = |value: f64| match map.value_scale {
         Scale::Linear => value,
@@ -342,53 +309,40 @@ fn contours(map: &HeatMap, layout: &Layout, range: (f64, f64), ticks: &Ticks) ->
         let x = along(&layout.x, x, map.columns);
         (x, along(&layout.y, y, map.rows))
     };
-    for tick in &ticks.major {
+    for tick in &bar.ticks.major {
+        let paint = Paint::Stroke {
+            color: contrast(map.level(tick.value, bar.range)).rgb(),
+            width: MARK_STROKE * FINE,
+            round_ends: true,
+        };
         let segments = contour::segments(&values, map.columns, scaled(tick.value));
-        if segments.is_empty() {
-            continue;
-        }
-        let [red, green, blue] = contrast(map.level(tick.value, range)).rgb();
-        let _ = write!(
-            text,
-            " <path fill=\"none\" stroke=\"#{red:02x}{green:02x}{blue:02x}\" stroke-width=\"{MARK_STROKE}\" stroke-linecap=\"round\" d=\""
-        );
-        for (from, to) in segments {
-            let (from, to) = (px(from), px(to));
-            let _ = write!(text, "M{:.2} {:.2}L{:.2} {:.2}", from.0, from.1, to.0, to.1);
-        }
-        text.push_str("\"/>\n");
+        canvas.path(paint, |pen| {
+            for (from, to) in segments {
+                pen.segment(px(from), px(to));
+            }
+        });
     }
-    text
 }
 
 /// Dots and rings, in what stands out against the cells below them.
-fn dots(
-    map: &HeatMap,
-    layout: &Layout,
-    range: (f64, f64),
-    canvas: &Canvas<'_>,
-) -> Result<(), ChartError> {
+pub(super) fn dots(bar: &Bar, layout: &Layout, canvas: &Canvas) {
     const DOT: f64 = 1.6;
-    let frame = &layout.frame;
+    let (map, frame) = (&bar.map, &layout.frame);
     let below = |(x, y): Point| {
         let part =
             |value: f64, count: usize| ((value * count as f64) as usize).min(count.max(1) - 1);
         let column = part((x - frame.left) / frame.width(), map.columns);
         let row = part((frame.bottom - y) / frame.height(), map.rows);
-        let value = map
-            .values
-            .get(row * map.columns + column)
-            .copied()
-            .flatten();
-        value.map_or(FRAME, |value| contrast(map.level(value, range)))
+        let value = map.values.get(row * map.columns + column);
+        let value = value.copied().flatten();
+        value.map_or(FRAME, |value| contrast(map.level(value, bar.range)))
     };
     for at in map.points.iter().map(|&point| layout.px(point)) {
-        canvas.disc(at, DOT, below(at))?;
+        canvas.disc(at, DOT, below(at));
     }
     for at in map.rings.iter().map(|&point| layout.px(point)) {
-        canvas.circle(at, 0.6 * MARK_RING, MARK_STROKE, below(at))?;
+        canvas.circle(at, 0.6 * MARK_RING, MARK_STROKE, below(at));
     }
-    Ok(())
 }
 
 /// The mean over the values of a block of cells; `None` where all are blank.
@@ -405,25 +359,12 @@ fn block_mean(map: &HeatMap, block: usize, column: usize, row: usize) -> Option<
     (count > 0.0).then(|| sum / count)
 }
 
-/// The colours of the bar.
-fn strips(bar: &Rect) -> String {
-    let mut paths = Paths::new();
-    let y = |level: usize| bar.bottom - bar.height() * level as f64 / LEVELS as f64;
-    for level in 0..LEVELS {
-        let rect = Rect {
-            top: y(level + 1),
-            bottom: y(level),
-            ..*bar
-        };
-        paths.add(level, &rect);
-    }
-    paths.finish()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::chart::to_png;
+    use crate::report::chart::Size;
+    use crate::report::chart::draw::Arrangement;
+    use crate::report::chart::drawing::Shape;
 
     fn dome(columns: usize, rows: usize) -> HeatMap {
         let at = |i: usize, n: usize| 2.0 * (i as f64 + 0.5) / n as f64 - 1.0;
@@ -454,33 +395,48 @@ mod tests {
         }
     }
 
+    fn laid_out(map: HeatMap) -> Arrangement {
+        arrange(&to_scale(&Chart::from(map)).unwrap()).unwrap()
+    }
+
+    fn svg(map: &HeatMap) -> String {
+        Chart::from(map.clone()).draw().unwrap().to_svg()
+    }
+
+    /// The colours of the shapes that one of the functions of this file draws.
+    fn painted(map: &HeatMap, draw: impl Fn(&Bar, &Layout, &Canvas)) -> Vec<String> {
+        let Arrangement { layout, bar, .. } = laid_out(map.clone());
+        let canvas = Canvas::new(Size::default());
+        draw(&bar.unwrap(), &layout, &canvas);
+        let color = |shape: &Shape| match shape.paint {
+            Paint::Fill { color, .. } | Paint::Stroke { color, .. } => color,
+        };
+        let shapes = canvas.finish().unwrap();
+        let hex = |[red, green, blue]: [u8; 3]| format!("#{red:02x}{green:02x}{blue:02x}");
+        shapes.iter().map(|shape| hex(color(shape))).collect()
+    }
+
     #[test]
     fn lengths_are_to_one_scale_along_both_axes() {
-        let map = dome(20, 10);
-        let range = map.checked_range().unwrap();
-        let bar = Bar::new(&map, range).unwrap();
-        let (_, layout) = shaped(&map, map.chart(), &bar).unwrap();
-        let ratio = layout.frame.width() / layout.frame.height();
+        let frame = laid_out(dome(20, 10)).layout.frame;
+        let ratio = frame.width() / frame.height();
         // Whole pixels: one in 300.
         assert!((ratio - 2.0).abs() < 0.01, "{ratio}");
     }
 
     #[test]
     fn the_picture_is_small_and_has_neither_text_nor_references() {
-        let svg = heat_map_to_svg(&dome(128, 128), Letters::Outlines).unwrap();
+        let svg = svg(&dome(128, 128));
         assert!(svg.len() < 500_000, "{}", svg.len());
         for unwanted in ["<text", "href", "url(", "<image"] {
             assert!(!svg.contains(unwanted), "{unwanted}");
         }
         assert!(svg.contains("<title>pressure p / MPa over the surface</title>"));
-        assert!(to_png(&svg, 1.0).unwrap().starts_with(b"\x89PNG"));
+        let drawing = Chart::from(dome(128, 128)).draw().unwrap();
+        assert!(drawing.to_png(1.0).unwrap().starts_with(b"\x89PNG"));
         // A large grid is averaged over blocks, not drawn cell by cell.
-        assert!(
-            heat_map_to_svg(&dome(1024, 1024), Letters::Outlines)
-                .unwrap()
-                .len()
-                < 2_000_000
-        );
+        let large = Chart::from(dome(1024, 1024)).draw().unwrap();
+        assert!(large.to_svg().len() < 2_000_000);
     }
 
     #[test]
@@ -488,13 +444,16 @@ mod tests {
         let mut map = dome(2, 1);
         map.values = vec![Some(0.0), Some(8.0)];
         map.value_range = Some((0.0, 8.0));
-        let range = map.checked_range().unwrap();
-        let (_, layout) = shaped(&map, map.chart(), &Bar::new(&map, range).unwrap()).unwrap();
-        let painted = cells(&map, &layout, range);
-        assert_eq!(painted.matches("<path").count(), 2);
-        assert!(painted.contains("#440154") && painted.contains("#fde725"));
+        let of_cells = |map: &HeatMap| {
+            painted(map, |bar, layout, canvas| {
+                let mut boxes = Boxes::new();
+                cells(bar, layout, &mut boxes);
+                boxes.draw(canvas);
+            })
+        };
+        assert_eq!(of_cells(&map), ["#440154", "#fde725"]);
         map.values[0] = None;
-        assert_eq!(cells(&map, &layout, range).matches("<path").count(), 1);
+        assert_eq!(of_cells(&map), ["#fde725"]);
     }
 
     #[test]
@@ -504,25 +463,15 @@ mod tests {
         map.shape = MapShape::Turned;
         map.value_range = Some((0.0, 8.0));
         map.values = vec![None, Some(8.0), Some(8.0), Some(0.0), None];
-        let range = map.checked_range().unwrap();
-        let (_, layout) = shaped(&map, map.chart(), &Bar::new(&map, range).unwrap()).unwrap();
-        let drawn = discs(&map, &layout, range);
-        let fills: Vec<&str> = drawn
-            .split("fill=\"")
-            .skip(1)
-            .map(|part| &part[..7])
-            .collect();
-        assert_eq!(fills, ["#440154", "#fde725", "#ffffff"]);
-        let outermost = format!("r=\"{:.2}\"", 0.4 * layout.frame.width());
-        assert!(
-            drawn.lines().next().unwrap().contains(&outermost),
-            "{drawn}"
-        );
-        assert!(
-            heat_map_to_svg(&map, Letters::Outlines)
-                .unwrap()
-                .contains(&drawn)
-        );
+        assert_eq!(painted(&map, discs), ["#440154", "#fde725", "#ffffff"]);
+        let Arrangement { layout, bar, .. } = laid_out(map.clone());
+        let canvas = Canvas::new(Size::default());
+        discs(&bar.unwrap(), &layout, &canvas);
+        let outermost = canvas.finish().unwrap()[0].path.bounds().width();
+        let expected = 0.8 * layout.frame.width() * FINE;
+        // Single precision.
+        assert!((f64::from(outermost) - expected).abs() < 1e-2);
+        assert!(Chart::from(map).draw().is_ok());
     }
 
     #[test]
@@ -535,15 +484,14 @@ mod tests {
         let range = map.checked_range().unwrap();
         assert_eq!(range, (1.0, 100.0));
         assert_eq!(map.level(10.0, range), LEVELS / 2);
-        let bar = Bar::new(&map, range).unwrap();
-        let (chart, layout) = shaped(&map, map.chart(), &bar).unwrap();
-        assert_eq!(chart.size.height_px, 500);
+        assert_eq!(Chart::from(map.clone()).size.height_px, 500);
+        let layout = laid_out(map.clone()).layout;
         let middle = 0.5 * (layout.frame.left + layout.frame.right);
         assert!((layout.x.px(10.0) - middle).abs() < 1e-9); // rounding
-        assert!(heat_map_to_svg(&map, Letters::Outlines).is_ok());
+        assert!(Chart::from(map.clone()).draw().is_ok());
         map.values[1] = Some(0.0);
         assert!(matches!(
-            heat_map_to_svg(&map, Letters::Outlines),
+            Chart::from(map).draw(),
             Err(ChartError::Map { .. })
         ));
     }
@@ -553,25 +501,25 @@ mod tests {
         let mut short = dome(3, 3);
         short.values.pop();
         assert!(matches!(
-            heat_map_to_svg(&short, Letters::Outlines),
+            Chart::from(short).draw(),
             Err(ChartError::CellCount { found: 8, .. })
         ));
         let mut nan = dome(3, 3);
         nan.values[4] = Some(f64::NAN);
         assert!(matches!(
-            heat_map_to_svg(&nan, Letters::Outlines),
+            Chart::from(nan).draw(),
             Err(ChartError::NotFinite { .. })
         ));
         let mut blank = dome(3, 3);
         blank.values.fill(None);
         assert!(matches!(
-            heat_map_to_svg(&blank, Letters::Outlines),
+            Chart::from(blank).draw(),
             Err(ChartError::Map { .. })
         ));
         let mut upside_down = dome(3, 3);
         upside_down.value_range = Some((1.0, 0.0));
         assert!(matches!(
-            heat_map_to_svg(&upside_down, Letters::Outlines),
+            Chart::from(upside_down).draw(),
             Err(ChartError::Map { .. })
         ));
     }

@@ -1,6 +1,6 @@
 //! Where frame, ticks and labels go, from the measured sizes of all text.
 
-use super::canvas::{Anchor, Direction};
+use super::canvas::{Direction, HPos};
 use super::check::{empty, mark_name};
 use super::geometry::{Point, Rect};
 use super::look::*;
@@ -10,7 +10,6 @@ use super::ticks::{self, Tick, Ticks};
 use super::{AxisName, Chart, ChartError, Mark, MarkPlace, Scale, Series};
 
 /// The frame with its axes, and the texts around it.
-#[derive(Debug)]
 pub(super) struct Layout {
     pub(super) frame: Rect,
     pub(super) x: AxisMap,
@@ -27,12 +26,11 @@ impl Layout {
     }
 }
 
-#[derive(Debug)]
 pub(super) struct PlacedText {
     pub(super) text: String,
     pub(super) at: Point,
     pub(super) size: f64,
-    pub(super) hold: (Anchor, Direction),
+    pub(super) hold: (HPos, Direction),
 }
 
 /// Room kept free outside the frame, for a legend above or at the right, or to line frames up.
@@ -237,65 +235,44 @@ fn texts(
     frame: &Rect,
     (height, reserve): (f64, Reserve),
 ) -> Vec<PlacedText> {
-    // A text too long for its side is set smaller rather than cut off.
-    let fitted = |size: f64, width_em: f64, room: f64| {
-        if width_em * size > room {
+    // About the middle of its side of the frame, but within these ends; too long for them, set smaller rather than cut off.
+    let placed = |text: &String, size: f64, width_em: f64, side: (f64, f64), ends: (f64, f64)| {
+        let room = ends.1 - ends.0;
+        let size = if width_em * size > room {
             room / width_em
         } else {
             size
-        }
+        };
+        let half = width_em * size / 2.0;
+        let middle = (side.0 + side.1) / 2.0;
+        let middle = middle.min(ends.1 - half).max(ends.0 + half);
+        (text.clone(), size, middle)
     };
+    let across = ((frame.left, frame.right), (MARGIN, frame.right));
     // A legend above may begin as far left as the label of y stands.
     let y_from = if reserve.top > 0.0 { frame.top } else { MARGIN };
-    let (full_width, full_height) = (frame.right - MARGIN, height - MARGIN - y_from);
-    let x_size = fitted(LABEL_TEXT, widths.x_label, full_width);
-    let y_size = fitted(LABEL_TEXT, widths.y_label, full_height);
-    let middle = |center: f64, length: f64, low: f64, high: f64| {
-        center.min(high - length / 2.0).max(low + length / 2.0)
+    let upwards = ((frame.top, frame.bottom), (y_from, height - MARGIN));
+    let level = |(text, size, x): (String, f64, f64), y: f64| PlacedText {
+        text,
+        at: (x, y),
+        size,
+        hold: (HPos::Center, Direction::Level),
     };
-    let x_center = middle(
-        (frame.left + frame.right) / 2.0,
-        widths.x_label * x_size,
-        MARGIN,
-        MARGIN + full_width,
-    );
-    let y_center = middle(
-        (frame.top + frame.bottom) / 2.0,
-        widths.y_label * y_size,
-        y_from,
-        y_from + full_height,
-    );
-    let mut texts = vec![
-        PlacedText {
-            text: chart.x.label.clone(),
-            at: (x_center, height - MARGIN - LABEL_TEXT * DESCENT_EM),
-            size: x_size,
-            hold: (Anchor::Middle, Direction::Level),
-        },
-        PlacedText {
-            text: chart.y.label.clone(),
-            at: (MARGIN + LABEL_TEXT * ASCENT_EM, y_center),
-            size: y_size,
-            hold: (Anchor::Middle, Direction::Upwards),
-        },
-    ];
-    if let Some(title) = &chart.title {
-        let size = fitted(TITLE_TEXT, widths.title, full_width);
-        let center = middle(
-            (frame.left + frame.right) / 2.0,
-            widths.title * size,
-            MARGIN,
-            MARGIN + full_width,
-        );
-        let at = (center, MARGIN + TITLE_TEXT * ASCENT_EM);
-        texts.push(PlacedText {
-            text: title.clone(),
-            at,
-            size,
-            hold: (Anchor::Middle, Direction::Level),
-        });
-    }
-    texts
+    let (x, y) = (&chart.x.label, &chart.y.label);
+    let x = placed(x, LABEL_TEXT, widths.x_label, across.0, across.1);
+    let (text, size, center) = placed(y, LABEL_TEXT, widths.y_label, upwards.0, upwards.1);
+    let y = PlacedText {
+        text,
+        at: (MARGIN + LABEL_TEXT * ASCENT_EM, center),
+        size,
+        hold: (HPos::Center, Direction::Upwards),
+    };
+    let title = chart.title.as_ref().map(|title| {
+        let placed = placed(title, TITLE_TEXT, widths.title, across.0, across.1);
+        level(placed, MARGIN + TITLE_TEXT * ASCENT_EM)
+    });
+    let x = level(x, height - MARGIN - LABEL_TEXT * DESCENT_EM);
+    [x, y].into_iter().chain(title).collect()
 }
 
 /// The ranges of both axes: those given, otherwise from the data and marks.
@@ -360,7 +337,7 @@ fn extents(chart: &Chart) -> Result<(Extent, Extent), ChartError> {
             series.fill_to.iter().for_each(|&base| ys.add(base));
         }
     }
-    if xs.least > xs.greatest {
+    if xs.least > xs.greatest && chart.map.is_none() {
         return Err(empty(chart));
     }
     for mark in &chart.marks {

@@ -1,20 +1,27 @@
 //! A chart described as plain data: axes, series, marks and a legend.
 //!
 //! A figure says what is to be seen; where the ticks, the legend and the labels go is decided here. The caller passes
-//! data already scaled to the unit named in the axis label. [`to_svg`] gives the finished picture as SVG whose text is
-//! outlines (it needs no font), [`to_png`] the same picture in pixels, [`to_pdf`] as a page.
+//! data already scaled to the unit named in the axis label. [`Chart::draw`] gives the finished picture as a [`Drawing`], which
+//! writes itself as SVG whose text is outlines (it needs no font), in pixels, as a page of a PDF or as an element of HTML.
+//!
+//! Plotters draws, in four kinds of shapes: lines, polygons, circles, texts. Layout, ticks and legend are our own, because its
+//! coordinates are whole numbers (so it draws sixteen times as large), because it moves what lies outside to the edge in place of
+//! cutting it there (so lines are cut to the frame before), and because it guesses the width of a text from its bytes (so texts
+//! are measured as they are set).
 //!
 //! ```
-//! use contact_dma::report::chart::{Axis, Chart, Mark, Marker, Series, to_png, to_svg};
+//! use contact_dma::report::chart::{Axis, Chart, Mark, Marker, Series};
 //!
 //! let losses = [(1e-3, 0.4), (1e-2, 1.7), (1e-1, 0.6)];
 //! let chart = Chart::new(Axis::log("angular frequency ω / rad·s⁻¹"), Axis::linear("energy loss W / µJ"))
 //!     .series(Series::line(losses).marker(Marker::Disc))
 //!     .mark(Mark::point(1e-2, 1.7, "ω = 10⁻² rad/s"));
-//! let svg = to_svg(&chart)?;
-//! let png = to_png(&svg, 2.0)?;
+//! let drawing = chart.draw()?;
+//! let (svg, png) = (drawing.to_svg(), drawing.to_png(2.0)?);
 //! # Ok::<(), contact_dma::report::chart::ChartError>(())
 //! ```
+
+use std::sync::Arc;
 
 mod canvas;
 mod check;
@@ -23,6 +30,7 @@ mod color_map;
 mod contour;
 mod curves;
 mod draw;
+mod drawing;
 mod error;
 mod fitting;
 mod geometry;
@@ -32,25 +40,20 @@ mod legend;
 mod look;
 mod marker;
 mod palette;
-mod paper;
 mod pdf;
 mod place;
 mod render;
 mod scale;
-mod stack;
 mod stroke;
 mod text;
 mod ticks;
-mod turned;
 
+pub use draw::stack;
+pub use drawing::Drawing;
 pub use error::{AxisName, ChartError};
 pub use fitting::{fits, fitting_height_px};
-pub use heat_map::{HeatMap, MapShape, heat_map_to_svg};
+pub use heat_map::{HeatMap, MapShape};
 pub use palette::Color;
-pub use paper::{described, on_paper};
-pub use pdf::to_pdf;
-pub use render::{Letters, to_png, to_png_at, to_svg, to_svg_with};
-pub use stack::stack_to_svg;
 
 /// A chart: what is drawn against which axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -59,6 +62,8 @@ pub struct Chart {
     pub title: Option<String>,
     pub x: Axis,
     pub y: Axis,
+    /// Drawn below everything else, in place of a grid.
+    pub map: Option<Arc<HeatMap>>,
     /// Drawn in this order, later ones on top.
     pub series: Vec<Series>,
     pub marks: Vec<Mark>,
@@ -74,6 +79,7 @@ impl Chart {
             title: None,
             x,
             y,
+            map: None,
             series: Vec::new(),
             marks: Vec::new(),
             legend: Some(LegendPlace::Auto),

@@ -1,54 +1,94 @@
-//! The finished picture as PDF: one page of the size that the picture has on paper, lines as lines, and text as text that can be
-//! searched and copied where the SVG was asked for with its letters as [`Letters::Text`](super::Letters::Text).
-//!
-//! krilla writes the PDF, and embeds of the font what is used. Its own reader of SVG is bound to an older usvg than that of the
-//! PNG and brings readers of pictures along; what these pictures are made of, flat colours and lines, is quickly walked.
+//! The picture as PDF: one page of the size that the picture has on paper, lines as lines, and text as text that can be searched
+//! and copied. krilla writes the PDF, and embeds of the font what is used.
 
 use std::sync::OnceLock;
 
-use krilla::color::{luma, rgb};
-use krilla::geom::{Path, PathBuilder, Point, Transform};
+use krilla::Document;
+use krilla::color::{Color, luma, rgb};
+use krilla::geom::{PathBuilder, Point, Transform};
 use krilla::metadata::Metadata;
 use krilla::num::NormalizedF32;
 use krilla::page::PageSettings;
-use krilla::paint::{Fill, FillRule, LineCap, LineJoin, Paint, Stroke, StrokeDash};
+use krilla::paint::{Fill, LineCap, LineJoin, Stroke};
 use krilla::surface::Surface;
 use krilla::text::{Font, GlyphId, KrillaGlyph};
-use krilla::{Document, color};
-use resvg::tiny_skia::PathSegment;
-use resvg::usvg::{self, roxmltree};
+use resvg::tiny_skia::{Path, PathSegment};
+use resvg::usvg;
 
 use super::ChartError;
-use super::text::{FONT, options};
+use super::drawing::{Drawing, FINE, PROGRAM, Paint, Paper, Shape};
+use super::text::FONT;
 
 /// PDF counts in points, 72 to an inch, SVG in px, 96 to an inch.
-const POINTS_PER_PX: f32 = 0.75;
-/// A box meant to have crisp edges, such as a cell of a map, is drawn so much (px) wider: viewers soften every edge, and between
-/// two boxes that only touch the paper would shine through.
-const SEAM: f32 = 0.5;
+const POINTS_PER_PX: f64 = 0.75;
+const POINTS_PER_MM: f64 = 72.0 / 25.4;
+/// A shape with crisp edges, such as a cell of a map, is drawn so much wider (sixteenths of a px): viewers soften every edge, and
+/// between two boxes that only touch the paper would shine through.
+const SEAM: f32 = 8.0;
+/// What opens the last lines of every PDF.
+const PDF_END: &[u8] = b"startxref";
 
-/// The SVG of [`super::to_svg`] and its like as PDF. The same picture gives the same bytes: there is no date in it. Title and
-/// description of the SVG are those of the document.
-///
-/// # Errors
-/// [`ChartError::Svg`] where the text is no SVG, [`ChartError::Pdf`] where it has what no chart has, such as a gradient.
-pub fn to_pdf(svg: &str) -> Result<Vec<u8>, ChartError> {
-    let xml = roxmltree::Document::parse(svg).map_err(usvg::Error::ParsingFailed)?;
-    let tree = usvg::Tree::from_xmltree(&xml, &options())?;
-    let points = |px: f32| px * POINTS_PER_PX;
-    let page = PageSettings::from_wh(points(tree.size().width()), points(tree.size().height()))
-        .ok_or_else(|| failed("the picture has no size"))?;
-    let mut document = Document::new();
-    let mut sheet = document.start_page_with(page);
-    let mut surface = sheet.surface();
-    surface.push_transform(&Transform::from_scale(POINTS_PER_PX, POINTS_PER_PX));
-    let drawn = group(tree.root(), &mut surface);
-    surface.pop();
-    surface.finish();
-    sheet.finish();
-    drawn?;
-    document.set_metadata(words(&xml));
-    document.finish().map_err(failed)
+impl Drawing {
+    /// The picture as PDF. The same picture gives the same bytes: there is no date in it. Title and description are those of the
+    /// document.
+    ///
+    /// # Errors
+    /// [`ChartError::Pdf`] where krilla refuses it.
+    pub fn to_pdf(&self) -> Result<Vec<u8>, ChartError> {
+        let (width_px, height_px) = (self.size.width_px, self.size.height_px);
+        let (width, height, points_per_px) = match self.paper {
+            None => (
+                f64::from(width_px) * POINTS_PER_PX,
+                f64::from(height_px) * POINTS_PER_PX,
+                POINTS_PER_PX,
+            ),
+            Some(Paper {
+                width_mm,
+                height_mm,
+                px_mm,
+            }) => (
+                width_mm * POINTS_PER_MM,
+                height_mm * POINTS_PER_MM,
+                px_mm * POINTS_PER_MM,
+            ),
+        };
+        let page = PageSettings::from_wh(width as f32, height as f32)
+            .ok_or_else(|| failed("the picture has no size"))?;
+        let mut document = Document::new();
+        let mut sheet = document.start_page_with(page);
+        let mut surface = sheet.surface();
+        let scale = (points_per_px / FINE) as f32;
+        let drawn = self.charts.iter().try_for_each(|(top_px, shapes)| {
+            let top = f64::from(*top_px) * points_per_px;
+            let placed = Transform::from_row(scale, 0.0, 0.0, scale, 0.0, top as f32);
+            surface.push_transform(&placed);
+            let drawn = shapes
+                .iter()
+                .try_for_each(|shape| draw(shape, &mut surface));
+            surface.pop();
+            drawn
+        });
+        surface.finish();
+        sheet.finish();
+        drawn?;
+        let description = self.description.clone().unwrap_or_default();
+        let metadata = Metadata::new()
+            .title(self.title.clone())
+            .description(description)
+            .creator(env!("CARGO_PKG_NAME").to_owned());
+        document.set_metadata(metadata);
+        Ok(self.stamp_pdf(document.finish().map_err(failed)?))
+    }
+
+    /// The comment goes behind the trailer, where no offset of the file counts past it.
+    fn stamp_pdf(&self, mut bytes: Vec<u8>) -> Vec<u8> {
+        let end = bytes.windows(PDF_END.len()).rposition(|w| w == PDF_END);
+        if let (Some(hash), Some(end)) = (&self.sweep_hash, end) {
+            let comment = format!("% {PROGRAM}, sweep sha256 {hash}\n");
+            bytes.splice(end..end, comment.into_bytes());
+        }
+        bytes
+    }
 }
 
 fn failed(reason: impl ToString) -> ChartError {
@@ -57,77 +97,65 @@ fn failed(reason: impl ToString) -> ChartError {
     }
 }
 
-/// What the picture says of itself.
-fn words(xml: &roxmltree::Document<'_>) -> Metadata {
-    let text = |name: &str| {
-        let mut parts = xml.root_element().children();
-        let part = parts.find(|node| node.tag_name().name() == name);
-        part.and_then(|node| node.text())
-            .unwrap_or_default()
-            .to_owned()
+fn draw(shape: &Shape, surface: &mut Surface<'_>) -> Result<(), ChartError> {
+    let (fill, stroke) = match shape.paint {
+        Paint::Fill {
+            color,
+            opacity,
+            crisp,
+        } => {
+            let fill = Fill {
+                paint: flat(color).into(),
+                opacity: NormalizedF32::new(opacity as f32).unwrap_or(NormalizedF32::ONE),
+                ..Fill::default()
+            };
+            let seam = crisp.then(|| Stroke {
+                paint: fill.paint.clone(),
+                width: SEAM,
+                ..Stroke::default()
+            });
+            (Some(fill), seam)
+        }
+        Paint::Stroke {
+            color,
+            width,
+            round_ends,
+        } => {
+            let stroke = Stroke {
+                paint: flat(color).into(),
+                width: width as f32,
+                line_join: LineJoin::Round,
+                line_cap: match round_ends {
+                    true => LineCap::Round,
+                    false => LineCap::Butt,
+                },
+                ..Stroke::default()
+            };
+            (None, Some(stroke))
+        }
     };
-    Metadata::new()
-        .title(text("title"))
-        .description(text("desc"))
-        .creator(env!("CARGO_PKG_NAME").to_owned())
-}
-
-fn group(group: &usvg::Group, surface: &mut Surface<'_>) -> Result<(), ChartError> {
-    let plain = group.clip_path().is_none()
-        && group.mask().is_none()
-        && group.filters().is_empty()
-        && group.blend_mode() == usvg::BlendMode::Normal;
-    if !plain {
-        return Err(failed("it has a mask, a filter or a clipped part"));
+    if let (Some(text), Some(fill)) = (&shape.text, &fill) {
+        return lines_of_text(text, shape.turned(), fill, surface);
     }
-    surface.push_transform(&transform(group.transform()));
-    let opacity = group.opacity();
-    let translucent = opacity != usvg::Opacity::ONE;
-    if translucent {
-        surface.push_opacity(part(opacity));
-        surface.push_isolated();
-    }
-    let drawn = group.children().iter().try_for_each(|node| match node {
-        usvg::Node::Group(group) => self::group(group, surface),
-        usvg::Node::Path(path) => outline(path, surface),
-        usvg::Node::Text(text) => lines_of_text(text, surface),
-        usvg::Node::Image(_) => Err(failed("it holds another picture")),
-    });
-    if translucent {
-        surface.pop();
-        surface.pop();
-    }
-    surface.pop();
-    drawn
-}
-
-fn outline(path: &usvg::Path, surface: &mut Surface<'_>) -> Result<(), ChartError> {
-    let mut stroke = path.stroke().map(self::stroke).transpose()?;
-    let fill = path.fill().map(self::fill).transpose()?;
-    if let (None, Some(fill), usvg::ShapeRendering::CrispEdges) =
-        (&stroke, &fill, path.rendering_mode())
-    {
-        stroke = Some(Stroke {
-            paint: fill.paint.clone(),
-            width: SEAM,
-            opacity: fill.opacity,
-            ..Stroke::default()
-        });
-    }
-    if path.is_visible()
-        && (fill.is_some() || stroke.is_some())
-        && let Some(shape) = shape(path)
-    {
-        surface.set_fill(fill);
-        surface.set_stroke(stroke);
-        surface.draw_path(&shape);
+    surface.set_fill(fill);
+    surface.set_stroke(stroke);
+    if let Some(path) = copied(&shape.path) {
+        surface.draw_path(&path);
     }
     Ok(())
 }
 
-fn shape(path: &usvg::Path) -> Option<Path> {
+/// Greys are told as greys, so that a printer mixes no inks for them.
+fn flat([red, green, blue]: [u8; 3]) -> Color {
+    match red == green && green == blue {
+        true => luma::Color::new(red).into(),
+        false => rgb::Color::new(red, green, blue).into(),
+    }
+}
+
+fn copied(path: &Path) -> Option<krilla::geom::Path> {
     let mut builder = PathBuilder::new();
-    for segment in path.data().segments() {
+    for segment in path.segments() {
         match segment {
             PathSegment::MoveTo(to) => builder.move_to(to.x, to.y),
             PathSegment::LineTo(to) => builder.line_to(to.x, to.y),
@@ -140,7 +168,12 @@ fn shape(path: &usvg::Path) -> Option<Path> {
 }
 
 /// Every run of text as one line of glyphs, each where usvg put it.
-fn lines_of_text(text: &usvg::Text, surface: &mut Surface<'_>) -> Result<(), ChartError> {
+fn lines_of_text(
+    text: &usvg::Text,
+    turned: usvg::Transform,
+    fill: &Fill,
+    surface: &mut Surface<'_>,
+) -> Result<(), ChartError> {
     let font = font()?;
     for span in text.layouted().iter().filter(|span| span.visible) {
         let size = span.font_size.get();
@@ -174,9 +207,9 @@ fn lines_of_text(text: &usvg::Text, surface: &mut Surface<'_>) -> Result<(), Cha
             let range = from..letters.len();
             glyphs.push(KrillaGlyph::new(id, next - x, 0.0, -y, 0.0, range, None));
         }
-        surface.push_transform(&transform(first));
-        surface.set_fill(span.fill.as_ref().map(fill).transpose()?);
-        surface.set_stroke(span.stroke.as_ref().map(stroke).transpose()?);
+        surface.push_transform(&transform(turned.pre_concat(first)));
+        surface.set_fill(Some(fill.clone()));
+        surface.set_stroke(None);
         surface.draw_glyphs(
             Point::from_xy(0.0, 0.0),
             &glyphs,
@@ -198,55 +231,6 @@ fn font() -> Result<&'static Font, ChartError> {
         .ok_or_else(|| failed("its font cannot be read"))
 }
 
-fn fill(fill: &usvg::Fill) -> Result<Fill, ChartError> {
-    Ok(Fill {
-        paint: paint(fill.paint())?,
-        opacity: part(fill.opacity()),
-        rule: match fill.rule() {
-            usvg::FillRule::NonZero => FillRule::NonZero,
-            usvg::FillRule::EvenOdd => FillRule::EvenOdd,
-        },
-    })
-}
-
-fn stroke(stroke: &usvg::Stroke) -> Result<Stroke, ChartError> {
-    Ok(Stroke {
-        paint: paint(stroke.paint())?,
-        width: stroke.width().get(),
-        miter_limit: stroke.miterlimit().get(),
-        line_cap: match stroke.linecap() {
-            usvg::LineCap::Butt => LineCap::Butt,
-            usvg::LineCap::Round => LineCap::Round,
-            usvg::LineCap::Square => LineCap::Square,
-        },
-        line_join: match stroke.linejoin() {
-            usvg::LineJoin::Round => LineJoin::Round,
-            usvg::LineJoin::Bevel => LineJoin::Bevel,
-            usvg::LineJoin::Miter | usvg::LineJoin::MiterClip => LineJoin::Miter,
-        },
-        opacity: part(stroke.opacity()),
-        dash: stroke.dasharray().map(|lengths| StrokeDash {
-            array: lengths.to_vec(),
-            offset: stroke.dashoffset(),
-        }),
-    })
-}
-
-/// A flat colour; greys are told as greys, so that a printer mixes no inks for them.
-fn paint(paint: &usvg::Paint) -> Result<Paint, ChartError> {
-    let usvg::Paint::Color(usvg::Color { red, green, blue }) = *paint else {
-        return Err(failed("it has a gradient or a pattern"));
-    };
-    Ok(match red == green && green == blue {
-        true => color::Color::from(luma::Color::new(red)).into(),
-        false => color::Color::from(rgb::Color::new(red, green, blue)).into(),
-    })
-}
-
-fn part(opacity: usvg::Opacity) -> NormalizedF32 {
-    NormalizedF32::new(opacity.get()).unwrap_or(NormalizedF32::ONE)
-}
-
 fn transform(transform: usvg::Transform) -> Transform {
     let usvg::Transform {
         sx,
@@ -261,10 +245,7 @@ fn transform(transform: usvg::Transform) -> Transform {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::report::chart::{
-        Axis, Chart, Letters, Series, described, on_paper, to_svg, to_svg_with,
-    };
+    use crate::report::chart::{Axis, Chart, Series};
 
     fn chart() -> Chart {
         let line = Series::line([(0.0, 0.0), (1.0, 1.0)]).fill_to(0.0);
@@ -276,16 +257,16 @@ mod tests {
         .size(481, 361)
     }
 
-    fn pdf(letters: Letters) -> String {
-        let svg = to_svg_with(&chart(), letters).unwrap();
-        let svg = on_paper(&svg, 85.0, Some(63.75), 0.176_388_9).unwrap();
-        let bytes = to_pdf(&described(&svg, "A line < a curve")).unwrap();
+    fn pdf() -> String {
+        let drawing = chart().draw().unwrap();
+        let drawing = drawing.on_paper(85.0, Some(63.75), 0.176_388_9);
+        let bytes = drawing.described("A line < a curve").to_pdf().unwrap();
         String::from_utf8_lossy(&bytes).into_owned()
     }
 
     #[test]
     fn the_page_has_the_millimetres_of_the_picture() {
-        let text = pdf(Letters::Text);
+        let text = pdf();
         assert!(text.starts_with("%PDF-1.") && text.trim_end().ends_with("%%EOF"));
         assert_eq!(text.matches("/Type/Page/").count(), 1);
         let sides = text
@@ -303,27 +284,16 @@ mod tests {
     }
 
     #[test]
-    fn text_has_its_font_and_outlines_need_none() {
-        let text = pdf(Letters::Text);
+    fn text_has_its_font_and_the_document_its_words() {
+        let text = pdf();
         assert!(text.contains("DejaVuSans") && text.contains("/ToUnicode"));
-        assert!(!pdf(Letters::Outlines).contains("/Font<<"));
         assert!(text.contains("/Title") && text.contains("/Subject"));
     }
 
     #[test]
     fn the_same_picture_gives_the_same_bytes_without_a_date() {
-        let text = pdf(Letters::Text);
-        assert_eq!(text, pdf(Letters::Text));
+        let text = pdf();
+        assert_eq!(text, pdf());
         assert!(!text.contains("Date"));
-    }
-
-    #[test]
-    fn what_no_chart_has_is_refused_and_no_svg_too() {
-        let gradient = r##"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><linearGradient id="g"><stop offset="0" stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient><rect width="9" height="9" fill="url(#g)"/></svg>"##;
-        let error = to_pdf(gradient).unwrap_err().to_string();
-        assert!(error.contains("gradient"), "{error}");
-        assert!(matches!(to_pdf("no svg"), Err(ChartError::Svg(_))));
-        // Outlines of the same chart are fine.
-        assert!(to_pdf(&to_svg(&chart()).unwrap()).is_ok());
     }
 }

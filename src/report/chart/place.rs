@@ -80,6 +80,17 @@ struct Candidate {
     cost: f64,
 }
 
+impl Candidate {
+    fn at(corner: Point, (width, height): (f64, f64), cost: f64) -> Self {
+        Self {
+            rect: Rect::at(corner.0, corner.1, width, height),
+            anchor: None,
+            leader: None,
+            cost,
+        }
+    }
+}
+
 fn about_point(center: Point, (width, height): (f64, f64)) -> Vec<Candidate> {
     let mut all = Vec::new();
     for reach in [
@@ -95,17 +106,10 @@ fn about_point(center: Point, (width, height): (f64, f64)) -> Vec<Candidate> {
             );
             // Above is where a peak's label is looked for, the right where one reads on.
             let bias = 5.0 * (1.0 - sin) + 2.0 * (1.0 - cos);
-            let rect = Rect::at(
-                middle.0 - width / 2.0,
-                middle.1 - height / 2.0,
-                width,
-                height,
-            );
+            let corner = (middle.0 - width / 2.0, middle.1 - height / 2.0);
             all.push(Candidate {
-                rect,
                 anchor: Some(center),
-                leader: None,
-                cost: 0.35 * reach + bias,
+                ..Candidate::at(corner, (width, height), 0.35 * reach + bias)
             });
         }
     }
@@ -119,12 +123,7 @@ fn along_vertical(x: f64, inner: &Rect, (width, height): (f64, f64)) -> Vec<Cand
         let top = inner.top + 4.0 + 12.0 * row as f64;
         for (left, bias) in [(x + 4.0, 0.0), (x - 4.0 - width, 1.0)] {
             let cost = 0.5 * row as f64 + bias;
-            all.push(Candidate {
-                rect: Rect::at(left, top, width, height),
-                anchor: None,
-                leader: None,
-                cost,
-            });
+            all.push(Candidate::at((left, top), (width, height), cost));
         }
     }
     all
@@ -137,12 +136,7 @@ fn along_horizontal(y: f64, inner: &Rect, (width, height): (f64, f64)) -> Vec<Ca
         let left = inner.right - 4.0 - width - 16.0 * column as f64;
         for (top, bias) in [(y - 3.5 - height, 0.0), (y + 3.5, 1.0)] {
             let cost = 0.5 * column as f64 + bias;
-            all.push(Candidate {
-                rect: Rect::at(left, top, width, height),
-                anchor: None,
-                leader: None,
-                cost,
-            });
+            all.push(Candidate::at((left, top), (width, height), cost));
         }
     }
     all

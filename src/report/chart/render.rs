@@ -1,75 +1,77 @@
-//! The finished picture: SVG whose text is outlines, and PNG made from that SVG.
+//! The picture as PNG, made from its SVG.
 //!
 //! Nothing depends on the machine: the only font is the embedded one, and the same chart gives the same bytes.
 
 use resvg::{tiny_skia, usvg};
 
-use super::check::subject;
-use super::draw::draw;
-use super::paper;
-use super::text::{escaped, options};
-use super::{Chart, ChartError, Size};
+use super::ChartError;
+use super::drawing::{Drawing, PROGRAM};
+use super::text::options;
 
-/// The chart as SVG that needs no font and refers to no other file.
-///
-/// # Errors
-/// [`ChartError`] where the chart has no point, or a value, text or range that cannot be drawn.
-pub fn to_svg(chart: &Chart) -> Result<String, ChartError> {
-    to_svg_with(chart, Letters::Outlines)
+/// CSS and SVG count so many px to an inch.
+const PX_PER_INCH: f32 = 96.0;
+const LARGEST_PIXELS: u32 = 32_768;
+
+impl Drawing {
+    /// The picture as PNG on white; at `scale` 1 one pixel per px, at 2 two in each direction.
+    ///
+    /// # Errors
+    /// [`ChartError`] where the scale gives no picture.
+    pub fn to_png(&self, scale: f32) -> Result<Vec<u8>, ChartError> {
+        self.png(scale, None)
+    }
+
+    /// The picture as PNG on white, so many pixels to an inch of its size on paper, which the PNG says.
+    ///
+    /// # Errors
+    /// As [`Drawing::to_png`].
+    pub fn to_png_at(&self, dpi: usize) -> Result<Vec<u8>, ChartError> {
+        let pixels_per_metre = (dpi as f64 / 0.0254).round() as u32;
+        self.png(dpi as f32 / PX_PER_INCH, Some(pixels_per_metre))
+    }
+
+    fn png(&self, scale: f32, pixels_per_metre: Option<u32>) -> Result<Vec<u8>, ChartError> {
+        let picture = pixels(&self.to_svg(), scale)?;
+        self.encode(&picture, pixels_per_metre)
+            .map_err(|error| ChartError::Encode {
+                reason: error.to_string(),
+            })
+    }
+
+    /// The pixels as PNG without transparency: the picture stands on white. Fast compression takes a tenth of the time of the
+    /// thorough one, which used to be most of the time of a whole sweep.
+    fn encode(
+        &self,
+        picture: &tiny_skia::Pixmap,
+        pixels_per_metre: Option<u32>,
+    ) -> Result<Vec<u8>, png::EncodingError> {
+        let opaque: Vec<u8> = picture
+            .pixels()
+            .iter()
+            .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
+            .collect();
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        encoder.set_compression(png::Compression::Fast);
+        encoder.set_pixel_dims(pixels_per_metre.map(|count| png::PixelDimensions {
+            xppu: count,
+            yppu: count,
+            unit: png::Unit::Meter,
+        }));
+        if let Some(hash) = &self.sweep_hash {
+            encoder.add_text_chunk("Software".to_owned(), PROGRAM.to_owned())?;
+            encoder.add_text_chunk("Source".to_owned(), format!("sweep sha256 {hash}"))?;
+        }
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&opaque)?;
+        writer.finish()?;
+        Ok(bytes)
+    }
 }
 
-/// What the letters of a picture are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Letters {
-    /// Shapes: the picture looks the same everywhere.
-    Outlines,
-    /// Text in the embedded font, on its way into a file that brings the font along.
-    Text,
-}
-
-/// The chart as SVG with its letters as outlines or as text.
-///
-/// # Errors
-/// As [`to_svg`].
-pub fn to_svg_with(chart: &Chart, letters: Letters) -> Result<String, ChartError> {
-    finished(&draw(chart, 0.0)?, chart.size, &subject(chart), letters)
-}
-
-/// A drawing of this size under a title.
-pub(super) fn finished(
-    drawn: &str,
-    size: Size,
-    title: &str,
-    letters: Letters,
-) -> Result<String, ChartError> {
-    let tree = usvg::Tree::from_str(drawn, &options())?;
-    let written = tree.to_string(&usvg::WriteOptions {
-        preserve_text: letters == Letters::Text,
-        // Coordinates are in sixteenths of a px: two places are far below what can be seen.
-        coordinates_precision: 2,
-        indent: usvg::Indent::Spaces(1),
-        ..usvg::WriteOptions::default()
-    });
-    headed(&written, size, title)
-}
-
-/// The SVG from [`to_svg`] as PNG on white; at `scale` 1 one pixel per px, at 2 two in each direction.
-///
-/// # Errors
-/// [`ChartError`] where the text is no SVG or the scale gives no picture.
-pub fn to_png(svg: &str, scale: f32) -> Result<Vec<u8>, ChartError> {
-    png(svg, scale, None)
-}
-
-/// The SVG as PNG on white, so many pixels to an inch of its size on paper, which the PNG says.
-///
-/// # Errors
-/// As [`to_png`].
-pub fn to_png_at(svg: &str, dpi: usize) -> Result<Vec<u8>, ChartError> {
-    png(svg, paper::scale(dpi), Some(paper::pixels_per_metre(dpi)))
-}
-
-fn png(svg: &str, scale: f32, pixels_per_metre: Option<u32>) -> Result<Vec<u8>, ChartError> {
+fn pixels(svg: &str, scale: f32) -> Result<tiny_skia::Pixmap, ChartError> {
     if !(scale.is_finite() && scale > 0.0) {
         return Err(ChartError::PixelScale {
             scale,
@@ -94,64 +96,13 @@ fn png(svg: &str, scale: f32, pixels_per_metre: Option<u32>) -> Result<Vec<u8>, 
         height as f32 / size.height(),
     );
     resvg::render(&tree, stretch, &mut picture.as_mut());
-    encode(&picture, pixels_per_metre).map_err(|error| ChartError::Encode {
-        reason: error.to_string(),
-    })
-}
-
-/// The pixels as PNG without transparency: the picture stands on white. Fast compression takes a tenth of the time of the
-/// thorough one, which used to be most of the time of a whole sweep.
-fn encode(
-    picture: &tiny_skia::Pixmap,
-    pixels_per_metre: Option<u32>,
-) -> Result<Vec<u8>, png::EncodingError> {
-    let opaque: Vec<u8> = picture
-        .pixels()
-        .iter()
-        .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
-        .collect();
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_compression(png::Compression::Fast);
-    encoder.set_pixel_dims(pixels_per_metre.map(|count| png::PixelDimensions {
-        xppu: count,
-        yppu: count,
-        unit: png::Unit::Meter,
-    }));
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&opaque)?;
-    writer.finish()?;
-    Ok(bytes)
-}
-
-const LARGEST_PIXELS: u32 = 32_768;
-
-/// Puts into the root what usvg leaves out: the view box, so that a page can scale the picture, and a title, which
-/// browsers show and screen readers read.
-fn headed(written: &str, size: Size, title: &str) -> Result<String, ChartError> {
-    let body = written
-        .strip_prefix("<svg ")
-        .and_then(|rest| rest.split_once('>'))
-        .ok_or_else(|| ChartError::Draw {
-            reason: "usvg wrote no <svg> element".to_owned(),
-        })?;
-    let (attributes, content) = body;
-    let view_box = format!(
-        "viewBox=\"0 0 {} {}\" role=\"img\"",
-        size.width_px, size.height_px
-    );
-    Ok(format!(
-        "<svg {attributes} {view_box}>\n <title>{}</title>{content}",
-        escaped(title)
-    ))
+    Ok(picture)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::chart::{Axis, LegendPlace, LineStyle, Mark, Marker, Series};
+    use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Mark, Marker, Series};
 
     fn chart() -> Chart {
         let points = (0..41).map(|k| {
@@ -199,7 +150,7 @@ mod tests {
     #[test]
     fn svg_has_no_text_and_refers_to_nothing_outside() {
         for chart in [chart(), everything()] {
-            let svg = to_svg(&chart).unwrap();
+            let svg = chart.draw().unwrap().to_svg();
             for unwanted in ["<text", "font-family", "href", "url(", "<image", "@import"] {
                 assert!(!svg.contains(unwanted), "{unwanted}");
             }
@@ -210,7 +161,7 @@ mod tests {
 
     #[test]
     fn svg_has_the_real_size_a_view_box_and_a_title() {
-        let svg = to_svg(&chart()).unwrap();
+        let svg = chart().draw().unwrap().to_svg();
         assert!(svg.starts_with(r#"<svg width="800" height="600""#));
         assert!(svg.contains(r#"viewBox="0 0 800 600""#));
         assert!(svg.contains("<title>loss W / µJ against angular frequency ω / rad·s⁻¹</title>"));
@@ -218,36 +169,32 @@ mod tests {
 
     #[test]
     fn the_same_chart_gives_the_same_bytes() {
-        let (first, second) = (
-            to_svg(&everything()).unwrap(),
-            to_svg(&everything()).unwrap(),
-        );
-        assert_eq!(first, second);
-        assert!(to_png(&first, 1.0).unwrap() == to_png(&second, 1.0).unwrap());
+        let (first, second) = (everything().draw().unwrap(), everything().draw().unwrap());
+        assert_eq!(first.to_svg(), second.to_svg());
+        assert!(first.to_png(1.0).unwrap() == second.to_png(1.0).unwrap());
     }
 
     #[test]
     fn png_dimensions_are_exact() {
-        let svg = to_svg(&chart().size(801, 599)).unwrap();
-        assert_eq!(dimensions(&to_png(&svg, 1.0).unwrap()), (801, 599));
-        assert_eq!(dimensions(&to_png(&svg, 2.0).unwrap()), (1602, 1198));
+        let drawing = chart().size(801, 599).draw().unwrap();
+        assert_eq!(dimensions(&drawing.to_png(1.0).unwrap()), (801, 599));
+        assert_eq!(dimensions(&drawing.to_png(2.0).unwrap()), (1602, 1198));
     }
 
     #[test]
     fn impossible_scales_are_refused() {
-        let svg = to_svg(&chart()).unwrap();
+        let drawing = chart().draw().unwrap();
         for scale in [0.0, -1.0, f32::NAN, f32::INFINITY, 1e-6, 1e6] {
             assert!(
-                matches!(to_png(&svg, scale), Err(ChartError::PixelScale { .. })),
+                matches!(drawing.to_png(scale), Err(ChartError::PixelScale { .. })),
                 "{scale}"
             );
         }
-        assert!(matches!(to_png("no svg", 1.0), Err(ChartError::Svg(_))));
     }
 
     #[test]
     fn reserved_and_unicode_characters_are_drawn_as_outlines() {
-        let titled = |title: &str| to_svg(&chart().title(title)).unwrap();
+        let titled = |title: &str| chart().title(title).draw().unwrap().to_svg();
         let svg = titled("E′ < 5 & \"σ\" > 'τ'");
         assert!(svg.contains("<title>E′ &lt; 5 &amp; &quot;σ&quot; &gt; 'τ'</title>"));
         // The outline of every one of them adds to the picture.
@@ -275,7 +222,7 @@ mod tests {
             above,
             everything().legend(LegendPlace::Right),
         ] {
-            let svg = to_svg(&chart).unwrap();
+            let svg = chart.draw().unwrap().to_svg();
             let tree = usvg::Tree::from_str(&svg, &options()).unwrap();
             let ink = tree.root().abs_stroke_bounding_box();
             let (width, height) = (chart.size.width_px as f32, chart.size.height_px as f32);
@@ -291,7 +238,11 @@ mod tests {
                 (Axis::linear("x"), Axis::linear("y")),
                 (Axis::log("x"), Axis::log("y")),
             ] {
-                let svg = to_svg(&Chart::new(x, y).series(series.clone())).unwrap();
+                let svg = Chart::new(x, y)
+                    .series(series.clone())
+                    .draw()
+                    .unwrap()
+                    .to_svg();
                 let [red, green, blue] = series.color.rgb();
                 assert!(svg.contains(&format!("#{red:02x}{green:02x}{blue:02x}")));
             }

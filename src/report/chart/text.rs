@@ -1,9 +1,9 @@
-//! The embedded font: loading it and measuring text set in it.
+//! The embedded font: loading it, measuring text set in it and laying it out.
 
-use std::fmt::Write as _;
 use std::sync::{Arc, OnceLock};
 
-use resvg::usvg::{self, fontdb};
+use resvg::tiny_skia::{Path, PathBuilder};
+use resvg::usvg::{self, Node, fontdb};
 
 use super::ChartError;
 
@@ -18,6 +18,9 @@ pub(super) const CAPITAL_EM: f64 = 0.729;
 /// Height above and depth below the baseline of what the labels are made of, as fractions of the text size.
 pub(super) const ASCENT_EM: f64 = 0.80;
 pub(super) const DESCENT_EM: f64 = 0.24;
+
+/// From the upper edge of a text to its baseline where plotters places it.
+pub(super) const HANG_EM: f64 = 0.76;
 
 /// How SVG is read: with the embedded font and no other.
 pub(super) fn options() -> usvg::Options<'static> {
@@ -40,27 +43,52 @@ pub(super) fn widths_em<'a>(
 ) -> Result<Vec<f64>, ChartError> {
     /// Large, so that rounding to the font's own units does not matter.
     const SIZE: f64 = 1000.0;
-    let mut svg = String::from(r#"<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9">"#);
-    let mut widths = Vec::new();
-    for text in texts {
-        let place = widths.len();
-        // Writing to a String does not fail.
-        let _ = write!(
-            svg,
-            r#"<text id="{place}" y="0" font-size="{SIZE}">{}</text>"#,
-            escaped(text)
-        );
-        widths.push(0.0);
-    }
-    svg.push_str("</svg>");
+    let width = |text| {
+        let laid_out = laid_out(text, (0, 0), SIZE, ("start", 0))?;
+        Ok(laid_out.map_or(0.0, |text| f64::from(text.bounding_box().width()) / SIZE))
+    };
+    texts.into_iter().map(width).collect()
+}
+
+/// The text with its letters in their places: at this size, its upper edge at `y`, its start, middle or end at `x`, then turned
+/// clockwise about this point. `None`: no letter has ink.
+pub(super) fn laid_out(
+    text: &str,
+    (x, y): (i32, i32),
+    size: f64,
+    (anchor, degrees): (&str, u32),
+) -> Result<Option<Box<usvg::Text>>, ChartError> {
+    let svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><text x=\"{x}\" y=\"{y}\" dy=\"{HANG_EM}em\" \
+         text-anchor=\"{anchor}\" font-size=\"{size}\" transform=\"rotate({degrees}, {x}, {y})\">{}</text></svg>",
+        escaped(text)
+    );
     let tree = usvg::Tree::from_str(&svg, &options())?;
-    for node in tree.root().children() {
-        let place = node.id().parse::<usize>().ok();
-        if let Some(width) = place.and_then(|place| widths.get_mut(place)) {
-            *width = f64::from(node.bounding_box().width()) / SIZE;
+    Ok(first_text(tree.root()))
+}
+
+fn first_text(group: &usvg::Group) -> Option<Box<usvg::Text>> {
+    group.children().iter().find_map(|node| match node {
+        Node::Text(text) => Some(text.clone()),
+        Node::Group(group) => first_text(group),
+        Node::Path(_) | Node::Image(_) => None,
+    })
+}
+
+/// The letters as one path, before the text is turned.
+pub(super) fn outline(text: &usvg::Text) -> Option<Path> {
+    fn add(group: &usvg::Group, builder: &mut PathBuilder) {
+        for node in group.children() {
+            match node {
+                Node::Path(path) => builder.push_path(path.data()),
+                Node::Group(group) => add(group, builder),
+                Node::Text(_) | Node::Image(_) => {}
+            }
         }
     }
-    Ok(widths)
+    let mut builder = PathBuilder::new();
+    add(text.flattened(), &mut builder);
+    builder.finish()
 }
 
 /// The text with what XML reserves written as entities.

@@ -4,12 +4,21 @@
 //! double nearest to what the label says.
 
 use super::Scale;
+use super::look::{MAJOR_TICK, MINOR_TICK};
 
 /// The ticks of one axis, each list ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Ticks {
     pub(super) major: Vec<Tick>,
     pub(super) minor: Vec<f64>,
+}
+
+impl Ticks {
+    /// The value and the length (px) of every tick.
+    pub(super) fn lengths(&self) -> impl Iterator<Item = (f64, f64)> {
+        let minor = self.minor.iter().map(|&value| (value, MINOR_TICK));
+        minor.chain(self.major.iter().map(|tick| (tick.value, MAJOR_TICK)))
+    }
 }
 
 /// A tick with its label.

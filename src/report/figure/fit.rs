@@ -162,7 +162,6 @@ fn data_table(table: &Tabulated, fit: &Fit) -> Vec<u8> {
 mod tests {
     use super::*;
     use crate::material::fit::fit;
-    use crate::report::chart::Letters;
     use crate::report::figure::Picture;
 
     fn table(count: i32) -> Tabulated {
@@ -206,7 +205,7 @@ mod tests {
             let rows = String::from_utf8(figure.data).unwrap();
             assert_eq!(rows.lines().count(), 21);
             assert!(rows.lines().nth(1).unwrap().starts_with("0e0,"));
-            assert!(figure.picture.to_svg(Letters::Outlines).is_ok());
+            assert!(figure.picture.draw().is_ok());
         }
     }
 }

@@ -5,7 +5,7 @@ use super::{Drawn, Figure, Picture};
 use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::Caption;
-use crate::report::chart::{self, Axis, Chart, Series};
+use crate::report::chart::{self, Axis, Chart, Drawing, Series};
 use crate::report::number::{largest, plain};
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
 
@@ -49,14 +49,14 @@ fn has_span(rows: &[HistoryRow]) -> bool {
 ///
 /// # Errors
 /// [`ReportError`] naming the figure.
-pub fn svg(outcome: &SimulationOutcome) -> Result<Option<String>, ReportError> {
+pub fn in_si(outcome: &SimulationOutcome) -> Result<Option<Drawing>, ReportError> {
     let rows = &outcome.rows;
     if !has_span(rows) {
         return Ok(None);
     }
-    let svg = chart::stack_to_svg(&panels(rows, &Units::default()), chart::Letters::Outlines)
-        .map_err(|source| ReportError::Chart { name: NAME, source })?;
-    Ok(Some(svg))
+    let drawing = chart::stack(&panels(rows, &Units::default()));
+    let failed = |source| ReportError::Chart { name: NAME, source };
+    Ok(Some(drawing.map_err(failed)?))
 }
 
 type Signal = fn(&HistoryRow) -> Option<f64>;

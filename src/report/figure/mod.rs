@@ -26,7 +26,7 @@ pub mod units;
 pub mod van_gurp_palmen;
 
 use super::caption::Caption;
-use super::chart::{self, Chart, ChartError, HeatMap, Letters};
+use super::chart::{self, Chart, ChartError, Drawing, HeatMap};
 
 /// A picture, the name of its files, what is to be said of it, and its data as CSV.
 pub struct Figure {
@@ -43,7 +43,6 @@ pub enum Picture {
     Chart(Box<Chart>),
     /// Charts one above another.
     Stack(Vec<Chart>),
-    Map(Box<HeatMap>),
 }
 
 impl From<Chart> for Picture {
@@ -54,16 +53,15 @@ impl From<Chart> for Picture {
 
 impl From<HeatMap> for Picture {
     fn from(map: HeatMap) -> Self {
-        Self::Map(Box::new(map))
+        Self::from(Chart::from(map))
     }
 }
 
 impl Picture {
-    pub(super) fn to_svg(&self, letters: Letters) -> Result<String, ChartError> {
+    pub(super) fn draw(&self) -> Result<Drawing, ChartError> {
         match self {
-            Self::Chart(chart) => chart::to_svg_with(chart, letters),
-            Self::Stack(charts) => chart::stack_to_svg(charts, letters),
-            Self::Map(map) => chart::heat_map_to_svg(map, letters),
+            Self::Chart(chart) => chart.draw(),
+            Self::Stack(charts) => chart::stack(charts),
         }
     }
 }

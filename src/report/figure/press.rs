@@ -5,9 +5,7 @@ use rayon::prelude::*;
 use super::{Figure, Picture};
 use crate::report::ReportError;
 use crate::report::caption::Setting;
-use crate::report::chart::{
-    self, Chart, ChartError, Color, HeatMap, LegendPlace, Letters, LineStyle, MapShape,
-};
+use crate::report::chart::{self, Chart, ChartError, Color, Drawing, LegendPlace, LineStyle};
 use crate::report::page::Pictures;
 use crate::sweep::figures::figure_plan::{FigurePlan, Format, PaperSize};
 use crate::sweep::store::StoreError;
@@ -57,27 +55,29 @@ impl Press<'_> {
             name: figure,
             source,
         };
-        let svg = picture
-            .as_asked(self.plan, Letters::Outlines)
-            .map_err(failed)?;
-        let svg = chart::described(&svg, caption);
-        (self.pictures).see(&format!("{file}.svg"), svg.as_bytes());
+        let drawing = picture.as_asked(self.plan).map_err(failed)?;
+        let drawing = drawing
+            .described(caption)
+            .stamped(self.pictures.sweep_hash());
+        self.pictures.insert(file, &drawing);
         let name = format!("{file}{}", files::CAPTION);
         (self.write)(&name, format!("{caption}\n").as_bytes())?;
         for format in &self.plan.formats {
             match (format, self.plan.resolution()) {
-                (Format::Svg, _) => (self.write)(&format!("{file}.svg"), svg.as_bytes())?,
+                (Format::Svg, _) => {
+                    (self.write)(&format!("{file}.svg"), drawing.to_svg().as_bytes())?
+                }
                 (Format::Pdf, _) => {
-                    let pdf = picture.to_pdf(self.plan, caption).map_err(failed)?;
+                    let pdf = drawing.to_pdf().map_err(failed)?;
                     (self.write)(&format!("{file}.pdf"), &pdf)?;
                 }
                 (Format::Png, Some(dpi)) => {
-                    let png = chart::to_png_at(&svg, dpi).map_err(failed)?;
+                    let png = drawing.to_png_at(dpi).map_err(failed)?;
                     (self.write)(&format!("{file}.png"), &png)?;
                 }
                 (Format::Png, None) => {
                     RESOLUTIONS.par_iter().try_for_each(|&(suffix, scale)| {
-                        let png = chart::to_png(&svg, scale).map_err(failed)?;
+                        let png = drawing.to_png(scale).map_err(failed)?;
                         Ok::<(), ReportError>((self.write)(&format!("{file}{suffix}.png"), &png)?)
                     })?
                 }
@@ -98,41 +98,33 @@ pub fn not_asked(plan: &FigurePlan, file: &str) -> Vec<String> {
 }
 
 impl Picture {
-    /// The picture as SVG in the size asked for, with its title or without.
+    /// The picture in the size asked for, with its title or without.
     ///
     /// # Errors
-    /// As [`chart::to_svg`].
-    pub fn as_asked(&self, plan: &FigurePlan, letters: Letters) -> Result<String, ChartError> {
+    /// As [`Chart::draw`].
+    pub fn as_asked(&self, plan: &FigurePlan) -> Result<Drawing, ChartError> {
         let mut picture = self.clone();
         if !plan.titles {
-            picture.drop_titles();
+            for chart in picture.charts() {
+                chart.title = None;
+            }
         }
         let Some(paper) = plan.paper() else {
-            return picture.to_svg(letters);
+            return picture.draw();
         };
         picture.make_fit_for_paper();
         let height_mm = match picture.resize(&paper)? {
             true => paper.height_m.map(|height_m| 1e3 * height_m),
             false => None,
         };
-        let svg = picture.to_svg(letters)?;
-        chart::on_paper(&svg, 1e3 * paper.width_m, height_mm, 1e3 * paper.px_m)
+        let drawing = picture.draw()?;
+        Ok(drawing.on_paper(1e3 * paper.width_m, height_mm, 1e3 * paper.px_m))
     }
 
-    /// The picture as PDF, as asked for, with this caption as its description.
-    ///
-    /// # Errors
-    /// As [`chart::to_pdf`].
-    pub fn to_pdf(&self, plan: &FigurePlan, caption: &str) -> Result<Vec<u8>, ChartError> {
-        let svg = self.as_asked(plan, Letters::Text)?;
-        chart::to_pdf(&chart::described(&svg, caption))
-    }
-
-    fn drop_titles(&mut self) {
+    fn charts(&mut self) -> &mut [Chart] {
         match self {
-            Self::Chart(chart) => chart.title = None,
-            Self::Stack(charts) => charts.iter_mut().for_each(|chart| chart.title = None),
-            Self::Map(map) => map.title = None,
+            Self::Chart(chart) => std::slice::from_mut(chart.as_mut()),
+            Self::Stack(charts) => charts,
         }
     }
 
@@ -143,11 +135,13 @@ impl Picture {
         let whole = |length_m: f64| (length_m / paper.px_m + 1e-6).floor() as u32;
         let width_px = whole(paper.width_m);
         let height_px = paper.height_m.map(whole);
-        let charts = match self {
-            Self::Chart(chart) => std::slice::from_mut(chart.as_mut()),
-            Self::Stack(charts) => charts.as_mut_slice(),
-            Self::Map(map) => return Ok(resize_map(map, width_px, height_px)),
-        };
+        let charts = self.charts();
+        if let [chart] = charts
+            && chart.map.as_ref().is_some_and(|map| map.is_to_scale())
+        {
+            chart.size.width_px = width_px;
+            return Ok(false);
+        }
         if let Some(height_px) = height_px {
             let high = charts.iter().map(|chart| chart.size.height_px).sum::<u32>();
             let ratio = f64::from(height_px) / f64::from(high.max(1));
@@ -176,11 +170,7 @@ impl Picture {
     /// Paper may be printed in grey: curves of a family, which differ in colour alone on a screen, get strokes of their own. And a
     /// corner that a legend was given in a wide picture may hold data in a narrow one.
     fn make_fit_for_paper(&mut self) {
-        let charts = match self {
-            Self::Chart(chart) => std::slice::from_mut(chart.as_mut()),
-            Self::Stack(charts) => charts.as_mut_slice(),
-            Self::Map(_) => return,
-        };
+        let charts = self.charts();
         for chart in charts.iter_mut() {
             if let Some(
                 LegendPlace::TopRight
@@ -209,24 +199,10 @@ fn resized(chart: &Chart, width_px: u32, ratio: f64) -> Chart {
     chart.clone().size(width_px, high)
 }
 
-/// A map to scale is as high as its lengths are.
-fn resize_map(map: &mut HeatMap, width_px: u32, height_px: Option<u32>) -> bool {
-    let drawn_wide = std::mem::replace(&mut map.width_px, width_px);
-    match map.shape {
-        MapShape::ToScale | MapShape::Turned => false,
-        MapShape::HeightPx(high) => {
-            let in_ratio = u64::from(high) * u64::from(width_px) / u64::from(drawn_wide.max(1));
-            let in_ratio = u32::try_from(in_ratio).unwrap_or(u32::MAX);
-            map.shape = MapShape::HeightPx(height_px.unwrap_or(in_ratio));
-            true
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::chart::{Axis, Marker, Scale, Series};
+    use crate::report::chart::{Axis, HeatMap, MapShape, Marker, Scale, Series};
 
     fn chart() -> Chart {
         let line = |step: u8| {
@@ -295,24 +271,23 @@ mod tests {
             shape,
         };
         let resized = |shape, height_m| {
-            let mut map = map(shape);
-            let free = resize_map(&mut map, 400, height_m);
-            (free, map.width_px, map.shape)
+            let mut picture = Picture::from(map(shape));
+            let met = picture.resize(&paper(height_m)).unwrap();
+            let size = picture.charts()[0].size;
+            (met, size.width_px, size.height_px)
         };
         let high = MapShape::HeightPx;
-        assert_eq!(
-            resized(MapShape::ToScale, Some(7)),
-            (false, 400, MapShape::ToScale)
-        );
-        assert_eq!(resized(high(600), None), (true, 400, high(300)));
-        assert_eq!(resized(high(600), Some(200)), (true, 400, high(200)));
+        assert!(!resized(MapShape::ToScale, Some(0.0014)).0);
+        assert_eq!(resized(high(600), None), (false, 400, 300));
+        assert_eq!(resized(high(600), Some(0.04)), (true, 400, 200));
+        // Too low for labels: as high as it needs.
+        assert_eq!(resized(high(600), Some(0.01)), (false, 400, 300));
     }
 
     #[test]
     fn on_paper_a_family_has_strokes_of_its_own_and_the_legend_looks_for_a_place() {
         let mut picture = Picture::from(chart().legend(LegendPlace::TopLeft));
         picture.make_fit_for_paper();
-        picture.drop_titles();
         let Picture::Chart(chart) = picture else {
             panic!("it is a chart")
         };
@@ -325,7 +300,6 @@ mod tests {
             styles,
             [LineStyle::Solid, LineStyle::Dashed, LineStyle::Solid]
         );
-        assert_eq!(chart.title, None);
         assert_eq!(chart.legend, Some(LegendPlace::Auto));
     }
 }

@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use super::html::escaped;
+use maud::Render;
+
 use crate::quantity::Dimension;
 use crate::report::number::{cell, digits, largest, prefix};
 use crate::report::quantities::{self, SWEEP};
@@ -29,7 +30,7 @@ pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
             html,
             "<th scope=\"col\" data-column=\"{}\">{}</th>",
             column.name,
-            escaped(&column.heading)
+            column.heading.render().into_string()
         );
     }
     html.push_str("<th scope=\"col\" class=\"text\" data-column=\"status\">status</th></tr></thead>\n<tbody>\n");

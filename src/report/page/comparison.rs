@@ -1,14 +1,15 @@
 //! The page of a comparison: the verdict, both curves and their difference, columns, peaks, cases, where both come from.
 
-use std::fmt::Write;
-
+use maud::{Markup, html};
 use serde::Serialize;
 
 use super::compact::rounded;
 use super::frame::{Frame, Input, InputFile, PLOT};
-use super::html::{escaped, filled, json_for_script};
+use super::html::json_for_script;
 use super::pictures::Pictures;
+use super::question::list;
 use super::sweep_data::FrequencyData;
+use super::{copying, still};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::report::ReportError;
 use crate::report::comparison::text::{peak_words, words};
@@ -20,7 +21,6 @@ use crate::report::quantities;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::store::difference;
 
-const MAIN: &str = include_str!("comparison.html");
 const SCRIPT: &str = include_str!("comparison.js");
 /// Columns named beside the verdict, lines by which two questions differ, and cases of a list, that are shown.
 const COLUMNS: usize = 3;
@@ -78,31 +78,6 @@ pub fn page(compared: &Compared<'_>) -> Result<String, ReportError> {
         sources: [old, new],
         ..
     } = compared;
-    let verdict = match comparison.differs() {
-        true => "The results differ.",
-        false => "The results are the same within the tolerances.",
-    };
-    let figure = compared.pictures.inline("comparison");
-    let main = filled(
-        MAIN,
-        &[
-            ("verdict", verdict),
-            ("reasons", &reasons(comparison)),
-            ("tolerances", &escaped(&tolerances(compared.tolerances))),
-            (
-                "figure",
-                &figure.unwrap_or_else(|| {
-                    "<p>No case has a loss in both results: there is nothing to draw.</p>"
-                        .to_owned()
-                }),
-            ),
-            ("columns", &columns(comparison)),
-            ("peaks", &peaks(comparison.unit, &comparison.peaks)),
-            ("cases", &cases(comparison)),
-            ("sources", &sources(compared)),
-            ("asked", &asked(old, new)),
-        ],
-    )?;
     let csv = comparison.table();
     let named = [("baseline/resolved.toml", old), ("new/resolved.toml", new)];
     let files = named.iter().filter_map(|(name, source)| {
@@ -116,7 +91,7 @@ pub fn page(compared: &Compared<'_>) -> Result<String, ReportError> {
     let frame = Frame {
         title: "Comparison of two results",
         asked: format!("Baseline {}, new {}", old.name, new.name),
-        main,
+        main: sections(compared),
         input: Input {
             hashes: hashes.collect(),
             files: files.collect(),
@@ -126,7 +101,72 @@ pub fn page(compared: &Compared<'_>) -> Result<String, ReportError> {
         data: json_for_script(&data(compared, &String::from_utf8_lossy(&csv)))?,
         script: &[PLOT, SCRIPT],
     };
-    frame.page()
+    Ok(frame.page())
+}
+
+fn sections(compared: &Compared<'_>) -> Markup {
+    let Compared {
+        comparison,
+        sources: [old, new],
+        ..
+    } = compared;
+    let verdict = match comparison.differs() {
+        true => "The results differ.",
+        false => "The results are the same within the tolerances.",
+    };
+    html! {
+        section aria-labelledby="answer" class="answer" {
+            h2 id="answer" { "Whether they are the same" }
+            p class="peaks" { strong { (verdict) } }
+            (reasons(comparison))
+            p class="asked" { (tolerances(compared.tolerances)) }
+        }
+        (curves(comparison.unit, compared.pictures))
+        section aria-labelledby="columns-heading" {
+            h2 id="columns-heading" { "Column by column" }
+            section class="scroll" tabindex="0" aria-label="Columns, may be scrolled" {
+                (columns(comparison))
+            }
+            (copying("Copy the curve as CSV", "Download comparison.csv"))
+        }
+        section aria-labelledby="peaks-heading" {
+            h2 id="peaks-heading" { "Peaks" }
+            (peaks(comparison.unit, &comparison.peaks))
+        }
+        section aria-labelledby="cases-heading" {
+            h2 id="cases-heading" { "Cases" }
+            (cases(comparison))
+        }
+        section aria-labelledby="sources-heading" {
+            h2 id="sources-heading" { "Where both come from" }
+            section class="scroll" tabindex="0" aria-label="Sources, may be scrolled" {
+                (sources(compared))
+            }
+            (asked(old, new))
+        }
+    }
+}
+
+fn curves(unit: FrequencyUnit, pictures: &Pictures) -> Markup {
+    html! {
+        section aria-labelledby="curves-heading" {
+            h2 id="curves-heading" { "Both curves, and their difference" }
+            div class="live controls" role="group" aria-label="Curves" {
+                label { "Curve of " select id="quantity" {} }
+                label id="drive-choice" hidden { "drive " select id="drive" {} }
+                label { input type="checkbox" id="log-x" checked; " log " (unit.symbol()) }
+                label { input type="checkbox" id="log-y"; " log values" }
+            }
+            div id="curve" class="live plot tall" {}
+            div id="difference" class="live plot" {}
+            p class="live hint" id="bars" {}
+            (still(
+                pictures,
+                "comparison",
+                "No case has a loss in both results: there is nothing to draw.",
+            ))
+        }
+    }
 }
 
 fn data<'a>(compared: &Compared<'a>, csv: &'a str) -> Data<'a> {
@@ -168,7 +208,7 @@ impl<'a> ColumnData<'a> {
 }
 
 /// What makes the results differ; nothing where they do not.
-fn reasons(comparison: &Comparison) -> String {
+fn reasons(comparison: &Comparison) -> Markup {
     let mut lines = Vec::new();
     let mut count = |n: usize, what: &str| {
         if n > 0 {
@@ -211,17 +251,9 @@ fn reasons(comparison: &Comparison) -> String {
     let peaks = comparison.peaks.iter().filter(|peak| peak.differs);
     lines.extend(peaks.map(|peak| peak_words(comparison.unit, peak)));
     if lines.is_empty() {
-        return format!("<p>{} cases are in both.</p>", comparison.compared);
+        return html! { p { (comparison.compared) " cases are in both." } };
     }
-    format!("<div class=\"problems\">\n{}</div>", list(&lines))
-}
-
-fn list(lines: &[String]) -> String {
-    let items: String = lines
-        .iter()
-        .map(|line| format!("<li>{}</li>\n", escaped(line)))
-        .collect();
-    format!("<ul>\n{items}</ul>\n")
+    html! { div class="problems" { (list(&lines)) } }
 }
 
 fn tolerances(tolerances: &Tolerances) -> String {
@@ -238,10 +270,10 @@ fn tolerances(tolerances: &Tolerances) -> String {
     )
 }
 
-fn columns(comparison: &Comparison) -> String {
+fn columns(comparison: &Comparison) -> Markup {
     let unit = comparison.unit;
     let at = format!("!at {} / {}", unit.symbol(), unit.name());
-    let mut html = table(&[
+    let headings = [
         "column",
         "!largest difference, relative",
         &at,
@@ -249,8 +281,8 @@ fn columns(comparison: &Comparison) -> String {
         "!of these within the bars",
         "!without a value in one",
         "finding",
-    ]);
-    for column in &comparison.columns {
+    ];
+    let rows = comparison.columns.iter().map(|column| {
         let (share, omega) = column.largest.map_or((None, None), |(share, place)| {
             (
                 Some(share),
@@ -258,43 +290,61 @@ fn columns(comparison: &Comparison) -> String {
             )
         });
         let found = match column.different {
-            _ if comparison.compared == 0 => "<td class=\"text\">not compared</td>",
-            0 => "<td class=\"text\">the same</td>",
-            _ => "<td class=\"text\"><strong>differs</strong></td>",
+            _ if comparison.compared == 0 => html! { "not compared" },
+            different => finding(different > 0),
         };
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            html,
-            "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{found}</tr>",
-            escaped(&column.name),
-            share.map_or("none".to_owned(), |share| scientific(share, 2)),
-            cell(omega),
-            column.beyond,
-            column.within_bars,
-            column.absent
-        );
+        html! {
+            tr {
+                th scope="row" { (column.name) }
+                td { (share.map_or("none".to_owned(), |share| scientific(share, 2))) }
+                td { (cell(omega)) }
+                td { (column.beyond) }
+                td { (column.within_bars) }
+                td { (column.absent) }
+                td class="text" { (found) }
+            }
+        }
+    });
+    table(&headings, rows)
+}
+
+fn finding(differs: bool) -> Markup {
+    match differs {
+        true => html! { strong { "differs" } },
+        false => html! { "the same" },
     }
-    html + "</tbody>\n</table>"
 }
 
-/// The head of a table; headings of numbers begin with `!`.
-fn table(headings: &[&str]) -> String {
-    let heads: String = headings
-        .iter()
-        .map(|heading| match heading.strip_prefix('!') {
-            Some(number) => format!("<th scope=\"col\">{number}</th>"),
-            None => format!("<th scope=\"col\" class=\"text\">{heading}</th>"),
-        })
-        .collect();
-    format!("<table class=\"tight\">\n<thead><tr>{heads}</tr></thead>\n<tbody>\n")
+/// A table; headings of numbers begin with `!`, and one without a word is no heading.
+fn table(headings: &[&str], rows: impl Iterator<Item = Markup>) -> Markup {
+    html! {
+        table class="tight" {
+            thead {
+                tr {
+                    @for heading in headings {
+                        @if heading.is_empty() {
+                            td class="text" {}
+                        } @else if let Some(number) = heading.strip_prefix('!') {
+                            th scope="col" { (number) }
+                        } @else {
+                            th scope="col" class="text" { (heading) }
+                        }
+                    }
+                }
+            }
+            tbody { @for row in rows { (row) } }
+        }
+    }
 }
 
-fn peaks(unit: FrequencyUnit, peaks: &[PeakComparison]) -> String {
+fn peaks(unit: FrequencyUnit, peaks: &[PeakComparison]) -> Markup {
     if peaks.is_empty() {
-        return "<p>None to compare: one of the two has no summary.json with peaks, or neither has a peak.</p>".to_owned();
+        return html! {
+            p { "None to compare: one of the two has no summary.json with peaks, or neither has a peak." }
+        };
     }
     let symbol = unit.symbol();
-    let mut html = table(&[
+    let headings = [
         &format!("baseline, at {symbol}"),
         &format!("new, at {symbol}"),
         "!moved by / %",
@@ -302,7 +352,7 @@ fn peaks(unit: FrequencyUnit, peaks: &[PeakComparison]) -> String {
         "new, loss",
         "!changed by / %",
         "finding",
-    ]);
+    ];
     let omega = |peak: &Peak| {
         with_error(
             unit.of(peak.angular_frequency_rad_per_s),
@@ -314,7 +364,7 @@ fn peaks(unit: FrequencyUnit, peaks: &[PeakComparison]) -> String {
         let error = peak.energy_loss_error_j;
         with_error(peak.energy_loss_j, error, Dimension::Energy)
     };
-    for pair in peaks {
+    let rows = peaks.iter().map(|pair| {
         let text = |peak: &Option<Peak>, of: &dyn Fn(&Peak) -> String| {
             peak.as_ref().map_or("none".to_owned(), of)
         };
@@ -324,43 +374,34 @@ fn peaks(unit: FrequencyUnit, peaks: &[PeakComparison]) -> String {
                 scientific(100.0 * (of(b) / of(a) - 1.0), 2)
             })
         };
-        let _ = writeln!(
-            html,
-            "<tr><th scope=\"row\">{}</th><td class=\"text\">{}</td><td>{}</td><td class=\"text\">{}</td>\
-             <td class=\"text\">{}</td><td>{}</td><td class=\"text\">{}</td></tr>",
-            escaped(&text(&pair.baseline, &omega)),
-            escaped(&text(&pair.new, &omega)),
-            percent(|peak| peak.angular_frequency_rad_per_s),
-            escaped(&text(&pair.baseline, &loss)),
-            escaped(&text(&pair.new, &loss)),
-            percent(|peak| peak.energy_loss_j),
-            if pair.differs {
-                "<strong>differs</strong>"
-            } else {
-                "the same"
+        html! {
+            tr {
+                th scope="row" { (text(&pair.baseline, &omega)) }
+                td class="text" { (text(&pair.new, &omega)) }
+                td { (percent(|peak| peak.angular_frequency_rad_per_s)) }
+                td class="text" { (text(&pair.baseline, &loss)) }
+                td class="text" { (text(&pair.new, &loss)) }
+                td { (percent(|peak| peak.energy_loss_j)) }
+                td class="text" { (finding(pair.differs)) }
             }
-        );
+        }
+    });
+    html! {
+        section class="scroll" tabindex="0" aria-label="Peaks, may be scrolled" { (table(&headings, rows)) }
     }
-    format!(
-        "<section class=\"scroll\" tabindex=\"0\" aria-label=\"Peaks, may be scrolled\">\n{html}</tbody>\n</table>\n</section>"
-    )
 }
 
-fn cases(comparison: &Comparison) -> String {
-    let mut html = format!(
-        "<p>{} cases are in both results.</p>\n",
-        comparison.compared
-    );
+fn cases(comparison: &Comparison) -> Markup {
+    let mut lists = Vec::new();
     let mut add = |what: &str, lines: Vec<String>| {
         if lines.is_empty() {
             return;
         }
-        let _ = writeln!(html, "<h3>{what}: {}</h3>", lines.len());
         let mut shown: Vec<String> = lines.iter().take(CASES).cloned().collect();
         if lines.len() > CASES {
             shown.push(format!("and {} more", lines.len() - CASES));
         }
-        html.push_str(&list(&shown));
+        lists.push(html! { h3 { (what) ": " (lines.len()) } (list(&shown)) });
     };
     let places = |places: &[Place]| {
         places
@@ -382,22 +423,21 @@ fn cases(comparison: &Comparison) -> String {
         "Columns only in the new result",
         comparison.added_columns.clone(),
     );
-    html
+    html! {
+        p { (comparison.compared) " cases are in both results." }
+        @for list in lists { (list) }
+    }
 }
 
-fn sources(compared: &Compared<'_>) -> String {
-    let mut html = table(&["", "baseline", "new"]).replace(
-        "<th scope=\"col\" class=\"text\"></th>",
-        "<td class=\"text\"></td>",
-    );
+fn sources(compared: &Compared<'_>) -> Markup {
+    let mut rows = Vec::new();
     let mut row = |name: &str, values: [String; 2]| {
-        let values =
-            values.map(|value| format!("<td class=\"text wide\">{}</td>", escaped(&value)));
-        let _ = writeln!(
-            html,
-            "<tr><th scope=\"row\">{name}</th>{}</tr>",
-            values.concat()
-        );
+        rows.push(html! {
+            tr {
+                th scope="row" { (name) }
+                @for value in values { td class="text wide" { (value) } }
+            }
+        });
     };
     let unknown = || "not told".to_owned();
     let of = |fact: fn(&Source) -> Option<String>| {
@@ -432,21 +472,23 @@ fn sources(compared: &Compared<'_>) -> String {
     };
     row("time steps per cycle", range("steps"));
     row("springs, or cells per side", range("nodes"));
-    html + "</tbody>\n</table>"
+    table(&["", "baseline", "new"], rows.into_iter())
 }
 
 /// Whether both were asked the same.
-fn asked(old: &Source, new: &Source) -> String {
+fn asked(old: &Source, new: &Source) -> Markup {
     let (Some(old), Some(new)) = (&old.resolved, &new.resolved) else {
-        return "<p>What was asked cannot be compared: one of the two has no resolved.toml.</p>"
-            .to_owned();
+        return html! {
+            p { "What was asked cannot be compared: one of the two has no resolved.toml." }
+        };
     };
     if old == new {
-        return "<p>Both were asked the same, to the last letter.</p>".to_owned();
+        return html! { p { "Both were asked the same, to the last letter." } };
     }
-    format!(
-        "<h3>Lines in which the questions differ: − baseline, + new</h3>\n\
-         <pre tabindex=\"0\" aria-label=\"Lines in which the questions differ\"><code>{}</code></pre>",
-        escaped(&difference::lines(old, new, LINES))
-    )
+    html! {
+        h3 { "Lines in which the questions differ: − baseline, + new" }
+        pre tabindex="0" aria-label="Lines in which the questions differ" {
+            code { (difference::lines(old, new, LINES)) }
+        }
+    }
 }

@@ -1,9 +1,10 @@
 //! What every page has around its own sections: head, title, style, how to cite, the input, data, script.
 
-use super::html::{data_link, escaped, filled};
-use crate::report::ReportError;
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-const PAGE: &str = include_str!("page.html");
+use super::html::data_link;
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
 const STYLE: &str = include_str!("page.css");
 
 /// Parts of the script, in the order in which they may use each other. `start(data)` is the page's own.
@@ -19,8 +20,8 @@ pub struct Frame<'a> {
     pub title: &'a str,
     /// One line under the title.
     pub asked: String,
-    /// HTML of the page's own sections; the first has a heading with the id `answer`.
-    pub main: String,
+    /// The page's own sections; the first has a heading with the id `answer`.
+    pub main: Markup,
     pub input: Input<'a>,
     /// JSON for the script, in which no `<` is left.
     pub data: String,
@@ -44,79 +45,107 @@ pub struct InputFile<'a> {
     pub text: &'a str,
 }
 
+/// Nothing may be loaded from anywhere.
+const POLICY: &str =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+
 impl Frame<'_> {
     /// The page.
-    ///
-    /// # Errors
-    /// [`ReportError::Table`] where a template has a place that nothing fills.
-    pub fn page(&self) -> Result<String, ReportError> {
+    pub fn page(&self) -> String {
         let script = [&[CORE], self.script, &[BEGIN]].concat().concat();
-        filled(
-            PAGE,
-            &[
-                ("title", &escaped(self.title)),
-                ("asked", &escaped(&self.asked)),
-                ("main", &self.main),
-                ("version", env!("CARGO_PKG_VERSION")),
-                ("cited", &self.input.cited()),
-                ("input", &self.input.section()),
-                ("style", STYLE),
-                ("data", &self.data),
-                ("script", &script),
-            ],
-        )
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    title { (self.title) }
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    meta http-equiv="Content-Security-Policy" content=(POLICY);
+                    meta name="generator" content={ "contact-dma " (VERSION) };
+                    link rel="icon" href="data:,";
+                    style { (PreEscaped(STYLE)) }
+                }
+                body {
+                    a class="skip" href="#answer" { "Skip to the result" }
+                    header {
+                        div {
+                            h1 { (self.title) }
+                            p class="asked" { (self.asked) }
+                        }
+                        button id="theme" type="button" class="live" aria-pressed="false" { "Dark" }
+                    }
+                    main { (self.main) (self.input.cite()) (self.input.section()) }
+                    footer {
+                        p {
+                            "Made by contact-dma " (VERSION)
+                            ". This page needs no network: everything it shows is inside it."
+                        }
+                    }
+                    script type="application/json" id="data" { (PreEscaped(&self.data)) }
+                    script { (PreEscaped(script)) }
+                }
+            }
+        };
+        page.into_string()
     }
 }
 
 impl Input<'_> {
-    fn cited(&self) -> String {
-        let hashes = self.hashes.iter().map(|(what, hash)| {
-            let hash = escaped(hash);
-            format!(
-                ", and the hash <code class=\"hash\">{hash}</code> for {}",
-                escaped(what)
-            )
-        });
-        hashes.collect()
+    fn cite(&self) -> Markup {
+        html! {
+            section aria-labelledby="cite-heading" {
+                h2 id="cite-heading" { "How to cite" }
+                p {
+                    "S. Spinu, " cite { "Viscoelastic Contact Simulation under Harmonic Cyclic Load" }
+                    ", Advances in Tribology 2018, 9432894, "
+                    a href="https://doi.org/10.1155/2018/9432894" { "doi:10.1155/2018/9432894" }
+                    ", for the method; contact-dma, version " (VERSION) ", for the program"
+                    @for (what, hash) in &self.hashes {
+                        ", and the hash " code class="hash" { (hash) } " for " (what)
+                    }
+                    "."
+                }
+            }
+        }
     }
 
-    fn section(&self) -> String {
-        let files = match &self.files[..] {
-            [] => return String::new(),
-            [file] => format!(
-                "<p>{} {}</p>\n<pre id=\"input\" tabindex=\"0\" aria-labelledby=\"file-heading\"><code>{}</code></pre>\n",
-                self.text,
-                file.link(" id=\"download-input\""),
-                escaped(file.text)
-            ),
-            files => {
-                let files: String = files.iter().map(InputFile::folded).collect();
-                format!("<p>{}</p>\n{files}", self.text)
+    fn section(&self) -> Markup {
+        let text = PreEscaped(self.text);
+        html! {
+            @if !self.files.is_empty() {
+                section aria-labelledby="file-heading" {
+                    h2 id="file-heading" { "The input, to run again" }
+                    @if let [file] = &self.files[..] {
+                        p { (text) " " (file.link(Some("download-input"))) }
+                        pre id="input" tabindex="0" aria-labelledby="file-heading" {
+                            code { (file.text) }
+                        }
+                    } @else {
+                        p { (text) }
+                        @for file in &self.files { (file.folded()) }
+                    }
+                }
             }
-        };
-        format!(
-            "<section aria-labelledby=\"file-heading\">\n<h2 id=\"file-heading\">The input, to run again</h2>\n{files}</section>\n"
-        )
+        }
     }
 }
 
 impl InputFile<'_> {
-    fn link(&self, attributes: &str) -> String {
-        let name = escaped(self.name);
-        format!(
-            "<a{attributes} download=\"{name}\" href=\"{}\">Download {name}</a>",
-            data_link("text/plain", self.text)
-        )
+    fn link(&self, id: Option<&str>) -> Markup {
+        let link = data_link("text/plain", self.text);
+        html! {
+            a id=[id] download=(self.name) href=(link) { "Download " (self.name) }
+        }
     }
 
     /// One of several: opened by its reader.
-    fn folded(&self) -> String {
-        let name = escaped(self.name);
-        format!(
-            "<details>\n<summary>{name}</summary>\n<p>{}</p>\n<pre tabindex=\"0\" aria-label=\"{name}\"><code>{}</code></pre>\n\
-             </details>\n",
-            self.link(""),
-            escaped(self.text)
-        )
+    fn folded(&self) -> Markup {
+        html! {
+            details {
+                summary { (self.name) }
+                p { (self.link(None)) }
+                pre tabindex="0" aria-label=(self.name) { code { (self.text) } }
+            }
+        }
     }
 }

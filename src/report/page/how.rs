@@ -1,5 +1,7 @@
 //! How the numbers were obtained: engine, resolution, cycles, errors, energy balance, and every message.
 
+use maud::Markup;
+
 use super::question::Facts;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
@@ -9,7 +11,7 @@ use crate::sweep::record::{CaseRecord, CaseResult, Status};
 use crate::sweep::search::run::Outcome;
 
 /// The section of a sweep.
-pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> String {
+pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     let mut facts = Facts::default();
     let records = &outcome.records;
     let planned = plan.cases().len();

@@ -1,19 +1,19 @@
 //! The page of a material: its moduli over frequency, its function over time, and, where it was fitted, the data.
 
+use maud::{Markup, html};
 use serde::Serialize;
 
 use super::compact::{picked, rounded, spread};
 use super::frame::{Frame, Input, InputFile, MODULI, PLOT};
-use super::html::{escaped, json_for_script};
+use super::html::json_for_script;
 use super::sweep_data::MaterialData;
-use super::{Pictures, filled, question};
+use super::{Pictures, moduli, question};
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::material::{GivenFace, Material};
 use crate::report::ReportError;
 use crate::sweep::plan::resolved;
 
-const MATERIAL: &str = include_str!("material.html");
 const SCRIPT: &str = include_str!("material.js");
 /// Points of a curve over time, and samples shown at most.
 const POINTS: usize = 200;
@@ -56,15 +56,21 @@ pub struct About<'a> {
 /// # Errors
 /// [`ReportError`] naming the part that could not be made.
 pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportError> {
-    let figure = about.pictures.inline(about.figure).unwrap_or_default();
-    let main = filled(
-        MATERIAL,
-        &[
-            ("about", &described(material, about.text)),
-            ("question", &question::material(material)),
-            ("figure", &figure),
-        ],
-    )?;
+    let main = html! {
+        section aria-labelledby="answer" class="answer" {
+            h2 id="answer" { "The material" }
+            (described(material, about.text))
+            (question::material(material))
+            div id="material" class="live" { h3 { "Moduli over frequency" } (moduli("grid")) }
+            h3 class="live" { "Over time" }
+            div class="live controls" role="group" aria-label="Axes" {
+                label { input type="checkbox" id="log-x" checked; " log t" }
+                label { input type="checkbox" id="log-y"; " log values" }
+            }
+            div id="over-time" class="live plot tall" {}
+            figure class="static" { @if let Some(figure) = about.pictures.inline(about.figure) { (figure) } }
+        }
+    };
     let face = match about.fit {
         Some((table, _)) => table.face(),
         None => material.given(),
@@ -95,20 +101,16 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
             curves: curves(material, about.fit),
         })?,
     };
-    frame.page()
+    Ok(frame.page())
 }
 
 /// The text in paragraphs; nothing where the list of facts holds the same, line by line.
-fn described(material: &Material, text: &str) -> String {
-    if material.fit().is_some() {
-        return String::new();
-    }
+fn described(material: &Material, text: &str) -> Markup {
     let lines = text.replace("Source:", "\u{0}Source:");
     let paragraphs = lines.split('\u{0}').map(str::trim);
-    paragraphs
-        .filter(|paragraph| !paragraph.is_empty())
-        .map(|paragraph| format!("<p>{}</p>\n", escaped(paragraph)))
-        .collect()
+    let paragraphs =
+        paragraphs.filter(|paragraph| !paragraph.is_empty() && material.fit().is_none());
+    html! { @for paragraph in paragraphs { p { (paragraph) } } }
 }
 
 /// The data and their fit, or the function alone, at times evenly spread in their logarithm.

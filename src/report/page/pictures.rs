@@ -3,26 +3,39 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use super::drawing::inline_figure;
+use maud::{Markup, PreEscaped};
 
-/// The SVG that went by.
+use crate::report::chart::Drawing;
+
+/// The pictures of a result by name, as elements of a page.
 #[derive(Debug, Default)]
 pub struct Pictures {
+    sweep_hash: Option<String>,
     by_name: Mutex<BTreeMap<String, String>>,
 }
 
 impl Pictures {
-    /// Keeps a file that is being written, where it is an SVG.
-    pub fn see(&self, file: &str, bytes: &[u8]) {
-        if let (Some(name), Ok(svg)) = (file.strip_suffix(".svg"), std::str::from_utf8(bytes)) {
-            let mut pictures = self.by_name.lock().unwrap_or_else(PoisonError::into_inner);
-            pictures.insert(name.to_owned(), svg.to_owned());
+    /// Pictures that say which sweep they show.
+    pub fn of_sweep(hash: &str) -> Self {
+        Self {
+            sweep_hash: Some(hash.to_owned()),
+            ..Self::default()
         }
     }
 
+    pub(in crate::report) fn sweep_hash(&self) -> Option<&str> {
+        self.sweep_hash.as_deref()
+    }
+
+    /// Keeps a picture under this name.
+    pub fn insert(&self, name: &str, drawing: &Drawing) {
+        let mut pictures = self.by_name.lock().unwrap_or_else(PoisonError::into_inner);
+        pictures.insert(name.to_owned(), drawing.to_page_element());
+    }
+
     /// The picture of this name as a part of a page.
-    pub fn inline(&self, name: &str) -> Option<String> {
+    pub fn inline(&self, name: &str) -> Option<Markup> {
         let pictures = self.by_name.lock().unwrap_or_else(PoisonError::into_inner);
-        pictures.get(name).map(|svg| inline_figure(svg, name))
+        pictures.get(name).cloned().map(PreEscaped)
     }
 }

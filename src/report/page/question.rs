@@ -1,8 +1,7 @@
 //! What was asked: material, indenter, drive, as lists of names and values.
 
-use std::fmt::Write;
+use maud::{Markup, html};
 
-use super::html::escaped;
 use crate::indenter::{Indenter, Value};
 use crate::material::{GivenFace, Material, ModulusKind};
 use crate::quantity::Dimension;
@@ -12,39 +11,35 @@ use crate::sweep::plan::SweepPlan;
 
 /// A list of names and values being written.
 #[derive(Default)]
-pub(super) struct Facts {
-    html: String,
-}
+pub(super) struct Facts(Vec<(String, Markup)>);
 
 impl Facts {
-    /// Adds a fact; both texts are escaped.
+    /// Adds a fact.
     pub(super) fn add(&mut self, name: &str, value: &str) {
-        // Writing to a String cannot fail.
-        let _ = writeln!(
-            self.html,
-            "<dt>{}</dt><dd>{}</dd>",
-            escaped(name),
-            escaped(value)
-        );
+        self.0.push((name.to_owned(), html! { (value) }));
     }
 
     /// Adds a fact of several lines.
     pub(super) fn add_list(&mut self, name: &str, values: &[String]) {
-        let items: Vec<String> = values
-            .iter()
-            .map(|value| format!("<li>{}</li>", escaped(value)))
-            .collect();
-        let _ = writeln!(
-            self.html,
-            "<dt>{}</dt><dd><ul>{}</ul></dd>",
-            escaped(name),
-            items.concat()
-        );
+        self.0.push((name.to_owned(), list(values)));
     }
 
     /// The list.
-    pub(super) fn html(self) -> String {
-        format!("<dl>\n{}</dl>\n", self.html)
+    pub(super) fn html(self) -> Markup {
+        html! {
+            dl {
+                @for (name, value) in self.0 { dt { (name) } dd { (value) } }
+            }
+        }
+    }
+}
+
+/// Lines as a list.
+pub(super) fn list(lines: &[String]) -> Markup {
+    html! {
+        ul {
+            @for line in lines { li { (line) } }
+        }
     }
 }
 
@@ -70,7 +65,7 @@ pub(super) fn line(plan: &SweepPlan) -> String {
 }
 
 /// The section of a sweep.
-pub(super) fn sweep(plan: &SweepPlan) -> String {
+pub(super) fn sweep(plan: &SweepPlan) -> Markup {
     let mut drive = Facts::default();
     drive.add("control", plan.drive.control().name());
     drive.add("mean ± amplitude", &words::drive_line(&plan.drive, plan));
@@ -79,16 +74,24 @@ pub(super) fn sweep(plan: &SweepPlan) -> String {
         "rest before the oscillation",
         &plain(plan.drive.hold_s(), Dimension::Time, 4),
     );
-    format!(
-        "<h3>Material</h3>\n{}<h3>Indenter</h3>\n{}<h3>Drive</h3>\n{}",
+    parts(
         material(&plan.material),
         indenter(plan.indenter.as_ref()),
-        drive.html()
+        drive.html(),
     )
 }
 
+/// Material, indenter and drive under their headings.
+pub(super) fn parts(material: Markup, indenter: Markup, drive: Markup) -> Markup {
+    html! {
+        h3 { "Material" } (material)
+        h3 { "Indenter" } (indenter)
+        h3 { "Drive" } (drive)
+    }
+}
+
 /// A material's series as given.
-pub(super) fn material(material: &Material) -> String {
+pub(super) fn material(material: &Material) -> Markup {
     let mut facts = Facts::default();
     if let Some(name) = material.name() {
         facts.add("name", name);
@@ -139,7 +142,7 @@ pub(super) fn material(material: &Material) -> String {
 }
 
 /// An indenter's shape and settings.
-pub(super) fn indenter(indenter: &dyn Indenter) -> String {
+pub(super) fn indenter(indenter: &dyn Indenter) -> Markup {
     let mut facts = Facts::default();
     facts.add("shape", indenter.shape());
     for parameter in indenter.parameters() {

@@ -1,16 +1,19 @@
 //! The page of one history: what it carries for its script, and what it says without.
 
+use maud::{Markup, html};
 use serde::Serialize;
 
+use super::answer::warned;
 use super::compact::{coarse, picked, picked_optional, rounded, spread};
 use super::how;
-use super::html::escaped;
 use super::question::{self, Facts};
 use super::sweep_data::MaterialData;
+use super::{Pictures, moduli, still};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::number::plain;
 use crate::report::profile_lines::lines;
+use crate::sweep::history::outside_model;
 use crate::sweep::history::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::resolved::drive_dimension;
@@ -155,6 +158,70 @@ fn field(record: &SurfaceRecord, cells: usize) -> Option<Field> {
     })
 }
 
+/// The sections of the page.
+pub(super) fn sections(
+    plan: &ScenarioPlan,
+    outcome: &SimulationOutcome,
+    pictures: &Pictures,
+) -> Markup {
+    html! {
+        section aria-labelledby="answer" class="answer" {
+            h2 id="answer" { "The history" }
+            (answer(outcome))
+            (problems(outcome))
+            (warned(outside_model::warnings(plan, outcome)))
+            div id="load" class="live plot" {}
+            div id="approach" class="live plot" {}
+            div class="live grid" { div id="radius" class="plot" {} div id="pressure" class="plot" {} }
+            h3 class="live" { "Load against approach" }
+            div id="loop" class="live plot" {}
+            (still(pictures, "history", "The history has no two times: there is nothing to draw."))
+        }
+        (surface())
+        section aria-labelledby="asked-heading" {
+            h2 id="asked-heading" { "What was asked" }
+            (question(plan))
+            div id="material" class="live" { h3 { "Moduli of the material" } (moduli("grid")) }
+        }
+        section aria-labelledby="how-heading" {
+            h2 id="how-heading" { "How the numbers were obtained" }
+            (how(plan, outcome))
+        }
+    }
+}
+
+/// Profiles and fields, which the script fills.
+fn surface() -> Markup {
+    html! {
+        section aria-labelledby="profiles-heading" class="live" id="profiles" {
+            h2 id="profiles-heading" { "Along the surface" }
+            div class="controls" role="group" aria-label="Choice of the profile" {
+                label { "Time " select id="profile" {} }
+                label { input type="checkbox" id="all-profiles" checked; " the other times too" }
+            }
+            div class="grid" {
+                div id="profile-pressure" class="plot" {}
+                div id="profile-displacement" class="plot" {}
+            }
+        }
+        section aria-labelledby="fields-heading" class="live" id="fields" {
+            h2 id="fields-heading" { "Over the surface" }
+            div class="controls" role="group" aria-label="Choice of the field" {
+                label { "Time " input type="range" id="field-time" min="0" value="0" step="1"; }
+                label {
+                    "Field "
+                    select id="field" {
+                        option value="pressure_pa" { "pressure" }
+                        option value="displacement_m" { "displacement" }
+                    }
+                }
+            }
+            p id="field-spoken" aria-live="polite" {}
+            div id="map" class="plot" {}
+        }
+    }
+}
+
 /// One line: material, indenter, drive.
 pub(super) fn line(plan: &ScenarioPlan) -> String {
     let name = plan.material.series().and_then(|material| material.name());
@@ -168,7 +235,7 @@ pub(super) fn line(plan: &ScenarioPlan) -> String {
 }
 
 /// The largest values, as a list.
-pub(super) fn answer(outcome: &SimulationOutcome) -> String {
+fn answer(outcome: &SimulationOutcome) -> Markup {
     let largest = |value: fn(&HistoryRow) -> Option<f64>| {
         let values = outcome.rows.iter().filter_map(value);
         values.reduce(f64::max)
@@ -207,22 +274,21 @@ pub(super) fn answer(outcome: &SimulationOutcome) -> String {
 }
 
 /// Why the history is not whole; nothing where it is.
-pub(super) fn problems(outcome: &SimulationOutcome) -> String {
+fn problems(outcome: &SimulationOutcome) -> Markup {
     let why = match &outcome.ended {
-        SimulationEnd::Done => return String::new(),
+        SimulationEnd::Done => return Markup::default(),
         SimulationEnd::Interrupted => "The history was interrupted.".to_owned(),
         SimulationEnd::Failed(message) => format!("The history ends early: {message}"),
     };
-    format!("<div class=\"problems\"><p>{}</p></div>", escaped(&why))
+    html! { div class="problems" { p { (why) } } }
 }
 
 /// What was asked.
-pub(super) fn question(plan: &ScenarioPlan) -> String {
+fn question(plan: &ScenarioPlan) -> Markup {
     let material = match &plan.material {
         BodyMaterial::Series(material) => question::material(material),
         BodyMaterial::Samples(_) => {
-            "<p>Samples of a measured function, taken as they are: see the input below.</p>\n"
-                .to_owned()
+            html! { p { "Samples of a measured function, taken as they are: see the input below." } }
         }
     };
     let mut drive = Facts::default();
@@ -234,15 +300,15 @@ pub(super) fn question(plan: &ScenarioPlan) -> String {
     );
     let dimension = drive_dimension(plan.drive.control());
     drive.add("largest value", &plain(plan.drive.maximum(), dimension, 6));
-    format!(
-        "<h3>Material</h3>\n{material}<h3>Indenter</h3>\n{}<h3>Drive</h3>\n{}",
+    question::parts(
+        material,
         question::indenter(plan.indenter.as_ref()),
-        drive.html()
+        drive.html(),
     )
 }
 
 /// How the numbers were obtained.
-pub(super) fn how(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
+fn how(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Markup {
     let mut facts = Facts::default();
     how::solver(&mut facts, &plan.solver);
     let nodes = plan.solver.nodes().to_string();

@@ -1,0 +1,138 @@
+//! The sections of the page of a sweep.
+
+use maud::{Markup, PreEscaped, html};
+
+use super::{Pictures, answer, cases_table, how, moduli, question, still};
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::record::warning;
+use crate::sweep::search::run::Outcome;
+
+const NOTHING: &str = "No case has a result: there is nothing to draw.";
+
+pub(super) fn sections(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
+    html! {
+        (curve(plan, outcome, pictures))
+        (cycle())
+        (loops(pictures))
+        section aria-labelledby="branches-heading" class="live" id="branches-section" {
+            h2 id="branches-heading" { "Which branch dissipates" }
+            p {
+                "Energy per cycle that each branch of the creep compliance dissipates, from the memory of the material alone; \
+                 the sum equals the area of the loop but for the discretisation."
+            }
+            div id="branches" class="plot tall" {}
+        }
+        (all_frequencies(plan, outcome))
+        section aria-labelledby="asked-heading" {
+            h2 id="asked-heading" { "What was asked" }
+            (question::sweep(plan))
+            h3 class="live" { "Moduli of the material" }
+            (moduli("live grid"))
+        }
+        section aria-labelledby="how-heading" {
+            h2 id="how-heading" { "How the numbers were obtained" }
+            (how::sweep(plan, outcome))
+        }
+    }
+}
+
+fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
+    let varied = plan.axis.as_ref().map_or("", |axis| axis.varied.name());
+    html! {
+        section aria-labelledby="answer" class="answer" {
+            h2 id="answer" { "Energy loss per cycle" }
+            (answer::peaks(plan, outcome))
+            (answer::problems(plan, outcome))
+            (answer::warned(warning::over_cases(&outcome.records, plan.figures.frequency_unit)))
+            div class="live controls" role="group" aria-label="Curve" id="curve-controls" {
+                label { "Curve of " select id="quantity" {} }
+                label id="drive-choice" hidden { (varied) " " select id="drive" {} }
+                label { input type="checkbox" id="log-x" checked; " log " (plan.figures.frequency_unit.symbol()) }
+                label { input type="checkbox" id="log-y"; " log values" }
+            }
+            div id="curve" class="live plot tall" {}
+            p class="live hint" {
+                span id="bars" {}
+                " Rings mark the peaks. Click a point, or use the arrow keys on the curve or the list below, to choose a \
+                 frequency."
+            }
+            (still(pictures, "energy-loss", NOTHING))
+        }
+    }
+}
+
+/// One cycle, which the script fills.
+fn cycle() -> Markup {
+    let plots = [
+        ("Hysteresis loop", "loop"),
+        ("Load and approach over the cycle", "phase"),
+        ("Contact radius over the cycle", "radius"),
+        ("Peak pressure over the cycle", "pressure"),
+        ("Harmonics", "harmonics"),
+        ("Pressure over the contact", "profile"),
+    ];
+    html! {
+        section aria-labelledby="cycle-heading" class="live" id="cycle" {
+            h2 id="cycle-heading" { "The cycle at one frequency" }
+            div class="controls" role="group" aria-label="Choice of the frequency" id="case-controls" {
+                button type="button" id="previous" { "← Lower" }
+                label { "Frequency " select id="case" {} }
+                button type="button" id="next" { "Higher →" }
+                button type="button" id="keep" { "Keep this loop" }
+            }
+            p id="spoken" aria-live="polite" {}
+            div class="grid" {
+                @for (heading, id) in plots { div { h3 { (heading) } div id=(id) class="plot" {} } }
+                div id="profile-y-part" {
+                    h3 { "Pressure over the contact, along y" } div id="profile-y" class="plot" {}
+                }
+                div { h3 { "Work density along a line" } div id="work" class="plot" {} }
+                div id="map-part" { h3 { "Where the work goes in" } div id="surface" class="plot" {} }
+            }
+            p class="hint" id="lines-how" {}
+            h3 { "Its numbers" }
+            section class="scroll" tabindex="0" aria-label="Numbers of the chosen frequency" {
+                table id="facts" {
+                    thead {
+                        tr {
+                            th scope="col" class="text" { "quantity" }
+                            th scope="col" { "value" }
+                            th scope="col" { "error estimate" }
+                        }
+                    }
+                    tbody {}
+                }
+            }
+        }
+    }
+}
+
+fn loops(pictures: &Pictures) -> Markup {
+    html! {
+        section aria-labelledby="loops-heading" {
+            h2 id="loops-heading" { "Loops side by side" }
+            div class="live controls" role="group" aria-label="Loops" id="loops-controls" {
+                label { input type="checkbox" id="normalised"; " centred and scaled to the largest amplitude" }
+                button type="button" id="clear" { "Keep none" }
+            }
+            div id="loops" class="live plot tall" {}
+            ul id="kept" class="live chips" {}
+            (still(pictures, "loops", NOTHING))
+        }
+    }
+}
+
+fn all_frequencies(plan: &SweepPlan, outcome: &Outcome) -> Markup {
+    html! {
+        section aria-labelledby="table-heading" {
+            h2 id="table-heading" { "All frequencies" }
+            (super::copying("Copy as CSV", "Download sweep.csv"))
+            p class="live hint" {
+                "Activate a heading to sort by it. The CSV has every column, in the order shown, to the last digit."
+            }
+            section class="scroll" tabindex="0" aria-label="Table, may be scrolled" {
+                (PreEscaped(cases_table::table(plan, outcome)))
+            }
+        }
+    }
+}
