@@ -17,6 +17,7 @@ use crate::history::{Work, order_of_steps};
 use crate::material::{Creep, MaterialError, Relaxation};
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::edge_layer::EdgeLayer;
+pub(crate) use crate::sweep::case::stabilise::sample;
 use crate::sweep::case::stabilise::{Contact, CycleError, Stabilised};
 use crate::sweep::engine::{AsContactError, EngineBuilder, EngineError, LargestContact};
 use crate::sweep::plan::instant_tolerance;
@@ -167,7 +168,10 @@ impl Setup {
     }
 
     /// Engines for a drive with so many springs or cells, built once.
-    pub(in crate::sweep) fn engines(
+    ///
+    /// # Errors
+    /// As [`EngineBuilder::new`].
+    pub fn engines(
         &self,
         drive: &HarmonicDrive,
         nodes: usize,

@@ -558,7 +558,11 @@ fn surface_loss(surface: Surface) -> SurfaceLoss {
 }
 
 /// Appends the present instant to a loop.
-fn sample(march: &mut March<'_>, samples: &mut Loop, time_s: f64) -> Result<(), ContactError> {
+pub(crate) fn sample(
+    march: &mut March<'_>,
+    samples: &mut Loop,
+    time_s: f64,
+) -> Result<(), ContactError> {
     march.observe(&mut |engine, pressure, solution| {
         samples.time_s.push(time_s);
         samples.load_n.push(solution.load_n);
