@@ -347,7 +347,7 @@ impl<'a> Cycles<'a> {
         mut recording: Option<&mut Recording>,
     ) -> Result<(), CycleError> {
         // A checkpoint may lie here.
-        march.forget_course();
+        march.reset_predictor();
         self.start.clear();
         self.start.extend_from_slice(march.memory().variables());
         self.load_n.clear();
