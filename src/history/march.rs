@@ -378,7 +378,7 @@ impl March<'_> {
     /// # Errors
     /// As [`March::step`].
     pub fn relax(&mut self, prescribed: Prescribed) -> Result<Solution, ContactError> {
-        self.forget_course();
+        self.reset_predictor();
         self.history.fill(0.0);
         let instant = Instant {
             history: &self.history,
@@ -413,7 +413,7 @@ impl March<'_> {
                 self.engine.resume_from(last);
             }
             self.work = state.work;
-            self.forget_course();
+            self.reset_predictor();
         }
         fits
     }
@@ -422,12 +422,12 @@ impl March<'_> {
     /// guess for the next instant, which must be a jump.
     pub fn recall(&mut self, variables: &[f64]) {
         self.memory.recall(variables);
-        self.forget_course();
+        self.reset_predictor();
     }
 
     /// Lets the next instant start from the last pressure alone, as after [`March::restore`]: a march that forgets its course
     /// wherever it might be stopped goes on from there with the same bits.
-    pub fn forget_course(&mut self) {
+    pub fn reset_predictor(&mut self) {
         if let Some(extrapolation) = &mut self.extrapolation {
             extrapolation.forget();
         }

@@ -145,7 +145,8 @@ impl StepWeights {
 }
 
 impl BranchWeights {
-    /// With z = step/lambda and e = exp(-z): new = 1 - (1 - e)/z and old = (1 - e)/z - e under the linear rule.
+    /// The exponential recursion of the hereditary integral (R. L. Taylor, K. S. Pister and G. L. Goudreau, Int. J. Numer. Meth.
+    /// Engng 2 (1970) 45). With z = step/lambda and e = exp(-z): new = 1 - (1 - e)/z and old = (1 - e)/z - e under the linear rule.
     fn new(z: f64, rule: TimeRule) -> Self {
         let decay = (-z).exp();
         let grown = -(-z).exp_m1();

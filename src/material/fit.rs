@@ -35,7 +35,7 @@
 //!   factor of ten of the fit's own value.
 //!
 //! Where there are more than forty samples per decade they are averaged in groups of a fortieth decade, which weigh as the mean
-//! of so many samples, but of no more than a hundred: what all of them have in common does not average out. So a table with
+//! of that many samples, but of no more than a hundred: what all of them have in common does not average out. So a table with
 //! equal time steps is not fitted in its last decade alone. The misfit reported is that of the samples as given.
 
 #[cfg(test)]

@@ -1,11 +1,70 @@
-//! One scenario by either engine, the axisymmetric one with shorter time steps because it can afford them.
+//! One thing by three routes, exactly and by each engine; and scenarios computed by either, on the axisymmetric one with
+//! shorter time steps because it can afford them.
 
 use std::sync::atomic::AtomicBool;
 
-use super::ReproductionError;
+use super::{ReproductionError, Result};
+use crate::drive::{Segment, SegmentedDrive};
 use crate::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::EngineKind;
 use crate::sweep::plan::scenario::ScenarioPlan;
+
+/// One thing exactly and by both engines.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ByEngine<T> {
+    /// In closed form; where there is none, by the axisymmetric engine at a finer resolution.
+    pub exact: T,
+    pub axisymmetric: T,
+    pub half_space: T,
+}
+
+impl<T> ByEngine<T> {
+    /// The exact one, and those of the axisymmetric and of the half-space engine.
+    pub fn of(exact: T, [axisymmetric, half_space]: [T; 2]) -> Self {
+        Self {
+            exact,
+            axisymmetric,
+            half_space,
+        }
+    }
+
+    /// The same of each.
+    pub fn map<U>(self, mut to: impl FnMut(T) -> U) -> ByEngine<U> {
+        ByEngine {
+            exact: to(self.exact),
+            axisymmetric: to(self.axisymmetric),
+            half_space: to(self.half_space),
+        }
+    }
+
+    /// Each beside that of another.
+    pub fn zip<U>(self, other: ByEngine<U>) -> ByEngine<(T, U)> {
+        ByEngine {
+            exact: (self.exact, other.exact),
+            axisymmetric: (self.axisymmetric, other.axisymmetric),
+            half_space: (self.half_space, other.half_space),
+        }
+    }
+
+    pub fn as_ref(&self) -> ByEngine<&T> {
+        ByEngine {
+            exact: &self.exact,
+            axisymmetric: &self.axisymmetric,
+            half_space: &self.half_space,
+        }
+    }
+}
+
+impl<T, E> ByEngine<Result<T, E>> {
+    /// All three, or the first error.
+    pub fn all(self) -> Result<ByEngine<T>, E> {
+        Ok(ByEngine {
+            exact: self.exact?,
+            axisymmetric: self.axisymmetric?,
+            half_space: self.half_space?,
+        })
+    }
+}
 
 /// How a scenario is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,27 +77,6 @@ pub(super) enum By {
     Cells,
 }
 
-/// A scenario as it is computed so.
-pub(super) fn plan(plan: &ScenarioPlan, by: By) -> ScenarioPlan {
-    let mut plan = plan.clone();
-    // The other engine and a refined run say more.
-    plan.output.error_bars = false;
-    let shorter = |step_s: Option<f64>, factor: f64| step_s.map(|step_s| step_s / factor);
-    match by {
-        By::Springs => {
-            plan.solver.engine = EngineKind::Axisymmetric;
-            plan.step_s = shorter(plan.step_s, 10.0);
-        }
-        By::RefinedSprings => {
-            plan.solver.engine = EngineKind::Axisymmetric;
-            plan.solver.springs *= 2;
-            plan.step_s = shorter(plan.step_s, 20.0);
-        }
-        By::Cells => plan.solver.engine = EngineKind::HalfSpace,
-    }
-    plan
-}
-
 /// Runs a scenario to its end.
 ///
 /// # Errors
@@ -47,16 +85,38 @@ pub(super) fn simulate(
     scenario: &ScenarioPlan,
     by: By,
     interrupt: &AtomicBool,
-) -> Result<SimulationOutcome, ReproductionError> {
-    let simulation = Simulation::new(plan(scenario, by))?;
-    run(&simulation, interrupt)
+) -> Result<SimulationOutcome> {
+    let mut plan = scenario.clone();
+    let (engine, springs, steps) = match by {
+        By::Springs => (EngineKind::Axisymmetric, 1, 10.0),
+        By::RefinedSprings => (EngineKind::Axisymmetric, 2, 20.0),
+        By::Cells => (EngineKind::HalfSpace, 1, 1.0),
+    };
+    plan.solver.engine = engine;
+    plan.solver.springs *= springs;
+    plan.step_s = plan.step_s.map(|step_s| step_s / steps);
+    run(plan, interrupt)
 }
 
-/// The same of a simulation at hand.
-pub(super) fn run(
-    simulation: &Simulation,
+/// Runs a scenario by both engines: springs, then cells.
+///
+/// # Errors
+/// As [`simulate`].
+pub(super) fn both(
+    scenario: &ScenarioPlan,
     interrupt: &AtomicBool,
-) -> Result<SimulationOutcome, ReproductionError> {
+) -> Result<[SimulationOutcome; 2]> {
+    let by = |by| simulate(scenario, by, interrupt);
+    Ok([by(By::Springs)?, by(By::Cells)?])
+}
+
+/// Runs a scenario as it stands, without error bars: the other engine and a refined run say more.
+///
+/// # Errors
+/// As [`simulate`].
+pub(super) fn run(mut plan: ScenarioPlan, interrupt: &AtomicBool) -> Result<SimulationOutcome> {
+    plan.output.error_bars = false;
+    let simulation = Simulation::new(plan)?;
     let outcome = simulation.run(interrupt, &|_, _| {});
     match &outcome.ended {
         SimulationEnd::Done => Ok(outcome),
@@ -68,7 +128,29 @@ pub(super) fn run(
     }
 }
 
-/// Side of a cell of the half-space engine (m).
-pub(super) fn cell_m(outcome: &SimulationOutcome, cells: usize) -> f64 {
-    2.0 * outcome.domain_half_width_m / cells as f64
+/// The scenario with another angular frequency (rad/s) in its sine, and for another number of cycles where one is given.
+///
+/// # Errors
+/// [`ReproductionError::Drive`] where that is no history.
+pub(super) fn at_frequency(
+    scenario: &ScenarioPlan,
+    omega: f64,
+    number_of_cycles: Option<usize>,
+) -> Result<ScenarioPlan> {
+    let mut segments = scenario.drive.segments().to_vec();
+    for segment in &mut segments {
+        if let Segment::Sine {
+            angular_frequency_rad_per_s,
+            cycles,
+            ..
+        } = segment
+        {
+            *angular_frequency_rad_per_s = omega;
+            *cycles = number_of_cycles.map_or(*cycles, |count| count as f64);
+        }
+    }
+    Ok(ScenarioPlan {
+        drive: SegmentedDrive::new(scenario.drive.control(), segments)?,
+        ..scenario.clone()
+    })
 }

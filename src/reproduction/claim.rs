@@ -1,17 +1,16 @@
 //! Claims: one number each, as it is, as both engines compute it, and what the paper states of it.
 
 use super::number::{difference, significant};
-use super::{Figure, ReproductionError};
+use super::{ByEngine, Figure, Result};
 use crate::report::table::Table;
 
 /// One number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claim {
-    pub figure: u8,
     pub quantity: String,
-    pub exact: Value,
-    pub axisymmetric: Option<f64>,
-    pub half_space: Option<f64>,
+    pub source: Source,
+    /// `None` where it is undefined or not computed.
+    pub values: ByEngine<Option<f64>>,
     pub measure: Measure,
     pub stated: Stated,
     pub note: String,
@@ -38,30 +37,26 @@ impl Stated {
     }
 }
 
-/// The value computed values are held against; `None` where it is undefined.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Value {
-    /// From a formula.
-    ClosedForm(Option<f64>),
-    /// From the axisymmetric engine, refined.
-    Refined(Option<f64>),
-    /// Zero: the computed values are differences themselves.
+/// Where the value comes from that computed values are held against.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Source {
+    /// A formula.
+    ClosedForm,
+    /// The axisymmetric engine, refined.
+    Refined,
+    /// The value is zero: the computed values are differences themselves.
     Difference,
-    /// A whole number, from the axisymmetric engine, refined.
-    Count(Option<f64>),
+    /// As [`Source::Refined`], a whole number.
+    Count,
 }
 
-/// How computed values are compared, and how near they must come.
+/// How near computed values must come.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measure {
-    /// Differences are divided by this and named so; `None` where they are relative to a value that is undefined.
-    pub unit: Option<f64>,
-    pub unit_name: &'static str,
-    /// Largest differences allowed.
-    pub axisymmetric: f64,
-    pub half_space: f64,
-    /// A difference below this is not resolved and not printed.
-    pub floor: f64,
+    /// What unit differences are in; `None` where they are relative to the exact value.
+    unit: Option<&'static str>,
+    axisymmetric: f64,
+    half_space: f64,
 }
 
 /// Whether what the paper states is what comes out.
@@ -88,25 +83,6 @@ impl Verdict {
     }
 }
 
-impl Value {
-    /// The number, where it is defined.
-    pub fn number(self) -> Option<f64> {
-        match self {
-            Self::ClosedForm(value) | Self::Refined(value) | Self::Count(value) => value,
-            Self::Difference => Some(0.0),
-        }
-    }
-
-    /// Where it comes from.
-    pub fn source(self) -> &'static str {
-        match self {
-            Self::ClosedForm(_) => "closed form",
-            Self::Refined(_) | Self::Count(_) => "refined",
-            Self::Difference => "difference",
-        }
-    }
-}
-
 /// What [`Claim::cells_below`] are.
 pub(super) const COLUMNS: [&str; 8] = [
     "quantity",
@@ -122,39 +98,74 @@ pub(super) const COLUMNS: [&str; 8] = [
 /// What stands in place of a value that is undefined.
 const UNDEFINED: &str = "undefined";
 
-/// Differences below this depend on the tolerance of the half-space solver.
-const UNRESOLVED: f64 = 1e-6;
-
 impl Measure {
-    /// Relative to the exact value.
-    pub fn relative(exact: Option<f64>, axisymmetric: f64, half_space: f64) -> Self {
+    /// Differences relative to the exact value.
+    pub fn relative(axisymmetric: f64, half_space: f64) -> Self {
         Self {
-            unit: exact.map(f64::abs),
-            unit_name: "relative",
+            unit: None,
             axisymmetric,
             half_space,
-            floor: UNRESOLVED,
         }
     }
 
-    /// In the normalised unit of the quantity itself.
-    pub fn absolute(unit_name: &'static str, axisymmetric: f64, half_space: f64) -> Self {
+    /// Differences in the normalised unit of the quantity itself.
+    pub fn absolute(unit: &'static str, axisymmetric: f64, half_space: f64) -> Self {
         Self {
-            unit: Some(1.0),
-            unit_name,
+            unit: Some(unit),
             axisymmetric,
             half_space,
-            floor: UNRESOLVED,
         }
+    }
+
+    fn name(self) -> &'static str {
+        self.unit.unwrap_or("relative")
     }
 }
 
 impl Claim {
+    /// One of which the paper states nothing yet.
+    pub fn new(
+        quantity: impl Into<String>,
+        source: Source,
+        values: ByEngine<Option<f64>>,
+        measure: Measure,
+    ) -> Self {
+        Self {
+            quantity: quantity.into(),
+            source,
+            values,
+            measure,
+            stated: Stated::default(),
+            note: String::new(),
+        }
+    }
+
+    /// One whose computed values are differences themselves.
+    pub fn difference(
+        quantity: impl Into<String>,
+        computed: [Option<f64>; 2],
+        measure: Measure,
+    ) -> Self {
+        let values = ByEngine::of(Some(0.0), computed);
+        Self::new(quantity, Source::Difference, values, measure)
+    }
+
+    /// The same with a note.
+    #[must_use]
+    pub fn note(mut self, note: impl Into<String>) -> Self {
+        self.note = note.into();
+        self
+    }
+
     /// Whether there is no value to compare: no exact one, or of a difference none that is computed.
     pub fn is_undefined(&self) -> bool {
-        match self.exact {
-            Value::Difference => self.axisymmetric.or(self.half_space).is_none(),
-            value => value.number().is_none(),
+        match self.source {
+            Source::Difference => self
+                .values
+                .axisymmetric
+                .or(self.values.half_space)
+                .is_none(),
+            _ => self.values.exact.is_none(),
         }
     }
 
@@ -166,134 +177,130 @@ impl Claim {
         }
     }
 
-    /// The exact value as printed; empty where it is undefined, and of a difference.
-    pub fn exact_text(&self) -> String {
-        match self.exact {
-            Value::ClosedForm(value) | Value::Refined(value) => {
-                value.map(|value| significant(value, 5)).unwrap_or_default()
-            }
-            Value::Count(value) => value.map(|value| value.to_string()).unwrap_or_default(),
-            Value::Difference => String::new(),
-        }
-    }
-
-    /// A computed value as printed.
-    pub fn value_text(&self, value: Option<f64>) -> String {
-        let Some(value) = value else {
-            return String::new();
+    /// The values as printed; empty where they are undefined, and the exact one of a difference.
+    pub fn texts(&self) -> ByEngine<String> {
+        let text = |value: f64| match self.source {
+            Source::Difference => difference(value).replace('+', ""),
+            Source::Count => value.to_string(),
+            Source::ClosedForm | Source::Refined => significant(value, 5),
         };
-        match self.exact {
-            Value::Difference => difference(value, self.measure.floor).replace('+', ""),
-            Value::Count(_) => format!("{value}"),
-            _ => significant(value, 5),
+        let mut texts = self.values.map(|value| value.map(text).unwrap_or_default());
+        if self.source == Source::Difference {
+            texts.exact.clear();
         }
+        texts
     }
 
-    /// By how much a computed value differs; `None` where one of the two is undefined.
-    pub fn error(&self, value: Option<f64>) -> Option<f64> {
-        Some((value? - self.exact.number()?) / self.measure.unit?)
+    /// By how much the computed values differ; `None` where one of the two is undefined.
+    pub fn errors(&self) -> [Option<f64>; 2] {
+        let ByEngine { exact, .. } = self.values;
+        let unit = if self.measure.unit.is_some() {
+            Some(1.0)
+        } else {
+            exact.map(f64::abs)
+        };
+        [self.values.axisymmetric, self.values.half_space]
+            .map(|value| Some((value? - exact?) / unit?))
     }
 
     /// The same as printed; empty where the value is itself a difference or a count.
-    pub fn error_text(&self, value: Option<f64>) -> String {
-        match self.exact {
-            Value::Difference | Value::Count(_) => String::new(),
-            _ => self
-                .error(value)
-                .map(|error| difference(error, self.measure.floor))
-                .unwrap_or_default(),
-        }
+    fn error_texts(&self) -> [String; 2] {
+        self.errors().map(|error| match self.source {
+            Source::Difference | Source::Count => String::new(),
+            _ => error.map(difference).unwrap_or_default(),
+        })
     }
 
     /// The claim as a row to be read, below another one: what the paper states of both stands once.
     pub(super) fn cells_below(&self, above: Option<&Claim>) -> [String; 8] {
-        let mut cells = self.cells();
         let is_same = |above: &Claim| above.stated.paper == self.stated.paper;
-        if !self.stated.paper.is_empty() && above.is_some_and(is_same) {
-            cells[1] = "as above".to_owned();
-        }
-        cells
-    }
-
-    /// The claim as a row to be read.
-    fn cells(&self) -> [String; 8] {
-        let errors = [self.axisymmetric, self.half_space]
-            .map(|value| self.error_text(value))
-            .into_iter()
-            .filter(|text| !text.is_empty())
-            .collect::<Vec<_>>()
-            .join(", ");
-        let exact = match self.exact {
-            Value::Difference => String::new(),
-            _ if self.is_undefined() => UNDEFINED.to_owned(),
-            Value::ClosedForm(_) => self.exact_text(),
-            Value::Refined(_) | Value::Count(_) => format!("{} (refined)", self.exact_text()),
+        let paper = match !self.stated.paper.is_empty() && above.is_some_and(is_same) {
+            true => "as above".to_owned(),
+            false => self.stated.paper.clone(),
         };
-        [
-            self.quantity.clone(),
-            self.stated.paper.clone(),
+        let ByEngine {
             exact,
-            self.value_text(self.axisymmetric),
-            self.value_text(self.half_space),
-            if errors.is_empty() {
-                errors
-            } else {
-                format!("{errors} {}", self.measure.unit_name)
-            },
-            self.judged().name().to_owned(),
-            self.note.clone(),
+            axisymmetric,
+            half_space,
+        } = self.texts();
+        let exact = match self.source {
+            Source::Refined | Source::Count if !exact.is_empty() => format!("{exact} (refined)"),
+            Source::Difference => exact,
+            _ if self.is_undefined() => UNDEFINED.to_owned(),
+            _ => exact,
+        };
+        let errors = self
+            .error_texts()
+            .into_iter()
+            .filter(|text| !text.is_empty());
+        let errors = errors.collect::<Vec<_>>().join(", ");
+        let errors = match errors.is_empty() {
+            true => errors,
+            false => format!("{errors} {}", self.measure.name()),
+        };
+        let verdict = self.judged().name().to_owned();
+        let (quantity, note) = (self.quantity.clone(), self.note.clone());
+        [
+            quantity,
+            paper,
+            exact,
+            axisymmetric,
+            half_space,
+            errors,
+            verdict,
+            note,
         ]
     }
 
     /// Whether both engines come as near as they must; `None` where the value is undefined.
     pub fn is_accurate(&self) -> Option<bool> {
-        let near = |value, allowed| self.error(value).is_none_or(|e: f64| e.abs() <= allowed);
-        let both = near(self.axisymmetric, self.measure.axisymmetric)
-            && near(self.half_space, self.measure.half_space);
-        (!self.is_undefined()).then_some(both)
+        let allowed = [self.measure.axisymmetric, self.measure.half_space];
+        let mut pairs = self.errors().into_iter().zip(allowed);
+        let near = pairs.all(|(error, allowed)| error.is_none_or(|e| e.abs() <= allowed));
+        (!self.is_undefined()).then_some(near)
     }
 }
 
+type Column = (&'static str, fn(&Claim) -> String);
+
+/// Columns of `claims.csv` after the number of the figure.
+const TABLE: [Column; 12] = [
+    ("quantity", |c| c.quantity.clone()),
+    ("paper", |c| c.stated.paper.clone()),
+    ("exact", |c| c.texts().exact),
+    ("exact_source", |c| {
+        let source = match c.source {
+            Source::ClosedForm => "closed form",
+            Source::Refined | Source::Count => "refined",
+            Source::Difference => "difference",
+        };
+        source.to_owned()
+    }),
+    ("axisymmetric", |c| c.texts().axisymmetric),
+    ("half_space", |c| c.texts().half_space),
+    ("error_unit", |c| c.measure.name().to_owned()),
+    ("axisymmetric_error", |c| c.error_texts()[0].clone()),
+    ("half_space_error", |c| c.error_texts()[1].clone()),
+    ("within_accuracy", |c| {
+        let word = |accurate| if accurate { "yes" } else { "no" };
+        c.is_accurate().map(word).unwrap_or_default().to_owned()
+    }),
+    ("verdict", |c| c.judged().name().to_owned()),
+    ("note", |c| c.note.clone()),
+];
+
 /// `claims.csv`.
-pub(super) fn table(figures: &[Figure]) -> Result<Vec<u8>, ReproductionError> {
-    let mut table = Table::new(
-        "claims.csv",
-        &[
-            "figure",
-            "quantity",
-            "paper",
-            "exact",
-            "exact_source",
-            "axisymmetric",
-            "half_space",
-            "error_unit",
-            "axisymmetric_error",
-            "half_space_error",
-            "within_accuracy",
-            "verdict",
-            "note",
-        ],
-    )?;
-    for claim in figures.iter().flat_map(|figure| &figure.claims) {
-        table.row(&[
-            claim.figure.to_string(),
-            claim.quantity.clone(),
-            claim.stated.paper.clone(),
-            claim.exact_text(),
-            claim.exact.source().to_owned(),
-            claim.value_text(claim.axisymmetric),
-            claim.value_text(claim.half_space),
-            claim.measure.unit_name.to_owned(),
-            claim.error_text(claim.axisymmetric),
-            claim.error_text(claim.half_space),
-            match claim.is_accurate() {
-                Some(true) => "yes".to_owned(),
-                Some(false) => "no".to_owned(),
-                None => String::new(),
-            },
-            claim.judged().name().to_owned(),
-            claim.note.clone(),
-        ])?;
+pub(super) fn table(figures: &[Figure]) -> Result<Vec<u8>> {
+    let columns: Vec<&str> = std::iter::once("figure")
+        .chain(TABLE.map(|(name, _)| name))
+        .collect();
+    let mut table = Table::new("claims.csv", &columns)?;
+    for figure in figures {
+        for claim in &figure.claims {
+            let mut cells = vec![figure.number.to_string()];
+            cells.extend(TABLE.map(|(_, cell)| cell(claim)));
+            table.row(&cells)?;
+        }
     }
     Ok(table.finish()?)
 }
@@ -302,37 +309,28 @@ pub(super) fn table(figures: &[Figure]) -> Result<Vec<u8>, ReproductionError> {
 mod tests {
     use super::*;
 
-    fn claim(exact: Value, measure: Measure) -> Claim {
-        Claim {
-            figure: 10,
-            quantity: "largest pressure / p_H".to_owned(),
-            exact,
-            axisymmetric: Some(1.5),
-            half_space: None,
-            measure,
-            stated: Stated {
-                paper: String::new(),
-                verdict: Verdict::Agrees,
-            },
-            note: String::new(),
-        }
+    fn claim(source: Source, exact: Option<f64>, measure: Measure) -> Claim {
+        let values = ByEngine::of(exact, [Some(1.5), None]);
+        let mut claim = Claim::new("largest pressure / p_H", source, values, measure);
+        claim.stated.verdict = Verdict::Agrees;
+        claim
     }
 
     #[test]
     fn a_claim_whose_value_is_undefined_says_so_and_has_no_error() {
-        let relative = Measure::relative(None, 1e-3, 1e-3);
+        let relative = Measure::relative(1e-3, 1e-3);
         let absolute = Measure::absolute("of p_H", 1e-3, 1e-3);
-        for (value, measure) in [
-            (Value::ClosedForm(None), relative),
-            (Value::Refined(None), absolute),
-            (Value::Count(None), absolute),
+        for (source, measure) in [
+            (Source::ClosedForm, relative),
+            (Source::Refined, absolute),
+            (Source::Count, absolute),
         ] {
-            let claim = claim(value, measure);
+            let claim = claim(source, None, measure);
             assert!(claim.is_undefined());
             assert_eq!(claim.judged(), Verdict::Undefined);
             assert_eq!(claim.is_accurate(), None);
-            assert_eq!(claim.error(claim.axisymmetric), None);
-            let cells = claim.cells();
+            assert_eq!(claim.errors(), [None, None]);
+            let cells = claim.cells_below(None);
             assert_eq!([cells[2].as_str(), &cells[5]], ["undefined", ""]);
             // What is computed stands nevertheless.
             assert!(cells[3].starts_with("1.5") && cells[4].is_empty());
@@ -342,15 +340,13 @@ mod tests {
 
     #[test]
     fn the_table_of_claims_has_empty_cells_where_a_value_is_undefined() {
+        let measure = Measure::absolute("of p_H", 1e-3, 1e-3);
         let figure = Figure {
             number: 10,
             caption: String::new(),
             panels: Vec::new(),
             data: Vec::new(),
-            claims: vec![claim(
-                Value::Refined(None),
-                Measure::absolute("of p_H", 1e-3, 1e-3),
-            )],
+            claims: vec![claim(Source::Refined, None, measure)],
             statements: Vec::new(),
         };
         let text = String::from_utf8(table(&[figure]).unwrap()).unwrap();
@@ -364,13 +360,10 @@ mod tests {
     #[test]
     fn a_difference_that_no_engine_has_is_undefined() {
         let measure = Measure::absolute("of p_H", 1e-3, 1e-3);
-        let computed = claim(Value::Difference, measure);
+        let mut computed = claim(Source::Difference, Some(0.0), measure);
         assert_eq!(computed.judged(), Verdict::Agrees);
-        let lacking = Claim {
-            axisymmetric: None,
-            ..computed
-        };
-        assert_eq!(lacking.judged(), Verdict::Undefined);
-        assert_eq!(lacking.is_accurate(), None);
+        computed.values.axisymmetric = None;
+        assert_eq!(computed.judged(), Verdict::Undefined);
+        assert_eq!(computed.is_accurate(), None);
     }
 }

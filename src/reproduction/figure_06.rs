@@ -3,15 +3,13 @@
 use std::f64::consts::PI;
 use std::sync::atomic::AtomicBool;
 
-use super::by_engine::{By, cell_m, simulate};
-use super::claim::Value;
-use super::look::{Member, spread};
-use super::number::datum;
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Stated, series_of};
+use super::by_engine::{By, ByEngine, simulate};
+use super::curves::{Member, extremum, spread};
+use super::number::Data;
+use super::{Claim, Figure, Measure, Plans, Result, Scale, Source, series_of};
 use crate::reference::step_load::maxwell_falling_ramp_cubed_radius;
 use crate::reference::transient::maxwell_half_sine_cubed_radius;
-use crate::report::chart::{Axis, Chart, LegendPlace, Series};
-use crate::report::table::Table;
+use crate::report::chart::{Axis, Chart, LegendPlace};
 
 /// (time / tau, contact radius / a_H).
 type Signal = Vec<(f64, f64)>;
@@ -96,184 +94,123 @@ const CASES: [Case; 3] = [
 
 /// A case, computed.
 struct Computed {
-    exact: Signal,
-    springs: Signal,
-    cells: Signal,
-    /// Side of a cell in Hertz radii.
+    signals: ByEngine<Signal>,
+    /// Cells per side, and the side of one in Hertz radii.
+    cells: usize,
     cell: f64,
 }
 
 /// The figure.
-pub(super) fn figures(
-    plans: &Plans,
-    interrupt: &AtomicBool,
-) -> Result<Vec<Figure>, ReproductionError> {
-    let mut table = Table::new(
-        "figure-06.csv",
-        &["loading_case", "source", "time_tau", "contact_radius_a_h"],
-    )?;
-    let (mut series, mut claims) = (Vec::<Series>::new(), Vec::new());
-    let mut side = 0;
-    for (step, case) in CASES.iter().enumerate() {
-        side = plans.scenario(case.file)?.solver.cells;
-        let computed = compute(case, plans, interrupt)?;
-        let member = Member { step, of: 3 };
-        let exact = spread(&computed.exact, 301);
-        let springs = spread(&computed.springs, 31);
-        for (source, signal) in [
-            ("exact", &exact),
-            ("axisymmetric", &springs),
-            ("half-space", &computed.cells),
-        ] {
-            for (time, radius) in signal {
-                let cells = [datum(*time), datum(*radius)];
-                let [time, radius] = cells;
-                table.row(&[case.number.to_string(), source.to_owned(), time, radius])?;
-            }
-        }
-        let drawn = |signal: &Signal| signal.iter().map(|(t, a)| (t / case.axis, *a)).collect();
-        let label = format!("case {}: {}", case.number, case.law);
-        series.push(member.line(drawn(&exact)).label(label));
-        series.extend(member.engines(drawn(&springs), drawn(&computed.cells), side));
-        claims.extend(case_claims(case, &computed));
-    }
-    let chart = Chart::new(
+pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figure>> {
+    let mut data = Data::new(&["loading_case", "source", "time_tau", "contact_radius_a_h"])?;
+    let mut claims = Vec::new();
+    let mut chart = Chart::new(
         Axis::linear("time t / 2τ (cases 1, 2), t / πτ (case 3)").range(0.0, 1.5),
         Axis::linear("contact radius a / Hertz radius").range(0.0, 1.4),
     )
-    .all_series(series)
     .legend(LegendPlace::Above);
-    Ok(vec![Figure {
-        number: 6,
-        caption: format!(
-            "Contact radius on a Maxwell half-space. Lines: closed form (cases 1 and 3) and the refined axisymmetric engine \
-             (case 2). Symbols: computed, {side} × {side} cells. Case 2 is followed beyond the paper's range, to the end of \
-             its load."
-        ),
-        panels: vec![chart],
-        data: table.finish()?,
-        claims,
-        statements: Vec::new(),
-    }])
+    let mut side = 0;
+    for (step, case) in CASES.iter().enumerate() {
+        let computed = compute(case, plans, interrupt)?;
+        side = computed.cells;
+        let signals = &computed.signals;
+        let exact = spread(&signals.exact, 301);
+        let springs = spread(&signals.axisymmetric, 31);
+        let number = case.number.to_string();
+        data.points(&[&number, &"exact"], &exact)?;
+        data.points(&[&number, &"axisymmetric"], &springs)?;
+        data.points(&[&number, &"half-space"], &signals.half_space)?;
+        let member = Member { step, of: 3 };
+        let drawn = |signal: &Signal| signal.iter().map(|(t, a)| (t / case.axis, *a)).collect();
+        let label = format!("case {number}: {}", case.law);
+        let (springs, cells) = (drawn(&springs), drawn(&signals.half_space));
+        chart = chart
+            .series(member.line(drawn(&exact)).label(label))
+            .all_series(member.engines(springs, cells, side));
+        for extremum in case.extrema {
+            claims.extend(extremum_claims(case, &computed, extremum));
+        }
+        claims.push(deviation_claim(case, &computed));
+    }
+    let caption = format!(
+        "Contact radius on a Maxwell half-space. Lines: closed form (cases 1 and 3) and the refined axisymmetric engine \
+         (case 2). Symbols: computed, {side} × {side} cells. Case 2 is followed beyond the paper's range, to the end of \
+         its load."
+    );
+    Ok(vec![Figure::new(6, caption, vec![chart], data, claims)?])
 }
 
-fn compute(
-    case: &Case,
-    plans: &Plans,
-    interrupt: &AtomicBool,
-) -> Result<Computed, ReproductionError> {
+fn compute(case: &Case, plans: &Plans, interrupt: &AtomicBool) -> Result<Computed> {
     let plan = plans.scenario(case.file)?;
-    let scale = Scale::new(
-        series_of(plan)?,
-        plan.indenter.as_ref(),
-        plan.drive.maximum(),
-    )?;
+    let load_n = plan.drive.maximum();
+    let scale = Scale::new(series_of(plan)?, plan.indenter.as_ref(), load_n)?;
     let hertz_m = scale.contact_radius_m;
-    let signal = |by| -> Result<(Signal, f64), ReproductionError> {
+    let signal = |by| -> Result<(Signal, f64)> {
         let outcome = simulate(plan, by, interrupt)?;
         let rows = outcome.rows.iter();
         let signal = rows.map(|row| (row.time_s, row.contact_radius_m / hertz_m));
-        Ok((signal.collect(), cell_m(&outcome, plan.solver.cells)))
+        Ok((signal.collect(), outcome.domain_half_width_m))
     };
     let (springs, _) = signal(By::Springs)?;
-    let (cells, cell_m) = signal(By::Cells)?;
+    let (on_cells, half_width_m) = signal(By::Cells)?;
     let exact = match case.exact {
         Exact::ClosedForm(radius) => springs.iter().map(|(t, _)| (*t, radius(*t))).collect(),
         Exact::Refined => signal(By::RefinedSprings)?.0,
     };
+    let cells = plan.solver.cells;
     Ok(Computed {
-        exact,
-        springs,
+        signals: ByEngine::of(exact, [springs, on_cells]),
         cells,
-        cell: cell_m / hertz_m,
+        cell: 2.0 * half_width_m / cells as f64 / hertz_m,
     })
 }
 
-/// The extremum of a signal: when, from a parabola through samples `reach` apart, and the extreme sample.
-fn find(signal: &Signal, extremum: &Extremum, reach: usize) -> Option<(f64, f64)> {
-    let sign = if extremum.is_largest { 1.0 } else { -1.0 };
-    let [from, to] = extremum.between;
-    let (best, _) = signal
-        .iter()
-        .enumerate()
-        .filter(|(_, (t, _))| *t > from && *t < to)
-        .max_by(|a, b| (sign * a.1.1).total_cmp(&(sign * b.1.1)))?;
-    let (time, value) = *signal.get(best)?;
-    let before = signal.get(best.checked_sub(reach)?)?;
-    let after = signal.get(best + reach)?;
-    let curvature = before.1 - 2.0 * value + after.1;
-    let shift = 0.25 * (after.0 - before.0) * (before.1 - after.1) / curvature;
-    Some((time + shift, value))
-}
-
-fn case_claims(case: &Case, computed: &Computed) -> Vec<Claim> {
-    let mut claims: Vec<Claim> = Vec::new();
-    for extremum in case.extrema {
-        claims.extend(extremum_claims(case, computed, extremum));
-    }
-    claims.push(Claim {
-        figure: 6,
-        quantity: format!(
-            "case {}: contact radius, largest error at any time",
-            case.number
-        ),
-        exact: Value::Difference,
-        axisymmetric: Some(computed.deviation(&computed.springs)),
-        half_space: Some(computed.deviation(&computed.cells)),
-        measure: Measure::absolute("of a_H", 2e-3, 0.5 * computed.cell),
-        stated: Stated::default(),
-        note: format!("half a cell is {:.4} a_H", 0.5 * computed.cell),
-    });
-    claims
-}
-
 /// The value of an extremum and its time.
-fn extremum_claims(case: &Case, computed: &Computed, extremum: &Extremum) -> [Claim; 2] {
+fn extremum_claims(case: &Case, computed: &Computed, wanted: &Extremum) -> [Claim; 2] {
     // Radii from springs are smooth to 1e-5: samples a tenth of tau apart. Those of cells are counted.
-    let springs = find(&computed.springs, extremum, 10);
-    let cells = find(&computed.cells, extremum, 2);
-    let [time, value] = match (extremum.known, find(&computed.exact, extremum, 20)) {
-        (Some((time, value)), _) => [Some(time), Some(value)].map(Value::ClosedForm),
-        (None, found) => [found.map(|f| f.0), found.map(|f| f.1)].map(Value::Refined),
+    let reach = ByEngine::of(20, [10, 2]);
+    let mut found = computed.signals.as_ref().zip(reach).map(|(signal, reach)| {
+        let [from, to] = wanted.between;
+        extremum(signal, |t| t > from && t < to, wanted.is_largest, reach)
+    });
+    let source = match wanted.known {
+        Some(_) => Source::ClosedForm,
+        None => Source::Refined,
     };
-    let radius = Claim {
-        figure: 6,
-        quantity: format!(
-            "case {}: {} contact radius / a_H",
-            case.number, extremum.what
-        ),
-        exact: value,
-        axisymmetric: springs.map(|found| found.1),
-        half_space: cells.map(|found| found.1),
-        measure: Measure::absolute("of a_H", 5e-4, 0.5 * computed.cell),
-        stated: Stated::default(),
-        note: String::new(),
-    };
-    let when = Claim {
-        quantity: format!(
-            "case {}: time of the {} contact radius / τ",
-            case.number, extremum.what
-        ),
-        exact: time,
-        axisymmetric: springs.map(|found| found.0),
-        half_space: cells.map(|found| found.0),
+    found.exact = wanted.known.or(found.exact);
+    let (number, what) = (case.number, wanted.what);
+    let radius = Claim::new(
+        format!("case {number}: {what} contact radius / a_H"),
+        source,
+        found.map(|found| found.map(|(_, radius)| radius)),
+        Measure::absolute("of a_H", 5e-4, 0.5 * computed.cell),
+    );
+    let when = Claim::new(
+        format!("case {number}: time of the {what} contact radius / τ"),
+        source,
+        found.map(|found| found.map(|(time, _)| time)),
         // A flat extremum: within a time step of the half-space engine, a tenth of it for springs.
-        measure: Measure::absolute("of τ", 0.01, 0.1),
-        ..radius.clone()
-    };
+        Measure::absolute("of τ", 0.01, 0.1),
+    );
     [radius, when]
 }
 
-impl Computed {
-    /// Largest difference of the contact radius from the exact one.
-    fn deviation(&self, signal: &Signal) -> f64 {
-        let exact = |t: f64| {
-            let near = |e: &&(f64, f64)| (e.0 - t).abs() < 1e-9;
-            self.exact.iter().find(near).map(|e| e.1)
-        };
-        let differences = signal
-            .iter()
-            .filter_map(|(t, a)| Some((a - exact(*t)?).abs()));
-        differences.fold(0.0, f64::max)
-    }
+/// Largest difference of the contact radius from the exact one at the same time.
+fn deviation_claim(case: &Case, computed: &Computed) -> Claim {
+    let signals = &computed.signals;
+    let deviations = [&signals.axisymmetric, &signals.half_space].map(|signal| {
+        let differences = signal.iter().filter_map(|(t, a)| {
+            let exact = signals.exact.iter().find(|e| (e.0 - t).abs() < 1e-9)?;
+            Some((a - exact.1).abs())
+        });
+        Some(differences.fold(0.0, f64::max))
+    });
+    let half_a_cell = 0.5 * computed.cell;
+    let quantity = format!(
+        "case {}: contact radius, largest error at any time",
+        case.number
+    );
+    let measure = Measure::absolute("of a_H", 2e-3, half_a_cell);
+    Claim::difference(quantity, deviations, measure)
+        .note(format!("half a cell is {half_a_cell:.4} a_H"))
 }

@@ -2,29 +2,25 @@
 
 use std::sync::atomic::AtomicBool;
 
-use super::by_engine::{By, simulate};
-use super::claim::Value;
-use super::cycles::{Cycles, FromRest};
-use super::look::{Member, SPRINGS, cells_label, spread};
-use super::number::{datum, optional_datum, short};
-use super::{Claim, Figure, Measure, Plans, ReproductionError, Scale, Stated};
+use super::by_engine::{ByEngine, both};
+use super::curves::{Member, SPRINGS, cells_label, extremum, spread};
+use super::cycles::{Cycles, STEPS_ON_CELLS, cycles_to};
+use super::number::{Cell, Data, short};
+use super::{Claim, Figure, Measure, Plans, ReproductionError, Result, Scale, Source};
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Marker, Series};
-use crate::report::table::Table;
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
 use crate::sweep::plan::scenario::{ScenarioPlan, resolved_text};
 
-/// A history by both engines.
+/// A history on springs and on cells, so many of the latter per side.
 #[derive(Clone)]
 struct History {
-    springs: SimulationOutcome,
-    cells: SimulationOutcome,
+    computed: [SimulationOutcome; 2],
     side: usize,
 }
 
-fn history(plan: &ScenarioPlan, interrupt: &AtomicBool) -> Result<History, ReproductionError> {
+fn history(plan: &ScenarioPlan, interrupt: &AtomicBool) -> Result<History> {
     Ok(History {
-        springs: simulate(plan, By::Springs, interrupt)?,
-        cells: simulate(plan, By::Cells, interrupt)?,
+        computed: both(plan, interrupt)?,
         side: plan.solver.cells,
     })
 }
@@ -32,16 +28,15 @@ fn history(plan: &ScenarioPlan, interrupt: &AtomicBool) -> Result<History, Repro
 /// Both figures.
 pub(super) fn figures(
     plans: &Plans,
-    cycles: &Cycles,
+    cycles: &Cycles<'_>,
     interrupt: &AtomicBool,
-) -> Result<Vec<Figure>, ReproductionError> {
+) -> Result<Vec<Figure>> {
     let slow = history(plans.scenario("figure-08-a")?, interrupt)?;
     let (fast_plan, ninth) = (plans.scenario("figure-08-b")?, plans.scenario("figure-09")?);
     let fast = history(fast_plan, interrupt)?;
-    let last = if resolved_text(fast_plan) == resolved_text(ninth) {
-        fast.clone()
-    } else {
-        history(ninth, interrupt)?
+    let last = match resolved_text(fast_plan) == resolved_text(ninth) {
+        true => fast.clone(),
+        false => history(ninth, interrupt)?,
     };
     Ok(vec![
         figure_8(&slow, &fast, cycles)?,
@@ -49,130 +44,105 @@ pub(super) fn figures(
     ])
 }
 
-fn figure_8(slow: &History, fast: &History, cycles: &Cycles) -> Result<Figure, ReproductionError> {
+fn figure_8(slow: &History, fast: &History, cycles: &Cycles<'_>) -> Result<Figure> {
     let scale = &cycles.scale;
-    let mut table = Table::new(
-        "figure-08.csv",
-        &["f", "source", "time_tau", "approach_delta_h", "load_w0"],
-    )?;
+    let columns = ["f", "source", "time_tau", "approach_delta_h", "load_w0"];
+    let mut data = Data::new(&columns)?;
     let mut panels = Vec::new();
     for (f, part, history) in [("0.1", 'a', slow), ("1", 'b', fast)] {
-        let loop_of = |outcome: &SimulationOutcome, count: usize| -> Vec<(f64, [f64; 2])> {
-            let rows: Vec<_> = outcome.rows.iter().collect();
-            let rows = spread(&rows, count).into_iter();
-            rows.filter_map(|row| {
-                let approach = row.approach_m? / scale.approach_m;
-                Some((row.time_s, [approach, row.load_n / scale.load_n]))
-            })
-            .collect()
-        };
+        let [by_springs, by_cells] = &history.computed;
         // 64 points per cycle as a line, 16 as symbols.
-        let cycles_shown = history.cells.rows.len() / super::cycles::STEPS_ON_CELLS;
-        let springs = loop_of(&history.springs, 64 * cycles_shown + 1);
-        let cells = loop_of(&history.cells, 16 * cycles_shown + 1);
-        for (source, points) in [("axisymmetric", &springs), ("half-space", &cells)] {
-            for (time, [approach, load]) in points {
-                let [time, approach, load] = [*time, *approach, *load].map(datum);
-                table.row(&[f.to_owned(), source.to_owned(), time, approach, load])?;
+        let cycles_shown = by_cells.rows.len() / STEPS_ON_CELLS;
+        let mut drawn = |outcome: &SimulationOutcome, source: &str, per_cycle: usize| {
+            let rows = spread(&outcome.rows, per_cycle * cycles_shown + 1);
+            let mut points = Vec::new();
+            for row in &rows {
+                let Some(approach_m) = row.approach_m else {
+                    continue;
+                };
+                let point = (approach_m / scale.approach_m, row.load_n / scale.load_n);
+                data.row(&[&f, &source, &row.time_s, &point.0, &point.1])?;
+                points.push(point);
             }
-        }
-        let points = |points: &[(f64, [f64; 2])]| -> Vec<(f64, f64)> {
-            points.iter().map(|(_, [d, w])| (*d, *w)).collect()
+            Ok::<_, ReproductionError>(points)
         };
-        let member = Member { step: 0, of: 3 };
-        let seen = Member { step: 1, of: 3 };
+        let springs = drawn(by_springs, "axisymmetric", 64)?;
+        let cells = drawn(by_cells, "half-space", 16)?;
+        let [member, seen] = [0, 1].map(|step| Member { step, of: 3 });
         panels.push(
             Chart::new(
                 Axis::linear("approach δ / Hertz approach").range(0.0, 1.6),
                 Axis::linear(format!("({part}) load W / W₀, f = {f}")).range(0.0, 1.0),
             )
-            .series(member.line(points(&springs)).label(SPRINGS))
-            .series(seen.cells(points(&cells)).label(cells_label(history.side)))
+            .series(member.line(springs).label(SPRINGS))
+            .series(seen.cells(cells).label(cells_label(history.side)))
             .legend(LegendPlace::TopLeft)
             .size(800, 480),
         );
     }
-    Ok(Figure {
-        number: 8,
-        caption: "Load against approach on a Zener half-space from rest; (a) f = 0.1, four cycles, (b) f = 1, eight cycles."
-            .to_owned(),
-        panels,
-        data: table.finish()?,
-        claims: cycle_claims(cycles),
-        statements: Vec::new(),
-    })
+    let caption = "Load against approach on a Zener half-space from rest; (a) f = 0.1, four cycles, (b) f = 1, eight cycles.";
+    Figure::new(8, caption, panels, data, claims_8(cycles))
 }
 
-fn cycle_claims(cycles: &Cycles) -> Vec<Claim> {
+fn claims_8(cycles: &Cycles<'_>) -> Vec<Claim> {
+    let note = format!(
+        "half-space engine on {0} × {0} cells, {STEPS_ON_CELLS} steps per cycle",
+        cycles.cells_from_rest
+    );
+    let claim = |f: f64, distances: &ByEngine<Vec<f64>>, (part, percent): (f64, &str)| {
+        let quantity = format!(
+            "cycles until the approach is nowhere {percent} of its largest from the stabilised loop, f = {}",
+            short(f)
+        );
+        let values = distances.as_ref().map(|d| cycles_to(d, part));
+        let measure = Measure::absolute("cycles", 0.0, 0.0);
+        Claim::new(quantity, Source::Count, values, measure).note(note.clone())
+    };
     let mut claims = Vec::new();
-    for from_rest in &cycles.from_rest {
-        for (part, percent) in [(0.01, "1 %"), (0.001, "0.1 %")] {
-            let count = |losses: &[f64]| FromRest::cycles_to(losses, part);
-            claims.push(Claim {
-                figure: 8,
-                quantity: format!(
-                    "cycles until the approach is nowhere {percent} of its largest from the stabilised loop, f = {}",
-                    short(from_rest.f)
-                ),
-                exact: Value::Count(count(&from_rest.refined)),
-                axisymmetric: count(&from_rest.springs),
-                half_space: count(&from_rest.cells),
-                measure: Measure::absolute("cycles", 0.0, 0.0),
-                stated: Stated::default(),
-                note: format!(
-                    "half-space engine on {0} × {0} cells, {1} steps per cycle",
-                    cycles.cells_from_rest,
-                    super::cycles::STEPS_ON_CELLS
-                ),
-            });
-        }
+    for (f, distances) in &cycles.from_rest {
+        claims.extend([(0.01, "1 %"), (0.001, "0.1 %")].map(|part| claim(*f, distances, part)));
     }
     claims
 }
 
 type Signal = fn(&HistoryRow, &Scale) -> Option<f64>;
 
-const SIGNALS: [(&str, &str, Signal); 4] = [
-    ("load / W₀", "load_w0", |row, scale| {
-        Some(row.load_n / scale.load_n)
+const SIGNALS: [(&str, Signal); 4] = [
+    ("load / W₀", |row, scale| Some(row.load_n / scale.load_n)),
+    ("approach / Hertz approach", |row, scale| {
+        Some(row.approach_m? / scale.approach_m)
     }),
-    (
-        "approach / Hertz approach",
-        "approach_delta_h",
-        |row, scale| Some(row.approach_m? / scale.approach_m),
-    ),
-    (
-        "contact radius / Hertz radius",
-        "contact_radius_a_h",
-        |row, scale| Some(row.contact_radius_m / scale.contact_radius_m),
-    ),
-    (
-        "peak pressure / Hertz peak pressure",
-        "peak_pressure_p_h",
-        |row, scale| Some(row.peak_pressure_pa? / scale.pressure_pa),
-    ),
+    ("contact radius / Hertz radius", |row, scale| {
+        Some(row.contact_radius_m / scale.contact_radius_m)
+    }),
+    ("peak pressure / Hertz peak pressure", |row, scale| {
+        Some(row.peak_pressure_pa? / scale.pressure_pa)
+    }),
 ];
 
-fn figure_9(history: &History, cycles: &Cycles) -> Result<Figure, ReproductionError> {
+fn figure_9(history: &History, cycles: &Cycles<'_>) -> Result<Figure> {
     let scale = &cycles.scale;
     let shown = |outcome: &SimulationOutcome, count: usize| -> Vec<HistoryRow> {
-        let rows: Vec<HistoryRow> = outcome
-            .rows
-            .iter()
-            .filter(|row| row.time_s > 6.0 - 1e-9)
-            .copied()
-            .collect();
+        let rows = outcome.rows.iter().copied();
+        let rows: Vec<HistoryRow> = rows.filter(|row| row.time_s > 6.0 - 1e-9).collect();
         spread(&rows, count)
     };
-    let (springs, cells) = (shown(&history.springs, 257), shown(&history.cells, 33));
-    let mut columns = vec!["source", "time_tau"];
-    columns.extend(SIGNALS.map(|(_, column, _)| column));
-    let mut table = Table::new("figure-09.csv", &columns)?;
+    let [by_springs, by_cells] = &history.computed;
+    let (springs, cells) = (shown(by_springs, 257), shown(by_cells, 33));
+    let mut data = Data::new(&[
+        "source",
+        "time_tau",
+        "load_w0",
+        "approach_delta_h",
+        "contact_radius_a_h",
+        "peak_pressure_p_h",
+    ])?;
     for (source, rows) in [("axisymmetric", &springs), ("half-space", &cells)] {
         for row in rows {
-            let mut line = vec![source.to_owned(), datum(row.time_s)];
-            line.extend(SIGNALS.map(|(_, _, signal)| optional_datum(signal(row, scale))));
-            table.row(&line)?;
+            let [load, approach, radius, pressure] = SIGNALS.map(|(_, signal)| signal(row, scale));
+            let cells: [&dyn Cell; 6] =
+                [&source, &row.time_s, &load, &approach, &radius, &pressure];
+            data.row(&cells)?;
         }
     }
     let mut chart = Chart::new(
@@ -180,121 +150,77 @@ fn figure_9(history: &History, cycles: &Cycles) -> Result<Figure, ReproductionEr
         Axis::linear("contact parameters, normalised").range(0.0, 1.4),
     )
     .legend(LegendPlace::Above);
-    for (step, (name, _, signal)) in SIGNALS.into_iter().enumerate() {
+    for (step, (name, signal)) in SIGNALS.into_iter().enumerate() {
         let points = |rows: &[HistoryRow]| -> Vec<Option<(f64, f64)>> {
-            let rows = rows.iter();
-            rows.map(|row| Some((row.time_s, signal(row, scale)?)))
-                .collect()
+            let point = |row: &HistoryRow| Some((row.time_s, signal(row, scale)?));
+            rows.iter().map(point).collect()
         };
+        let line = Series::line(points(&springs)).style(LineStyle::nth(step));
+        let symbols = Series::scatter(points(&cells)).marker(Marker::nth(step));
         chart = chart
-            .series(
-                Series::line(points(&springs))
-                    .color(step)
-                    .style(LineStyle::nth(step))
-                    .label(name),
-            )
-            .series(
-                Series::scatter(points(&cells))
-                    .color(step)
-                    .marker(Marker::nth(step)),
-            );
+            .series(line.color(step).label(name))
+            .series(symbols.color(step));
     }
-    Ok(Figure {
-        number: 9,
-        caption: format!(
-            "Zener half-space, f = 1, seventh and eighth cycle from rest. Lines: axisymmetric engine. Symbols: half-space engine, \
-             {0} × {0} cells. The paper's caption says f = 0.1, with eight cycles in eight τ: that is f = 1.",
-            history.side
-        ),
-        panels: vec![chart],
-        data: table.finish()?,
-        claims: claims_9(history, cycles)?,
-        statements: Vec::new(),
-    })
+    let caption = format!(
+        "Zener half-space, f = 1, seventh and eighth cycle from rest. Lines: axisymmetric engine. Symbols: half-space engine, \
+         {0} × {0} cells. The paper's caption says f = 0.1, with eight cycles in eight τ: that is f = 1.",
+        history.side
+    );
+    let claims = claims_9(history, cycles)?;
+    Figure::new(9, caption, vec![chart], data, claims)
 }
 
-fn claims_9(history: &History, cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
-    let scale = &cycles.scale;
+fn claims_9(history: &History, cycles: &Cycles<'_>) -> Result<Vec<Claim>> {
     let change = |outcome: &SimulationOutcome| {
-        let approach = |row: &HistoryRow| row.approach_m.map(|d| d / scale.approach_m);
+        let approach = |row: &HistoryRow| row.approach_m.map(|d| d / cycles.scale.approach_m);
         let rows = &outcome.rows;
         let per_cycle = (rows.len() - 1) / 8;
-        let eighth = rows.iter().skip(7 * per_cycle);
-        let seventh = rows.iter().skip(6 * per_cycle);
+        let [eighth, seventh] = [7, 6].map(|cycle| rows.iter().skip(cycle * per_cycle));
         let differences = eighth
             .zip(seventh)
             .filter_map(|(b, a)| Some((approach(b)? - approach(a)?).abs()));
-        differences.fold(0.0, f64::max)
+        Some(differences.fold(0.0, f64::max))
     };
     let lag = |outcome: &SimulationOutcome| {
-        let eighth = outcome
-            .rows
-            .iter()
-            .filter(|row| row.time_s > 7.1 && row.time_s < 7.9);
-        let signal: Vec<(f64, f64)> = eighth
-            .filter_map(|row| Some((row.time_s, row.approach_m?)))
-            .collect();
+        let rows = outcome.rows.iter();
+        let signal = rows.filter_map(|row| Some((row.time_s, row.approach_m?)));
+        let signal: Vec<(f64, f64)> = signal.collect();
+        let (time, _) = extremum(&signal, |time| time > 7.1 && time < 7.9, true, 1)?;
         // The load has its maximum in the middle of the cycle.
-        Some(vertex(&signal)? - 7.5)
+        Some(time - 7.5)
     };
-    let case = cycles.case(1.0)?;
-    let claim = |quantity: &str, exact, springs, cells, measure, note: &str| Claim {
-        figure: 9,
-        quantity: quantity.to_owned(),
-        exact,
-        axisymmetric: springs,
-        half_space: cells,
-        measure,
-        stated: Stated::default(),
-        note: note.to_owned(),
+    let maxima_of_load = |outcome: &SimulationOutcome| {
+        let maxima = outcome.rows.windows(3).filter(|rows| {
+            let [before, here, after] = [0, 1, 2].map(|k| rows[k].load_n);
+            here > before && here >= after
+        });
+        Some(maxima.count() as f64)
     };
-    let note = format!(
-        "arg C*/ω; half-space engine on {0} × {0} cells; what is left of the start after eight cycles counts in both",
-        history.side
-    );
+    let computed =
+        |read: &dyn Fn(&SimulationOutcome) -> Option<f64>| history.computed.each_ref().map(read);
+    let closed_lag = Some(cycles.case(1.0)?.closed.lag);
     Ok(vec![
-        claim(
+        Claim::difference(
             "approach in the eighth cycle less that in the seventh, largest difference / δ_H",
-            Value::Difference,
-            Some(change(&history.springs)),
-            Some(change(&history.cells)),
+            computed(&change),
             Measure::absolute("of δ_H", 1e-3, 1e-3),
-            "",
         ),
-        claim(
+        Claim::new(
             "maximum of the approach after that of the load / τ, f = 1",
-            Value::ClosedForm(Some(case.closed.lag)),
-            lag(&history.springs),
-            lag(&history.cells),
+            Source::ClosedForm,
+            ByEngine::of(closed_lag, computed(&lag)),
             Measure::absolute("of a cycle", 1e-3, 2e-3),
-            &note,
-        ),
-        claim(
+        )
+        .note(format!(
+            "arg C*/ω; half-space engine on {0} × {0} cells; what is left of the start after eight cycles counts in both",
+            history.side
+        )),
+        Claim::new(
             "cycles within eight τ",
-            Value::Count(Some(8.0)),
-            Some(cycles_within(&history.springs)),
-            Some(cycles_within(&history.cells)),
+            Source::Count,
+            ByEngine::of(Some(8.0), computed(&maxima_of_load)),
             Measure::absolute("cycles", 0.0, 0.0),
-            "f = 1; with f = 0.1 there would be 0.8 cycles",
-        ),
+        )
+        .note("f = 1; with f = 0.1 there would be 0.8 cycles"),
     ])
-}
-
-/// Maxima of the load in a history.
-fn cycles_within(outcome: &SimulationOutcome) -> f64 {
-    let maxima = outcome.rows.windows(3).filter(|rows| {
-        let [before, here, after] = [rows[0].load_n, rows[1].load_n, rows[2].load_n];
-        here > before && here >= after
-    });
-    maxima.count() as f64
-}
-
-/// Where a signal has its maximum: the vertex of the parabola through the largest of equally spaced samples and its
-/// neighbours.
-fn vertex(signal: &[(f64, f64)]) -> Option<f64> {
-    let best = (0..signal.len()).max_by(|&a, &b| signal[a].1.total_cmp(&signal[b].1))?;
-    let (time, here) = *signal.get(best)?;
-    let (before, after) = (signal.get(best.checked_sub(1)?)?, signal.get(best + 1)?);
-    let curvature = before.1 - 2.0 * here + after.1;
-    Some(time + 0.25 * (after.0 - before.0) * (before.1 - after.1) / curvature)
 }

@@ -2,19 +2,18 @@
 
 use std::f64::consts::TAU;
 
-use super::claim::Value;
-use super::cycles::{Case, CurvePoint, Cycles, loss, peak, pressure, radius};
-use super::look::{Member, SPRINGS, cells_label, evenly, spread};
-use super::number::{datum, optional_datum, short};
+use super::by_engine::ByEngine;
+use super::curves::{Member, SPRINGS, about, cells_label, curve, peak, spread};
+use super::cycles::{Case, Cycles, Numbers};
+use super::number::{Data, short};
 use super::scale::{ProfilePoint, at};
-use super::stabilised::Stabilised;
-use super::{Claim, Figure, Measure, ReproductionError, Stated};
-use crate::cycle::Extrema;
+use super::{Claim, Figure, Measure, Result, Source};
+use crate::contact::surface::Surface;
+use crate::cycle::Loop;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, LineStyle, Mark, Marker, Series};
-use crate::report::table::Table;
 
 /// All three.
-pub(super) fn figures(cycles: &Cycles) -> Result<Vec<Figure>, ReproductionError> {
+pub(super) fn figures(cycles: &Cycles<'_>) -> Result<Vec<Figure>> {
     Ok(vec![
         figure_10(cycles)?,
         figure_11(cycles)?,
@@ -22,134 +21,84 @@ pub(super) fn figures(cycles: &Cycles) -> Result<Vec<Figure>, ReproductionError>
     ])
 }
 
-/// What a cycle on cells came to, normalised: largest radius, approach and pressure. The pressure is `None` where an instant
-/// has none.
-fn largest_on_cells(case: &Case, cycles: &Cycles) -> [Option<f64>; 3] {
-    let scale = &cycles.scale;
-    let samples = &case.on_cells.samples;
-    let largest = |signal: &[f64]| Extrema::of(signal).map(|e| e.maximum);
-    let pressures: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
-    // A radius that is counted in cells has no parabola through its maximum.
-    let radius_m = samples.contact_radius_m.iter().copied().reduce(f64::max);
-    let over = |value: Option<f64>, unit: f64| value.map(|value| value / unit);
-    [
-        over(radius_m, scale.contact_radius_m),
-        over(largest(&samples.approach_m), scale.approach_m),
-        over(pressures.and_then(|p| largest(&p)), scale.pressure_pa),
-    ]
-}
-
-fn figure_10(cycles: &Cycles) -> Result<Figure, ReproductionError> {
-    let scale = &cycles.scale;
+fn figure_10(cycles: &Cycles<'_>) -> Result<Figure> {
     let columns = ["source", "f", "largest_radius_a_h", "largest_pressure_p_h"];
-    let mut table = Table::new("figure-10.csv", &columns)?;
-    let swept = |f: f64| {
-        cycles.shown[0]
-            .iter()
-            .any(|shown| (shown / f - 1.0).abs() < 1e-9)
-    };
-    let springs: Vec<CurvePoint> = cycles
-        .curve
-        .iter()
-        .filter(|point| swept(point.f))
-        .copied()
+    let mut data = Data::new(&columns)?;
+    let near = |f: f64| move |shown: &f64| (shown / f - 1.0).abs() < 1e-9;
+    let swept = cycles.curve.iter().copied();
+    let swept: Vec<(f64, Numbers)> = swept
+        .filter(|(f, _)| cycles.shown[0].iter().any(near(*f)))
         .collect();
-    for point in &springs {
-        let [f, radius] = [point.f, point.largest_radius].map(datum);
-        let pressure = optional_datum(point.largest_pressure);
-        table.row(&["axisymmetric".to_owned(), f, radius, pressure])?;
+    let cases = cycles.cases_of(2)?.into_iter();
+    let on_cells: Vec<(f64, Numbers)> = cases
+        .map(|case| (case.f, case.numbers.half_space))
+        .collect();
+    for (source, points) in [("axisymmetric", &swept), ("half-space", &on_cells)] {
+        for (f, numbers) in points {
+            data.row(&[&source, f, &numbers.radius, &numbers.pressure])?;
+        }
     }
-    let (mut radii, mut pressures) = (Vec::new(), Vec::new());
-    for &f in &cycles.shown[2] {
-        let [radius, _, pressure] = largest_on_cells(cycles.case(f)?, cycles);
-        radii.push(radius.map(|radius| (f, radius)));
-        pressures.push(pressure.map(|pressure| (f, pressure)));
-        let [radius, pressure] = [radius, pressure].map(optional_datum);
-        table.row(&["half-space".to_owned(), datum(f), radius, pressure])?;
-    }
-    let equilibrium = scale.contact_compliance.equilibrium_compliance();
-    let instantaneous = scale.contact_compliance.instantaneous_compliance();
-    let closed = evenly(0.1, 1.5, 140).into_iter().map(|f| {
-        let modulus = scale.contact_compliance.complex_compliance(TAU * f).norm();
-        Some((f, (0.5 * (equilibrium? + modulus) / instantaneous).cbrt()))
-    });
+    let drawn = |points: &[(f64, Numbers)], read: fn(&Numbers) -> Option<f64>| {
+        let point = |(f, numbers): &(f64, Numbers)| Some((*f, read(numbers)?));
+        points.iter().map(point).collect::<Vec<_>>()
+    };
+    let closed = curve(0.1, 1.5, 140, |f| cycles.closed_forms(f).radius);
+    let closed = closed.into_iter().map(|(f, radius)| Some((f, radius?)));
+    let by_springs = Series::scatter(drawn(&swept, |n| n.radius)).marker(Marker::Cross);
+    let by_cells = Series::scatter(drawn(&on_cells, |n| n.radius)).marker(Marker::Ring);
+    let pressure = Series::line(drawn(&swept, |n| n.pressure)).style(LineStyle::Dashed);
+    let pressure_by_cells = Series::scatter(drawn(&on_cells, |n| n.pressure)).marker(Marker::Ring);
     let chart = Chart::new(
         Axis::linear("frequency f = ωτ/2π").range(0.0, 1.5),
         Axis::linear("largest in a cycle, normalised").range(0.6, 1.3),
     )
-    .series(
+    .all_series([
         Series::line(closed)
             .color(0)
             .label("a / Hertz radius, closed form"),
-    )
-    .series(
-        Series::scatter(springs.iter().map(|p| (p.f, p.largest_radius)))
-            .color(0)
-            .marker(Marker::Cross)
-            .label(SPRINGS),
-    )
-    .series(
-        Series::scatter(radii)
-            .color(0)
-            .marker(Marker::Ring)
-            .label(cells_label(cycles.cells)),
-    )
-    .series(
-        Series::line(springs.iter().map(|p| Some((p.f, p.largest_pressure?))))
+        by_springs.color(0).label(SPRINGS),
+        by_cells.color(0).label(cells_label(cycles.cells)),
+        pressure
             .color(1)
-            .style(LineStyle::Dashed)
             .label("p / Hertz peak pressure, axisymmetric engine"),
-    )
-    .series(Series::scatter(pressures).color(1).marker(Marker::Ring))
+        pressure_by_cells.color(1),
+    ])
     .legend(LegendPlace::Above);
-    Ok(Figure {
-        number: 10,
-        caption: "Largest contact radius and pressure of a stabilised cycle over frequency, Zener half-space.".to_owned(),
-        panels: vec![chart],
-        data: table.finish()?,
-        claims: claims_10(cycles)?,
-        statements: Vec::new(),
-    })
+    let caption = "Largest contact radius and pressure of a stabilised cycle over frequency, Zener half-space.";
+    Figure::new(10, caption, vec![chart], data, claims_10(cycles)?)
 }
 
-fn claims_10(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
-    let scale = &cycles.scale;
-    let cell = |case: &Case| case.on_cells.spacing_m / scale.contact_radius_m;
+fn claims_10(cycles: &Cycles<'_>) -> Result<Vec<Claim>> {
     let mut claims = Vec::new();
-    for &f in &cycles.shown[2] {
-        let case = cycles.case(f)?;
-        let on_cells = largest_on_cells(case, cycles);
-        let claim = |quantity: &str, exact, springs, cells, measure| Claim {
-            figure: 10,
-            quantity: format!("{quantity}, f = {}", short(f)),
-            exact,
-            axisymmetric: springs,
-            half_space: cells,
-            measure,
-            stated: Stated::default(),
-            note: String::new(),
-        };
-        claims.push(claim(
-            "largest contact radius / a_H",
-            Value::ClosedForm(case.closed.largest_radius),
-            Some(radius(&case.springs, scale)),
-            on_cells[0],
-            Measure::absolute("of a_H", 1e-3, 0.5 * cell(case)),
-        ));
-        claims.push(claim(
-            "largest pressure / p_H",
-            Value::Refined(pressure(&case.refined, scale)),
-            pressure(&case.springs, scale),
-            on_cells[2],
-            Measure::absolute("of p_H", 1e-3, 0.01),
-        ));
-        claims.push(claim(
-            "largest approach / δ_H",
-            Value::ClosedForm(case.closed.largest_approach),
-            Some(case.springs.approach_m.maximum / scale.approach_m),
-            on_cells[1],
-            Measure::absolute("of δ_H", 1e-3, 2e-3),
-        ));
+    for case in cycles.cases_of(2)? {
+        let of = |read: fn(&Numbers) -> Option<f64>| case.numbers.as_ref().map(read);
+        let quantity = |what: &str| format!("{what}, f = {}", short(case.f));
+        claims.extend([
+            Claim::new(
+                quantity("largest contact radius / a_H"),
+                Source::ClosedForm,
+                ByEngine {
+                    exact: case.closed.radius,
+                    ..of(|n| n.radius)
+                },
+                Measure::absolute("of a_H", 1e-3, 0.5 * case.cell),
+            ),
+            Claim::new(
+                quantity("largest pressure / p_H"),
+                Source::Refined,
+                of(|n| n.pressure),
+                Measure::absolute("of p_H", 1e-3, 0.01),
+            ),
+            Claim::new(
+                quantity("largest approach / δ_H"),
+                Source::ClosedForm,
+                ByEngine {
+                    exact: case.closed.approach,
+                    ..of(|n| n.approach)
+                },
+                Measure::absolute("of δ_H", 1e-3, 2e-3),
+            ),
+        ]);
     }
     Ok(claims)
 }
@@ -157,112 +106,73 @@ fn claims_10(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
 /// Names of the surfaces that a stabilised cycle keeps, and where in the cycle they are.
 const QUARTERS: [&str; 3] = ["W = W₀/2, loading", "W = W₀", "W = W₀/2, unloading"];
 
-fn figure_11(cycles: &Cycles) -> Result<Figure, ReproductionError> {
-    let scale = &cycles.scale;
+fn figure_11(cycles: &Cycles<'_>) -> Result<Figure> {
     let columns = ["f", "state", "source", "radius_a_h", "pressure_p_h"];
-    let mut table = Table::new("figure-11.csv", &columns)?;
-    let mut series = Vec::new();
-    let loaded = |cycle: &Stabilised, k: usize, beyond: usize| -> Vec<(f64, f64)> {
-        let profile = cycle.surfaces.get(k).map(|surface| scale.profile(surface));
-        let points = profile.unwrap_or_default();
-        let contact = points.iter().take_while(|p| is_loaded(p));
-        let shown = contact.count() + beyond;
-        let shown = points.iter().take(shown);
+    let mut data = Data::new(&columns)?;
+    let mut chart = Chart::new(
+        Axis::linear("radial coordinate r / Hertz radius").range(0.0, 1.4),
+        Axis::linear("pressure p / Hertz peak pressure").range(0.0, 0.8),
+    )
+    .legend(LegendPlace::TopRight);
+    let loaded = |surface: Option<&Surface>, beyond: usize| -> Vec<(f64, f64)> {
+        let points = surface.map_or_else(Vec::new, |surface| cycles.scale.profile(surface));
+        let contact = points.iter().take_while(|p| is_loaded(p)).count();
+        let shown = points.iter().take(contact + beyond);
         shown
             .filter_map(|p| Some((p.radius, p.pressure?)))
             .collect()
     };
-    for &f in &cycles.shown[1] {
-        let case = cycles.case(f)?;
-        for (k, state) in QUARTERS.into_iter().enumerate() {
-            let line = spread(&loaded(&case.on_springs, k, 1), 120);
-            let cells = spread(&loaded(&case.on_cells, k, 0), 18);
-            for (source, points) in [("axisymmetric", &line), ("half-space", &cells)] {
-                for (r, p) in points {
-                    let [f, r, p] = [f, *r, *p].map(datum);
-                    table.row(&[f, state.to_owned(), source.to_owned(), r, p])?;
-                }
-            }
+    for case in cycles.cases_of(1)? {
+        let [on_springs, on_cells] = &case.surfaces;
+        for (step, state) in QUARTERS.into_iter().enumerate() {
+            let line = spread(&loaded(on_springs.get(step), 1), 120);
+            let cells = spread(&loaded(on_cells.get(step), 0), 18);
+            data.points(&[&case.f, &state, &"axisymmetric"], &line)?;
+            data.points(&[&case.f, &state, &"half-space"], &cells)?;
             // The paper shows f = 0.6 alone.
-            if (f - 0.6).abs() < 1e-9 {
-                let member = Member { step: k, of: 3 };
-                let symbols = member.cells(cells);
-                series.push(member.line(line).label(state));
-                series.push(match k {
-                    2 => symbols.label(cells_label(cycles.cells)),
-                    _ => symbols,
-                });
+            if (case.f - 0.6).abs() < 1e-9 {
+                let member = Member { step, of: 3 };
+                let [line, cells] = member.line_and_cells(line, cells, cycles.cells);
+                chart = chart.series(line.label(state)).series(cells);
             }
         }
     }
-    let chart = Chart::new(
-        Axis::linear("radial coordinate r / Hertz radius").range(0.0, 1.4),
-        Axis::linear("pressure p / Hertz peak pressure").range(0.0, 0.8),
-    )
-    .all_series(series)
-    .legend(LegendPlace::TopRight);
-    Ok(Figure {
-        number: 11,
-        caption: "Pressure under half and under the full load in a stabilised cycle, Zener half-space, f = 0.6. Lines: \
-                  axisymmetric engine. Symbols: half-space engine. The data hold f = 0.4 and 0.8 as well."
-            .to_owned(),
-        panels: vec![chart],
-        data: table.finish()?,
-        claims: claims_11(cycles)?,
-        statements: Vec::new(),
-    })
+    let caption = "Pressure under half and under the full load in a stabilised cycle, Zener half-space, f = 0.6. Lines: \
+                   axisymmetric engine. Symbols: half-space engine. The data hold f = 0.4 and 0.8 as well.";
+    Figure::new(11, caption, vec![chart], data, claims_11(cycles)?)
 }
 
-fn claims_11(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
-    let scale = &cycles.scale;
+fn claims_11(cycles: &Cycles<'_>) -> Result<Vec<Claim>> {
     let mut claims = Vec::new();
-    for &f in &cycles.shown[1] {
-        let case = cycles.case(f)?;
-        let cell = case.on_cells.spacing_m / scale.contact_radius_m;
-        // At these quarters of the cycle; exact, on springs, on cells.
+    for case in cycles.cases_of(1)? {
         let at = |quarter: usize| {
-            let samples = [
-                &case.refined.samples,
-                &case.springs.samples,
-                &case.on_cells.samples,
-            ];
-            samples.map(|samples| {
+            case.samples.as_ref().map(|samples: &Loop| {
                 let radii = &samples.contact_radius_m;
                 let radius_m = radii.get(quarter * radii.len().saturating_sub(1) / 4)?;
-                Some(radius_m / scale.contact_radius_m)
+                Some(radius_m / cycles.scale.contact_radius_m)
             })
         };
         let (loading, unloading) = (at(1), at(3));
-        let wider = [0, 1, 2].map(|k| Some(unloading[k]? - loading[k]?));
-        for (quantity, [exact, springs, cells], within_cells) in [
+        let wider = unloading.zip(loading).map(|(b, a)| Some(b? - a?));
+        for (quantity, radii, within_cells) in [
             ("contact radius / a_H under W₀/2, loading", loading, 0.5),
             ("contact radius / a_H under W₀/2, unloading", unloading, 0.5),
             ("wider on unloading by / a_H, under W₀/2", wider, 1.0),
         ] {
-            claims.push(Claim {
-                figure: 11,
-                quantity: format!("{quantity}, f = {}", short(f)),
-                exact: Value::Refined(exact),
-                axisymmetric: springs,
-                half_space: cells,
-                measure: Measure::absolute("of a_H", 2e-3, within_cells * cell),
-                stated: Stated::default(),
-                note: String::new(),
-            });
+            let quantity = format!("{quantity}, f = {}", short(case.f));
+            let measure = Measure::absolute("of a_H", 2e-3, within_cells * case.cell);
+            claims.push(Claim::new(quantity, Source::Refined, radii, measure));
         }
-        claims.push(Claim {
-            figure: 11,
-            quantity: format!(
-                "pressure at the quarters of a cycle, largest difference between the engines, f = {}",
-                short(f)
-            ),
-            exact: Value::Difference,
-            axisymmetric: None,
-            half_space: pressure_difference(case, cycles),
-            measure: Measure::absolute("of p_H", 0.0, 0.01),
-            stated: Stated::default(),
-            note: "but within two cells of the edge of the contact".to_owned(),
-        });
+        let quantity = format!(
+            "pressure at the quarters of a cycle, largest difference between the engines, f = {}",
+            short(case.f)
+        );
+        let differences = [None, pressure_difference(case, cycles)];
+        let measure = Measure::absolute("of p_H", 0.0, 0.01);
+        claims.push(
+            Claim::difference(quantity, differences, measure)
+                .note("but within two cells of the edge of the contact"),
+        );
     }
     Ok(claims)
 }
@@ -274,20 +184,17 @@ fn is_loaded(point: &ProfilePoint) -> bool {
 
 /// Largest difference of the pressure between the engines over the surfaces kept, away from the edge of the contact; `None`
 /// where a pressure is undefined.
-fn pressure_difference(case: &Case, cycles: &Cycles) -> Option<f64> {
-    let scale = &cycles.scale;
-    let cell = case.on_cells.spacing_m / scale.contact_radius_m;
+fn pressure_difference(case: &Case, cycles: &Cycles<'_>) -> Option<f64> {
     let mut worst = 0.0_f64;
-    for (springs, cells) in case.on_springs.surfaces.iter().zip(&case.on_cells.surfaces) {
-        let (springs, cells) = (scale.profile(springs), scale.profile(cells));
+    let [on_springs, on_cells] = &case.surfaces;
+    for (springs, cells) in on_springs.iter().zip(on_cells) {
+        let [springs, cells] = [springs, cells].map(|surface| cycles.scale.profile(surface));
         let loaded = springs.iter().filter(|p| is_loaded(p));
         let edge = loaded.map(|p| p.radius).fold(0.0, f64::max);
         // Springs stand where there is contact at some instant: beyond them nothing presses.
         let reach = springs.last()?.radius;
-        for point in cells
-            .iter()
-            .filter(|p| (p.radius - edge).abs() > 2.0 * cell)
-        {
+        let away = |p: &&ProfilePoint| (p.radius - edge).abs() > 2.0 * case.cell;
+        for point in cells.iter().filter(away) {
             let expected = match point.radius > reach {
                 true => Some(0.0),
                 false => at(&springs, point.radius, |p| p.pressure),
@@ -298,24 +205,18 @@ fn pressure_difference(case: &Case, cycles: &Cycles) -> Option<f64> {
     Some(worst)
 }
 
-fn figure_12(cycles: &Cycles) -> Result<Figure, ReproductionError> {
-    let columns = ["f", "source", "kind", "x", "y"];
-    let mut table = Table::new("figure-12.csv", &columns)?;
-    let loops = loops_panel(cycles, &mut table)?;
-    let losses = losses_panel(cycles, &mut table)?;
-    Ok(Figure {
-        number: 12,
-        caption: "Zener half-space: hysteresis loops, as in the paper, and below them the energy loss over a wider range of \
-                  frequencies."
-            .to_owned(),
-        panels: vec![loops, losses],
-        data: table.finish()?,
-        claims: claims_12(cycles)?,
-        statements: Vec::new(),
-    })
+fn figure_12(cycles: &Cycles<'_>) -> Result<Figure> {
+    let mut data = Data::new(&["f", "source", "kind", "x", "y"])?;
+    let panels = vec![
+        loops_panel(cycles, &mut data)?,
+        losses_panel(cycles, &mut data)?,
+    ];
+    let caption = "Zener half-space: hysteresis loops, as in the paper, and below them the energy loss over a wider range of \
+                   frequencies.";
+    Figure::new(12, caption, panels, data, claims_12(cycles)?)
 }
 
-fn loops_panel(cycles: &Cycles, table: &mut Table) -> Result<Chart, ReproductionError> {
+fn loops_panel(cycles: &Cycles<'_>, data: &mut Data) -> Result<Chart> {
     let scale = &cycles.scale;
     let mut chart = Chart::new(
         Axis::linear("approach δ / Hertz approach").range(0.0, 1.6),
@@ -323,68 +224,43 @@ fn loops_panel(cycles: &Cycles, table: &mut Table) -> Result<Chart, Reproduction
     )
     .legend(LegendPlace::TopLeft)
     .size(800, 560);
-    for (step, &f) in cycles.shown[2].iter().enumerate() {
-        let case = cycles.case(f)?;
-        let points = |approach_m: &[f64], load_n: &[f64], count: usize| -> Vec<(f64, f64)> {
-            let pairs = approach_m.iter().zip(load_n);
-            let pairs: Vec<_> = pairs
-                .map(|(d, w)| (d / scale.approach_m, w / scale.load_n))
-                .collect();
-            spread(&pairs, count)
+    let cases = cycles.cases_of(2)?;
+    for (step, case) in cases.iter().enumerate() {
+        let points = |samples: &Loop, count: usize| -> Vec<(f64, f64)> {
+            let pairs = samples.approach_m.iter().zip(&samples.load_n);
+            let pairs = pairs.map(|(d, w)| (d / scale.approach_m, w / scale.load_n));
+            spread(&pairs.collect::<Vec<_>>(), count)
         };
-        let samples = &case.springs.samples;
-        let line = points(&samples.approach_m, &samples.load_n, 101);
-        let samples = &case.on_cells.samples;
-        let cells = points(&samples.approach_m, &samples.load_n, 17);
-        for (source, points) in [("axisymmetric", &line), ("half-space", &cells)] {
-            for (approach, load) in points {
-                let [f, x, y] = [f, *approach, *load].map(datum);
-                table.row(&[f, source.to_owned(), "loop".to_owned(), x, y])?;
-            }
-        }
-        let member = Member {
-            step,
-            of: cycles.shown[2].len(),
-        };
-        let symbols = member.cells(cells);
-        chart = chart
-            .series(member.line(line).label(format!("f = {}", short(f))))
-            .series(match step {
-                last if last + 1 == member.of => symbols.label(cells_label(cycles.cells)),
-                _ => symbols,
-            });
+        let line = points(&case.samples.axisymmetric, 101);
+        let cells = points(&case.samples.half_space, 17);
+        data.points(&[&case.f, &"axisymmetric", &"loop"], &line)?;
+        data.points(&[&case.f, &"half-space", &"loop"], &cells)?;
+        let of = cases.len();
+        let [line, cells] = Member { step, of }.line_and_cells(line, cells, cycles.cells);
+        let label = format!("f = {}", short(case.f));
+        chart = chart.series(line.label(label)).series(cells);
     }
     Ok(chart)
 }
 
-fn losses_panel(cycles: &Cycles, table: &mut Table) -> Result<Chart, ReproductionError> {
-    let scale = &cycles.scale;
-    let line: Vec<(f64, f64)> = cycles.curve.iter().map(|p| (p.f, p.loss)).collect();
-    let cells = cycles
-        .cases
-        .iter()
-        .map(|case| Ok((case.f, case.on_cells.energy_loss_j()? / scale.energy_j())))
-        .collect::<Result<Vec<_>, ReproductionError>>()?;
-    for (source, points) in [("axisymmetric", &line), ("half-space", &cells)] {
+fn losses_panel(cycles: &Cycles<'_>, data: &mut Data) -> Result<Chart> {
+    let line: Vec<(f64, f64)> = cycles.curve.iter().map(|(f, n)| (*f, n.loss)).collect();
+    let losses = losses(cycles);
+    for (source, points) in [("axisymmetric", &line), ("half-space", &losses.half_space)] {
         for (f, loss) in points {
-            let [f, loss] = [*f, *loss].map(datum);
-            table.row(&[f.clone(), source.to_owned(), "loss".to_owned(), f, loss])?;
+            data.row(&[f, &source, &"loss", f, loss])?;
         }
     }
-    let (f, largest) = peak(
-        cycles
-            .about_the_peak()?
-            .map(|c| (c.f, loss(&c.refined, scale))),
-    );
+    let (f, largest) = peak(about(&losses.exact, TAU.recip())?)?;
+    let symbols = Series::scatter(losses.half_space).marker(Marker::Ring);
     Ok(Chart::new(
         Axis::log("frequency f = ωτ/2π").range(0.02, 2.0),
         Axis::linear("energy loss / (W₀ · Hertz approach)").range(0.0, 0.3),
     )
     .series(Series::line(line).color(Color::Palette(0)).label(SPRINGS))
     .series(
-        Series::scatter(cells)
+        symbols
             .color(Color::Palette(1))
-            .marker(Marker::Ring)
             .label(cells_label(cycles.cells)),
     )
     .mark(Mark::point(f, largest, format!("f = {f:.3}, ωτ = 1")))
@@ -392,51 +268,38 @@ fn losses_panel(cycles: &Cycles, table: &mut Table) -> Result<Chart, Reproductio
     .size(800, 480))
 }
 
-fn claims_12(cycles: &Cycles) -> Result<Vec<Claim>, ReproductionError> {
-    let scale = &cycles.scale;
-    let claim = |quantity: String, exact: f64, springs, cells| Claim {
-        figure: 12,
-        quantity,
-        exact: Value::Refined(Some(exact)),
-        axisymmetric: Some(springs),
-        half_space: Some(cells),
-        measure: Measure::relative(Some(exact), 2e-3, 2e-3),
-        stated: Stated::default(),
-        note: String::new(),
+/// The loss over frequency.
+fn losses(cycles: &Cycles<'_>) -> ByEngine<Vec<(f64, f64)>> {
+    let of = |read: fn(&ByEngine<Numbers>) -> &Numbers| -> Vec<(f64, f64)> {
+        let cases = cycles.cases.iter();
+        cases
+            .map(|case| (case.f, read(&case.numbers).loss))
+            .collect()
+    };
+    ByEngine {
+        exact: of(|n| &n.exact),
+        axisymmetric: of(|n| &n.axisymmetric),
+        half_space: of(|n| &n.half_space),
+    }
+}
+
+fn claims_12(cycles: &Cycles<'_>) -> Result<Vec<Claim>> {
+    let claim = |quantity: String, values: ByEngine<f64>, accuracy: f64| {
+        let measure = Measure::relative(accuracy, accuracy);
+        Claim::new(quantity, Source::Refined, values.map(Some), measure)
     };
     let mut claims = Vec::new();
-    for &f in &cycles.shown[2] {
-        let case = cycles.case(f)?;
-        claims.push(claim(
-            format!("energy loss / (W₀ δ_H), f = {}", short(f)),
-            loss(&case.refined, scale),
-            loss(&case.springs, scale),
-            case.on_cells.energy_loss_j()? / scale.energy_j(),
-        ));
+    for case in cycles.cases_of(2)? {
+        let quantity = format!("energy loss / (W₀ δ_H), f = {}", short(case.f));
+        claims.push(claim(quantity, case.numbers.as_ref().map(|n| n.loss), 2e-3));
     }
-    let about = cycles.about_the_peak()?;
-    let refined = peak(about.map(|c| (c.f, loss(&c.refined, scale))));
-    let springs = peak(about.map(|c| (c.f, loss(&c.springs, scale))));
-    let [low, middle, high] = about.map(|c| c.on_cells.energy_loss_j());
-    let on_cells = [low?, middle?, high?].map(|loss_j| loss_j / scale.energy_j());
-    let on_cells = [0, 1, 2].map(|k| (about[k].f, on_cells[k]));
-    let on_cells = peak(on_cells);
+    let maxima = losses(cycles)
+        .map(|losses| peak(about(&losses, TAU.recip())?))
+        .all()?;
     let note = "the loss decays over the paper's four frequencies, but rises to this maximum before: it vanishes as f does";
-    claims.push(Claim {
-        measure: Measure::relative(Some(refined.0), 5e-3, 5e-3),
-        note: note.to_owned(),
-        ..claim(
-            "f of the largest loss".to_owned(),
-            refined.0,
-            springs.0,
-            on_cells.0,
-        )
-    });
-    claims.push(claim(
-        "largest loss over all frequencies / (W₀ δ_H)".to_owned(),
-        refined.1,
-        springs.1,
-        on_cells.1,
-    ));
+    let place = "f of the largest loss".to_owned();
+    claims.push(claim(place, maxima.map(|m| m.0), 5e-3).note(note));
+    let value = "largest loss over all frequencies / (W₀ δ_H)".to_owned();
+    claims.push(claim(value, maxima.map(|m| m.1), 2e-3));
     Ok(claims)
 }

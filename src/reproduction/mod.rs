@@ -12,21 +12,20 @@
 
 mod by_engine;
 mod claim;
+mod curves;
 mod cycles;
 mod figure_01;
-mod figure_04_05;
 mod figure_06;
-mod figure_07;
 mod figure_08_09;
 mod figure_10_12;
 mod figure_13;
-mod look;
-pub mod number;
+mod number;
 mod page;
 mod readme;
 mod scale;
 mod stabilised;
 mod statement;
+mod step_load;
 mod wording;
 
 use std::collections::BTreeMap;
@@ -35,29 +34,30 @@ use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-pub use claim::{Claim, Measure, Stated, Verdict};
-pub use statement::{Count, Judged};
-
+pub use by_engine::ByEngine;
+pub use claim::{Claim, Measure, Source, Stated, Verdict};
 pub use scale::Scale;
+pub use statement::{Count, Judged};
 
 use crate::contact::ContactError;
 use crate::cycle::LoopError;
-use crate::material::Material;
-use crate::material::MaterialError;
+use crate::drive::HistoryError;
+use crate::material::{Material, MaterialError};
 use crate::report::ReportError;
-use crate::report::chart::{Chart, ChartError};
+use crate::report::chart::Chart;
 use crate::report::figure::Picture;
+use crate::report::figure::press::{self, Press};
 use crate::report::page::Pictures;
 use crate::sweep::case::SetupError;
-use crate::sweep::engine::{AsContactError, EngineError};
-use crate::sweep::figures::figure_plan::{FigurePlan, Format};
+use crate::sweep::engine::EngineError;
+use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::history::SimulationError;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::search::peak::PeakError;
 use crate::sweep::search::run::{self, RunError};
-use crate::sweep::store::files;
 use crate::sweep::store::{StoreError, write_atomically};
+use number::Data;
 
 /// The figures of the paper that show computed results; 2 and 3 are flowcharts.
 pub const FIGURES: [u8; 11] = [1, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13];
@@ -103,6 +103,8 @@ pub struct Plans {
     pub sweeps: BTreeMap<&'static str, SweepPlan>,
 }
 
+type Result<T, E = ReproductionError> = std::result::Result<T, E>;
+
 /// Why a figure cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReproductionError {
@@ -125,7 +127,7 @@ pub enum ReproductionError {
     #[error(transparent)]
     Report(#[from] ReportError),
     #[error(transparent)]
-    Chart(#[from] ChartError),
+    Drive(#[from] HistoryError),
     #[error(transparent)]
     Peak(#[from] PeakError),
     #[error(transparent)]
@@ -134,15 +136,6 @@ pub enum ReproductionError {
     Run(#[from] RunError),
     #[error("interrupted")]
     Interrupted,
-}
-
-impl AsContactError for ReproductionError {
-    fn as_contact_error(&self) -> Option<&ContactError> {
-        match self {
-            Self::Contact(error) => Some(error),
-            _ => None,
-        }
-    }
 }
 
 /// One figure, finished.
@@ -161,6 +154,24 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// One of which the paper states nothing yet.
+    fn new(
+        number: u8,
+        caption: impl Into<String>,
+        panels: Vec<Chart>,
+        data: Data,
+        claims: Vec<Claim>,
+    ) -> Result<Self> {
+        Ok(Self {
+            number,
+            caption: caption.into(),
+            panels,
+            data: data.finish()?,
+            claims,
+            statements: Vec::new(),
+        })
+    }
+
     /// The name of its files, without ending.
     pub fn name(&self) -> String {
         format!("figure-{:02}", self.number)
@@ -168,12 +179,12 @@ impl Figure {
 
     /// The caption to stand beside the picture alone: with units and the first numbers.
     fn full_caption(&self) -> String {
-        let numbers: Vec<String> = self
-            .claims
-            .iter()
-            .filter(|claim| !claim.exact_text().is_empty())
-            .take(NUMBERS_IN_CAPTION)
-            .map(|claim| format!("{}: {}", claim.quantity, claim.exact_text()))
+        let exact = self.claims.iter().map(|c| (&c.quantity, c.texts().exact));
+        let told = exact
+            .filter(|(_, exact)| !exact.is_empty())
+            .take(NUMBERS_IN_CAPTION);
+        let numbers: Vec<String> = told
+            .map(|(name, exact)| format!("{name}: {exact}"))
             .collect();
         let numbers = match numbers.is_empty() {
             true => String::new(),
@@ -189,33 +200,33 @@ impl Figure {
 }
 
 impl Plans {
-    fn scenario(&self, name: &'static str) -> Result<&ScenarioPlan, ReproductionError> {
+    fn scenario(&self, name: &'static str) -> Result<&ScenarioPlan> {
         let plan = self.scenarios.get(name);
         plan.ok_or(ReproductionError::NoPlan(name))
     }
 
-    fn sweep(&self, name: &'static str) -> Result<&SweepPlan, ReproductionError> {
+    fn sweep(&self, name: &'static str) -> Result<&SweepPlan> {
         self.sweeps.get(name).ok_or(ReproductionError::NoPlan(name))
     }
 }
 
 /// The material of a scenario as the series that the closed forms need.
-fn series_of(plan: &ScenarioPlan) -> Result<&Material, ReproductionError> {
+fn series_of(plan: &ScenarioPlan) -> Result<&Material> {
     let unfit = || ReproductionError::Unfit("the scenario's material is no series".to_owned());
     plan.material.series().ok_or_else(unfit)
 }
 
 /// What makes figures: one of them, or several from the same computations.
-type Maker = fn(&Plans, &AtomicBool) -> Result<Vec<Figure>, ReproductionError>;
+type Maker = fn(&Plans, &AtomicBool) -> Result<Vec<Figure>>;
 
 /// The longest first, so that threads end together.
 const MAKERS: [(&[u8], Maker); 7] = [
     (&[8, 9, 10, 11, 12], cycles::figures),
     (&[13], figure_13::figures),
     (&[6], figure_06::figures),
-    (&[5], figure_04_05::figure_5),
-    (&[7], figure_07::figures),
-    (&[4], figure_04_05::figure_4),
+    (&[5], step_load::figure_5),
+    (&[7], step_load::figure_7),
+    (&[4], step_load::figure_4),
     (&[1], figure_01::figures),
 ];
 
@@ -230,7 +241,7 @@ pub fn make(
     threads: usize,
     interrupt: &AtomicBool,
     finished: &(dyn Fn(u8) + Sync),
-) -> Result<Vec<Figure>, ReproductionError> {
+) -> Result<Vec<Figure>> {
     let pool = run::pool(threads)?;
     let wanted = |numbers: &[u8]| numbers.iter().any(|number| figures.contains(number));
     let made: Vec<Vec<Figure>> = pool.install(|| {
@@ -243,7 +254,7 @@ pub fn make(
                 made.iter().for_each(|figure| finished(figure.number));
                 Ok(made)
             });
-        made.collect::<Result<_, ReproductionError>>()
+        made.collect::<Result<_>>()
     })?;
     let mut made: Vec<Figure> = made.into_iter().flatten().collect();
     made.sort_by_key(|figure| figure.number);
@@ -251,65 +262,36 @@ pub fn make(
     Ok(made)
 }
 
-/// Everything that is written: names and bytes. Pictures and data of each figure, the claims as table, and everything in one
-/// text for a repository and in one page for a browser.
+/// Writes everything into a folder: pictures and data of each figure, the claims as table, and everything in one text for a
+/// repository and in one page for a browser.
 ///
 /// # Errors
-/// [`ReproductionError`] where a picture cannot be drawn.
-pub fn files(
-    figures: &[Figure],
-    plan: &FigurePlan,
-) -> Result<Vec<(String, Vec<u8>)>, ReproductionError> {
+/// [`ReproductionError`] where a picture cannot be drawn or a file not be written.
+pub fn write(figures: &[Figure], plan: &FigurePlan, folder: &Path) -> Result<()> {
+    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     // The page shows every picture, in whatever forms they are written.
     let pictures = Pictures::default();
-    let drawn: Vec<Vec<(String, Vec<u8>)>> = figures
-        .par_iter()
-        .map(|figure| {
-            let name = figure.name();
-            let picture = match &figure.panels[..] {
-                [chart] => Picture::from(chart.clone()),
-                panels => Picture::Stack(panels.to_vec()),
-            };
-            let caption = figure.full_caption();
-            let drawing = picture.as_asked(plan)?.described(caption.as_str());
-            pictures.insert(&name, &drawing);
-            let text = format!("{caption}\n").into_bytes();
-            let mut files = vec![
-                (format!("{name}{}", files::CAPTION), text),
-                (format!("{name}.csv"), figure.data.clone()),
-            ];
-            for format in &plan.formats {
-                files.push(match (format, plan.resolution()) {
-                    (Format::Svg, _) => (format!("{name}.svg"), drawing.to_svg().into_bytes()),
-                    (Format::Pdf, _) => (format!("{name}.pdf"), drawing.to_pdf()?),
-                    (Format::Png, Some(dpi)) => (format!("{name}.png"), drawing.to_png_at(dpi)?),
-                    // The page of the repository shows one resolution.
-                    (Format::Png, None) => (format!("{name}.png"), drawing.to_png(1.0)?),
-                });
-            }
-            Ok(files)
-        })
-        .collect::<Result<_, ReproductionError>>()?;
-    let mut files: Vec<(String, Vec<u8>)> = drawn.into_iter().flatten().collect();
+    let press = Press {
+        plan,
+        write: &write,
+        pictures: &pictures,
+    };
+    figures.par_iter().try_for_each(|figure| {
+        let name = figure.name();
+        let picture = match &figure.panels[..] {
+            [chart] => Picture::from(chart.clone()),
+            panels => Picture::Stack(panels.to_vec()),
+        };
+        write(&format!("{name}.csv"), &figure.data)?;
+        // The page of the repository shows one resolution.
+        let resolutions = &press::RESOLUTIONS[..1];
+        let names = (&name[..], "a figure of the paper");
+        press.picture_at(resolutions, names, &picture, &figure.full_caption())?;
+        Ok::<(), ReproductionError>(())
+    })?;
     let claims = claim::table(figures)?;
-    files.push(("claims.csv".to_owned(), claims.clone()));
-    files.push(("README.md".to_owned(), readme::text(figures).into_bytes()));
+    write("claims.csv", &claims)?;
+    write("README.md", readme::text(figures).as_bytes())?;
     let page = page::page(figures, &pictures, &claims)?;
-    files.push(("index.html".to_owned(), page.into_bytes()));
-    Ok(files)
-}
-
-/// Writes all files into a folder.
-///
-/// # Errors
-/// [`ReproductionError`] naming the file.
-pub fn write(
-    figures: &[Figure],
-    plan: &FigurePlan,
-    folder: &Path,
-) -> Result<(), ReproductionError> {
-    for (name, bytes) in files(figures, plan)? {
-        write_atomically(&folder.join(name), &bytes)?;
-    }
-    Ok(())
+    Ok(write("index.html", page.as_bytes())?)
 }

@@ -1,7 +1,14 @@
-//! Numbers as they are written: few enough digits that neither another processor nor another iteration changes them.
+//! Numbers as they are written: few enough digits that neither another processor nor another iteration changes them; and the
+//! data behind a figure.
+
+use super::Result;
+use crate::report::table::Table;
 
 /// Below this, in units in which results are of order 1, a value is rounding and stands as 0.
 const NOISE: f64 = 1e-9;
+
+/// Differences below this depend on the tolerance of the half-space solver.
+const UNRESOLVED: f64 = 1e-6;
 
 /// A value to so many significant digits, in decimal notation where that is short.
 pub fn significant(value: f64, digits: usize) -> String {
@@ -20,29 +27,78 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
-/// A value of the data behind a figure: five significant digits.
-pub fn datum(value: f64) -> String {
-    significant(value, 5)
-}
-
 /// A number that was chosen rather than computed, without zeros at its end.
 pub fn short(value: f64) -> String {
     let text = format!("{value:.4}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// A value that may be absent.
-pub fn optional_datum(value: Option<f64>) -> String {
-    value.map(datum).unwrap_or_default()
+/// A difference: two digits with sign, or how small it is at most.
+pub fn difference(value: f64) -> String {
+    match value.abs() < UNRESOLVED {
+        true => format!("< {UNRESOLVED:.0e}"),
+        false => format!("{value:+.1e}"),
+    }
 }
 
-/// A difference: two digits with sign, or how small it is at most.
-pub fn difference(value: f64, floor: f64) -> String {
-    let floor = floor.max(NOISE);
-    if value.abs() < floor {
-        format!("< {floor:.0e}")
-    } else {
-        format!("{value:+.1e}")
+/// What stands in a cell of the data behind a figure: text, or a number to five significant digits, empty where undefined.
+pub(super) trait Cell {
+    fn text(&self) -> String;
+}
+
+impl Cell for &str {
+    fn text(&self) -> String {
+        (*self).to_owned()
+    }
+}
+
+impl Cell for String {
+    fn text(&self) -> String {
+        self.clone()
+    }
+}
+
+impl Cell for f64 {
+    fn text(&self) -> String {
+        significant(*self, 5)
+    }
+}
+
+impl Cell for Option<f64> {
+    fn text(&self) -> String {
+        self.map(|value| value.text()).unwrap_or_default()
+    }
+}
+
+/// The data behind a figure, as CSV.
+pub(super) struct Data(Table);
+
+impl Data {
+    /// Under these columns.
+    pub fn new(columns: &[&str]) -> Result<Self> {
+        Ok(Self(Table::new("data of a figure", columns)?))
+    }
+
+    /// Adds a row.
+    pub fn row(&mut self, cells: &[&dyn Cell]) -> Result<()> {
+        let cells: Vec<String> = cells.iter().map(|cell| cell.text()).collect();
+        Ok(self.0.row(&cells)?)
+    }
+
+    /// Adds a row for each point, with these cells before it.
+    pub fn points<X: Cell, Y: Cell>(
+        &mut self,
+        before: &[&dyn Cell],
+        points: &[(X, Y)],
+    ) -> Result<()> {
+        points
+            .iter()
+            .try_for_each(|(x, y)| self.row(&[before, &[x, y]].concat()))
+    }
+
+    /// The text.
+    pub fn finish(self) -> Result<Vec<u8>> {
+        Ok(self.0.finish()?)
     }
 }
 
@@ -62,8 +118,9 @@ mod tests {
             (3e-17, "0"),
             (0.0, "0"),
         ] {
-            assert_eq!(datum(value), text);
+            assert_eq!(value.text(), text);
         }
+        assert_eq!(None.text(), "");
     }
 
     #[test]
@@ -74,9 +131,8 @@ mod tests {
 
     #[test]
     fn differences_have_a_sign_or_a_bound() {
-        assert_eq!(difference(1.234e-4, 0.0), "+1.2e-4");
-        assert_eq!(difference(-0.0123, 0.0), "-1.2e-2");
-        assert_eq!(difference(2e-11, 0.0), "< 1e-9");
-        assert_eq!(difference(2e-7, 1e-6), "< 1e-6");
+        assert_eq!(difference(1.234e-4), "+1.2e-4");
+        assert_eq!(difference(-0.0123), "-1.2e-2");
+        assert_eq!(difference(2e-7), "< 1e-6");
     }
 }

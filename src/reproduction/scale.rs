@@ -1,6 +1,6 @@
 //! The paper's normalised units: Hertz contact of a sphere at the reference load and the instantaneous compliance.
 
-use super::ReproductionError;
+use super::{ReproductionError, Result};
 use crate::contact::surface::Surface;
 use crate::indenter::Indenter;
 use crate::material::{Creep, Material};
@@ -29,20 +29,13 @@ pub struct ProfilePoint {
 
 impl Scale {
     /// The Hertz contact of this sphere on this body under this load (N).
-    pub fn new(
-        material: &Material,
-        indenter: &dyn Indenter,
-        load_n: f64,
-    ) -> Result<Self, ReproductionError> {
+    pub fn new(material: &Material, indenter: &dyn Indenter, load_n: f64) -> Result<Self> {
         let contact_compliance = material.contact_compliance()?;
-        let radius = indenter.axisymmetric().map(|body| {
-            // Of a sphere G(x) = x^2 / R; at an x of 1 m the formula is as good as anywhere.
-            body.transformed_gap_m(1.0).recip()
-        });
-        let sphere_radius_m = radius
-            .ok_or_else(|| ReproductionError::Unfit("the figures need a sphere".to_owned()))?;
+        let unfit = || ReproductionError::Unfit("the figures need a sphere".to_owned());
+        let body = indenter.axisymmetric().ok_or_else(unfit)?;
         let hertz = Hertz {
-            radius_m: sphere_radius_m,
+            // Of a sphere G(x) = x^2 / R; at an x of 1 m the formula is as good as anywhere.
+            radius_m: body.transformed_gap_m(1.0).recip(),
             load_n,
             compliance_per_pa: contact_compliance.instantaneous_compliance(),
         };
@@ -51,7 +44,7 @@ impl Scale {
             contact_radius_m: hertz.contact_radius_m(),
             approach_m: hertz.approach_m(),
             pressure_pa: hertz.peak_pressure_pa(),
-            sphere_radius_m,
+            sphere_radius_m: hertz.radius_m,
             contact_compliance,
         })
     }

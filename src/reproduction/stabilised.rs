@@ -1,4 +1,4 @@
-//! Stabilised cycles of one engine, with the surface at the quarters of the cycle, and cycles marched from rest.
+//! Stabilised cycles of one engine, with the surface at the quarters of the cycle.
 //!
 //! On many cells a cycle is dear. Its memory is therefore found on half as many per side, carried over, and one cycle
 //! marched: what the coarse memory was wrong by is a part of the discretisation error, and decays in that cycle.
@@ -6,15 +6,15 @@
 use std::f64::consts::TAU;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::ReproductionError;
+use super::{ReproductionError, Result};
 use crate::contact::surface::Surface;
-use crate::contact::{ContactError, Engine};
-use crate::cycle::{self, Loop};
+use crate::contact::{Engine, Prescribed};
+use crate::cycle::Loop;
 use crate::history::March;
 use crate::steady::{self, SteadySettings};
-use crate::sweep::case::{Setup, SetupError};
-use crate::sweep::engine::{EngineBuilder, LargestContact, prescribed};
-use crate::sweep::plan::{Case, EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::case::{Setup, sample};
+use crate::sweep::engine::prescribed;
+use crate::sweep::plan::{Case, EngineKind, SweepPlan};
 use crate::sweep::record::CaseResult;
 
 /// A stabilised cycle with its surfaces.
@@ -27,21 +27,13 @@ pub(super) struct Stabilised {
     pub(super) spacing_m: f64,
 }
 
-impl Stabilised {
-    /// Area of the loop (J).
-    pub(super) fn energy_loss_j(&self) -> Result<f64, ReproductionError> {
-        let analysis = cycle::analyse(&self.samples.load_n, &self.samples.approach_m)?;
-        Ok(analysis.energy_loss_j)
-    }
-}
-
 /// The stabilised cycle as a sweep computes it; with `finer` above 1 by so many times the time steps, and twice the springs.
 pub(super) fn by_sweep(
     plan: &SweepPlan,
     omega: f64,
     finer: usize,
     interrupt: &AtomicBool,
-) -> Result<CaseResult, ReproductionError> {
+) -> Result<CaseResult> {
     let mut plan = plan.clone();
     plan.solver.engine = EngineKind::Axisymmetric;
     plan.cycle.steps *= finer;
@@ -55,13 +47,11 @@ pub(super) fn by_sweep(
         angular_frequency_rad_per_s: omega,
         drive: plan.drive,
     };
-    let record = Setup::new(plan)?
-        .run(&case, interrupt)
-        .ok_or(ReproductionError::Interrupted)?;
-    let message = record.message;
-    record.result.ok_or_else(|| {
-        ReproductionError::Unfit(format!("{omega} rad/s: {}", message.unwrap_or_default()))
-    })
+    let record = Setup::new(plan)?.run(&case, interrupt);
+    let record = record.ok_or(ReproductionError::Interrupted)?;
+    let message = record.message.unwrap_or_default();
+    let unfit = || ReproductionError::Unfit(format!("{omega} rad/s: {message}"));
+    record.result.ok_or_else(unfit)
 }
 
 /// The stabilised cycle of one engine, with its surfaces.
@@ -71,169 +61,114 @@ pub(super) fn stabilised(
     engine: EngineKind,
     steps: usize,
     interrupt: &AtomicBool,
-) -> Result<Stabilised, ReproductionError> {
-    let solver = SolverPlan {
-        engine,
-        ..plan.solver
-    };
-    let builder = builder(plan, solver)?;
-    let mut fine = builder.engine(0)?;
-    let start = match engine {
-        EngineKind::Axisymmetric => search(plan, omega, fine.as_mut(), steps, interrupt)?,
-        EngineKind::HalfSpace => {
-            let side = solver.cells / 2;
-            let coarse = SolverPlan {
-                cells: side,
-                ..solver
-            };
-            let mut engine = self::builder(plan, coarse)?.engine(0)?;
-            let memory = search(plan, omega, engine.as_mut(), steps, interrupt)?;
-            // Of the whole, or of a quarter: both have as many cells either way.
-            doubled(&memory, engine.nodes().isqrt())
-        }
-    };
-    let parts = match engine {
-        EngineKind::Axisymmetric => solver.springs,
-        EngineKind::HalfSpace => solver.cells,
-    };
-    let width_m = match engine {
-        EngineKind::Axisymmetric => builder.half_width_m(),
-        EngineKind::HalfSpace => 2.0 * builder.half_width_m(),
-    };
-    let compliance = plan.material.contact_compliance()?;
-    let mut march = March::new(fine.as_mut(), compliance, solver.time_rule);
-    march.recall(&start);
-    let mut stabilised = Stabilised {
-        samples: Loop::default(),
-        surfaces: Vec::new(),
-        spacing_m: width_m / parts as f64,
-    };
-    cycle(&mut march, plan, omega, steps, &mut stabilised, interrupt)?;
-    Ok(stabilised)
-}
-
-/// So many cycles from rest, without the hold: by how much the approach of each differs from that of the last at most, as a
-/// part of the largest.
-pub(super) fn distances_from_rest(
-    plan: &SweepPlan,
-    solver: SolverPlan,
-    omega: f64,
-    steps: usize,
-    cycles: usize,
-    interrupt: &AtomicBool,
-) -> Result<Vec<f64>, ReproductionError> {
-    let mut engine = builder(plan, solver)?.engine(0)?;
-    let compliance = plan.material.contact_compliance()?;
-    let mut march = March::new(engine.as_mut(), compliance, solver.time_rule);
-    let control = plan.drive.control();
-    let share = 1.0 / steps as f64;
-    let value = |step: f64| prescribed(control, plan.drive.value((step * share).fract()));
-    let stages = march.stages(TAU / omega / steps as f64);
-    let mut approaches_m = vec![march.jump(value(0.0))?.approach_m];
-    for step in 1..=cycles * steps {
-        if interrupt.load(Ordering::Relaxed) {
-            return Err(ReproductionError::Interrupted);
-        }
-        march.step_in_stages(&stages, |end| value((step - 1) as f64 + end))?;
-        approaches_m.extend(march.solution().map(|solution| solution.approach_m));
-    }
-    let largest_m = approaches_m.iter().copied().fold(0.0, f64::max);
-    let last = approaches_m[(cycles - 1) * steps..].to_vec();
-    let distance = |k: usize| {
-        let cycle = approaches_m.iter().skip(k * steps).zip(&last);
-        cycle.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / largest_m
-    };
-    Ok((0..cycles).map(distance).collect())
-}
-
-fn builder(plan: &SweepPlan, solver: SolverPlan) -> Result<EngineBuilder, ReproductionError> {
-    let compliance = plan.material.contact_compliance()?;
-    let largest = LargestContact {
-        control: plan.drive.control(),
-        maximum: plan.drive.maximum(),
-        compliance_per_pa: compliance
-            .equilibrium_compliance()
-            .ok_or(SetupError::Fluid)?,
-    };
-    Ok(EngineBuilder::new(plan.indenter.clone(), solver, largest)?)
-}
-
-/// The memory at the start of the stabilised cycle.
-fn search(
-    plan: &SweepPlan,
-    omega: f64,
-    engine: &mut dyn Engine,
-    steps: usize,
-    interrupt: &AtomicBool,
-) -> Result<Vec<f64>, ReproductionError> {
-    const SETTINGS: SteadySettings = SteadySettings {
-        tolerance: 3e-5,
-        max_cycles: 40,
-    };
-    let compliance = plan.material.contact_compliance()?;
-    let mut march = March::new(engine, compliance, plan.solver.time_rule);
-    let control = plan.drive.control();
-    let drive = |fraction: f64| prescribed(control, plan.drive.value(fraction));
-    let cycle = steady::Cycle {
-        drive: &drive,
-        mean: prescribed(control, plan.drive.mean()),
-        period_s: TAU / omega,
+) -> Result<Stabilised> {
+    let mut plan = plan.clone();
+    plan.solver.engine = engine;
+    let cycle = Cycle {
+        setup: Setup::new(plan)?,
+        omega,
         steps,
+        interrupt,
     };
-    let stop = || interrupt.load(Ordering::Relaxed);
-    let found = steady::find(&mut march, &cycle, None, SETTINGS, &stop)?;
-    if stop() {
-        return Err(ReproductionError::Interrupted);
-    }
-    if !found.converged {
-        return Err(ReproductionError::Unfit(format!(
-            "{omega} rad/s: no stabilised cycle after {} cycles",
-            found.cycles
-        )));
-    }
-    Ok(march.memory().variables().to_vec())
+    let SweepPlan { drive, solver, .. } = cycle.setup.plan();
+    let engines = cycle.setup.engines(drive, solver.nodes())?;
+    let mut fine = engines.engine(0)?;
+    let (start, width_m) = match engine {
+        EngineKind::Axisymmetric => (cycle.search(fine.as_mut())?, engines.half_width_m()),
+        EngineKind::HalfSpace => {
+            let half = cycle.setup.engines(drive, solver.nodes() / 2)?;
+            let mut coarse = half.engine(0)?;
+            let memory = cycle.search(coarse.as_mut())?;
+            // Full grid or one symmetry quadrant: both have as many cells either way.
+            let start = doubled(&memory, coarse.nodes().isqrt());
+            (start, 2.0 * engines.half_width_m())
+        }
+    };
+    let (samples, surfaces) = cycle.recorded(fine.as_mut(), &start)?;
+    Ok(Stabilised {
+        samples,
+        surfaces,
+        spacing_m: width_m / solver.nodes() as f64,
+    })
 }
 
-/// One cycle from the memory the march holds.
-fn cycle(
-    march: &mut March<'_>,
-    plan: &SweepPlan,
+/// One cycle of a sweep's drive, on whatever engine.
+struct Cycle<'a> {
+    setup: Setup,
     omega: f64,
     steps: usize,
-    into: &mut Stabilised,
-    interrupt: &AtomicBool,
-) -> Result<(), ReproductionError> {
-    let control = plan.drive.control();
-    let stages = march.stages(TAU / omega / steps as f64);
-    for step in 0..=steps {
-        if interrupt.load(Ordering::Relaxed) {
-            return Err(ReproductionError::Interrupted);
-        }
-        let fraction = step as f64 / steps as f64;
-        let value = |at: f64| prescribed(control, plan.drive.value(at / steps as f64));
-        match step {
-            0 => march.jump(value(0.0)).map(drop)?,
-            _ => march.step_in_stages(&stages, |end| value((step - 1) as f64 + end))?,
-        }
-        sample(march, &mut into.samples, fraction * TAU / omega)?;
-        let is_quarter = [1, 2, 3].iter().any(|quarter| 4 * step == quarter * steps);
-        if is_quarter && let Some(surface) = march.surface()? {
-            into.surfaces.push(surface);
-        }
-    }
-    Ok(())
+    interrupt: &'a AtomicBool,
 }
 
-fn sample(march: &mut March<'_>, samples: &mut Loop, time_s: f64) -> Result<(), ContactError> {
-    march.observe(&mut |engine, pressure, solution| {
-        samples.time_s.push(time_s);
-        samples.load_n.push(solution.load_n);
-        samples.approach_m.push(solution.approach_m);
-        samples.contact_radius_m.push(solution.contact_radius_m);
-        let peak = engine.peak_pressure_pa(pressure, solution)?;
-        samples.peak_pressure_pa.push(peak);
-        Ok(())
-    })
+impl Cycle<'_> {
+    /// What is prescribed at a fraction of the cycle.
+    fn prescribed(&self, fraction: f64) -> Prescribed {
+        let drive = &self.setup.plan().drive;
+        prescribed(drive.control(), drive.value(fraction))
+    }
+
+    fn march<'e>(&self, engine: &'e mut dyn Engine) -> March<'e> {
+        let rule = self.setup.plan().solver.time_rule;
+        March::new(engine, self.setup.compliance().clone(), rule)
+    }
+
+    fn is_interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
+    }
+
+    /// The memory at the start of the stabilised cycle.
+    fn search(&self, engine: &mut dyn Engine) -> Result<Vec<f64>> {
+        const SETTINGS: SteadySettings = SteadySettings {
+            tolerance: 3e-5,
+            max_cycles: 40,
+        };
+        let mut march = self.march(engine);
+        let drive = &self.setup.plan().drive;
+        let cycle = steady::Cycle {
+            drive: &|fraction| self.prescribed(fraction),
+            mean: prescribed(drive.control(), drive.mean()),
+            period_s: TAU / self.omega,
+            steps: self.steps,
+        };
+        let stop = || self.is_interrupted();
+        let found = steady::find(&mut march, &cycle, None, SETTINGS, &stop)?;
+        if stop() {
+            return Err(ReproductionError::Interrupted);
+        }
+        if !found.converged {
+            return Err(ReproductionError::Unfit(format!(
+                "{} rad/s: no stabilised cycle after {} cycles",
+                self.omega, found.cycles
+            )));
+        }
+        Ok(march.memory().variables().to_vec())
+    }
+
+    /// One cycle from this memory: its loop, and the surfaces at its quarters.
+    fn recorded(&self, engine: &mut dyn Engine, memory: &[f64]) -> Result<(Loop, Vec<Surface>)> {
+        let mut march = self.march(engine);
+        march.recall(memory);
+        let stages = march.stages(TAU / self.omega / self.steps as f64);
+        let (mut samples, mut surfaces) = (Loop::default(), Vec::new());
+        for step in 0..=self.steps {
+            if self.is_interrupted() {
+                return Err(ReproductionError::Interrupted);
+            }
+            let fraction = |end: f64| (step as f64 - 1.0 + end) / self.steps as f64;
+            match step {
+                0 => march.jump(self.prescribed(0.0)).map(drop)?,
+                _ => march.step_in_stages(&stages, |end| self.prescribed(fraction(end)))?,
+            }
+            sample(&mut march, &mut samples, fraction(1.0) * TAU / self.omega)?;
+            let is_quarter = [1, 2, 3]
+                .map(|quarter| quarter * self.steps)
+                .contains(&(4 * step));
+            if is_quarter && let Some(surface) = march.surface()? {
+                surfaces.push(surface);
+            }
+        }
+        Ok((samples, surfaces))
+    }
 }
 
 /// Memory variables on a square of `side` cells carried over to one of twice as many, linearly between the centres. Beyond a

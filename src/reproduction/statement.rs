@@ -4,7 +4,7 @@
 use serde::Deserialize;
 
 use super::claim::{Claim, Verdict};
-use super::{Figure, ReproductionError};
+use super::{Figure, ReproductionError, Result};
 
 /// The file, in the program.
 const FILE: &str = include_str!("../../sweeps/spinu-2018/claims.toml");
@@ -131,7 +131,7 @@ impl Count {
 ///
 /// # Errors
 /// [`ReproductionError::Unfit`] where the file says something that cannot be held against values.
-pub(super) fn judge(figures: &mut [Figure]) -> Result<(), ReproductionError> {
+pub(super) fn judge(figures: &mut [Figure]) -> Result<()> {
     let statements = statements()?;
     for figure in figures {
         let of_figure = statements.iter().filter(|s| s.figure == figure.number);
@@ -143,14 +143,14 @@ pub(super) fn judge(figures: &mut [Figure]) -> Result<(), ReproductionError> {
     Ok(())
 }
 
-fn statements() -> Result<Vec<Statement>, ReproductionError> {
+fn statements() -> Result<Vec<Statement>> {
     let file: Result<File, _> = toml::from_str(FILE);
     file.map(|file| file.claim)
         .map_err(|error| ReproductionError::Unfit(format!("claims.toml: {error}")))
 }
 
 impl Statement {
-    fn judged(&self, claims: &mut [Claim]) -> Result<Judged, ReproductionError> {
+    fn judged(&self, claims: &mut [Claim]) -> Result<Judged> {
         let is_meant = |claim: &Claim| self.rows.iter().any(|r| claim.quantity.starts_with(r));
         let meant: Vec<&Claim> = claims.iter().filter(|claim| is_meant(claim)).collect();
         if meant.is_empty() {
@@ -158,7 +158,7 @@ impl Statement {
             return Err(self.unfit(&format!("no value is named {rows}")));
         }
         let verdict = self.verdict(&meant)?;
-        let values = meant.iter().map(|claim| claim.exact_text());
+        let values = meant.iter().map(|claim| claim.texts().exact);
         let values: Vec<String> = values.filter(|text| !text.is_empty()).collect();
         let mut notes: Vec<&str> = Vec::new();
         for claim in &meant {
@@ -193,8 +193,8 @@ impl Statement {
         ReproductionError::Unfit(format!("claims.toml, figure {}: {what}", self.figure))
     }
 
-    fn verdict(&self, claims: &[&Claim]) -> Result<Verdict, ReproductionError> {
-        let numbers: Option<Vec<f64>> = claims.iter().map(|claim| claim.exact.number()).collect();
+    fn verdict(&self, claims: &[&Claim]) -> Result<Verdict> {
+        let numbers: Option<Vec<f64>> = claims.iter().map(|claim| claim.values.exact).collect();
         let defined = claims.iter().all(|claim| !claim.is_undefined());
         let Some(values) = numbers.filter(|_| defined) else {
             return Ok(Verdict::Undefined);
@@ -254,20 +254,13 @@ fn accurate(claims: &[&Claim]) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::claim::{Measure, Stated, Value};
+    use super::super::{ByEngine, Measure, Source};
     use super::*;
 
     fn claim(quantity: &str, value: Option<f64>) -> Claim {
-        Claim {
-            figure: 10,
-            quantity: quantity.to_owned(),
-            exact: Value::Refined(value),
-            axisymmetric: value,
-            half_space: None,
-            measure: Measure::absolute("of a_H", 1e-3, 1e-3),
-            stated: Stated::default(),
-            note: String::new(),
-        }
+        let values = ByEngine::of(value, [value, None]);
+        let measure = Measure::absolute("of a_H", 1e-3, 1e-3);
+        Claim::new(quantity, Source::Refined, values, measure)
     }
 
     fn verdict(text: &str, values: &[Option<f64>]) -> Verdict {

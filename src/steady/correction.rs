@@ -1,4 +1,5 @@
-//! The update of the memory that one cycle suggests: Newton's method per node, coupled by the approach alone.
+//! The update of the memory that one cycle suggests: Newton's method on the map over a cycle (T. J. Aprille and T. N. Trick,
+//! Proc. IEEE 60 (1972) 108), with the monodromy J of every node alone, coupled by the approach.
 //!
 //! A small change dm of a node's memory at the start of the cycle changes its memory at the end by J dm, where J follows from
 //! the times at which the node is in contact: out of contact every branch forgets by itself, d(dm_j)/dt = -dm_j / lambda_j;
@@ -20,12 +21,12 @@ use super::remaining::Remaining;
 use crate::material::Creep;
 
 /// Whether each node is in contact, step by step of a cycle.
-pub(super) struct ContactPattern {
+pub(super) struct ContactHistory {
     nodes: usize,
     steps: Vec<bool>,
 }
 
-impl ContactPattern {
+impl ContactHistory {
     pub(super) fn new(nodes: usize) -> Self {
         Self {
             nodes,
@@ -60,7 +61,7 @@ impl ContactPattern {
 }
 
 /// What a cycle does to a small change of one node's memory.
-struct Answer {
+struct NodeMonodromy {
     /// (1 - J)^-1.
     inverse: DMatrix<f64>,
     /// (1 - J)^-1 v.
@@ -131,21 +132,21 @@ impl Correction {
     }
 
     /// Turns a change over a cycle, as [`Remaining::change`], into dm.
-    pub(super) fn apply(&self, pattern: &ContactPattern, keep_mean_load: bool, update: &mut [f64]) {
-        let (nodes, branches) = (pattern.nodes, self.weights.len());
-        let mut answers: HashMap<Vec<usize>, Option<Answer>> = HashMap::new();
-        let keys: Vec<Vec<usize>> = (0..nodes).map(|node| pattern.runs(node)).collect();
+    pub(super) fn apply(&self, contact: &ContactHistory, keep_mean_load: bool, update: &mut [f64]) {
+        let (nodes, branches) = (contact.nodes, self.weights.len());
+        let mut monodromies: HashMap<Vec<usize>, Option<NodeMonodromy>> = HashMap::new();
+        let keys: Vec<Vec<usize>> = (0..nodes).map(|node| contact.runs(node)).collect();
         let (mut load, mut stiffness) = (0.0, 0.0);
         for (node, key) in keys.iter().enumerate() {
-            let answer = answers
+            let monodromy = monodromies
                 .entry(key.clone())
-                .or_insert_with(|| self.answer(key));
-            let Some(answer) = answer else { continue };
+                .or_insert_with(|| self.monodromy(key));
+            let Some(monodromy) = monodromy else { continue };
             let change =
                 DVector::from_iterator(branches, (0..branches).map(|j| update[j * nodes + node]));
-            let moved = &answer.inverse * change;
-            load += self.loads[node] * answer.load_by_memory.dot(&moved);
-            stiffness += self.loads[node] * answer.load_by_approach;
+            let moved = &monodromy.inverse * change;
+            load += self.loads[node] * monodromy.load_by_memory.dot(&moved);
+            stiffness += self.loads[node] * monodromy.load_by_approach;
             for (j, value) in moved.iter().enumerate() {
                 update[j * nodes + node] = *value;
             }
@@ -155,16 +156,16 @@ impl Correction {
         }
         let approach = -load / stiffness;
         for (node, key) in keys.iter().enumerate() {
-            if let Some(Some(answer)) = answers.get(key) {
-                for (j, value) in answer.by_approach.iter().enumerate() {
+            if let Some(Some(monodromy)) = monodromies.get(key) {
+                for (j, value) in monodromy.by_approach.iter().enumerate() {
                     update[j * nodes + node] += approach * value;
                 }
             }
         }
     }
 
-    /// The answer of a node with these runs; `None` where it cannot be had, and the change itself must do.
-    fn answer(&self, runs: &[usize]) -> Option<Answer> {
+    /// The monodromy of a node with these runs; `None` where it cannot be had, and the change itself must do.
+    fn monodromy(&self, runs: &[usize]) -> Option<NodeMonodromy> {
         let count = self.weights.len();
         let mut cycle = DMatrix::identity(count + 2, count + 2);
         for (run, &length) in runs.iter().enumerate() {
@@ -186,7 +187,7 @@ impl Correction {
         let load_by_memory = cycle.view((count, 0), (1, count)).row(0).transpose();
         let inverse = (DMatrix::identity(count, count) - memory).try_inverse()?;
         let by_approach = &inverse * by_approach;
-        Some(Answer {
+        Some(NodeMonodromy {
             load_by_approach: cycle[(count, count + 1)] + load_by_memory.dot(&by_approach),
             inverse,
             by_approach,

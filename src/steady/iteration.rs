@@ -1,7 +1,7 @@
 //! The search: cycle after cycle, each started from a better memory.
 
 use super::anderson::Anderson;
-use super::correction::{ContactPattern, Correction};
+use super::correction::{ContactHistory, Correction};
 use super::remaining::{MeanPressure, Remaining};
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::cycle;
@@ -67,7 +67,7 @@ pub struct SearchState {
 }
 
 impl SearchState {
-    /// Whether this is a state of so many memory variables.
+    /// Whether this is a state of this many memory variables.
     fn fits(&self, variables: usize) -> bool {
         let vectors = [&self.start, &self.best.1, &self.best.2];
         let anderson = self.anderson.iter().filter(|v| !v.is_empty());
@@ -262,7 +262,7 @@ impl Search {
 /// One cycle and what the search wants to know of it.
 struct Run {
     stages: Vec<Stage<StepWeights>>,
-    contact: ContactPattern,
+    contact: ContactHistory,
     mean: MeanPressure,
     /// Largest root of the sum of squares of the nodal pressures.
     scale: f64,
@@ -274,7 +274,7 @@ impl Run {
     fn new(march: &March<'_>, cycle: &Cycle<'_>, remaining: &Remaining) -> Self {
         Self {
             stages: march.stages(cycle.period_s / cycle.steps as f64),
-            contact: ContactPattern::new(march.pressure().len()),
+            contact: ContactHistory::new(march.pressure().len()),
             mean: MeanPressure::new(remaining, march.pressure().len(), cycle.steps),
             scale: 0.0,
             load_n: Vec::with_capacity(cycle.steps + 1),

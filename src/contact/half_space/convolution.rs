@@ -15,7 +15,6 @@
 //! the pressure alone, never on what the scratch held before.
 
 mod even_column;
-mod kernel_spectrum;
 mod length;
 mod mirrored_column;
 mod mirrored_row;
@@ -138,7 +137,7 @@ impl Convolution {
                 .sum::<usize>()
     }
 
-    /// The operators of a window of so many cells of this grid, at most the grid itself. Built when first asked for, then
+    /// The operators of a window of this many cells of this grid, at most the grid itself. Built when first asked for, then
     /// shared by all who hold this operator: what they compute does not depend on who asked first.
     ///
     /// # Errors
@@ -209,12 +208,12 @@ fn free_space(grid: &Grid) -> Result<Box<dyn Product>, FftError> {
     }
     let row = PaddedRow::new(grid.cells_x());
     let column = EvenColumn::new(length::fast_column(2 * grid.cells_y() - 1));
-    let spectrum = kernel_spectrum::columns(&influence, &row, column.length())?;
+    let spectrum = even_column::columns(&influence, &row, column.length())?;
     Ok(Box::new(SpectralProduct::new(grid, row, column, spectrum)))
 }
 
 /// The product with a function of the spectrum of the influence coefficients on a mirrored grid, filled up with zeros to at
-/// least so many cells along x and y.
+/// least this many cells along x and y.
 fn mirrored(
     grid: &Grid,
     influence: &Influence,
@@ -229,7 +228,7 @@ fn mirrored(
 
 /// Bytes that the operator of a grid takes with all that belongs to it: spectra with and without padding, those of coarser
 /// grids, and work space of one thread.
-pub(super) fn predicted_bytes(grid: &Grid) -> usize {
+fn predicted_bytes(grid: &Grid) -> usize {
     let (x, y) = (grid.cells_x(), grid.cells_y());
     let row = |cells: usize| 2 * length::fast_row_half(cells);
     let (spectra, scratch) = if grid.is_mirrored() {
@@ -245,6 +244,24 @@ pub(super) fn predicted_bytes(grid: &Grid) -> usize {
     };
     // A fourth of the cells, a sixteenth and so on: a third of the spectra.
     size_of::<f64>() * (spectra + spectra / 3 + scratch)
+}
+
+/// Fields of one value per cell that engine and march hold, whatever the material: gap (1), pressure, gap under load, operand and
+/// result of an operator (4), history, sources and displacement (3), fields on the contact alone (5: a contact that fills its
+/// window takes two thirds of them, and they grow in leaps), pressure and history of the march (2), pressures extrapolated
+/// from (2).
+const FIELDS: f64 = 1.0 + 4.0 + 3.0 + 5.0 + 2.0 + 2.0;
+
+/// Memory (bytes) that marching in time takes on a grid, with this many memory variables per cell (retardation times, and one for
+/// a flow term): operator, engine, march and memory, for a contact that fills the grid up to the room the program leaves about
+/// it. Smaller contacts take less. To be held against what the machine has; within 20 %.
+///
+/// Not in it are the safeguard's fields, should it ever be needed (a fifth more), and what reports make of the results.
+pub fn predicted_memory_bytes(grid: &Grid, branches: usize) -> u64 {
+    let field = (grid.cells() * size_of::<f64>()) as f64;
+    let fields = (FIELDS + branches as f64) * field;
+    let operator = predicted_bytes(grid) as f64;
+    (fields + operator) as u64
 }
 
 /// Refuses fields that do not have one value per cell.
@@ -407,7 +424,7 @@ mod tests {
         }
     }
 
-    /// A mirrored grid of so many cells, with a field, and both unfolded.
+    /// A mirrored grid of this many cells, with a field, and both unfolded.
     fn quarter_and_whole(
         (cells_x, cells_y, spacing_x, spacing_y): (usize, usize, f64, f64),
     ) -> (Grid, Vec<f64>, Grid, Vec<f64>) {

@@ -3,10 +3,9 @@
 //! Conventions: displacement positive into the body, pressure positive in compression, cells row-major (x fastest).
 
 pub mod convolution;
-mod footprint;
 pub mod grid;
 pub mod influence;
 mod solver;
 
-pub use footprint::{predicted_memory_bytes, predicted_memory_bytes_on};
+pub use convolution::predicted_memory_bytes;
 pub use solver::{HalfSpace, SolverSettings};

@@ -13,7 +13,6 @@ mod coarse;
 mod frame;
 mod outside;
 mod polonsky_keer;
-mod residual;
 mod spans;
 mod sums;
 mod tangent;
@@ -24,7 +23,7 @@ use std::sync::atomic::AtomicBool;
 
 use active_set::{ActiveSet, Scratches, Work};
 use frame::{Bounds, Frame};
-use outside::Rings;
+use outside::OutsideGapBound;
 use polonsky_keer::{Given, PolonskyKeer};
 use windows::Windows;
 
@@ -96,7 +95,7 @@ pub struct HalfSpace {
     source: Vec<f64>,
     lift_m: Vec<f64>,
     /// Gaps beyond the windows met so far.
-    rings: Vec<Rings>,
+    outside_bounds: Vec<OutsideGapBound>,
     safeguard: Option<Box<PolonskyKeer>>,
     /// The windows of pressure and history of the instant last solved.
     windows: Option<Windows>,
@@ -139,7 +138,7 @@ impl HalfSpace {
             history: Vec::new(),
             source: Vec::new(),
             lift_m: Vec::new(),
-            rings: Vec::new(),
+            outside_bounds: Vec::new(),
             safeguard: None,
             windows: None,
             convolutions: 0,
@@ -155,7 +154,7 @@ impl HalfSpace {
         self.by_safeguard_after(0)
     }
 
-    /// The same engine leaving the fast way for the safe one after so many steps of every instant that takes more: what happens
+    /// The same engine leaving the fast way for the safe one after this many steps of every instant that takes more: what happens
     /// where the fast one stalls, at will.
     pub fn by_safeguard_after(mut self, steps: usize) -> Self {
         self.fast_steps = steps;

@@ -15,7 +15,7 @@ use crate::sweep::store::files;
 pub type WriteFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 'a;
 
 /// Resolutions of the PNG where none is asked for: suffix of the name and scale.
-const RESOLUTIONS: [(&str, f32); 2] = [("", 1.0), ("@2x", 2.0)];
+pub const RESOLUTIONS: [(&str, f32); 2] = [("", 1.0), ("@2x", 2.0)];
 
 /// What makes files of figures.
 pub struct Press<'a> {
@@ -51,6 +51,20 @@ impl Press<'_> {
         picture: &Picture,
         caption: &str,
     ) -> Result<(), ReportError> {
+        self.picture_at(&RESOLUTIONS, (file, figure), picture, caption)
+    }
+
+    /// As [`Press::picture`]; where the plan asks for no resolution of the PNG, in these of [`RESOLUTIONS`].
+    ///
+    /// # Errors
+    /// As [`Press::picture`].
+    pub fn picture_at(
+        &self,
+        resolutions: &[(&str, f32)],
+        (file, figure): (&str, &'static str),
+        picture: &Picture,
+        caption: &str,
+    ) -> Result<(), ReportError> {
         let failed = |source| ReportError::Chart {
             name: figure,
             source,
@@ -76,7 +90,7 @@ impl Press<'_> {
                     (self.write)(&format!("{file}.png"), &png)?;
                 }
                 (Format::Png, None) => {
-                    RESOLUTIONS.par_iter().try_for_each(|&(suffix, scale)| {
+                    resolutions.par_iter().try_for_each(|&(suffix, scale)| {
                         let png = drawing.to_png(scale).map_err(failed)?;
                         Ok::<(), ReportError>((self.write)(&format!("{file}{suffix}.png"), &png)?)
                     })?

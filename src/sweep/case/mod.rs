@@ -17,6 +17,7 @@ use crate::history::{Work, order_of_steps};
 use crate::material::{Creep, MaterialError, Relaxation};
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::edge_layer::EdgeLayer;
+pub(crate) use crate::sweep::case::stabilise::sample;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
 use crate::sweep::engine::{EngineBuilder, EngineError, LargestContact};
 use crate::sweep::plan::check::{PlanError, check_frequency};
@@ -156,7 +157,10 @@ impl Setup {
     }
 
     /// Engines for a drive with so many springs or cells, built once.
-    pub(in crate::sweep) fn engines(
+    ///
+    /// # Errors
+    /// As [`EngineBuilder::new`].
+    pub fn engines(
         &self,
         drive: &HarmonicDrive,
         nodes: usize,

@@ -364,7 +364,7 @@ impl<'a> Cycles<'a> {
         mut recording: Option<&mut Recording>,
     ) -> Result<(), CaseError> {
         // A checkpoint may lie here.
-        march.forget_course();
+        march.reset_predictor();
         self.start.clear();
         self.start.extend_from_slice(march.memory().variables());
         self.load_n.clear();
@@ -571,7 +571,11 @@ fn surface_loss(surface: Surface) -> SurfaceLoss {
 }
 
 /// Appends the present instant to a loop.
-fn sample(march: &mut March<'_>, samples: &mut Loop, time_s: f64) -> Result<(), ContactError> {
+pub(crate) fn sample(
+    march: &mut March<'_>,
+    samples: &mut Loop,
+    time_s: f64,
+) -> Result<(), ContactError> {
     march.observe(&mut |engine, pressure, solution| {
         samples.time_s.push(time_s);
         samples.load_n.push(solution.load_n);

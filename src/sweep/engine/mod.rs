@@ -10,7 +10,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::contact::axisymmetric::{self, Axisymmetric};
 use crate::contact::half_space::convolution::Convolution;
 use crate::contact::half_space::grid::Grid;
-use crate::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes_on};
+use crate::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes};
 use crate::contact::{ContactError, Engine, Prescribed};
 use crate::drive::Control;
 use crate::indenter::{self, Domain, Indenter};
@@ -209,7 +209,7 @@ impl EngineBuilder {
         /// Fields of springs in engine and march.
         const FIELDS: usize = 12;
         match &self.grid {
-            Some(grid) => predicted_memory_bytes_on(grid, branches),
+            Some(grid) => predicted_memory_bytes(grid, branches),
             None => {
                 let springs = self.solver.springs;
                 // The table of roots of the pressure: half a square.

@@ -141,7 +141,7 @@ fn of_errors(abscissae: &[f64], computed: &[Loss], at: f64) -> (f64, Option<f64>
 }
 
 /// Maximum (position, value) of the polynomial through the points, where it lies between the outer ones.
-fn vertex(abscissae: &[f64], values: &[f64]) -> Option<(f64, f64)> {
+pub fn vertex(abscissae: &[f64], values: &[f64]) -> Option<(f64, f64)> {
     let (first, last) = (abscissae.first()?, abscissae.last()?);
     let centre = 0.5 * (first + last);
     let half = 0.5 * (last - first);

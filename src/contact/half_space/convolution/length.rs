@@ -26,12 +26,12 @@ fn fast_length(minimum: usize, cost_of_odd_factor: f64) -> usize {
     best
 }
 
-/// Half the length of a row of so many cells before padding.
+/// Half the length of a row of this many cells before padding.
 pub(super) fn fast_row_half(cells: usize) -> usize {
     fast_length(cells.div_ceil(2), ROW_COST_OF_ODD_FACTOR)
 }
 
-/// Length of a column of at least so many values.
+/// Length of a column of at least this many values.
 pub(super) fn fast_column(minimum: usize) -> usize {
     fast_length(minimum, COLUMN_COST_OF_ODD_FACTOR)
 }

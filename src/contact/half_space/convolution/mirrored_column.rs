@@ -9,7 +9,7 @@ use realfft::FftError;
 use rustfft::{Fft, FftPlanner};
 
 use super::super::influence::Influence;
-use super::kernel_spectrum::Kernel;
+use super::even_column::Kernel;
 use super::mirrored_row::{MirroredRow, twist};
 use super::spectral::{Column, Row, ZERO};
 
@@ -97,16 +97,16 @@ impl Column for MirroredColumn {
     ) {
         let (values, work) = work.split_at_mut(self.half);
         column[..loaded.start].fill(ZERO);
-        into_order(&column[..loaded.end], values);
+        makhoul_permute(&column[..loaded.end], values);
         self.forward.process_with_scratch(values, work);
         self.multiply_pairs(values, kernel);
         self.inverse.process_with_scratch(values, work);
-        out_of_order(values, &mut column[..wanted.end]);
+        makhoul_unpermute(values, &mut column[..wanted.end]);
     }
 }
 
 /// Even values in ascending, odd ones in descending order, zeros between.
-fn into_order(column: &[Complex<f64>], values: &mut [Complex<f64>]) {
+fn makhoul_permute(column: &[Complex<f64>], values: &mut [Complex<f64>]) {
     let (even, odd) = (column.len().div_ceil(2), column.len() / 2);
     let beyond = values.len() - odd;
     values[even..beyond].fill(ZERO);
@@ -121,8 +121,8 @@ fn into_order(column: &[Complex<f64>], values: &mut [Complex<f64>]) {
     }
 }
 
-/// The reverse of [`into_order`].
-fn out_of_order(values: &[Complex<f64>], column: &mut [Complex<f64>]) {
+/// The reverse of [`makhoul_permute`].
+fn makhoul_unpermute(values: &[Complex<f64>], column: &mut [Complex<f64>]) {
     let even = column.len().div_ceil(2);
     let (ascending, descending) = values.split_at(even);
     let places = ascending.iter().zip(descending.iter().rev());

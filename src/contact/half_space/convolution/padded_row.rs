@@ -18,7 +18,7 @@ use num_complex::Complex;
 use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
-use super::kernel_spectrum::FrequencyPerBin;
+use super::even_column::FrequencyPerBin;
 use super::length::fast_row_half;
 use super::spectral::Row;
 

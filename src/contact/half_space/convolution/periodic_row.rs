@@ -5,7 +5,7 @@ use std::sync::Arc;
 use num_complex::Complex;
 use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
 
-use super::kernel_spectrum::FrequencyPerBin;
+use super::even_column::FrequencyPerBin;
 use super::length::fast_row_half;
 use super::spectral::Row;
 

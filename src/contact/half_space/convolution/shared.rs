@@ -9,12 +9,12 @@ pub(super) const PANELS: usize = 8;
 /// Cells of a grid from which on it is shared.
 const FEWEST_CELLS: usize = 1 << 14;
 
-/// Panels of a grid of so many cells. They do not depend on the threads, so that work space fits whoever uses it.
+/// Panels of a grid of this many cells. They do not depend on the threads, so that work space fits whoever uses it.
 pub(super) fn panels(cells: usize) -> usize {
     if cells < FEWEST_CELLS { 1 } else { PANELS }
 }
 
-/// How many threads may share a product on a grid of so many cells here and now.
+/// How many threads may share a product on a grid of this many cells here and now.
 pub(super) fn threads(cells: usize) -> usize {
     match rayon::current_thread_index() {
         Some(_) => rayon::current_num_threads().min(panels(cells)),

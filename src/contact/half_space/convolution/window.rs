@@ -1,9 +1,10 @@
 //! The operators of one rectangular window of a larger grid: the half-space restricted to it, and what nearly inverts it.
 //!
 //! Pressure in a window moves the window's own cells as the grid of these cells alone would, so the operator is a smaller
-//! [`Convolution`]. Its inverse is nearly a product with the reciprocal of its spectrum on the unpadded window (half the wave
-//! number, where cells are small), so that conjugate gradients preconditioned with it need few steps, whose number hardly
-//! depends on the grid.
+//! [`Convolution`]. Its inverse is nearly a product with the reciprocal of its spectrum on the unpadded window, |q|/2 at the
+//! wave number q where cells are small: a pressure that is a wave bends the half-space into the same wave of amplitude 2/|q|
+//! (H. M. Stanley and T. Kato, J. Tribology 119 (1997) 481). Conjugate gradients preconditioned with it need few steps, whose
+//! number hardly depends on the grid.
 
 use std::ops::Range;
 
@@ -11,7 +12,7 @@ use super::even_column::EvenColumn;
 use super::length::fast_column;
 use super::periodic_row::PeriodicRow;
 use super::spectral::{Column, Product, Row, SpectralProduct};
-use super::{Convolution, ConvolutionError, Influence, Scratch, kernel_spectrum};
+use super::{Convolution, ConvolutionError, Influence, Scratch, even_column};
 use crate::contact::half_space::grid::Grid;
 
 /// A symmetric positive product that nearly inverts the half-space operator on one window.
@@ -33,7 +34,7 @@ impl Preconditioner {
         }
         let row = PeriodicRow::new(grid.cells_x());
         let column = EvenColumn::new(fast_column(grid.cells_y()));
-        let mut spectrum = kernel_spectrum::columns(&influence, &row, column.length())?;
+        let mut spectrum = even_column::columns(&influence, &row, column.length())?;
         let cells = row.period() as f64 * column.length() as f64;
         for value in &mut spectrum {
             // Scaled like the spectrum it inverts.

@@ -1,4 +1,5 @@
-//! The fast way to solve an instant in a window: preconditioned conjugate gradients on the contact, between changes of it.
+//! The fast way to solve an instant in a window: preconditioned conjugate gradients on the contact, between changes of it, a
+//! primal-dual active set strategy (M. Hintermueller, K. Ito and K. Kunisch, SIAM J. Optim. 13 (2002) 865).
 //!
 //! Inside the contact the gap must vanish, which is a linear problem for its pressure; conjugate gradients solve it in a few
 //! steps when preconditioned with [`Preconditioner`](super::super::convolution::Preconditioner). Cells whose pressure turns
@@ -145,7 +146,7 @@ struct Moved {
 }
 
 impl ActiveSet {
-    /// Makes the fields fit so many cells. Allocates only what was never needed before.
+    /// Makes the fields fit this many cells. Allocates only what was never needed before.
     pub(super) fn fit(&mut self, cells: usize) {
         for field in [
             &mut self.pressure,
@@ -219,7 +220,7 @@ impl ActiveSet {
         let own_m = match loaded {
             true => {
                 let moments = moments.of_all_copies(grid);
-                moments.least_own_displacement(step_y) * grid.spacing_y_m()
+                moments.mean_displacement_lower_bound(step_y) * grid.spacing_y_m()
             }
             false => 0.0,
         };

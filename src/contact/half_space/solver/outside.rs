@@ -77,14 +77,14 @@ impl Moments {
 
     /// A lower bound of the mean displacement of the field under itself, weighted by itself, per unit compliance and cell
     /// area: two points of it are sqrt(2) times the radius of gyration apart in the root mean square.
-    pub(super) fn least_own_displacement(&self, step_y: f64) -> f64 {
+    pub(super) fn mean_displacement_lower_bound(&self, step_y: f64) -> f64 {
         let (_, spread) = self.centre_and_spread(step_y);
         self.sum / (PI * (2.0 * spread).sqrt())
     }
 }
 
 /// Least gaps beyond a window, ring by ring about its centre.
-pub(super) struct Rings {
+pub(super) struct OutsideGapBound {
     frame: Frame,
     centre: (f64, f64),
     width: f64,
@@ -102,7 +102,7 @@ pub(super) fn first_centre(grid: &Grid) -> f64 {
     }
 }
 
-impl Rings {
+impl OutsideGapBound {
     pub(super) fn new(grid: &Grid, gap_m: &[f64], frame: Frame) -> Self {
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
         let first = first_centre(grid);
@@ -154,7 +154,7 @@ impl Rings {
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
         let ((x, y), spread) = sources.centre_and_spread(step_y);
         let aside = (x - self.centre.0).hypot(y - self.centre.1);
-        // A sum over cells of the area of a cell, seen from so many spacings away.
+        // A sum over cells of the area of a cell, seen from this many spacings away.
         let load_m = sources.sum().max(0.0) * grid.spacing_y_m() / PI;
         let clear = |(ring, &gap_m): (usize, &f64)| {
             let distance = (ring + 1) as f64 * self.width + aside;
@@ -200,7 +200,7 @@ mod tests {
             let moments = moments(&grid, &field);
             let products = field.iter().zip(&displacement).map(|(q, u)| q * u);
             let mean = products.sum::<f64>() / moments.sum();
-            let bound = moments.least_own_displacement(1.5) * grid.spacing_y_m();
+            let bound = moments.mean_displacement_lower_bound(1.5) * grid.spacing_y_m();
             // A single cell's own bound is 0.88 of what a square has; never above.
             assert!(bound > 0.0 && bound < mean, "{bound} {mean}");
             // A gap just as wide as the approach less the true displacement is the least that any valid proof may accept.
@@ -218,7 +218,10 @@ mod tests {
                     .map(|u| approach_m - u - (1.0 - share) * u)
                     .collect();
                 // Everywhere penetrating: no proof may be found.
-                assert!(!Rings::new(&grid, &gaps, frame).are_clear(&moments, approach_m, &grid));
+                assert!(
+                    !OutsideGapBound::new(&grid, &gaps, frame)
+                        .are_clear(&moments, approach_m, &grid)
+                );
             }
         }
     }
@@ -246,7 +249,7 @@ mod tests {
                 cells_x: side,
                 cells_y: side,
             };
-            Rings::new(&grid, &gaps, frame).are_clear(&sources, approach, &grid)
+            OutsideGapBound::new(&grid, &gaps, frame).are_clear(&sources, approach, &grid)
         };
         assert!(clear(74));
         // Two cells beyond the contact the gap is a hundredth of the approach: too close for the bound.

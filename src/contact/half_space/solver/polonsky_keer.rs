@@ -7,8 +7,7 @@
 //! where the contact changes, it costs two.
 
 use super::super::convolution::{Convolution, Scratch};
-use super::active_set::Work;
-use super::residual::{Fields, Residual};
+use super::active_set::{STANDING_OFF, Work};
 use super::{Imposed, ROUNDING, SolverSettings, start};
 use crate::contact::ContactError;
 
@@ -40,7 +39,7 @@ pub(super) struct Given<'a> {
 }
 
 /// The state of the iteration between two passes.
-struct Progress {
+struct IterationState {
     previous_squared_gap: f64,
     /// Whether the next direction may be conjugate to the last.
     conjugate: bool,
@@ -212,18 +211,18 @@ impl PolonskyKeer {
         &mut self,
         given: &Given<'_>,
         residual: &Residual,
-        progress: &mut Progress,
+        state: &mut IterationState,
         pressure: &mut [f64],
     ) -> Result<bool, ContactError> {
         let compliance = given.compliance;
         let target_sum = given.imposed.target_sum();
-        let beta = if progress.conjugate {
-            residual.squared_gap / progress.previous_squared_gap
+        let beta = if state.conjugate {
+            residual.squared_gap / state.previous_squared_gap
         } else {
             0.0
         };
         let mut product = self.update_direction(compliance, residual, beta, pressure);
-        progress.previous_squared_gap = residual.squared_gap;
+        state.previous_squared_gap = residual.squared_gap;
         let mut step = self.step_length(given, product, target_sum.is_some(), pressure)?;
         if step.is_none() && residual.penetration_m > 0.0 {
             // Nothing is in contact, or the contact is settled (a single cell that carries the load always is) while others
@@ -243,8 +242,8 @@ impl PolonskyKeer {
                 *u = scale * (*u - step * r);
             }
         }
-        progress.exact = joined || left;
-        progress.conjugate = !joined;
+        state.exact = joined || left;
+        state.conjugate = !joined;
         Ok(true)
     }
 
@@ -259,7 +258,7 @@ impl PolonskyKeer {
         start(given.imposed.target_sum(), given.gap_m, pressure);
         self.refresh_displacement(operator, pressure)?;
         self.direction.fill(0.0);
-        let mut progress = Progress {
+        let mut state = IterationState {
             previous_squared_gap: 1.0,
             conjugate: false,
             exact: true,
@@ -278,22 +277,22 @@ impl PolonskyKeer {
                 // A step has emptied the contact, which has a load to carry: begin again.
                 start(given.imposed.target_sum(), given.gap_m, pressure);
                 self.refresh_displacement(operator, pressure)?;
-                (progress.exact, progress.conjugate) = (true, false);
+                (state.exact, state.conjugate) = (true, false);
                 continue;
             }
             let noise_m = self.noise_m + ROUNDING * residual.approach_m.abs();
             relative = residual.relative(tolerance, noise_m);
             if relative <= tolerance {
-                if progress.exact {
+                if state.exact {
                     return Ok((residual, iteration));
                 }
                 // Rounding piles up in a displacement carried along by recursion: judge a fresh one.
                 self.refresh_displacement(operator, pressure)?;
-                progress.exact = true;
+                state.exact = true;
                 continue;
             }
             iterations = iteration + 1;
-            if !self.advance(given, &residual, &mut progress, pressure)? {
+            if !self.advance(given, &residual, &mut state, pressure)? {
                 break;
             }
         }
@@ -315,4 +314,92 @@ fn rescale(target_sum: Option<f64>, pressure: &mut [f64]) -> f64 {
     let scale = target / sum;
     pressure.iter_mut().for_each(|p| *p *= scale);
     scale
+}
+
+/// How far a pressure is from the solution of an instant, gaps inside the contact and penetration outside: the sums over the
+/// contact that one iteration needs.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Residual {
+    cells: usize,
+    /// The approach prescribed, or the mean over the contact of free gap + displacement (mean-gap correction).
+    approach_m: f64,
+    /// Sum of the squared gaps inside the contact (m^2).
+    squared_gap: f64,
+    /// Sums over the contact of p |gap|, of p u, of p (free gap + u), and of p.
+    misfit: f64,
+    work: f64,
+    pub(super) lifted: f64,
+    pub(super) pressure_sum: f64,
+    /// Deepest penetration outside the contact, as a positive number (m).
+    penetration_m: f64,
+    /// Highest gap under pressure, at least 0 (m).
+    standing_off_m: f64,
+}
+
+/// One value per cell each.
+#[derive(Debug, Clone, Copy)]
+struct Fields<'a> {
+    pressure: &'a [f64],
+    /// g + B H (m).
+    free_gap_m: &'a [f64],
+    /// B p, without the compliance.
+    displacement: &'a [f64],
+}
+
+impl Fields<'_> {
+    /// Pressure, free gap, displacement of each cell in turn.
+    fn cells(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
+        let fields = self.pressure.iter().zip(self.free_gap_m);
+        let fields = fields.zip(self.displacement);
+        fields.map(|((&p, &free), &u)| (p, free, u))
+    }
+}
+
+impl Residual {
+    /// Gap sums for these fields; `approach_m` is prescribed or, under load control, found here.
+    fn of(fields: &Fields<'_>, compliance: f64, approach_m: Option<f64>) -> Self {
+        let mut total = Self::default();
+        let mut lifted_sum = 0.0;
+        for (p, free, u) in fields.cells() {
+            if p > 0.0 {
+                let elastic = compliance * u;
+                total.cells += 1;
+                lifted_sum += free + elastic;
+                total.work += p * elastic;
+                total.lifted += p * (free + elastic);
+                total.pressure_sum += p;
+            }
+        }
+        total.approach_m = approach_m.unwrap_or(lifted_sum / total.cells.max(1) as f64);
+        let mut lowest = 0.0_f64;
+        for (p, free, u) in fields.cells() {
+            let gap = free + compliance * u - total.approach_m;
+            if p > 0.0 {
+                total.squared_gap += gap * gap;
+                total.misfit += p * gap.abs();
+                total.standing_off_m = total.standing_off_m.max(gap);
+            } else {
+                lowest = lowest.min(gap);
+            }
+        }
+        total.penetration_m = -lowest;
+        total
+    }
+
+    /// What the tolerance bounds, gaps below `noise_m` counting as none; 0 out of contact, infinite where nothing is in
+    /// contact yet but something penetrates.
+    fn relative(&self, tolerance: f64, noise_m: f64) -> f64 {
+        if self.penetration_m <= 0.0 && self.misfit == 0.0 {
+            return 0.0;
+        }
+        if self.work <= 0.0 {
+            return f64::INFINITY;
+        }
+        let reference_m = self.work / self.pressure_sum + noise_m / tolerance;
+        let standing_off_m = self.standing_off_m / STANDING_OFF;
+        (self.misfit / self.pressure_sum)
+            .max(standing_off_m)
+            .max(self.penetration_m)
+            / reference_m
+    }
 }

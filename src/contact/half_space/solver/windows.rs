@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::super::influence::Influence;
 use super::active_set::{Ending, Problem, State, Work};
 use super::frame::{Bounds, Frame};
-use super::outside::{Moments, Rings, first_centre};
+use super::outside::{Moments, OutsideGapBound, first_centre};
 use super::{Found, HalfSpace, Imposed, ROUNDING, start, sums};
 use crate::contact::{ContactError, Instant};
 
@@ -20,7 +20,7 @@ pub(super) struct Windows {
 const FRESH_STEPS: usize = 20;
 
 /// Windows whose surroundings are remembered.
-const REMEMBERED_RINGS: usize = 32;
+const REMEMBERED_BOUNDS: usize = 32;
 
 impl HalfSpace {
     /// Solves in windows about the contact. `None` where the fast way leads nowhere.
@@ -228,15 +228,19 @@ impl HalfSpace {
         }
         let moments = moments.of_all_copies(grid);
         let lift_m = grid.copies() as f64 * lifting * Influence::new(grid).coefficient_m(0, 0);
-        let known = self.rings.iter().position(|r| *r.frame() == window);
+        let known = self
+            .outside_bounds
+            .iter()
+            .position(|r| *r.frame() == window);
         let at = known.unwrap_or_else(|| {
-            if self.rings.len() >= REMEMBERED_RINGS {
-                self.rings.clear();
+            if self.outside_bounds.len() >= REMEMBERED_BOUNDS {
+                self.outside_bounds.clear();
             }
-            self.rings.push(Rings::new(grid, &self.gap_m, window));
-            self.rings.len() - 1
+            self.outside_bounds
+                .push(OutsideGapBound::new(grid, &self.gap_m, window));
+            self.outside_bounds.len() - 1
         });
-        self.rings[at].are_clear(&moments, approach_m + lift_m, grid)
+        self.outside_bounds[at].are_clear(&moments, approach_m + lift_m, grid)
     }
 
     /// The gap before the approach is taken off, of the whole grid.
