@@ -14,7 +14,7 @@ use contact_dma::contact::half_space::HalfSpace;
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::{Engine, Instant, Prescribed};
-use contact_dma::drive::HarmonicLoad;
+use contact_dma::drive::HarmonicDrive;
 use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::Sphere;
 use contact_dma::material::library;
@@ -89,9 +89,7 @@ fn case_s(cells: usize) -> f64 {
         title: "bench".into(),
         material: entry.material().expect("a tested entry"),
         indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
-        drive: HarmonicLoad::new(LOAD_N, 0.5 * LOAD_N, 0.0, 0.0)
-            .expect("a valid drive")
-            .into(),
+        drive: HarmonicDrive::load(LOAD_N, 0.5 * LOAD_N).expect("a valid drive"),
         axis: None,
         angular_frequencies_rad_per_s: vec![0.01],
         refine: false,

@@ -25,6 +25,26 @@
 //! compression, displacement and approach are positive into the body. The energy loss is the closed integral of W d(delta),
 //! positive where the approach lags behind the load. An undefined value is `None` and an empty cell, never 0 or NaN.
 //!
+//! # From values
+//!
+//! ```
+//! use contact_dma::prelude::*;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let pmma = library::find("pmma").ok_or("not in the library")?.material()?;
+//! let drive = HarmonicDrive::load(10.0, 5.0)?; // N
+//! let sweep = Sweep::new(pmma, Sphere::new(0.01)?, drive).steps(24)?.springs(48)?; // coarse
+//! let outcome = sweep.frequencies_hz([3e-4, 6e-4, 1.2e-3, 2.4e-3, 4.8e-3])?.solve()?;
+//! for peak in &outcome.peaks {
+//!     println!("{:e} J at {:e} rad/s", peak.energy_loss_j, peak.angular_frequency_rad_per_s);
+//! }
+//! # assert_eq!(outcome.peaks.len(), 1);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! [`Sweep`](sweep::Sweep) has the whole of it; `examples/` has programs. Nothing is written to disk.
+//!
 //! # Map
 //!
 //! A room may use those above it, never those below; a test holds it to that.
@@ -47,9 +67,13 @@
 //! | [`cli`] | flags to plans, outcomes to text and exit codes |
 //! | [`guide`] | how to use the program; text alone |
 //!
+//! [`report`] and [`reproduction`] are there with the feature `report`, [`cli`] with the feature `cli`; both are on by default.
+//! With `default-features = false` everything above them is built without their dependencies.
+//!
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
 //! bit for bit.
 
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod contact;
 pub mod cycle;
@@ -57,11 +81,30 @@ pub mod drive;
 pub mod guide;
 pub mod history;
 pub mod indenter;
+// Some of it is used by the command line alone.
+#[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub mod input;
 pub mod material;
 pub mod quantity;
 pub mod reference;
+#[cfg(feature = "report")]
 pub mod report;
+#[cfg(feature = "report")]
 pub mod reproduction;
 pub mod steady;
 pub mod sweep;
+
+/// What a program that uses the library most often needs: `use contact_dma::prelude::*`.
+pub mod prelude {
+    pub use crate::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
+    pub use crate::indenter::{Asperities, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter};
+    pub use crate::indenter::{PowerLaw, Profile, Sphere};
+    pub use crate::material::{Creep, CreepBranch, Material, ModulusKind};
+    pub use crate::material::{Relaxation, RelaxationBranch, library};
+    pub use crate::sweep::history::Simulation;
+    pub use crate::sweep::plan::scenario::ScenarioPlan;
+    pub use crate::sweep::record::CaseRecord;
+    pub use crate::sweep::search::peak::Peak;
+    pub use crate::sweep::search::run::Outcome;
+    pub use crate::sweep::{Sweep, SweepError};
+}

@@ -3,13 +3,25 @@
 //! Reading is exact: the digits and the power of ten of the prefix are turned into a double
 //! together, so `"0.1 mm"` is the double nearest to 1e-4 and not the double nearest to 0.1 times
 //! 1e-3. (Minutes, hours, days and degrees are no powers of ten and cost one more rounding.)
+//!
+//! ```
+//! use contact_dma::quantity::{Dimension, format_human, parse};
+//!
+//! let radius_m = parse("10 mm", Dimension::Length)?;
+//! assert_eq!(radius_m, 0.01);
+//! assert_eq!(format_human(radius_m, Dimension::Length, 4), "10.00 mm");
+//! assert!(parse("10 N", Dimension::Length).is_err());
+//! # Ok::<(), contact_dma::quantity::QuantityError>(())
+//! ```
 
+mod frequency;
 mod units;
 
 use std::fmt;
 
 use thiserror::Error;
 
+pub use frequency::FrequencyUnit;
 use units::{Exponents, Unit, UnitProblem};
 
 /// What kind of quantity a number is.
@@ -120,7 +132,8 @@ impl Dimension {
                 [0, 0, -1, 1, 0],
                 (0, 0),
             ),
-            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1], (-15, 12)),
+            // As angular frequencies: those of a sweep are read beside one another.
+            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1], (0, 12)),
             Self::Energy => profile("an energy", "J", "3.5 µJ", [2, 1, -2, 0, 0], (-15, 12)),
         }
     }
@@ -135,6 +148,7 @@ impl fmt::Display for Dimension {
 
 /// Why a text is not a quantity of the expected dimension.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum QuantityError {
     /// Nothing that begins like a number.
     #[error(

@@ -1,5 +1,7 @@
 //! The program as a user meets it: output, messages, exit codes, files.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/program.rs"]
 mod program;
 

@@ -1,6 +1,8 @@
 //! Data files that cannot be used, or only with reservations, through the program: drive tables, height maps, profiles and tables
 //! of measured compliance. Each message names file and place and says what to do.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/program.rs"]
 mod program;
 

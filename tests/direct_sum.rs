@@ -1,5 +1,7 @@
 //! Tabulated materials taken as they are: the direct hereditary sum through the program, beside the fitted series.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/program.rs"]
 mod program;
 

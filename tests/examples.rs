@@ -1,5 +1,7 @@
 //! The files under sweeps/: each states its question, and each runs through the program, on coarse grids.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/program.rs"]
 mod program;
 

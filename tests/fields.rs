@@ -1,5 +1,7 @@
 //! Fields of the axisymmetric engine: its radius revolved onto cells, against the half-space engine and closed forms.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/program.rs"]
 mod program;
 

@@ -1,5 +1,7 @@
 //! The `[figures]` table: what it changes of the pictures, what it does not change of the sweep, and what captions say.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/program.rs"]
 mod program;
 

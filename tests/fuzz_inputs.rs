@@ -1,6 +1,8 @@
 //! Inputs that nobody meant: random bytes, and valid files with random changes. Nothing may panic, hang or take memory
 //! without bound; what is accepted must be what it says. Seeded: every run tries the same inputs.
 
+#![cfg(feature = "report")]
+
 #[path = "common/inputs.rs"]
 mod inputs;
 

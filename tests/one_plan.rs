@@ -1,5 +1,7 @@
 //! A folder has one plan: of different sweeps and scenarios that meet in it one goes on and the others are refused.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/kills.rs"]
 mod kills;
 #[path = "common/program.rs"]

@@ -1,6 +1,8 @@
 //! The pages of sweeps, scenarios, materials and comparisons: their size, what they load, what they hold against the files beside
 //! them, their nesting.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/page.rs"]
 mod html;
 #[path = "common/program.rs"]

@@ -1,6 +1,8 @@
 //! Files named in a sweep or scenario file start from its folder, those named in a flag from the working folder: the same for
 //! every key.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/program.rs"]
 mod program;
 

@@ -1,5 +1,7 @@
 //! A sweep that adds frequencies where its own do not resolve the curve, and a sweep of two axes.
 
+#![cfg(feature = "cli")]
+
 use std::collections::HashMap;
 
 #[path = "common/program.rs"]

@@ -1,6 +1,8 @@
 //! The figures of the base paper: made again from the files of `sweeps/spinu-2018/`, compared byte for byte with what is
 //! committed in `reports/spinu-2018/`; and every claim held to the accuracy it needs.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/page.rs"]
 mod html;
 #[path = "common/program.rs"]

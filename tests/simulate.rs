@@ -1,5 +1,7 @@
 //! Single drive histories: scenario files, closed forms, both controls, what is written and what is refused.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/program.rs"]
 mod program;
 

@@ -1,5 +1,7 @@
 //! What a single history survives: it goes on from its checkpoint, and ends as if undisturbed, bit for bit.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/kills.rs"]
 mod kills;
 #[path = "common/program.rs"]

@@ -1,5 +1,7 @@
 //! What a sweep survives, and how parts of one come together: every end result is that of an undisturbed run, bit for bit.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/kills.rs"]
 mod kills;
 #[path = "common/program.rs"]

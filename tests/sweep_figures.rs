@@ -1,5 +1,7 @@
 //! The figures of sweeps: what their data say, which there are, and what is left out.
 
+#![cfg(feature = "report")]
+
 #[path = "common/mod.rs"]
 mod common;
 

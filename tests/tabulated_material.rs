@@ -1,5 +1,7 @@
 //! Measured data as a material: from a CSV file to the contact, with a fit and without one.
 
+#![cfg(feature = "cli")]
+
 use std::fs;
 use std::path::Path;
 

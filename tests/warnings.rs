@@ -1,5 +1,7 @@
 //! What lies outside the model is said on the terminal, in the record, in tables and on the page; and what lies inside is not.
 
+#![cfg(feature = "cli")]
+
 #[path = "common/page.rs"]
 mod html;
 #[path = "common/program.rs"]

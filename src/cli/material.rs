@@ -11,7 +11,7 @@ use crate::material::{Material, library};
 use crate::report::caption::Setting;
 use crate::report::figure::press::Press;
 use crate::report::page::{self, Pictures, material::About};
-use crate::report::terminal::wrapped;
+use crate::report::words::wrapped;
 use crate::report::{self, material::MaterialReport};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::resolved;
@@ -52,7 +52,7 @@ fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let Some(folder) = &flags.out else {
         return Ok(Ended::Done);
     };
-    let figures = report.figures().map_err(Failure::run)?;
+    let figures = report.figures();
     let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     let press = Press {

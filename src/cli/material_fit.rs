@@ -30,7 +30,7 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
     let Some(folder) = &flags.out else {
         return Ok(Ended::Done);
     };
-    let figures = figure::fit::figures(&table, &fit).map_err(Failure::run)?;
+    let figures = figure::fit::figures(&table, &fit);
     let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     write("material.toml", block.as_bytes()).map_err(Failure::run)?;

@@ -28,7 +28,7 @@ use clap::{CommandFactory, Parser};
 
 use arguments::{Arguments, Command};
 
-use crate::input::diagnostic::Diagnostics;
+use crate::input::diagnostic::{Diagnostics, Styling};
 use crate::input::document::{self, Document};
 use crate::sweep::search::run::RunError;
 use crate::sweep::store::Store;
@@ -108,7 +108,11 @@ fn report(failure: Failure) -> ExitCode {
     let (code, printed) = match failure {
         Failure::Run(message) => (1, error_line(&message)),
         Failure::Input(message) => (2, error_line(&message)),
-        Failure::Document(diagnostics) => (2, diagnostics.print()),
+        Failure::Document(diagnostics) => {
+            // Stripped of its colours where standard error is no terminal, or `NO_COLOR` is set.
+            let text = diagnostics.render(Styling::Colour);
+            (2, write!(anstream::stderr(), "{text}"))
+        }
     };
     // Where even standard error is closed, the exit code is all that is left to say.
     let _ = printed;

@@ -7,7 +7,7 @@ use super::{Ended, Failure, json, meant_for, open_document, print};
 use crate::indenter::Indenter;
 use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
-use crate::report::terminal::frequency;
+use crate::report::number::four_digits;
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::share::cost::Cost;
@@ -37,14 +37,19 @@ fn text(setup: &Setup, cost: &Cost) -> String {
     let memory = megabytes(cost.memory_bytes);
     let free = super::memory::free_here();
     let mut text = format!("{}\n\n", plan.title);
-    text.push_str(" case    ω / rad/s   drive mean   amplitude   cycles     about   memory\n");
+    let unit = plan.figures.frequency_unit;
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        text,
+        " case   {:>10}   drive mean   amplitude   cycles     about   memory",
+        format!("{} / {}", unit.symbol(), unit.name())
+    );
     for case in cost.cases.iter().take(LISTED) {
-        // Writing to a String cannot fail.
         let _ = writeln!(
             text,
             "{:>5}   {:>10}   {:>10}   {:>9}   {:>6.0}   {:>7}   {memory}",
             case.case.index,
-            frequency(case.case.angular_frequency_rad_per_s),
+            four_digits(unit.of(case.case.angular_frequency_rad_per_s)),
             short(case.case.drive.mean()),
             short(case.case.drive.amplitude()),
             case.cycles.ceil(),

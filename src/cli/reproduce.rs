@@ -14,7 +14,7 @@ use crate::input::document::Document;
 use crate::input::figures_block::{self, Figures};
 use crate::input::sweep_file::optional;
 use crate::input::{scenario_file, sweep_file};
-use crate::report::terminal::wrapped;
+use crate::report::words::wrapped;
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };

@@ -12,7 +12,7 @@ use super::sweep::interrupt_flag;
 use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, print};
 use crate::input::scenario_file;
 use crate::report::{self, terminal_simulation};
-use crate::sweep::history::checkpoint::{Found, HistoryCheckpoint, Stand};
+use crate::sweep::history::checkpoint::{Found, HistoryCheckpoint, HistoryState};
 use crate::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::scenario;
 use crate::sweep::search::run;
@@ -45,7 +45,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     let interrupt = interrupt_flag()?;
     let simulation = simulation.interrupted_by(Arc::clone(&interrupt));
     let checkpoint = HistoryCheckpoint::of(&store, Duration::from_secs(flags.checkpoint_every));
-    let stand = found(&checkpoint, simulation.moments(), flags.quiet);
+    let state = found(&checkpoint, simulation.moments(), flags.quiet);
     let bar = bar(simulation.moments(), flags.quiet);
     memory::warn_if_short(simulation.predicted_memory_bytes(), 1);
     let pool = run::pool(run::useful_threads(flags.threads)).map_err(Failure::run)?;
@@ -53,7 +53,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         let (simulation, interrupt, bar) = (&simulation, &interrupt, &bar);
         move || {
             let told = |done, _| bar.set_position(done as u64);
-            let outcome = simulation.run_from(stand, &checkpoint, interrupt, &told);
+            let outcome = simulation.run_from(state, &checkpoint, interrupt, &told);
             (outcome, checkpoint)
         }
     });
@@ -93,15 +93,19 @@ fn foretold(simulation: &Simulation) -> String {
     )
 }
 
-/// Where an earlier run stood, of which a line is told.
-fn found(checkpoint: &HistoryCheckpoint, steps: usize, quiet: bool) -> Option<Stand<'static>> {
-    let (text, stand) = match checkpoint.find() {
+/// The state of an earlier run, of which a line is told.
+fn found(
+    checkpoint: &HistoryCheckpoint,
+    steps: usize,
+    quiet: bool,
+) -> Option<HistoryState<'static>> {
+    let (text, state) = match checkpoint.find() {
         Found::Nothing => return None,
-        Found::Stand(stand) => {
-            let done = stand.steps_done();
+        Found::State(state) => {
+            let done = state.steps_done();
             (
                 format!("{done} of {steps} steps were already done"),
-                Some(*stand),
+                Some(*state),
             )
         }
         Found::Unusable { path, reason } => {
@@ -116,7 +120,7 @@ fn found(checkpoint: &HistoryCheckpoint, steps: usize, quiet: bool) -> Option<St
         // A closed standard error is no reason to stop.
         let _ = writeln!(io::stderr(), "{text}");
     }
-    stand
+    state
 }
 
 /// A bar on a terminal, nothing elsewhere.

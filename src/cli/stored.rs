@@ -45,7 +45,8 @@ pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, F
     let out = Store::open(&flags.out, resolved, flags.force);
     let out = out.map_err(|error| failure(RunError::Store(error)))?;
     let cases = setup.plan().cases();
-    let progress = Shown::new(cases.len(), flags.quiet);
+    let unit = setup.plan().figures.frequency_unit;
+    let progress = Shown::new(cases.len(), unit, flags.quiet);
     let parts: Vec<Store> = parts.into_iter().map(|(part, _)| part).collect();
     let missing = merge::gather(&parts, &out, &cases, &|what| progress.told(what));
     let missing = missing.map_err(|error| failure(RunError::Store(error)))?;
@@ -83,7 +84,9 @@ pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended,
     };
     let (store, resolved) = opened.map_err(refused)?;
     let setup = setup_of(&flags.folder, &resolved, &flags.set)?;
-    let progress = Shown::new(setup.plan().cases().len(), flags.quiet);
+    let plan = setup.plan();
+    let unit = plan.figures.frequency_unit;
+    let progress = Shown::new(plan.cases().len(), unit, flags.quiet);
     let outcome = run::collect(&setup, &store, &progress).map_err(failure)?;
     progress.finish();
     if outcome.records.is_empty() {

@@ -54,7 +54,9 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
     if let Some(shard) = flags.shard {
         return run_shard(job, shard, &options, &interrupt);
     }
-    let progress = Shown::new(setup.plan().cases().len(), flags.quiet);
+    let plan = setup.plan();
+    let unit = plan.figures.frequency_unit;
+    let progress = Shown::new(plan.cases().len(), unit, flags.quiet);
     let outcome = run::run_with(&setup, &store, &options, &interrupt, &progress);
     progress.finish();
     job.found = progress.found();
@@ -139,7 +141,8 @@ fn run_shard(
     interrupt: &AtomicBool,
 ) -> Result<Ended, Failure> {
     let own = shard::cases(job.setup, shard).len();
-    let progress = Shown::new(own, job.quiet);
+    let unit = job.setup.plan().figures.frequency_unit;
+    let progress = Shown::new(own, unit, job.quiet);
     let part = run::run_shard(job.setup, job.store, shard, options, interrupt, &progress);
     progress.finish();
     let part = part.map_err(failure)?;
@@ -213,8 +216,8 @@ fn text(setup: &Setup, outcome: &Outcome, left_out: &[String], folder: &Path) ->
     text.push_str(&terminal::table(plan, outcome));
     for part in [
         terminal::peaks(plan, outcome),
-        terminal::problems(outcome),
-        terminal::warnings_of_sweep(outcome),
+        terminal::problems(plan, outcome),
+        terminal::warnings_of_sweep(plan, outcome),
         left_out.iter().map(|line| format!("{line}\n")).collect(),
     ] {
         if !part.is_empty() {

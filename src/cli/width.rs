@@ -2,7 +2,7 @@
 
 use std::io::IsTerminal;
 
-use crate::report::terminal::wrapped;
+use crate::report::words::wrapped;
 
 /// Narrower than this nothing can be read.
 const NARROWEST: usize = 20;

@@ -15,6 +15,27 @@
 //! * [`half_space`]: rectangular cells of uniform pressure on the half-space, for any shape.
 //!
 //! Neither knows what material, indenter or drive the numbers came from.
+//!
+//! ```
+//! use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
+//! use contact_dma::contact::{ContactError, Engine, Instant, Prescribed};
+//!
+//! // Springs under a sphere of 10 mm, whose transformed gap is x^2 / R.
+//! let width_m = 3e-6;
+//! let gaps_m = (0..200).map(|i| ((f64::from(i) + 0.5) * width_m).powi(2) / 0.01);
+//! let mut engine = Axisymmetric::new(width_m, gaps_m.collect(), Edge::Open, true);
+//! let mut pressure = vec![0.0; engine.nodes()];
+//! let instant = Instant {
+//!     history: &vec![0.0; engine.nodes()],
+//!     compliance_per_pa: 1e-9,
+//!     prescribed: Prescribed::LoadN(10.0),
+//! };
+//! let solution = engine.solve(&instant, &mut pressure)?;
+//! // Hertz: W = 4/3 E* R^(1/2) delta^(3/2).
+//! let hertz_m = (10.0 * 1e-9 * 0.75 / 0.1_f64).powf(2.0 / 3.0);
+//! assert!((solution.approach_m / hertz_m - 1.0).abs() < 1e-3);
+//! # Ok::<(), ContactError>(())
+//! ```
 
 pub mod axisymmetric;
 pub mod half_space;
@@ -47,7 +68,7 @@ pub struct Instant<'a> {
 }
 
 /// What an instant came to. The nodal pressures are in the slice handed to [`Engine::solve`].
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Solution {
     /// Normal load W (N).
     pub load_n: f64,
@@ -63,6 +84,7 @@ pub struct Solution {
 
 /// Why an instant could not be solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ContactError {
     #[error(
         "the contact reached the edge of the computational domain (half width {half_width_m:.3e} m)"

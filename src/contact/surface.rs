@@ -30,7 +30,7 @@ impl<'a> Response<'a> {
 }
 
 /// The surface at one instant. Displacements are positive into the body.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Surface {
     /// Of a body of revolution.
     Radial(RadialSurface),
@@ -39,7 +39,7 @@ pub enum Surface {
 }
 
 /// Values along a radius, from the axis outwards, beyond the contact and the row of springs.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RadialSurface {
     pub radius_m: Vec<f64>,
     /// 0 outside the contact; `None` where it is unbounded, at an apex.
@@ -48,7 +48,7 @@ pub struct RadialSurface {
 }
 
 /// Values at the centres of cells, row by row.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CellSurface {
     pub grid: Grid,
     pub pressure_pa: Vec<f64>,

@@ -7,6 +7,7 @@ use realfft::num_complex::Complex;
 
 /// Why a loop cannot be analysed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LoopError {
     #[error(
         "a loop needs at least {needed} samples per period to show its harmonics; this one has {samples}"

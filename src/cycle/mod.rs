@@ -3,6 +3,21 @@
 //! Knows sampled signals only, so that a measured loop is analysed by the same code as a computed one. Conventions: a loop
 //! holds N + 1 uniform samples of one period, both ends included; the energy loss is the closed integral of W d(delta),
 //! positive where the approach lags behind the load.
+//!
+//! ```
+//! use std::f64::consts::{PI, TAU};
+//!
+//! use contact_dma::cycle::{LoopError, analyse};
+//!
+//! let angles = (0..=100).map(|i| TAU * f64::from(i) / 100.0);
+//! let load_n: Vec<f64> = angles.clone().map(|a| 10.0 + 5.0 * a.sin()).collect();
+//! let approach_m: Vec<f64> = angles.map(|a| 1e-5 + 2e-6 * (a - 0.1).sin()).collect();
+//! let analysis = analyse(&load_n, &approach_m)?;
+//! assert!((analysis.phase_lag_rad - 0.1).abs() < 1e-12);
+//! // An ellipse: pi times both amplitudes and the sine of the lag.
+//! assert!((analysis.energy_loss_j / (PI * 5.0 * 2e-6 * 0.1_f64.sin()) - 1.0).abs() < 1e-12);
+//! # Ok::<(), LoopError>(())
+//! ```
 
 mod analysis;
 mod stabilisation;

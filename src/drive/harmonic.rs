@@ -1,9 +1,9 @@
 //! The oscillation of a sweep, under either control: a mean, and a sine about it.
 
-use super::{Control, DriveError, HarmonicLoad, check_phase_and_hold};
+use super::{Control, DriveError};
 
-/// A load or an approach held at its mean from first touch, then mean + amplitude sin(omega t + phase). The angular
-/// frequency belongs to the sweep, not to the drive.
+/// A load or an approach held at its mean from first touch, then mean + amplitude sin(omega t + phase): equation (29) of S. Spinu,
+/// Advances in Tribology 2018, 9432894. The angular frequency belongs to the sweep, not to the drive.
 ///
 /// An approach may swing below the surface's rest position and the indenter leave the surface for part of the cycle; a load
 /// may fall to zero but not below.
@@ -16,24 +16,13 @@ pub struct HarmonicDrive {
     hold_s: f64,
 }
 
-impl From<HarmonicLoad> for HarmonicDrive {
-    fn from(load: HarmonicLoad) -> Self {
-        Self {
-            control: Control::Load,
-            mean: load.mean_n(),
-            amplitude: load.amplitude_n(),
-            phase_rad: load.phase_rad(),
-            hold_s: load.hold_s(),
-        }
-    }
-}
-
 impl HarmonicDrive {
     /// Mean and amplitude in newtons or metres, phase in radians, hold (s) at the mean before the oscillation.
     ///
     /// # Errors
-    /// A load: as [`HarmonicLoad::new`]. An approach: a mean that is not finite, an amplitude that is not positive and
-    /// finite, an indenter that never goes below the undisturbed surface.
+    /// [`DriveError`]: an amplitude that is not positive and finite, a phase that is not finite, a negative hold. A load: a mean
+    /// that is not positive and finite, an amplitude above it. An approach: a mean that is not finite, an indenter that never
+    /// goes below the undisturbed surface.
     pub fn new(
         control: Control,
         mean: f64,
@@ -42,39 +31,38 @@ impl HarmonicDrive {
         hold_s: f64,
     ) -> Result<Self, DriveError> {
         match control {
-            Control::Load => {
-                HarmonicLoad::new(mean, amplitude, phase_rad, hold_s).map(HarmonicDrive::from)
-            }
-            Control::Approach => Self::approach(mean, amplitude, phase_rad, hold_s),
+            Control::Load => check_load(mean, amplitude)?,
+            Control::Approach => check_approach(mean, amplitude)?,
         }
-    }
-
-    fn approach(
-        mean_m: f64,
-        amplitude_m: f64,
-        phase_rad: f64,
-        hold_s: f64,
-    ) -> Result<Self, DriveError> {
-        if !mean_m.is_finite() {
-            return Err(DriveError::MeanApproach { mean_m });
+        if !phase_rad.is_finite() {
+            return Err(DriveError::Phase { phase_rad });
         }
-        if !(amplitude_m.is_finite() && amplitude_m > 0.0) {
-            return Err(DriveError::ApproachAmplitude { amplitude_m });
+        if !(hold_s.is_finite() && hold_s >= 0.0) {
+            return Err(DriveError::Hold { hold_s });
         }
-        if mean_m + amplitude_m <= 0.0 {
-            return Err(DriveError::NoTouch {
-                mean_m,
-                amplitude_m,
-            });
-        }
-        check_phase_and_hold(phase_rad, hold_s)?;
         Ok(Self {
-            control: Control::Approach,
-            mean: mean_m,
-            amplitude: amplitude_m,
+            control,
+            mean,
+            amplitude,
             phase_rad,
             hold_s,
         })
+    }
+
+    /// A load (N) that oscillates from its mean on, without a hold.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn load(mean_n: f64, amplitude_n: f64) -> Result<Self, DriveError> {
+        Self::new(Control::Load, mean_n, amplitude_n, 0.0, 0.0)
+    }
+
+    /// An approach (m) that oscillates from its mean on, without a hold.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn approach(mean_m: f64, amplitude_m: f64) -> Result<Self, DriveError> {
+        Self::new(Control::Approach, mean_m, amplitude_m, 0.0, 0.0)
     }
 
     /// What is prescribed.
@@ -121,23 +109,63 @@ impl HarmonicDrive {
     }
 }
 
+fn check_load(mean_n: f64, amplitude_n: f64) -> Result<(), DriveError> {
+    if !(mean_n.is_finite() && mean_n > 0.0) {
+        return Err(DriveError::Mean { mean_n });
+    }
+    if !(amplitude_n.is_finite() && amplitude_n > 0.0) {
+        return Err(DriveError::Amplitude { amplitude_n });
+    }
+    match amplitude_n > mean_n {
+        true => Err(DriveError::Pull {
+            mean_n,
+            amplitude_n,
+        }),
+        false => Ok(()),
+    }
+}
+
+fn check_approach(mean_m: f64, amplitude_m: f64) -> Result<(), DriveError> {
+    if !mean_m.is_finite() {
+        return Err(DriveError::MeanApproach { mean_m });
+    }
+    if !(amplitude_m.is_finite() && amplitude_m > 0.0) {
+        return Err(DriveError::ApproachAmplitude { amplitude_m });
+    }
+    match mean_m + amplitude_m <= 0.0 {
+        true => Err(DriveError::NoTouch {
+            mean_m,
+            amplitude_m,
+        }),
+        false => Ok(()),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn a_load_is_what_the_harmonic_load_says() {
-        let load = HarmonicLoad::new(10.0, 10.0, 0.3, 2.0).unwrap();
-        let drive = HarmonicDrive::new(Control::Load, 10.0, 10.0, 0.3, 2.0).unwrap();
-        assert_eq!(drive, load.into());
-        for k in 0..1000 {
-            let fraction = f64::from(k) / 1000.0;
-            assert_eq!(drive.value(fraction), load.load_n(fraction));
-        }
+    fn a_load_swings_about_its_mean_and_never_becomes_a_pull() {
+        let phase_rad = 1.5 * std::f64::consts::PI;
+        let drive = HarmonicDrive::new(Control::Load, 10.0, 10.0, phase_rad, 0.0).unwrap();
+        assert_eq!(drive.value(0.0), 0.0);
+        assert!((drive.value(0.5) - 20.0).abs() < 1e-13);
+        assert!((0..1000).all(|k| drive.value(f64::from(k) / 1000.0) >= 0.0));
+    }
+
+    #[test]
+    fn an_amplitude_above_the_mean_is_a_pull_and_is_refused() {
         assert!(matches!(
-            HarmonicDrive::new(Control::Load, 1.0, 1.1, 0.0, 0.0),
+            HarmonicDrive::load(1.0, 1.1),
             Err(DriveError::Pull { .. })
         ));
+        for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+            assert!(HarmonicDrive::load(nonsense, 0.5).is_err());
+            assert!(HarmonicDrive::load(1.0, nonsense).is_err());
+        }
+        assert!(HarmonicDrive::new(Control::Load, 1.0, 0.5, f64::NAN, 0.0).is_err());
+        assert!(HarmonicDrive::new(Control::Load, 1.0, 0.5, 0.0, -1.0).is_err());
     }
 
     #[test]

@@ -73,6 +73,7 @@ impl Fineness {
 
 /// Why there is no schedule.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ScheduleError {
     #[error("the time step is {step_s} s; it must be positive and finite")]
     Step { step_s: f64 },

@@ -32,6 +32,7 @@ pub enum Segment {
 
 /// Why a history is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum HistoryError {
     #[error("a drive history needs at least one segment")]
     Empty,
@@ -49,6 +50,7 @@ pub enum HistoryError {
 
 /// What is wrong with a segment.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SegmentProblem {
     #[error("its duration is {duration_s} s; it must be positive and finite")]
     Duration { duration_s: f64 },

@@ -1,5 +1,7 @@
 //! Time marching: one engine, its memory, and the last pressure, moved from instant to instant.
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
@@ -23,7 +25,7 @@ pub struct March<'a, M = Memory> {
 }
 
 /// A march at one of its instants: enough to go on from there, bit for bit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct MarchState {
     /// As [`Memory::variables`].
     pub variables: Vec<f64>,
@@ -34,7 +36,7 @@ pub struct MarchState {
 }
 
 /// A march between the halves of a step, where a long instant may be given up: enough to go on from there, bit for bit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepState {
     /// The stage of the step, from 0.
     pub stage: usize,

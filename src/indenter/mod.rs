@@ -3,6 +3,15 @@
 //! An indenter knows its geometry and nothing of contact, but for two facts of its own shape: which springs of the method of
 //! dimensionality reduction stand for it (the transformed gap G), and how large an elastic contact it makes, which sizes the
 //! computational domain.
+//!
+//! ```
+//! use contact_dma::indenter::{Indenter, IndenterError, Sphere};
+//!
+//! let sphere = Sphere::new(0.01)?; // radius, m
+//! assert_eq!(sphere.gap_m(0.0, 0.0), 0.0);
+//! assert!((sphere.gap_m(3e-4, 4e-4) - 1.25e-5).abs() < 1e-20);
+//! # Ok::<(), IndenterError>(())
+//! ```
 
 mod asperities;
 mod cone;
@@ -115,6 +124,7 @@ impl Domain {
 
 /// Why a shape is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum IndenterError {
     #[error("the indenter's {what} is {value_m} m; it must be a positive, finite length")]
     Length { what: &'static str, value_m: f64 },

@@ -32,7 +32,6 @@ mod render;
 
 use std::cell::RefCell;
 use std::fmt;
-use std::io::{self, Write};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -300,15 +299,6 @@ impl Diagnostics {
             texts.push(render::render(&Diagnostic::new(total), styling));
         }
         texts.join("\n")
-    }
-
-    /// Prints to standard error: in colour where that is a terminal and `NO_COLOR` is not set.
-    ///
-    /// # Errors
-    /// Whatever writing to standard error returns.
-    pub fn print(&self) -> io::Result<()> {
-        let mut stream = anstream::stderr().lock();
-        stream.write_all(self.render(Styling::Colour).as_bytes())
     }
 }
 

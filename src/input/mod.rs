@@ -1,6 +1,33 @@
 //! Files to plans: sweep files, scenario files and the data files that they name, read with every problem reported at its place.
 //!
 //! Knows nothing of flags or terminals but how a diagnostic is printed.
+//!
+//! ```
+//! use contact_dma::input::diagnostic::{Diagnostics, Styling};
+//! use contact_dma::input::document::Document;
+//! use contact_dma::input::sweep_file;
+//!
+//! let text = r#"
+//! title = "PMMA under a sphere"
+//! [material]
+//! library = "pmma"
+//! [indenter]
+//! shape = "sphere"
+//! radius = "10 mm"
+//! [drive]
+//! mean = "10 N"
+//! amplitude = "5 N"
+//! [sweep]
+//! frequency = ["1 mHz"]
+//! "#;
+//! let plan = sweep_file::plan(&Document::parse("sweep.toml", text)?)?;
+//! assert_eq!(plan.drive.mean(), 10.0);
+//!
+//! let wrong = text.replace("mm", "mn");
+//! let refused = sweep_file::plan(&Document::parse("sweep.toml", &wrong)?).unwrap_err();
+//! assert!(refused.render(Styling::Plain).contains("sweep.toml:7:10"));
+//! # Ok::<(), Diagnostics>(())
+//! ```
 
 pub(crate) mod data_file;
 pub mod diagnostic;

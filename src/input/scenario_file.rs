@@ -4,7 +4,7 @@ use super::diagnostic::{Diagnostics, Problems};
 use super::document::{Document, Located, TableReader};
 use super::figures_block::{self, Figures};
 use super::material_table::DirectSum;
-use super::sweep_file::{CELLS, default_solver, optional, solver};
+use super::sweep_file::{default_solver, optional, solver};
 use super::{indenter_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::quantity::{Dimension, format_human};
@@ -104,7 +104,7 @@ fn output(
     let fields = times(&mut table, problems, "fields_at", drive);
     let place = table.key_location("field_cells");
     let default = OutputPlan::default().field_cells;
-    let field_cells = table.positive_integer_or("field_cells", CELLS, default);
+    let field_cells = table.positive_integer_or("field_cells", SolverPlan::CELLS, default);
     let error_bars = table.boolean_or("error_bars", OutputPlan::default().error_bars);
     table.finish();
     if let (Some(solver), Some(place)) = (solver, place)

@@ -9,19 +9,14 @@ use crate::drive::HarmonicDrive;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
-use crate::quantity::Dimension;
+use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::instant_tolerance;
 use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 use crate::sweep::scales::elastic::ElasticScale;
 
-/// Frequencies, steps, cycles and nodes beyond these are a slip of the pen rather than a wish.
-const MAX_POINTS: usize = 100_000;
-const MAX_CASES: usize = 1_000_000;
-const STEPS: std::ops::RangeInclusive<usize> = 8..=1_000_000;
-const CYCLES: std::ops::RangeInclusive<usize> = 1..=100_000_000;
-const SPRINGS: std::ops::RangeInclusive<usize> = 10..=10_000;
-pub(crate) const CELLS: std::ops::RangeInclusive<usize> = 8..=4096;
+const MAX_POINTS: usize = SweepPlan::MAX_POINTS;
+const MAX_CASES: usize = SweepPlan::MAX_CASES;
 
 /// The plan that a sweep file asks for.
 ///
@@ -52,8 +47,10 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     });
     let frequencies = sweep.as_ref();
     let frequencies = frequencies.map(|axes| axes.angular_frequencies_rad_per_s.as_slice());
-    let figures = optional(&mut root, "figures", Figures::default(), |t| {
-        figures_block::of_sweep(t, frequencies, &problems)
+    let given_in = sweep.as_ref().map(|axes| axes.given_in);
+    let given_in = given_in.unwrap_or_default();
+    let figures = optional(&mut root, "figures", Figures::of_unit(given_in), |t| {
+        figures_block::of_sweep(t, (frequencies, given_in), &problems)
     });
     root.finish();
     let plan = (|| {
@@ -80,14 +77,7 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
 
 /// The solver where the file asks for none: springs where the indenter allows them, cells elsewhere.
 pub(crate) fn default_solver(indenter: Option<&dyn Indenter>) -> SolverPlan {
-    let engine = match indenter {
-        Some(indenter) if indenter.axisymmetric().is_none() => EngineKind::HalfSpace,
-        _ => EngineKind::Axisymmetric,
-    };
-    SolverPlan {
-        engine,
-        ..SolverPlan::default()
-    }
+    indenter.map_or_else(SolverPlan::default, SolverPlan::of_indenter)
 }
 
 /// A table that may be left out, with every default.
@@ -134,6 +124,7 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
 /// The `[sweep]` block.
 struct Axes {
     angular_frequencies_rad_per_s: Vec<f64>,
+    given_in: FrequencyUnit,
     drives: Option<DriveAxis>,
     refine: bool,
 }
@@ -159,7 +150,7 @@ fn axes(
         Some(axis) => Some(axis?),
         None => None,
     };
-    let frequencies = frequencies?;
+    let (frequencies, given_in) = frequencies?;
     let cases = drives.as_ref().map_or(1, |axis| axis.drives.len()) * frequencies.len();
     if cases > MAX_CASES
         && let Some(place) = place
@@ -174,6 +165,7 @@ fn axes(
     }
     Some(Axes {
         angular_frequencies_rad_per_s: frequencies,
+        given_in,
         drives,
         refine: refine?.value,
     })
@@ -199,12 +191,7 @@ fn varied(
     let (values, location) = (values?, location?);
     let mut drives = Vec::with_capacity(values.len());
     for value in values {
-        let (mean, amplitude) = match varied {
-            Varied::Amplitude => (drive.mean(), value),
-            Varied::Mean => (value, drive.amplitude()),
-        };
-        let (phase_rad, hold_s) = (drive.phase_rad(), drive.hold_s());
-        match HarmonicDrive::new(drive.control(), mean, amplitude, phase_rad, hold_s) {
+        match varied.drive(drive, value) {
             Ok(drive) => drives.push(drive),
             Err(error) => {
                 problems.at(&location, error.to_string());
@@ -215,8 +202,11 @@ fn varied(
     Some(DriveAxis { varied, drives })
 }
 
-/// Angular frequencies in rad/s, ascending.
-fn frequencies(table: &mut TableReader<'_>, problems: &Problems) -> Option<Vec<f64>> {
+/// Angular frequencies in rad/s, ascending, and the unit they are given in.
+fn frequencies(
+    table: &mut TableReader<'_>,
+    problems: &Problems,
+) -> Option<(Vec<f64>, FrequencyUnit)> {
     let (key, (dimension, to_angular)) = table.one_of(&harmonic_block::FREQUENCIES)?;
     let values = match table.form(key) {
         Some(Form::Table) => table
@@ -224,12 +214,12 @@ fn frequencies(table: &mut TableReader<'_>, problems: &Problems) -> Option<Vec<f
             .and_then(|t| range(t, problems, key, dimension)),
         _ => list(table, problems, key, dimension),
     };
-    Some(
-        values?
-            .into_iter()
-            .map(|value| value * to_angular)
-            .collect(),
-    )
+    let given_in = match dimension {
+        Dimension::Frequency => FrequencyUnit::Hz,
+        _ => FrequencyUnit::RadPerS,
+    };
+    let angular = values?.into_iter().map(|value| value * to_angular);
+    Some((angular.collect(), given_in))
 }
 
 fn list(
@@ -335,11 +325,12 @@ fn spaced(from: f64, to: f64, points: usize, spacing: Spacing) -> Vec<f64> {
 
 fn cycle(mut table: TableReader<'_>, problems: &Problems) -> Option<CyclePlan> {
     let default = CyclePlan::default();
-    let steps = table.positive_integer_or("steps", STEPS, default.steps);
+    let steps = table.positive_integer_or("steps", CyclePlan::STEPS, default.steps);
     let methods = [Method::Direct, Method::March].map(|m| (m.name(), m));
     let method = table.choice_of_or("method", &methods, default.method);
     let tolerance = tolerance(&mut table, problems, default.tolerance);
-    let max_cycles = table.positive_integer_or("max_cycles", CYCLES, default.max_cycles);
+    let max_cycles =
+        table.positive_integer_or("max_cycles", CyclePlan::MAX_CYCLES, default.max_cycles);
     let error_bars = table.boolean_or("error_bars", default.error_bars);
     let accuracy = match table.has("accuracy") {
         true => Some(accuracy(&mut table, problems)),
@@ -367,8 +358,8 @@ pub(crate) fn solver(
 ) -> Option<SolverPlan> {
     let engines = [EngineKind::Axisymmetric, EngineKind::HalfSpace].map(|e| (e.name(), e));
     let engine = table.choice_of_or("engine", &engines, default.engine);
-    let cells = table.positive_integer_or("cells", CELLS, default.cells);
-    let springs = table.positive_integer_or("springs", SPRINGS, default.springs);
+    let cells = table.positive_integer_or("cells", SolverPlan::CELLS, default.cells);
+    let springs = table.positive_integer_or("springs", SolverPlan::SPRINGS, default.springs);
     let tolerance = match table.has("tolerance") {
         true => tolerance(&mut table, problems, instant_tolerance::OF_A_HISTORY).map(Some),
         false => Some(default.tolerance),
@@ -391,7 +382,7 @@ pub(crate) fn solver(
 /// A relative accuracy of the loss: below 1, and above what the finest resolution could reach.
 fn accuracy(table: &mut TableReader<'_>, problems: &Problems) -> Option<f64> {
     let accuracy = table.number("accuracy")?;
-    if accuracy.value >= 1e-8 && accuracy.value < 1.0 {
+    if CyclePlan::ACCURACY.contains(&accuracy.value) {
         return Some(accuracy.value);
     }
     problems
@@ -403,7 +394,7 @@ fn accuracy(table: &mut TableReader<'_>, problems: &Problems) -> Option<f64> {
 /// A relative tolerance: below 1, and above what rounding leaves.
 fn tolerance(table: &mut TableReader<'_>, problems: &Problems, default: f64) -> Option<f64> {
     let tolerance = table.number_or("tolerance", default)?;
-    if tolerance.value >= 1e-13 && tolerance.value < 1.0 {
+    if CyclePlan::TOLERANCE.contains(&tolerance.value) {
         return Some(tolerance.value);
     }
     problems

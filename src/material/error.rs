@@ -4,6 +4,7 @@ use thiserror::Error;
 
 /// A material that cannot be built, converted or put into contact.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum MaterialError {
     /// A parameter outside the range in which the model means something.
     #[error("{parameter} is {value:?}: it must be {requirement}")]

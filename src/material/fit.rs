@@ -83,6 +83,7 @@ const FAR_FROM_EQUILIBRIUM: f64 = 0.05;
 
 /// Why no fit was made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FitError {
     #[error("the table cannot be fitted: {0}")]
     LeastSquares(#[from] NnlsError),

@@ -15,6 +15,17 @@
 //! | contact compliance C = (1 - nu) Phi | (1 - nu^2) D | (1 - nu) J/2 |
 //!
 //! This room knows nothing of indenters, drives or contact.
+//!
+//! ```
+//! use contact_dma::material::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
+//!
+//! let branch = RelaxationBranch { modulus_pa: 2e9, time_s: 1.0 };
+//! let relaxation = Relaxation::new(1e9, vec![branch])?;
+//! let solid = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.35)?;
+//! let modulus = solid.longitudinal_complex_modulus(1.0); // at 1 rad/s
+//! assert!((modulus.re - 2e9).abs() < 1.0 && (modulus.im - 1e9).abs() < 1.0);
+//! # Ok::<(), MaterialError>(())
+//! ```
 
 pub mod classical;
 pub mod fit;

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 /// Why no solution was found.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NnlsError {
     /// Numbers that cannot be computed with.
     #[error("a non-negative least squares problem holds a number that is not finite")]

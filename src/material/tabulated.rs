@@ -71,6 +71,7 @@ const ENOUGH_DECADES: f64 = 1.0;
 
 /// Why samples are no creep compliance or relaxation modulus. `row` counts samples from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TableError {
     #[error("the table has no samples; it takes at least {FEWEST_SAMPLES}")]
     Empty,

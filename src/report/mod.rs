@@ -1,4 +1,31 @@
 //! Tables and figures, from records alone: nothing here solves anything.
+//!
+//! Its parts from top to bottom, each of which may use those above it: numbers, words and peaks as text; lines over the surface;
+//! tables, and the quantities that are their columns; captions; comparison; chart; figure; material; page; summary and results for
+//! programs; terminal; scenario. A test holds them to that.
+//!
+//! ```
+//! use contact_dma::prelude::*;
+//! use contact_dma::report;
+//! use contact_dma::sweep::case::Setup;
+//! use contact_dma::sweep::plan::resolved::resolved_text;
+//! use contact_dma::sweep::store::Store;
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = tempfile::tempdir()?;
+//! # let folder = folder.path();
+//! let pmma = library::find("pmma").ok_or("not in the library")?.material()?;
+//! let sweep = Sweep::new(pmma, Sphere::new(0.01)?, HarmonicDrive::load(10.0, 5.0)?);
+//! let sweep = sweep.title("PMMA").steps(32)?.springs(32)?.frequencies_hz([1e-4, 1e-3, 1e-2])?;
+//! let outcome = sweep.clone().solve()?;
+//! // As the program prepares it: the half-space engine takes its cells from some indenters.
+//! let setup = Setup::new(sweep.into_plan())?;
+//! let store = Store::open(folder, &resolved_text(setup.plan()), false)?;
+//! report::write_sweep(&store, setup.plan(), &outcome)?;
+//! assert!(folder.join("sweep.csv").exists() && folder.join("energy-loss.svg").exists());
+//! # Ok(())
+//! # }
+//! ```
 
 pub mod caption;
 pub mod chart;
@@ -10,6 +37,9 @@ pub mod material;
 pub mod npy;
 pub mod number;
 pub mod page;
+pub mod peaks;
+pub mod profile_lines;
+pub mod quantities;
 pub mod samples;
 pub mod scenario;
 pub mod stamp;
@@ -18,6 +48,7 @@ pub mod table;
 pub mod terminal;
 pub mod terminal_simulation;
 pub mod vti;
+pub mod words;
 pub mod work_line;
 
 use crate::sweep::figures::figure_plan::AxisUnits;
@@ -83,15 +114,19 @@ pub fn write_tables_of_sweep(
 
 fn tables_of_sweep(store: &Store, plan: &SweepPlan, outcome: &Outcome) -> Result<(), ReportError> {
     let branches = outcome.retardation_times_s().len();
-    store.write("sweep.csv", &table::sweep(&outcome.records, branches)?)?;
+    let unit = plan.figures.frequency_unit;
+    store.write(
+        "sweep.csv",
+        &quantities::sweep(&outcome.records, branches, unit),
+    )?;
     for record in &outcome.records {
         if let Some(result) = &record.result {
             let name = |folder: &str| format!("{folder}/{}.csv", record.index);
-            store.write(name("loops"), &table::samples(&result.samples)?)?;
-            let pressures = table::pressures(&result.pressures, plan.drive.control())?;
+            store.write(name("loops"), &table::samples(&result.samples))?;
+            let pressures = table::pressures(&result.pressures, plan.drive.control());
             store.write(name("pressures"), &pressures)?;
             let work = WorkLine::of(&result.surface_loss, plan.indenter.as_ref());
-            store.write(name("work"), &table::work(&work)?)?;
+            store.write(name("work"), &table::work(&work))?;
         }
     }
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;

@@ -51,7 +51,7 @@ pub enum Begin {
 }
 
 /// Where a search stands between two cycles: enough to go on from there, bit for bit.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct SearchState {
     /// Memory from which the next cycle starts.
     pub start: Vec<f64>,

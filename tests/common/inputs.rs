@@ -13,7 +13,7 @@ use contact_dma::input::document::Document;
 use contact_dma::input::{field_file, scenario_file, sweep_file};
 use contact_dma::quantity::{self, Dimension};
 use contact_dma::report::work_line::WorkLine;
-use contact_dma::report::{machine, page, table};
+use contact_dma::report::{machine, page, quantities, table};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::case::checkpoint::Checkpoints;
 use contact_dma::sweep::history::Simulation;
@@ -334,7 +334,7 @@ impl Records {
         };
         let (plan, hash) = (self.folder.setup.plan(), self.folder.store.sweep_hash());
         let branches = outcome.retardation_times_s().len();
-        let _ = table::sweep(&outcome.records, branches);
+        let _ = quantities::sweep(&outcome.records, branches, plan.figures.frequency_unit);
         for result in outcome.records.iter().filter_map(|r| r.result.as_ref()) {
             let _ = table::samples(&result.samples);
             let _ = table::pressures(&result.pressures, plan.drive.control());
@@ -490,13 +490,13 @@ impl Histories {
         let resolved = scenario::resolved_text(simulation.plan());
         let store = Store::open(self.folder.path(), &resolved, true).unwrap();
         let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
-        let stand = match checkpoint.find() {
-            Found::Stand(stand) => Some(*stand),
+        let state = match checkpoint.find() {
+            Found::State(state) => Some(*state),
             Found::Nothing | Found::Unusable { .. } => None,
         };
-        let accepted = stand.is_some();
+        let accepted = state.is_some();
         let interrupt = AtomicBool::new(false);
-        let _ = simulation.run_from(stand, &checkpoint, &interrupt, &|done, _| {
+        let _ = simulation.run_from(state, &checkpoint, &interrupt, &|done, _| {
             interrupt.store(done >= steps, Ordering::Relaxed);
         });
         accepted

@@ -12,7 +12,7 @@ use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
 use contact_dma::contact::{ContactError, Engine, Instant, Prescribed, Solution};
-use contact_dma::drive::HarmonicLoad;
+use contact_dma::drive::HarmonicDrive;
 use contact_dma::indenter::Indenter;
 use contact_dma::material::classical::{Maxwell, Zener};
 use contact_dma::material::{Creep, Material, library};
@@ -140,11 +140,9 @@ pub fn sweep_plan(
         title: "integration test".into(),
         material,
         indenter,
-        drive: HarmonicLoad::new(mean_n, amplitude_n, 0.0, 0.0)
-            .unwrap()
-            .into(),
+        drive: HarmonicDrive::load(mean_n, amplitude_n).unwrap(),
         axis: None,
-        angular_frequencies_rad_per_s: Vec::new(),
+        angular_frequencies_rad_per_s: vec![1.0],
         refine: false,
         // Tests that look at error bars ask for them.
         cycle: CyclePlan {

@@ -44,6 +44,7 @@ pub use window::{Preconditioner, WindowOperators};
 
 /// Why a convolution cannot be set up or applied.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum ConvolutionError {
     /// The pressure does not have one value per cell.
     #[error(

@@ -7,6 +7,7 @@
 //! Of a surface that is even in x and in y a quarter says everything: a mirrored grid is that quarter, its first cell's corner
 //! on the origin, and each of its cells stands for four.
 
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Most cells a grid may have: 2^26, that is 8192 x 8192, whose fields take 0.5 GiB each.
@@ -17,6 +18,7 @@ pub const MAX_ASPECT_RATIO: f64 = 1000.0;
 
 /// Why a grid cannot be built.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum GridError {
     /// One direction has no cells, or both together have more than [`MAX_CELLS`].
     #[error(
@@ -54,7 +56,8 @@ pub enum GridError {
 }
 
 /// A grid of equal rectangular cells centred on the origin; fields on it are slices of [`Grid::cells`] values, row by row.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Parts", try_from = "Parts")]
 pub struct Grid {
     cells_x: usize,
     cells_y: usize,
@@ -62,6 +65,32 @@ pub struct Grid {
     spacing_y_m: f64,
     /// Whether it is the quarter with x > 0 and y > 0 of a surface even in both.
     mirrored: bool,
+}
+
+/// What a grid is made of, in the order of its fields.
+type Parts = (usize, usize, f64, f64, bool);
+
+impl From<Grid> for Parts {
+    fn from(grid: Grid) -> Self {
+        let spacings_m = (grid.spacing_x_m, grid.spacing_y_m);
+        let mirrored = grid.mirrored;
+        (
+            grid.cells_x,
+            grid.cells_y,
+            spacings_m.0,
+            spacings_m.1,
+            mirrored,
+        )
+    }
+}
+
+impl TryFrom<Parts> for Grid {
+    type Error = GridError;
+
+    fn try_from((cells_x, cells_y, x_m, y_m, mirrored): Parts) -> Result<Self, GridError> {
+        let grid = Self::new(cells_x, cells_y, x_m, y_m)?;
+        Ok(Self { mirrored, ..grid })
+    }
 }
 
 impl Grid {

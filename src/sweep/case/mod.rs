@@ -12,13 +12,14 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex};
 
 use crate::contact::{ContactError, Engine};
-use crate::drive::{Control, HarmonicDrive};
+use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::history::{Work, order_of_steps};
 use crate::material::{Creep, MaterialError, Relaxation};
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::edge_layer::EdgeLayer;
-use crate::sweep::case::stabilise::{Contact, CycleError, Stabilised};
-use crate::sweep::engine::{AsContactError, EngineBuilder, EngineError, LargestContact};
+use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
+use crate::sweep::engine::{EngineBuilder, EngineError, LargestContact};
+use crate::sweep::plan::check::{PlanError, check_frequency};
 use crate::sweep::plan::instant_tolerance;
 use crate::sweep::plan::{Case, EngineKind, SweepPlan};
 use crate::sweep::record::error_bars::{Bar, ErrorBars, InNodes, Ladder, Pair, Quantity};
@@ -27,7 +28,12 @@ use crate::sweep::store::archive::Purpose;
 
 /// Why a sweep cannot be set up.
 #[derive(Debug, Clone, thiserror::Error)]
+#[non_exhaustive]
 pub enum SetupError {
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    #[error(transparent)]
+    Drive(#[from] DriveError),
     #[error(transparent)]
     Material(#[from] MaterialError),
     #[error(
@@ -55,24 +61,6 @@ pub struct Setup {
 
 /// What engines differ in: the largest value of the drive, bit for bit, and the number of springs or cells.
 type EngineKey = (u64, usize);
-
-/// How a case ended early, other than by a record.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-enum CaseError {
-    #[error(transparent)]
-    Cycle(#[from] CycleError),
-    #[error(transparent)]
-    Engine(#[from] EngineError),
-}
-
-impl AsContactError for CaseError {
-    fn as_contact_error(&self) -> Option<&ContactError> {
-        match self {
-            Self::Cycle(CycleError::Contact(error)) => Some(error),
-            _ => None,
-        }
-    }
-}
 
 /// Steps per cycle, and springs or cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -121,9 +109,10 @@ impl Setup {
     /// Checks the plan against the physics and prepares what the cases share.
     ///
     /// # Errors
-    /// [`SetupError`] where the material cannot make a contact or has no stabilised cycle, or the engine cannot treat the
+    /// [`SetupError`] where a value is out of its range, the material cannot make a contact or has no stabilised cycle, or the engine cannot treat the
     /// indenter.
     pub fn new(mut plan: SweepPlan) -> Result<Self, SetupError> {
+        plan.check()?;
         plan.solver = plan.solver.on_own_cells(plan.indenter.as_ref());
         let compliance = plan.material.contact_compliance()?;
         let relaxed_compliance_per_pa = compliance
@@ -329,13 +318,14 @@ impl Setup {
             checkpoints,
             marches_at_last: true,
         };
-        let ended = match cycle.accuracy {
+        let ended = check_frequency(case.angular_frequency_rad_per_s).map_err(CaseError::from);
+        let ended = ended.and_then(|()| match cycle.accuracy {
             Some(accuracy) => self.to_accuracy(&contact, accuracy, &mut record),
             None => self.at_resolution(&contact, &mut record),
-        };
+        });
         match ended {
             Ok(()) => {}
-            Err(CaseError::Cycle(CycleError::Interrupted)) => {
+            Err(CaseError::Interrupted) => {
                 checkpoints.flush();
                 return None;
             }
@@ -495,9 +485,7 @@ impl Setup {
         record: &mut CaseRecord,
     ) -> Result<Solved, CaseError> {
         let solved = match self.solve(contact, nodes, steps, &mut Domain::default()) {
-            Err(CaseError::Cycle(CycleError::Interrupted)) => {
-                return Err(CaseError::Cycle(CycleError::Interrupted));
-            }
+            Err(CaseError::Interrupted) => return Err(CaseError::Interrupted),
             Err(_) => Solved {
                 nodes,
                 cycles: Vec::new(),
@@ -559,7 +547,7 @@ impl Setup {
             work += record.work;
             record.work = work;
             let next = match (ended, Self::loss_and_bar(record)) {
-                (Err(CaseError::Cycle(error)), _) if error.may_be_of_the_resolution() => {
+                (Err(error), _) if error.may_be_of_the_resolution() => {
                     failure = Some(error.to_string());
                     Self::twice(record)
                 }
@@ -668,11 +656,11 @@ impl Setup {
                         }
                         Ok(_) => engine.tolerate(tighter),
                         // No tolerance of the cycle's will do: it is marched as it is.
-                        Err(CycleError::Contact(ContactError::NotConverged { .. })) => {}
-                        Err(error) => return Err(error.into()),
+                        Err(CaseError::Contact(ContactError::NotConverged { .. })) => {}
+                        Err(error) => return Err(error),
                     }
                 }
-                Ok::<_, CaseError>(contact.in_steps(engine, steps)?)
+                contact.in_steps(engine, steps)
             },
         )?;
         Ok(Solved { nodes, cycles })

@@ -2,6 +2,8 @@
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::{self, Extrema, Loop, LoopError};
@@ -9,10 +11,11 @@ use crate::drive::{Control, HarmonicDrive};
 use crate::history::{Dissipation, March, Stage, StepWeights, TimeRule, Work};
 use crate::material::Creep;
 use crate::steady::{self, Begin, MeanPressure, Remaining, SteadySettings};
-use crate::sweep::case::checkpoint::{Checkpoints, Level, Progress};
+use crate::sweep::case::checkpoint::{Checkpoints, Level, LevelState};
 use crate::sweep::case::pressure::Pressures;
 use crate::sweep::case::tangent_radius::TangentRadius;
-use crate::sweep::engine::{missed_contact, prescribed};
+use crate::sweep::engine::{AsContactError, EngineError, missed_contact, prescribed};
+use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::{CyclePlan, Method};
 use crate::sweep::record::{BranchLoss, CaseResult, CellLoss, SurfaceLoss};
 
@@ -40,6 +43,7 @@ pub(in crate::sweep) struct Contact<'a> {
 }
 
 /// A cycle's end.
+#[derive(Serialize, Deserialize)]
 pub(in crate::sweep) struct Stabilised {
     pub method: Method,
     pub cycles: usize,
@@ -56,16 +60,20 @@ pub(in crate::sweep) struct Stabilised {
 
 /// Why there is neither a result nor the finding that the cycle does not stabilise.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(in crate::sweep) enum CycleError {
+pub(in crate::sweep) enum CaseError {
     #[error(transparent)]
     Contact(ContactError),
     #[error(transparent)]
     Loop(#[from] LoopError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     #[error("interrupted")]
     Interrupted,
 }
 
-impl CycleError {
+impl CaseError {
     /// Whether more steps or nodes may do what these could not.
     pub(in crate::sweep) fn may_be_of_the_resolution(&self) -> bool {
         matches!(
@@ -75,7 +83,16 @@ impl CycleError {
     }
 }
 
-impl From<ContactError> for CycleError {
+impl AsContactError for CaseError {
+    fn as_contact_error(&self) -> Option<&ContactError> {
+        match self {
+            Self::Contact(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl From<ContactError> for CaseError {
     fn from(error: ContactError) -> Self {
         match error {
             ContactError::Interrupted => Self::Interrupted,
@@ -116,7 +133,7 @@ impl Contact<'_> {
         &self,
         engine: &mut dyn Engine,
         steps: &[usize],
-    ) -> Result<Vec<(usize, Stabilised)>, CycleError> {
+    ) -> Result<Vec<(usize, Stabilised)>, CaseError> {
         let mut solved: Vec<(usize, Stabilised)> = Vec::with_capacity(steps.len());
         for &count in steps {
             let coarser = solved.last().filter(|(_, cycle)| cycle.result.is_some());
@@ -143,7 +160,7 @@ impl Contact<'_> {
         engine: &mut dyn Engine,
         steps: usize,
         start: Option<Vec<f64>>,
-    ) -> Result<Stabilised, CycleError> {
+    ) -> Result<Stabilised, CaseError> {
         let level = self.checkpoints.begin(engine.nodes(), steps);
         if let Some(finished) = self.checkpoints.finished(&level) {
             if let Some(last) = &finished.last {
@@ -162,16 +179,16 @@ impl Contact<'_> {
         engine: &mut dyn Engine,
         steps: usize,
         start: Option<Vec<f64>>,
-    ) -> Result<Stabilised, CycleError> {
-        let begin = match self.checkpoints.progress(level) {
-            Some(marching @ Progress::Marching { .. }) => {
+    ) -> Result<Stabilised, CaseError> {
+        let begin = match self.checkpoints.state(level) {
+            Some(marching @ LevelState::Marching { .. }) => {
                 return self.march(level, engine, steps, marching);
             }
-            Some(Progress::Searching(state)) => Begin::State(state),
+            Some(LevelState::Searching(state)) => Begin::State(state),
             None => Begin::Memory(start),
         };
         if self.cycle.method == Method::March {
-            return self.march(level, engine, steps, Progress::unmarched(None));
+            return self.march(level, engine, steps, LevelState::unmarched(None));
         }
         let (direct, why) = match self.search(level, engine, steps, begin) {
             Ok(stabilised) if stabilised.result.is_some() || !self.marches_at_last => {
@@ -181,14 +198,14 @@ impl Contact<'_> {
                 let message = stabilised.message.unwrap_or_default();
                 (stabilised.cycles, message)
             }
-            Err(CycleError::Contact(error @ ContactError::NotConverged { .. }))
+            Err(CaseError::Contact(error @ ContactError::NotConverged { .. }))
                 if self.marches_at_last =>
             {
                 (0, error.to_string())
             }
             Err(error) => return Err(error),
         };
-        let unmarched = Progress::unmarched(Some((direct, why)));
+        let unmarched = LevelState::unmarched(Some((direct, why)));
         self.march(level, engine, steps, unmarched)
     }
 
@@ -198,7 +215,7 @@ impl Contact<'_> {
         engine: &mut dyn Engine,
         steps: usize,
         begin: Begin,
-    ) -> Result<Stabilised, CycleError> {
+    ) -> Result<Stabilised, CaseError> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
         let drive = |fraction| self.prescribed(fraction);
         let cycle = steady::Cycle {
@@ -215,14 +232,14 @@ impl Contact<'_> {
             stop: &|| self.interrupted(),
             between_cycles: &|state| {
                 if self.checkpoints.is_wanted() {
-                    let state = Progress::Searching(Box::new(state()));
+                    let state = LevelState::Searching(Box::new(state()));
                     self.checkpoints.keep(level, state);
                 }
             },
         };
         let found = steady::find_from(&mut march, &cycle, begin, settings, &watch)?;
         if self.interrupted() {
-            return Err(CycleError::Interrupted);
+            return Err(CaseError::Interrupted);
         }
         let mut cycles = Cycles::new(self, &march, steps);
         cycles.count = found.cycles;
@@ -241,12 +258,12 @@ impl Contact<'_> {
         level: &Level,
         engine: &mut dyn Engine,
         steps: usize,
-        progress: Progress,
-    ) -> Result<Stabilised, CycleError> {
+        state: LevelState,
+    ) -> Result<Stabilised, CaseError> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
         let mut cycles = Cycles::new(self, &march, steps);
-        let after_search = match progress {
-            Progress::Marching {
+        let after_search = match state {
+            LevelState::Marching {
                 after_search,
                 cycles: count,
                 distance,
@@ -257,7 +274,7 @@ impl Contact<'_> {
                 }
                 after_search
             }
-            Progress::Searching(_) => None,
+            LevelState::Searching(_) => None,
         };
         if cycles.count == 0 {
             march.jump(self.mean())?;
@@ -267,7 +284,7 @@ impl Contact<'_> {
         let mut result = None;
         while result.is_none() && cycles.count < self.cycle.max_cycles {
             if cycles.count > 0 && self.checkpoints.is_wanted() {
-                let marching = Progress::Marching {
+                let marching = LevelState::Marching {
                     after_search: after_search.clone(),
                     cycles: cycles.count,
                     distance: cycles.distance,
@@ -345,7 +362,7 @@ impl<'a> Cycles<'a> {
         &mut self,
         march: &mut March<'_>,
         mut recording: Option<&mut Recording>,
-    ) -> Result<(), CycleError> {
+    ) -> Result<(), CaseError> {
         // A checkpoint may lie here.
         march.forget_course();
         self.start.clear();
@@ -360,7 +377,7 @@ impl<'a> Cycles<'a> {
         }
         for step in 1..=self.steps {
             if self.contact.interrupted() {
-                return Err(CycleError::Interrupted);
+                return Err(CaseError::Interrupted);
             }
             let fraction = |end: f64| ((step - 1) as f64 + end) / self.steps as f64;
             let drive = |end| self.contact.prescribed(fraction(end));
@@ -401,7 +418,7 @@ impl<'a> Cycles<'a> {
     }
 
     /// Solves and records one more cycle; `None` where it turns out to be too far from the stabilised one after all.
-    fn record(&mut self, march: &mut March<'_>) -> Result<Option<CaseResult>, CycleError> {
+    fn record(&mut self, march: &mut March<'_>) -> Result<Option<CaseResult>, CaseError> {
         let contact = self.contact;
         let step_s = contact.period_s() / self.steps as f64;
         let nodes = march.pressure().len();
@@ -450,11 +467,7 @@ impl<'a> Cycles<'a> {
 }
 
 impl Contact<'_> {
-    fn result(
-        &self,
-        march: &mut March<'_>,
-        recording: Recording,
-    ) -> Result<CaseResult, CycleError> {
+    fn result(&self, march: &mut March<'_>, recording: Recording) -> Result<CaseResult, CaseError> {
         let Recording {
             samples,
             dissipation,

@@ -21,6 +21,7 @@ use crate::sweep::plan::{EngineKind, SolverPlan};
 
 /// Why there is no engine for an indenter.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum EngineError {
     #[error(
         "the {shape} {reason}; the axisymmetric engine cannot treat it (set solver.engine = \"half-space\")"

@@ -4,6 +4,8 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Prescribed, Solution};
@@ -11,7 +13,7 @@ use crate::drive::{Moment, Schedule};
 use crate::history::{Hereditary, March, StepState};
 use crate::sweep::engine::growing::{self, Layout};
 use crate::sweep::engine::{self, EngineError};
-use crate::sweep::history::checkpoint::{HistoryCheckpoint, Stand};
+use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::sweep::history::{HistoryRow, Progress, SurfaceRecord};
 use crate::sweep::plan::scenario::ScenarioPlan;
 
@@ -39,7 +41,7 @@ impl From<ContactError> for MarchError {
 }
 
 /// A history as far as it was followed at one resolution.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(in crate::sweep) struct Course {
     pub(in crate::sweep) rows: Vec<HistoryRow>,
     /// Profiles, then fields, in the order in which they were asked for.
@@ -70,20 +72,20 @@ pub(in crate::sweep) struct Following<'a> {
 }
 
 impl Following<'_> {
-    /// Marches to the end, from within a step where an earlier run stood if that fits; what there is by then is in the course
+    /// Marches to the end, from within a step where an earlier run was if that fits; what there is by then is in the course
     /// either way.
     pub(in crate::sweep) fn run<M: Hereditary>(
         &self,
         mut march: March<'_, M>,
-        stand: Option<&StepState>,
+        state: Option<&StepState>,
         course: &mut Course,
     ) -> Result<(), MarchError> {
         let profiles = self.plan.output.profiles_at_s.len();
         // Surfaces are asked for at full resolution alone.
         let wanted = (self.schedule.requested.split_at_checked(profiles)).unwrap_or_default();
         let wanted = [wanted.0, wanted.1];
-        let stand = stand.filter(|_| self.fits(course, wanted));
-        let stage = stand
+        let state = state.filter(|_| self.fits(course, wanted));
+        let stage = state
             .filter(|step| march.restore_step(step))
             .map(|step| step.stage);
         if stage.is_none() {
@@ -105,7 +107,7 @@ impl Following<'_> {
             && surfaces.all(|(stored, wanted)| stored.len() == wanted.len())
     }
 
-    /// Marches from moment to moment, and keeps what is asked for. `stage`: the march stands within this one of the first step.
+    /// Marches from moment to moment, and keeps what is asked for. `stage`: the march is within this one of the first step.
     fn go_on<M: Hereditary>(
         &self,
         march: &mut March<'_, M>,
@@ -190,7 +192,7 @@ impl Following<'_> {
         Ok(())
     }
 
-    /// Writes where the history stands: in the stage of a step whose guess this is.
+    /// Writes the state of the history: in the stage of a step whose guess this is.
     fn keep<M: Hereditary>(
         &self,
         march: &March<'_, M>,
@@ -198,7 +200,7 @@ impl Following<'_> {
         course: &Course,
     ) {
         if self.checkpoint.keeps() {
-            self.checkpoint.write(&Stand {
+            self.checkpoint.write(&HistoryState {
                 finished: Cow::Borrowed(self.finished),
                 course: Cow::Borrowed(course),
                 step: march.step_state(stage, guess),

@@ -17,6 +17,8 @@ pub mod outside_model;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine};
 use crate::drive::{Control, Fineness, MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
@@ -26,16 +28,20 @@ use crate::quantity::{Dimension, format_human};
 use crate::sweep::engine::{
     EngineBuilder, EngineError, LargestContact, MAX_GROWTHS, missed_contact,
 };
-use crate::sweep::history::checkpoint::{HistoryCheckpoint, Stand};
+use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::sweep::history::errors::{Followed, Plan, RowErrors};
 use crate::sweep::history::follow::{Course, Following, MarchError};
 use crate::sweep::plan::EngineKind;
 use crate::sweep::plan::body_material::Compliance;
+use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::scenario::ScenarioPlan;
 
 /// Why a simulation cannot be set up.
 #[derive(Debug, Clone, thiserror::Error)]
+#[non_exhaustive]
 pub enum SimulationError {
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     #[error(transparent)]
     Material(#[from] MaterialError),
     #[error(transparent)]
@@ -81,7 +87,7 @@ struct Level {
 }
 
 /// One row of the history.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HistoryRow {
     pub time_s: f64,
     pub load_n: f64,
@@ -93,7 +99,7 @@ pub struct HistoryRow {
 }
 
 /// The surface at a requested time.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SurfaceRecord {
     pub row: HistoryRow,
     pub surface: Surface,
@@ -155,6 +161,7 @@ impl Simulation {
         mut plan: ScenarioPlan,
         fineness: Fineness,
     ) -> Result<Self, SimulationError> {
+        plan.check()?;
         plan.solver = plan.solver.on_own_cells(plan.indenter.as_ref());
         let compliance = plan.material.compliance()?;
         let steps = match plan.step_s {
@@ -258,19 +265,19 @@ impl Simulation {
         self.run_from(None, &HistoryCheckpoint::none(), interrupt, progress)
     }
 
-    /// As [`Simulation::run`], from where an earlier run of the same scenario stood; the outcome is the same, bit for bit. An
+    /// As [`Simulation::run`], from where an earlier run of the same scenario was; the outcome is the same, bit for bit. An
     /// interruption leaves a new checkpoint.
     pub fn run_from(
         &self,
-        stand: Option<Stand<'_>>,
+        state: Option<HistoryState<'_>>,
         checkpoint: &HistoryCheckpoint,
         interrupt: &AtomicBool,
         progress: &Progress<'_>,
     ) -> SimulationOutcome {
-        let (mut finished, mut begun) = match stand {
-            Some(stand) if self.fits(&stand) => {
-                let begun = (stand.course.into_owned(), stand.step);
-                (stand.finished.into_owned(), Some(begun))
+        let (mut finished, mut begun) = match state {
+            Some(state) if self.fits(&state) => {
+                let begun = (state.course.into_owned(), state.step);
+                (state.finished.into_owned(), Some(begun))
             }
             _ => (Vec::new(), None),
         };
@@ -319,10 +326,10 @@ impl Simulation {
             && course.rows.iter().all(|row| row.load_n == 0.0)
     }
 
-    /// Whether the stand can be one of this history.
-    fn fits(&self, stand: &Stand<'_>) -> bool {
-        let mut courses = stand.finished.iter().chain([&*stand.course]);
-        stand.finished.len() < self.levels.len()
+    /// Whether the state can be one of this history.
+    fn fits(&self, state: &HistoryState<'_>) -> bool {
+        let mut courses = state.finished.iter().chain([&*state.course]);
+        state.finished.len() < self.levels.len()
             && courses.all(|course| course.growths <= self.halvings + MAX_GROWTHS)
     }
 
@@ -703,17 +710,17 @@ mod tests {
         let (mut runs, mut grown) = (0, 0);
         let outcome = loop {
             let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
-            let stand = match checkpoint.find() {
-                Found::Stand(stand) => Some(*stand),
+            let state = match checkpoint.find() {
+                Found::State(state) => Some(*state),
                 Found::Nothing => None,
                 Found::Unusable { path, reason } => panic!("{}: {reason}", path.display()),
             };
-            grown = stand
+            grown = state
                 .as_ref()
-                .map_or(0, |stand| stand.course.growths)
+                .map_or(0, |state| state.course.growths)
                 .max(grown);
             let (interrupt, steps) = (AtomicBool::new(false), Cell::new(0));
-            let outcome = simulation.run_from(stand, &checkpoint, &interrupt, &|_, _| {
+            let outcome = simulation.run_from(state, &checkpoint, &interrupt, &|_, _| {
                 steps.set(steps.get() + 1);
                 interrupt.store(steps.get() == 3, Ordering::Relaxed);
             });

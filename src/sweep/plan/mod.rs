@@ -1,13 +1,14 @@
-//! A sweep as it will be run: every default filled in, every value checked.
+//! A sweep as it will be run, every default filled in. [`check`] has the ranges of its values.
 
 pub mod body_material;
+pub mod check;
 pub mod instant_tolerance;
 pub mod resolved;
 pub mod scenario;
 
 use std::sync::Arc;
 
-use crate::drive::HarmonicDrive;
+use crate::drive::{DriveError, HarmonicDrive};
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
@@ -42,6 +43,7 @@ pub struct DriveAxis {
 
 /// What differs between the drives of a [`DriveAxis`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Varied {
     Amplitude,
     Mean,
@@ -54,6 +56,19 @@ impl Varied {
             Self::Amplitude => "amplitude",
             Self::Mean => "mean",
         }
+    }
+
+    /// The drive with another varied number (N or m).
+    ///
+    /// # Errors
+    /// As [`HarmonicDrive::new`].
+    pub fn drive(self, drive: &HarmonicDrive, value: f64) -> Result<HarmonicDrive, DriveError> {
+        let (mean, amplitude) = match self {
+            Self::Amplitude => (drive.mean(), value),
+            Self::Mean => (value, drive.amplitude()),
+        };
+        let (phase_rad, hold_s) = (drive.phase_rad(), drive.hold_s());
+        HarmonicDrive::new(drive.control(), mean, amplitude, phase_rad, hold_s)
     }
 
     /// The varied number of a drive, in the unit of its control.
@@ -75,6 +90,22 @@ pub struct Case {
 }
 
 impl SweepPlan {
+    /// A sweep without frequencies and title, everything else at its default.
+    pub fn new(material: Material, indenter: Arc<dyn Indenter>, drive: HarmonicDrive) -> Self {
+        Self {
+            title: String::new(),
+            material,
+            solver: SolverPlan::of_indenter(indenter.as_ref()),
+            indenter,
+            drive,
+            axis: None,
+            angular_frequencies_rad_per_s: Vec::new(),
+            refine: false,
+            cycle: CyclePlan::default(),
+            figures: FigurePlan::default(),
+        }
+    }
+
     /// The drives: one, but for a sweep of two axes.
     pub fn drives(&self) -> &[HarmonicDrive] {
         match &self.axis {
@@ -122,6 +153,7 @@ pub struct CyclePlan {
 /// How the stabilised cycle is reached.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Method {
     /// Searched: see [`crate::steady`].
     Direct,
@@ -155,6 +187,7 @@ pub struct SolverPlan {
 
 /// The two contact engines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum EngineKind {
     Axisymmetric,
     HalfSpace,
@@ -171,6 +204,18 @@ impl EngineKind {
 }
 
 impl SolverPlan {
+    /// Everything at its default: springs where the indenter allows them, cells elsewhere.
+    pub fn of_indenter(indenter: &dyn Indenter) -> Self {
+        let engine = match indenter.axisymmetric() {
+            Some(_) => EngineKind::Axisymmetric,
+            None => EngineKind::HalfSpace,
+        };
+        Self {
+            engine,
+            ..Self::default()
+        }
+    }
+
     /// Nodes along the contact's radius (springs) or the domain's longer side (cells), whichever the engine has.
     pub fn nodes(&self) -> usize {
         match self.engine {

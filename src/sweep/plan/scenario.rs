@@ -26,6 +26,26 @@ pub struct ScenarioPlan {
     pub figures: FigurePlan,
 }
 
+impl ScenarioPlan {
+    /// A history without a title, everything else at its default.
+    pub fn new(
+        material: impl Into<BodyMaterial>,
+        indenter: Arc<dyn Indenter>,
+        drive: SegmentedDrive,
+    ) -> Self {
+        Self {
+            title: String::new(),
+            material: material.into(),
+            solver: SolverPlan::of_indenter(indenter.as_ref()),
+            indenter,
+            drive,
+            step_s: None,
+            output: OutputPlan::default(),
+            figures: FigurePlan::default(),
+        }
+    }
+}
+
 /// What is written beside the history.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutputPlan {

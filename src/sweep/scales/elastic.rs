@@ -22,6 +22,7 @@ pub struct ElasticScale {
 
 /// Why there is no such contact.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NoScale {
     #[error("the {0} is no convex body of revolution, which the elastic contact is computed for")]
     Shape(&'static str),

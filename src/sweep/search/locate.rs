@@ -4,9 +4,9 @@ use crate::drive::HarmonicDrive;
 use crate::sweep::case::{Aim, Resolution};
 use crate::sweep::plan::Case;
 use crate::sweep::record::CaseRecord;
-use crate::sweep::search::Search;
 use crate::sweep::search::peak::{self, Loss, PeakError, Point};
 use crate::sweep::search::run::Outcome;
+use crate::sweep::search::{Missing, Search};
 use crate::sweep::store::StoreError;
 
 /// Why a peak that the cases bracket has no place.
@@ -69,12 +69,12 @@ impl Search<'_> {
         let cases: Vec<Case> = omegas.iter().enumerate().map(case).collect();
         let records = self.records_of(Aim::Loss(bracket.resolution), &cases)?;
         if records.len() < omegas.len() {
-            return Err(match self.checkpoint_every {
-                Some(_) => LocateError::Interrupted,
-                None => LocateError::NoRecords {
+            return Err(match (self.missing, self.archive.store()) {
+                (Missing::LeftOut, Some(store)) => LocateError::NoRecords {
                     angular_frequency_rad_per_s: bracket.points[1].0,
-                    folder: self.store.folder().display().to_string(),
+                    folder: store.folder().display().to_string(),
                 },
+                _ => LocateError::Interrupted,
             });
         }
         let loss = |record: &CaseRecord| {

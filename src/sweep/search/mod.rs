@@ -1,6 +1,7 @@
 //! The work behind a sweep: cases that have records are read, the others solved in parallel, frequencies added where the
 //! curve is not resolved.
 
+pub mod builder;
 mod locate;
 pub mod peak;
 pub mod refine;
@@ -19,49 +20,50 @@ use crate::sweep::plan::Case;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::locate::curve_of;
 use crate::sweep::search::run::{Outcome, Progress, RunError};
-use crate::sweep::store::archive::{Kept, OF_ANOTHER_BUILD, Purpose};
-use crate::sweep::store::{Store, StoreError};
+use crate::sweep::store::StoreError;
+use crate::sweep::store::archive::{Archive, Kept, OF_ANOTHER_BUILD, Purpose};
 
 /// What solving more cases takes.
 pub(in crate::sweep) struct Search<'a> {
     pub pool: &'a ThreadPool,
     pub setup: &'a Setup,
-    pub store: &'a Store,
-    /// Time between two checkpoints of a long case; without one, cases that have no record are not solved.
-    pub checkpoint_every: Option<Duration>,
+    pub archive: Archive<'a>,
+    pub missing: Missing,
     pub interrupt: &'a AtomicBool,
     pub progress: &'a dyn Progress,
     /// Where nothing is solved: whether it was said that records of another build are drawn.
     told_of_builds: AtomicBool,
 }
 
+/// What becomes of cases that have no usable record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::sweep) enum Missing {
+    /// They are solved, those that take long with a checkpoint every so often.
+    Solved { checkpoint_every: Duration },
+    /// Nothing is solved.
+    LeftOut,
+}
+
 /// How often a neighbourhood may be halved before it is left as it is.
 const REFINEMENTS: usize = 6;
 
 impl<'a> Search<'a> {
-    /// A search among the records there are, which solves nothing.
-    pub fn of_records(
+    pub fn new(
         pool: &'a ThreadPool,
         setup: &'a Setup,
-        store: &'a Store,
-        interrupt: &'a AtomicBool,
-        progress: &'a dyn Progress,
+        archive: Archive<'a>,
+        missing: Missing,
+        (interrupt, progress): (&'a AtomicBool, &'a dyn Progress),
     ) -> Self {
         Self {
             pool,
             setup,
-            store,
-            checkpoint_every: None,
+            archive,
+            missing,
             interrupt,
             progress,
             told_of_builds: AtomicBool::new(false),
         }
-    }
-
-    /// The same, solving cases that have no record, those that take long with a checkpoint every so often.
-    pub fn solving(mut self, checkpoint_every: Duration) -> Self {
-        self.checkpoint_every = Some(checkpoint_every);
-        self
     }
 
     /// The records of cases of the sweep, and how many of these have none in the end.
@@ -102,8 +104,11 @@ impl<'a> Search<'a> {
             outcome.interrupted = !self.locate_peaks(&mut outcome)?;
         }
         // Where nothing is solved, another process may be at work in the folder.
-        if self.checkpoint_every.is_some() && !outcome.interrupted {
-            self.store.remove_checkpoints();
+        if self.missing != Missing::LeftOut
+            && !outcome.interrupted
+            && let Some(store) = self.archive.store()
+        {
+            store.remove_checkpoints();
         }
         Ok(outcome)
     }
@@ -150,10 +155,10 @@ impl<'a> Search<'a> {
     ) -> Result<(Vec<CaseRecord>, Vec<Case>), StoreError> {
         let (mut records, mut lacking) = (Vec::new(), Vec::new());
         for case in cases {
-            match self.store.load_case(purpose, case)? {
+            match self.archive.load_case(purpose, case)? {
                 Kept::Intact(record) => records.push(*record),
                 Kept::Absent => lacking.push(*case),
-                Kept::OfAnotherBuild { path, record } if self.checkpoint_every.is_none() => {
+                Kept::OfAnotherBuild { path, record } if self.missing == Missing::LeftOut => {
                     if !self.told_of_builds.swap(true, Ordering::Relaxed) {
                         let path = path.display();
                         self.progress.told(&format!(
@@ -177,9 +182,9 @@ impl<'a> Search<'a> {
 
     /// Tells why a record is not used.
     fn lacks(&self, path: &Path, reason: &str) {
-        let then = match self.checkpoint_every {
-            Some(_) => "the case is computed again",
-            None => "the case is left out",
+        let then = match self.missing {
+            Missing::Solved { .. } => "the case is computed again",
+            Missing::LeftOut => "the case is left out",
         };
         let path = path.display();
         self.progress.told(&format!("{path}: {reason}; {then}"));
@@ -188,7 +193,7 @@ impl<'a> Search<'a> {
     /// Solves these cases in parallel, the dearest first: each thread takes the next from a common counter, so that the
     /// uneven cases end together.
     fn compute(&self, aim: Aim, cases: &[Case]) -> Result<Vec<CaseRecord>, StoreError> {
-        let Some(every) = self.checkpoint_every else {
+        let Missing::Solved { checkpoint_every } = self.missing else {
             return Ok(Vec::new());
         };
         let mut order: Vec<&Case> = cases.iter().collect();
@@ -203,7 +208,7 @@ impl<'a> Search<'a> {
                 let Some(case) = order.get(next.fetch_add(1, Ordering::Relaxed)) else {
                     break;
                 };
-                match self.compute_one(aim, case, every) {
+                match self.compute_one(aim, case, checkpoint_every) {
                     Ok(Some(record)) => done.push(record),
                     Ok(None) => break,
                     Err(error) => {
@@ -231,15 +236,18 @@ impl<'a> Search<'a> {
         every: Duration,
     ) -> Result<Option<CaseRecord>, StoreError> {
         let purpose = aim.purpose();
-        let record = match self.store.load_case(purpose, case)? {
+        let record = match self.archive.load_case(purpose, case)? {
             Kept::Intact(record) => *record,
             Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
-                let checkpoints = Checkpoints::of(self.store, purpose, case, every);
+                let checkpoints = match self.archive.store() {
+                    Some(store) => Checkpoints::of(store, purpose, case, every),
+                    None => Checkpoints::none(),
+                };
                 let found = (self.setup).run_for(aim, &checkpoints, case, self.interrupt);
                 let Some(record) = found else {
                     return Ok(None);
                 };
-                self.store.save_case(purpose, case, &record)?;
+                self.archive.save_case(purpose, case, &record)?;
                 checkpoints.remove();
                 record
             }

@@ -36,6 +36,7 @@ pub type Point = (f64, f64);
 
 /// Why a bracketed peak has no refined value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PeakError {
     #[error(
         "the loss at {angular_frequency_rad_per_s:e} rad/s, needed to locate a peak, could not be computed: {reason}"

@@ -1,6 +1,6 @@
 //! The sweep itself: cases in parallel, the dearest first, each on disk before its thread takes the next; then the peaks.
 //!
-//! The folder is the memory of a sweep. A case whose record is there is not solved again, be it from an earlier run, another
+//! The archive, most often a folder, is the memory of a sweep. A case whose record is there is not solved again, be it from an earlier run, another
 //! process at work in the same folder, or a merged part: the outcome is the same, bit for bit.
 
 use std::num::NonZeroUsize;
@@ -11,15 +11,16 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::sweep::case::Setup;
 use crate::sweep::record::{CaseRecord, Status};
-use crate::sweep::search::Search;
 use crate::sweep::search::peak::Peak;
+use crate::sweep::search::{Missing, Search};
 use crate::sweep::share::shard::{self, Shard};
-use crate::sweep::store::archive::Purpose;
+use crate::sweep::store::StoreError;
+use crate::sweep::store::archive::{Archive, Purpose};
 use crate::sweep::store::checkpoint_file;
-use crate::sweep::store::{Store, StoreError};
 
 /// Why a sweep stopped without an outcome.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum RunError {
     #[error(transparent)]
     Store(#[from] StoreError),
@@ -87,31 +88,33 @@ pub struct Part {
 ///
 /// # Errors
 /// [`RunError`]: where a record cannot be written (the other threads then stop too) or threads cannot be started.
-pub fn run(
+pub fn run<'a>(
     setup: &Setup,
-    store: &Store,
+    archive: impl Into<Archive<'a>>,
     threads: usize,
     interrupt: &AtomicBool,
     progress: &dyn Progress,
 ) -> Result<Outcome, RunError> {
     let options = Options::on_threads(threads);
-    run_with(setup, store, &options, interrupt, progress)
+    run_with(setup, archive, &options, interrupt, progress)
 }
 
 /// As [`run`], with options.
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_with(
+pub fn run_with<'a>(
     setup: &Setup,
-    store: &Store,
+    archive: impl Into<Archive<'a>>,
     options: &Options,
     interrupt: &AtomicBool,
     progress: &dyn Progress,
 ) -> Result<Outcome, RunError> {
     let pool = pool(options.threads)?;
-    let search = Search::of_records(&pool, setup, store, interrupt, progress);
-    let search = search.solving(options.checkpoint_every);
+    let missing = Missing::Solved {
+        checkpoint_every: options.checkpoint_every,
+    };
+    let search = Search::new(&pool, setup, archive.into(), missing, (interrupt, progress));
     let (records, missing) = search.planned(&setup.plan().cases())?;
     search.outcome(records, missing > 0)
 }
@@ -120,17 +123,19 @@ pub fn run_with(
 ///
 /// # Errors
 /// As [`run`].
-pub fn run_shard(
+pub fn run_shard<'a>(
     setup: &Setup,
-    store: &Store,
+    archive: impl Into<Archive<'a>>,
     shard: Shard,
     options: &Options,
     interrupt: &AtomicBool,
     progress: &dyn Progress,
 ) -> Result<Part, RunError> {
     let pool = pool(options.threads)?;
-    let search = Search::of_records(&pool, setup, store, interrupt, progress);
-    let search = search.solving(options.checkpoint_every);
+    let missing = Missing::Solved {
+        checkpoint_every: options.checkpoint_every,
+    };
+    let search = Search::new(&pool, setup, archive.into(), missing, (interrupt, progress));
     let own = shard::cases(setup, shard);
     let (records, missing) = search.planned(&own)?;
     if missing > 0 {
@@ -158,10 +163,15 @@ pub fn run_shard(
 ///
 /// # Errors
 /// [`RunError`] where a record cannot be read.
-pub fn collect(setup: &Setup, store: &Store, progress: &dyn Progress) -> Result<Outcome, RunError> {
+pub fn collect<'a>(
+    setup: &Setup,
+    archive: impl Into<Archive<'a>>,
+    progress: &dyn Progress,
+) -> Result<Outcome, RunError> {
     let pool = pool(1)?;
     let interrupt = AtomicBool::new(false);
-    let search = Search::of_records(&pool, setup, store, &interrupt, progress);
+    let watch = (&interrupt, progress);
+    let search = Search::new(&pool, setup, archive.into(), Missing::LeftOut, watch);
     let (records, missing) = search.known(Purpose::Sweep, &setup.plan().cases())?;
     search.outcome(records, !missing.is_empty())
 }

@@ -1,8 +1,10 @@
-//! Records of finished cases on disk: sealed, and read again where they are whole and of the same sweep and program.
+//! Records of finished cases: on disk, sealed, and read again where they are whole and of the same sweep and program; or in memory.
 
+use std::collections::HashMap;
 use std::fs;
 use std::io;
 use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
@@ -12,8 +14,95 @@ use crate::sweep::store::provenance::BUILD;
 use crate::sweep::store::sealed;
 use crate::sweep::store::{Store, StoreError};
 
+/// Where the records of a sweep's cases are kept.
+#[derive(Debug, Clone, Copy)]
+pub enum Archive<'a> {
+    Folder(&'a Store),
+    Memory(&'a MemoryArchive),
+}
+
+/// The records of one sweep, in memory alone.
+#[derive(Debug, Default)]
+pub struct MemoryArchive {
+    /// By purpose and the bits of mean, amplitude and frequency.
+    records: Mutex<HashMap<(Purpose, [u64; 3]), CaseRecord>>,
+}
+
+impl<'a> From<&'a Store> for Archive<'a> {
+    fn from(store: &'a Store) -> Self {
+        Self::Folder(store)
+    }
+}
+
+impl<'a> From<&'a MemoryArchive> for Archive<'a> {
+    fn from(memory: &'a MemoryArchive) -> Self {
+        Self::Memory(memory)
+    }
+}
+
+impl<'a> Archive<'a> {
+    /// The folder, of an archive that has one.
+    pub fn store(self) -> Option<&'a Store> {
+        match self {
+            Self::Folder(store) => Some(store),
+            Self::Memory(_) => None,
+        }
+    }
+
+    /// As [`Store::save_case`].
+    ///
+    /// # Errors
+    /// [`StoreError`] with the path, of a folder.
+    pub fn save_case(
+        self,
+        purpose: Purpose,
+        case: &Case,
+        record: &CaseRecord,
+    ) -> Result<(), StoreError> {
+        match self {
+            Self::Folder(store) => return store.save_case(purpose, case, record),
+            Self::Memory(memory) => {
+                memory
+                    .records()
+                    .insert((purpose, bits(case)), record.clone());
+            }
+        }
+        Ok(())
+    }
+
+    /// As [`Store::load_case`].
+    ///
+    /// # Errors
+    /// [`StoreError`] with the path, of a folder.
+    pub fn load_case(self, purpose: Purpose, case: &Case) -> Result<Kept, StoreError> {
+        match self {
+            Self::Folder(store) => store.load_case(purpose, case),
+            Self::Memory(memory) => Ok(match memory.records().get(&(purpose, bits(case))) {
+                Some(record) => Kept::Intact(Box::new(CaseRecord {
+                    index: case.index,
+                    ..record.clone()
+                })),
+                None => Kept::Absent,
+            }),
+        }
+    }
+}
+
+impl MemoryArchive {
+    fn records(&self) -> MutexGuard<'_, HashMap<(Purpose, [u64; 3]), CaseRecord>> {
+        // A record is in it whole or not at all, whatever became of the thread that put it there.
+        self.records.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Mean, amplitude and frequency of a case, bit for bit.
+fn bits(case: &Case) -> [u64; 3] {
+    let (drive, omega) = (&case.drive, case.angular_frequency_rad_per_s);
+    [drive.mean(), drive.amplitude(), omega].map(f64::to_bits)
+}
+
 /// What a case was solved for, which decides where its record lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Purpose {
     /// A case of the sweep: `records/<index>.json`.
     Sweep,
@@ -74,12 +163,7 @@ pub const OF_ANOTHER_BUILD: &str = concat!(
 pub(in crate::sweep) fn case_name(purpose: Purpose, case: &Case) -> String {
     match purpose {
         Purpose::Sweep => format!("{:04}", case.index),
-        Purpose::Peak => format!(
-            "{:016x}-{:016x}-{:016x}",
-            case.drive.mean().to_bits(),
-            case.drive.amplitude().to_bits(),
-            case.angular_frequency_rad_per_s.to_bits()
-        ),
+        Purpose::Peak => bits(case).map(|bits| format!("{bits:016x}")).join("-"),
     }
 }
 

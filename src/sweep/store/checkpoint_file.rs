@@ -1,15 +1,21 @@
-//! The form of a checkpoint on disk, and when one is written.
+//! The file of a checkpoint, whatever it holds, and when one is written.
 //!
-//! Little endian: eight bytes of mark, 32 bytes that say what it belongs to (a SHA-256), the length of a JSON text and the
-//! text, the number of arrays, of each its length and its f64s; at the end the SHA-256 of all that. Numbers that may be
-//! infinite, which JSON cannot write, are in arrays.
+//! Eight bytes of mark, 32 bytes that say what it belongs to (a SHA-256), the content as postcard encodes it, and the SHA-256 of all
+//! that.
 
 use std::cell::Cell;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use postcard::ser_flavors::Size;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 
-use crate::contact::Solution;
+use crate::sweep::store::provenance::BUILD;
+use crate::sweep::store::{Store, write_atomically};
 
 /// Time between two writes, unless told otherwise.
 pub const EVERY: Duration = Duration::from_secs(10);
@@ -23,16 +29,8 @@ const WORTH_KEEPING: Duration = Duration::from_secs(1);
 /// Writing takes at most one part in so many of the time, unless every moment is to be kept.
 const SHARE: u32 = 20;
 
-const MARK: &[u8; 8] = b"CDMACHK\x01";
+const MARK: &[u8; 8] = b"CDMACHK\x02";
 const HASH_BYTES: usize = 32;
-
-/// What a checkpoint belongs to.
-pub(in crate::sweep) type Key = [u8; HASH_BYTES];
-
-/// The key of what this text names.
-pub(in crate::sweep) fn key(owner: &str) -> Key {
-    Sha256::digest(owner).into()
-}
 
 /// Says when to write, by the time that has passed on a clock that never jumps.
 pub(in crate::sweep) struct Rhythm {
@@ -77,58 +75,16 @@ impl Rhythm {
     }
 }
 
-/// An instant's numbers but for its iterations; none where there was no instant.
-pub(in crate::sweep) fn numbers(solution: Option<Solution>) -> Vec<f64> {
-    solution.map_or(Vec::new(), |s| {
-        let convolutions = s.convolutions as f64;
-        vec![s.load_n, s.approach_m, s.contact_radius_m, convolutions]
-    })
+/// The file of a checkpoint, and what it belongs to.
+#[derive(Debug, Clone)]
+pub(in crate::sweep) struct CheckpointFile {
+    path: PathBuf,
+    key: [u8; HASH_BYTES],
 }
-
-/// What [`numbers`] and the iterations were made from; `None` where they were made from nothing alike.
-pub(in crate::sweep) fn from_numbers(
-    numbers: &[f64],
-    iterations: Option<usize>,
-) -> Option<Option<Solution>> {
-    match (numbers, iterations) {
-        (&[load_n, approach_m, contact_radius_m, convolutions], Some(iterations)) => {
-            Some(Some(Solution {
-                load_n,
-                approach_m,
-                contact_radius_m,
-                iterations,
-                // Written from a whole number far below 2^53.
-                convolutions: convolutions as usize,
-            }))
-        }
-        ([], None) => Some(None),
-        _ => None,
-    }
-}
-
-pub(in crate::sweep) fn encode(key: &Key, text: &[u8], arrays: &[&[f64]]) -> Vec<u8> {
-    let values: usize = arrays.iter().map(|array| array.len() + 1).sum();
-    let mut bytes = Vec::with_capacity(2 * HASH_BYTES + 24 + text.len() + 8 * values);
-    let length = |length: usize| (length as u64).to_le_bytes();
-    bytes.extend_from_slice(MARK);
-    bytes.extend_from_slice(key);
-    bytes.extend_from_slice(&length(text.len()));
-    bytes.extend_from_slice(text);
-    bytes.extend_from_slice(&length(arrays.len()));
-    for array in arrays {
-        bytes.extend_from_slice(&length(array.len()));
-        bytes.extend(array.iter().flat_map(|value| value.to_le_bytes()));
-    }
-    let hash = Sha256::digest(&bytes);
-    bytes.extend_from_slice(&hash);
-    bytes
-}
-
-/// The text and the arrays of a checkpoint.
-pub(in crate::sweep) type Content<'a> = (&'a [u8], Vec<Vec<f64>>);
 
 /// Why a checkpoint is not used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Unusable {
     #[error("it is damaged or torn (its checksum does not match)")]
     Damaged,
@@ -136,75 +92,106 @@ pub enum Unusable {
     Foreign,
 }
 
-/// The content of a checkpoint that is whole and has this key.
-pub(in crate::sweep) fn decode<'a>(bytes: &'a [u8], key: &Key) -> Result<Content<'a>, Unusable> {
-    let whole = || {
-        let (content, hash) = bytes.split_at_checked(bytes.len().checked_sub(HASH_BYTES)?)?;
-        let is_whole = Sha256::digest(content).as_slice() == hash;
-        content.strip_prefix(MARK).filter(|_| is_whole)
-    };
-    let content = whole().ok_or(Unusable::Damaged)?;
-    let content = content.strip_prefix(key).ok_or(Unusable::Foreign)?;
-    parts(content).ok_or(Unusable::Damaged)
-}
-
-fn parts(mut rest: &[u8]) -> Option<Content<'_>> {
-    let text_length = take_length(&mut rest)?;
-    let text = take(&mut rest, text_length)?;
-    let count = take_length(&mut rest)?;
-    let mut arrays = Vec::new();
-    for _ in 0..count {
-        let length = take_length(&mut rest)?;
-        let values = take(&mut rest, length.checked_mul(8)?)?;
-        let values = values.chunks_exact(8).map(|value| {
-            let mut bytes = [0; 8];
-            bytes.copy_from_slice(value);
-            f64::from_le_bytes(bytes)
-        });
-        arrays.push(values.collect());
+impl CheckpointFile {
+    /// The file of this name among the checkpoints of a folder. It belongs to this build of the program, to the sweep or scenario
+    /// of the folder, and to what `owner` names in it.
+    pub(in crate::sweep) fn new(store: &Store, name: impl AsRef<Path>, owner: &str) -> Self {
+        let path = store.folder().join(FOLDER).join(name);
+        let owner = format!("{BUILD}\n{}\n{owner}", store.sweep_hash());
+        let key = Sha256::digest(owner).into();
+        Self { path, key }
     }
-    rest.is_empty().then_some((text, arrays))
-}
 
-fn take<'a>(rest: &mut &'a [u8], length: usize) -> Option<&'a [u8]> {
-    let (taken, left) = rest.split_at_checked(length)?;
-    *rest = left;
-    Some(taken)
-}
+    pub(in crate::sweep) fn path(&self) -> &Path {
+        &self.path
+    }
 
-fn take_length(rest: &mut &[u8]) -> Option<usize> {
-    let bytes: [u8; 8] = take(rest, 8)?.try_into().ok()?;
-    usize::try_from(u64::from_le_bytes(bytes)).ok()
+    /// What it holds; `None` where there is none.
+    pub(in crate::sweep) fn read<T: DeserializeOwned>(&self) -> Result<Option<T>, Unusable> {
+        match fs::read(&self.path) {
+            Ok(bytes) => self.decode(&bytes).map(Some),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+            // What cannot be read is as good as torn.
+            Err(_) => Err(Unusable::Damaged),
+        }
+    }
+
+    /// Writes what [`Self::encode`] has made. Where it cannot be written, more is computed again, and nothing else is lost.
+    pub(in crate::sweep) fn write(&self, bytes: &[u8]) {
+        let _ = write_atomically(&self.path, bytes);
+    }
+
+    pub(in crate::sweep) fn encode(&self, content: &impl Serialize) -> Option<Vec<u8>> {
+        // The content may fill much of the memory: room for it is made once.
+        let size = postcard::serialize_with_flavor(content, Size::default()).ok()?;
+        let mut bytes = Vec::with_capacity(MARK.len() + 2 * HASH_BYTES + size);
+        bytes.extend_from_slice(MARK);
+        bytes.extend_from_slice(&self.key);
+        let mut bytes = postcard::to_extend(content, bytes).ok()?;
+        let hash = Sha256::digest(&bytes);
+        bytes.extend_from_slice(&hash);
+        Some(bytes)
+    }
+
+    fn decode<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<T, Unusable> {
+        let whole = || {
+            let (content, hash) = bytes.split_at_checked(bytes.len().checked_sub(HASH_BYTES)?)?;
+            let is_whole = Sha256::digest(content).as_slice() == hash;
+            content.strip_prefix(MARK).filter(|_| is_whole)
+        };
+        let content = whole().ok_or(Unusable::Damaged)?;
+        let content = content.strip_prefix(&self.key).ok_or(Unusable::Foreign)?;
+        match postcard::take_from_bytes(content) {
+            Ok((content, [])) => Ok(content),
+            _ => Err(Unusable::Damaged),
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const KEY: Key = [7; HASH_BYTES];
+    type Content = (Vec<f64>, Option<f64>);
+
+    fn file(key: u8) -> CheckpointFile {
+        CheckpointFile {
+            path: PathBuf::new(),
+            key: [key; HASH_BYTES],
+        }
+    }
+
+    #[test]
+    fn every_bit_comes_back_of_infinities_and_negative_zeros_too() {
+        let content = (vec![1.0 / 3.0, -0.0, f64::INFINITY], None);
+        let bytes = file(7).encode(&content).unwrap();
+        let found: Content = file(7).decode(&bytes).unwrap();
+        assert_eq!(found.1, content.1);
+        let bits = |(values, _): Content| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
+        assert_eq!(bits(found), bits(content));
+    }
 
     #[test]
     fn a_damaged_or_foreign_checkpoint_is_known_for_what_it_is() {
-        let bytes = encode(&KEY, b"{}", &[&[1.0, 2.0], &[]]);
-        assert!(decode(&bytes, &KEY).is_ok());
-        let of_another = decode(&bytes, &[8; HASH_BYTES]);
-        assert_eq!(of_another, Err(Unusable::Foreign));
+        let content: Content = (vec![1.0, 2.0], Some(3.0));
+        let bytes = file(7).encode(&content).unwrap();
+        let decode = |key, bytes: &[u8]| file(key).decode::<Content>(bytes);
+        assert_eq!(decode(7, &bytes), Ok(content));
+        assert_eq!(decode(8, &bytes), Err(Unusable::Foreign));
         for byte in 0..bytes.len() {
             let mut damaged = bytes.clone();
             damaged[byte] ^= 1;
-            let found = [&damaged, &bytes[..byte]].map(|b| decode(b, &KEY));
+            let found = [&damaged, &bytes[..byte]].map(|bytes| decode(7, bytes));
             assert_eq!(found, [(); 2].map(|()| Err(Unusable::Damaged)), "{byte}");
         }
     }
 
     #[test]
     fn lengths_that_lie_are_refused_without_taking_memory() {
-        let mut content = [&MARK[..], &KEY].concat();
-        content.extend_from_slice(&u64::MAX.to_le_bytes());
-        let hash = Sha256::digest(&content);
-        content.extend_from_slice(&hash);
-        assert_eq!(decode(&content, &KEY), Err(Unusable::Damaged));
+        let lies = file(7).encode(&u64::MAX).unwrap();
+        assert_eq!(file(7).decode::<Content>(&lies), Err(Unusable::Damaged));
     }
+
     #[test]
     fn what_takes_long_to_write_is_written_less_often() {
         let rhythm = Rhythm::new(Duration::from_millis(1));

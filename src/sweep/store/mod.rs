@@ -15,9 +15,8 @@ pub mod merge;
 pub mod provenance;
 pub mod sealed;
 
-use std::fs::{self, Permissions};
+use std::fs;
 use std::io::{self, Write};
-use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 
@@ -29,6 +28,7 @@ use crate::sweep::store::folder_lock::{FolderLock, Others};
 
 /// Why the folder cannot be used.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum StoreError {
     #[error("cannot create the folder {path}: {source}")]
     Create { path: PathBuf, source: io::Error },
@@ -362,11 +362,12 @@ fn temporary(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
         source,
     })?;
     let write = || {
-        // tempfile's own default is readable by the owner alone.
-        let mut file = tempfile::Builder::new()
-            .prefix(TEMPORARY.as_str())
-            .permissions(Permissions::from_mode(0o666))
-            .tempfile_in(folder)?;
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(TEMPORARY.as_str());
+        // tempfile's own default is readable by the owner alone. Elsewhere a file has the permissions of its folder.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let mut file = builder.tempfile_in(folder)?;
         file.write_all(bytes)?;
         file.as_file().sync_all()?;
         Ok(file)

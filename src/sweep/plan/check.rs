@@ -1,0 +1,236 @@
+//! What a plan may say: the ranges of its values, known here to everyone who reads or builds one, and the check that every plan
+//! passes before anything is computed from it.
+
+use std::ops::{Range, RangeInclusive};
+
+use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, SolverPlan, SweepPlan};
+
+/// Why a plan is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    #[error("the sweep has no frequency; give at least one")]
+    NoFrequency,
+    #[error(
+        "the angular frequency is {angular_frequency_rad_per_s} rad/s; it must be positive and finite"
+    )]
+    Frequency { angular_frequency_rad_per_s: f64 },
+    #[error(
+        "the {what} {value} does not follow {before} in ascending order; give each once, the smallest first"
+    )]
+    Order {
+        what: &'static str,
+        before: f64,
+        value: f64,
+    },
+    #[error("the second axis of the sweep has no drive; give at least one")]
+    NoDrive,
+    #[error(
+        "{cases} cases are more than a sweep may have, {}",
+        SweepPlan::MAX_CASES
+    )]
+    Cases { cases: usize },
+    #[error("{what} = {value}; it must be from {least} to {most}")]
+    Count {
+        what: &'static str,
+        value: usize,
+        least: usize,
+        most: usize,
+    },
+    #[error("{what} = {value:e}; it must be at least {least:e} and below {limit}")]
+    Ratio {
+        what: &'static str,
+        value: f64,
+        least: f64,
+        limit: f64,
+    },
+}
+
+impl SweepPlan {
+    /// Frequencies, or values of a second axis, beyond this number are a slip of the pen rather than a wish; so are cases.
+    pub const MAX_POINTS: usize = 100_000;
+    pub const MAX_CASES: usize = 1_000_000;
+
+    /// Checks every value that is not checked where it is made: frequencies and second axis, [`CyclePlan`] and [`SolverPlan`].
+    ///
+    /// # Errors
+    /// [`PlanError`] with the first value that is refused.
+    pub fn check(&self) -> Result<(), PlanError> {
+        match self.angular_frequencies_rad_per_s.is_empty() {
+            true => Err(PlanError::NoFrequency),
+            false => self.check_values(),
+        }
+    }
+
+    /// The same of a plan that may still lack its frequencies.
+    pub(in crate::sweep) fn check_values(&self) -> Result<(), PlanError> {
+        let omegas = &self.angular_frequencies_rad_per_s;
+        omegas
+            .iter()
+            .try_for_each(|omega| check_frequency(*omega))?;
+        check_order("angular frequency (rad/s)", omegas)?;
+        if let Some(DriveAxis { varied, drives }) = &self.axis {
+            let values: Vec<f64> = drives.iter().map(|drive| varied.value(drive)).collect();
+            if values.is_empty() {
+                return Err(PlanError::NoDrive);
+            }
+            check_order(varied.name(), &values)?;
+        }
+        let cases = self.drives().len().saturating_mul(omegas.len());
+        if cases > Self::MAX_CASES {
+            return Err(PlanError::Cases { cases });
+        }
+        self.cycle.check()?;
+        self.solver.check()
+    }
+}
+
+impl CyclePlan {
+    pub const STEPS: RangeInclusive<usize> = 8..=1_000_000;
+    pub const MAX_CYCLES: RangeInclusive<usize> = 1..=100_000_000;
+    /// Below 1, and above what rounding leaves.
+    pub const TOLERANCE: Range<f64> = 1e-13..1.0;
+    /// Below 1, and above what the finest resolution could reach.
+    pub const ACCURACY: Range<f64> = 1e-8..1.0;
+
+    fn check(&self) -> Result<(), PlanError> {
+        check_count("steps per cycle", self.steps, &Self::STEPS)?;
+        check_count("most cycles", self.max_cycles, &Self::MAX_CYCLES)?;
+        check_ratio("tolerance of the cycle", self.tolerance, &Self::TOLERANCE)?;
+        let accuracy = self.accuracy.unwrap_or(Self::ACCURACY.start);
+        check_ratio("accuracy", accuracy, &Self::ACCURACY)
+    }
+}
+
+impl SolverPlan {
+    pub const SPRINGS: RangeInclusive<usize> = 10..=10_000;
+    pub const CELLS: RangeInclusive<usize> = 8..=4096;
+    pub const TOLERANCE: Range<f64> = CyclePlan::TOLERANCE;
+
+    fn check(&self) -> Result<(), PlanError> {
+        match self.engine {
+            EngineKind::Axisymmetric => check_count("springs", self.springs, &Self::SPRINGS)?,
+            EngineKind::HalfSpace => check_count("cells", self.cells, &Self::CELLS)?,
+        }
+        let tolerance = self.tolerance.unwrap_or(Self::TOLERANCE.start);
+        check_ratio("tolerance of an instant", tolerance, &Self::TOLERANCE)
+    }
+}
+
+impl ScenarioPlan {
+    /// Checks every value that is not checked where it is made. Times are checked with the time steps, by
+    /// [`crate::sweep::history::Simulation::new`].
+    ///
+    /// # Errors
+    /// [`PlanError`] with the first value that is refused.
+    pub fn check(&self) -> Result<(), PlanError> {
+        let cells = self.output.field_cells;
+        check_count("cells of a field", cells, &SolverPlan::CELLS)?;
+        self.solver.check()
+    }
+}
+
+/// Refuses an angular frequency (rad/s) that is not positive and finite.
+pub(in crate::sweep) fn check_frequency(angular_frequency_rad_per_s: f64) -> Result<(), PlanError> {
+    let omega = angular_frequency_rad_per_s;
+    match omega.is_finite() && omega > 0.0 {
+        true => Ok(()),
+        false => Err(PlanError::Frequency {
+            angular_frequency_rad_per_s,
+        }),
+    }
+}
+
+fn check_order(what: &'static str, values: &[f64]) -> Result<(), PlanError> {
+    let falls = |pair: &&[f64]| pair[0] >= pair[1];
+    match values.windows(2).find(falls) {
+        Some(pair) => Err(PlanError::Order {
+            what,
+            before: pair[0],
+            value: pair[1],
+        }),
+        None => Ok(()),
+    }
+}
+
+fn check_count(
+    what: &'static str,
+    value: usize,
+    range: &RangeInclusive<usize>,
+) -> Result<(), PlanError> {
+    match range.contains(&value) {
+        true => Ok(()),
+        false => Err(PlanError::Count {
+            what,
+            value,
+            least: *range.start(),
+            most: *range.end(),
+        }),
+    }
+}
+
+fn check_ratio(what: &'static str, value: f64, range: &Range<f64>) -> Result<(), PlanError> {
+    match range.contains(&value) {
+        true => Ok(()),
+        false => Err(PlanError::Ratio {
+            what,
+            value,
+            least: range.start,
+            limit: range.end,
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::drive::{Control, HarmonicDrive};
+    use crate::indenter::Sphere;
+    use crate::material::library;
+    use crate::sweep::plan::Varied;
+
+    /// What is said of a plan with this change.
+    fn refused(change: impl FnOnce(&mut SweepPlan)) -> Option<String> {
+        let drive = HarmonicDrive::new(Control::Load, 10.0, 5.0, 0.0, 0.0).unwrap();
+        let material = library::find("pmma").unwrap().material().unwrap();
+        let mut plan = SweepPlan::new(material, Arc::new(Sphere::new(0.01).unwrap()), drive);
+        plan.angular_frequencies_rad_per_s = vec![0.1, 1.0];
+        assert_eq!(plan.check(), Ok(()));
+        change(&mut plan);
+        plan.check().err().map(|error| error.to_string())
+    }
+
+    #[test]
+    fn what_cannot_be_computed_is_refused_with_its_value() {
+        let omegas = |values: &[f64]| {
+            let values = values.to_vec();
+            refused(|plan| plan.angular_frequencies_rad_per_s = values).unwrap()
+        };
+        assert!(omegas(&[]).contains("no frequency"));
+        assert!(omegas(&[-0.5, 1.0]).contains("-0.5 rad/s"));
+        assert!(omegas(&[1.0, f64::NAN]).contains("NaN"));
+        assert!(omegas(&[1.0, f64::INFINITY]).contains("inf"));
+        assert!(omegas(&[1.0, 0.25]).contains("0.25 does not follow 1"));
+        assert!(omegas(&[1.0, 1.0]).contains("give each once"));
+        let steps = refused(|plan| plan.cycle.steps = 0).unwrap();
+        assert_eq!(steps, "steps per cycle = 0; it must be from 8 to 1000000");
+        assert!(refused(|plan| plan.cycle.max_cycles = 0).is_some());
+        assert!(refused(|plan| plan.cycle.tolerance = f64::NAN).is_some());
+        assert!(refused(|plan| plan.cycle.accuracy = Some(1.0)).is_some());
+        assert!(refused(|plan| plan.solver.springs = 9).is_some());
+        assert!(refused(|plan| plan.solver.tolerance = Some(0.0)).is_some());
+        // Cells of an engine that has none say nothing.
+        assert_eq!(refused(|plan| plan.solver.cells = 0), None);
+        let axis = |drives| {
+            let varied = Varied::Amplitude;
+            refused(|plan| plan.axis = Some(DriveAxis { varied, drives }))
+        };
+        let drive = |amplitude| HarmonicDrive::new(Control::Load, 10.0, amplitude, 0.0, 0.0);
+        assert!(axis(Vec::new()).unwrap().contains("no drive"));
+        assert!(axis([4.0, 2.0].map(|a| drive(a).unwrap()).into()).is_some());
+        assert_eq!(axis([2.0, 4.0].map(|a| drive(a).unwrap()).into()), None);
+    }
+}
