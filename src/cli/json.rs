@@ -7,9 +7,8 @@ use serde_json::{Map, Value, json};
 
 use super::{Ended, Failure, write_out};
 use crate::material::fit::{Fit, FitReport};
-use crate::material::library::LibraryEntry;
-use crate::material::{LossPeak, Material, ModulusKind};
-use crate::report::comparison::{Comparison, Place};
+use crate::material::{Material, ModulusKind};
+use crate::report::comparison::Comparison;
 use crate::report::material::MaterialReport;
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{EngineKind, resolved};
@@ -88,110 +87,25 @@ pub(super) fn plan(setup: &Setup, cost: &Cost) -> Value {
 
 /// What a comparison found.
 pub(super) fn comparison(comparison: &Comparison) -> Value {
-    let place = |place: &Place| {
-        json!({
-            "angular_frequency_rad_per_s": place.angular_frequency_rad_per_s,
-            "drive_mean": place.drive_mean,
-            "drive_amplitude": place.drive_amplitude,
-        })
-    };
-    let places = |places: &[Place]| places.iter().map(place).collect::<Vec<_>>();
-    let columns = comparison.columns.iter().map(|column| {
-        json!({
-            "name": column.name,
-            "largest_relative_difference": column.largest.map(|(difference, _)| difference),
-            "largest_at": column.largest.as_ref().map(|(_, at)| place(at)),
-            "cases_beyond_tolerance": column.beyond,
-            "cases_within_error_bars": column.within_bars,
-            "cases_absent_in_one": column.absent,
-            "cases_different": column.different,
-        })
-    });
-    let statuses = comparison
-        .statuses
-        .iter()
-        .map(|(at, baseline, new)| json!({ "case": place(at), "baseline": baseline, "new": new }));
-    let peaks = comparison
-        .peaks
-        .iter()
-        .map(|peak| json!({ "baseline": peak.baseline, "new": peak.new, "differs": peak.differs }));
-    json!({
-        "differs": comparison.differs(),
-        "cases_compared": comparison.compared,
-        "cases_missing": places(&comparison.missing),
-        "cases_added": places(&comparison.added),
-        "columns_missing": comparison.missing_columns,
-        "columns_added": comparison.added_columns,
-        "statuses": statuses.collect::<Vec<_>>(),
-        "columns": columns.collect::<Vec<_>>(),
-        "peaks": peaks.collect::<Vec<_>>(),
-    })
-}
-
-/// An entry of the library.
-pub(super) fn entry(entry: &LibraryEntry) -> Value {
-    json!({
-        "name": entry.name,
-        "title": entry.title,
-        "notes": entry.notes,
-        "source": entry.source,
-        "measured_window_s": entry.measured_window_s,
-    })
+    let mut value = json!(comparison);
+    value["differs"] = comparison.differs().into();
+    value
 }
 
 /// A material: its series both ways, moduli over frequency, peaks of its losses, its fit where it has one.
 pub(super) fn material(material: &Material) -> Result<Value, Failure> {
-    let kind = match material.kind() {
-        ModulusKind::Longitudinal => "longitudinal",
-        ModulusKind::Shear => "shear",
-    };
-    let relaxation = material.relaxation().map(|relaxation| {
-        let branches = relaxation.branches().iter();
-        let branches = branches.map(|b| json!({ "modulus_pa": b.modulus_pa, "time_s": b.time_s }));
-        json!({
-            "equilibrium_modulus_pa": relaxation.equilibrium_modulus(),
-            "branches": branches.collect::<Vec<_>>(),
-        })
-    });
-    let creep = material.creep();
-    let branches = creep.branches().iter();
-    let branches =
-        branches.map(|b| json!({ "compliance_per_pa": b.compliance_per_pa, "time_s": b.time_s }));
-    let moduli = MaterialReport::new(material)
-        .moduli(10)
-        .into_iter()
-        .map(|point| {
-            json!({
-                "angular_frequency_rad_per_s": point.angular_frequency_rad_per_s,
-                "storage_modulus_pa": point.storage_modulus_pa,
-                "loss_modulus_pa": point.loss_modulus_pa,
-                "storage_compliance_per_pa": point.storage_compliance_per_pa,
-                "loss_compliance_per_pa": point.loss_compliance_per_pa,
-            })
-        });
-    let peaks = material
-        .loss_peaks(material.kind())
-        .map_err(Failure::input)?;
-    let listed = |peaks: &[LossPeak], value: &str| -> Vec<Value> {
-        let each = |peak: &LossPeak| json!({ "angular_frequency_rad_per_s": peak.angular_frequency_rad_per_s, value: peak.value });
-        peaks.iter().map(each).collect()
-    };
+    let peaks = material.loss_peaks(material.kind());
     Ok(json!({
         "name": material.name(),
         "poisson_ratio": material.poisson_ratio(),
-        "modulus": kind,
-        "relaxation": relaxation,
-        "creep": {
-            "instantaneous_compliance_per_pa": creep.instantaneous_compliance(),
-            "branches": branches.collect::<Vec<_>>(),
-            "viscosity_pa_s": creep.viscosity_pa_s(),
+        "modulus": match material.kind() {
+            ModulusKind::Longitudinal => "longitudinal",
+            ModulusKind::Shear => "shear",
         },
-        "moduli": moduli.collect::<Vec<_>>(),
-        "peaks": {
-            "loss_modulus": listed(&peaks.loss_modulus, "loss_modulus_pa"),
-            "loss_compliance": listed(&peaks.loss_compliance, "loss_compliance_per_pa"),
-            "loss_tangent": listed(&peaks.loss_tangent, "loss_tangent"),
-        },
+        "relaxation": material.relaxation(),
+        "creep": material.creep(),
+        "moduli": MaterialReport::new(material).moduli(10),
+        "peaks": peaks.map_err(Failure::input)?,
         "fit": material.fit().map(fit_report),
         "material_toml": resolved::material_text(material),
     }))
@@ -214,9 +128,7 @@ fn fit_report(report: &FitReport) -> Value {
         "first_s": report.first_s,
         "last_s": report.last_s,
         "branches": report.branches,
-        "relative_misfit_rms": report.misfit.rms,
-        "relative_misfit_largest": report.misfit.largest,
-        "relative_misfit_largest_at_s": report.misfit.largest_at_s,
+        "relative_misfit": report.misfit,
         "remarks": remarks.collect::<Vec<_>>(),
     })
 }

@@ -28,8 +28,7 @@ pub(super) fn run(command: &MaterialCommand, format: OutputFormat) -> Result<End
 
 fn list(format: OutputFormat) -> Result<Ended, Failure> {
     if format == OutputFormat::Json {
-        let entries: Vec<_> = library::entries().iter().map(json::entry).collect();
-        return json::print(&serde_json::json!({ "materials": entries }));
+        return json::print(&serde_json::json!({ "materials": library::entries() }));
     }
     let mut text = String::new();
     for entry in library::entries() {

@@ -196,10 +196,9 @@ impl DataFile {
     /// Whether the header has one of these columns.
     pub(crate) fn has_any(&self, columns: &[Column]) -> bool {
         let header = self.header(columns);
-        let cells = header.iter().flat_map(|header| header.texts());
-        cells
-            .into_iter()
-            .any(|cell| columns.iter().any(|column| column.unit_in(cell).is_some()))
+        let cells = header.map(|header| header.texts()).unwrap_or_default();
+        let is_wanted = |cell| columns.iter().any(|column| column.unit_in(cell).is_some());
+        cells.into_iter().any(is_wanted)
     }
 
     /// The columns asked for, in SI units. `without_number` says what to do about a cell that has none.
@@ -214,34 +213,28 @@ impl DataFile {
     ) -> Result<Table, Diagnostics> {
         let Some(header) = self.header(wanted) else {
             let names: Vec<String> = wanted.iter().map(Column::name_in_si).collect();
-            return Err(
-                Diagnostic::at(&Location::whole(&self.source), "the table is empty")
-                    .help(format!(
-                        "begin it with a line of column names: `{}`",
-                        names.join(",")
-                    ))
-                    .into(),
-            );
+            let example = names.join(",");
+            return Err(Diagnostic::at(&self.first_line(), "the table is empty")
+                .help(format!("begin it with a line of column names: `{example}`"))
+                .into());
         };
-        let mut found = Vec::with_capacity(wanted.len());
-        for column in wanted {
-            found.push(header.find(column)?);
-        }
+        let found: Vec<Found> = wanted
+            .iter()
+            .map(|column| header.find(column))
+            .collect::<Result<_, _>>()?;
         let mut lines = header.after.clone();
         let units = header.units_row(&mut lines, &found)?;
         let mut rows = Rows::new(&header, found.iter().map(|found| found.place).collect());
         rows.read(lines, without_number)?;
+        let mut table = rows.table;
         for (which, ((column, found), unit)) in wanted.iter().zip(&found).zip(&units).enumerate() {
             let factor = header.factor(column, found, unit.as_ref())?;
-            let values = rows
-                .table
-                .values
-                .iter_mut()
-                .skip(which)
-                .step_by(wanted.len());
-            values.for_each(|value| *value *= factor);
+            let values = table.values.iter_mut().skip(which);
+            values
+                .step_by(wanted.len())
+                .for_each(|value| *value *= factor);
         }
-        Ok(rows.table)
+        Ok(table)
     }
 
     /// All cells as numbers: a matrix without a header.
@@ -249,33 +242,21 @@ impl DataFile {
     /// # Errors
     /// Nothing but comments, rows of different length, cells that are no numbers.
     pub(crate) fn matrix(&self, without_number: &str) -> Result<Table, Diagnostics> {
-        let lines = self.lines();
-        let Some(start) = lines.clone().start() else {
-            return Err(self
-                .no_numbers("give one line of numbers per row, or per point")
-                .into());
+        let is_numeric = |first: &Header<'_>| {
+            let number = |cell: &&str| plain_number(cell, first.delimiter).is_some();
+            usize::from(
+                first
+                    .texts()
+                    .iter()
+                    .all(|cell| cell.is_empty() || number(cell)),
+            )
         };
-        let lines_cut =
-            DELIMITERS.map(|(delimiter, _)| Header::new(&self.source, start, delimiter));
-        let cut = |by: char| {
-            lines_cut
-                .iter()
-                .find(|line| line.delimiter == by && line.cells.len() > 1)
+        let Some(first) = self.first(is_numeric) else {
+            let help = "give one line of numbers per row, or per point";
+            return Err(self.no_numbers(help).into());
         };
-        // The order in which delimiters hide one another; the first that leaves nothing but numbers, else the first there is.
-        let there = [';', '\t', ',', '|', ' '].map(cut);
-        let numeric = |line: &&Header<'_>| {
-            line.texts()
-                .iter()
-                .all(|cell| cell.is_empty() || plain_number(cell, line.delimiter).is_some())
-        };
-        let all = || there.iter().copied().flatten();
-        let first = all()
-            .find(numeric)
-            .or_else(|| all().next())
-            .unwrap_or(&lines_cut[0]);
-        let mut rows = Rows::new(first, (0..first.cells.len()).collect());
-        rows.read(lines, without_number)?;
+        let mut rows = Rows::new(&first, (0..first.cells.len()).collect());
+        rows.read(self.lines(), without_number)?;
         Ok(rows.table)
     }
 
@@ -301,18 +282,20 @@ impl DataFile {
 
     /// The first line, cut by the delimiter that shows most of the columns.
     fn header(&self, wanted: &[Column]) -> Option<Header<'_>> {
-        let start = self.lines().start()?;
-        let cut = DELIMITERS.map(|(delimiter, _)| Header::new(&self.source, start, delimiter));
-        let shown = |header: &Header<'_>| {
+        self.first(|header| {
             let cells = header.texts();
             let is_there = |c: &&Column| cells.iter().any(|cell| c.unit_in(cell).is_some());
-            (
-                wanted.iter().filter(is_there).count(),
-                header.cells.len() > 1,
-            )
-        };
-        // Of equal ones the first.
-        cut.into_iter().rev().max_by_key(shown)
+            wanted.iter().filter(is_there).count()
+        })
+    }
+
+    /// The first line, cut by the delimiter that does best; of equal ones the first that is there.
+    fn first(&self, score: impl Fn(&Header<'_>) -> usize) -> Option<Header<'_>> {
+        let start = self.lines().start()?;
+        let cut = DELIMITERS.map(|(delimiter, _)| Header::new(&self.source, start, delimiter));
+        cut.into_iter()
+            .rev()
+            .max_by_key(|line| (score(line), line.cells.len() > 1))
     }
 }
 

@@ -18,7 +18,7 @@ use super::harmonic::{Debye, reciprocal};
 use super::relaxation::Relaxation;
 
 /// One Kelvin element of the series: a spring and a dashpot side by side.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct CreepBranch {
     /// Compliance `D_j` of the spring, in 1/Pa.
     pub compliance_per_pa: f64,
@@ -29,7 +29,7 @@ pub struct CreepBranch {
 /// A creep compliance `D(t) = D_0 + sum D_j (1 - exp(-t/lambda_j)) + t/eta`, in 1/Pa.
 ///
 /// The type serves for longitudinal, shear and contact compliances alike; who holds it says which.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Creep {
     instantaneous_per_pa: f64,
     branches: Vec<CreepBranch>,

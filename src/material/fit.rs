@@ -109,7 +109,7 @@ pub enum FittedSeries {
 }
 
 /// Difference between series and samples, relative to the samples.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Misfit {
     /// Root mean square.
     pub rms: f64,

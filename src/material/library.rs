@@ -3,7 +3,7 @@
 use super::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
 
 /// One material of the library.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, serde::Serialize)]
 pub struct LibraryEntry {
     /// The name by which it is asked for, in lower case.
     pub name: &'static str,
@@ -15,6 +15,7 @@ pub struct LibraryEntry {
     pub notes: &'static str,
     /// First and last time (s) at which it was observed.
     pub measured_window_s: (f64, f64),
+    #[serde(skip)]
     build: fn() -> Result<Material, MaterialError>,
 }
 

@@ -11,7 +11,7 @@ use super::harmonic::reciprocal;
 use super::relaxation::Relaxation;
 
 /// A local maximum over frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct LossPeak {
     /// Where it is, in rad/s, to a relative 1e-12.
     pub angular_frequency_rad_per_s: f64,
@@ -23,7 +23,7 @@ pub struct LossPeak {
 ///
 /// A list is empty where the measure has no maximum: an elastic solid has none at all, a Maxwell
 /// fluid only one of E''. Maxima nearer than a fiftieth of a decade count as one.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
 pub struct LossPeaks {
     /// Of the loss modulus E'', in Pa.
     pub loss_modulus: Vec<LossPeak>,

@@ -18,7 +18,7 @@ use super::error::{MaterialError, in_range, non_negative, positive};
 use super::harmonic::{Debye, reciprocal};
 
 /// One Maxwell element of the series: a spring and a dashpot in line.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct RelaxationBranch {
     /// Spring `g_i`, in Pa.
     pub modulus_pa: f64,
@@ -30,7 +30,7 @@ pub struct RelaxationBranch {
 ///
 /// Whether it is a longitudinal or a shear modulus is said by the
 /// [`Material`](super::Material) that holds it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Relaxation {
     equilibrium_pa: f64,
     branches: Vec<RelaxationBranch>,

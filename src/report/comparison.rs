@@ -40,7 +40,7 @@ impl Default for Tolerances {
 }
 
 /// Which case: mean and amplitude of the drive, angular frequency (rad/s).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Place {
     pub drive_mean: f64,
     pub drive_amplitude: f64,
@@ -48,7 +48,7 @@ pub struct Place {
 }
 
 /// What the comparison found.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct Comparison {
     /// Cases in both results.
     pub compared: usize,
@@ -69,7 +69,7 @@ pub struct Comparison {
 }
 
 /// One column over all cases in both results.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct ColumnComparison {
     pub name: String,
     /// Largest difference relative to the larger value, and where; `None` where nothing differs.
@@ -84,7 +84,7 @@ pub struct ColumnComparison {
 }
 
 /// A peak of the baseline and the nearest of the new result, or one that stands alone.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct PeakComparison {
     pub baseline: Option<Peak>,
     pub new: Option<Peak>,
@@ -92,7 +92,7 @@ pub struct PeakComparison {
 }
 
 /// The loss of a case in both results.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize)]
 pub struct CurvePoint {
     pub place: Place,
     pub baseline_j: Option<f64>,

@@ -5,11 +5,11 @@ use std::ops::Range;
 use crate::input::diagnostic::Diagnostic;
 use crate::input::document::not_utf8;
 
-/// Delimiters in the order in which they are tried, each with its name. A blank stands for any run of white space.
+/// Delimiters in the order in which one hides another, each with its name. A blank stands for any run of white space.
 pub(super) const DELIMITERS: [(char, &str); 5] = [
-    (',', "commas"),
     (';', "semicolons"),
     ('\t', "tabs"),
+    (',', "commas"),
     ('|', "vertical bars"),
     (' ', "blanks"),
 ];

@@ -19,98 +19,63 @@ pub(super) const PREFIX: &str = "--set ";
 /// Deepest key accepted; sweep files have three levels.
 const MAX_DEPTH: usize = 16;
 
-/// Keys of a table of which one excludes the others; those of one group belong together.
-const ALTERNATIVES: [(&str, &[&[&str]]); 7] = [
-    (
-        "material",
-        &[
-            &["library"],
-            &["relaxation", "poisson_ratio"],
-            &["creep", "poisson_ratio"],
-            &["maxwell", "poisson_ratio"],
-            &["zener", "poisson_ratio"],
-            &["kelvin_voigt", "poisson_ratio"],
-            &["table", "poisson_ratio"],
-        ],
-    ),
-    ("material.table", &[&["file"], &["times", "values"]]),
-    ("sweep", &[&["angular_frequency"], &["frequency"]]),
-    ("sweep.drive", &[&["amplitude"], &["mean"]]),
-    ("figures", &[&["width"], &["column"]]),
-    (
-        "drive.segments[]",
-        &[&["angular_frequency"], &["frequency"]],
-    ),
-    ("drive.segments[]", &[&["file"], &["times", "values"]]),
+/// Keys of a table that exclude one another: the table, then groups of keys that belong together.
+const ALTERNATIVES: [(&str, &[&str]); 7] = [
+    ("material", &MATERIALS),
+    ("material.table", &["file", "times values"]),
+    ("sweep", &["angular_frequency", "frequency"]),
+    ("sweep.drive", &["amplitude", "mean"]),
+    ("figures", &["width", "column"]),
+    ("drive.segments[]", &["angular_frequency", "frequency"]),
+    ("drive.segments[]", &["file", "times values"]),
+];
+/// A material of the library has a Poisson ratio of its own.
+const MATERIALS: [&str; 7] = [
+    "library",
+    "relaxation poisson_ratio",
+    "creep poisson_ratio",
+    "maxwell poisson_ratio",
+    "zener poisson_ratio",
+    "kelvin_voigt poisson_ratio",
+    "table poisson_ratio",
 ];
 
 /// Keys that belong to some values of another one: the table, that key, its values with what belongs to each.
 type Kinds = (
     &'static str,
     &'static str,
-    &'static [(&'static str, &'static [&'static str])],
+    &'static [(&'static str, &'static str)],
 );
 const KINDS: [Kinds; 2] = [
+    ("indenter", "shape", &SHAPES),
+    ("drive.segments[]", "kind", &SEGMENTS),
+];
+const SHAPES: [(&str, &str); 9] = [
+    ("sphere", "radius"),
+    ("cone", "half_angle"),
+    ("flat-punch", "radius"),
+    ("ellipsoid", "radius_x radius_y"),
+    ("power-law", "exponent radius height"),
+    ("profile", "file sha256"),
     (
-        "indenter",
-        "shape",
-        &[
-            ("sphere", &["radius"]),
-            ("cone", &["half_angle"]),
-            ("flat-punch", &["radius"]),
-            ("ellipsoid", &["radius_x", "radius_y"]),
-            ("power-law", &["exponent", "radius", "height"]),
-            ("profile", &["file", "sha256"]),
-            (
-                "height-map",
-                &[
-                    "file",
-                    "sha256",
-                    "spacing",
-                    "quantity",
-                    "height_unit",
-                    "level",
-                    "edge",
-                ],
-            ),
-            ("asperities", &["asperities"]),
-            (
-                "rough",
-                &[
-                    "cells",
-                    "spacing",
-                    "hurst_exponent",
-                    "rms_height",
-                    "cut_off_wavelength",
-                    "roll_off_wavelength",
-                    "seed",
-                    "sphere_radius",
-                    "edge",
-                ],
-            ),
-        ],
+        "height-map",
+        "file sha256 spacing quantity height_unit level edge",
     ),
+    ("asperities", "asperities"),
     (
-        "drive.segments[]",
-        "kind",
-        &[
-            ("step", &["to", "duration"]),
-            ("ramp", &["to", "duration"]),
-            ("polynomial", &["coefficients", "duration"]),
-            (
-                "sine",
-                &[
-                    "mean",
-                    "amplitude",
-                    "angular_frequency",
-                    "frequency",
-                    "phase",
-                    "cycles",
-                ],
-            ),
-            ("table", &["file", "times", "values"]),
-        ],
+        "rough",
+        "cells spacing hurst_exponent rms_height cut_off_wavelength roll_off_wavelength seed sphere_radius edge",
     ),
+];
+const SEGMENTS: [(&str, &str); 5] = [
+    ("step", "to duration"),
+    ("ramp", "to duration"),
+    ("polynomial", "coefficients duration"),
+    (
+        "sine",
+        "mean amplitude angular_frequency frequency phase cycles",
+    ),
+    ("table", "file times values"),
 ];
 
 /// Applies the flag whose text is `source`.
@@ -304,12 +269,12 @@ fn item_number(key: &Location, items: usize, adds: bool) -> Option<usize> {
 fn remove_excluded(table: &mut Table, path: &str, set: &str) {
     let pattern: String = path.chars().filter(|c| !c.is_ascii_digit()).collect();
     let mut excluded: Vec<&str> = Vec::new();
-    let mut exclude = |groups: &[&[&'static str]], own: &[&str]| {
-        let others = groups.iter().flat_map(|group| group.iter());
-        excluded.extend(others.filter(|key| !own.contains(key)));
+    let mut exclude = |groups: &[&'static str], own: &str| {
+        let others = groups.iter().flat_map(|group| group.split(' '));
+        excluded.extend(others.filter(|key| !has(own, key)));
     };
     for (_, groups) in ALTERNATIVES.iter().filter(|(of, _)| *of == pattern) {
-        let mut own = groups.iter().filter(|group| group.contains(&set));
+        let mut own = groups.iter().filter(|group| has(group, set));
         // A key of several groups excludes none of them.
         if let (Some(own), None) = (own.next(), own.next()) {
             exclude(groups, own);
@@ -319,17 +284,21 @@ fn remove_excluded(table: &mut Table, path: &str, set: &str) {
         .iter()
         .filter(|(of, key, _)| *of == pattern && *key == set)
     {
-        let Some(Value::Text(kind)) = table.entries.get(set).map(|entry| &entry.node.value) else {
-            continue;
-        };
-        if let Some((_, own)) = kinds.iter().find(|(name, _)| name == kind) {
-            let groups: Vec<_> = kinds.iter().map(|(_, keys)| *keys).collect();
+        let kind = table.entries.get(set).map(|entry| &entry.node.value);
+        let is_it = |name: &str| matches!(kind, Some(Value::Text(kind)) if kind == name);
+        if let Some((_, own)) = kinds.iter().find(|(name, _)| is_it(name)) {
+            let groups: Vec<&str> = kinds.iter().map(|(_, keys)| *keys).collect();
             exclude(&groups, own);
         }
     }
     let was_given =
         |name: &str, entry: &Entry| excluded.contains(&name) && !entry.key.source().is_flag();
     table.entries.retain(|name, entry| !was_given(name, entry));
+}
+
+/// Whether a group of keys has this one.
+fn has(group: &str, key: &str) -> bool {
+    group.split(' ').any(|member| member == key)
 }
 
 /// A span without the spaces at its ends.

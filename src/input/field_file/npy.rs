@@ -7,44 +7,22 @@ use crate::input::diagnostic::{Diagnostic, Location, Source};
 /// What the file begins with.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// How one number is stored.
-#[derive(Clone, Copy)]
-enum Float {
-    Little4,
-    Little8,
-    Big4,
-    Big8,
+/// Bytes of a number, and how they are read.
+type Float = (usize, fn(&[u8]) -> f64);
+
+fn float(descriptor: &str) -> Option<Float> {
+    match descriptor {
+        "'<f4'" => Some((4, |bytes| f32::from_le_bytes(sized(bytes)).into())),
+        "'<f8'" => Some((8, |bytes| f64::from_le_bytes(sized(bytes)))),
+        "'>f4'" => Some((4, |bytes| f32::from_be_bytes(sized(bytes)).into())),
+        "'>f8'" => Some((8, |bytes| f64::from_be_bytes(sized(bytes)))),
+        _ => None,
+    }
 }
 
-impl Float {
-    fn of(descriptor: &str) -> Option<Self> {
-        match descriptor {
-            "'<f4'" => Some(Self::Little4),
-            "'<f8'" => Some(Self::Little8),
-            "'>f4'" => Some(Self::Big4),
-            "'>f8'" => Some(Self::Big8),
-            _ => None,
-        }
-    }
-
-    fn bytes(self) -> usize {
-        match self {
-            Self::Little4 | Self::Big4 => 4,
-            Self::Little8 | Self::Big8 => 8,
-        }
-    }
-
-    /// The number in a chunk of [`Float::bytes`] bytes.
-    fn decode(self, chunk: &[u8]) -> f64 {
-        let four = || <[u8; 4]>::try_from(chunk).unwrap_or_default();
-        let eight = || <[u8; 8]>::try_from(chunk).unwrap_or_default();
-        match self {
-            Self::Little4 => f64::from(f32::from_le_bytes(four())),
-            Self::Big4 => f64::from(f32::from_be_bytes(four())),
-            Self::Little8 => f64::from_le_bytes(eight()),
-            Self::Big8 => f64::from_be_bytes(eight()),
-        }
-    }
+/// As many bytes as [`Float`] says.
+fn sized<const N: usize>(bytes: &[u8]) -> [u8; N] {
+    bytes.try_into().unwrap_or([0; N])
 }
 
 /// The matrix in a whole file, which messages call `name`.
@@ -61,7 +39,7 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Field, Diagnostic> {
     let entry =
         |key| entry(header, key).ok_or_else(|| unreadable(&format!("no '{key}' in its header")));
     let (descriptor, order, shape) = (entry("descr")?, entry("fortran_order")?, entry("shape")?);
-    let float = Float::of(descriptor).ok_or_else(|| {
+    let (width, decode) = float(descriptor).ok_or_else(|| {
         let found: String = descriptor.chars().take(40).collect();
         let message = format!("numbers of the type {found}, where '<f8' or '<f4' is needed");
         fail(
@@ -74,9 +52,7 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Field, Diagnostic> {
         let message = format!("an array of shape {shape}, where two dimensions are needed");
         fail(message, "save a matrix, one row per y and one column per x")
     })?;
-    let expected = cells_x
-        .saturating_mul(cells_y)
-        .saturating_mul(float.bytes());
+    let expected = cells_x.saturating_mul(cells_y).saturating_mul(width);
     if data.len() != expected {
         let found = data.len();
         let message = format!("{found} bytes of numbers, where the shape needs {expected}");
@@ -86,7 +62,7 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Field, Diagnostic> {
         let help = "save a matrix, one row per y and one column per x";
         return Err(fail("the file holds no numbers".to_owned(), help));
     }
-    let stored = data.chunks_exact(float.bytes()).map(|c| float.decode(c));
+    let stored = data.chunks_exact(width).map(decode);
     let values_m: Vec<f64> = if order == "True" {
         // Columns first.
         let stored: Vec<f64> = stored.collect();

@@ -12,7 +12,7 @@ use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::search::run::Outcome;
 
 /// One frequency of a material: rad/s, then Pa, then 1/Pa.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct ModulusPoint {
     pub angular_frequency_rad_per_s: f64,
     pub storage_modulus_pa: f64,
