@@ -83,7 +83,9 @@ fn what_makes_no_number_changes_nothing() {
         sources.with("src/history/direct.rs", |text| {
             format!("{text}\n#[test]\nfn more() {{}}\n")
         }),
-        sources.with("src/report/table.rs", |text| text.replace("energy", "work")),
+        sources.with("src/report/quantities.rs", |text| {
+            text.replace("energy loss", "work")
+        }),
         sources.with("src/cli/sweep.rs", |text| {
             format!("{text}// more\nconst A: u8 = 1;\n")
         }),

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use super::figure;
 use super::figure::Figure;
 use super::figure::moduli::ModulusPoint;
+use super::number::{four_digits, six_digits};
 use crate::material::{Creep, LossPeak, Material, MaterialError, ModulusKind, Relaxation};
 use crate::quantity::{Dimension, format_human};
 
@@ -145,7 +146,7 @@ impl<'a> MaterialReport<'a> {
 }
 
 fn relaxation_lines(text: &mut String, symbol: char, relaxation: &Relaxation) {
-    let mpa = |pa: f64| significant(pa * 1e-6);
+    let mpa = |pa: f64| six_digits(pa * 1e-6);
     let _ = write!(
         text,
         "  {symbol}(t) = {}",
@@ -156,7 +157,7 @@ fn relaxation_lines(text: &mut String, symbol: char, relaxation: &Relaxation) {
             text,
             "\n       + {} exp(-t / {})",
             mpa(branch.modulus_pa),
-            significant(branch.time_s)
+            six_digits(branch.time_s)
         );
     }
     let _ = writeln!(
@@ -177,8 +178,8 @@ fn creep_lines(text: &mut String, symbol: char, creep: &Creep) {
                     text,
                     "\n       - {} exp(-{} t)    retardation time {} s",
                     per_mpa(branch.compliance_per_pa),
-                    significant(branch.time_s.recip()),
-                    significant(branch.time_s)
+                    six_digits(branch.time_s.recip()),
+                    six_digits(branch.time_s)
                 );
             }
         }
@@ -193,14 +194,14 @@ fn creep_lines(text: &mut String, symbol: char, creep: &Creep) {
                     text,
                     "\n       + {} (1 - exp(-t / {}))",
                     per_mpa(branch.compliance_per_pa),
-                    significant(branch.time_s)
+                    six_digits(branch.time_s)
                 );
             }
             if let Some(viscosity) = creep.viscosity_pa_s() {
                 let _ = write!(
                     text,
                     "\n       + t / {} MPa s",
-                    significant(viscosity * 1e-6)
+                    six_digits(viscosity * 1e-6)
                 );
             }
         }
@@ -217,9 +218,9 @@ fn moduli_table(text: &mut String, symbol: char, compliance: char, points: &[Mod
         let _ = writeln!(
             text,
             "{:>11}  {:>11}  {:>11}  {:>9.3e}  {:>11.4e}  {:>11.4e}",
-            super::number::four_digits(p.angular_frequency_rad_per_s),
-            significant(p.storage_modulus_pa * 1e-6),
-            significant(p.loss_modulus_pa * 1e-6),
+            four_digits(p.angular_frequency_rad_per_s),
+            six_digits(p.storage_modulus_pa * 1e-6),
+            six_digits(p.loss_modulus_pa * 1e-6),
             p.loss_modulus_pa / p.storage_modulus_pa,
             p.storage_compliance_per_pa * 1e6,
             p.loss_compliance_per_pa * 1e6,
@@ -241,25 +242,7 @@ fn peak_lines(
             text,
             "  {name} = {} at ω = {} rad/s",
             value(peak),
-            significant(peak.angular_frequency_rad_per_s)
+            six_digits(peak.angular_frequency_rad_per_s)
         );
     }
-}
-
-/// Six significant digits, without exponent where the number is of everyday size.
-fn significant(value: f64) -> String {
-    let magnitude = value.abs();
-    if value == 0.0 || (1e-3..1e7).contains(&magnitude) {
-        let digits = if value == 0.0 {
-            0
-        } else {
-            (5 - magnitude.log10().floor() as i32).max(0) as usize
-        };
-        let text = format!("{value:.digits$}");
-        if text.contains('.') {
-            return text.trim_end_matches('0').trim_end_matches('.').to_owned();
-        }
-        return text;
-    }
-    format!("{value:.5e}")
 }

@@ -196,14 +196,29 @@ pub fn at_frequency(
 
 /// Four digits, with an exponent where the number is small or large.
 pub fn four_digits(value: f64) -> String {
-    if (0.01..1e4).contains(&value) {
-        format!(
-            "{:.*}",
-            (3 - value.log10().floor() as i32).max(0) as usize,
-            value
-        )
+    significant(value, 4, 0.01..1e4)
+}
+
+/// Six digits without zeros at the end of the decimals, with an exponent where the number is not of everyday size.
+pub fn six_digits(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let text = significant(value, 6, 1e-3..1e7);
+    match text.contains('e') {
+        true => text,
+        false => trimmed(&text),
+    }
+}
+
+/// So many digits, with an exponent where the magnitude is out of this range.
+fn significant(value: f64, digits: usize, fixed: std::ops::Range<f64>) -> String {
+    let last = digits.saturating_sub(1);
+    if fixed.contains(&value.abs()) {
+        let decimals = last as i32 - value.abs().log10().floor() as i32;
+        format!("{value:.*}", decimals.max(0) as usize)
     } else {
-        format!("{value:.3e}")
+        format!("{value:.last$e}")
     }
 }
 
