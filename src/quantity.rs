@@ -14,12 +14,14 @@
 //! # Ok::<(), contact_dma::quantity::QuantityError>(())
 //! ```
 
+mod frequency;
 mod units;
 
 use std::fmt;
 
 use thiserror::Error;
 
+pub use frequency::FrequencyUnit;
 use units::{Exponents, Unit, UnitProblem};
 
 /// What kind of quantity a number is.
@@ -130,7 +132,8 @@ impl Dimension {
                 [0, 0, -1, 1, 0],
                 (0, 0),
             ),
-            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1], (-15, 12)),
+            // As angular frequencies: those of a sweep are read beside one another.
+            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1], (0, 12)),
             Self::Energy => profile("an energy", "J", "3.5 µJ", [2, 1, -2, 0, 0], (-15, 12)),
         }
     }

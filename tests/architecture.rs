@@ -27,6 +27,35 @@ const SWEEP: [&str; 10] = [
     "figures", "plan", "record", "engine", "store", "case", "history", "scales", "share", "search",
 ];
 
+/// Parts of the room `report` from top to bottom.
+const REPORT: [&str; 25] = [
+    "number",
+    "words",
+    "peaks",
+    "work_line",
+    "profile_lines",
+    "table",
+    "quantities",
+    "fit",
+    "samples",
+    "caption",
+    "comparison",
+    "npy",
+    "vti",
+    "stamp",
+    "chart",
+    "figure",
+    "material",
+    "page",
+    "summary",
+    "machine",
+    "terminal",
+    "terminal_simulation",
+    "scenario",
+    "fonts",
+    "mod",
+];
+
 /// Rooms that do not know one another, although one stands above the other.
 const STRANGERS: [&str; 5] = ["material", "indenter", "drive", "contact", "cycle"];
 
@@ -126,6 +155,39 @@ fn a_folder_of_the_sweep_uses_only_folders_above_it() {
         }
     }
     assert!(seen > 20, "the sources were not found");
+}
+
+#[test]
+fn a_part_of_the_report_uses_only_parts_above_it() {
+    let report = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/report");
+    let mut seen = 0;
+    for path in sources(&report) {
+        let inside = path.strip_prefix(&report).unwrap();
+        let first = inside.components().next().unwrap().as_os_str();
+        let name = first.to_str().unwrap().trim_end_matches(".rs");
+        let own = REPORT.iter().position(|part| *part == name);
+        let own = own.unwrap_or_else(|| panic!("{} is not on the map", inside.display()));
+        seen += 1;
+        let code = production(&fs::read_to_string(&path).unwrap());
+        let mut parts = used(&code, "crate::report::", &REPORT);
+        let is_a_whole_part = inside.components().count() == 1;
+        if is_a_whole_part && name != "mod" {
+            assert!(!code.contains("use super::{"), "{}", inside.display());
+            parts.extend(used(&code, "super::", &REPORT));
+        }
+        assert!(!code.contains("report::{"), "{}", inside.display());
+        for part in parts {
+            let other = REPORT.iter().position(|p| *p == part).unwrap();
+            // Pictures that are being written are kept for the page.
+            let kept = inside == Path::new("figure/press.rs") && part == "page";
+            assert!(
+                other <= own || kept,
+                "{} uses {part}, which is below it",
+                inside.display()
+            );
+        }
+    }
+    assert!(seen > 60, "the sources were not found");
 }
 
 #[test]

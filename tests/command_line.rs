@@ -579,3 +579,162 @@ fn help_has_examples_and_completions_are_made() {
         .assert()
         .code(2);
 }
+
+#[test]
+fn a_sweep_file_may_come_from_standard_input() {
+    let folder = TempDir::new().unwrap();
+    write(&folder, "creep.csv", CREEP);
+    let table = "[material]\npoisson_ratio = 0.4\n[material.table]\nfile = \"creep.csv\"\nquantity = \"creep\"\nmodulus = \"shear\"";
+    let text = SMALL.replace("[material]\nlibrary = \"pmma\"", table);
+    let run = |arguments: &[&str], text: &str| {
+        let mut command = program();
+        command.current_dir(folder.path()).args(arguments);
+        command.write_stdin(text).assert()
+    };
+    run(&["plan", "-"], &text)
+        .success()
+        .stdout(contains("3 cases on 100 springs"));
+    run(&["material", "show", "-"], &text).success();
+    run(&["sweep", "-", "--quiet", "--no-figures"], &text).success();
+    assert!(folder.path().join("reports/stdin/sweep.csv").is_file());
+    run(&["sweep", "-", "--quiet", "--out", "there"], SMALL).success();
+    assert!(folder.path().join("there/energy-loss.svg").is_file());
+    run(&["sweep", "-"], &SMALL.replace("radius", "raduis"))
+        .code(2)
+        .stderr(contains("--> standard input:").and(contains("`radius`")));
+    run(&["simulate", "-"], SMALL)
+        .code(2)
+        .stderr(contains("a sweep"));
+}
+
+const CREEP: &str =
+    "Time [min];D [1/MPa];Creep compliance [1/MPa]\n0,1;1;1,0e0\n1;2;1,1\n10;3;1,5\n100;4;1,6\n";
+
+#[test]
+fn tables_alone_are_written_where_no_figures_are_asked_for_and_drawn_elsewhere_later() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    let source = folder.path().join("source");
+    let run = |arguments: &[&str]| {
+        let mut command = program();
+        command.current_dir(folder.path()).args(arguments);
+        command.assert()
+    };
+    let names = |folder: &Path| {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name()).collect();
+        names.sort();
+        names
+    };
+    let sweep = ["sweep", &file, "--quiet", "--out", "source"];
+    run(&sweep).success();
+    assert!(source.join("index.html").is_file());
+    run(&[&sweep[..], &["--no-figures"]].concat()).success();
+    for name in ["index.html", "energy-loss.svg", "loops.csv"] {
+        assert!(!source.join(name).exists(), "{name} is of an earlier run");
+    }
+    assert!(source.join("sweep.csv").is_file());
+    let modified = |name: &str| fs::metadata(source.join(name)).unwrap().modified().unwrap();
+    let (before, written) = (names(&source), modified("sweep.csv"));
+    run(&[
+        "report",
+        "source",
+        "--quiet",
+        "--out",
+        "drawn",
+        "--set",
+        "figures.formats=['svg']",
+    ])
+    .success();
+    assert_eq!((names(&source), modified("sweep.csv")), (before, written));
+    let drawn = folder.path().join("drawn");
+    assert!(drawn.join("index.html").is_file() && drawn.join("energy-loss.svg").is_file());
+    assert!(!drawn.join("energy-loss.png").exists() && !drawn.join("records").exists());
+    let table = |folder: &Path| fs::read(folder.join("sweep.csv")).unwrap();
+    assert_eq!(table(&drawn), table(&source));
+    let resolved = fs::read_to_string(drawn.join("resolved.toml")).unwrap();
+    assert!(resolved.contains("formats = [\"svg\"]"), "{resolved}");
+    // Of another sweep nothing is replaced unasked.
+    let other = [
+        "sweep",
+        &file,
+        "--quiet",
+        "--no-figures",
+        "--out",
+        "drawn",
+        "--set",
+        "cycle.steps=40",
+    ];
+    run(&other).code(2);
+    run(&[&other[..], &["--force"]].concat()).success();
+    run(&["report", "source", "--quiet", "--out", "drawn"])
+        .code(2)
+        .stderr(contains("--force"));
+    run(&["report", "source", "--quiet", "--out", "drawn", "--force"]).success();
+    assert_eq!(table(&drawn), table(&source));
+}
+
+#[test]
+fn a_file_in_place_of_a_folder_is_told_before_anything_is_computed() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    for arguments in [
+        &["sweep", &file][..],
+        &["simulate", &file],
+        &["report", "x"],
+        &["merge", "x"],
+        &["compare", "x", "y"],
+        &["reproduce"],
+        &["material", "show", "pmma"],
+    ] {
+        program()
+            .args(arguments)
+            .args(["--out", &file])
+            .assert()
+            .code(2)
+            .stderr(contains("this is a file; name a folder"));
+    }
+}
+
+#[test]
+fn a_narrow_terminal_gets_narrow_tables() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    for (arguments, columns) in [
+        (&["sweep", &file, "--no-figures"][..], 50),
+        (&["plan", &file], 60),
+        (&["material", "show", "pmma"], 60),
+        (&["material", "list"], 40),
+    ] {
+        let output = program()
+            .current_dir(folder.path())
+            .env("COLUMNS", columns.to_string())
+            .args(arguments)
+            .output()
+            .unwrap();
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert!(output.status.success() && !text.is_empty());
+        for line in text.lines() {
+            // A word that is longer stays whole.
+            let is_one_word = line.trim().split(' ').count() == 1;
+            assert!(
+                line.chars().count() <= columns || is_one_word,
+                "{line}\n{text}"
+            );
+        }
+        if arguments[0] != "material" {
+            assert!(text.contains("left out in"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn a_large_number_is_printed_with_an_exponent() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    program()
+        .args(["plan", &file, "--set", "drive.mean=1e30 N"])
+        .assert()
+        .success()
+        .stdout(contains("1e30").and(contains("000000000").not()));
+}

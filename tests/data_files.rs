@@ -40,38 +40,49 @@ fn a_drive_table_that_cannot_be_followed_is_refused_with_its_line() {
     let drive = "[drive]\nsegments = [{ kind = \"table\", file = \"data.csv\" }]\n";
     let scenario = format!("{MATERIAL}{SPHERE}{drive}");
     let cases: [(&str, &[&str]); 11] = [
-        ("", &["no column `time_s`", "time_s and load_n"]),
+        ("", &["the table is empty", "`time_s,load_n`"]),
         ("time_s,load_n\n", &["at least"]),
         ("time_s,load_n\n0,1\n", &["at least"]),
         (
             "time_s,force\n0,1\n1,2\n",
-            &["line 1", "no column `load_n` among `time_s`, `force`"],
+            &[
+                "data.csv:1:1",
+                "no column `load_n`",
+                "2 columns, separated by commas",
+            ],
         ),
-        ("t,load_n\n0,1\n1,2\n", &["line 1", "no column `time_s`"]),
+        (
+            "t,load_n\n0,1\n1,2\n",
+            &["data.csv:1:1", "no column `time_s`"],
+        ),
         (
             "time_s,load_n\n0,1\n2,2\n1,3\n",
-            &["line 4", "1 s lies before 2 s", "must ascend"],
+            &["data.csv:4:1", "1 s lies before 2 s", "must ascend"],
         ),
         (
             "time_s,load_n\n0,1\n1,NaN\n",
             &[
-                "line 3",
-                "`NaN` in the column load_n is not a finite number",
+                "data.csv:3:3",
+                "a cell of the column `load_n` must be a number",
+                "not a finite number",
             ],
         ),
         (
             "time_s,load_n\n0,1\nNaN,2\n",
-            &["line 3", "`NaN` in the column time_s"],
+            &["data.csv:3:1", "the column `time_s`", "not a finite number"],
         ),
         (
             "time_s,load_n\n0,1\n1,\n",
-            &["line 3", "load_n is empty", "leave out"],
+            &["data.csv:3:3", "`load_n`", "empty", "leave out"],
         ),
         (
             "time_s,load_n\n0,1\n1,2,3\n",
-            &["line 3", "3 cells, where the header has 2"],
+            &["data.csv:3:1", "a row of 3 cells in a table of 2"],
         ),
-        ("time_s,load_n\n0,\"1 N\"\n1,2\n", &["line 2", "`1 N`"]),
+        (
+            "time_s,load_n\n0,\"1 N\"\n1,2\n",
+            &["data.csv:2:4", "not a number"],
+        ),
     ];
     for (data, expected) in cases {
         refused(&scenario, data.as_bytes(), expected);
@@ -79,7 +90,7 @@ fn a_drive_table_that_cannot_be_followed_is_refused_with_its_line() {
     refused(
         &scenario,
         b"time_s,load_n\n0,\xff\n",
-        &["line 2", "not UTF-8"],
+        &["data.csv:2:3", "not UTF-8"],
     );
     // Under approach control the other column is asked for.
     let approach = scenario.replace("[drive]\n", "[drive]\ncontrol = \"approach\"\n");
@@ -115,22 +126,23 @@ fn a_height_map_with_holes_or_mistakes_is_refused_with_line_and_column() {
         (
             "1,2,3\n4,,6\n7,8,9\n",
             &[
-                "line 2, column 2",
-                "a hole: the cell is empty",
+                "data.csv:2:3",
+                "a cell of column 2 must be a number",
+                "empty",
                 "fill holes",
             ],
         ),
         (
             "1,2,3\n4,5,NaN\n7,8,9\n",
-            &["line 2, column 3", "a hole: the cell holds NaN"],
+            &["data.csv:2:5", "not a finite number", "fill holes"],
         ),
         (
             "1,2,3\n4,5,six\n7,8,9\n",
-            &["line 2, column 3", "`six` is not a number"],
+            &["data.csv:2:5", "column 3", "not a number"],
         ),
         (
             "1,2,3\n4,5\n7,8,9\n",
-            &["line 2", "2 cells, where line 1 has 3", "as many cells"],
+            &["data.csv:2:1", "a row of 2 cells in a table of 3 columns"],
         ),
         ("1,2,3\n4,5,6\n", &["3 x 2 points"]),
     ];
@@ -156,11 +168,19 @@ fn a_height_map_with_holes_or_mistakes_is_refused_with_line_and_column() {
         &["interpolate the points onto a regular grid"],
     );
     let twice = format!("{}0,0,0\n", grid(9, 0.0));
-    refused(&points, twice.as_bytes(), &["the same point as on line 2"]);
+    refused(
+        &points,
+        twice.as_bytes(),
+        &[
+            "data.csv:11:1",
+            "the same point is given twice",
+            "2 | 0,0,0",
+        ],
+    );
     refused(
         &points,
         grid(9, 0.0).replace("z_m", "h_m").as_bytes(),
-        &["no column `z_m` among `x_m`, `y_m`, `h_m`"],
+        &["data.csv:1:1", "no column `z_m`", "x_m,y_m,h_m"],
     );
     refused(
         &matrix,
@@ -174,21 +194,21 @@ fn a_profile_that_is_none_is_refused() {
     let profile = "[indenter]\nshape = \"profile\"\nfile = \"data.csv\"\n";
     let scenario = format!("{MATERIAL}{profile}{STEP}");
     let cases: [(&str, &[&str]); 5] = [
-        ("", &["holds no numbers"]),
+        ("", &["the table is empty"]),
         ("r_m,z_m\n0,0\n1,1\n", &["no column `gap_m`"]),
         (
             "r_m,gap_m\n0,0\n2,1\n1,2\n",
             &[
-                "line 4",
+                "data.csv:4:1",
                 "does not exceed the one before",
                 "sort the points",
             ],
         ),
         (
             "r_m,gap_m\n1,0\n2,1\n",
-            &["line 2", "not on the axis", "r = 0"],
+            &["data.csv:2:1", "not on the axis", "r = 0"],
         ),
-        ("r_m,gap_m\n0,0\n1,nan\n", &["line 3, column 2", "a hole"]),
+        ("r_m,gap_m\n0,0\n1,nan\n", &["data.csv:3:3", "fill holes"]),
     ];
     for (data, expected) in cases {
         refused(&scenario, data.as_bytes(), expected);

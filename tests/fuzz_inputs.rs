@@ -170,7 +170,8 @@ fn height_maps_hold_finite_heights_in_full_rows_or_are_refused() {
     npy.extend((0..6).flat_map(|i| f64::from(i).to_le_bytes()));
     let matrix = b"0 1e-6 2e-6\n1e-6 2e-6 3e-6\n";
     let points = b"x_m,y_m,z_m\n0,0,1e-6\n1e-6,0,2e-6\n0,1e-6,3e-6\n1e-6,1e-6,0\n";
-    assault(&[&npy, matrix, points], |bytes| {
+    let commas = b"0;1,5;2\r\n1,25;2;3\r\n";
+    assault(&[&npy, matrix, points, commas], |bytes| {
         inputs::height_map(bytes);
     });
 }
@@ -187,16 +188,24 @@ fn tables_become_materials_drives_and_indenters_or_are_refused() {
     let relaxation = "time_min,relaxation_modulus_mpa\n0.1,2400\n1,2200\n10,2000\n100,1980\n";
     let load = "# recorded\ntime_s,load_n,temperature_c\n0,0,23\n2,1,23.09\n2,2.5,22.90\n9,0,22\n";
     let profile = "r_m,gap_m\n0,0\n1e-4,1e-6\n2e-4,4e-6\n3e-4,9e-6\n";
+    let with_units = "Time;Remark;Load\n[ms];;[mN]\n0;\"a;\nb\";0\n2,5;;1\n3;;2,25\n";
+    let utf_16: Vec<u8> =
+        "\u{feff}Radius / µm\tr / µm\tgap / nm\r\n0\t0\t0\r\n1\t1\t1,5\r\n2\t2\t6\r\n"
+            .encode_utf16()
+            .flat_map(u16::to_le_bytes)
+            .collect();
     let tables = Tables::new();
     for (kind, whole) in [
-        (Table::Creep, creep.as_str()),
-        (Table::Relaxation, relaxation),
-        (Table::DirectCreep, &creep),
-        (Table::Load, load),
-        (Table::Profile, profile),
+        (Table::Creep, creep.as_bytes()),
+        (Table::Relaxation, relaxation.as_bytes()),
+        (Table::DirectCreep, creep.as_bytes()),
+        (Table::Load, load.as_bytes()),
+        (Table::Load, with_units.as_bytes()),
+        (Table::Profile, profile.as_bytes()),
+        (Table::Profile, &utf_16),
     ] {
-        assert!(tables.check(kind, whole.as_bytes()), "{kind:?}");
-        assault_with(60, &[whole.as_bytes()], |bytes| {
+        assert!(tables.check(kind, whole), "{kind:?}");
+        assault_with(60, &[whole], |bytes| {
             tables.check(kind, bytes);
         });
     }

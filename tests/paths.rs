@@ -154,3 +154,35 @@ fn sweeps_and_the_material_command_have_the_same_rule() {
     let flags: Vec<&str> = KEYS[..2].iter().flat_map(|(f, _)| ["--set", f]).collect();
     run(&[&sweep[..], &flags].concat()).success();
 }
+
+#[cfg(unix)]
+#[test]
+fn data_lie_beside_a_link_to_a_file_or_beside_the_file() {
+    let folder = project();
+    fs::create_dir(folder.path().join("links")).unwrap();
+    let link = folder.path().join("links/scenario.toml");
+    std::os::unix::fs::symlink("../project/scenario.toml", &link).unwrap();
+    let run = |force: &str| {
+        let mut command = program();
+        command.current_dir(folder.path());
+        command.args([
+            "simulate",
+            "links/scenario.toml",
+            "--quiet",
+            "--no-figures",
+            "--out",
+            "out",
+        ]);
+        command.args(force.split_whitespace()).assert()
+    };
+    run("").success();
+    // What is beside the link comes first.
+    write_data(&folder.path().join("links/data"));
+    fs::write(
+        folder.path().join("links/data/load.csv"),
+        "time_s,load_n\n0,two\n",
+    )
+    .unwrap();
+    let refused = refusal(run("--force"));
+    assert!(refused.contains("links/data/load.csv:2:3"), "{refused}");
+}

@@ -338,7 +338,7 @@ fn the_loss_scales_exactly_with_the_load() {
                 // thousand instants, and the solver's 1e-8 where rounding leads it another way.
                 let tolerance = match engine {
                     EngineKind::Axisymmetric => 1e-12,
-                    EngineKind::HalfSpace => 1e-8,
+                    _ => 1e-8,
                 };
                 let error = relative(scaled.0, loss_j * factor.powf(exponent));
                 println!("{} {engine:?} {factor}: {error:e}", indenter.shape());

@@ -3,6 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
+use clap::builder::{PathBufValueParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
@@ -18,6 +19,9 @@ use crate::sweep::store::checkpoint_file;
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Command,
+    /// What to print at the end; json: one object for other programs, with --quiet too
+    #[arg(long, value_name = "FORMAT", default_value = "text", global = true)]
+    pub(super) format: OutputFormat,
 }
 
 const EXIT_CODES: &str = "\
@@ -78,24 +82,25 @@ resolved.toml (the sweep with every default).
 The [figures] table says how figures look and changes no result: the same sweep with another
 table reads its records and draws again.")]
 pub(super) struct SweepFlags {
-    /// The sweep file (TOML)
+    /// The sweep file (TOML); - reads standard input, from which paths start in the working folder
     pub(super) file: PathBuf,
     /// Folder for the results [default: reports/<name of the file>]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
     /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
-    /// Change one key of the sweep file, for example drive.amplitude='2 N'; may be repeated
+    /// Change one key of the sweep file, for example drive.amplitude='2 N' or indenter.asperities.0.radius='1 mm' (items of a list count
+    /// from 0); KEY= removes a key; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
     /// Choose steps and nodes such that the error of every loss is below this part of it; the same as
     /// --set cycle.accuracy=X
     #[arg(long, value_name = "X")]
     pub(super) accuracy: Option<f64>,
-    /// What to print at the end; json: the summary and every case with all columns, with --quiet too
-    #[arg(long, value_name = "FORMAT", default_value = "text")]
-    pub(super) format: OutputFormat,
+    /// Write tables alone: no figures and no page
+    #[arg(long)]
+    pub(super) no_figures: bool,
     /// Compute only the part K of N; `merge` joins parts in separate folders
     #[arg(long, value_name = "K/N")]
     pub(super) shard: Option<Shard>,
@@ -118,7 +123,7 @@ pub(super) struct SweepFlags {
 
 #[derive(Debug, Args)]
 pub(super) struct PlanFlags {
-    /// The sweep file (TOML)
+    /// The sweep file (TOML); - reads standard input, from which paths start in the working folder
     pub(super) file: PathBuf,
     /// Change one key of the sweep file; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -140,7 +145,7 @@ pub(super) struct MergeFlags {
     #[arg(required = true, value_name = "DIR")]
     pub(super) parts: Vec<PathBuf>,
     /// Folder for the whole
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: PathBuf,
     /// Number of threads [default: one per processor, at most four for each]
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
@@ -153,10 +158,10 @@ pub(super) struct MergeFlags {
     pub(super) quiet: bool,
 }
 
-/// What a sweep prints at its end.
+/// What a command prints at its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum OutputFormat {
-    /// A table and the peaks, to be read
+    /// Tables and sentences, to be read
     Text,
     /// For other programs
     Json,
@@ -167,12 +172,23 @@ pub(super) enum OutputFormat {
 Examples:
   contact-dma report reports/pmma
   contact-dma report reports/pmma --set figures.column=one --set figures.dpi=600
+  contact-dma report reports/pmma --out paper/figures
 
 The [figures] table of resolved.toml says how figures look; what is changed is kept there.")]
 pub(super) struct ReportFlags {
     /// Folder of a sweep
     #[arg(value_name = "DIR")]
     pub(super) folder: PathBuf,
+    /// Folder for tables and figures, without the records [default: the folder of the sweep]; nothing is then written into the
+    /// folder of the sweep
+    #[arg(long, value_name = "DIR", value_parser = folder())]
+    pub(super) out: Option<PathBuf>,
+    /// Replace the results of a different sweep in the folder of --out
+    #[arg(long, requires = "out")]
+    pub(super) force: bool,
+    /// Write tables alone: no figures and no page
+    #[arg(long)]
+    pub(super) no_figures: bool,
     /// Change one key of [figures], for example figures.width='85 mm'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,
@@ -206,7 +222,7 @@ pub(super) struct CompareFlags {
     #[arg(long, value_name = "COLUMN=R", value_parser = compare::column_tolerance)]
     pub(super) tolerance: Vec<(String, f64)>,
     /// Folder for figure and page of both
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
     /// Print nothing but errors
     #[arg(long, short)]
@@ -227,10 +243,10 @@ history.csv (one row per time step, two at a jump), profiles/ and fields/ at the
 for (CSV; NumPy .npy and ParaView .vti), history, profiles and pressure-map as SVG and PNG,
 summary.json, resolved.toml (the scenario with every default).")]
 pub(super) struct SimulateFlags {
-    /// The scenario file (TOML)
+    /// The scenario file (TOML); - reads standard input, from which paths start in the working folder
     pub(super) file: PathBuf,
     /// Folder for the results [default: reports/<name of the file>]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
     /// Change one key of the scenario file, for example indenter.radius='5 mm'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
@@ -239,6 +255,9 @@ pub(super) struct SimulateFlags {
     /// --set output.error_bars=false
     #[arg(long)]
     pub(super) no_error_bars: bool,
+    /// Write tables alone: no figures and no page
+    #[arg(long)]
+    pub(super) no_figures: bool,
     /// Number of threads, which share a large half-space grid [default: one per processor, at most four for each]; the
     /// results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
@@ -278,9 +297,10 @@ Examples:
   contact-dma material fit stress.csv --quantity relaxation --modulus longitudinal \\
       --poisson-ratio 0.38 --out reports/fit
 
-The table is CSV: a line of column names, then rows. Columns: time_s (or time, time_min,
-time_h), and creep_compliance_per_pa (or _per_kpa, _per_mpa, _per_gpa) or
-relaxation_modulus_pa (or _kpa, _mpa, _gpa). Printed are the misfit, what had to be assumed,
+The table is text: a line of column names, then rows. Columns: time_s, and
+creep_compliance_per_pa or relaxation_modulus_pa, or in other units, as in time_min,
+`Creep compliance [1/GPa]`, or with a row of units. Commas, semicolons, tabs or blanks
+separate cells; numbers may have decimal commas where commas do not. Printed are the misfit, what had to be assumed,
 the branches, and a [material] block to paste into a sweep file. The same fit is made where
 a sweep file names the table:
 
@@ -310,7 +330,7 @@ pub(super) struct FitFlags {
     #[arg(long, value_name = "true|false")]
     pub(super) flow: Option<bool>,
     /// Folder for the material block, figures and their data
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
 }
 
@@ -350,11 +370,19 @@ impl From<TableModulus> for ModulusKind {
 
 #[derive(Debug, Args)]
 pub(super) struct ShowFlags {
-    /// A name of the library, or a file with a [material] block
+    /// A name of the library, or a file with a [material] block; - reads standard input
     pub(super) material: String,
     /// Folder for figures and their data
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
+}
+
+/// A folder for results, which need not be there.
+pub(super) fn folder() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| match path.is_file() {
+        true => Err("this is a file; name a folder, which is made where there is none"),
+        false => Ok(path),
+    })
 }
 
 /// A number of threads.

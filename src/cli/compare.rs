@@ -1,11 +1,10 @@
 //! `contact-dma compare`: whether two results of a sweep are the same.
 
-use std::fs::File;
-use std::io::{self, Read};
 use std::path::Path;
 
-use super::arguments::CompareFlags;
-use super::{Ended, Failure, print};
+use super::arguments::{CompareFlags, OutputFormat};
+use super::{Ended, Failure, json, print};
+use crate::input::document::read_limited;
 use crate::report::comparison::{self, Comparison, RunFacts, Source, SweepTable, Tolerances};
 use crate::report::figure::{self, press::Press};
 use crate::report::page::comparison::Compared;
@@ -14,10 +13,10 @@ use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::store::{RESOLVED, write_atomically};
 
 /// A result larger than this is none of a sweep.
-const MAX_BYTES: u64 = 256_000_000;
+const MAX_BYTES: usize = 256_000_000;
 
 /// Runs the command.
-pub(super) fn run(flags: &CompareFlags) -> Result<Ended, Failure> {
+pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let tolerances = Tolerances {
         relative: flags.relative,
         absolute: flags.absolute,
@@ -39,9 +38,11 @@ pub(super) fn run(flags: &CompareFlags) -> Result<Ended, Failure> {
     if let Some(out) = &flags.out {
         text.push_str(&format!("\nComparison in {}\n", out.display()));
     }
-    if !flags.quiet {
-        print(&text)?;
-    }
+    match format {
+        OutputFormat::Json => json::print(&json::comparison(&comparison))?,
+        OutputFormat::Text if !flags.quiet => print(&text)?,
+        OutputFormat::Text => Ended::Done,
+    };
     Ok(match differs {
         true => Ended::Differs,
         false => Ended::Done,
@@ -115,16 +116,9 @@ fn open(path: &Path) -> Result<Opened, Failure> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    let read = || -> io::Result<Vec<u8>> {
-        let mut bytes = Vec::new();
-        File::open(path)?
-            .take(MAX_BYTES + 1)
-            .read_to_end(&mut bytes)?;
-        Ok(bytes)
-    };
     let name = path.display();
-    match read() {
-        Ok(bytes) if bytes.len() as u64 <= MAX_BYTES => Ok(bytes),
+    match read_limited(path, MAX_BYTES) {
+        Ok(bytes) if bytes.len() <= MAX_BYTES => Ok(bytes),
         Ok(_) => Err(Failure::input(format!(
             "{name} is larger than {} MB",
             MAX_BYTES / 1_000_000

@@ -2,32 +2,35 @@
 
 use std::path::Path;
 
-use super::arguments::{MaterialCommand, ShowFlags};
-use super::{Ended, Failure, material_fit, print};
+use super::arguments::{MaterialCommand, OutputFormat, ShowFlags};
+use super::{Ended, Failure, STANDARD_INPUT, json, material_fit, print, read_document};
 use crate::input::diagnostic::Problems;
-use crate::input::document::Document;
 use crate::input::material_block;
 use crate::input::material_table::DirectSum;
 use crate::material::{Material, library};
 use crate::report::caption::Setting;
 use crate::report::figure::press::Press;
 use crate::report::page::{self, Pictures, material::About};
-use crate::report::terminal::wrapped;
+use crate::report::words::wrapped;
 use crate::report::{self, material::MaterialReport};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::resolved;
 use crate::sweep::store::write_atomically;
 
 /// Runs one of the subcommands.
-pub(super) fn run(command: &MaterialCommand) -> Result<Ended, Failure> {
+pub(super) fn run(command: &MaterialCommand, format: OutputFormat) -> Result<Ended, Failure> {
     match command {
-        MaterialCommand::List => list(),
-        MaterialCommand::Show(flags) => show(flags),
-        MaterialCommand::Fit(flags) => material_fit::run(flags),
+        MaterialCommand::List => list(format),
+        MaterialCommand::Show(flags) => show(flags, format),
+        MaterialCommand::Fit(flags) => material_fit::run(flags, format),
     }
 }
 
-fn list() -> Result<Ended, Failure> {
+fn list(format: OutputFormat) -> Result<Ended, Failure> {
+    if format == OutputFormat::Json {
+        let entries: Vec<_> = library::entries().iter().map(json::entry).collect();
+        return json::print(&serde_json::json!({ "materials": entries }));
+    }
     let mut text = String::new();
     for entry in library::entries() {
         text.push_str(&format!("{}    {}\n", entry.name, entry.title));
@@ -37,15 +40,20 @@ fn list() -> Result<Ended, Failure> {
     print(&text)
 }
 
-fn show(flags: &ShowFlags) -> Result<Ended, Failure> {
+fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let (material, head) = load(&flags.material)?;
     let report = MaterialReport::new(&material);
-    let body = report.text().map_err(Failure::input)?;
-    print(&format!("{head}{body}"))?;
+    match format {
+        OutputFormat::Json => json::print(&json::material(&material)?)?,
+        OutputFormat::Text => {
+            let body = report.text().map_err(Failure::input)?;
+            print(&format!("{head}{body}"))?
+        }
+    };
     let Some(folder) = &flags.out else {
         return Ok(Ended::Done);
     };
-    let figures = report.figures().map_err(Failure::run)?;
+    let figures = report.figures();
     let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     let press = Press {
@@ -68,7 +76,10 @@ fn show(flags: &ShowFlags) -> Result<Ended, Failure> {
         let page = page::material::page(&material, &about).map_err(Failure::run)?;
         write("index.html", page.as_bytes()).map_err(Failure::run)?;
     }
-    print(&format!("\nFigures in {}\n", folder.display()))
+    match format {
+        OutputFormat::Json => Ok(Ended::Done),
+        OutputFormat::Text => print(&format!("\nFigures in {}\n", folder.display())),
+    }
 }
 
 /// A material by name or from a file, and the lines that introduce it.
@@ -84,14 +95,14 @@ fn load(name: &str) -> Result<(Material, String), Failure> {
         return Ok((material, head));
     }
     let path = Path::new(name);
-    if !path.exists() {
+    if !path.exists() && name != STANDARD_INPUT {
         let near = library::suggest(name).map(|near| format!("; did you mean \"{near}\"?"));
         return Err(Failure::input(format!(
             "no material \"{name}\" in the library, and no file of that name{}",
             near.unwrap_or_else(|| "; `contact-dma material list` names all materials".to_owned())
         )));
     }
-    let document = Document::read(path)?;
+    let document = read_document(path)?;
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let material = material_block::read(&mut root, document.folder(), DirectSum::Fitted, &problems);

@@ -1,7 +1,7 @@
 //! `contact-dma material fit`: from a table of measured data to a material block.
 
-use super::arguments::FitFlags;
-use super::{Ended, Failure, print};
+use super::arguments::{FitFlags, OutputFormat};
+use super::{Ended, Failure, json, print};
 use crate::input::table_file;
 use crate::material::Material;
 use crate::material::fit;
@@ -14,20 +14,23 @@ use crate::sweep::plan::resolved;
 use crate::sweep::store::write_atomically;
 
 /// Runs the command.
-pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
+pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let table = table_file::read(&flags.data, flags.quantity.into(), flags.modulus.into())?;
     let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
     let material = fit.material(flags.poisson_ratio).map_err(Failure::input)?;
     let block = block(flags, &material);
-    print(&format!(
-        "{}\n{}\n{block}",
-        report::fit::text(fit.report()),
-        report::fit::branches(&fit)
-    ))?;
+    match format {
+        OutputFormat::Json => json::print(&json::fit(&fit, &material)?)?,
+        OutputFormat::Text => print(&format!(
+            "{}\n{}\n{block}",
+            report::fit::text(fit.report()),
+            report::fit::branches(&fit)
+        ))?,
+    };
     let Some(folder) = &flags.out else {
         return Ok(Ended::Done);
     };
-    let figures = figure::fit::figures(&table, &fit).map_err(Failure::run)?;
+    let figures = figure::fit::figures(&table, &fit);
     let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     write("material.toml", block.as_bytes()).map_err(Failure::run)?;
@@ -51,7 +54,10 @@ pub(super) fn run(flags: &FitFlags) -> Result<Ended, Failure> {
         let page = page::material::page(&material, &about).map_err(Failure::run)?;
         write("index.html", page.as_bytes()).map_err(Failure::run)?;
     }
-    print(&format!("\nMaterial and figures in {}\n", folder.display()))
+    match format {
+        OutputFormat::Json => Ok(Ended::Done),
+        OutputFormat::Text => print(&format!("\nMaterial and figures in {}\n", folder.display())),
+    }
 }
 
 /// The material block of a sweep file, ready to paste, every number exact.

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod compare;
+mod json;
 mod material;
 mod material_fit;
 mod meant_for;
@@ -15,10 +16,11 @@ mod reproduce;
 mod simulate;
 mod stored;
 mod sweep;
+mod width;
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::fmt::Display;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -27,7 +29,7 @@ use clap::{CommandFactory, Parser};
 use arguments::{Arguments, Command};
 
 use crate::input::diagnostic::{Diagnostics, Styling};
-use crate::input::document::Document;
+use crate::input::document::{self, Document};
 use crate::sweep::search::run::RunError;
 use crate::sweep::store::Store;
 
@@ -76,19 +78,20 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
+    let format = arguments.format;
     let ended = match arguments.command {
-        Command::Sweep(flags) => sweep::run(&flags),
-        Command::Plan(flags) => plan::run(&flags),
-        Command::Merge(flags) => stored::merge(&flags),
-        Command::Report(flags) => stored::report(&flags),
-        Command::Compare(flags) => compare::run(&flags),
-        Command::Simulate(flags) => simulate::run(&flags),
-        Command::Reproduce(flags) => reproduce::run(&flags),
-        Command::Material(command) => material::run(&command),
+        Command::Sweep(flags) => sweep::run(&flags, format),
+        Command::Plan(flags) => plan::run(&flags, format),
+        Command::Merge(flags) => stored::merge(&flags, format),
+        Command::Report(flags) => stored::report(&flags, format),
+        Command::Compare(flags) => compare::run(&flags, format),
+        Command::Simulate(flags) => simulate::run(&flags, format),
+        Command::Reproduce(flags) => reproduce::run(&flags, format),
+        Command::Material(command) => material::run(&command, format),
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "contact-dma", &mut text);
-            print(&String::from_utf8_lossy(&text))
+            write_out(&String::from_utf8_lossy(&text))
         }
     };
     match ended {
@@ -120,30 +123,56 @@ fn error_line(message: &str) -> io::Result<()> {
     writeln!(anstream::stderr(), "error: {message}")
 }
 
+/// The name of standard input in the place of a file.
+const STANDARD_INPUT: &str = "-";
+
+/// A file, or standard input, from which paths start in the working folder.
+fn read_document(file: &Path) -> Result<Document, Failure> {
+    if file != Path::new(STANDARD_INPUT) {
+        return Ok(Document::read(file)?);
+    }
+    let mut bytes = Vec::new();
+    let limit = document::MAX_BYTES as u64 + 1;
+    let read = io::stdin().lock().take(limit).read_to_end(&mut bytes);
+    read.map_err(|error| Failure::run(format!("cannot read standard input: {error}")))?;
+    Ok(Document::from_bytes("standard input", &bytes)?)
+}
+
 /// A file as changed by the `--set` flags.
-fn open_document(file: &Path, assignments: &[String]) -> Result<Document, Diagnostics> {
-    let mut document = Document::read(file)?;
+fn open_document(file: &Path, assignments: &[String]) -> Result<Document, Failure> {
+    let mut document = read_document(file)?;
     for assignment in assignments {
         document.set(assignment)?;
     }
     Ok(document)
 }
 
-/// The folder for the results of a file: the one asked for, or reports/<name of the file>.
+/// The folder for the results of a file: the one asked for, or reports/<name of the file>; of standard input, reports/stdin.
 fn open_store(
     file: &Path,
     out: Option<&Path>,
     resolved: &str,
     force: bool,
 ) -> Result<Store, Failure> {
-    let stem = file.file_stem().unwrap_or_default();
+    let stem = match file == Path::new(STANDARD_INPUT) {
+        true => OsStr::new("stdin"),
+        false => file.file_stem().unwrap_or_default(),
+    };
     let default = Path::new("reports").join(stem);
     let store = Store::open(out.unwrap_or(&default), resolved, force);
     store.map_err(|error| sweep::failure(RunError::Store(error)))
 }
 
-/// Prints to standard output. A reader that has seen enough (`| head`) is no error.
+/// Prints for people, no wider than their terminal.
 fn print(text: &str) -> Result<Ended, Failure> {
+    match width::of_terminal() {
+        Some(columns) => write_out(&width::fitted(text, columns)),
+        None => write_out(text),
+    }
+}
+
+/// Prints to standard output as it is. A reader that has seen enough (`| head`) is no error.
+fn write_out(text: &str) -> Result<Ended, Failure> {
     let mut out = anstream::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {

@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 
-use super::arguments::PlanFlags;
-use super::{Ended, Failure, meant_for, open_document, print};
+use super::arguments::{OutputFormat, PlanFlags};
+use super::{Ended, Failure, json, meant_for, open_document, print};
 use crate::indenter::Indenter;
 use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
-use crate::report::terminal::frequency;
+use crate::report::number::four_digits;
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::share::cost::Cost;
@@ -16,17 +16,20 @@ use crate::sweep::share::cost::Cost;
 const LISTED: usize = 100;
 
 /// Runs the command.
-pub(super) fn run(flags: &PlanFlags) -> Result<Ended, Failure> {
+pub(super) fn run(flags: &PlanFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let document = open_document(&flags.file, &flags.set)?;
     meant_for::sweep(&document, &flags.file)?;
     let plan = sweep_file::plan(&document)?;
-    show(&Setup::new(plan).map_err(Failure::input)?)
+    show(&Setup::new(plan).map_err(Failure::input)?, format)
 }
 
 /// Prints cases and cost of a sweep.
-pub(super) fn show(setup: &Setup) -> Result<Ended, Failure> {
+pub(super) fn show(setup: &Setup, format: OutputFormat) -> Result<Ended, Failure> {
     let cost = Cost::of(setup).map_err(Failure::input)?;
-    print(&text(setup, &cost))
+    match format {
+        OutputFormat::Json => json::print(&json::plan(setup, &cost)),
+        OutputFormat::Text => print(&text(setup, &cost)),
+    }
 }
 
 fn text(setup: &Setup, cost: &Cost) -> String {
@@ -34,16 +37,21 @@ fn text(setup: &Setup, cost: &Cost) -> String {
     let memory = megabytes(cost.memory_bytes);
     let free = super::memory::free_here();
     let mut text = format!("{}\n\n", plan.title);
-    text.push_str(" case    ω / rad/s   drive mean   amplitude   cycles     about   memory\n");
+    let unit = plan.figures.frequency_unit;
+    // Writing to a String cannot fail.
+    let _ = writeln!(
+        text,
+        " case   {:>10}   drive mean   amplitude   cycles     about   memory",
+        format!("{} / {}", unit.symbol(), unit.name())
+    );
     for case in cost.cases.iter().take(LISTED) {
-        // Writing to a String cannot fail.
         let _ = writeln!(
             text,
             "{:>5}   {:>10}   {:>10}   {:>9}   {:>6.0}   {:>7}   {memory}",
             case.case.index,
-            frequency(case.case.angular_frequency_rad_per_s),
-            case.case.drive.mean(),
-            case.case.drive.amplitude(),
+            four_digits(unit.of(case.case.angular_frequency_rad_per_s)),
+            short(case.case.drive.mean()),
+            short(case.case.drive.amplitude()),
             case.cycles.ceil(),
             spoken(case.time_s),
         );
@@ -69,6 +77,14 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         cost.shards(),
     );
     text
+}
+
+/// A number as it was given, with an exponent where it would otherwise have many digits.
+fn short(value: f64) -> String {
+    match value.abs() {
+        1e-4..1e7 | 0.0 => value.to_string(),
+        _ => format!("{value:e}"),
+    }
 }
 
 /// The nodes of an engine, in words.

@@ -5,13 +5,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use crate::report::terminal::frequency;
+use crate::quantity::FrequencyUnit;
+use crate::report::words::case;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Progress;
 
 /// Shows progress on standard error.
 pub(super) struct Shown {
     total: usize,
+    unit: FrequencyUnit,
     done: AtomicUsize,
     found: AtomicUsize,
     how: How,
@@ -24,7 +26,7 @@ enum How {
 }
 
 impl Shown {
-    pub(super) fn new(total: usize, quiet: bool) -> Self {
+    pub(super) fn new(total: usize, unit: FrequencyUnit, quiet: bool) -> Self {
         let how = if quiet {
             How::Silent
         } else if io::stderr().is_terminal() {
@@ -34,6 +36,7 @@ impl Shown {
         };
         Self {
             total,
+            unit,
             done: AtomicUsize::new(0),
             found: AtomicUsize::new(0),
             how,
@@ -74,9 +77,9 @@ impl Progress for Shown {
         match &self.how {
             How::Bar(bar) => bar.inc(1),
             How::Lines => line(&format!(
-                "{done}/{} ω = {} rad/s: {} after {} cycles",
+                "{done}/{} {}: {} after {} cycles",
                 self.total,
-                frequency(record.angular_frequency_rad_per_s),
+                case(self.unit, record.angular_frequency_rad_per_s),
                 record.status.name(),
                 record.cycles
             )),

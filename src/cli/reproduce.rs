@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::arguments::threads;
+use super::arguments::{OutputFormat, folder, threads};
 use super::sweep::interrupt_flag;
-use super::{Ended, Failure, print};
+use super::{Ended, Failure, json, print};
 use crate::input::diagnostic::Problems;
 use crate::input::document::Document;
 use crate::input::figures_block::{self, Figures};
 use crate::input::sweep_file::optional;
 use crate::input::{scenario_file, sweep_file};
-use crate::report::terminal::wrapped;
+use crate::report::words::wrapped;
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
@@ -36,7 +36,7 @@ place: index.html for a browser, README.md for a repository. The scenarios and s
 them are in sweeps/spinu-2018/ of the repository.")]
 pub(super) struct ReproduceFlags {
     /// Folder for the results
-    #[arg(long, value_name = "DIR", default_value = DEFAULT_FOLDER)]
+    #[arg(long, value_name = "DIR", default_value = DEFAULT_FOLDER, value_parser = folder())]
     pub(super) out: PathBuf,
     /// Make this figure alone; may be repeated
     #[arg(long = "figure", value_name = "N", value_parser = figure_number)]
@@ -69,7 +69,7 @@ fn figure_number(text: &str) -> Result<u8, String> {
 }
 
 /// Runs the command.
-pub(super) fn run(flags: &ReproduceFlags) -> Result<Ended, Failure> {
+pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let plans = plans()?;
     let figures = figures(&flags.set)?;
     let wanted = if flags.figures.is_empty() {
@@ -90,6 +90,15 @@ pub(super) fn run(flags: &ReproduceFlags) -> Result<Ended, Failure> {
         made => made.map_err(Failure::run)?,
     };
     reproduction::write(&made, &figures, &flags.out).map_err(Failure::run)?;
+    if format == OutputFormat::Json {
+        let claims = json::rows_of(&flags.out.join("claims.csv"))?;
+        let numbers: Vec<u8> = made.iter().map(|figure| figure.number).collect();
+        return json::print(&serde_json::json!({
+            "figures": numbers,
+            "claims": claims,
+            "folder": flags.out.display().to_string(),
+        }));
+    }
     if !flags.quiet {
         print(&text(&made, &flags.out))?;
     }

@@ -6,10 +6,10 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-use super::arguments::SimulateFlags;
+use super::arguments::{OutputFormat, SimulateFlags};
 use super::plan::{megabytes, nodes};
 use super::sweep::interrupt_flag;
-use super::{Ended, Failure, meant_for, memory, open_document, open_store, print};
+use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, print};
 use crate::input::scenario_file;
 use crate::report::{self, terminal_simulation};
 use crate::sweep::history::checkpoint::{Found, HistoryCheckpoint, HistoryState};
@@ -19,7 +19,7 @@ use crate::sweep::search::run;
 use crate::sweep::store::Store;
 
 /// Runs the command.
-pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
+pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let mut set = flags.set.clone();
     if flags.no_error_bars {
         set.push("output.error_bars=false".to_owned());
@@ -29,7 +29,16 @@ pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
     let plan = scenario_file::plan(&document)?;
     let simulation = Simulation::new(plan).map_err(Failure::input)?;
     if flags.dry_run {
-        return print(&foretold(&simulation));
+        return match format {
+            OutputFormat::Text => print(&foretold(&simulation)),
+            OutputFormat::Json => json::print(&serde_json::json!({
+                "title": simulation.plan().title,
+                "engine": simulation.plan().solver.engine.name(),
+                "time_steps": simulation.schedule().moments.len(),
+                "time_steps_for_errors": simulation.moments() - simulation.schedule().moments.len(),
+                "memory_bytes": simulation.predicted_memory_bytes(),
+            })),
+        };
     }
     let resolved = scenario::resolved_text(simulation.plan());
     let store = open_store(&flags.file, flags.out.as_deref(), &resolved, flags.force)?;
@@ -49,12 +58,21 @@ pub(super) fn run(flags: &SimulateFlags) -> Result<Ended, Failure> {
         }
     });
     bar.finish_and_clear();
-    let left_out =
-        report::scenario::write(&store, simulation.plan(), &outcome).map_err(Failure::run)?;
+    let write = match flags.no_figures {
+        true => report::scenario::write_tables,
+        false => report::scenario::write,
+    };
+    let left_out = write(&store, simulation.plan(), &outcome).map_err(Failure::run)?;
     if outcome.ended != SimulationEnd::Interrupted {
         checkpoint.remove();
     }
-    ended(flags, &simulation, &outcome, &left_out, &store)
+    ended(
+        flags.quiet,
+        format,
+        (&simulation, &outcome),
+        &left_out,
+        &store,
+    )
 }
 
 /// What would be computed, and about the memory it takes.
@@ -118,9 +136,9 @@ fn bar(moments: usize, quiet: bool) -> ProgressBar {
 }
 
 fn ended(
-    flags: &SimulateFlags,
-    simulation: &Simulation,
-    outcome: &SimulationOutcome,
+    quiet: bool,
+    format: OutputFormat,
+    (simulation, outcome): (&Simulation, &SimulationOutcome),
     left_out: &[String],
     store: &Store,
 ) -> Result<Ended, Failure> {
@@ -130,7 +148,12 @@ fn ended(
             "{message}\n  what came before is in {folder}"
         )));
     }
-    if !flags.quiet {
+    if format == OutputFormat::Json {
+        json::print(&serde_json::json!({
+            "summary": json::file(&store.folder().join("summary.json"))?,
+            "history": json::rows_of(&store.folder().join("history.csv"))?,
+        }))?;
+    } else if !quiet {
         let mut text = terminal_simulation::text(simulation.plan(), outcome);
         for line in left_out {
             text.push_str(&format!("{line}\n"));

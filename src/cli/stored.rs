@@ -22,7 +22,7 @@ use crate::sweep::store::{RESOLVED, Store};
 const NAMED: usize = 10;
 
 /// Joins the parts and does what is left to do.
-pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
+pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
     let mut parts = Vec::new();
     for folder in &flags.parts {
@@ -45,7 +45,8 @@ pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
     let out = Store::open(&flags.out, resolved, flags.force);
     let out = out.map_err(|error| failure(RunError::Store(error)))?;
     let cases = setup.plan().cases();
-    let progress = Shown::new(cases.len(), flags.quiet);
+    let unit = setup.plan().figures.frequency_unit;
+    let progress = Shown::new(cases.len(), unit, flags.quiet);
     let parts: Vec<Store> = parts.into_iter().map(|(part, _)| part).collect();
     let missing = merge::gather(&parts, &out, &cases, &|what| progress.told(what));
     let missing = missing.map_err(|error| failure(RunError::Store(error)))?;
@@ -61,7 +62,8 @@ pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
         setup: &setup,
         store: &out,
         quiet: flags.quiet,
-        format: OutputFormat::Text,
+        format,
+        figures: true,
         stats: false,
         command: "merge",
         clock,
@@ -72,12 +74,19 @@ pub(super) fn merge(flags: &MergeFlags) -> Result<Ended, Failure> {
 }
 
 /// Draws tables and figures of a folder again.
-pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
+pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
-    let store = Store::reopen(&flags.folder).map_err(|e| failure(RunError::Store(e)))?;
-    let (store, resolved) = store;
+    let refused = |error| failure(RunError::Store(error));
+    // A folder that is only read from may be one that nobody can write to.
+    let opened = match &flags.out {
+        None => Store::reopen(&flags.folder),
+        Some(_) => Store::reopen_to_read(&flags.folder),
+    };
+    let (store, resolved) = opened.map_err(refused)?;
     let setup = setup_of(&flags.folder, &resolved, &flags.set)?;
-    let progress = Shown::new(setup.plan().cases().len(), flags.quiet);
+    let plan = setup.plan();
+    let unit = plan.figures.frequency_unit;
+    let progress = Shown::new(plan.cases().len(), unit, flags.quiet);
     let outcome = run::collect(&setup, &store, &progress).map_err(failure)?;
     progress.finish();
     if outcome.records.is_empty() {
@@ -86,11 +95,18 @@ pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
             flags.folder.display()
         )));
     }
+    let changed = resolved::resolved_text(setup.plan());
+    let out = flags.out.as_deref();
+    let out = out
+        .map(|out| Store::open(out, &changed, flags.force))
+        .transpose();
+    let store = out.map_err(refused)?.unwrap_or(store);
     let job = Job {
         setup: &setup,
         store: &store,
         quiet: flags.quiet,
-        format: OutputFormat::Text,
+        format,
+        figures: !flags.no_figures,
         stats: false,
         command: "report",
         clock,
@@ -98,11 +114,9 @@ pub(super) fn report(flags: &ReportFlags) -> Result<Ended, Failure> {
         found: outcome.records.len(),
     };
     let ended = job.finish(&outcome)?;
-    let changed = resolved::resolved_text(setup.plan());
-    if changed != resolved {
+    if changed != resolved || flags.out.is_some() {
         // What the folder says of its figures must be what they are.
-        let written = store.write(RESOLVED, changed.as_bytes());
-        written.map_err(|error| failure(RunError::Store(error)))?;
+        store.write(RESOLVED, changed.as_bytes()).map_err(refused)?;
     }
     Ok(match ended {
         Ended::Interrupted => Ended::SomeCasesWithoutResult,

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::arguments::{OutputFormat, SweepFlags};
 use super::progress::Shown;
-use super::{Ended, Failure, meant_for, memory, open_document, open_store, print};
+use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, print, write_out};
 use crate::input::sweep_file;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
@@ -19,7 +19,7 @@ use crate::sweep::store::provenance::{Circumstances, Stopwatch};
 use crate::sweep::store::{Store, StoreError};
 
 /// Runs the command.
-pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
+pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
     let accuracy = flags.accuracy.map(|a| format!("cycle.accuracy={a:?}"));
     let set: Vec<String> = flags.set.iter().cloned().chain(accuracy).collect();
@@ -28,7 +28,7 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
     let plan = sweep_file::plan(&document)?;
     let setup = Setup::new(plan).map_err(Failure::input)?;
     if flags.dry_run {
-        return super::plan::show(&setup);
+        return super::plan::show(&setup, format);
     }
     let resolved = resolved::resolved_text(setup.plan());
     let store = open_store(&flags.file, flags.out.as_deref(), &resolved, flags.force)?;
@@ -43,7 +43,8 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
         setup: &setup,
         store: &store,
         quiet: flags.quiet,
-        format: flags.format,
+        format,
+        figures: !flags.no_figures,
         stats: flags.stats,
         command: "sweep",
         clock,
@@ -53,7 +54,9 @@ pub(super) fn run(flags: &SweepFlags) -> Result<Ended, Failure> {
     if let Some(shard) = flags.shard {
         return run_shard(job, shard, &options, &interrupt);
     }
-    let progress = Shown::new(setup.plan().cases().len(), flags.quiet);
+    let plan = setup.plan();
+    let unit = plan.figures.frequency_unit;
+    let progress = Shown::new(plan.cases().len(), unit, flags.quiet);
     let outcome = run::run_with(&setup, &store, &options, &interrupt, &progress);
     progress.finish();
     job.found = progress.found();
@@ -79,6 +82,8 @@ pub(super) struct Job<'a> {
     pub(super) store: &'a Store,
     pub(super) quiet: bool,
     pub(super) format: OutputFormat,
+    /// Whether to draw figures and page.
+    pub(super) figures: bool,
     /// Whether to print what was done.
     pub(super) stats: bool,
     pub(super) command: &'static str,
@@ -92,11 +97,15 @@ impl Job<'_> {
     /// Writes tables, figures and where they come from, and prints the result.
     pub(super) fn finish(&self, outcome: &Outcome) -> Result<Ended, Failure> {
         let plan = self.setup.plan();
-        let left_out = report::write_sweep(self.store, plan, outcome).map_err(Failure::run)?;
+        let left_out = match self.figures {
+            true => report::write_sweep(self.store, plan, outcome),
+            false => report::write_tables_of_sweep(self.store, plan, outcome),
+        };
+        let left_out = left_out.map_err(Failure::run)?;
         self.sign(outcome.records.len(), outcome.interrupted, None)?;
         if self.format == OutputFormat::Json {
             let hash = self.store.sweep_hash();
-            print(&report::machine::sweep(plan, outcome, hash).map_err(Failure::run)?)?;
+            write_out(&report::machine::sweep(plan, outcome, hash).map_err(Failure::run)?)?;
             return Ok(ended(outcome));
         }
         if !self.quiet {
@@ -132,7 +141,8 @@ fn run_shard(
     interrupt: &AtomicBool,
 ) -> Result<Ended, Failure> {
     let own = shard::cases(job.setup, shard).len();
-    let progress = Shown::new(own, job.quiet);
+    let unit = job.setup.plan().figures.frequency_unit;
+    let progress = Shown::new(own, unit, job.quiet);
     let part = run::run_shard(job.setup, job.store, shard, options, interrupt, &progress);
     progress.finish();
     let part = part.map_err(failure)?;
@@ -142,7 +152,15 @@ fn run_shard(
     if let Some(whole) = &part.whole {
         return job.finish(whole);
     }
-    if !job.quiet {
+    if job.format == OutputFormat::Json {
+        json::print(&serde_json::json!({
+            "shard": shard.to_string(),
+            "cases_done": done,
+            "cases_of_shard": own,
+            "cases_missing": part.missing,
+            "interrupted": part.interrupted,
+        }))?;
+    } else if !job.quiet {
         let folder = job.store.folder().display();
         let next = match part.interrupted {
             true => "Interrupted: the same command goes on from here.".to_owned(),
@@ -198,8 +216,8 @@ fn text(setup: &Setup, outcome: &Outcome, left_out: &[String], folder: &Path) ->
     text.push_str(&terminal::table(plan, outcome));
     for part in [
         terminal::peaks(plan, outcome),
-        terminal::problems(outcome),
-        terminal::warnings_of_sweep(outcome),
+        terminal::problems(plan, outcome),
+        terminal::warnings_of_sweep(plan, outcome),
         left_out.iter().map(|line| format!("{line}\n")).collect(),
     ] {
         if !part.is_empty() {

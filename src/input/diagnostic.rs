@@ -264,6 +264,15 @@ impl Diagnostics {
         Self { list, omitted }
     }
 
+    /// The same, the first of them with a further place.
+    #[must_use]
+    pub(super) fn label_first(mut self, place: &impl AsRef<Location>, text: &str) -> Self {
+        if let Some(first) = self.list.first_mut() {
+            *first = first.clone().label(place, text);
+        }
+        self
+    }
+
     /// How many problems were found.
     pub fn count(&self) -> usize {
         self.list.len() + self.omitted

@@ -107,11 +107,21 @@ impl<T> Located<T> {
 
 impl Located<String> {
     /// The file that this value names: from `folder`, where the document lies; for a value set by a flag, from the working
-    /// folder, as for any path on a command line.
+    /// folder, as for any path on a command line. What is not beside a link to a document is looked for beside the document.
     pub fn path_from(&self, folder: &Path) -> PathBuf {
-        match self.location.source().is_flag() {
-            true => PathBuf::from(&self.value),
-            false => folder.join(&self.value),
+        let source = self.location.source();
+        if source.is_flag() {
+            return PathBuf::from(&self.value);
+        }
+        let beside = folder.join(&self.value);
+        let target = || {
+            let document = std::fs::canonicalize(source.name()).ok()?;
+            let file = document.parent()?.join(&self.value);
+            file.exists().then_some(file)
+        };
+        match beside.exists() {
+            true => beside,
+            false => target().unwrap_or(beside),
         }
     }
 
@@ -148,7 +158,7 @@ impl Document {
     /// The file cannot be read, has more than [`MAX_BYTES`], or is refused by [`Document::from_bytes`].
     pub fn read(path: &Path) -> Result<Self, Diagnostics> {
         let name = path.display().to_string();
-        let bytes = read_limited(path).map_err(|error| cannot_read(&name, &error))?;
+        let bytes = read_limited(path, MAX_BYTES).map_err(|error| cannot_read(&name, &error))?;
         let document = Self::from_bytes(&name, &bytes)?;
         Ok(document.in_folder(path.parent().unwrap_or(Path::new(""))))
     }
@@ -204,11 +214,13 @@ impl Document {
     ///
     /// What is not TOML counts as a string, so `drive.mean=10 N` needs no inner quotes; but what opens with a
     /// quote, bracket or brace must be TOML. Tables on the way to the key are made when missing; a value that
-    /// is there is replaced whole. Problems with the value found later point into the flag.
+    /// is there is replaced whole. Items of lists have numbers from 0 (`asperities.1.radius`); without a value the
+    /// key is removed. Keys of the file that the new one excludes, as a cone excludes a radius, are removed too.
+    /// Problems with the value found later point into the flag.
     ///
     /// # Errors
-    /// No `=`, a key that is not dotted words, a value that opens as TOML but is not, or a key below
-    /// something that is not a table. The document is then unchanged.
+    /// No `=`, a key that is not dotted words, a value that opens as TOML but is not, a key below
+    /// something that is neither table nor list, nothing to remove. The document is then unchanged.
     pub fn set(&mut self, argument: &str) -> Result<(), Diagnostics> {
         let source = Source::flag(format!("{}{argument}", assignment::PREFIX), self.flags);
         self.flags = self.flags.saturating_add(1);
@@ -228,9 +240,9 @@ impl Document {
 }
 
 /// At most one byte more than is allowed, so that an endless file ends.
-fn read_limited(path: &Path) -> io::Result<Vec<u8>> {
+pub(crate) fn read_limited(path: &Path, most: usize) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    let limit = MAX_BYTES as u64 + 1;
+    let limit = most as u64 + 1;
     File::open(path)?.take(limit).read_to_end(&mut bytes)?;
     Ok(bytes)
 }

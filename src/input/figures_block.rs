@@ -2,7 +2,7 @@
 
 use super::diagnostic::Problems;
 use super::document::{Located, TableReader};
-use crate::quantity::{Dimension, format_human};
+use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::sweep::figures::figure_plan::{AxisUnits, COLUMNS, FigurePlan, Format};
 
 /// Sides (m), text (pt) and resolutions beyond these are a slip of the pen rather than a wish.
@@ -17,16 +17,18 @@ const MOST_PIXELS: f64 = 16_000.0;
 const MOST_LOOPS: usize = 8;
 
 /// Reads the block of a sweep file; `None` where a problem was reported. `frequencies_rad_per_s` are those of the sweep,
-/// ascending.
+/// ascending, given in this unit.
 pub(crate) fn of_sweep(
     mut table: TableReader<'_>,
-    frequencies_rad_per_s: Option<&[f64]>,
+    (frequencies_rad_per_s, given_in): (Option<&[f64]>, FrequencyUnit),
     problems: &Problems,
 ) -> Option<Figures> {
     let loops = loops(&mut table, frequencies_rad_per_s, problems);
+    let unit = table.choice_of_or("frequency_unit", &FrequencyUnit::NAMES, given_in);
     let figures = read(table, problems);
-    let (loops_rad_per_s, mut figures) = (loops?, figures?);
+    let (loops_rad_per_s, unit, mut figures) = (loops?, unit?, figures?);
     figures.plan.loops_rad_per_s = loops_rad_per_s;
+    figures.plan.frequency_unit = unit.value;
     Some(figures)
 }
 
@@ -38,6 +40,13 @@ pub(crate) struct Figures {
 }
 
 impl Figures {
+    /// Those of a sweep without the block, whose frequencies are given in this unit.
+    pub(crate) fn of_unit(frequency_unit: FrequencyUnit) -> Self {
+        let mut figures = Self::default();
+        figures.plan.frequency_unit = frequency_unit;
+        figures
+    }
+
     /// Refuses normalised axes where there is nothing to normalise by.
     pub(crate) fn checked<E: std::fmt::Display>(
         self,
@@ -84,6 +93,7 @@ pub(crate) fn read(mut table: TableReader<'_>, problems: &Problems) -> Option<Fi
         formats: formats?,
         dpi: dpi.as_ref().map(|dpi| dpi.value),
         axes: axes.as_ref().map_or(default.axes, |axes| axes.value),
+        frequency_unit: default.frequency_unit,
         titles: titles?.value,
     };
     let asked = Asked { width, height, dpi };

@@ -23,9 +23,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use super::data_file;
 use super::diagnostic::Problems;
 use super::document::{Form, Located, TableReader};
-use super::field_file::{self, FieldFileError, FieldProblem};
+use super::field_file;
 use crate::indenter::{
     Asperities, Asperity, Cone, DataFile, Ellipsoid, FlatPunch, HEIGHT_UNITS, HeightMap,
     HeightUnit, Indenter, IndenterError, MapEdge, MapLevel, MapQuantity, MapSource, PowerLaw,
@@ -291,8 +292,7 @@ impl Block<'_> {
         };
         let file = file?;
         let path = file.path_from(self.folder);
-        let name = path.display().to_string();
-        let bytes = self.read(&file, field_file::read_bytes(&path, &name))?;
+        let (name, bytes) = data_file::named(&file, self.folder, self.problems)?;
         let hash = resolved::hash_of_bytes(&bytes);
         if let Some(expected) = sha256
             && !expected.value.eq_ignore_ascii_case(&hash)
@@ -322,24 +322,10 @@ impl Block<'_> {
         })
     }
 
-    /// What was read, or its refusal reported at the file's name.
-    fn read<T>(&self, file: &Located<String>, read: Result<T, FieldFileError>) -> Option<T> {
-        match read {
-            Ok(data) => Some(data),
-            Err(error) => {
-                let help = match error.problem {
-                    FieldProblem::Read(_) => file.path_rule(),
-                    _ => error.help(),
-                };
-                self.problems.at(file, error.to_string()).help(help);
-                None
-            }
-        }
-    }
-
     fn profile(&mut self) -> Made {
         let file = self.file()?;
-        let points = self.read(&file.place, field_file::profile(&file.name, &file.data))?;
+        let points = field_file::profile(&file.name, &file.data);
+        let points = data_file::accepted(points, &file.place, self.problems)?;
         let profile = Profile::new(&points).map(|profile| profile.with_source(file.source));
         self.made(&file.place, profile)
     }
@@ -361,7 +347,8 @@ impl Block<'_> {
         // Without the file it is not known whether there must be a spacing; one that is there is read all the same.
         let spacing = given.is_some().then(|| self.spacing());
         let file = file?;
-        let mut field = self.read(&file.place, field_file::field(&file.name, &file.data))?;
+        let field = field_file::field(&file.name, &file.data);
+        let mut field = data_file::accepted(field, &file.place, self.problems)?;
         let spacing_m = match (field.spacing_m, spacing) {
             (Some(spacing_m), None) => spacing_m,
             (None, Some(spacing_m)) => spacing_m?,

@@ -11,6 +11,7 @@
 
 use std::path::Path;
 
+use super::data_file;
 use super::diagnostic::Problems;
 use super::document::{Located, TableReader};
 use super::material_block::KINDS;
@@ -127,23 +128,10 @@ fn from_file(
 ) -> Option<Located<Tabulated>> {
     let file = table.string("file");
     let (file, face, kind) = (file?, face?, kind?);
-    let path = file.path_from(folder);
-    let bytes = match table_file::load(&path) {
-        Ok(bytes) => bytes,
-        Err(error) => {
-            problems
-                .at(&file, format!("cannot read `{}`: {error}", path.display()))
-                .help(file.path_rule());
-            return None;
-        }
-    };
-    match table_file::parse(&path.display().to_string(), &bytes, face, kind) {
-        Ok(data) => Some(file.map(|_| data)),
-        Err(refused) => {
-            problems.extend(refused);
-            None
-        }
-    }
+    let (name, bytes) = data_file::named(&file, folder, problems)?;
+    let data = table_file::parse(&name, &bytes, face, kind);
+    let data = data_file::accepted(data, &file, problems)?;
+    Some(file.map(|_| data))
 }
 
 /// Samples in the file itself: `times` and `values`, as a resolved scenario has them.

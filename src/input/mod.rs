@@ -29,6 +29,7 @@
 //! # Ok::<(), Diagnostics>(())
 //! ```
 
+pub(crate) mod data_file;
 pub mod diagnostic;
 pub mod document;
 mod drive_table;
@@ -40,7 +41,6 @@ pub(crate) mod material_block;
 pub(crate) mod material_table;
 pub mod scenario_file;
 mod segments_block;
-mod separator;
 pub mod sweep_file;
 pub(crate) mod table_file;
 mod table_source;

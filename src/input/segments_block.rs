@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::data_file;
 use super::diagnostic::{Location, Problems};
 use super::document::{Located, TableReader};
 use super::drive_table;
@@ -203,26 +204,12 @@ impl Reader<'_> {
 
     fn table_of_file(&self, table: &mut TableReader<'_>) -> Option<Placed> {
         let file = table.string("file")?;
-        let column = match self.control {
-            Control::Load => "load_n",
-            Control::Approach => "approach_m",
-        };
-        match drive_table::read(&file.path_from(self.folder), column) {
-            Ok(columns) => Some(Placed {
-                segment: Segment::Table {
-                    times_s: columns.times_s,
-                    values: columns.values,
-                },
-                place: file.location,
-            }),
-            Err(message) => {
-                self.problems.at(&file, message).help(format!(
-                    "a table is a CSV file with the columns {} and {column}; {}",
-                    drive_table::TIME_COLUMN,
-                    file.path_rule()
-                ));
-                None
-            }
-        }
+        let (name, bytes) = data_file::named(&file, self.folder, self.problems)?;
+        let table = drive_table::parse(&name, &bytes, self.control);
+        let (times_s, values) = data_file::accepted(table, &file, self.problems)?;
+        Some(Placed {
+            segment: Segment::Table { times_s, values },
+            place: file.location,
+        })
     }
 }

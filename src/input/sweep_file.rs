@@ -9,7 +9,7 @@ use crate::drive::HarmonicDrive;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
-use crate::quantity::Dimension;
+use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::instant_tolerance;
 use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, Method, SolverPlan, SweepPlan, Varied};
@@ -47,8 +47,10 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     });
     let frequencies = sweep.as_ref();
     let frequencies = frequencies.map(|axes| axes.angular_frequencies_rad_per_s.as_slice());
-    let figures = optional(&mut root, "figures", Figures::default(), |t| {
-        figures_block::of_sweep(t, frequencies, &problems)
+    let given_in = sweep.as_ref().map(|axes| axes.given_in);
+    let given_in = given_in.unwrap_or_default();
+    let figures = optional(&mut root, "figures", Figures::of_unit(given_in), |t| {
+        figures_block::of_sweep(t, (frequencies, given_in), &problems)
     });
     root.finish();
     let plan = (|| {
@@ -122,6 +124,7 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
 /// The `[sweep]` block.
 struct Axes {
     angular_frequencies_rad_per_s: Vec<f64>,
+    given_in: FrequencyUnit,
     drives: Option<DriveAxis>,
     refine: bool,
 }
@@ -147,7 +150,7 @@ fn axes(
         Some(axis) => Some(axis?),
         None => None,
     };
-    let frequencies = frequencies?;
+    let (frequencies, given_in) = frequencies?;
     let cases = drives.as_ref().map_or(1, |axis| axis.drives.len()) * frequencies.len();
     if cases > MAX_CASES
         && let Some(place) = place
@@ -162,6 +165,7 @@ fn axes(
     }
     Some(Axes {
         angular_frequencies_rad_per_s: frequencies,
+        given_in,
         drives,
         refine: refine?.value,
     })
@@ -198,8 +202,11 @@ fn varied(
     Some(DriveAxis { varied, drives })
 }
 
-/// Angular frequencies in rad/s, ascending.
-fn frequencies(table: &mut TableReader<'_>, problems: &Problems) -> Option<Vec<f64>> {
+/// Angular frequencies in rad/s, ascending, and the unit they are given in.
+fn frequencies(
+    table: &mut TableReader<'_>,
+    problems: &Problems,
+) -> Option<(Vec<f64>, FrequencyUnit)> {
     let (key, (dimension, to_angular)) = table.one_of(&harmonic_block::FREQUENCIES)?;
     let values = match table.form(key) {
         Some(Form::Table) => table
@@ -207,12 +214,12 @@ fn frequencies(table: &mut TableReader<'_>, problems: &Problems) -> Option<Vec<f
             .and_then(|t| range(t, problems, key, dimension)),
         _ => list(table, problems, key, dimension),
     };
-    Some(
-        values?
-            .into_iter()
-            .map(|value| value * to_angular)
-            .collect(),
-    )
+    let given_in = match dimension {
+        Dimension::Frequency => FrequencyUnit::Hz,
+        _ => FrequencyUnit::RadPerS,
+    };
+    let angular = values?.into_iter().map(|value| value * to_angular);
+    Some((angular.collect(), given_in))
 }
 
 fn list(

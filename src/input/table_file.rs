@@ -1,45 +1,13 @@
-//! Tables of measured creep compliance or relaxation modulus: CSV files read, every mistake shown at its place.
-//!
-//! The first line names the columns; those not asked for are passed over, and so are empty lines and lines that begin with
-//! `#`. Times come in `time_s` (or `time`, `time_min`, `time_h`); values in `creep_compliance_per_pa` (or `_per_kpa`,
-//! `_per_mpa`, `_per_gpa`) or `relaxation_modulus_pa` (or `_kpa`, `_mpa`, `_gpa`).
+//! Tables of measured creep compliance or relaxation modulus: a [`DataFile`] with the columns `time_s` and
+//! `creep_compliance_per_pa` or `relaxation_modulus_pa`, or the same in other units. Times without a unit are in seconds.
 
-use std::fs::File;
-use std::io::{self, Read};
-use std::ops::Range;
 use std::path::Path;
-use std::sync::Arc;
 
-use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
-use super::document::{cannot_read, not_utf8};
-use super::separator;
+use super::data_file::{Column, DataFile, TIME};
+use super::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::material::tabulated::{TableColumn, TableError, Tabulated};
 use crate::material::{GivenFace, ModulusKind};
-
-/// Largest file read, bytes: a million rows and more.
-const MAX_BYTES: usize = 100_000_000;
-
-/// Names of a column, each with what its numbers are multiplied by to be in SI units.
-type Names = [(&'static str, f64); 4];
-
-const TIME: Names = [
-    ("time_s", 1.0),
-    ("time", 1.0),
-    ("time_min", 60.0),
-    ("time_h", 3600.0),
-];
-const CREEP: Names = [
-    ("creep_compliance_per_pa", 1.0),
-    ("creep_compliance_per_kpa", 1e-3),
-    ("creep_compliance_per_mpa", 1e-6),
-    ("creep_compliance_per_gpa", 1e-9),
-];
-const RELAXATION: Names = [
-    ("relaxation_modulus_pa", 1.0),
-    ("relaxation_modulus_kpa", 1e3),
-    ("relaxation_modulus_mpa", 1e6),
-    ("relaxation_modulus_gpa", 1e9),
-];
+use crate::quantity::Dimension;
 
 /// The words by which files and flags call the two quantities.
 pub(crate) const QUANTITIES: [(&str, GivenFace); 2] = [
@@ -47,10 +15,11 @@ pub(crate) const QUANTITIES: [(&str, GivenFace); 2] = [
     ("relaxation", GivenFace::Relaxation),
 ];
 
-fn value_names(face: GivenFace) -> Names {
+/// The column of a quantity.
+fn values_of(face: GivenFace) -> Column {
     match face {
-        GivenFace::Creep => CREEP,
-        GivenFace::Relaxation => RELAXATION,
+        GivenFace::Creep => Column::new(&["creep_compliance"], Dimension::Compliance, "values"),
+        GivenFace::Relaxation => Column::new(&["relaxation_modulus"], Dimension::Stress, "values"),
     }
 }
 
@@ -70,195 +39,50 @@ pub(crate) fn read(
     face: GivenFace,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
-    let name = path.display().to_string();
-    let bytes = load(path).map_err(|error| cannot_read(&name, &error))?;
-    parse(&name, &bytes, face, kind)
-}
-
-/// The bytes of a file, at most one more than is allowed, so that an endless file ends.
-///
-/// # Errors
-/// What opening or reading it returns.
-pub(crate) fn load(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    let limit = MAX_BYTES as u64 + 1;
-    File::open(path)?.take(limit).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    tabulated(&DataFile::read(path)?, face, kind)
 }
 
 /// Reads a table from the bytes of a file that messages call `name`.
 ///
 /// # Errors
-/// A file that is too large, not UTF-8, empty, or without the columns; a row with more or fewer cells than the header; a
-/// cell that is no number; and what [`Tabulated::new`] refuses. Each with its place, all rows at once.
+/// What [`DataFile`] and [`Tabulated::new`] refuse, each with its place.
 pub(crate) fn parse(
     name: &str,
     bytes: &[u8],
     face: GivenFace,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
-    if bytes.len() > MAX_BYTES {
-        let megabytes = MAX_BYTES / 1_000_000;
-        return Err(
-            Diagnostic::new(format!("`{name}` is larger than {megabytes} MB"))
-                .help("keep a few hundred rows per decade of time")
-                .into(),
-        );
+    tabulated(&DataFile::from_bytes(name, bytes)?, face, kind)
+}
+
+fn tabulated(
+    file: &DataFile,
+    face: GivenFace,
+    kind: ModulusKind,
+) -> Result<Tabulated, Diagnostics> {
+    let (values, (word, other)) = (values_of(face), other(face));
+    if !file.has_any(&[values]) && file.has_any(&[values_of(other)]) {
+        let message = format!("no column `{}`", values.name_in_si());
+        let help = format!("this table wants the quantity \"{word}\"");
+        return Err(Diagnostic::at(&file.first_line(), message)
+            .help(help)
+            .into());
     }
-    let text =
-        std::str::from_utf8(bytes).map_err(|error| not_utf8(name, bytes, error.valid_up_to()))?;
-    let source = Source::file(name, text.trim_start_matches('\u{feff}'));
-    let mut rows = Rows::new(&source);
-    let Some(header) = rows.next().transpose()? else {
-        let example = format!("{},{}", TIME[0].0, value_names(face)[0].0);
-        return Err(
-            Diagnostic::at(&Location::whole(&source), "the table is empty")
-                .help(format!("begin it with a line of column names: `{example}`"))
-                .into(),
-        );
-    };
-    let time = column(&source, &header, &TIME, "times", None)?;
-    let value = column(&source, &header, &value_names(face), "values", Some(face))?;
-    let samples = samples(rows, &header, [time, value])?;
-    let [times, values] = [0, 1].map(|which| samples.iter().map(|s| s[which].0).collect());
-    Tabulated::new(face, kind, times, values).map_err(|error| {
-        let place = error.place().and_then(|(row, column)| {
-            let which = usize::from(column == TableColumn::Value);
-            samples.get(row - 1).map(|sample| sample[which].1.clone())
-        });
-        explain(&source, place, &error, face).into()
+    let table = file.columns(
+        &[TIME, values],
+        "write it as `1.5e-9`, or leave the whole row out",
+    )?;
+    Tabulated::new(face, kind, table.column(0), table.column(1)).map_err(|error| {
+        let place = error
+            .place()
+            .map(|(row, column)| table.cell(row - 1, usize::from(column == TableColumn::Value)));
+        explain(&place.unwrap_or(table.whole()), &error, face).into()
     })
 }
 
-/// A column that was found: its place in a row, and its factor to SI units.
-#[derive(Clone, Copy)]
-struct Column {
-    place: usize,
-    to_si: f64,
-}
-
-/// Finds a column under one of its names.
-fn column(
-    source: &Arc<Source>,
-    header: &Row,
-    names: &Names,
-    what: &str,
-    face: Option<GivenFace>,
-) -> Result<Column, Diagnostic> {
-    let find = |names: &Names| -> Vec<(usize, f64)> {
-        let cells = header.cells.iter().enumerate();
-        cells
-            .filter_map(|(place, cell)| {
-                let name = cell.text.to_ascii_lowercase();
-                let known = names.iter().find(|(known, _)| *known == name)?;
-                Some((place, known.1))
-            })
-            .collect()
-    };
-    match find(names).as_slice() {
-        [(place, to_si)] => Ok(Column {
-            place: *place,
-            to_si: *to_si,
-        }),
-        [(first, _), (second, _), ..] => Err(Diagnostic::at(
-            &Location::new(source, header.cells[*second].span.clone()),
-            format!("the table has two columns of {what}"),
-        )
-        .label(
-            &Location::new(source, header.cells[*first].span.clone()),
-            "the other one",
-        )
-        .help("keep one of them")),
-        [] => {
-            let known: Vec<String> = names.iter().map(|(name, _)| format!("`{name}`")).collect();
-            let line = Location::new(source, header.span.clone());
-            let is_wanted = |name: &str| {
-                let name = name.to_ascii_lowercase();
-                names.iter().any(|(known, _)| *known == name)
-            };
-            let separated = separator::other_than_comma(line.text(), is_wanted);
-            let missing = Diagnostic::at(&line, format!("no column `{}`", names[0].0));
-            let (word, other) = other(face.unwrap_or(GivenFace::Creep));
-            Err(if face.is_some() && !find(&value_names(other)).is_empty() {
-                missing.help(format!("this table wants the quantity \"{word}\""))
-            } else if header.cells.iter().any(|c| c.text.parse::<f64>().is_ok()) {
-                missing
-                    .because("numbers")
-                    .help("begin the table with a line of column names")
-            } else if let Some((found, mended)) = separated {
-                missing
-                    .because(format!("separated by {found}"))
-                    .help(separator::help(&mended))
-            } else {
-                missing.help(format!("name the column of {what} {}", known.join(" or ")))
-            })
-        }
-    }
-}
-
-/// A number in SI units, and where it stands.
-type Cell = (f64, Range<usize>);
-
-/// Time and value of every row.
-fn samples(
-    rows: Rows<'_>,
-    header: &Row,
-    columns: [Column; 2],
-) -> Result<Vec<[Cell; 2]>, Diagnostics> {
-    let problems = Problems::new();
-    let source = rows.source;
-    let mut samples = Vec::new();
-    for row in rows {
-        let row = row?;
-        let (found, expected) = (row.cells.len(), header.cells.len());
-        if found != expected {
-            problems
-                .at(
-                    &Location::new(source, row.span.clone()),
-                    format!("a row of {found} cells in a table of {expected} columns"),
-                )
-                .help("give every row one cell per column; numbers have a decimal point, no comma");
-            continue;
-        }
-        let [time, value] = columns.map(|column| {
-            let cell = row.cells.get(column.place)?;
-            let name = header.cells.get(column.place).map_or("", |c| &c.text);
-            let number = number(source, &problems, cell, name)?;
-            Some((number * column.to_si, cell.span.clone()))
-        });
-        if let (Some(time), Some(value)) = (time, value) {
-            samples.push([time, value]);
-        }
-    }
-    problems.into_result(Some(samples))
-}
-
-fn number(source: &Arc<Source>, problems: &Problems, cell: &Text, column: &str) -> Option<f64> {
-    let why = match cell.text.parse::<f64>() {
-        Ok(number) if number.is_finite() => return Some(number),
-        Ok(_) => "not a finite number",
-        Err(_) if cell.text.is_empty() => "empty",
-        Err(_) => "not a number",
-    };
-    problems
-        .at(
-            &Location::new(source, cell.span.clone()),
-            format!("a cell of the column `{column}` must be a number"),
-        )
-        .because(why)
-        .help("write it as `1.5e-9`, or leave the whole row out");
-    None
-}
-
 /// What the material room refuses, at its place in the file.
-fn explain(
-    source: &Arc<Source>,
-    place: Option<Range<usize>>,
-    error: &TableError,
-    face: GivenFace,
-) -> Diagnostic {
-    let location = place.map_or(Location::whole(source), |span| Location::new(source, span));
-    let diagnostic = Diagnostic::at(&location, error.to_string());
+fn explain(place: &Location, error: &TableError, face: GivenFace) -> Diagnostic {
+    let diagnostic = Diagnostic::at(place, error.to_string());
     match error {
         TableError::Reversal { .. } | TableError::Trend { .. } => {
             let (word, _) = other(face);
@@ -271,94 +95,6 @@ fn explain(
         }
         _ => diagnostic,
     }
-}
-
-/// A piece of the file.
-struct Text {
-    text: String,
-    span: Range<usize>,
-}
-
-/// A line of the table, cut into cells.
-struct Row {
-    cells: Vec<Text>,
-    span: Range<usize>,
-}
-
-/// Reads row by row.
-struct Rows<'a> {
-    source: &'a Arc<Source>,
-    reader: csv::Reader<&'a [u8]>,
-}
-
-impl<'a> Rows<'a> {
-    fn new(source: &'a Arc<Source>) -> Self {
-        let reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(source.text().as_bytes());
-        Self { source, reader }
-    }
-
-    /// The cells with their places. In a line with quotes, the whole line stands for each of them.
-    fn row(&self, record: &csv::StringRecord) -> Row {
-        let from = record.position().map_or(0, |position| position.byte());
-        let span = line_at(self.source.text(), usize::try_from(from).unwrap_or(0));
-        let line = &self.source.text()[span.clone()];
-        let mut start = span.start;
-        let mut places = line.split(',').map(|cell| {
-            let begin = start + (cell.len() - cell.trim_start().len());
-            start += cell.len() + 1;
-            begin..begin + cell.trim().len()
-        });
-        let quoted = line.contains('"');
-        let cells = record.iter().map(|text| Text {
-            text: text.to_owned(),
-            span: places
-                .next()
-                .filter(|_| !quoted)
-                .unwrap_or_else(|| span.clone()),
-        });
-        Row {
-            cells: cells.collect(),
-            span: span.clone(),
-        }
-    }
-}
-
-impl Iterator for Rows<'_> {
-    type Item = Result<Row, Diagnostic>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        loop {
-            let mut record = csv::StringRecord::new();
-            match self.reader.read_record(&mut record) {
-                Ok(false) => return None,
-                // A line of blanks.
-                Ok(true) if record.iter().all(str::is_empty) && record.len() == 1 => {}
-                Ok(true) => return Some(Ok(self.row(&record))),
-                Err(error) => {
-                    let message = format!("cannot read `{}`: {error}", self.source.name());
-                    return Some(Err(Diagnostic::new(message)));
-                }
-            }
-        }
-    }
-}
-
-/// The first line from a byte on that is neither empty nor a comment, without its end: where the reader's record stands.
-fn line_at(text: &str, from: usize) -> Range<usize> {
-    let mut start = from;
-    for line in text.get(from..).unwrap_or("").split_inclusive('\n') {
-        let content = line.trim_end_matches(['\n', '\r']);
-        if !content.is_empty() && !content.starts_with('#') {
-            return start..start + content.len();
-        }
-        start += line.len();
-    }
-    from.min(text.len())..text.len()
 }
 
 #[cfg(test)]
@@ -410,10 +146,10 @@ mod tests {
          --> data.csv:1:1
           |
         1 | t,creep_compliance_per_pa
-          | ^^^^^^^^^^^^^^^^^^^^^^^^^
+          | ^^^^^^^^^^^^^^^^^^^^^^^^^ 2 columns, separated by commas
           |
-          = help: name the column of times `time_s` or `time` or `time_min` or
-                  `time_h`
+          = help: name the column of times with its unit, such as `time_s` or
+                  `time [s]`
         ");
         insta::assert_snapshot!(refusal(&GOOD.replace("creep_compliance_per", "relaxation_modulus")), @r#"
         error: no column `creep_compliance_per_pa`
@@ -432,26 +168,6 @@ mod tests {
           | ^^^^^^^ numbers
           |
           = help: begin the table with a line of column names
-        ");
-        insta::assert_snapshot!(refusal("time_s;creep_compliance_per_pa\n0;4e-10\n"), @r"
-        error: no column `time_s`
-         --> data.csv:1:1
-          |
-        1 | time_s;creep_compliance_per_pa
-          | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ separated by semicolons
-          |
-          = help: separate columns by commas, as in `time_s,creep_compliance_per_pa`,
-                  and write a decimal point
-        ");
-        insta::assert_snapshot!(refusal("time_s creep_compliance_per_pa\n0 4e-10\n"), @r"
-        error: no column `time_s`
-         --> data.csv:1:1
-          |
-        1 | time_s creep_compliance_per_pa
-          | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^ separated by spaces
-          |
-          = help: separate columns by commas, as in `time_s,creep_compliance_per_pa`,
-                  and write a decimal point
         ");
         insta::assert_snapshot!(refusal("time,time_s,creep_compliance_per_pa\n"), @r"
         error: the table has two columns of times
@@ -484,8 +200,8 @@ mod tests {
         6 | 2,4,1e-10
           | ^^^^^^^^^
           |
-          = help: give every row one cell per column; numbers have a decimal point, no
-                  comma
+          = help: give every row one cell per column; where commas separate cells,
+                  numbers have a decimal point
 
         error: a cell of the column `time_s` must be a number
          --> data.csv:7:1

@@ -1,7 +1,7 @@
 //! Captions: what a figure shows, of what, with which numbers, and how it was computed, as one paragraph to paste into a paper.
 
 use super::number::plain;
-use super::page::{how, question};
+use super::words::{drive_line, range, row};
 use crate::indenter::{Indenter, Value};
 use crate::material::Material;
 use crate::quantity::Dimension;
@@ -83,11 +83,11 @@ impl Setting {
             "{} on {}, {} (mean ± amplitude){rest}",
             indenter(plan.indenter.as_ref()),
             material(&plan.material),
-            question::drive_line(&plan.drive, plan)
+            drive_line(&plan.drive, plan)
         );
         let records = &outcome.records;
-        let steps = how::range(records.iter().map(|record| record.steps as f64), 0);
-        let nodes = how::range(records.iter().map(|record| record.nodes as f64), 0);
+        let steps = range(records.iter().map(|record| record.steps as f64), 0);
+        let nodes = range(records.iter().map(|record| record.nodes as f64), 0);
         let computed = format!(
             "Stabilised cycles to a relative tolerance of {:e}, {steps} time steps per cycle, computed by {}.",
             plan.cycle.tolerance,
@@ -159,7 +159,7 @@ fn indenter(indenter: &dyn Indenter) -> String {
         .collect();
     match settings.is_empty() {
         true => format!("rigid {shape}"),
-        false => format!("rigid {shape} ({})", question::row(&settings)),
+        false => format!("rigid {shape} ({})", row(&settings)),
     }
 }
 
@@ -205,15 +205,6 @@ pub fn absent(outcome: &Outcome) -> Option<String> {
     (without > 0).then(|| format!("{without} of {of} cases have no result and are absent."))
 }
 
-/// Items of a list as words: `a`, `a and b`, `a, b and c`.
-pub fn listed(items: &[String]) -> String {
-    match items {
-        [] => String::new(),
-        [one] => one.clone(),
-        [first @ .., last] => format!("{} and {last}", first.join(", ")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -230,18 +221,5 @@ mod tests {
             "Loss: a sphere on PMMA. Largest: 3 µJ. Computed."
         );
         assert_eq!(Caption::new("Loss").text(&Setting::default()), "Loss.");
-    }
-
-    #[test]
-    fn lists_read_as_words() {
-        let items = |count: usize| -> Vec<String> {
-            ["a", "b", "c"]
-                .iter()
-                .take(count)
-                .map(|item| (*item).to_owned())
-                .collect()
-        };
-        let listed: Vec<String> = (0..=3).map(|count| listed(&items(count))).collect();
-        assert_eq!(listed, ["", "a", "a and b", "a, b and c"]);
     }
 }

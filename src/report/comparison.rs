@@ -16,7 +16,8 @@ pub use source::{RunFacts, Source};
 
 use result::Row;
 
-use crate::sweep::record::error_bars::Quantity;
+use crate::quantity::FrequencyUnit;
+use crate::report::quantities::{self, Compared};
 use crate::sweep::search::peak::Peak;
 
 /// How much two values may differ.
@@ -63,6 +64,8 @@ pub struct Comparison {
     pub peaks: Vec<PeakComparison>,
     /// The curves of the energy loss.
     pub curve: Vec<CurvePoint>,
+    /// In which the baseline has its frequencies first.
+    pub unit: FrequencyUnit,
 }
 
 /// One column over all cases in both results.
@@ -143,6 +146,7 @@ impl Comparison {
             columns,
             peaks: peaks(baseline, new, tolerances),
             curve: columns::curve(baseline, new)?,
+            unit: baseline.unit(),
         })
     }
 
@@ -166,11 +170,9 @@ fn compared_columns(
 ) -> Result<Vec<String>, ComparisonError> {
     let mut names: Vec<String> = Vec::new();
     for column in baseline.columns.iter().chain(&new.columns) {
-        let is_quantity = Quantity::ALL.iter().any(|q| q.columns().0 == column);
-        let is_other = ["dissipated_j", "polygon_loss_j", "harmonic_4", "harmonic_5"]
-            .contains(&column.as_str());
-        let is_branch = column.starts_with("branch_") && column.ends_with("_loss_j");
-        if (is_quantity || is_other || is_branch) && !names.contains(column) {
+        let known = quantities::of_name(column);
+        let is_compared = known.is_some_and(|column| column.compared.is_some());
+        if is_compared && !names.contains(column) {
             names.push(column.clone());
         }
     }
@@ -199,10 +201,9 @@ fn column(
         .iter()
         .find(|(column, _)| *column == name);
     let relative = own.map_or(tolerances.relative, |(_, relative)| *relative);
-    // Harmonics are amplitudes relative to the first already: a share of a small one is a share of nothing.
-    let is_harmonic = name.starts_with("harmonic_");
-    let bars = Quantity::ALL.map(Quantity::columns);
-    let bar = bars.iter().find(|(value, _)| *value == name);
+    let known = quantities::of_name(&name);
+    let is_relative = known.is_some_and(|c| c.compared == Some(Compared::Absolutely));
+    let bar = known.and_then(|column| column.error_name());
     let mut found = ColumnComparison {
         name,
         largest: None,
@@ -222,7 +223,7 @@ fn column(
                 continue;
             }
         };
-        let scale = if is_harmonic {
+        let scale = if is_relative {
             1.0
         } else {
             a.abs().max(b.abs())
@@ -241,8 +242,8 @@ fn column(
             continue;
         }
         found.beyond += 1;
-        let error = match bar {
-            Some((_, error)) => baseline
+        let error = match &bar {
+            Some(error) => baseline
                 .number(old_row, error)?
                 .zip(new.number(new_row, error)?),
             None => None,

@@ -2,16 +2,19 @@
 
 use std::fmt::Write;
 
+use super::words::wrapped;
 use crate::material::fit::{Fit, FitReport, FittedSeries};
 use crate::quantity::{Dimension, format_human};
-
-/// Widest line.
-const WIDTH: usize = 80;
 
 /// Misfit, notes and warnings, wrapped; ends with a line end.
 pub fn text(report: &FitReport) -> String {
     let report = report.to_string();
-    report.lines().map(wrapped).collect()
+    report.lines().map(wrapped_line).collect()
+}
+
+/// One line of at most 80 columns broken between words, what follows the first set in by two.
+pub(super) fn wrapped_line(line: &str) -> String {
+    wrapped(line, 80, "", "  ")
 }
 
 /// The parameters of the series, to be read; exact ones are in the material block.
@@ -55,39 +58,4 @@ pub fn branches(fit: &Fit) -> String {
         let _ = writeln!(text, "{:>6} {strength:>18} {time:>18}", index + 1);
     }
     text
-}
-
-/// One line broken between words, what follows the first set in by two.
-pub(super) fn wrapped(line: &str) -> String {
-    let mut text = String::new();
-    let mut column = 0;
-    for word in line.split(' ') {
-        let length = word.chars().count();
-        if column > 0 && column + 1 + length > WIDTH {
-            text.push_str("\n  ");
-            column = 2;
-        } else if column > 0 {
-            text.push(' ');
-            column += 1;
-        }
-        text.push_str(word);
-        column += length;
-    }
-    text.push('\n');
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn long_lines_are_broken_and_nothing_is_lost() {
-        let line = "word ".repeat(40) + &"x".repeat(100);
-        let text = wrapped(&line);
-        assert_eq!(text.split_whitespace().collect::<Vec<_>>().join(" "), line);
-        let widths: Vec<usize> = text.lines().map(|l| l.chars().count()).collect();
-        assert!(widths[..widths.len() - 1].iter().all(|&w| w <= WIDTH));
-        assert_eq!(wrapped("short"), "short\n");
-    }
 }

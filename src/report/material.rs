@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-use super::ReportError;
+use super::figure;
+use super::figure::Figure;
 use super::figure::moduli::ModulusPoint;
-use super::figure::{self, Figure};
 use crate::material::{Creep, LossPeak, Material, MaterialError, ModulusKind, Relaxation};
 use crate::quantity::{Dimension, format_human};
 
@@ -88,15 +88,12 @@ impl<'a> MaterialReport<'a> {
     }
 
     /// The figures: moduli over frequency, relaxation modulus over time.
-    ///
-    /// # Errors
-    /// Where the tables behind them cannot be made.
-    pub fn figures(&self) -> Result<Vec<Figure>, ReportError> {
-        let mut figures = vec![figure::moduli::figure(&self.moduli(20), self.symbol)?];
+    pub fn figures(&self) -> Vec<Figure> {
+        let mut figures = vec![figure::moduli::figure(&self.moduli(20), self.symbol)];
         if let Some(curve) = self.relaxation_curve() {
-            figures.push(figure::relaxation::figure(&curve, self.symbol)?);
+            figures.push(figure::relaxation::figure(&curve, self.symbol));
         }
-        Ok(figures)
+        figures
     }
 
     /// The text: series, limits, table, peaks.
@@ -220,7 +217,7 @@ fn moduli_table(text: &mut String, symbol: char, compliance: char, points: &[Mod
         let _ = writeln!(
             text,
             "{:>11}  {:>11}  {:>11}  {:>9.3e}  {:>11.4e}  {:>11.4e}",
-            super::terminal::frequency(p.angular_frequency_rad_per_s),
+            super::number::four_digits(p.angular_frequency_rad_per_s),
             significant(p.storage_modulus_pa * 1e-6),
             significant(p.loss_modulus_pa * 1e-6),
             p.loss_modulus_pa / p.storage_modulus_pa,

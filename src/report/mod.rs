@@ -1,5 +1,9 @@
 //! Tables and figures, from records alone: nothing here solves anything.
 //!
+//! Its parts from top to bottom, each of which may use those above it: numbers, words and peaks as text; lines over the surface;
+//! tables, and the quantities that are their columns; captions; comparison; chart; figure; material; page; summary and results for
+//! programs; terminal; scenario. A test holds them to that.
+//!
 //! ```
 //! use contact_dma::prelude::*;
 //! use contact_dma::report;
@@ -33,6 +37,9 @@ pub mod material;
 pub mod npy;
 pub mod number;
 pub mod page;
+pub mod peaks;
+pub mod profile_lines;
+pub mod quantities;
 pub mod samples;
 pub mod scenario;
 pub mod stamp;
@@ -41,6 +48,7 @@ pub mod table;
 pub mod terminal;
 pub mod terminal_simulation;
 pub mod vti;
+pub mod words;
 pub mod work_line;
 
 use crate::sweep::figures::figure_plan::AxisUnits;
@@ -83,20 +91,54 @@ pub fn write_sweep(
     plan: &SweepPlan,
     outcome: &Outcome,
 ) -> Result<Vec<String>, ReportError> {
+    tables_of_sweep(store, plan, outcome)?;
+    figures_of_sweep(store, plan, outcome)
+}
+
+/// As [`write_sweep`], without figures and page; those of an earlier run, which may show less, are removed.
+///
+/// # Errors
+/// As [`write_sweep`].
+pub fn write_tables_of_sweep(
+    store: &Store,
+    plan: &SweepPlan,
+    outcome: &Outcome,
+) -> Result<Vec<String>, ReportError> {
+    tables_of_sweep(store, plan, outcome)?;
+    for file in files::FIGURES.into_iter().flat_map(files::of_figure) {
+        store.remove(&file)?;
+    }
+    store.remove("index.html")?;
+    Ok(Vec::new())
+}
+
+fn tables_of_sweep(store: &Store, plan: &SweepPlan, outcome: &Outcome) -> Result<(), ReportError> {
     let branches = outcome.retardation_times_s().len();
-    store.write("sweep.csv", &table::sweep(&outcome.records, branches)?)?;
+    let unit = plan.figures.frequency_unit;
+    store.write(
+        "sweep.csv",
+        &quantities::sweep(&outcome.records, branches, unit),
+    )?;
     for record in &outcome.records {
         if let Some(result) = &record.result {
             let name = |folder: &str| format!("{folder}/{}.csv", record.index);
-            store.write(name("loops"), &table::samples(&result.samples)?)?;
-            let pressures = table::pressures(&result.pressures, plan.drive.control())?;
+            store.write(name("loops"), &table::samples(&result.samples))?;
+            let pressures = table::pressures(&result.pressures, plan.drive.control());
             store.write(name("pressures"), &pressures)?;
             let work = WorkLine::of(&result.surface_loss, plan.indenter.as_ref());
-            store.write(name("work"), &table::work(&work)?)?;
+            store.write(name("work"), &table::work(&work))?;
         }
     }
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
     store.write("summary.json", &summary)?;
+    Ok(())
+}
+
+fn figures_of_sweep(
+    store: &Store,
+    plan: &SweepPlan,
+    outcome: &Outcome,
+) -> Result<Vec<String>, ReportError> {
     let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
     let stamp = Stamp::of(store.sweep_hash());
     let units = Units::of_sweep(plan)?.sentence();

@@ -1,7 +1,82 @@
 //! Numbers with their errors and units, to be read.
 
-use crate::quantity::{Dimension, format_human};
-use crate::report::figure::scientific;
+use crate::quantity::{Dimension, FrequencyUnit, format_human};
+
+/// The power of ten and its prefix in which values up to `largest` read well: (factor to multiply by, prefix).
+pub fn prefix(largest: f64) -> (f64, &'static str) {
+    const PREFIXES: [(f64, &str); 11] = [
+        (1e-15, "f"),
+        (1e-12, "p"),
+        (1e-9, "n"),
+        (1e-6, "µ"),
+        (1e-3, "m"),
+        (1.0, ""),
+        (1e3, "k"),
+        (1e6, "M"),
+        (1e9, "G"),
+        (1e12, "T"),
+        (1e15, "P"),
+    ];
+    if largest == 0.0 {
+        return (1.0, "");
+    }
+    let fits = PREFIXES.iter().rev().find(|(unit, _)| largest >= *unit);
+    let (unit, name) = fits.unwrap_or(&PREFIXES[0]);
+    (unit.recip(), name)
+}
+
+/// The largest of values that are not negative; 0 where there are none.
+pub fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().fold(0.0, f64::max)
+}
+
+/// The smallest and the largest of some values: infinite, the wrong way round, where there are none.
+pub fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    let wider = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));
+    values.into_iter().fold(none, wider)
+}
+
+/// A number with a power of ten in superscript where it is not of everyday size: `8.44 × 10⁻³`, `0.278`, `10⁻⁴`.
+pub fn scientific(value: f64, significant: usize) -> String {
+    let text = format!("{value:.*e}", significant.saturating_sub(1));
+    let Some((mantissa, exponent)) = text.split_once('e') else {
+        return text;
+    };
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    if (-1..=3).contains(&exponent) {
+        let decimals = (significant as i32 - 1 - exponent).max(0) as usize;
+        return trimmed(&format!("{value:.decimals$}"));
+    }
+    let mantissa = trimmed(mantissa);
+    let power = superscript(exponent);
+    if mantissa == "1" {
+        format!("10{power}")
+    } else {
+        format!("{mantissa} × 10{power}")
+    }
+}
+
+/// Without zeros at the end of the decimals.
+fn trimmed(number: &str) -> String {
+    if number.contains('.') {
+        number
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_owned()
+    } else {
+        number.to_owned()
+    }
+}
+
+fn superscript(exponent: i32) -> String {
+    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let raised = |c: char| match c.to_digit(10) {
+        Some(digit) => DIGITS[digit as usize % 10],
+        None => '⁻',
+    };
+    exponent.to_string().chars().map(raised).collect()
+}
 
 /// A value with its error, in one unit and of one power of ten: the error has one digit and is never less than it is, the value has
 /// as many decimals.
@@ -15,7 +90,7 @@ pub(super) struct Measured {
 }
 
 /// Digits of a value beyond which an error is not followed.
-const MOST_DECIMALS: i32 = 9;
+const MOST_DECIMALS: i32 = 6;
 
 impl Measured {
     /// `None` where there is no error, or no value but zero to take the unit from.
@@ -47,14 +122,24 @@ impl Measured {
     }
 }
 
+impl Measured {
+    /// The power of ten where it cannot be raised: `e-3`, or nothing.
+    pub fn tens(&self) -> String {
+        match self.power {
+            0 => String::new(),
+            power => format!("e{power}"),
+        }
+    }
+}
+
 /// One digit, never less than the number itself.
-pub(super) fn one_digit(error: f64) -> f64 {
+fn one_digit(error: f64) -> f64 {
     let unit = 10_f64.powf(error.log10().floor());
     (error / unit * (1.0 - 1e-9)).ceil() * unit
 }
 
 /// The power of ten of a number's first digit, of one too that lies a rounding below its power of ten.
-pub(super) fn power_of_ten(number: f64) -> i32 {
+fn power_of_ten(number: f64) -> i32 {
     (number.abs() * (1.0 + 1e-9)).log10().floor() as i32
 }
 
@@ -92,6 +177,33 @@ fn written(
     match power {
         0 => format!("{value} ± {error} {unit}"),
         power => format!("({value} ± {error}){} {unit}", tens(power)),
+    }
+}
+
+/// An angular frequency (rad/s) in the unit asked for: `ω = 10⁻⁴ rad/s`, `f = 0.5 Hz`.
+pub fn at_frequency(
+    unit: FrequencyUnit,
+    angular_frequency_rad_per_s: f64,
+    digits: usize,
+) -> String {
+    let value = unit.of(angular_frequency_rad_per_s);
+    format!(
+        "{} = {}",
+        unit.symbol(),
+        plain(value, unit.dimension(), digits)
+    )
+}
+
+/// Four digits, with an exponent where the number is small or large.
+pub fn four_digits(value: f64) -> String {
+    if (0.01..1e4).contains(&value) {
+        format!(
+            "{:.*}",
+            (3 - value.log10().floor() as i32).max(0) as usize,
+            value
+        )
+    } else {
+        format!("{value:.3e}")
     }
 }
 
@@ -146,10 +258,7 @@ mod tests {
         assert_eq!(joule(3.6e-6, Some(5e-6)), "4 ± 5 µJ");
         assert_eq!(joule(3.6e-6, Some(1e-6)), "4 ± 1 µJ");
         // Further than nine decimals no error is followed.
-        assert_eq!(
-            joule(3.50901e-6, Some(2.8e-19)),
-            "3.509010000 ± 0.000000001 µJ"
-        );
+        assert_eq!(joule(3.50901e-6, Some(2.8e-19)), "3.509010 ± 0.000001 µJ");
         let omega = |value, error| {
             let written = [with_error, with_error_on_terminal];
             written.map(|text| text(value, Some(error), Dimension::AngularFrequency))
@@ -190,5 +299,24 @@ mod tests {
         assert_eq!(plain(0.01, Dimension::Length, 6), "10 mm");
         assert_eq!(plain(1e-4, Dimension::AngularFrequency, 3), "10⁻⁴ rad/s");
         assert_eq!(plain(0.0, Dimension::Angle, 4), "0 rad");
+    }
+
+    #[test]
+    fn numbers_read_as_in_print() {
+        assert_eq!(scientific(8.44e-3, 3), "8.44 × 10⁻³");
+        assert_eq!(scientific(1e-4, 3), "10⁻⁴");
+        assert_eq!(scientific(0.278, 3), "0.278");
+        assert_eq!(scientific(1.0, 3), "1");
+        assert_eq!(scientific(12.0, 3), "12");
+        assert_eq!(scientific(2.5e12, 3), "2.5 × 10¹²");
+    }
+
+    #[test]
+    fn a_prefix_keeps_the_largest_value_between_one_and_a_thousand() {
+        for (largest, name) in [(3.5e-6, "µ"), (15.0, ""), (1e3, "k"), (2e-20, "f")] {
+            assert_eq!(prefix(largest).1, name);
+        }
+        let (factor, _) = prefix(999e-9);
+        assert!((999e-9 * factor - 999.0).abs() < 1e-9);
     }
 }

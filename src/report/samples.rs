@@ -1,6 +1,6 @@
 //! What is said of samples that are taken as they are.
 
-use super::fit::wrapped;
+use super::fit::wrapped_line;
 use crate::material::GivenFace;
 use crate::material::sampled::Sampled;
 use crate::quantity::{Dimension, format_human};
@@ -36,7 +36,7 @@ pub fn text(sampled: &Sampled, duration_s: f64) -> String {
             "Warning: the data end at {last} and the history at {end}: the compliance keeps its last value after"
         ));
     }
-    lines.iter().map(|line| wrapped(line)).collect()
+    lines.iter().map(|line| wrapped_line(line)).collect()
 }
 
 #[cfg(test)]

@@ -4,20 +4,27 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::caption::Setting;
-use super::figure::Drawn;
-use super::figure::press::{self, Press};
-use super::figure::units::Units;
-use super::page::Pictures;
-use super::table::{Table, number, optional};
-use super::{ReportError, figure, npy, page, vti};
-use crate::contact::surface::{CellSurface, Surface};
+use super::ReportError;
+use crate::contact::surface::Surface;
+use crate::report::caption::Setting;
+use crate::report::figure::press::{self, Press};
+use crate::report::figure::units::Units;
+use crate::report::figure::{self, Drawn};
+use crate::report::npy;
+use crate::report::page::{self, Pictures};
+use crate::report::profile_lines::lines;
+use crate::report::quantities;
+use crate::report::table::{Cell, cells, csv};
+use crate::report::vti;
 use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::history::outside_model;
 use crate::sweep::history::{SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::scenario::{self, ScenarioPlan};
-use crate::sweep::store::Store;
+use crate::sweep::store::{Store, files};
+
+/// The table of time steps.
+const HISTORY: &str = "history.csv";
 
 /// Writes everything, as far as the simulation came. Returns what was left out and why.
 ///
@@ -28,20 +35,7 @@ pub fn write(
     plan: &ScenarioPlan,
     outcome: &SimulationOutcome,
 ) -> Result<Vec<String>, ReportError> {
-    store.write("history.csv", &history(outcome)?)?;
-    store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
-    if !outcome.profiles.is_empty() {
-        store.write("profiles/index.csv", &index(&outcome.profiles)?)?;
-        for (k, record) in outcome.profiles.iter().enumerate() {
-            store.write(format!("profiles/{k}.csv"), &profile(record)?)?;
-        }
-    }
-    if !outcome.fields.is_empty() {
-        store.write("fields/index.csv", &index(&outcome.fields)?)?;
-        for (k, record) in outcome.fields.iter().enumerate() {
-            write_fields(store, k, record)?;
-        }
-    }
+    tables(store, plan, outcome)?;
     let pictures = Pictures::default();
     let left_out = figures(store, plan, outcome, &pictures)?;
     if plan.figures.axes != AxisUnits::Si
@@ -53,6 +47,49 @@ pub fn write(
     let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
     store.write("index.html", page.as_bytes())?;
     Ok(left_out)
+}
+
+/// As [`write`], without figures and page; those of an earlier run, which may show less, are removed.
+///
+/// # Errors
+/// As [`write`].
+pub fn write_tables(
+    store: &Store,
+    plan: &ScenarioPlan,
+    outcome: &SimulationOutcome,
+) -> Result<Vec<String>, ReportError> {
+    tables(store, plan, outcome)?;
+    let maps = (0..outcome.fields.len()).map(figure::pressure_map::file);
+    let drawn = scenario::FIGURES.into_iter().map(str::to_owned).chain(maps);
+    let drawn = drawn.flat_map(|name| files::of_figure(&name));
+    // The data of the figure of the history are the table itself.
+    for file in drawn.filter(|file| file != HISTORY) {
+        store.remove(&file)?;
+    }
+    store.remove("index.html")?;
+    Ok(Vec::new())
+}
+
+fn tables(
+    store: &Store,
+    plan: &ScenarioPlan,
+    outcome: &SimulationOutcome,
+) -> Result<(), ReportError> {
+    store.write(HISTORY, &quantities::history(outcome))?;
+    store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
+    if !outcome.profiles.is_empty() {
+        store.write("profiles/index.csv", &index(&outcome.profiles))?;
+        for (k, record) in outcome.profiles.iter().enumerate() {
+            store.write(format!("profiles/{k}.csv"), &profile(record))?;
+        }
+    }
+    if !outcome.fields.is_empty() {
+        store.write("fields/index.csv", &index(&outcome.fields))?;
+        for (k, record) in outcome.fields.iter().enumerate() {
+            write_fields(store, k, record)?;
+        }
+    }
+    Ok(())
 }
 
 fn figures(
@@ -73,7 +110,7 @@ fn figures(
         Drawn::Figure(figure) => figures.push(figure),
         Drawn::LeftOut(why) => left_out.push(why),
     }
-    let (profiles, not_drawn) = figure::profiles::figure(&outcome.profiles, &units)?;
+    let (profiles, not_drawn) = figure::profiles::figure(&outcome.profiles, &units);
     figures.extend(profiles);
     left_out.extend(not_drawn);
     press.figures(&figures, &setting)?;
@@ -90,158 +127,61 @@ fn figures(
     Ok(left_out)
 }
 
-/// `history.csv`: one row per time step, two with the same time at a jump. Errors are absolute.
-fn history(outcome: &SimulationOutcome) -> Result<Vec<u8>, ReportError> {
-    let mut table = Table::new(
-        "history.csv",
-        &[
-            "time_s",
-            "load_n",
-            "approach_m",
-            "contact_radius_m",
-            "contact_area_m2",
-            "peak_pressure_pa",
-            "load_error_n",
-            "approach_error_m",
-            "contact_radius_error_m",
-            "peak_pressure_error_pa",
-        ],
-    )?;
-    for (place, row) in outcome.rows.iter().enumerate() {
-        let errors = outcome.errors.get(place).copied().unwrap_or_default();
-        table.row(&[
-            number(row.time_s),
-            number(row.load_n),
-            optional(row.approach_m),
-            number(row.contact_radius_m),
-            number(row.contact_area_m2()),
-            optional(row.peak_pressure_pa),
-            optional(errors.load_n),
-            optional(errors.approach_m),
-            optional(errors.contact_radius_m),
-            optional(errors.peak_pressure_pa),
-        ])?;
-    }
-    table.finish()
-}
-
 /// `index.csv`: which time and state each file of a folder belongs to.
-fn index(records: &[SurfaceRecord]) -> Result<Vec<u8>, ReportError> {
-    let mut table = Table::new(
-        "index.csv",
-        &[
-            "index",
-            "time_s",
-            "load_n",
-            "approach_m",
-            "contact_radius_m",
-            "cells_x",
-            "cells_y",
-            "spacing_x_m",
-            "spacing_y_m",
-        ],
-    )?;
-    for (k, record) in records.iter().enumerate() {
+fn index(records: &[SurfaceRecord]) -> Vec<u8> {
+    let columns = [
+        "index",
+        "time_s",
+        "load_n",
+        "approach_m",
+        "contact_radius_m",
+        "cells_x",
+        "cells_y",
+        "spacing_x_m",
+        "spacing_y_m",
+    ];
+    let rows = records.iter().enumerate().map(|(k, record)| {
         let row = &record.row;
         let grid = match &record.surface {
             Surface::Radial(_) => None,
             Surface::Cells(cells) => Some(cells.grid),
         };
-        let count = |value: Option<usize>| value.map(|n| n.to_string()).unwrap_or_default();
-        table.row(&[
-            k.to_string(),
-            number(row.time_s),
-            number(row.load_n),
-            optional(row.approach_m),
-            number(row.contact_radius_m),
-            count(grid.map(|g| g.cells_x())),
-            count(grid.map(|g| g.cells_y())),
-            optional(grid.map(|g| g.spacing_x_m())),
-            optional(grid.map(|g| g.spacing_y_m())),
-        ])?;
-    }
-    table.finish()
-}
-
-/// One point of a profile. The pressure is absent where it is unbounded, the gap where there is no indenter or its place is
-/// unknown.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ProfilePoint {
-    pub(super) position_m: f64,
-    pub(super) pressure_pa: Option<f64>,
-    pub(super) displacement_m: f64,
-    pub(super) gap_m: Option<f64>,
-}
-
-/// The lines along which a surface is shown: its radius, or the axes of its grid.
-pub(super) fn lines(record: &SurfaceRecord) -> Vec<(&'static str, Vec<ProfilePoint>)> {
-    let gap = |i: usize| {
-        let gap = record.gap_m.as_ref().and_then(|gap| gap.get(i).copied());
-        gap.filter(|gap| gap.is_finite())
-    };
-    match &record.surface {
-        Surface::Radial(radial) => {
-            let values = radial.pressure_pa.iter().zip(&radial.displacement_m);
-            let points = radial.radius_m.iter().zip(values).enumerate();
-            let point = |(i, (&position_m, (&pressure_pa, &displacement_m)))| ProfilePoint {
-                position_m,
-                pressure_pa,
-                displacement_m,
-                gap_m: gap(i),
-            };
-            vec![("r", points.map(point).collect())]
-        }
-        Surface::Cells(cells) => vec![
-            ("x", centre_line(cells, &gap, cells.grid.centre_row())),
-            ("y", centre_line(cells, &gap, cells.grid.centre_column())),
-        ],
-    }
-}
-
-/// Values along x or y through the centre, as [`Grid::centre_row`](crate::contact::half_space::grid::Grid::centre_row) finds
-/// them.
-fn centre_line(
-    cells: &CellSurface,
-    gap: &dyn Fn(usize) -> Option<f64>,
-    places: Vec<(f64, [usize; 2])>,
-) -> Vec<ProfilePoint> {
-    let mean = |field: &[f64], [a, b]: [usize; 2]| 0.5 * (field[a] + field[b]);
-    let point = |(position_m, pair): (f64, [usize; 2])| ProfilePoint {
-        position_m,
-        pressure_pa: Some(mean(&cells.pressure_pa, pair)),
-        displacement_m: mean(&cells.displacement_m, pair),
-        gap_m: gap(pair[0]).zip(gap(pair[1])).map(|(a, b)| 0.5 * (a + b)),
-    };
-    places.into_iter().map(point).collect()
+        cells![
+            k,
+            row.time_s,
+            row.load_n,
+            row.approach_m,
+            row.contact_radius_m,
+            grid.map(|g| g.cells_x()),
+            grid.map(|g| g.cells_y()),
+            grid.map(|g| g.spacing_x_m()),
+            grid.map(|g| g.spacing_y_m()),
+        ]
+    });
+    csv(&columns, rows)
 }
 
 /// `profiles/<k>.csv`.
-fn profile(record: &SurfaceRecord) -> Result<Vec<u8>, ReportError> {
+fn profile(record: &SurfaceRecord) -> Vec<u8> {
     let is_radial = matches!(record.surface, Surface::Radial(_));
-    let values = ["pressure_pa", "displacement_m", "gap_m"];
-    let columns: Vec<&str> = if is_radial {
-        ["radius_m"].into_iter().chain(values).collect()
-    } else {
-        ["line", "position_m"].into_iter().chain(values).collect()
+    let places: &[&str] = match is_radial {
+        true => &["radius_m"],
+        false => &["line", "position_m"],
     };
-    let mut table = Table::new("profile", &columns)?;
-    for (line, points) in lines(record) {
-        for point in points {
-            let mut cells = if is_radial {
-                Vec::new()
-            } else {
-                vec![line.to_owned()]
-            };
-            cells.extend([
-                number(point.position_m),
-                optional(point.pressure_pa),
-                number(point.displacement_m),
-                optional(point.gap_m),
-            ]);
-            table.row(&cells)?;
-        }
-    }
-    table.finish()
+    let columns = [places, &["pressure_pa", "displacement_m", "gap_m"]].concat();
+    let rows = lines(record).into_iter().flat_map(|(line, points)| {
+        points.into_iter().map(move |point| {
+            let values = cells![
+                point.position_m,
+                point.pressure_pa,
+                point.displacement_m,
+                point.gap_m,
+            ];
+            let line = (!is_radial).then(|| Cell::from(line));
+            line.into_iter().chain(values).collect::<Vec<_>>()
+        })
+    });
+    csv(&columns, rows)
 }
 
 /// `fields/<k>-<quantity>.npy` and `fields/<k>.vti`. The gap is infinite where there is no indenter, and left out where the
@@ -344,5 +284,5 @@ fn summary(
         program_version: env!("CARGO_PKG_VERSION"),
         scenario_hash,
     };
-    super::summary::json(&summary)
+    crate::report::summary::json(&summary)
 }

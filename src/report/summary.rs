@@ -54,7 +54,7 @@ pub fn summary(
             not_converged: outcome.count(Status::NotConverged),
             failed: outcome.count(Status::Failed),
         },
-        warnings: warning::over_cases(&outcome.records),
+        warnings: warning::over_cases(&outcome.records, plan.figures.frequency_unit),
         interrupted: outcome.interrupted,
         engine: plan.solver.engine.name(),
         program: env!("CARGO_PKG_NAME"),

@@ -3,10 +3,12 @@
 use std::fmt::Write;
 
 use crate::quantity::{Dimension, format_human};
-use crate::report::{fit, samples, terminal};
-use crate::sweep::history::errors::RowErrors;
+use crate::report::fit;
+use crate::report::quantities::{Column, HISTORY, Moment};
+use crate::report::samples;
+use crate::report::terminal;
 use crate::sweep::history::outside_model;
-use crate::sweep::history::{HistoryRow, SimulationEnd, SimulationOutcome};
+use crate::sweep::history::{SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::scenario::ScenarioPlan;
 
@@ -20,35 +22,32 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
     if let Some(material) = material {
         let _ = writeln!(text, "{material}");
     }
-    let Some(last) = outcome.rows.last() else {
+    if outcome.rows.is_empty() {
         text.push_str("Interrupted before the first time step.\n");
         return text;
-    };
+    }
     if outcome.ended == SimulationEnd::Interrupted {
         let duration = format_human(plan.drive.duration_s(), Dimension::Time, 4);
         // Writing to a String cannot fail.
         let _ = writeln!(text, "Interrupted: the history was to last {duration}.");
     }
-    text.push_str("                  time         load     approach       radius     pressure\n");
-    let wider = |a, b| {
-        let (a, b): (&HistoryRow, &HistoryRow) = (a, b);
-        if b.contact_radius_m > a.contact_radius_m {
-            b
-        } else {
-            a
+    let headings: String = columns()
+        .map(|column| format!(" {:>12}", column.heading))
+        .collect();
+    let _ = writeln!(text, "{:>22}{headings}", "time");
+    let moments: Vec<Moment> = Moment::all(outcome).collect();
+    let radius_m = |moment: &&Moment| moment.row.contact_radius_m;
+    // Of equals the first.
+    let wider = |a, b| if radius_m(&b) > radius_m(&a) { b } else { a };
+    let has_errors = !outcome.errors.is_empty();
+    for (name, moment) in [
+        ("widest", moments.iter().reduce(wider)),
+        ("last", moments.last()),
+    ] {
+        if let Some(moment) = moment {
+            line(&mut text, name, moment, has_errors);
         }
-    };
-    let place = |row: &HistoryRow| {
-        outcome
-            .rows
-            .iter()
-            .position(|other| std::ptr::eq(other, row))
-    };
-    let errors = |row: &HistoryRow| outcome.errors.get(place(row)?);
-    if let Some(widest) = outcome.rows.iter().reduce(wider) {
-        line(&mut text, "widest", widest, errors(widest));
     }
-    line(&mut text, "last", last, errors(last));
     let _ = writeln!(
         text,
         "\n{} time steps, {} engine{}",
@@ -69,42 +68,29 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
     text
 }
 
+/// What has an error.
+fn columns() -> impl Iterator<Item = &'static Column<Moment>> {
+    HISTORY
+        .iter()
+        .filter(|column| column.error_name().is_some())
+}
+
 /// A row, and its errors below it.
-fn line(text: &mut String, name: &str, row: &HistoryRow, errors: Option<&RowErrors>) {
-    let or_dash = |value: Option<f64>, dimension, digits| match value {
-        Some(value) => format_human(value, dimension, digits),
-        None => "-".to_owned(),
+fn line(text: &mut String, name: &str, moment: &Moment, has_errors: bool) {
+    let cells = |value: &dyn Fn(&Column<Moment>) -> Option<f64>, digits| -> String {
+        let cell = |column: &'static Column<Moment>| {
+            let value = value(column).zip(column.dimension);
+            let value = value.map(|(value, dimension)| format_human(value, dimension, digits));
+            format!(" {:>12}", value.as_deref().unwrap_or("-"))
+        };
+        columns().map(cell).collect()
     };
-    let mut add = |name: &str, time: String, values: [Option<f64>; 4], digits| {
-        let dimensions = [
-            Dimension::Force,
-            Dimension::Length,
-            Dimension::Length,
-            Dimension::Stress,
-        ];
-        let mut line = format!("{name:<8}{time:>14}");
-        for (value, dimension) in values.into_iter().zip(dimensions) {
-            // Writing to a String cannot fail.
-            let _ = write!(line, " {:>12}", or_dash(value, dimension, digits));
-        }
-        let _ = writeln!(text, "{line}");
-    };
-    let time = format_human(row.time_s, Dimension::Time, 4);
-    let radius_m = Some(row.contact_radius_m);
-    let values = [
-        Some(row.load_n),
-        row.approach_m,
-        radius_m,
-        row.peak_pressure_pa,
-    ];
-    add(name, time, values, 4);
-    if let Some(errors) = errors {
-        let values = [
-            errors.load_n,
-            errors.approach_m,
-            errors.contact_radius_m,
-            errors.peak_pressure_pa,
-        ];
-        add("", "+-".to_owned(), values, 2);
+    let time = format_human(moment.row.time_s, Dimension::Time, 4);
+    let values = cells(&|column| column.number(moment), 4);
+    // Writing to a String cannot fail.
+    let _ = writeln!(text, "{name:<8}{time:>14}{values}");
+    if has_errors {
+        let errors = cells(&|column| column.error(moment), 2);
+        let _ = writeln!(text, "{:<8}{:>14}{errors}", "", "+-");
     }
 }

@@ -11,6 +11,7 @@ use tempfile::TempDir;
 pub fn program() -> Command {
     let mut command = Command::cargo_bin("contact-dma").unwrap();
     command.env_remove("CONTACT_DMA_THREADS");
+    command.env_remove("COLUMNS");
     command
 }
 

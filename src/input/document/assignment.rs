@@ -1,10 +1,14 @@
 //! `--set KEY=VALUE`: finding key and value in the text of the flag, and putting them into the tree.
+//!
+//! Items of a list have numbers from 0: `asperities.1.radius`, or `asperities[1].radius` as messages say it; the number behind the
+//! last one adds an item. `KEY=` removes a key. A key that takes the place of others in the file removes those.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use toml::de::DeValue;
 
+use super::reader::join;
 use super::syntax;
 use super::tree::{Entry, Node, Table, Value};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Source};
@@ -14,6 +18,100 @@ pub(super) const PREFIX: &str = "--set ";
 
 /// Deepest key accepted; sweep files have three levels.
 const MAX_DEPTH: usize = 16;
+
+/// Keys of a table of which one excludes the others; those of one group belong together.
+const ALTERNATIVES: [(&str, &[&[&str]]); 7] = [
+    (
+        "material",
+        &[
+            &["library"],
+            &["relaxation", "poisson_ratio"],
+            &["creep", "poisson_ratio"],
+            &["maxwell", "poisson_ratio"],
+            &["zener", "poisson_ratio"],
+            &["kelvin_voigt", "poisson_ratio"],
+            &["table", "poisson_ratio"],
+        ],
+    ),
+    ("material.table", &[&["file"], &["times", "values"]]),
+    ("sweep", &[&["angular_frequency"], &["frequency"]]),
+    ("sweep.drive", &[&["amplitude"], &["mean"]]),
+    ("figures", &[&["width"], &["column"]]),
+    (
+        "drive.segments[]",
+        &[&["angular_frequency"], &["frequency"]],
+    ),
+    ("drive.segments[]", &[&["file"], &["times", "values"]]),
+];
+
+/// Keys that belong to some values of another one: the table, that key, its values with what belongs to each.
+type Kinds = (
+    &'static str,
+    &'static str,
+    &'static [(&'static str, &'static [&'static str])],
+);
+const KINDS: [Kinds; 2] = [
+    (
+        "indenter",
+        "shape",
+        &[
+            ("sphere", &["radius"]),
+            ("cone", &["half_angle"]),
+            ("flat-punch", &["radius"]),
+            ("ellipsoid", &["radius_x", "radius_y"]),
+            ("power-law", &["exponent", "radius", "height"]),
+            ("profile", &["file", "sha256"]),
+            (
+                "height-map",
+                &[
+                    "file",
+                    "sha256",
+                    "spacing",
+                    "quantity",
+                    "height_unit",
+                    "level",
+                    "edge",
+                ],
+            ),
+            ("asperities", &["asperities"]),
+            (
+                "rough",
+                &[
+                    "cells",
+                    "spacing",
+                    "hurst_exponent",
+                    "rms_height",
+                    "cut_off_wavelength",
+                    "roll_off_wavelength",
+                    "seed",
+                    "sphere_radius",
+                    "edge",
+                ],
+            ),
+        ],
+    ),
+    (
+        "drive.segments[]",
+        "kind",
+        &[
+            ("step", &["to", "duration"]),
+            ("ramp", &["to", "duration"]),
+            ("polynomial", &["coefficients", "duration"]),
+            (
+                "sine",
+                &[
+                    "mean",
+                    "amplitude",
+                    "angular_frequency",
+                    "frequency",
+                    "phase",
+                    "cycles",
+                ],
+            ),
+            ("table", &["file", "times", "values"]),
+        ],
+    ),
+];
 
 /// Applies the flag whose text is `source`.
 pub(super) fn apply(root: &mut Table, source: &Arc<Source>) -> Result<(), Diagnostics> {
@@ -26,8 +124,13 @@ pub(super) fn apply(root: &mut Table, source: &Arc<Source>) -> Result<(), Diagno
             .into());
     };
     let keys = keys(source, PREFIX.len()..equals)?;
-    let node = value(source, trimmed(text, equals + 1..text.len()))?;
-    insert(root, &keys, node)?;
+    let new = value(source, trimmed(text, equals + 1..text.len()))?;
+    // A refused flag leaves everything as it was.
+    let mut changed = Value::Table(root.clone());
+    change(&mut changed, &Location::whole(source), "", &keys, new)?;
+    if let Value::Table(changed) = changed {
+        *root = changed;
+    }
     Ok(())
 }
 
@@ -35,13 +138,16 @@ pub(super) fn apply(root: &mut Table, source: &Arc<Source>) -> Result<(), Diagno
 fn keys(source: &Arc<Source>, span: Range<usize>) -> Result<Vec<Location>, Diagnostic> {
     let mut keys = Vec::new();
     let mut start = span.start;
-    for word in source.text()[span.clone()].split('.') {
+    for word in source.text()[span.clone()].split(['.', '[']) {
+        let opened = start > span.start && source.text().as_bytes()[start - 1] == b'[';
         let place = trimmed(source.text(), start..start + word.len());
         start += word.len() + 1;
-        let location = Location::new(source, place);
+        let closed = opened && source.text()[place.clone()].ends_with(']');
+        let location = Location::new(source, place.start..place.end - usize::from(closed));
         let is_key =
             |character: char| character.is_ascii_alphanumeric() || "_-".contains(character);
-        if location.text().is_empty() || !location.text().chars().all(is_key) {
+        let is_word = !location.text().is_empty() && location.text().chars().all(is_key);
+        if !is_word || opened != closed {
             return Err(
                 Diagnostic::at(&location, "`--set` needs a dotted key before `=`")
                     .because("expected letters, digits, `_` or `-`")
@@ -58,8 +164,8 @@ fn keys(source: &Arc<Source>, span: Range<usize>) -> Result<Vec<Location>, Diagn
     Ok(keys)
 }
 
-/// The value, which is a string where it is not TOML and does not set out to be.
-fn value(source: &Arc<Source>, span: Range<usize>) -> Result<Node, Diagnostic> {
+/// The value, which is a string where it is not TOML and does not set out to be; `None` where there is none, to remove the key.
+fn value(source: &Arc<Source>, span: Range<usize>) -> Result<Option<Node>, Diagnostic> {
     let location = Location::new(source, span.clone());
     let text = location.text();
     let value = match DeValue::parse(text) {
@@ -67,75 +173,163 @@ fn value(source: &Arc<Source>, span: Range<usize>) -> Result<Node, Diagnostic> {
         Ok(value) if !value.get_ref().is_datetime() => {
             Node::from_toml(value.span(), value.into_inner(), source, span.start).value
         }
-        Err(_) if text.is_empty() => {
-            return Err(Diagnostic::at(&location, "a value is missing")
-                .because("expected a value here")
-                .help("for an empty text write `\"\"`"));
+        Err(_) if text.is_empty() => return Ok(None),
+        Err(_) if text.starts_with(syntax::CURLY) => {
+            let inside = text.trim_matches(syntax::CURLY);
+            return Err(Diagnostic::at(&location, "curly quotes enclose no text")
+                .because("taken for a part of the text")
+                .help(format!("write `{inside}`, in straight quotes or in none")));
         }
         Err(error) if text.starts_with(['"', '\'', '[', '{']) => {
             return Err(syntax::explain_value(source, &error, span.start));
         }
         _ => Value::Text(text.to_owned()),
     };
-    Ok(Node { value, location })
+    Ok(Some(Node { value, location }))
 }
 
-/// Puts `node` under `keys`, replacing what is there.
-fn insert(root: &mut Table, keys: &[Location], node: Node) -> Result<(), Diagnostic> {
-    let Some((last, parents)) = keys.split_last() else {
+/// Puts `new` under `keys` in `value`, which is called `path` and given at `place`, or removes what is there.
+fn change(
+    value: &mut Value,
+    place: &Location,
+    path: &str,
+    keys: &[Location],
+    new: Option<Node>,
+) -> Result<(), Diagnostic> {
+    let Some((key, below)) = keys.split_first() else {
         return Ok(());
     };
-    check_parents(root, parents)?;
-    let mut table = root;
-    for key in parents {
-        let entry = table
-            .entries
-            .entry(key.text().to_owned())
-            .or_insert_with(|| Entry {
+    let found = value.describe();
+    match value {
+        Value::Table(table) => change_in_table(table, path, (key, below), new),
+        Value::Array(items) => match item_number(key, items.len(), new.is_some()) {
+            Some(index) => {
+                change_item(items, &format!("{path}[{index}]"), (index, key, below), new)
+            }
+            None => Err(
+                Diagnostic::at(key, format!("`{path}` is an array of {}", items.len()))
+                    .because("expected the number of an item, from 0")
+                    .label(place, "the array")
+                    .help(format!("set it whole: `--set {path}=VALUE`")),
+            ),
+        },
+        _ => Err(
+            Diagnostic::at(key, format!("`{path}` is {found}, with no keys below it"))
+                .because("a key below this was to be set")
+                .label(place, format!("{found} is given here"))
+                .help(format!("set it whole: `--set {path}=VALUE`")),
+        ),
+    }
+}
+
+fn change_in_table(
+    table: &mut Table,
+    path: &str,
+    (key, below): (&Location, &[Location]),
+    new: Option<Node>,
+) -> Result<(), Diagnostic> {
+    let name = key.text();
+    let full = join(path, name);
+    let is_set = new.is_some();
+    if !is_set && !table.entries.contains_key(name) {
+        let given: Vec<&str> = table.entries.keys().map(String::as_str).collect();
+        let problem =
+            Diagnostic::at(key, format!("`{full}` is not set")).because("nothing to remove");
+        return Err(match given.as_slice() {
+            [] => problem,
+            _ => problem.help(format!("set here: `{}`", given.join("`, `"))),
+        });
+    }
+    match new {
+        None if below.is_empty() => {
+            table.entries.remove(name);
+        }
+        Some(node) if below.is_empty() => {
+            let entry = Entry {
                 key: key.clone(),
-                node: Node {
-                    value: Value::Table(Table::default()),
-                    location: key.clone(),
-                },
-            });
-        match &mut entry.node.value {
-            Value::Table(inner) => table = inner,
-            _ => return Ok(()),
+                node,
+            };
+            table.entries.insert(name.to_owned(), entry);
+        }
+        new => {
+            let made = || Entry {
+                key: key.clone(),
+                node: Node::empty_table(key),
+            };
+            let entry = table.entries.entry(name.to_owned()).or_insert_with(made);
+            let place = entry.node.location.clone();
+            change(&mut entry.node.value, &place, &full, below, new)?;
         }
     }
-    let entry = Entry {
-        key: last.clone(),
-        node,
-    };
-    table.entries.insert(last.text().to_owned(), entry);
+    if is_set {
+        remove_excluded(table, path, name);
+    }
     Ok(())
 }
 
-/// Refuses a key below something that is not a table, before anything is changed.
-fn check_parents(root: &Table, parents: &[Location]) -> Result<(), Diagnostic> {
-    let mut table = root;
-    let mut path = String::new();
-    for key in parents {
-        let Some(entry) = table.entries.get(key.text()) else {
-            return Ok(());
-        };
-        if !path.is_empty() {
-            path.push('.');
+fn change_item(
+    items: &mut Vec<Node>,
+    path: &str,
+    (index, key, below): (usize, &Location, &[Location]),
+    new: Option<Node>,
+) -> Result<(), Diagnostic> {
+    match new {
+        None if below.is_empty() => {
+            items.remove(index);
         }
-        path.push_str(key.text());
-        match &entry.node.value {
-            Value::Table(inner) => table = inner,
-            _ => {
-                let found = entry.node.describe();
-                let message = format!("`{path}` is {found}, with no keys below it");
-                return Err(Diagnostic::at(key, message)
-                    .because("a key below this was to be set")
-                    .label(&entry.node.location, format!("{found} is given here"))
-                    .help(format!("set it whole: `--set {path}=VALUE`")));
+        new => {
+            if index == items.len() {
+                items.push(Node::empty_table(key));
+            }
+            let item = &mut items[index];
+            match new {
+                Some(node) if below.is_empty() => *item = node,
+                new => {
+                    let place = item.location.clone();
+                    change(&mut item.value, &place, path, below, new)?;
+                }
             }
         }
     }
     Ok(())
+}
+
+/// The number of an item that is there, or may be added.
+fn item_number(key: &Location, items: usize, adds: bool) -> Option<usize> {
+    let index = key.text().parse().ok()?;
+    (index < items + usize::from(adds)).then_some(index)
+}
+
+/// Removes what the file says under keys that the one just set excludes. What a flag says stays, and is told to be too much.
+fn remove_excluded(table: &mut Table, path: &str, set: &str) {
+    let pattern: String = path.chars().filter(|c| !c.is_ascii_digit()).collect();
+    let mut excluded: Vec<&str> = Vec::new();
+    let mut exclude = |groups: &[&[&'static str]], own: &[&str]| {
+        let others = groups.iter().flat_map(|group| group.iter());
+        excluded.extend(others.filter(|key| !own.contains(key)));
+    };
+    for (_, groups) in ALTERNATIVES.iter().filter(|(of, _)| *of == pattern) {
+        let mut own = groups.iter().filter(|group| group.contains(&set));
+        // A key of several groups excludes none of them.
+        if let (Some(own), None) = (own.next(), own.next()) {
+            exclude(groups, own);
+        }
+    }
+    for (_, _, kinds) in KINDS
+        .iter()
+        .filter(|(of, key, _)| *of == pattern && *key == set)
+    {
+        let Some(Value::Text(kind)) = table.entries.get(set).map(|entry| &entry.node.value) else {
+            continue;
+        };
+        if let Some((_, own)) = kinds.iter().find(|(name, _)| name == kind) {
+            let groups: Vec<_> = kinds.iter().map(|(_, keys)| *keys).collect();
+            exclude(&groups, own);
+        }
+    }
+    let was_given =
+        |name: &str, entry: &Entry| excluded.contains(&name) && !entry.key.source().is_flag();
+    table.entries.retain(|name, entry| !was_given(name, entry));
 }
 
 /// A span without the spaces at its ends.
@@ -251,14 +445,14 @@ mod tests {
          |
          = help: write `--set KEY=VALUE`, such as `--set cycle.steps=200`
         "#);
-        insta::assert_snapshot!(refusal("cycle.steps="), @r#"
-        error: a value is missing
-        --> command line:1:19
+        insta::assert_snapshot!(refusal("drive.mean=“10 N”"), @r#"
+        error: curly quotes enclose no text
+        --> command line:1:18
          |
-         | --set cycle.steps=
-         |                   ^ expected a value here
+         | --set drive.mean=“10 N”
+         |                  ^^^^^^ taken for a part of the text
          |
-         = help: for an empty text write `""`
+         = help: write `10 N`, in straight quotes or in none
         "#);
     }
 
@@ -266,10 +460,10 @@ mod tests {
     fn a_key_below_a_value_is_refused_and_shows_the_value() {
         insta::assert_snapshot!(refusal("drive.mean.value=3"), @r#"
         error: `drive.mean` is a string, with no keys below it
-         --> command line:1:13
+         --> command line:1:18
           |
           | --set drive.mean.value=3
-          |             ^^^^ a key below this was to be set
+          |                  ^^^^^ a key below this was to be set
           |
          ::: sweep.toml:2:8
           |
@@ -279,16 +473,16 @@ mod tests {
           = help: set it whole: `--set drive.mean=VALUE`
         "#);
         insta::assert_snapshot!(refusal("sweep.frequency.from=3"), @r#"
-        error: `sweep.frequency` is an array, with no keys below it
-         --> command line:1:13
+        error: `sweep.frequency` is an array of 2
+         --> command line:1:23
           |
           | --set sweep.frequency.from=3
-          |             ^^^^^^^^^ a key below this was to be set
+          |                       ^^^^ expected the number of an item, from 0
           |
          ::: sweep.toml:4:13
           |
         4 | frequency = [1, 2]
-          |             ------ an array is given here
+          |             ------ the array
           |
           = help: set it whole: `--set sweep.frequency=VALUE`
         "#);
@@ -317,11 +511,158 @@ mod tests {
     #[test]
     fn a_refused_flag_leaves_the_document_as_it_was() {
         let mut document = document();
+        assert!(document.set("new.drive=1").is_ok() && document.set("new=").is_ok());
         assert!(document.set("drive.mean.value=3").is_err());
+        assert!(document.set("new.item.0.x=").is_err());
         assert!(document.set("new.table.x=[").is_err());
         let problems = Problems::new();
         let mut root = document.root(&problems);
         assert!(!root.has("new"));
+    }
+
+    /// What is left of a file after flags, in the order of keys: `table.key` of everything that holds a value.
+    fn keys_after(file: &str, flags: &[&str]) -> String {
+        fn list(table: &super::Table, path: &str, keys: &mut Vec<String>) {
+            for (name, entry) in &table.entries {
+                let path = super::join(path, name);
+                match &entry.node.value {
+                    super::Value::Table(inner) => list(inner, &path, keys),
+                    _ => keys.push(path),
+                }
+            }
+        }
+        let mut document = Document::parse("sweep.toml", file).expect("it is TOML");
+        for flag in flags {
+            document.set(flag).expect("it can be set");
+        }
+        let mut keys = Vec::new();
+        list(&document.root, "", &mut keys);
+        keys.join(" ")
+    }
+
+    #[test]
+    fn a_key_that_excludes_others_of_the_file_takes_their_place() {
+        for (file, flags, left) in [
+            (
+                "indenter = { shape = \"sphere\", radius = 1, offset = [0, 0] }",
+                &["indenter.shape=cone", "indenter.half_angle=70 deg"][..],
+                "indenter.half_angle indenter.offset indenter.shape",
+            ),
+            // A radius belongs to both; what is no key of any shape is told when the file is read.
+            (
+                "indenter = { shape = \"sphere\", radius = 1, x = 1 }",
+                &["indenter.shape=flat-punch"],
+                "indenter.radius indenter.shape indenter.x",
+            ),
+            // Of two flags neither gives way.
+            (
+                "indenter = { shape = \"sphere\" }",
+                &["indenter.radius=1", "indenter.shape=cone"],
+                "indenter.radius indenter.shape",
+            ),
+            (
+                "sweep = { angular_frequency = { from = 1, to = 2 }, refine = true }",
+                &["sweep.frequency=[1, 2]"],
+                "sweep.frequency sweep.refine",
+            ),
+            (
+                "material = { poisson_ratio = 0.4, relaxation = { equilibrium = 1 } }",
+                &["material.library=pmma"],
+                "material.library",
+            ),
+            (
+                "material = { poisson_ratio = 0.4, relaxation = { equilibrium = 1 } }",
+                &["material.zener.time=1 s", "material.poisson_ratio=0.3"],
+                "material.poisson_ratio material.zener.time",
+            ),
+        ] {
+            assert_eq!(keys_after(file, flags), left, "{flags:?}");
+        }
+    }
+
+    #[test]
+    fn an_item_of_a_list_is_set_added_and_removed_by_its_number() {
+        const LIST: &str = "[[drive.segments]]\nkind = \"sine\"\nfrequency = 1\ncycles = 2\n\
+                            [[drive.segments]]\nkind = \"step\"\nto = 1\n";
+        let read = |flags: &[&str]| {
+            let mut document = Document::parse("sweep.toml", LIST).expect("it is TOML");
+            for flag in flags {
+                document.set(flag).expect("it can be set");
+            }
+            let problems = Problems::new();
+            let mut root = document.root(&problems);
+            let mut segments = root.table("drive")?.tables("segments")?.value;
+            let kinds = segments
+                .iter_mut()
+                .map(|s| s.string("kind").map(|k| k.value));
+            Some(
+                kinds
+                    .map(Option::unwrap_or_default)
+                    .collect::<Vec<_>>()
+                    .join(" "),
+            )
+        };
+        for (flags, kinds) in [
+            (&["drive.segments.1.kind=ramp"][..], "sine ramp"),
+            (&["drive.segments[1].kind=ramp"], "sine ramp"),
+            (&["drive.segments.0={kind=\"table\"}"], "table step"),
+            (
+                &["drive.segments.2.kind=ramp", "drive.segments[0]="],
+                "step ramp",
+            ),
+        ] {
+            assert_eq!(read(flags).as_deref(), Some(kinds), "{flags:?}");
+        }
+        let mut document = Document::parse("sweep.toml", LIST).expect("it is TOML");
+        for (flag, message) in [
+            (
+                "drive.segments.3.kind=ramp",
+                "`drive.segments` is an array of 2",
+            ),
+            ("drive.segments.2=", "`drive.segments` is an array of 2"),
+            (
+                "drive.segments[x].kind=ramp",
+                "`drive.segments` is an array of 2",
+            ),
+            ("drive.segments[0.kind=ramp", "needs a dotted key"),
+            ("drive.segments.0].kind=ramp", "needs a dotted key"),
+            ("drive.segments.0.to=", "`drive.segments[0].to` is not set"),
+        ] {
+            let refused = document.set(flag).unwrap_err().to_string();
+            assert!(refused.contains(message), "{refused}");
+        }
+        // What is excluded within an item is the same as elsewhere.
+        document
+            .set("drive.segments.0.angular_frequency=1")
+            .expect("it can be set");
+        document
+            .set("drive.segments.1.kind=sine")
+            .expect("it can be set");
+        let problems = Problems::new();
+        let mut segments = document
+            .root(&problems)
+            .table("drive")
+            .and_then(|mut d| d.tables("segments"));
+        let [first, second] = segments.as_mut().unwrap().value.as_mut_slice() else {
+            panic!("two segments");
+        };
+        assert!(first.has("angular_frequency") && !first.has("frequency") && first.has("cycles"));
+        assert!(!second.has("to"));
+    }
+
+    #[test]
+    fn what_is_not_set_cannot_be_removed() {
+        insta::assert_snapshot!(refusal("drive.maen="), @r"
+        error: `drive.maen` is not set
+        --> command line:1:13
+         |
+         | --set drive.maen=
+         |             ^^^^ nothing to remove
+         |
+         = help: set here: `mean`
+        ");
+        assert_eq!(keys_after(FILE, &["drive.mean="]), "sweep.frequency");
+        assert_eq!(keys_after(FILE, &["sweep="]), "drive.mean");
     }
 
     #[test]

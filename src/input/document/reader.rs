@@ -458,7 +458,7 @@ impl TableReader<'_> {
 }
 
 /// The dotted key of `key` in the table `path`.
-fn join(path: &str, key: &str) -> String {
+pub(super) fn join(path: &str, key: &str) -> String {
     match path {
         "" => key.to_owned(),
         path => format!("{path}.{key}"),

@@ -20,7 +20,7 @@ const UNQUOTED: &str = "string values must be quoted";
 const NO_FLOAT: &str = "invalid float";
 
 /// Quotation marks of text processors, which TOML does not know.
-const CURLY: [char; 8] = ['“', '”', '„', '‟', '‘', '’', '«', '»'];
+pub(super) const CURLY: [char; 8] = ['“', '”', '„', '‟', '‘', '’', '«', '»'];
 
 /// What other languages write where there is no value.
 const NO_VALUE: [&str; 5] = ["none", "null", "nil", "na", "undefined"];

@@ -9,27 +9,27 @@ use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
 use crate::input::diagnostic::{Location, Source};
 
 /// The entries of a table, by key.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Table {
     pub(super) entries: BTreeMap<String, Entry>,
 }
 
 /// A key and what it holds.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Entry {
     pub(super) key: Location,
     pub(super) node: Node,
 }
 
 /// A value and its place; of a `[table]` the place is its header.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Node {
     pub(super) value: Value,
     pub(super) location: Location,
 }
 
 /// What TOML can hold.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) enum Value {
     Text(String),
     Integer(Result<i64, NumberFault>),
@@ -101,16 +101,31 @@ impl Node {
         }
     }
 
+    /// An empty table, made for the sake of a key.
+    pub(super) fn empty_table(key: &Location) -> Self {
+        Self {
+            value: Value::Table(Table::default()),
+            location: key.clone(),
+        }
+    }
+
     /// What is here, with its article, for `found ...`.
     pub(super) fn describe(&self) -> &'static str {
-        match self.value {
-            Value::Text(_) => "a string",
-            Value::Integer(_) => "an integer",
-            Value::Float(_) => "a float",
-            Value::Boolean(_) => "a boolean",
-            Value::DateTime => "a date or time",
-            Value::Array(_) => "an array",
-            Value::Table(_) => "a table",
+        self.value.describe()
+    }
+}
+
+impl Value {
+    /// As [`Node::describe`].
+    pub(super) fn describe(&self) -> &'static str {
+        match self {
+            Self::Text(_) => "a string",
+            Self::Integer(_) => "an integer",
+            Self::Float(_) => "a float",
+            Self::Boolean(_) => "a boolean",
+            Self::DateTime => "a date or time",
+            Self::Array(_) => "an array",
+            Self::Table(_) => "a table",
         }
     }
 }

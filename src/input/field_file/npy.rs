@@ -1,12 +1,11 @@
 //! Matrices of floats in NumPy's `.npy` format, versions 1 to 3 (NumPy Enhancement Proposal 1, and the documentation of
 //! `numpy.lib.format`): a mark, the length of the header, the header as a Python dictionary, then the bare numbers.
 
-use super::{Field, FieldProblem, Place};
+use super::Field;
+use crate::input::diagnostic::{Diagnostic, Location, Source};
 
 /// What the file begins with.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
-
-type Refused = (Place, FieldProblem);
 
 /// How one number is stored.
 #[derive(Clone, Copy)]
@@ -48,33 +47,44 @@ impl Float {
     }
 }
 
-/// The matrix in a whole file.
-pub(super) fn read(bytes: &[u8]) -> Result<Field, Refused> {
-    let whole = |problem| (Place::File, problem);
-    let (header, data) =
-        split(bytes).ok_or(whole(FieldProblem::NpyHeader("it ends within its header")))?;
-    let missing = |what| whole(FieldProblem::NpyHeader(what));
-    let descriptor = entry(header, "descr").ok_or(missing("no 'descr' in its header"))?;
-    let order =
-        entry(header, "fortran_order").ok_or(missing("no 'fortran_order' in its header"))?;
-    let shape = entry(header, "shape").ok_or(missing("no 'shape' in its header"))?;
+/// The matrix in a whole file, which messages call `name`.
+pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Field, Diagnostic> {
+    let fail = |message: String, help: &str| {
+        let place = Location::whole(&Source::file(name, ""));
+        Diagnostic::at(&place, message).help(help)
+    };
+    let unreadable = |why: &str| {
+        let message = format!("no .npy file that can be read: {why}");
+        fail(message, "write it with numpy.save(\"map.npy\", heights_m)")
+    };
+    let (header, data) = split(bytes).ok_or_else(|| unreadable("it ends within its header"))?;
+    let entry =
+        |key| entry(header, key).ok_or_else(|| unreadable(&format!("no '{key}' in its header")));
+    let (descriptor, order, shape) = (entry("descr")?, entry("fortran_order")?, entry("shape")?);
     let float = Float::of(descriptor).ok_or_else(|| {
-        let found = descriptor.chars().take(40).collect();
-        whole(FieldProblem::NpyType { found })
+        let found: String = descriptor.chars().take(40).collect();
+        let message = format!("numbers of the type {found}, where '<f8' or '<f4' is needed");
+        fail(
+            message,
+            "write it with numpy.save(\"map.npy\", heights_m.astype(\"<f8\"))",
+        )
     })?;
     let (cells_y, cells_x) = two_lengths(shape).ok_or_else(|| {
-        let shape = shape.chars().take(40).collect();
-        whole(FieldProblem::NpyShape { shape })
+        let shape: String = shape.chars().take(40).collect();
+        let message = format!("an array of shape {shape}, where two dimensions are needed");
+        fail(message, "save a matrix, one row per y and one column per x")
     })?;
     let expected = cells_x
         .saturating_mul(cells_y)
         .saturating_mul(float.bytes());
     if data.len() != expected {
         let found = data.len();
-        return Err(whole(FieldProblem::NpyLength { found, expected }));
+        let message = format!("{found} bytes of numbers, where the shape needs {expected}");
+        return Err(fail(message, "the file is not whole: write it again"));
     }
     if expected == 0 {
-        return Err(whole(FieldProblem::Empty));
+        let help = "save a matrix, one row per y and one column per x";
+        return Err(fail("the file holds no numbers".to_owned(), help));
     }
     let stored = data.chunks_exact(float.bytes()).map(|c| float.decode(c));
     let values_m: Vec<f64> = if order == "True" {
@@ -88,12 +98,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Field, Refused> {
         stored.collect()
     };
     if let Some(at) = values_m.iter().position(|z| !z.is_finite()) {
-        let place = Place::Entry {
-            row: at / cells_x + 1,
-            column: at % cells_x + 1,
-        };
-        let hole = format!("the entry is {}", values_m[at]);
-        return Err((place, FieldProblem::Hole(hole)));
+        let (row, column) = (at / cells_x + 1, at % cells_x + 1);
+        let message = format!(
+            "a hole: the entry in row {row}, column {column} is {}",
+            values_m[at]
+        );
+        return Err(fail(message, super::HOLE));
     }
     Ok(Field {
         cells_x,
@@ -179,8 +189,11 @@ mod tests {
         values.iter().flat_map(|v| v.to_le_bytes()).collect()
     }
 
+    /// The message, of a file that is named.
     fn refused(bytes: &[u8]) -> String {
-        field("map.npy", bytes).unwrap_err().to_string()
+        let refused = field("map.npy", bytes).unwrap_err();
+        assert!(refused.to_string().contains("--> map.npy"));
+        refused.iter().next().unwrap().message().to_owned()
     }
 
     const VALUES: [f64; 6] = [1.0, 2.5, -3.0, 4.0, 0.1, 6e-9];
@@ -223,15 +236,13 @@ mod tests {
         let with = |descriptor, shape| file(1, &header(descriptor, "False", shape), &[0; 48]);
         assert_eq!(
             refused(&with("'<i4'", "(2, 3)")),
-            "`map.npy`: holds numbers of the type '<i4', where '<f8' or '<f4' is needed"
+            "numbers of the type '<i4', where '<f8' or '<f4' is needed"
         );
         assert!(refused(&with("[('x', '<f8'), ('y', '<f8')]", "(2,)")).contains("('x', '<f8')"));
         for shape in ["(6,)", "()", "(1, 2, 3)", "(-2, 3)"] {
             assert_eq!(
                 refused(&with("'<f8'", shape)),
-                format!(
-                    "`map.npy`: holds an array of shape {shape}, where two dimensions are needed"
-                )
+                format!("an array of shape {shape}, where two dimensions are needed")
             );
         }
     }
@@ -241,15 +252,15 @@ mod tests {
         let whole = file(1, &header("'<f8'", "False", "(2, 3)"), &bytes_of(&VALUES));
         assert_eq!(
             refused(&whole[..whole.len() - 1]),
-            "`map.npy`: holds 47 bytes of numbers, where its shape needs 48"
+            "47 bytes of numbers, where the shape needs 48"
         );
         for length in [6, 7, 9, 40] {
             assert!(refused(&whole[..length]).contains("ends within its header"));
         }
         let huge = header("'<f8'", "False", "(9999999999999, 9999999999999)");
-        assert!(refused(&file(1, &huge, &[0; 48])).contains("holds 48 bytes"));
+        assert!(refused(&file(1, &huge, &[0; 48])).contains("48 bytes"));
         let none = file(1, &header("'<f8'", "False", "(0, 3)"), &[]);
-        assert_eq!(refused(&none), "`map.npy`: holds no numbers");
+        assert_eq!(refused(&none), "the file holds no numbers");
         assert!(refused(&file(1, "{'descr': '<f8', }", &[])).contains("no 'fortran_order'"));
     }
 
@@ -260,7 +271,7 @@ mod tests {
         let holed = file(1, &header("'<f8'", "False", "(2, 3)"), &bytes_of(&values));
         assert_eq!(
             refused(&holed),
-            "`map.npy`, row 2, column 3: a hole: the entry is NaN"
+            "a hole: the entry in row 2, column 3 is NaN"
         );
     }
 }

@@ -1,13 +1,13 @@
 //! A height map given point by point, in any order: from columns x, y, z to a regular grid.
 
-use super::{Field, FieldProblem, Place};
+use super::Field;
+use crate::input::data_file::{DataFile, Table};
+use crate::input::diagnostic::Diagnostic;
 
 /// Coordinates closer than this share of their range are the same: a 250th of the spacing of 4096 points.
 const SAME_COORDINATE: f64 = 1e-6;
 /// Share of the spacing by which a coordinate may lie off the grid: digits lost in writing, not a displaced point.
 const OFF_GRID: f64 = 0.01;
-
-type Refused = (Place, FieldProblem);
 
 /// One axis of the grid.
 struct Axis {
@@ -28,37 +28,51 @@ impl Axis {
     }
 }
 
-/// The grid of the points `values` = x, y, z, x, y, z, ..., that stand on these lines.
-pub(super) fn field(values: &[f64], lines: &[u64]) -> Result<Field, Refused> {
-    let coordinate = |which: usize| values.iter().skip(which).step_by(3).copied();
-    let (xs, ys) = (distinct(coordinate(0)), distinct(coordinate(1)));
-    let points = lines.len();
+/// What to do about points that form no grid.
+const NO_GRID: &str = "interpolate the points onto a regular grid before";
+
+/// The grid of points with the columns x, y, z.
+pub(super) fn field(file: &DataFile, table: &Table) -> Result<Field, Diagnostic> {
+    let whole = |message: String, help| Diagnostic::at(&table.whole(), message).help(help);
+    let points = table.len();
+    if points == 0 {
+        return Err(file.no_numbers("give one line of numbers per point"));
+    }
+    let (xs, ys) = (distinct(table.column(0)), distinct(table.column(1)));
     // A point short of a grid is a hole; scattered points have about as many coordinates as there are points.
     if xs.len().saturating_mul(ys.len()) > points.saturating_mul(2) {
-        let problem = FieldProblem::NotAGrid {
-            points,
-            columns: xs.len(),
-            rows: ys.len(),
-        };
-        return Err((Place::File, problem));
+        let message = format!(
+            "the points do not form a grid: {points} points have {} different x and {} different y",
+            xs.len(),
+            ys.len()
+        );
+        return Err(whole(message, NO_GRID));
     }
-    let (x, y) = (axis("x", &xs)?, axis("y", &ys)?);
-    let mut found: Vec<Option<(f64, u64)>> = vec![None; x.count * y.count];
-    for (point, &line) in values.chunks_exact(3).zip(lines) {
+    let uneven = |message| whole(message, NO_GRID);
+    let (x, y) = (
+        axis("x", &xs).map_err(uneven)?,
+        axis("y", &ys).map_err(uneven)?,
+    );
+    let mut found: Vec<Option<(f64, usize)>> = vec![None; x.count * y.count];
+    for (row, point) in table.values.chunks_exact(3).enumerate() {
         let slot = &mut found[y.index(point[1]) * x.count + x.index(point[0])];
-        if let Some((_, first_line)) = *slot {
-            return Err((Place::Line(line), FieldProblem::SamePoint { first_line }));
+        if let Some((_, first)) = *slot {
+            return Err(
+                Diagnostic::at(&table.row(row), "the same point is given twice")
+                    .label(&table.row(first), "the first time")
+                    .help("give every point once"),
+            );
         }
-        *slot = Some((point[2], line));
+        *slot = Some((point[2], row));
     }
-    let value = |(index, slot): (usize, &Option<(f64, u64)>)| {
+    let value = |(index, slot): (usize, &Option<(f64, usize)>)| {
         slot.map(|(z, _)| z).ok_or_else(|| {
             let (x_m, y_m) = (x.position_m(index % x.count), y.position_m(index / x.count));
-            let hole = format!("no point at x = {x_m:e} m, y = {y_m:e} m");
-            (Place::File, FieldProblem::Hole(hole))
+            let message = format!("a hole: no point at x = {x_m:e} m, y = {y_m:e} m");
+            whole(message, super::HOLE)
         })
     };
-    let values_m: Result<Vec<f64>, Refused> = found.iter().enumerate().map(value).collect();
+    let values_m: Result<Vec<f64>, Diagnostic> = found.iter().enumerate().map(value).collect();
     Ok(Field {
         cells_x: x.count,
         cells_y: y.count,
@@ -68,8 +82,7 @@ pub(super) fn field(values: &[f64], lines: &[u64]) -> Result<Field, Refused> {
 }
 
 /// The different coordinates among these, ascending.
-fn distinct(coordinates: impl Iterator<Item = f64>) -> Vec<f64> {
-    let mut all: Vec<f64> = coordinates.collect();
+fn distinct(mut all: Vec<f64>) -> Vec<f64> {
     all.sort_by(f64::total_cmp);
     let range = match (all.first(), all.last()) {
         (Some(first), Some(last)) => last - first,
@@ -79,11 +92,10 @@ fn distinct(coordinates: impl Iterator<Item = f64>) -> Vec<f64> {
     all
 }
 
-fn axis(name: &'static str, coordinates: &[f64]) -> Result<Axis, Refused> {
+/// The axis through coordinates, of which there is at least one, or why there is none.
+fn axis(name: &str, coordinates: &[f64]) -> Result<Axis, String> {
     let count = coordinates.len();
-    let (Some(&start_m), Some(&end_m)) = (coordinates.first(), coordinates.last()) else {
-        return Err((Place::File, FieldProblem::Empty));
-    };
+    let (start_m, end_m) = (coordinates[0], coordinates[count - 1]);
     let axis = Axis {
         start_m,
         // A single row has no spacing; it is refused later, as a map too small.
@@ -97,12 +109,10 @@ fn axis(name: &'static str, coordinates: &[f64]) -> Result<Axis, Refused> {
     for (index, &at_m) in coordinates.iter().enumerate() {
         let share = (at_m - axis.position_m(index)).abs() / axis.spacing_m;
         if share > OFF_GRID {
-            let problem = FieldProblem::Uneven {
-                axis: name,
-                at_m,
-                share: 100.0 * share,
-            };
-            return Err((Place::File, problem));
+            let share = 100.0 * share;
+            return Err(format!(
+                "the points are not evenly spaced along {name}: {at_m:e} m is off the grid by {share:.0} % of the spacing"
+            ));
         }
     }
     Ok(axis)
@@ -112,8 +122,12 @@ fn axis(name: &'static str, coordinates: &[f64]) -> Result<Axis, Refused> {
 mod tests {
     use super::super::field;
 
-    fn refused(text: &str) -> String {
-        field("map.csv", text.as_bytes()).unwrap_err().to_string()
+    /// The message and its place.
+    fn refused(text: &str) -> (String, String) {
+        let refused = field("map.csv", text.as_bytes()).unwrap_err();
+        let first = refused.iter().next().unwrap();
+        let place = first.location().unwrap().text();
+        (first.message().to_owned(), place.to_owned())
     }
 
     /// A grid of 4 x 3 points with one line changed or left out.
@@ -147,28 +161,26 @@ mod tests {
     fn points_that_form_no_grid_are_refused() {
         let hole = grid(|index| (index == 6).then(String::new));
         assert_eq!(
-            refused(&hole),
-            "`map.csv`: a hole: no point at x = 7e-7 m, y = 2e-6 m"
+            refused(&hole).0,
+            "a hole: no point at x = 7e-7 m, y = 2e-6 m"
         );
         let twice = grid(|index| (index == 6).then(|| "0,5e-7,0\n".to_owned()));
-        assert_eq!(
-            refused(&twice),
-            "`map.csv`, line 8: the same point as on line 2"
-        );
+        let (message, place) = refused(&twice);
+        assert_eq!(message, "the same point is given twice");
+        assert_eq!(place, "0,5e-7,0");
         let bent = "x_m,y_m,z_m\n0,0,0\n1,0,0\n3,0,0\n0,1,0\n1,1,0\n3,1,0\n";
         assert_eq!(
-            refused(bent),
-            "`map.csv`: the points are not evenly spaced along x: 1e0 m is off the grid by 33 % of the spacing"
+            refused(bent).0,
+            "the points are not evenly spaced along x: 1e0 m is off the grid by 33 % of the spacing"
         );
         let scattered = "x_m,y_m,z_m\n0,0,0\n1,2,0\n3,1,0\n2,3,0\n";
         assert_eq!(
-            refused(scattered),
-            "`map.csv`: the points do not form a grid: 4 points have 4 different x and 4 different y"
+            refused(scattered).0,
+            "the points do not form a grid: 4 points have 4 different x and 4 different y"
         );
         let bad = grid(|index| (index == 3).then(|| "1e-9,a,0\n".to_owned()));
-        assert_eq!(
-            refused(&bad),
-            "`map.csv`, line 5, column 2: `a` is not a number"
-        );
+        let (message, place) = refused(&bad);
+        assert_eq!(message, "a cell of the column `x_m` must be a number");
+        assert_eq!(place, "a");
     }
 }

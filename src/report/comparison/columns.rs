@@ -2,7 +2,7 @@
 
 use super::result::Row;
 use super::{ComparisonError, CurvePoint, Place, SweepTable};
-use crate::sweep::record::error_bars::Quantity;
+use crate::report::quantities;
 
 /// One column: the value of every case of either result, in the order of [`super::Comparison::curve`].
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +38,7 @@ pub(super) fn curve(
     new: &SweepTable,
 ) -> Result<Vec<CurvePoint>, ComparisonError> {
     let cases = cases(baseline, new);
-    let loss = column(&cases, baseline, new, Quantity::EnergyLoss.columns().0)?;
+    let loss = column(&cases, baseline, new, "energy_loss_j")?;
     let values = loss.baseline.iter().zip(&loss.new).zip(&loss.error);
     let points = cases.iter().zip(values);
     Ok(points
@@ -80,8 +80,7 @@ fn column(
     new: &SweepTable,
     name: &str,
 ) -> Result<Column, ComparisonError> {
-    let bars = Quantity::ALL.map(Quantity::columns);
-    let bar = bars.iter().find(|(value, _)| *value == name);
+    let bar = quantities::of_name(name).and_then(|column| column.error_name());
     let number = |table: &SweepTable, row: Option<&Row>, column: &str| match row {
         Some(row) => table.number(row, column),
         None => Ok(None),
@@ -95,8 +94,8 @@ fn column(
     for (_, a, b) in cases {
         found.baseline.push(number(baseline, *a, name)?);
         found.new.push(number(new, *b, name)?);
-        let errors = match bar {
-            Some((_, error)) => number(baseline, *a, error)?.zip(number(new, *b, error)?),
+        let errors = match &bar {
+            Some(error) => number(baseline, *a, error)?.zip(number(new, *b, error)?),
             None => None,
         };
         found.error.push(errors.map(|(a, b)| a + b));

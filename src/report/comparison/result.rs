@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use serde::Deserialize;
 
 use super::Place;
+use crate::quantity::FrequencyUnit;
 use crate::sweep::search::peak::Peak;
 
 /// Why a result cannot be compared.
@@ -124,6 +125,14 @@ impl SweepTable {
         row.place = place;
         (row.status, row.discretisation) = (status, discretisation);
         Ok(row)
+    }
+
+    /// The unit of the frequencies that come first.
+    pub(super) fn unit(&self) -> FrequencyUnit {
+        let first = self.columns.first();
+        let units = FrequencyUnit::NAMES.map(|(_, unit)| unit).into_iter();
+        let mut of_first = units.filter(|unit| first.is_some_and(|name| name == unit.column()));
+        of_first.next().unwrap_or_default()
     }
 
     pub(super) fn has(&self, column: &str) -> bool {

@@ -3,9 +3,10 @@
 use std::fmt::Write;
 
 use super::{Comparison, PeakComparison, Place};
-use crate::report::ReportError;
-use crate::report::table::{Table, number, optional};
-use crate::report::terminal::{frequency, wrapped};
+use crate::quantity::FrequencyUnit;
+use crate::report::number::four_digits;
+use crate::report::table::{cells, csv_leading};
+use crate::report::words::{case, wrapped};
 use crate::sweep::search::peak::Peak;
 
 /// Names of cases shown before the rest is counted.
@@ -15,8 +16,13 @@ impl Comparison {
     /// The whole finding, as text of at most 80 columns, or what a name takes.
     pub fn text(&self) -> String {
         let mut text = format!("{} cases in both results\n", self.compared);
-        named(&mut text, "missing in the new result", &self.missing);
-        named(&mut text, "only in the new result", &self.added);
+        named(
+            &mut text,
+            self.unit,
+            "missing in the new result",
+            &self.missing,
+        );
+        named(&mut text, self.unit, "only in the new result", &self.added);
         for (what, columns) in [
             ("missing in the new result", &self.missing_columns),
             ("only in the new result", &self.added_columns),
@@ -27,14 +33,15 @@ impl Comparison {
             }
         }
         for (place, old, new) in self.statuses.iter().take(NAMED) {
-            let _ = writeln!(text, "{}: {old} before, {new} now", words(place));
+            let _ = writeln!(text, "{}: {old} before, {new} now", words(self.unit, place));
         }
         text.push_str("\n column                  largest difference   beyond   within bars\n");
         for column in &self.columns {
             let largest = match &column.largest {
                 Some((share, place)) => format!(
-                    "{share:.1e} at ω = {}",
-                    frequency(place.angular_frequency_rad_per_s)
+                    "{share:.1e} at {} = {}",
+                    self.unit.symbol(),
+                    four_digits(self.unit.of(place.angular_frequency_rad_per_s))
                 ),
                 None => "none".to_owned(),
             };
@@ -49,16 +56,13 @@ impl Comparison {
             );
         }
         for peak in &self.peaks {
-            let _ = writeln!(text, "{}", peak_words(peak));
+            let _ = writeln!(text, "{}", peak_words(self.unit, peak));
         }
         text
     }
 
     /// `comparison.csv`: the curves of the energy loss and their difference.
-    ///
-    /// # Errors
-    /// Where the table cannot be made.
-    pub fn table(&self) -> Result<Vec<u8>, ReportError> {
+    pub fn table(&self) -> Vec<u8> {
         let columns = [
             "drive_mean",
             "drive_amplitude",
@@ -68,19 +72,18 @@ impl Comparison {
             "relative_difference",
             "error_bars_j",
         ];
-        let mut table = Table::new("comparison.csv", &columns)?;
-        for point in &self.curve {
-            table.row(&[
-                number(point.place.drive_mean),
-                number(point.place.drive_amplitude),
-                number(point.place.angular_frequency_rad_per_s),
-                optional(point.baseline_j),
-                optional(point.new_j),
-                optional(point.relative_difference()),
-                optional(point.error_j),
-            ])?;
-        }
-        table.finish()
+        let rows = self.curve.iter().map(|point| {
+            cells![
+                point.place.drive_mean,
+                point.place.drive_amplitude,
+                point.place.angular_frequency_rad_per_s,
+                point.baseline_j,
+                point.new_j,
+                point.relative_difference(),
+                point.error_j,
+            ]
+        });
+        csv_leading(self.unit, &columns, rows)
     }
 }
 
@@ -93,22 +96,22 @@ impl super::CurvePoint {
 }
 
 /// A case in words.
-pub(in crate::report) fn words(place: &Place) -> String {
+pub(in crate::report) fn words(unit: FrequencyUnit, place: &Place) -> String {
     format!(
-        "ω = {} rad/s (mean {}, amplitude {})",
-        frequency(place.angular_frequency_rad_per_s),
+        "{} (mean {}, amplitude {})",
+        case(unit, place.angular_frequency_rad_per_s),
         place.drive_mean,
         place.drive_amplitude
     )
 }
 
-fn named(text: &mut String, what: &str, places: &[Place]) {
+fn named(text: &mut String, unit: FrequencyUnit, what: &str, places: &[Place]) {
     if places.is_empty() {
         return;
     }
     let _ = writeln!(text, "{} cases {what}:", places.len());
     for place in places.iter().take(NAMED) {
-        let _ = writeln!(text, "  {}", words(place));
+        let _ = writeln!(text, "  {}", words(unit, place));
     }
     if places.len() > NAMED {
         let _ = writeln!(text, "  and {} more", places.len() - NAMED);
@@ -116,8 +119,11 @@ fn named(text: &mut String, what: &str, places: &[Place]) {
 }
 
 /// A pair of peaks in words.
-pub(in crate::report) fn peak_words(peak: &PeakComparison) -> String {
-    let omega = |peak: &Peak| format!("{} rad/s", frequency(peak.angular_frequency_rad_per_s));
+pub(in crate::report) fn peak_words(unit: FrequencyUnit, peak: &PeakComparison) -> String {
+    let omega = |peak: &Peak| {
+        let value = four_digits(unit.of(peak.angular_frequency_rad_per_s));
+        format!("{value} {}", unit.name())
+    };
     match (&peak.baseline, &peak.new) {
         (Some(old), Some(new)) => {
             let ratio = |a: f64, b: f64| 100.0 * (b / a - 1.0);

@@ -1,13 +1,14 @@
 //! The loss of two results over frequency, and below it by how much they differ.
 
+use super::Picture;
 use super::press::Press;
-use super::{Picture, prefix, scientific};
-use crate::quantity::Dimension;
+use super::units::Units;
+use crate::quantity::FrequencyUnit;
 use crate::report::ReportError;
 use crate::report::caption::{Caption, Setting};
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
 use crate::report::comparison::{Comparison, CurvePoint, Place};
-use crate::report::number::plain;
+use crate::report::number::{at_frequency, largest, prefix, range, scientific};
 
 const NAME: &str = "comparison";
 const WIDTH_PX: u32 = 800;
@@ -19,15 +20,15 @@ const DIFFERENCE_PX: u32 = 300;
 /// # Errors
 /// [`ReportError`] naming the figure.
 pub fn write(comparison: &Comparison, press: &Press<'_>) -> Result<Option<String>, ReportError> {
-    (press.write)("comparison.csv", &comparison.table()?)?;
-    let curve = &comparison.curve;
+    (press.write)("comparison.csv", &comparison.table())?;
+    let (curve, unit) = (&comparison.curve, comparison.unit);
     let has_difference = curve.iter().any(|p| p.relative_difference().is_some());
     if !has_difference {
         return Ok(Some(
             "no figure: no case has a loss in both results".to_owned(),
         ));
     }
-    let picture = Picture::Stack(vec![losses(curve), differences(curve)]);
+    let picture = Picture::Stack(vec![losses(curve, unit), differences(curve, unit)]);
     let caption = caption(comparison).text(&Setting::default());
     press.picture(NAME, NAME, &picture, &caption)?;
     Ok(None)
@@ -38,14 +39,20 @@ fn caption(comparison: &Comparison) -> Caption {
     let differences = differences.filter_map(|p| Some((p.relative_difference()?, p.place)));
     let largest = differences.max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
     let largest = largest.map(|(difference, place)| {
-        let omega = place.angular_frequency_rad_per_s;
         format!(
-            "Largest difference: {} % at ω = {}.",
+            "Largest difference: {} % at {}.",
             scientific(100.0 * difference, 3),
-            plain(omega, Dimension::AngularFrequency, 4)
+            at_frequency(comparison.unit, place.angular_frequency_rad_per_s, 4)
         )
     });
-    Caption::new("Energy loss per cycle over angular frequency ω in two results (above) and their relative difference (below)")
+    let over = format!(
+        "{} {}",
+        comparison.unit.quantity(),
+        comparison.unit.symbol()
+    );
+    Caption::new(format!(
+        "Energy loss per cycle over {over} in two results (above) and their relative difference (below)"
+    ))
         .say(format!("{} cases are in both.", comparison.compared))
         .say_all(largest)
 }
@@ -56,7 +63,7 @@ fn drive(place: &Place) -> (f64, f64) {
 
 /// Points, broken where the drive changes.
 fn points(
-    curve: &[CurvePoint],
+    (curve, unit): (&[CurvePoint], FrequencyUnit),
     value: impl Fn(&CurvePoint) -> Option<f64>,
 ) -> Vec<Option<(f64, f64)>> {
     let mut points = Vec::with_capacity(curve.len());
@@ -66,34 +73,32 @@ fn points(
             points.push(None);
         }
         last = Some(drive(&point.place));
-        points.push(value(point).map(|v| (point.place.angular_frequency_rad_per_s, v)));
+        let x = unit.of(point.place.angular_frequency_rad_per_s);
+        points.push(value(point).map(|v| (x, v)));
     }
     points
 }
 
 /// The axis of both panels, with the same ends, where there is more than one frequency.
-fn frequencies(curve: &[CurvePoint], label: &str) -> Axis {
+fn frequencies(curve: &[CurvePoint], unit: FrequencyUnit, label: &str) -> Axis {
     let omegas = curve.iter().map(|p| p.place.angular_frequency_rad_per_s);
-    let ends = omegas.fold((f64::INFINITY, 0.0_f64), |(low, high), omega| {
-        (low.min(omega), high.max(omega))
-    });
-    match ends {
+    match range(omegas.map(|omega| unit.of(omega))) {
         (low, high) if low < high => Axis::log(label).range(low, high),
         _ => Axis::log(label),
     }
 }
 
-fn losses(curve: &[CurvePoint]) -> Chart {
+fn losses(curve: &[CurvePoint], unit: FrequencyUnit) -> Chart {
     let all = curve.iter().flat_map(|p| [p.baseline_j, p.new_j]).flatten();
-    let (factor, unit) = prefix(all.fold(0.0, f64::max));
+    let (factor, prefix) = prefix(largest(all));
     let scaled = |loss: Option<f64>| loss.map(|j| factor * j);
     Chart::new(
-        frequencies(curve, ""),
-        Axis::linear(format!("energy loss per cycle / {unit}J")),
+        frequencies(curve, unit, ""),
+        Axis::linear(format!("energy loss per cycle / {prefix}J")),
     )
-    .series(Series::line(points(curve, |p| scaled(p.baseline_j))).label("baseline"))
+    .series(Series::line(points((curve, unit), |p| scaled(p.baseline_j))).label("baseline"))
     .series(
-        Series::line(points(curve, |p| scaled(p.new_j)))
+        Series::line(points((curve, unit), |p| scaled(p.new_j)))
             .label("new")
             .style(LineStyle::Dashed)
             .color(1),
@@ -101,12 +106,12 @@ fn losses(curve: &[CurvePoint]) -> Chart {
     .size(WIDTH_PX, CURVES_PX)
 }
 
-fn differences(curve: &[CurvePoint]) -> Chart {
+fn differences(curve: &[CurvePoint], unit: FrequencyUnit) -> Chart {
     let percent = |p: &CurvePoint| p.relative_difference().map(|d| 100.0 * d);
     Chart::new(
-        frequencies(curve, "angular frequency ω / rad·s⁻¹"),
+        frequencies(curve, unit, &Units::in_si(unit).frequency_title()),
         Axis::linear("new − baseline / %"),
     )
-    .series(Series::line(points(curve, percent)).marker(Marker::Disc))
+    .series(Series::line(points((curve, unit), percent)).marker(Marker::Disc))
     .size(WIDTH_PX, DIFFERENCE_PX)
 }

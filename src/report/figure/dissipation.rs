@@ -2,13 +2,13 @@
 
 use super::curve::Curve;
 use super::units::Units;
-use super::{Drawn, Figure, scientific};
+use super::{Drawn, Figure};
 use crate::quantity::{Dimension, format_human};
-use crate::report::ReportError;
-use crate::report::caption::{Caption, listed};
+use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
-use crate::report::number::plain;
-use crate::report::table::{Table, number};
+use crate::report::number::{largest, scientific};
+use crate::report::table::{cells, csv_leading};
+use crate::report::words::listed;
 use crate::sweep::record::{CaseRecord, CaseResult};
 
 /// Bands in one figure; more cannot be told apart.
@@ -16,24 +16,17 @@ const BANDS: usize = 8;
 const OTHERS: Color = Color::Rgb(0xC4, 0xC4, 0xC4);
 
 /// The figure, of one curve: bands by retardation time, the longest at the bottom, the area of the loop as a line.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(curve: &Curve<'_>, units: &Units) -> Result<Drawn, ReportError> {
+pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
     let results = curve.results();
     if results.len() < 2 {
-        return Ok(Drawn::left_out(
-            "no dissipation figure: it takes two frequencies with a result",
-        ));
+        return Drawn::left_out("no dissipation figure: it takes two frequencies with a result");
     }
     let bands = bands(&results);
     if bands.is_empty() {
-        return Ok(Drawn::left_out(
-            "no dissipation figure: the material has no relaxation branches",
-        ));
+        return Drawn::left_out("no dissipation figure: the material has no relaxation branches");
     }
     let losses = results.iter().map(|(_, r)| r.analysis.energy_loss_j);
-    let (factor, unit) = units.energy(losses.fold(0.0, f64::max));
+    let (factor, unit) = units.energy(largest(losses));
     let omega = |record: &CaseRecord| units.frequency().0 * record.angular_frequency_rad_per_s;
     let mut chart = Chart::new(
         Axis::log(units.frequency_title()),
@@ -73,15 +66,20 @@ pub fn figure(curve: &Curve<'_>, units: &Units) -> Result<Drawn, ReportError> {
                 .color(Color::Rgb(0, 0, 0)),
         )
         .legend(LegendPlace::Auto);
-    Ok(Drawn::Figure(Figure {
+    Drawn::Figure(Figure {
         name: "dissipation",
         picture: chart.into(),
-        caption: caption(curve, &results, &bands),
-        data: data(&results)?,
-    }))
+        caption: caption(curve, &results, &bands, units),
+        data: data(&results, units),
+    })
 }
 
-fn caption(curve: &Curve<'_>, results: &[(&CaseRecord, &CaseResult)], bands: &[Band]) -> Caption {
+fn caption(
+    curve: &Curve<'_>,
+    results: &[(&CaseRecord, &CaseResult)],
+    bands: &[Band],
+    units: &Units,
+) -> Caption {
     let loss = |place: &usize| results[*place].1.analysis.energy_loss_j;
     let largest = (0..results.len()).max_by(|a, b| loss(a).total_cmp(&loss(b)));
     let shares = largest.filter(|place| loss(place) > 0.0).map(|place| {
@@ -91,12 +89,15 @@ fn caption(curve: &Curve<'_>, results: &[(&CaseRecord, &CaseResult)], bands: &[B
             format!("{} % ({})", scientific(100.0 * part, 3), band.label)
         };
         format!(
-            "At ω = {}, where the computed loss is largest, they dissipate {} of it.",
-            plain(omega, Dimension::AngularFrequency, 4),
+            "At {}, where the computed loss is largest, they dissipate {} of it.",
+            units.at(omega),
             listed(&bands.iter().map(share).collect::<Vec<_>>())
         )
     });
-    Caption::new("Energy loss per cycle over angular frequency ω, by retardation time λ of the branches that dissipate it")
+    Caption::new(format!(
+        "Energy loss per cycle over {}, by retardation time λ of the branches that dissipate it",
+        units.frequency_words()
+    ))
         .say("Areas: dissipated by the branches, from their memory alone; line: area of the hysteresis loop.")
         .say_all(curve.sentence().into_iter().chain(shares))
 }
@@ -159,7 +160,7 @@ fn with_rest(bands: Vec<Band>) -> Vec<Band> {
     if bands.len() <= BANDS {
         return bands;
     }
-    let largest = |band: &Band| band.losses_j.iter().copied().fold(0.0, f64::max);
+    let largest = |band: &Band| largest(band.losses_j.iter().copied());
     let mut heights: Vec<f64> = bands.iter().map(largest).collect();
     heights.sort_by(|a, b| b.total_cmp(a));
     let least = heights[BANDS - 2];
@@ -176,25 +177,24 @@ fn with_rest(bands: Vec<Band>) -> Vec<Band> {
     std::iter::once(others).chain(kept).collect()
 }
 
-fn data(results: &[(&CaseRecord, &CaseResult)]) -> Result<Vec<u8>, ReportError> {
+fn data(results: &[(&CaseRecord, &CaseResult)], units: &Units) -> Vec<u8> {
     let columns = [
         "angular_frequency_rad_per_s",
         "retardation_time_s",
         "branch_loss_j",
         "energy_loss_j",
     ];
-    let mut table = Table::new("dissipation.csv", &columns)?;
-    for (record, result) in results {
-        for branch in &result.branches {
-            table.row(&[
-                number(record.angular_frequency_rad_per_s),
-                number(branch.retardation_time_s),
-                number(branch.energy_loss_j),
-                number(result.analysis.energy_loss_j),
-            ])?;
-        }
-    }
-    table.finish()
+    let rows = results.iter().flat_map(|(record, result)| {
+        result.branches.iter().map(|branch| {
+            cells![
+                record.angular_frequency_rad_per_s,
+                branch.retardation_time_s,
+                branch.energy_loss_j,
+                result.analysis.energy_loss_j,
+            ]
+        })
+    });
+    csv_leading(units.frequency_unit(), &columns, rows)
 }
 
 #[cfg(test)]

@@ -4,11 +4,10 @@ use super::curve::Curve;
 use super::units::Units;
 use super::{Drawn, Figure};
 use crate::quantity::Dimension;
-use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::{HeatMap, MapShape, Scale};
-use crate::report::number::{plain, with_error};
-use crate::report::table::{Table, number, optional};
+use crate::report::number::{largest, with_error};
+use crate::report::table::{cells, csv};
 use crate::sweep::record::{CaseRecord, CaseResult, SurfaceLoss};
 
 const WIDTH_PX: u32 = 800;
@@ -17,10 +16,7 @@ const ALONG_RADIUS: usize = 250;
 const BEYOND: usize = 10;
 
 /// The figure, of one curve.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(curve: &Curve<'_>, units: &Units) -> Result<Drawn, ReportError> {
+pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
     let loss = |result: &CaseResult| result.analysis.energy_loss_j;
     let results = curve.results();
     let largest = results
@@ -31,33 +27,29 @@ pub fn figure(curve: &Curve<'_>, units: &Units) -> Result<Drawn, ReportError> {
         Some((record, result, field))
     });
     let Some((record, result, field)) = field else {
-        return Ok(Drawn::left_out("no dissipation map: nothing is dissipated"));
+        return Drawn::left_out("no dissipation map: nothing is dissipated");
     };
-    let omega = units.omega(record.angular_frequency_rad_per_s);
+    let frequency = units.frequency_label(record.angular_frequency_rad_per_s);
     let title = match &curve.label {
-        Some(label) => format!("{omega}, {label}"),
-        None => omega,
+        Some(label) => format!("{frequency}, {label}"),
+        None => frequency,
     };
-    Ok(Drawn::Figure(Figure {
+    Drawn::Figure(Figure {
         name: "dissipation-map",
         picture: field.map(title, units).into(),
-        caption: caption(curve, record),
-        data: data(&result.surface_loss)?,
-    }))
+        caption: caption(curve, record, units),
+        data: data(&result.surface_loss),
+    })
 }
 
-fn caption(curve: &Curve<'_>, record: &CaseRecord) -> Caption {
-    let omega = plain(
-        record.angular_frequency_rad_per_s,
-        Dimension::AngularFrequency,
-        4,
-    );
+fn caption(curve: &Curve<'_>, record: &CaseRecord, units: &Units) -> Caption {
+    let at = units.at(record.angular_frequency_rad_per_s);
     let loss = record.energy_loss_j().map(|loss_j| {
         let loss = with_error(loss_j, record.energy_loss_error_j(), Dimension::Energy);
         format!("Its integral over the surface is the energy loss per cycle, {loss}.")
     });
     Caption::new(format!(
-        "Work that the indenter does on the surface per cycle and area, at ω = {omega}, of the computed frequencies that of the \
+        "Work that the indenter does on the surface per cycle and area, at {at}, of the computed frequencies that of the \
          largest loss"
     ))
     .say_all(curve.sentence().into_iter().chain(loss))
@@ -140,9 +132,9 @@ impl Field {
     fn map(self, title: String, units: &Units) -> HeatMap {
         let [(left, right), (low, high)] = [self.x_range_m, self.y_range_m];
         let reach = [left, right, low, high].map(f64::abs);
-        let (to_length, length) = units.length(reach.into_iter().fold(0.0, f64::max));
+        let (to_length, length) = units.length(largest(reach));
         let densities = self.density.iter().flatten();
-        let (to_density, unit) = units.density(densities.fold(0.0, |a, d| a.max(d.abs())));
+        let (to_density, unit) = units.density(largest(densities.map(|d| d.abs())));
         let scaled = |density: &Option<f64>| Some(to_density * (*density)?);
         HeatMap {
             title: Some(title),
@@ -168,30 +160,29 @@ impl Field {
 }
 
 /// The field as it was computed: along a radius, or cell by cell.
-fn data(surface: &SurfaceLoss) -> Result<Vec<u8>, ReportError> {
-    let name = "dissipation-map.csv";
+fn data(surface: &SurfaceLoss) -> Vec<u8> {
     match surface {
         SurfaceLoss::Radial {
             radius_m,
             density_j_per_m2,
         } => {
-            let mut table = Table::new(name, &["radius_m", "work_j_per_m2"])?;
-            for (r_m, density) in radius_m.iter().zip(density_j_per_m2) {
-                table.row(&[number(*r_m), optional(*density)])?;
-            }
-            table.finish()
+            let points = radius_m.iter().zip(density_j_per_m2);
+            csv(
+                &["radius_m", "work_j_per_m2"],
+                points.map(|(r_m, density)| cells![*r_m, *density]),
+            )
         }
         SurfaceLoss::Cells(cells) => {
-            let mut table = Table::new(name, &["x_m", "y_m", "work_j_per_m2"])?;
             let columns = cells.cells_x.max(1);
-            for (cell, density) in cells.density_j_per_m2.iter().enumerate() {
-                table.row(&[
-                    number(cells.first_x_m + (cell % columns) as f64 * cells.spacing_x_m),
-                    number(cells.first_y_m + (cell / columns) as f64 * cells.spacing_y_m),
+            let densities = cells.density_j_per_m2.iter().enumerate();
+            let rows = densities.map(|(cell, density)| {
+                cells![
+                    cells.first_x_m + (cell % columns) as f64 * cells.spacing_x_m,
+                    cells.first_y_m + (cell / columns) as f64 * cells.spacing_y_m,
                     format!("{density:e}"),
-                ])?;
-            }
-            table.finish()
+                ]
+            });
+            csv(&["x_m", "y_m", "work_j_per_m2"], rows)
         }
     }
 }

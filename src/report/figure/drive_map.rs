@@ -3,9 +3,9 @@
 use super::curve::Curve;
 use super::moduli_error::WIDE;
 use super::units::Units;
-use crate::report::ReportError;
 use crate::report::chart::{HeatMap, MapShape, Scale};
-use crate::report::table::{Table, number, optional};
+use crate::report::number::range;
+use crate::report::table::{cells, csv_leading};
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 
@@ -34,27 +34,14 @@ pub fn map(
 ) -> Option<HeatMap> {
     let control = plan.drive.control();
     let to_omega = units.frequency().0;
-    let values = || {
-        let records = curves.iter().flat_map(|curve| &curve.records);
-        records.filter_map(|record| (mapped.value)(record))
-    };
-    let (least, largest) = (
-        values().fold(f64::INFINITY, f64::min),
-        values().fold(f64::NEG_INFINITY, f64::max),
-    );
-    let value_scale = scale(least, largest, WIDE_COLOURS);
+    let records = || curves.iter().flat_map(|curve| &curve.records);
+    let values = records().filter_map(|record| (mapped.value)(record));
+    let value_scale = scale(range(values), WIDE_COLOURS);
     let drives = || curves.iter().map(|curve| axis.varied.value(&curve.drive));
     let (low, high) = (drives().next()?, drives().next_back()?);
     let (to_unit, unit) = units.drive(control, low.abs().max(high.abs()));
-    let y_scale = scale(low, high, WIDE);
-    let omegas = || {
-        let records = curves.iter().flat_map(|curve| &curve.records);
-        records.map(|record| record.angular_frequency_rad_per_s)
-    };
-    let x_range = (
-        omegas().fold(f64::INFINITY, f64::min),
-        omegas().fold(0.0, f64::max),
-    );
+    let y_scale = scale((low, high), WIDE);
+    let x_range = range(records().map(|record| record.angular_frequency_rad_per_s));
     if x_range.0 >= x_range.1 || low >= high {
         return None;
     }
@@ -115,7 +102,7 @@ pub fn map(
     })
 }
 
-fn scale(least: f64, largest: f64, wide: f64) -> Scale {
+fn scale((least, largest): (f64, f64), wide: f64) -> Scale {
     if least > 0.0 && largest > wide * least {
         Scale::Log
     } else {
@@ -184,31 +171,31 @@ impl Row {
 pub type Column<'a> = (&'a str, &'a dyn Fn(&CaseRecord) -> Option<f64>);
 
 /// The table behind a map: the cases.
-///
-/// # Errors
-/// Where the table cannot be made.
-pub fn data(
-    name: &'static str,
-    curves: &[Curve<'_>],
-    columns: &[Column<'_>],
-) -> Result<Vec<u8>, ReportError> {
+pub fn data<const N: usize>(
+    (curves, units): (&[Curve<'_>], &Units),
+    columns: [Column<'_>; N],
+) -> Vec<u8> {
+    let unit = units.frequency_unit();
     let mut names = vec![
         "drive_mean",
         "drive_amplitude",
         "angular_frequency_rad_per_s",
     ];
     names.extend(columns.iter().map(|(name, _)| *name));
-    let mut table = Table::new(name, &names)?;
-    for record in curves.iter().flat_map(|curve| &curve.records) {
-        let mut cells = vec![
-            number(record.drive_mean),
-            number(record.drive_amplitude),
-            number(record.angular_frequency_rad_per_s),
-        ];
-        cells.extend(columns.iter().map(|(_, value)| optional(value(record))));
-        table.row(&cells)?;
-    }
-    table.finish()
+    let rows = curves
+        .iter()
+        .flat_map(|curve| &curve.records)
+        .map(|record| {
+            let mut row = cells![
+                record.drive_mean,
+                record.drive_amplitude,
+                record.angular_frequency_rad_per_s,
+            ]
+            .to_vec();
+            row.extend(columns.iter().map(|(_, value)| value(record).into()));
+            row
+        });
+    csv_leading(unit, &names, rows)
 }
 
 #[cfg(test)]

@@ -3,12 +3,11 @@
 use super::Figure;
 use super::curve::{Curve, evenly};
 use super::units::Units;
-use crate::quantity::Dimension;
-use crate::report::ReportError;
 use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, Color, Mark, Marker, Series};
-use crate::report::number::with_error;
-use crate::report::table::{Table, number, optional};
+use crate::report::number::{largest, range, with_error};
+use crate::report::peaks;
+use crate::report::table::{cells, csv_leading};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
@@ -19,35 +18,26 @@ const CURVES: usize = 8;
 const WIDE: f64 = 20.0;
 
 /// The figure. A case without a result breaks the line: nothing is drawn in its place.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(
-    plan: &SweepPlan,
-    outcome: &Outcome,
-    all: &[Curve<'_>],
-    units: &Units,
-) -> Result<Figure, ReportError> {
+pub fn figure(plan: &SweepPlan, outcome: &Outcome, all: &[Curve<'_>], units: &Units) -> Figure {
     let shown: Vec<&Curve<'_>> = evenly(all.len(), CURVES)
         .into_iter()
         .filter_map(|k| all.get(k))
         .collect();
-    let largest = |curve: &&Curve<'_>| {
-        let losses = curve.records.iter().filter_map(|r| r.energy_loss_j());
-        losses.fold(0.0, f64::max)
-    };
+    let of_curve_j =
+        |curve: &&Curve<'_>| largest(curve.records.iter().filter_map(|r| r.energy_loss_j()));
     let peaks = || {
         let of_shown = |peak: &&Peak| shown.iter().any(|curve| is_of(peak, curve));
         outcome.peaks.iter().filter(of_shown)
     };
     let heights = || {
-        let heights = shown.iter().map(largest);
+        let heights = shown.iter().map(of_curve_j);
         let heights = heights.chain(peaks().map(|peak| peak.energy_loss_j));
         heights.filter(|height| *height > 0.0)
     };
-    let (factor, unit) = units.energy(heights().fold(0.0, f64::max));
+    let (lowest, highest) = range(heights());
+    let (factor, unit) = units.energy(highest.max(0.0));
     let to_omega = units.frequency().0;
-    let log = heights().fold(0.0, f64::max) > WIDE * heights().fold(f64::INFINITY, f64::min);
+    let log = highest > WIDE * lowest;
     let label = format!("energy loss per cycle / {unit}");
     let series = shown.iter().enumerate().map(|(step, curve)| {
         let of = shown.len();
@@ -72,12 +62,12 @@ pub fn figure(
     let chart = Chart::new(Axis::log(units.frequency_title()), y)
         .all_series(series)
         .all_marks(marks);
-    Ok(Figure {
+    Figure {
         name: "energy-loss",
         picture: chart.into(),
-        caption: caption(plan, outcome, &shown),
-        data: data(plan, outcome)?,
-    })
+        caption: caption(plan, outcome, &shown, units),
+        data: data(plan, outcome, units),
+    }
 }
 
 fn of_curve(curve: &Curve<'_>, (to_omega, factor): (f64, f64), log: bool) -> Series {
@@ -112,7 +102,11 @@ fn is_of(peak: &Peak, curve: &Curve<'_>) -> bool {
 fn mark(peak: &Peak, (units, factor): (&Units, f64), labelled: bool) -> Mark {
     let omega = peak.angular_frequency_rad_per_s;
     let place = units.frequency().0 * omega;
-    let mark = Mark::point(place, factor * peak.energy_loss_j, units.omega(omega));
+    let mark = Mark::point(
+        place,
+        factor * peak.energy_loss_j,
+        units.frequency_label(omega),
+    );
     // Labels at every peak of several curves would cover the curves.
     Mark {
         label: mark.label.filter(|_| labelled),
@@ -120,43 +114,20 @@ fn mark(peak: &Peak, (units, factor): (&Units, f64), labelled: bool) -> Mark {
     }
 }
 
-fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>]) -> Caption {
-    let mut caption = Caption::new("Energy loss per cycle over angular frequency ω");
+fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>], units: &Units) -> Caption {
+    let over = units.frequency_words();
+    let mut caption = Caption::new(format!("Energy loss per cycle over {over}"));
     if let Some(axis) = &plan.axis {
         let varied = axis.varied.name();
         let curves = shown.len();
         caption = caption.say(format!("{curves} curves, one per {varied} of the drive."));
     }
-    let told = match plan.axis {
-        // Each curve has its own.
-        Some(_) => outcome.peaks.len().min(1),
-        None => outcome.peaks.len(),
-    };
-    for (rank, peak) in outcome.peaks.iter().take(told).enumerate() {
-        let what = if rank == 0 {
-            "Largest peak"
-        } else {
-            "Lower peak"
+    for peak in peaks::shown(plan, outcome, with_error) {
+        let what = match peak.is_largest {
+            true => "Largest peak",
+            false => "Lower peak",
         };
-        let under = plan.axis.as_ref().and_then(|axis| {
-            let value = peak.drive(axis.varied)?;
-            let value = Units::default().drive_value(plan.drive.control(), value);
-            Some(format!(", {} {value}", axis.varied.name()))
-        });
-        caption = caption.say(format!(
-            "{what}: {} at ω = {}{}.",
-            with_error(
-                peak.energy_loss_j,
-                peak.energy_loss_error_j,
-                Dimension::Energy
-            ),
-            with_error(
-                peak.angular_frequency_rad_per_s,
-                Some(peak.angular_frequency_uncertainty_rad_per_s),
-                Dimension::AngularFrequency
-            ),
-            under.unwrap_or_default()
-        ));
+        caption = caption.say(format!("{what}: {}.", peak.sentence()));
     }
     let rings = (!outcome.peaks.is_empty())
         .then(|| "Rings: peaks, located between the samples by further computations.".to_owned());
@@ -168,7 +139,7 @@ fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>]) -> Caption
     caption.say_all(parts.into_iter().flatten())
 }
 
-fn data(plan: &SweepPlan, outcome: &Outcome) -> Result<Vec<u8>, ReportError> {
+fn data(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
     let columns = [
         "kind",
         "drive_mean",
@@ -177,27 +148,25 @@ fn data(plan: &SweepPlan, outcome: &Outcome) -> Result<Vec<u8>, ReportError> {
         "energy_loss_j",
         "energy_loss_error_j",
     ];
-    let mut table = Table::new("energy-loss.csv", &columns)?;
-    for record in &outcome.records {
-        table.row(&[
-            "case".to_owned(),
-            number(record.drive_mean),
-            number(record.drive_amplitude),
-            number(record.angular_frequency_rad_per_s),
-            optional(record.energy_loss_j()),
-            optional(record.energy_loss_error_j()),
-        ])?;
-    }
-    for peak in &outcome.peaks {
-        let drive = &plan.drive;
-        table.row(&[
-            "peak".to_owned(),
-            number(peak.drive_mean.unwrap_or(drive.mean())),
-            number(peak.drive_amplitude.unwrap_or(drive.amplitude())),
-            number(peak.angular_frequency_rad_per_s),
-            number(peak.energy_loss_j),
-            optional(peak.energy_loss_error_j),
-        ])?;
-    }
-    table.finish()
+    let cases = outcome.records.iter().map(|record| {
+        cells![
+            "case",
+            record.drive_mean,
+            record.drive_amplitude,
+            record.angular_frequency_rad_per_s,
+            record.energy_loss_j(),
+            record.energy_loss_error_j(),
+        ]
+    });
+    let peaks = outcome.peaks.iter().map(|peak| {
+        cells![
+            "peak",
+            peak.drive_mean.unwrap_or(plan.drive.mean()),
+            peak.drive_amplitude.unwrap_or(plan.drive.amplitude()),
+            peak.angular_frequency_rad_per_s,
+            peak.energy_loss_j,
+            peak.energy_loss_error_j,
+        ]
+    });
+    csv_leading(units.frequency_unit(), &columns, cases.chain(peaks))
 }

@@ -3,13 +3,12 @@
 use num_complex::Complex;
 
 use super::curve::{Curve, curves};
-use super::scientific;
 use super::units::Units;
 use crate::material::Material;
-use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::Series;
-use crate::report::table::{Table, number, optional};
+use crate::report::number::{largest, scientific};
+use crate::report::table::{cells, csv_leading};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::record::error_bars::Quantity;
@@ -87,11 +86,7 @@ impl Equivalent<'_> {
     /// A caption of a figure that draws loops beside the material: how the symbols come about, and how far they are off.
     pub fn caption(&self, shows: &str) -> Caption {
         let drive = self.title.as_ref().map(|title| format!("Drive: {title}."));
-        let largest = |values: &mut dyn Iterator<Item = f64>| {
-            scientific(100.0 * values.fold(0.0_f64, |a, v| a.max(v.abs())), 3)
-        };
-        let storage = largest(&mut self.loops.iter().map(LoopModulus::storage_difference));
-        let loss = largest(&mut self.loops.iter().filter_map(LoopModulus::loss_difference));
+        let [storage, loss] = largest_differences(|| self.loops.iter());
         Caption::new(shows)
             .say_all(drive)
             .say(
@@ -104,6 +99,16 @@ impl Equivalent<'_> {
                 "They differ from the material's by at most {storage} % in E′ and {loss} % in E″."
             ))
     }
+}
+
+/// The largest differences of storage and loss modulus from the material's, in percent of these.
+pub fn largest_differences<'a, I>(loops: impl Fn() -> I) -> [String; 2]
+where
+    I: Iterator<Item = &'a LoopModulus<'a>>,
+{
+    let storage = largest(loops().map(|at| at.storage_difference().abs()));
+    let losses = loops().filter_map(LoopModulus::loss_difference);
+    [storage, largest(losses.map(f64::abs))].map(|share| scientific(100.0 * share, 3))
 }
 
 impl LoopModulus<'_> {
@@ -130,14 +135,7 @@ impl LoopModulus<'_> {
 }
 
 /// The table behind the moduli: all loops of a sweep, under all drives.
-///
-/// # Errors
-/// Where the table cannot be made.
-pub fn table(
-    name: &'static str,
-    plan: &SweepPlan,
-    outcome: &Outcome,
-) -> Result<Vec<u8>, ReportError> {
+pub fn table(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
     let columns = [
         "drive_mean",
         "drive_amplitude",
@@ -151,48 +149,45 @@ pub fn table(
         "storage_relative_difference",
         "loss_relative_difference",
     ];
-    let mut table = Table::new(name, &columns)?;
-    for curve in curves(plan, outcome, &Units::default()) {
-        for at in of_loops(&plan.material, &curve) {
-            table.row(&[
-                number(at.record.drive_mean),
-                number(at.record.drive_amplitude),
-                number(at.omega()),
-                number(at.storage_pa),
-                optional(at.error_pa(Quantity::StorageModulus)),
-                number(at.loss_pa),
-                optional(at.error_pa(Quantity::LossModulus)),
-                number(at.own_pa.re),
-                number(at.own_pa.im),
-                number(at.storage_difference()),
-                optional(at.loss_difference()),
-            ])?;
-        }
-    }
-    table.finish()
+    let curves = curves(plan, outcome, units);
+    let loops = curves.iter();
+    let rows = loops
+        .flat_map(|curve| of_loops(&plan.material, curve))
+        .map(|at| {
+            cells![
+                at.record.drive_mean,
+                at.record.drive_amplitude,
+                at.omega(),
+                at.storage_pa,
+                at.error_pa(Quantity::StorageModulus),
+                at.loss_pa,
+                at.error_pa(Quantity::LossModulus),
+                at.own_pa.re,
+                at.own_pa.im,
+                at.storage_difference(),
+                at.loss_difference(),
+            ]
+        });
+    csv_leading(units.frequency_unit(), &columns, rows)
 }
 
 /// The table behind a figure that draws loops beside the material's line: of both, these two numbers.
-///
-/// # Errors
-/// Where the table cannot be made.
 pub fn pairs(
-    name: &'static str,
     equivalent: &Equivalent<'_>,
     own: &Line,
-    columns: [&str; 2],
+    [x, y]: [&str; 2],
     pair: impl Fn(Complex<f64>) -> [f64; 2],
-) -> Result<Vec<u8>, ReportError> {
-    let [x, y] = columns;
-    let mut table = Table::new(name, &["kind", "angular_frequency_rad_per_s", x, y])?;
+    units: &Units,
+) -> Vec<u8> {
     let loops = equivalent.loops.iter();
     let loops = loops.map(|at| ("loop", at.omega(), Complex::new(at.storage_pa, at.loss_pa)));
     let own = own
         .iter()
         .map(|(omega, modulus)| ("material", *omega, *modulus));
-    for (kind, omega, modulus) in loops.chain(own) {
+    let rows = loops.chain(own).map(|(kind, omega, modulus)| {
         let [x, y] = pair(modulus);
-        table.row(&[kind.to_owned(), number(omega), number(x), number(y)])?;
-    }
-    table.finish()
+        cells![kind, omega, x, y]
+    });
+    let columns = ["kind", "angular_frequency_rad_per_s", x, y];
+    csv_leading(units.frequency_unit(), &columns, rows)
 }

@@ -1,13 +1,13 @@
 //! Data against the series fitted to them, and the relative difference between the two.
 
-use super::{Figure, prefix};
+use super::{Figure, axis};
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::material::{GivenFace, ModulusKind};
-use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Marker, Series};
-use crate::report::table::Table;
+use crate::report::number::{prefix, range};
+use crate::report::table::{cells, csv};
 
 /// Points of the fitted curve; most symbols along it, between which it can still be seen, and most symbols without a curve;
 /// ratio of values from which the axis is logarithmic.
@@ -17,11 +17,8 @@ const SYMBOLS: usize = 2000;
 const WIDE: f64 = 20.0;
 
 /// Two figures, `fit` and `fit-residual`. A sample at time zero has no place on their logarithmic axis; it is in the data.
-///
-/// # Errors
-/// Where a table behind them cannot be made.
-pub fn figures(table: &Tabulated, fit: &Fit) -> Result<Vec<Figure>, ReportError> {
-    Ok(vec![curves(table, fit)?, residual(table, fit)?])
+pub fn figures(table: &Tabulated, fit: &Fit) -> Vec<Figure> {
+    vec![curves(table, fit), residual(table, fit)]
 }
 
 /// Samples at positive times; where there are more than `most`, as many at about equal distances in the logarithm of time.
@@ -47,15 +44,15 @@ fn shown(table: &Tabulated, most: usize) -> Vec<(f64, f64)> {
     positive.into_iter().filter(far_enough).collect()
 }
 
-fn curves(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
+fn curves(table: &Tabulated, fit: &Fit) -> Figure {
     let symbol = match (table.face(), table.kind()) {
         (GivenFace::Creep, ModulusKind::Longitudinal) => 'D',
         (GivenFace::Creep, ModulusKind::Shear) => 'J',
         (GivenFace::Relaxation, ModulusKind::Longitudinal) => 'E',
         (GivenFace::Relaxation, ModulusKind::Shear) => 'G',
     };
-    let lowest = table.values().iter().copied().fold(f64::INFINITY, f64::min);
-    let highest = table.values().iter().copied().fold(0.0, f64::max);
+    let values = range(table.values().iter().copied());
+    let highest = values.1;
     let (factor, label) = match table.face() {
         GivenFace::Relaxation => {
             let (factor, unit) = prefix(highest);
@@ -69,11 +66,6 @@ fn curves(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
                 format!("creep compliance {symbol}(t) / {unit}Pa⁻¹"),
             )
         }
-    };
-    let axis = if highest > WIDE * lowest {
-        Axis::log(label)
-    } else {
-        Axis::linear(label)
     };
     let symbols = shown(table, SYMBOLS_ON_CURVE);
     let samples = table.times_s().len();
@@ -92,10 +84,10 @@ fn curves(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
         // A modulus that has relaxed to nothing has no place on a logarithmic axis.
         (value > 0.0).then_some((time_s, value))
     });
-    let chart = Chart::new(Axis::log("time t / s"), axis)
+    let chart = Chart::new(Axis::log("time t / s"), axis(values, WIDE, label))
         .series(data)
         .series(Series::line(curve).label("fit").color(1));
-    Ok(Figure {
+    Figure {
         name: "fit",
         picture: chart.into(),
         caption: caption(
@@ -103,11 +95,11 @@ fn curves(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
             fit,
             "Data and the series fitted to them, against time t",
         ),
-        data: data_table(table, fit)?,
-    })
+        data: data_table(table, fit),
+    }
 }
 
-fn residual(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
+fn residual(table: &Tabulated, fit: &Fit) -> Figure {
     let percent = |(t, v): (f64, f64)| (t, 100.0 * (fit.series().value(t) / v - 1.0));
     let points = shown(table, SYMBOLS).into_iter().map(percent);
     let (from, to) = positive_range_s(table);
@@ -117,11 +109,9 @@ fn residual(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
     )
     .series(Series::line([(from, 0.0), (to, 0.0)]).color(1))
     .series(Series::scatter(points).marker(Marker::Ring));
-    let mut data = Table::new("fit-residual.csv", &["time_s", "relative_difference"])?;
-    for (&time_s, value) in table.times_s().iter().zip(table.values()) {
-        data.numbers(&[time_s, fit.series().value(time_s) / value - 1.0])?;
-    }
-    Ok(Figure {
+    let samples = table.times_s().iter().zip(table.values());
+    let rows = samples.map(|(&t, value)| cells![t, fit.series().value(t) / value - 1.0]);
+    Figure {
         name: "fit-residual",
         picture: chart.into(),
         caption: caption(
@@ -129,8 +119,8 @@ fn residual(table: &Tabulated, fit: &Fit) -> Result<Figure, ReportError> {
             fit,
             "Relative difference of the fitted series from the data, against time t",
         ),
-        data: data.finish()?,
-    })
+        data: csv(&["time_s", "relative_difference"], rows),
+    }
 }
 
 fn caption(table: &Tabulated, fit: &Fit, shows: &str) -> Caption {
@@ -156,16 +146,16 @@ fn positive_range_s(table: &Tabulated) -> (f64, f64) {
     (curve.shortest_time_s().unwrap_or(1.0), curve.last_time_s())
 }
 
-fn data_table(table: &Tabulated, fit: &Fit) -> Result<Vec<u8>, ReportError> {
+fn data_table(table: &Tabulated, fit: &Fit) -> Vec<u8> {
     let columns = match table.face() {
         GivenFace::Creep => ["time_s", "creep_compliance_per_pa", "fit_per_pa"],
         GivenFace::Relaxation => ["time_s", "relaxation_modulus_pa", "fit_pa"],
     };
-    let mut rows = Table::new("fit.csv", &columns)?;
-    for (&time_s, &value) in table.times_s().iter().zip(table.values()) {
-        rows.numbers(&[time_s, value, fit.series().value(time_s)])?;
-    }
-    rows.finish()
+    let samples = table.times_s().iter().zip(table.values());
+    csv(
+        &columns,
+        samples.map(|(&time_s, &value)| cells![time_s, value, fit.series().value(time_s)]),
+    )
 }
 
 #[cfg(test)]
@@ -191,7 +181,7 @@ mod tests {
         assert!(symbols.len() <= SYMBOLS_ON_CURVE && symbols.len() > 30);
         assert_eq!(symbols[0].0, 0.5);
         assert_eq!(symbols.last().unwrap().0, 1000.0);
-        let figures = figures(&table, &fit(&table, None).unwrap()).unwrap();
+        let figures = figures(&table, &fit(&table, None).unwrap());
         let label = chart_of(&figures[0]).series[0].label.clone().unwrap();
         assert!(label.starts_with("data (") && label.contains("of 2001 samples"));
         let few = table_figures(20);
@@ -207,7 +197,7 @@ mod tests {
 
     fn table_figures(count: i32) -> Vec<Figure> {
         let table = table(count);
-        figures(&table, &fit(&table, None).unwrap()).unwrap()
+        figures(&table, &fit(&table, None).unwrap())
     }
 
     #[test]

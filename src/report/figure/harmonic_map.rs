@@ -3,27 +3,17 @@
 use super::curve::Curve;
 use super::drive_map::{self, Mapped};
 use super::units::Units;
-use super::{Drawn, Figure, scientific};
+use super::{Drawn, Figure};
 use crate::drive::Control;
-use crate::report::ReportError;
 use crate::report::caption::Caption;
+use crate::report::number::{largest, scientific};
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 
 /// The figure.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(
-    plan: &SweepPlan,
-    axis: &DriveAxis,
-    curves: &[Curve<'_>],
-    units: &Units,
-) -> Result<Drawn, ReportError> {
+pub fn figure(plan: &SweepPlan, axis: &DriveAxis, curves: &[Curve<'_>], units: &Units) -> Drawn {
     if plan.drive.control() == Control::Approach {
-        return Ok(Drawn::left_out(
-            "no harmonic-2 map: the approach is prescribed and has none",
-        ));
+        return Drawn::left_out("no harmonic-2 map: the approach is prescribed and has none");
     }
     let mapped = Mapped {
         value: &|record| Some(100.0 * second(record)?),
@@ -31,30 +21,30 @@ pub fn figure(
         rings: Vec::new(),
     };
     let Some(map) = drive_map::map(plan, axis, (curves, units), mapped) else {
-        return Ok(Drawn::left_out(
+        return Drawn::left_out(
             "no harmonic-2 map: it takes two frequencies and two drives with results",
-        ));
+        );
     };
-    Ok(Drawn::Figure(Figure {
+    Drawn::Figure(Figure {
         name: "harmonic-2-map",
         picture: map.into(),
-        caption: caption(axis, curves),
-        data: drive_map::data("harmonic-2-map.csv", curves, &[("harmonic_2", &second)])?,
-    }))
+        caption: caption(axis, curves, units),
+        data: drive_map::data((curves, units), [("harmonic_2", &second)]),
+    })
 }
 
 fn second(record: &CaseRecord) -> Option<f64> {
     record.result.as_ref()?.analysis.approach_harmonic(2)
 }
 
-fn caption(axis: &DriveAxis, curves: &[Curve<'_>]) -> Caption {
-    let varied = axis.varied.name();
+fn caption(axis: &DriveAxis, curves: &[Curve<'_>], units: &Units) -> Caption {
+    let (over, varied) = (units.frequency_words(), axis.varied.name());
     let title = format!(
-        "Second harmonic of the approach relative to its first, over angular frequency ω and {varied} of the drive"
+        "Second harmonic of the approach relative to its first, over {over} and {varied} of the drive"
     );
     let values = curves.iter().flat_map(|curve| &curve.records);
     let values = values.filter_map(|record| second(record));
-    let largest = scientific(100.0 * values.fold(0.0, f64::max), 3);
+    let largest = scientific(100.0 * largest(values), 3);
     Caption::new(title)
         .say("Dots: computed cases, coloured linearly between; lines: the values labelled at the colour bar.")
         .say(format!("Largest computed: {largest} %."))

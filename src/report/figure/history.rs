@@ -6,7 +6,7 @@ use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::{self, Axis, Chart, Series};
-use crate::report::number::plain;
+use crate::report::number::{largest, plain};
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
 
 const NAME: &str = "history";
@@ -23,18 +23,14 @@ pub fn figure(outcome: &SimulationOutcome, units: &Units) -> Drawn {
     if !has_span(rows) {
         return Drawn::left_out("no figure of the history: it has no two times");
     }
-    let load = |row: &HistoryRow| row.load_n;
-    let largest = rows.iter().map(load).fold(0.0, f64::max);
-    let radius = rows
-        .iter()
-        .map(|row| row.contact_radius_m)
-        .fold(0.0, f64::max);
+    let load = largest(rows.iter().map(|row| row.load_n));
+    let radius = largest(rows.iter().map(|row| row.contact_radius_m));
     let end_s = rows.last().map_or(0.0, |row| row.time_s);
     let caption =
         Caption::new("Load W, approach δ and contact radius a against time t").say(format!(
             "The history ends at {}; its largest load is {}, its largest contact radius {}.",
             plain(end_s, Dimension::Time, 4),
-            plain(largest, Dimension::Force, 4),
+            plain(load, Dimension::Force, 4),
             plain(radius, Dimension::Length, 4)
         ));
     Drawn::Figure(Figure {
@@ -83,8 +79,8 @@ fn panels(rows: &[HistoryRow], units: &Units) -> Vec<Chart> {
         .collect();
     let last = shown.len().saturating_sub(1);
     let panel = |(place, (name, unit, signal)): (usize, (&str, UnitOf, Signal))| {
-        let largest = rows.iter().filter_map(signal).map(f64::abs);
-        let (factor, unit) = unit(units, largest.fold(0.0, f64::max));
+        let values = rows.iter().filter_map(signal).map(f64::abs);
+        let (factor, unit) = unit(units, largest(values));
         let points: Vec<_> = rows
             .iter()
             .map(|row| Some((to_time * row.time_s, factor * signal(row)?)))

@@ -4,11 +4,11 @@ use super::Figure;
 use super::curve::{Curve, chosen};
 use super::units::Units;
 use crate::quantity::Dimension;
-use crate::report::ReportError;
-use crate::report::caption::{Caption, listed};
+use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, Series};
-use crate::report::number::{plain, with_error};
-use crate::report::table::{Table, number};
+use crate::report::number::{largest, with_error};
+use crate::report::table::{cells, csv_leading};
+use crate::report::words::listed;
 use crate::sweep::record::{CaseRecord, CaseResult};
 
 /// Loops in one figure; more cannot be told apart.
@@ -16,26 +16,19 @@ const LOOPS: usize = 5;
 
 /// The figure: of the converged cases of a curve those nearest to the frequencies asked for (rad/s), or some evenly spread, the
 /// one with the largest loss among them.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(
-    curve: &Curve<'_>,
-    asked_rad_per_s: &[f64],
-    units: &Units,
-) -> Result<Figure, ReportError> {
+pub fn figure(curve: &Curve<'_>, asked_rad_per_s: &[f64], units: &Units) -> Figure {
     let chosen = chosen(&curve.results(), asked_rad_per_s, LOOPS);
-    let largest = |signal: fn(&CaseResult) -> &[f64]| {
+    let of = |signal: fn(&CaseResult) -> &[f64]| {
         let values = chosen.iter().flat_map(|(_, result)| signal(result));
-        values.fold(0.0_f64, |a, v| a.max(v.abs()))
+        largest(values.map(|value| value.abs()))
     };
-    let (to_load, load_unit) = units.load(largest(|r| &r.samples.load_n));
-    let (to_approach, approach_unit) = units.approach(largest(|r| &r.samples.approach_m));
+    let (to_load, load_unit) = units.load(of(|r| &r.samples.load_n));
+    let (to_approach, approach_unit) = units.approach(of(|r| &r.samples.approach_m));
     let series = chosen.iter().enumerate().map(|(step, (record, result))| {
         let samples = &result.samples;
         let points = samples.approach_m.iter().zip(&samples.load_n);
         Series::line(points.map(|(d, w)| (to_approach * d, to_load * w)))
-            .label(units.omega(record.angular_frequency_rad_per_s))
+            .label(units.frequency_label(record.angular_frequency_rad_per_s))
             .color(Color::Ramp {
                 step,
                 of: chosen.len(),
@@ -47,25 +40,21 @@ pub fn figure(
     )
     .all_series(series);
     chart.title.clone_from(&curve.label);
-    Ok(Figure {
+    Figure {
         name: "loops",
         picture: chart.into(),
-        caption: caption(curve, &chosen),
-        data: data(&chosen)?,
-    })
+        caption: caption(curve, &chosen, units),
+        data: data(&chosen, units),
+    }
 }
 
-fn caption(curve: &Curve<'_>, chosen: &[(&CaseRecord, &CaseResult)]) -> Caption {
+fn caption(curve: &Curve<'_>, chosen: &[(&CaseRecord, &CaseResult)], units: &Units) -> Caption {
     let loops: Vec<String> = chosen
         .iter()
         .map(|(record, result)| {
             let loss_j = result.analysis.energy_loss_j;
             let loss = with_error(loss_j, record.energy_loss_error_j(), Dimension::Energy);
-            let omega = record.angular_frequency_rad_per_s;
-            format!(
-                "{loss} at ω = {}",
-                plain(omega, Dimension::AngularFrequency, 4)
-            )
+            format!("{loss} at {}", units.at(record.angular_frequency_rad_per_s))
         })
         .collect();
     Caption::new("Hysteresis loops: load W over approach δ in the stabilised cycle")
@@ -76,18 +65,12 @@ fn caption(curve: &Curve<'_>, chosen: &[(&CaseRecord, &CaseResult)]) -> Caption 
         ))
 }
 
-fn data(chosen: &[(&CaseRecord, &CaseResult)]) -> Result<Vec<u8>, ReportError> {
+fn data(chosen: &[(&CaseRecord, &CaseResult)], units: &Units) -> Vec<u8> {
     let columns = ["angular_frequency_rad_per_s", "approach_m", "load_n"];
-    let mut table = Table::new("loops.csv", &columns)?;
-    for (record, result) in chosen {
-        let samples = &result.samples;
-        for (approach, load) in samples.approach_m.iter().zip(&samples.load_n) {
-            table.row(&[
-                number(record.angular_frequency_rad_per_s),
-                number(*approach),
-                number(*load),
-            ])?;
-        }
-    }
-    table.finish()
+    let rows = chosen.iter().flat_map(|(record, result)| {
+        let samples = result.samples.approach_m.iter().zip(&result.samples.load_n);
+        let omega = record.angular_frequency_rad_per_s;
+        samples.map(move |(approach, load)| cells![omega, *approach, *load])
+    });
+    csv_leading(units.frequency_unit(), &columns, rows)
 }

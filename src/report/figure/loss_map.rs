@@ -5,26 +5,22 @@ use super::drive_map::{self, Mapped};
 use super::units::Units;
 use super::{Drawn, Figure};
 use crate::quantity::Dimension;
-use crate::report::ReportError;
 use crate::report::caption::{self, Caption};
-use crate::report::number::with_error;
+use crate::report::number::{largest, with_error};
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Outcome;
 
 /// The figure.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
 pub fn figure(
     plan: &SweepPlan,
     outcome: &Outcome,
     axis: &DriveAxis,
     curves: &[Curve<'_>],
     units: &Units,
-) -> Result<Drawn, ReportError> {
+) -> Drawn {
     let losses = outcome.records.iter().filter_map(|r| r.energy_loss_j());
-    let (factor, unit) = units.energy(losses.fold(0.0, f64::max));
+    let (factor, unit) = units.energy(largest(losses));
     let rings = outcome.peaks.iter().filter_map(|peak| {
         let value = peak.drive(axis.varied)?;
         Some((peak.angular_frequency_rad_per_s, value))
@@ -35,29 +31,28 @@ pub fn figure(
         rings: rings.collect(),
     };
     let Some(map) = drive_map::map(plan, axis, (curves, units), mapped) else {
-        return Ok(Drawn::left_out(
+        return Drawn::left_out(
             "no loss map: it takes two frequencies and two drives with results",
-        ));
+        );
     };
     let data = drive_map::data(
-        "loss-map.csv",
-        curves,
-        &[
+        (curves, units),
+        [
             ("energy_loss_j", &CaseRecord::energy_loss_j),
             ("energy_loss_error_j", &CaseRecord::energy_loss_error_j),
         ],
-    )?;
-    Ok(Drawn::Figure(Figure {
+    );
+    Drawn::Figure(Figure {
         name: "loss-map",
         picture: map.into(),
-        caption: caption(outcome, axis),
+        caption: caption(outcome, axis, units),
         data,
-    }))
+    })
 }
 
-fn caption(outcome: &Outcome, axis: &DriveAxis) -> Caption {
-    let varied = axis.varied.name();
-    let title = format!("Energy loss per cycle over angular frequency ω and {varied} of the drive");
+fn caption(outcome: &Outcome, axis: &DriveAxis, units: &Units) -> Caption {
+    let (over, varied) = (units.frequency_words(), axis.varied.name());
+    let title = format!("Energy loss per cycle over {over} and {varied} of the drive");
     let losses = outcome.records.iter().filter_map(|record| {
         let loss_j = record.energy_loss_j()?;
         Some((loss_j, record.energy_loss_error_j()))

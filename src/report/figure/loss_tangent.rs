@@ -5,14 +5,10 @@ use num_complex::Complex;
 use super::Figure;
 use super::equivalent::{self, Equivalent};
 use super::units::Units;
-use crate::report::ReportError;
 use crate::report::chart::{Axis, Chart, Series};
 
 /// The figure: loops as symbols, the material as a line.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, ReportError> {
+pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Figure {
     let to_omega = units.frequency().0;
     let own = equivalent.own.iter();
     let own = own.map(|(omega, modulus)| (to_omega * omega, tangent(*modulus)));
@@ -25,18 +21,19 @@ pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, Repo
     .series(Series::line(own).label("material"))
     .series(equivalent::symbols(loops).label("from the loops").color(1));
     chart.title.clone_from(&equivalent.title);
-    Ok(Figure {
+    let shows = format!("Loss tangent E″/E′ over {}", units.frequency_words());
+    Figure {
         name: "loss-tangent",
         picture: chart.into(),
-        caption: equivalent.caption("Loss tangent E″/E′ over angular frequency ω"),
+        caption: equivalent.caption(&shows),
         data: equivalent::pairs(
-            "loss-tangent.csv",
             equivalent,
             &equivalent.own,
             ["loss_tangent", "phase_angle_deg"],
             |modulus| [tangent(modulus), modulus.arg().to_degrees()],
-        )?,
-    })
+            units,
+        ),
+    }
 }
 
 fn tangent(modulus: Complex<f64>) -> f64 {

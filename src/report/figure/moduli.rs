@@ -1,14 +1,12 @@
 //! Storage modulus and loss modulus over angular frequency: of a material, and beside it what the loops of a sweep give.
 
+use super::Figure;
 use super::equivalent::{self, Equivalent, LoopModulus};
 use super::units::Units;
-use super::{Figure, scientific};
-use crate::quantity::Dimension;
-use crate::report::ReportError;
 use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
-use crate::report::number::plain;
-use crate::report::table::Table;
+use crate::report::number::{largest, scientific};
+use crate::report::table::{cells, csv};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::search::run::Outcome;
@@ -24,10 +22,7 @@ pub struct ModulusPoint {
 }
 
 /// The figure of a material. `symbol` is E for longitudinal and G for shear moduli.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(points: &[ModulusPoint], symbol: char) -> Result<Figure, ReportError> {
+pub fn figure(points: &[ModulusPoint], symbol: char) -> Figure {
     let lines = points.iter().map(|p| {
         let (storage, loss) = (p.storage_modulus_pa, p.loss_modulus_pa);
         (p.angular_frequency_rad_per_s, storage, loss)
@@ -41,26 +36,25 @@ pub fn figure(points: &[ModulusPoint], symbol: char) -> Result<Figure, ReportErr
         "storage_compliance_per_pa",
         "loss_compliance_per_pa",
     ];
-    let mut table = Table::new("moduli.csv", &columns)?;
-    for p in points {
-        table.numbers(&[
+    let rows = points.iter().map(|p| {
+        cells![
             p.angular_frequency_rad_per_s,
             p.storage_modulus_pa,
             p.loss_modulus_pa,
             p.loss_modulus_pa / p.storage_modulus_pa,
             p.storage_compliance_per_pa,
             p.loss_compliance_per_pa,
-        ])?;
-    }
-    Ok(Figure {
+        ]
+    });
+    Figure {
         name: "moduli",
         picture: chart.into(),
         caption: Caption::new(format!(
             "Storage modulus {symbol}′ and loss modulus {symbol}″ over angular frequency ω"
         ))
         .say_all(largest_tangent(points)),
-        data: table.finish()?,
-    })
+        data: csv(&columns, rows),
+    }
 }
 
 /// Where the material dissipates most of what it stores.
@@ -69,27 +63,20 @@ fn largest_tangent(points: &[ModulusPoint]) -> Option<String> {
     let largest = points
         .iter()
         .max_by(|a, b| tangent(a).total_cmp(&tangent(b)))?;
-    let omega = plain(
-        largest.angular_frequency_rad_per_s,
-        Dimension::AngularFrequency,
-        3,
-    );
+    let at = Units::default().frequency_label(largest.angular_frequency_rad_per_s);
     (tangent(largest) > 0.0).then(|| {
         let tangent = scientific(tangent(largest), 4);
-        format!("Largest loss tangent of the points drawn: {tangent} at ω = {omega}.")
+        format!("Largest loss tangent of the points drawn: {tangent} at {at}.")
     })
 }
 
 /// The figure of a sweep: the equivalent moduli of the loops as symbols, the material's own as lines.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
 pub fn with_loops(
     equivalent: &Equivalent<'_>,
     plan: &SweepPlan,
     outcome: &Outcome,
     units: &Units,
-) -> Result<Figure, ReportError> {
+) -> Figure {
     let own = equivalent.own.iter();
     let (mut chart, factor) = of_material(
         own.map(|(w, modulus)| (*w, modulus.re, modulus.im)),
@@ -115,14 +102,18 @@ pub fn with_loops(
                 .marker(Marker::Square)
                 .color(1),
         );
-    Ok(Figure {
+    let shows = format!(
+        "Storage modulus E′ and loss modulus E″ over {}",
+        units.frequency_words()
+    );
+    Figure {
         name: "moduli",
         picture: chart.into(),
         caption: equivalent
-            .caption("Storage modulus E′ and loss modulus E″ over angular frequency ω")
+            .caption(&shows)
             .say_all(caption::error_bars(plan, outcome)),
-        data: equivalent::table("moduli.csv", plan, outcome)?,
-    })
+        data: equivalent::table(plan, outcome, units),
+    }
 }
 
 /// The lines of a material from (rad/s, Pa, Pa), and the factor from Pa to the unit of the axis.
@@ -131,8 +122,8 @@ fn of_material(
     symbol: char,
     units: &Units,
 ) -> (Chart, f64) {
-    let largest = points.clone().map(|(_, storage, _)| storage);
-    let (factor, unit) = units.modulus(largest.fold(0.0, f64::max));
+    let storage = points.clone().map(|(_, storage, _)| storage);
+    let (factor, unit) = units.modulus(largest(storage));
     let to_omega = units.frequency().0;
     // A modulus of exactly zero has no place on a log axis.
     let line = |value: fn((f64, f64, f64)) -> f64| {

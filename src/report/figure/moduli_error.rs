@@ -4,10 +4,10 @@
 use super::curve::{Curve, evenly};
 use super::equivalent::{self, LoopModulus, of_loops};
 use super::units::Units;
-use super::{Drawn, Figure, Picture, scientific};
-use crate::report::ReportError;
+use super::{Drawn, Figure, Picture, axis};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Marker, Series};
+use crate::report::number::{largest, range};
 use crate::sweep::plan::{DriveAxis, SweepPlan};
 use crate::sweep::search::run::Outcome;
 
@@ -20,36 +20,24 @@ pub(super) const WIDE: f64 = 5.0;
 type Row<'a> = Vec<(f64, Option<LoopModulus<'a>>)>;
 
 /// The figure: storage modulus above, loss modulus below, one curve per frequency.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
 pub fn figure(
     plan: &SweepPlan,
     outcome: &Outcome,
-    axis: &DriveAxis,
+    drives: &DriveAxis,
     curves: &[Curve<'_>],
     units: &Units,
-) -> Result<Drawn, ReportError> {
-    let rows = rows(plan, axis, curves);
+) -> Drawn {
+    let rows = rows(plan, drives, curves);
     let loops = rows.iter().flat_map(|(_, row)| row);
     if loops.filter_map(|(_, at)| *at).count() < 2 {
-        return Ok(Drawn::left_out(
-            "no figure of the error of the moduli: too few loops have moduli",
-        ));
+        return Drawn::left_out("no figure of the error of the moduli: too few loops have moduli");
     }
     let control = plan.drive.control();
-    let values = || curves.iter().map(|curve| axis.varied.value(&curve.drive));
-    let (factor, unit) = units.drive(control, values().fold(0.0, |a, v| a.max(v.abs())));
-    let (least, largest) = (
-        values().fold(f64::INFINITY, f64::min),
-        values().fold(0.0, f64::max),
-    );
-    let name = format!("{} {}", control.name(), axis.varied.name());
+    let values = || curves.iter().map(|curve| drives.varied.value(&curve.drive));
+    let (factor, unit) = units.drive(control, largest(values().map(f64::abs)));
+    let name = format!("{} {}", control.name(), drives.varied.name());
     let label = format!("{name} / {unit}");
-    let x_axis = |label: String| match least > 0.0 && largest > WIDE * least {
-        true => Axis::log(label),
-        false => Axis::linear(label),
-    };
+    let x_axis = |label: String| axis(range(values()), WIDE, label);
     let series = |difference: fn(&LoopModulus<'_>) -> Option<f64>| {
         let of = rows.len();
         let series = rows.iter().enumerate().map(move |(step, (omega, row))| {
@@ -60,7 +48,7 @@ pub fn figure(
             Series::line(points)
                 .marker(Marker::nth(step))
                 .color(Color::Ramp { step, of })
-                .label(units.omega(*omega))
+                .label(units.frequency_label(*omega))
         });
         series.collect::<Vec<_>>()
     };
@@ -75,12 +63,12 @@ pub fn figure(
         .all_series(series(|at| at.loss_difference()))
         .legend(None)
         .size(800, 360);
-    Ok(Drawn::Figure(Figure {
+    Drawn::Figure(Figure {
         name: "moduli-error",
         picture: Picture::Stack(vec![storage, loss]),
-        caption: caption(axis, &rows),
-        data: equivalent::table("moduli-error.csv", plan, outcome)?,
-    }))
+        caption: caption(drives, &rows),
+        data: equivalent::table(plan, outcome, units),
+    })
 }
 
 fn caption(axis: &DriveAxis, rows: &[(f64, Row<'_>)]) -> Caption {
@@ -90,11 +78,7 @@ fn caption(axis: &DriveAxis, rows: &[(f64, Row<'_>)]) -> Caption {
             .flat_map(|(_, row)| row)
             .filter_map(|(_, at)| at.as_ref())
     };
-    let largest = |values: &mut dyn Iterator<Item = f64>| {
-        scientific(100.0 * values.fold(0.0_f64, |a, v| a.max(v.abs())), 3)
-    };
-    let storage = largest(&mut loops().map(LoopModulus::storage_difference));
-    let loss = largest(&mut loops().filter_map(LoopModulus::loss_difference));
+    let [storage, loss] = equivalent::largest_differences(loops);
     Caption::new(format!(
         "Relative difference of the moduli that indentation reads from the hysteresis loops from those of the material, storage \
          modulus E′ above and loss modulus E″ below, over the {varied} of the drive"

@@ -14,7 +14,7 @@ use crate::sweep::search::run::Outcome;
 /// The figures, and what was left out and why.
 ///
 /// # Errors
-/// Where a table behind a figure cannot be made.
+/// [`ReportError::Scale`] where normalised axes are asked for and there is nothing to normalise by.
 pub fn figures(
     plan: &SweepPlan,
     outcome: &Outcome,
@@ -27,19 +27,19 @@ pub fn figures(
         return Ok((Vec::new(), vec![why.to_owned()]));
     };
     let mut drawn = vec![
-        Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)?),
-        Drawn::Figure(loops::figure(curve, asked, units)?),
-        dissipation::figure(curve, units)?,
-        dissipation_profile::figure(curve, plan.indenter.as_ref(), asked, units)?,
-        dissipation_map::figure(curve, units)?,
+        Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)),
+        Drawn::Figure(loops::figure(curve, asked, units)),
+        dissipation::figure(curve, units),
+        dissipation_profile::figure(curve, plan.indenter.as_ref(), asked, units),
+        dissipation_map::figure(curve, units),
     ];
     match Equivalent::of(&plan.material, curve) {
         Some(equivalent) => drawn.extend(
             [
-                moduli::with_loops(&equivalent, plan, outcome, units)?,
-                cole_cole::figure(&equivalent, units)?,
-                van_gurp_palmen::figure(&equivalent, units)?,
-                loss_tangent::figure(&equivalent, units)?,
+                moduli::with_loops(&equivalent, plan, outcome, units),
+                cole_cole::figure(&equivalent, units),
+                van_gurp_palmen::figure(&equivalent, units),
+                loss_tangent::figure(&equivalent, units),
             ]
             .map(Drawn::Figure),
         ),
@@ -49,9 +49,9 @@ pub fn figures(
     }
     if let Some(axis) = &plan.axis {
         drawn.extend([
-            loss_map::figure(plan, outcome, axis, &curves, units)?,
-            harmonic_map::figure(plan, axis, &curves, units)?,
-            moduli_error::figure(plan, outcome, axis, &curves, units)?,
+            loss_map::figure(plan, outcome, axis, &curves, units),
+            harmonic_map::figure(plan, axis, &curves, units),
+            moduli_error::figure(plan, outcome, axis, &curves, units),
         ]);
     }
     let (mut figures, mut left_out) = (Vec::new(), Vec::new());

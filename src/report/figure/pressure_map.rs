@@ -1,14 +1,13 @@
 //! The contact pressure over the surface as a heat map, blank outside the contact.
 
 use super::press::Press;
-use super::scientific;
 use super::units::Units;
 use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{Caption, Setting};
 use crate::report::chart::{HeatMap, MapShape, Scale};
-use crate::report::number::plain;
+use crate::report::number::{self, plain, scientific};
 use crate::sweep::history::SurfaceRecord;
 
 const NAME: &str = "pressure-map";
@@ -33,7 +32,6 @@ pub fn write(
             Surface::Radial(_) => None,
         })
         .collect();
-    let largest = |cells: &CellSurface| cells.pressure_pa.iter().copied().fold(0.0, f64::max);
     let by_pressure = |a: &&(usize, f64, &CellSurface), b: &&(usize, f64, &CellSurface)| {
         largest(a.2).total_cmp(&largest(b.2))
     };
@@ -59,20 +57,24 @@ pub fn write(
     Ok(None)
 }
 
+/// The largest pressure (Pa).
+fn largest(cells: &CellSurface) -> f64 {
+    number::largest(cells.pressure_pa.iter().copied())
+}
+
 /// The map of the field `k`, without its ending.
 pub fn file(k: usize) -> String {
     format!("fields/{k}-{NAME}")
 }
 
 fn caption(time_s: f64, cells: &CellSurface) -> Caption {
-    let largest = cells.pressure_pa.iter().copied().fold(0.0, f64::max);
     Caption::new(format!(
         "Contact pressure p over the surface at t = {} s, blank outside the contact",
         scientific(time_s, 4)
     ))
     .say(format!(
         "Largest: {}.",
-        plain(largest, Dimension::Stress, 4)
+        plain(largest(cells), Dimension::Stress, 4)
     ))
 }
 

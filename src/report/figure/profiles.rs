@@ -1,14 +1,14 @@
 //! Pressure and surface displacement along a radius, or along x through the centre, at the times asked for.
 
 use super::units::Units;
-use super::{Figure, Picture, scientific};
+use super::{Figure, Picture};
 use crate::quantity::Dimension;
-use crate::report::ReportError;
-use crate::report::caption::{Caption, listed};
+use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
-use crate::report::number::plain;
-use crate::report::scenario::{ProfilePoint, lines};
-use crate::report::table::{Table, number, optional};
+use crate::report::number::{largest, plain, scientific};
+use crate::report::profile_lines::{ProfilePoint, lines};
+use crate::report::table::{cells, csv};
+use crate::report::words::listed;
 use crate::sweep::history::SurfaceRecord;
 
 const NAME: &str = "profiles";
@@ -22,22 +22,16 @@ const LOWER_PX: u32 = 380;
 type Curve = (f64, Vec<ProfilePoint>);
 
 /// The figure, where any profile was asked for, and what is not drawn of them.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(
-    records: &[SurfaceRecord],
-    units: &Units,
-) -> Result<(Option<Figure>, Option<String>), ReportError> {
+pub fn figure(records: &[SurfaceRecord], units: &Units) -> (Option<Figure>, Option<String>) {
     let Some((line, _)) = records.first().and_then(|r| lines(r).into_iter().next()) else {
-        return Ok((None, None));
+        return (None, None);
     };
     let curves = chosen(records);
     let figure = Figure {
         name: NAME,
         picture: Picture::Stack(panels(line, &curves, units).into()),
         caption: caption(line, &curves),
-        data: data(&curves)?,
+        data: data(&curves),
     };
     let left_out = records.len() - curves.len();
     let told = (left_out > 0).then(|| {
@@ -46,7 +40,7 @@ pub fn figure(
             records.len()
         )
     });
-    Ok((Some(figure), told))
+    (Some(figure), told)
 }
 
 fn caption(line: &str, curves: &[Curve]) -> Caption {
@@ -56,7 +50,7 @@ fn caption(line: &str, curves: &[Curve]) -> Caption {
         .map(|(time_s, _)| format!("{} s", scientific(*time_s, digits)));
     let pressures = curves.iter().flat_map(|(_, points)| points);
     let pressures = pressures.filter_map(|point| point.pressure_pa);
-    let largest = plain(pressures.fold(0.0, f64::max), Dimension::Stress, 4);
+    let largest = plain(largest(pressures), Dimension::Stress, 4);
     let along = if line == "r" {
         "the radius r"
     } else {
@@ -96,11 +90,11 @@ fn chosen(records: &[SurfaceRecord]) -> Vec<Curve> {
 
 fn panels(line: &str, curves: &[Curve], units: &Units) -> [Chart; 2] {
     let all = || curves.iter().flat_map(|(_, points)| points);
-    let (to_length, length) = units.length(all().map(|p| p.position_m).fold(0.0, f64::max));
+    let (to_length, length) = units.length(largest(all().map(|p| p.position_m)));
     let pressures = all().filter_map(|p| p.pressure_pa);
-    let (to_pressure, pressure) = units.pressure(pressures.fold(0.0, f64::max));
+    let (to_pressure, pressure) = units.pressure(largest(pressures));
     let displacements = all().map(|p| p.displacement_m);
-    let (to_displacement, displacement) = units.approach(displacements.fold(0.0, f64::max));
+    let (to_displacement, displacement) = units.approach(largest(displacements));
     let digits = telling_digits(curves);
     // From a second on, so that times stay in seconds.
     let (to_time, time_unit) = units.time(1.0);
@@ -163,20 +157,19 @@ fn telling_digits(curves: &[Curve]) -> usize {
     (4..=9).find(told_apart).unwrap_or(4)
 }
 
-fn data(curves: &[Curve]) -> Result<Vec<u8>, ReportError> {
+fn data(curves: &[Curve]) -> Vec<u8> {
     let columns = ["time_s", "position_m", "pressure_pa", "displacement_m"];
-    let mut table = Table::new("profiles.csv", &columns)?;
-    for (time_s, points) in curves {
-        for point in points {
-            table.row(&[
-                number(*time_s),
-                number(point.position_m),
-                optional(point.pressure_pa),
-                number(point.displacement_m),
-            ])?;
-        }
-    }
-    table.finish()
+    let rows = curves.iter().flat_map(|(time_s, points)| {
+        points.iter().map(move |point| {
+            cells![
+                *time_s,
+                point.position_m,
+                point.pressure_pa,
+                point.displacement_m,
+            ]
+        })
+    });
+    csv(&columns, rows)
 }
 
 #[cfg(test)]

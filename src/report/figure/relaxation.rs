@@ -1,36 +1,30 @@
 //! Relaxation modulus against time, as figure 1 of S. Spinu, Advances in Tribology 2018, 9432894, shows it for PMMA.
 
-use super::{Figure, prefix};
+use super::Figure;
 use crate::quantity::Dimension;
-use crate::report::ReportError;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Series};
-use crate::report::number::plain;
-use crate::report::table::Table;
+use crate::report::number::{largest, plain, prefix};
+use crate::report::table::{cells, csv};
 
 /// The figure, from (time in s, relaxation modulus in Pa, creep compliance in 1/Pa).
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(points: &[(f64, f64, f64)], symbol: char) -> Result<Figure, ReportError> {
-    let largest = points.iter().map(|p| p.1).fold(0.0, f64::max);
-    let (factor, unit) = prefix(largest);
+pub fn figure(points: &[(f64, f64, f64)], symbol: char) -> Figure {
+    let (factor, unit) = prefix(largest(points.iter().map(|p| p.1)));
     let chart = Chart::new(
         Axis::linear("time t / s"),
         Axis::linear(format!("relaxation modulus {symbol}(t) / {unit}Pa")),
     )
     .series(Series::line(points.iter().map(|p| (p.0, factor * p.1))));
     let columns = ["time_s", "relaxation_modulus_pa", "creep_compliance_per_pa"];
-    let mut table = Table::new("relaxation.csv", &columns)?;
-    for (time, modulus, compliance) in points {
-        table.numbers(&[*time, *modulus, *compliance])?;
-    }
-    Ok(Figure {
+    let rows = points
+        .iter()
+        .map(|(time, modulus, compliance)| cells![*time, *modulus, *compliance]);
+    Figure {
         name: "relaxation",
         picture: chart.into(),
         caption: caption(points, symbol),
-        data: table.finish()?,
-    })
+        data: csv(&columns, rows),
+    }
 }
 
 fn caption(points: &[(f64, f64, f64)], symbol: char) -> Caption {

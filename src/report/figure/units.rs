@@ -1,10 +1,10 @@
 //! What the axes of figures are in: SI units with a fitting prefix, or units of the elastic contact. An axis is titled with a
 //! quantity over its unit, so that both are told apart there: `load W / N` and `load W / W₀`.
 
-use super::{prefix, scientific};
 use crate::drive::Control;
-use crate::quantity::{Dimension, format_human};
+use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::report::ReportError;
+use crate::report::number::{at_frequency, plain, prefix, scientific};
 use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
@@ -15,6 +15,8 @@ use crate::sweep::scales::elastic::ElasticScale;
 pub struct Units {
     /// `None`: SI units.
     scale: Option<Scale>,
+    /// Of axes in SI units, of text and of tables.
+    frequency_unit: FrequencyUnit,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -28,13 +30,23 @@ struct Scale {
 pub type Unit = (f64, String);
 
 impl Units {
+    /// SI units, with this one for frequencies.
+    pub fn in_si(frequency_unit: FrequencyUnit) -> Self {
+        Self {
+            scale: None,
+            frequency_unit,
+        }
+    }
+
     /// As a sweep asks for.
     ///
     /// # Errors
     /// [`ReportError::Scale`] where normalised axes are asked for and there is no elastic contact.
     pub fn of_sweep(plan: &SweepPlan) -> Result<Self, ReportError> {
         let under = || format!("mean {}", plan.drive.control().name());
-        Self::new(plan.figures.axes, under, || ElasticScale::of_sweep(plan))
+        let mut units = Self::new(plan.figures.axes, under, || ElasticScale::of_sweep(plan))?;
+        units.frequency_unit = plan.figures.frequency_unit;
+        Ok(units)
     }
 
     /// As a scenario asks for.
@@ -58,7 +70,10 @@ impl Units {
                 under: under(),
             }),
         };
-        Ok(Self { scale })
+        Ok(Self {
+            scale,
+            ..Self::default()
+        })
     }
 
     /// The unit of values up to `largest` (SI).
@@ -122,10 +137,30 @@ impl Units {
 
     /// Angular frequencies (rad/s). An elastic body has no time to take them in units of.
     pub fn frequency(&self) -> Unit {
-        match self.time_s() {
-            Some(time_s) => (time_s, "τ⁻¹".to_owned()),
-            None => (1.0, "rad·s⁻¹".to_owned()),
+        match (self.time_s(), self.frequency_unit) {
+            (Some(time_s), _) => (time_s, "τ⁻¹".to_owned()),
+            (None, FrequencyUnit::RadPerS) => (1.0, "rad·s⁻¹".to_owned()),
+            (None, unit) => (unit.of(1.0), unit.name().to_owned()),
         }
+    }
+
+    /// The unit in which text and tables have frequencies.
+    pub fn frequency_unit(&self) -> FrequencyUnit {
+        self.frequency_unit
+    }
+
+    /// The unit of frequencies on the axes, where they are not normalised.
+    fn axis_unit(&self) -> FrequencyUnit {
+        match self.time_s() {
+            Some(_) => FrequencyUnit::RadPerS,
+            None => self.frequency_unit,
+        }
+    }
+
+    /// What figures over frequency are drawn over: `angular frequency ω`.
+    pub fn frequency_words(&self) -> String {
+        let unit = self.axis_unit();
+        format!("{} {}", unit.quantity(), unit.symbol())
     }
 
     /// Times (s); long ones stay in seconds.
@@ -142,21 +177,29 @@ impl Units {
 
     /// The title of an axis of frequencies.
     pub fn frequency_title(&self) -> String {
-        format!("angular frequency ω / {}", self.frequency().1)
+        format!("{} / {}", self.frequency_words(), self.frequency().1)
     }
 
-    /// An angular frequency (rad/s) as it stands in legends: `ω = 0.12 rad/s`, `ω = 1.6 τ⁻¹`.
-    pub fn omega(&self, angular_frequency_rad_per_s: f64) -> String {
-        let (factor, unit) = self.frequency();
-        let unit = if unit == "rad·s⁻¹" {
-            "rad/s"
-        } else {
-            &unit
-        };
-        format!(
-            "ω = {} {unit}",
-            scientific(factor * angular_frequency_rad_per_s, 3)
-        )
+    /// An angular frequency (rad/s) as it stands in legends: `ω = 0.12 rad/s`, `f = 0.2 Hz`, `ω = 1.6 τ⁻¹`.
+    pub fn frequency_label(&self, angular_frequency_rad_per_s: f64) -> String {
+        match self.time_s() {
+            Some(time_s) => {
+                let value = scientific(time_s * angular_frequency_rad_per_s, 3);
+                format!("ω = {value} τ⁻¹")
+            }
+            None => at_frequency(self.frequency_unit, angular_frequency_rad_per_s, 3),
+        }
+    }
+
+    /// The same without its symbol.
+    pub fn value_of(&self, angular_frequency_rad_per_s: f64) -> String {
+        let unit = self.frequency_unit;
+        plain(unit.of(angular_frequency_rad_per_s), unit.dimension(), 4)
+    }
+
+    /// The same as it stands in captions, never normalised.
+    pub fn at(&self, angular_frequency_rad_per_s: f64) -> String {
+        at_frequency(self.frequency_unit, angular_frequency_rad_per_s, 4)
     }
 
     /// A value of the drive to be read: `5 N`, `1.5 µm`, `0.5 W₀`.
@@ -194,6 +237,7 @@ mod tests {
 
     fn normalised() -> Units {
         Units {
+            frequency_unit: FrequencyUnit::RadPerS,
             scale: Some(Scale {
                 elastic: ElasticScale {
                     load_n: 10.0,
@@ -213,8 +257,13 @@ mod tests {
         assert_eq!(si.energy(3e-6), (1e6, "µJ".to_owned()));
         let (factor, unit) = normalised.energy(3e-6);
         assert!((factor * 2e-5 - 1.0).abs() < 1e-12 && unit == "W₀δ₀");
-        assert_eq!(si.omega(0.12), "ω = 0.12 rad/s");
-        assert_eq!(normalised.omega(0.12), "ω = 12 τ⁻¹");
+        assert_eq!(si.frequency_label(0.12), "ω = 0.12 rad/s");
+        assert_eq!(normalised.frequency_label(0.12), "ω = 12 τ⁻¹");
+        let hz = Units::in_si(FrequencyUnit::Hz);
+        let omega = std::f64::consts::TAU * 0.2;
+        assert_eq!(hz.frequency_label(omega), "f = 0.2 Hz");
+        assert_eq!(hz.at(omega / 1e3), "f = 2 × 10⁻⁴ Hz");
+        assert_eq!(hz.frequency_title(), "frequency f / Hz");
         assert_eq!(si.drive_value(Control::Load, 5.0), "5 N");
         assert_eq!(si.drive_value(Control::Load, 0.25), "250 mN");
         assert_eq!(si.drive_value(Control::Approach, 1.5e-6), "1.5 µm");

@@ -3,42 +3,30 @@
 
 use num_complex::Complex;
 
-use super::Figure;
 use super::equivalent::{self, Equivalent};
 use super::units::Units;
-use crate::report::ReportError;
+use super::{Figure, axis};
 use crate::report::chart::{Axis, Chart, Series};
+use crate::report::number::range;
 
 /// Magnitudes that vary by more than this have a logarithmic axis.
 const WIDE: f64 = 5.0;
 
 /// The figure: loops as symbols, the material as a line.
-///
-/// # Errors
-/// Where the table behind it cannot be made.
-pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, ReportError> {
+pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Figure {
     let loops = || {
         let loops = equivalent.loops.iter();
         loops.map(|at| Complex::new(at.storage_pa, at.loss_pa))
     };
     let own = || equivalent.own_beyond.iter().map(|(_, modulus)| *modulus);
-    let norms = || own().chain(loops()).map(Complex::norm);
-    let (least, largest) = (
-        norms().fold(f64::INFINITY, f64::min),
-        norms().fold(0.0, f64::max),
-    );
-    let (factor, unit) = units.modulus(largest);
+    let norms = range(own().chain(loops()).map(Complex::norm));
+    let (factor, unit) = units.modulus(norms.1);
     let point = |modulus: Complex<f64>| {
         let [norm, angle_deg] = polar(modulus);
         (norm > 0.0).then_some((factor * norm, angle_deg))
     };
     let label = format!("magnitude of the complex modulus |E*| / {unit}");
-    let x = if largest > WIDE * least && least > 0.0 {
-        Axis::log(label)
-    } else {
-        Axis::linear(label)
-    };
-    let mut chart = Chart::new(x, Axis::linear("phase angle δ / °"))
+    let mut chart = Chart::new(axis(norms, WIDE, label), Axis::linear("phase angle δ / °"))
         .series(Series::line(own().map(point)).label("material"))
         .series(
             equivalent::symbols(loops().map(point))
@@ -46,20 +34,20 @@ pub fn figure(equivalent: &Equivalent<'_>, units: &Units) -> Result<Figure, Repo
                 .color(1),
         );
     chart.title.clone_from(&equivalent.title);
-    Ok(Figure {
+    Figure {
         name: "van-gurp-palmen",
         picture: chart.into(),
         caption: equivalent.caption(
             "Phase angle δ over magnitude of the complex modulus |E*| (van Gurp–Palmen diagram)",
         ),
         data: equivalent::pairs(
-            "van-gurp-palmen.csv",
             equivalent,
             &equivalent.own_beyond,
             ["complex_modulus_pa", "phase_angle_deg"],
             polar,
-        )?,
-    })
+            units,
+        ),
+    }
 }
 
 /// Magnitude (Pa) and phase angle (degrees).

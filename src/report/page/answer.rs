@@ -3,48 +3,38 @@
 use std::fmt::Write;
 
 use super::html::escaped;
-use crate::quantity::Dimension;
-use crate::report::number::{plain, with_error};
-use crate::report::terminal;
+use crate::report::number::with_error;
+use crate::report::peaks;
+use crate::report::words::without_result;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::search::run::Outcome;
 
 /// Peaks as a list, largest first; where there are none, why.
 pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
     if outcome.peaks.is_empty() {
-        let why = terminal::peaks(plan, outcome);
-        return format!("<p class=\"peaks\">{}</p>", escaped(why.trim()));
+        let problems = outcome.peak_problems.iter();
+        let problems = problems.map(|problem| format!("Peak not located: {problem}"));
+        let mut why: Vec<String> = problems.collect();
+        if why.is_empty() && !outcome.interrupted {
+            why.push(peaks::none(plan, outcome).to_owned());
+        }
+        return format!("<p class=\"peaks\">{}</p>", escaped(&why.join("\n")));
     }
     let mut html = String::from("<ul class=\"peaks\">\n");
-    for (rank, peak) in outcome.peaks.iter().enumerate() {
-        let what = if rank == 0 { "Peak" } else { "Lower peak" };
-        let loss = with_error(
-            peak.energy_loss_j,
-            peak.energy_loss_error_j,
-            Dimension::Energy,
-        );
-        let omega = with_error(
-            peak.angular_frequency_rad_per_s,
-            Some(peak.angular_frequency_uncertainty_rad_per_s),
-            Dimension::AngularFrequency,
-        );
-        let varied = plan.axis.as_ref().and_then(|axis| {
-            use crate::sweep::plan::Varied;
-            let value = match axis.varied {
-                Varied::Amplitude => peak.drive_amplitude,
-                Varied::Mean => peak.drive_mean,
-            }?;
-            let value = plain(value, drive_dimension(plan.drive.control()), 4);
-            Some(format!(", {} {value}", axis.varied.name()))
-        });
+    for peak in peaks::all(plan, outcome, with_error) {
+        let what = if peak.is_largest {
+            "Peak"
+        } else {
+            "Lower peak"
+        };
         // Writing to a String cannot fail.
         let _ = writeln!(
             html,
-            "<li>{what}: <strong>{}</strong> per cycle at ω = <strong>{}</strong>{}</li>",
-            escaped(&loss),
-            escaped(&omega),
-            escaped(&varied.unwrap_or_default())
+            "<li>{what}: <strong>{}</strong> per cycle at {} = <strong>{}</strong>{}</li>",
+            escaped(&peak.loss),
+            peak.symbol,
+            escaped(&peak.frequency),
+            escaped(&peak.under)
         );
     }
     html.push_str("</ul>");
@@ -64,16 +54,8 @@ pub(super) fn warned(warnings: impl IntoIterator<Item = impl std::fmt::Display>)
 }
 
 /// What has no result or could not be located, each with its reason; nothing where there is no such thing.
-pub(super) fn problems(outcome: &Outcome) -> String {
-    let cases = outcome.records.iter().filter(|r| r.result.is_none());
-    let cases = cases.map(|r| {
-        format!(
-            "ω = {} rad/s: {}: {}",
-            terminal::frequency(r.angular_frequency_rad_per_s),
-            r.status.name(),
-            r.message.as_deref().unwrap_or("no reason recorded")
-        )
-    });
+pub(super) fn problems(plan: &SweepPlan, outcome: &Outcome) -> String {
+    let cases = without_result(plan.figures.frequency_unit, outcome);
     let peaks = outcome.peak_problems.iter();
     let lines: Vec<String> = cases
         .chain(peaks.map(|why| format!("A peak was not located: {why}")))

@@ -3,56 +3,40 @@
 use std::fmt::Write;
 
 use super::html::escaped;
-use crate::report::figure::prefix;
-use crate::report::number::{cell, digits};
+use crate::quantity::Dimension;
+use crate::report::number::{cell, digits, largest, prefix};
+use crate::report::quantities::{self, SWEEP};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseRecord;
-use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::search::run::Outcome;
 
-/// A column: its name in sweep.csv, its heading, its SI unit where it takes a prefix, and its value.
+/// A column: its name in sweep.csv, its heading with its unit, and its values, case by case.
 struct Column {
-    name: &'static str,
+    name: String,
     heading: String,
-    unit: Option<&'static str>,
     /// Significant digits, or as few as there are.
     digits: Option<usize>,
-    value: Box<Value>,
+    values: Vec<Option<f64>>,
 }
-
-/// A column's value of a case, where it has one.
-type Value = dyn Fn(&CaseRecord) -> Option<f64>;
 
 /// The table.
 pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
-    let columns = columns(plan);
-    let records = &outcome.records;
+    let columns = columns(plan, &outcome.records);
     let mut html = String::from("<table id=\"cases\">\n<thead><tr>");
-    let mut factors = Vec::with_capacity(columns.len());
     for column in &columns {
-        let values = records.iter().filter_map(|r| (column.value)(r));
-        let largest = values.fold(0.0_f64, |a, v| a.max(v.abs()));
-        let (factor, unit) = match column.unit {
-            Some(unit) => {
-                let (factor, prefix) = prefix(largest);
-                (factor, format!(" / {prefix}{unit}"))
-            }
-            None => (1.0, String::new()),
-        };
-        factors.push(factor);
         // Writing to a String cannot fail.
         let _ = write!(
             html,
-            "<th scope=\"col\" data-column=\"{}\">{}{unit}</th>",
+            "<th scope=\"col\" data-column=\"{}\">{}</th>",
             column.name,
             escaped(&column.heading)
         );
     }
     html.push_str("<th scope=\"col\" class=\"text\" data-column=\"status\">status</th></tr></thead>\n<tbody>\n");
-    for record in records {
+    for (place, record) in outcome.records.iter().enumerate() {
         let _ = write!(html, "<tr data-index=\"{}\">", record.index);
-        for (k, (column, factor)) in columns.iter().zip(&factors).enumerate() {
-            let value = (column.value)(record).map(|v| v * factor);
+        for (k, column) in columns.iter().enumerate() {
+            let value = column.values.get(place).copied().flatten();
             let text = match column.digits {
                 Some(significant) => digits(value, significant),
                 None => cell(value),
@@ -72,57 +56,66 @@ pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
     html
 }
 
-fn columns(plan: &SweepPlan) -> Vec<Column> {
-    let column = |name, heading: &str, unit, value: fn(&CaseRecord) -> Option<f64>| Column {
-        name,
-        heading: heading.to_owned(),
-        unit,
+fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
+    let unit = plan.figures.frequency_unit;
+    // A unit that takes a prefix gets the one that suits the largest value.
+    let column = |name: &str, heading: &str, si: &str, digits, values: Vec<Option<f64>>| {
+        let (factor, prefix) = prefix(largest(values.iter().flatten().map(|v| v.abs())));
+        Column {
+            name: name.to_owned(),
+            heading: format!("{heading} / {prefix}{si}"),
+            digits,
+            values: values.iter().map(|v| v.map(|v| v * factor)).collect(),
+        }
+    };
+    let numbers = |value: &dyn Fn(&CaseRecord) -> Option<f64>| records.iter().map(value).collect();
+    let mut columns = vec![Column {
+        name: unit.column().to_owned(),
+        heading: format!("{} / {}", unit.symbol(), unit.name().replace("/s", "·s⁻¹")),
         digits: None,
-        value: Box::new(value),
-    };
-    let quantity = |quantity: Quantity, heading: &str, unit| Column {
-        name: quantity.columns().0,
-        heading: heading.to_owned(),
-        unit,
-        digits: Some(5),
-        value: Box::new(move |r: &CaseRecord| quantity.of(r.result.as_ref()?)),
-    };
-    let mut columns = vec![column(
-        "angular_frequency_rad_per_s",
-        "ω / rad·s⁻¹",
-        None,
-        |r| Some(r.angular_frequency_rad_per_s),
-    )];
+        values: numbers(&|r| Some(unit.of(r.angular_frequency_rad_per_s))),
+    }];
     if let Some(axis) = &plan.axis {
-        use crate::sweep::plan::Varied;
-        let unit = Some(plan.drive.control().unit());
-        columns.push(match axis.varied {
-            Varied::Amplitude => column("drive_amplitude", "amplitude", unit, |r| {
-                Some(r.drive_amplitude)
-            }),
-            Varied::Mean => column("drive_mean", "mean", unit, |r| Some(r.drive_mean)),
-        });
+        let varied = axis.varied.name();
+        let name = format!("drive_{varied}");
+        let values = quantities::of_name(&name).map(|known| numbers(&|r| known.number(r)));
+        let si = plan.drive.control().unit();
+        columns.push(column(&name, varied, si, None, values.unwrap_or_default()));
     }
-    columns.extend([
-        quantity(Quantity::EnergyLoss, "loss per cycle", Some("J")),
-        Column {
-            digits: Some(2),
-            ..column("energy_loss_error_j", "its error", Some("J"), |r| {
-                r.energy_loss_error_j()
-            })
-        },
-        Column {
-            digits: Some(5),
-            ..column("phase_lag_rad", "phase lag / °", None, |r| {
-                Some(r.result.as_ref()?.analysis.phase_lag_rad.to_degrees())
-            })
-        },
-        quantity(Quantity::StorageModulus, "E′", Some("Pa")),
-        quantity(Quantity::LossModulus, "E″", Some("Pa")),
-        quantity(Quantity::ApproachMax, "largest approach", Some("m")),
-        quantity(Quantity::ContactRadiusMax, "largest radius", Some("m")),
-        quantity(Quantity::PeakPressureMax, "largest pressure", Some("Pa")),
-        column("cycles", "cycles", None, |r| Some(r.cycles as f64)),
-    ]);
+    let shown = SWEEP.iter().filter_map(|c| Some((c, c.in_cases?)));
+    for (known, heading) in shown {
+        let values = numbers(&|r| known.number(r));
+        match known.dimension {
+            None => columns.push(Column {
+                name: known.name.to_owned(),
+                heading: heading.to_owned(),
+                digits: None,
+                values,
+            }),
+            Some(Dimension::Angle) => columns.push(Column {
+                name: known.name.to_owned(),
+                heading: format!("{heading} / °"),
+                digits: Some(5),
+                values: values
+                    .into_iter()
+                    .map(|v: Option<f64>| v.map(f64::to_degrees))
+                    .collect(),
+            }),
+            Some(dimension) => {
+                columns.push(column(
+                    known.name,
+                    heading,
+                    dimension.si_unit(),
+                    Some(5),
+                    values,
+                ));
+            }
+        }
+        // Of the errors that of the loss has a column here.
+        if let (Some(Dimension::Energy), Some(name)) = (known.dimension, known.error_name()) {
+            let values = numbers(&|r| known.error(r));
+            columns.push(column(&name, "its error", "J", Some(2), values));
+        }
+    }
     columns
 }

@@ -5,17 +5,18 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use super::compact::rounded;
-use super::frame::{Frame, Input, InputFile, PLOT, QUANTITIES};
+use super::frame::{Frame, Input, InputFile, PLOT};
 use super::html::{escaped, filled, json_for_script};
 use super::pictures::Pictures;
-use crate::quantity::Dimension;
+use super::sweep_data::FrequencyData;
+use crate::quantity::{Dimension, FrequencyUnit};
 use crate::report::ReportError;
 use crate::report::comparison::text::{peak_words, words};
 use crate::report::comparison::{
     Column, ColumnComparison, Comparison, PeakComparison, Place, Source, SweepTable, Tolerances,
 };
-use crate::report::figure::scientific;
-use crate::report::number::{cell, with_error};
+use crate::report::number::{at_frequency, cell, scientific, with_error};
+use crate::report::quantities;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::store::difference;
 
@@ -45,7 +46,9 @@ struct Data<'a> {
     kind: &'static str,
     /// `comparison.csv`.
     csv: &'a str,
-    angular_frequency_rad_per_s: Vec<f64>,
+    frequency: FrequencyData,
+    /// In the unit of [`Data::frequency`].
+    frequencies: Vec<f64>,
     /// In words, case by case.
     drives: Vec<String>,
     columns: Vec<ColumnData<'a>>,
@@ -54,6 +57,12 @@ struct Data<'a> {
 #[derive(Serialize)]
 struct ColumnData<'a> {
     name: &'a str,
+    heading: String,
+    unit: &'static str,
+    /// From SI to the unit.
+    factor: f64,
+    /// Whether values are relative already, so that their differences are.
+    is_relative: bool,
     baseline: &'a [Option<f64>],
     new: &'a [Option<f64>],
     error: Vec<Option<f64>>,
@@ -88,13 +97,13 @@ pub fn page(compared: &Compared<'_>) -> Result<String, ReportError> {
                 }),
             ),
             ("columns", &columns(comparison)),
-            ("peaks", &peaks(&comparison.peaks)),
+            ("peaks", &peaks(comparison.unit, &comparison.peaks)),
             ("cases", &cases(comparison)),
             ("sources", &sources(compared)),
             ("asked", &asked(old, new)),
         ],
     )?;
-    let csv = comparison.table()?;
+    let csv = comparison.table();
     let named = [("baseline/resolved.toml", old), ("new/resolved.toml", new)];
     let files = named.iter().filter_map(|(name, source)| {
         let text = source.resolved.as_deref()?;
@@ -115,29 +124,46 @@ pub fn page(compared: &Compared<'_>) -> Result<String, ReportError> {
                    <code>contact-dma sweep resolved.toml</code> gives each again.",
         },
         data: json_for_script(&data(compared, &String::from_utf8_lossy(&csv)))?,
-        script: &[PLOT, QUANTITIES, SCRIPT],
+        script: &[PLOT, SCRIPT],
     };
     frame.page()
 }
 
 fn data<'a>(compared: &Compared<'a>, csv: &'a str) -> Data<'a> {
+    let unit = compared.comparison.unit;
     let places = || compared.comparison.curve.iter().map(|point| point.place);
     let drive = |place: Place| format!("{} ± {}", place.drive_mean, place.drive_amplitude);
     Data {
         kind: "comparison",
         csv,
-        angular_frequency_rad_per_s: places().map(|p| p.angular_frequency_rad_per_s).collect(),
-        drives: places().map(drive).collect(),
-        columns: compared
-            .columns
-            .iter()
-            .map(|column| ColumnData {
-                name: &column.name,
-                baseline: &column.baseline,
-                new: &column.new,
-                error: column.error.iter().map(|e| e.map(rounded)).collect(),
-            })
+        frequency: FrequencyData::of(unit),
+        frequencies: places()
+            .map(|p| unit.of(p.angular_frequency_rad_per_s))
             .collect(),
+        drives: places().map(drive).collect(),
+        columns: compared.columns.iter().map(ColumnData::of).collect(),
+    }
+}
+
+impl<'a> ColumnData<'a> {
+    fn of(column: &'a Column) -> Self {
+        let known = quantities::of_name(&column.name);
+        // A branch, and what another version wrote, by its name.
+        let heading = known.filter(|known| known.name == column.name);
+        let (unit, factor) = known.map_or(("", 1.0), |known| known.unit());
+        Self {
+            name: &column.name,
+            heading: heading
+                .map_or(column.name.as_str(), |known| known.heading)
+                .replace('_', " "),
+            unit,
+            factor,
+            is_relative: known
+                .is_some_and(|known| known.compared == Some(quantities::Compared::Absolutely)),
+            baseline: &column.baseline,
+            new: &column.new,
+            error: column.error.iter().map(|e| e.map(rounded)).collect(),
+        }
     }
 }
 
@@ -166,9 +192,9 @@ fn reasons(comparison: &Comparison) -> String {
         .collect();
     for column in different.iter().take(COLUMNS) {
         let largest = column.largest.map(|(share, place)| {
-            let omega = scientific(place.angular_frequency_rad_per_s, 4);
+            let at = at_frequency(comparison.unit, place.angular_frequency_rad_per_s, 4);
             let share = scientific(share, 2);
-            format!(", at most by {share} (relative) at ω = {omega} rad/s")
+            format!(", at most by {share} (relative) at {at}")
         });
         lines.push(format!(
             "{} differs in {} of {} cases{}",
@@ -183,7 +209,7 @@ fn reasons(comparison: &Comparison) -> String {
         more => lines.push(format!("{more} more columns differ: see below")),
     }
     let peaks = comparison.peaks.iter().filter(|peak| peak.differs);
-    lines.extend(peaks.map(peak_words));
+    lines.extend(peaks.map(|peak| peak_words(comparison.unit, peak)));
     if lines.is_empty() {
         return format!("<p>{} cases are in both.</p>", comparison.compared);
     }
@@ -213,10 +239,12 @@ fn tolerances(tolerances: &Tolerances) -> String {
 }
 
 fn columns(comparison: &Comparison) -> String {
+    let unit = comparison.unit;
+    let at = format!("!at {} / {}", unit.symbol(), unit.name());
     let mut html = table(&[
         "column",
         "!largest difference, relative",
-        "!at ω / rad·s⁻¹",
+        &at,
         "!cases beyond the tolerance",
         "!of these within the bars",
         "!without a value in one",
@@ -224,7 +252,10 @@ fn columns(comparison: &Comparison) -> String {
     ]);
     for column in &comparison.columns {
         let (share, omega) = column.largest.map_or((None, None), |(share, place)| {
-            (Some(share), Some(place.angular_frequency_rad_per_s))
+            (
+                Some(share),
+                Some(unit.of(place.angular_frequency_rad_per_s)),
+            )
         });
         let found = match column.different {
             _ if comparison.compared == 0 => "<td class=\"text\">not compared</td>",
@@ -258,13 +289,14 @@ fn table(headings: &[&str]) -> String {
     format!("<table class=\"tight\">\n<thead><tr>{heads}</tr></thead>\n<tbody>\n")
 }
 
-fn peaks(peaks: &[PeakComparison]) -> String {
+fn peaks(unit: FrequencyUnit, peaks: &[PeakComparison]) -> String {
     if peaks.is_empty() {
         return "<p>None to compare: one of the two has no summary.json with peaks, or neither has a peak.</p>".to_owned();
     }
+    let symbol = unit.symbol();
     let mut html = table(&[
-        "baseline, at ω",
-        "new, at ω",
+        &format!("baseline, at {symbol}"),
+        &format!("new, at {symbol}"),
         "!moved by / %",
         "baseline, loss",
         "new, loss",
@@ -273,9 +305,9 @@ fn peaks(peaks: &[PeakComparison]) -> String {
     ]);
     let omega = |peak: &Peak| {
         with_error(
-            peak.angular_frequency_rad_per_s,
-            Some(peak.angular_frequency_uncertainty_rad_per_s),
-            Dimension::AngularFrequency,
+            unit.of(peak.angular_frequency_rad_per_s),
+            Some(unit.of(peak.angular_frequency_uncertainty_rad_per_s)),
+            unit.dimension(),
         )
     };
     let loss = |peak: &Peak| {
@@ -330,11 +362,17 @@ fn cases(comparison: &Comparison) -> String {
         }
         html.push_str(&list(&shown));
     };
-    let places = |places: &[Place]| places.iter().map(words).collect::<Vec<_>>();
+    let places = |places: &[Place]| {
+        places
+            .iter()
+            .map(|place| words(comparison.unit, place))
+            .collect::<Vec<_>>()
+    };
     add("Missing in the new result", places(&comparison.missing));
     add("Only in the new result", places(&comparison.added));
     let statuses = comparison.statuses.iter();
-    let statuses = statuses.map(|(place, a, b)| format!("{}: {a} before, {b} now", words(place)));
+    let statuses = statuses
+        .map(|(place, a, b)| format!("{}: {a} before, {b} now", words(comparison.unit, place)));
     add("Of another status", statuses.collect());
     add(
         "Columns missing in the new result",

@@ -36,12 +36,19 @@ function roundedUp(error) {
   return Math.ceil((error / unit) * (1 - 1e-9)) * unit;
 }
 
-/** An error in the unit of its value: "± 0.0003 µJ". */
-function errorOf(value, error, unit) {
-  if (error === null || error === undefined) return "";
+/** A value and its error with as many decimals, in one unit: ["3.5090 µJ", "± 0.0003 µJ"]. */
+function measured(value, error, unit) {
+  if (!value || !(error > 0)) return [withUnit(value, unit, 5), ""];
   const scale = scaleFor(Math.abs(value), unit);
-  const shown = error > 0 ? roundedUp(error * scale.factor) : error;
-  return `± ${significant(shown, 1)}${scale.unit === "°" ? "" : " "}${scale.unit}`.trim();
+  const exponent = Number((value * scale.factor).toExponential(15).split("e")[1]);
+  const power = exponent >= -2 && exponent < 5 ? 0 : exponent;
+  const factor = scale.factor * 10 ** -power;
+  // Beyond six decimals an error is not followed.
+  const shown = roundedUp(Math.max(error * factor, 1e-6));
+  const decimals = Math.max(0, -Math.floor(Math.log10(shown) + 1e-9));
+  const joint = scale.unit === "" || scale.unit === "°" ? "" : " ";
+  const text = (v) => minus(v.toFixed(decimals)) + (power ? ` × 10${raised(power)}` : "") + joint + scale.unit;
+  return [text(value * factor), `± ${text(shown)}`];
 }
 
 /** A value with its unit: "3.509 µJ". */

@@ -13,7 +13,6 @@ pub(super) const PLOT: &str = include_str!("plot.js");
 pub(super) const HEAT: &str = include_str!("heat.js");
 pub(super) const TABLE: &str = include_str!("table.js");
 pub(super) const MODULI: &str = include_str!("moduli.js");
-pub(super) const QUANTITIES: &str = include_str!("quantities.js");
 
 /// The parts of a page around its own.
 pub struct Frame<'a> {

@@ -3,7 +3,7 @@
 use super::question::Facts;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
-use crate::report::terminal;
+use crate::report::words::{case, nodes_name, range};
 use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 use crate::sweep::search::run::Outcome;
@@ -58,8 +58,8 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> String {
     let messages: Vec<String> = records
         .iter()
         .filter_map(|r| {
-            let omega = terminal::frequency(r.angular_frequency_rad_per_s);
-            Some(format!("ω = {omega} rad/s: {}", r.message.as_ref()?))
+            let case = case(plan.figures.frequency_unit, r.angular_frequency_rad_per_s);
+            Some(format!("{case}: {}", r.message.as_ref()?))
         })
         .collect();
     if messages.is_empty() {
@@ -102,32 +102,5 @@ pub(super) fn add_nodes(
     match indenter.own_cells() {
         Some((x, y)) => facts.add("cells of the map", &format!("{x} × {y}")),
         None => facts.add(nodes_name(solver.engine), nodes),
-    }
-}
-
-/// What the nodes of an engine are called.
-pub(super) fn nodes_name(engine: EngineKind) -> &'static str {
-    match engine {
-        EngineKind::Axisymmetric => "springs",
-        EngineKind::HalfSpace => "cells per side",
-    }
-}
-
-/// Smallest and largest of some values; `decimals` 0 prints whole numbers, others that many significant digits.
-pub(in crate::report) fn range(values: impl Iterator<Item = f64>, digits: usize) -> String {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
-        (a.min(v), b.max(v))
-    });
-    if low > high {
-        return "not estimated".to_owned();
-    }
-    let text = |value: f64| match digits {
-        0 => format!("{value:.0}"),
-        _ => crate::report::figure::scientific(value, digits),
-    };
-    if low == high {
-        text(low)
-    } else {
-        format!("{} to {}", text(low), text(high))
     }
 }

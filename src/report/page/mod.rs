@@ -19,7 +19,7 @@ mod sweep_data;
 pub use pictures::Pictures;
 
 use super::ReportError;
-use crate::report::table;
+use crate::report::quantities;
 use crate::sweep::history::SimulationOutcome;
 use crate::sweep::history::outside_model;
 use crate::sweep::plan::SweepPlan;
@@ -27,7 +27,7 @@ use crate::sweep::plan::resolved;
 use crate::sweep::plan::scenario::{self, ScenarioPlan};
 use crate::sweep::record::warning;
 use crate::sweep::search::run::Outcome;
-use frame::{Frame, HEAT, Input, InputFile, MODULI, PLOT, QUANTITIES, TABLE};
+use frame::{Frame, HEAT, Input, InputFile, MODULI, PLOT, TABLE};
 use html::{filled, json_for_script};
 
 const SWEEP: &str = include_str!("sweep.html");
@@ -49,17 +49,18 @@ pub fn sweep(
     hash: &str,
 ) -> Result<String, ReportError> {
     let branches = outcome.retardation_times_s().len();
-    let csv = table::sweep(&outcome.records, branches)?;
+    let unit = plan.figures.frequency_unit;
+    let csv = quantities::sweep(&outcome.records, branches, unit);
     let csv = String::from_utf8_lossy(&csv);
     let data = sweep_data::SweepData::new(plan, outcome, &csv);
     let main = filled(
         SWEEP,
         &[
             ("answer", &answer::peaks(plan, outcome)),
-            ("problems", &answer::problems(outcome)),
+            ("problems", &answer::problems(plan, outcome)),
             (
                 "warnings",
-                &answer::warned(warning::over_cases(&outcome.records)),
+                &answer::warned(warning::over_cases(&outcome.records, unit)),
             ),
             (
                 "varied",
@@ -87,7 +88,7 @@ pub fn sweep(
                    results again, under the same hash.",
         },
         data: json_for_script(&data)?,
-        script: &[PLOT, HEAT, TABLE, MODULI, QUANTITIES, SWEEP_SCRIPT],
+        script: &[PLOT, HEAT, TABLE, MODULI, SWEEP_SCRIPT],
     };
     frame.page()
 }

@@ -195,7 +195,7 @@ function showCursor(host, point) {
   cursor.setAttribute("cy", point.y);
   const { spec } = host, series = spec.series[point.series];
   const short = (axis, value) => `${axis.name || axis.label} = ${withUnit(value, axis.unit || "")}`;
-  const error = series.err && series.err[point.i];
+  const y = measured(series.y[point.i], series.err && series.err[point.i], spec.y.unit || "");
   const name = spec.series.length > 1 ? `${series.name}: ` : "";
-  host.readout.textContent = `${name}${short(spec.x, series.x[point.i])}, ${short(spec.y, series.y[point.i])}${error ? ` ${errorOf(series.y[point.i], error, spec.y.unit || "")}` : ""}`;
+  host.readout.textContent = `${name}${short(spec.x, series.x[point.i])}, ${spec.y.name || spec.y.label} = ${y.join(" ").trim()}`;
 }

@@ -3,13 +3,12 @@
 use std::fmt::Write;
 
 use super::html::escaped;
-use crate::drive::HarmonicDrive;
-use crate::indenter::{Indenter, Parameter, Value};
+use crate::indenter::{Indenter, Value};
 use crate::material::{GivenFace, Material, ModulusKind};
 use crate::quantity::Dimension;
 use crate::report::number::plain;
-use crate::sweep::plan::resolved::drive_dimension;
-use crate::sweep::plan::{SweepPlan, Varied};
+use crate::report::words;
+use crate::sweep::plan::SweepPlan;
 
 /// A list of names and values being written.
 #[derive(Default)]
@@ -52,12 +51,13 @@ impl Facts {
 /// One line: material, indenter, drive, frequencies.
 pub(super) fn line(plan: &SweepPlan) -> String {
     let omegas = &plan.angular_frequencies_rad_per_s;
+    let unit = plan.figures.frequency_unit;
     let range = match (omegas.first(), omegas.last()) {
         (Some(first), Some(last)) => format!(
             "{} frequencies from {} to {}",
             omegas.len(),
-            plain(*first, Dimension::AngularFrequency, 3),
-            plain(*last, Dimension::AngularFrequency, 3)
+            plain(unit.of(*first), unit.dimension(), 3),
+            plain(unit.of(*last), unit.dimension(), 3)
         ),
         _ => "no frequency".to_owned(),
     };
@@ -65,37 +65,15 @@ pub(super) fn line(plan: &SweepPlan) -> String {
         "{}, under a {}; {}; {range}",
         plan.material.name().unwrap_or("A material of its own"),
         plan.indenter.shape(),
-        drive_line(&plan.drive, plan)
+        words::drive_line(&plan.drive, plan)
     )
-}
-
-/// What is prescribed, with the range of what a second axis varies: `load 10 N ± 0.1 N to 10 N`.
-pub(in crate::report) fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
-    let dimension = drive_dimension(drive.control());
-    let value = |value| plain(value, dimension, 4);
-    let varied = plan.axis.as_ref().map(|axis| axis.varied);
-    let range = || {
-        let ends = plan.drives().first().zip(plan.drives().last());
-        ends.zip(varied).map_or(String::new(), |((a, b), varied)| {
-            format!("{} to {}", value(varied.value(a)), value(varied.value(b)))
-        })
-    };
-    let mean = match varied {
-        Some(Varied::Mean) => range(),
-        _ => value(drive.mean()),
-    };
-    let amplitude = match varied {
-        Some(Varied::Amplitude) => range(),
-        _ => value(drive.amplitude()),
-    };
-    format!("{} {mean} ± {amplitude}", drive.control().name())
 }
 
 /// The section of a sweep.
 pub(super) fn sweep(plan: &SweepPlan) -> String {
     let mut drive = Facts::default();
     drive.add("control", plan.drive.control().name());
-    drive.add("mean ± amplitude", &drive_line(&plan.drive, plan));
+    drive.add("mean ± amplitude", &words::drive_line(&plan.drive, plan));
     drive.add("phase", &plain(plan.drive.phase_rad(), Dimension::Angle, 4));
     drive.add(
         "rest before the oscillation",
@@ -167,42 +145,11 @@ pub(super) fn indenter(indenter: &dyn Indenter) -> String {
     for parameter in indenter.parameters() {
         match &parameter.value {
             Value::Tables(tables) => {
-                let lines: Vec<String> = tables.iter().map(|table| row(table)).collect();
-                facts.add_list(&named(parameter.key), &lines);
+                let lines: Vec<String> = tables.iter().map(|table| words::row(table)).collect();
+                facts.add_list(&words::named(parameter.key), &lines);
             }
-            value => facts.add(&named(parameter.key), &text(value)),
+            value => facts.add(&words::named(parameter.key), &words::value(value)),
         }
     }
     facts.html()
-}
-
-/// A key as words.
-fn named(key: &str) -> String {
-    key.replace('_', " ")
-}
-
-/// Settings in one line: `radius 10 mm, height 1 µm`.
-pub(in crate::report) fn row(table: &[Parameter]) -> String {
-    let entries: Vec<String> = table
-        .iter()
-        .map(|p| format!("{} {}", named(p.key), text(&p.value)))
-        .collect();
-    entries.join(", ")
-}
-
-fn text(value: &Value) -> String {
-    match value {
-        Value::Quantity(value, dimension) => plain(*value, *dimension, 6),
-        Value::Quantities(values, dimension) => {
-            let texts: Vec<String> = values
-                .iter()
-                .map(|value| plain(*value, *dimension, 6))
-                .collect();
-            texts.join(", ")
-        }
-        Value::Number(number) => number.to_string(),
-        Value::Integer(integer) => integer.to_string(),
-        Value::Text(text) => text.clone(),
-        Value::Tables(tables) => format!("{} of them", tables.len()),
-    }
 }

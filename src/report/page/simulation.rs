@@ -10,7 +10,7 @@ use super::sweep_data::MaterialData;
 use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::number::plain;
-use crate::report::scenario::lines;
+use crate::report::profile_lines::lines;
 use crate::sweep::history::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::resolved::drive_dimension;

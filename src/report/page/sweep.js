@@ -1,9 +1,11 @@
 // The page of a sweep: the curve, the chosen cycle, loops side by side, the table.
 
 function start(data) {
+  const { quantities, frequency } = data;
+  const [, , , , degrees] = quantities.find(([column]) => column === "phase_lag_rad");
   const { columns, rows } = parseCsv(data.csv);
   const results = new Map(data.cases.map((c) => [c.index, c]));
-  const omegaText = (row) => `${trimmed(significant(row.angular_frequency_rad_per_s))} rad/s`;
+  const omegaText = (row) => `${trimmed(significant(row[frequency.column]))} ${frequency.unit}`;
   const key = (row) => `${row.drive_mean} ${row.drive_amplitude}`;
   const drives = [...new Map(rows.map((row) => [key(row), row])).values()];
   const driveText = (row) => trimmed(withUnit(row[`drive_${data.varied}`], data.drive_unit));
@@ -45,12 +47,12 @@ function start(data) {
 
   // ---- the curve
   function drawCurve() {
-    const [column, error, name, unit, factor] = QUANTITIES[$("quantity").value];
+    const [column, error, name, unit, factor] = quantities[$("quantity").value];
     const times = (v) => (v === null ? null : v * factor);
     const shown = drives.map((drive) => rows.filter((row) => key(row) === key(drive)));
     const series = shown.map((list, k) => ({
       name: drives.length > 1 ? driveText(list[0]) : name,
-      x: list.map((row) => row.angular_frequency_rad_per_s),
+      x: list.map((row) => row[frequency.column]),
       y: list.map((row) => times(row[column])),
       err: key(list[0]) === state.drive ? list.map((row) => times(row[error])) : undefined,
       marker: key(list[0]) === state.drive ? 3 : 0,
@@ -60,9 +62,9 @@ function start(data) {
     const at = shown.findIndex((list) => list.includes(state.chosen));
     const isLoss = column === "energy_loss_j";
     plot($("curve"), {
-      label: `${name} over angular frequency`, slider: true, series, height: Math.min(420, Math.max(260, innerHeight * 0.5)),
-      x: { ...OMEGA, log: $("log-x").checked }, y: { label: name, unit, log: $("log-y").checked, zero: isLoss },
-      marks: isLoss ? data.peaks.map((p) => ({ x: p.angular_frequency_rad_per_s, y: p.energy_loss_j })) : [],
+      label: `${name} over ${frequency.quantity}`, slider: true, series, height: Math.min(420, Math.max(260, innerHeight * 0.5)),
+      x: { ...frequency, log: $("log-x").checked }, y: { label: name, unit, log: $("log-y").checked, zero: isLoss },
+      marks: isLoss ? data.peaks.map((p) => ({ x: p.angular_frequency_rad_per_s * frequency.factor, y: p.energy_loss_j })) : [],
       chosen: state.chosen && at >= 0 ? { series: at, i: shown[at].indexOf(state.chosen) } : null,
       none: "No case has a result: there is nothing to draw.",
       byArea: drives.length > 1,
@@ -99,7 +101,7 @@ function start(data) {
     const row = state.chosen;
     if (!row) return;
     const cycle = results.get(row.index);
-    $("spoken").textContent = `${rowName(row)}: energy loss ${withUnit(loss(row), "J")}, phase lag ${withUnit(row.phase_lag_rad * DEGREES, "°")}`;
+    $("spoken").textContent = `${rowName(row)}: energy loss ${withUnit(loss(row), "J")}, phase lag ${withUnit(row.phase_lag_rad * degrees, "°")}`;
     const period = cycle.time_s[cycle.time_s.length - 1];
     const part = cycle.time_s.map((t) => t / period);
     const over = { label: "time / period", name: "t/T" };
@@ -113,7 +115,7 @@ function start(data) {
       return values.map((v) => (high > low ? (2 * (v - low)) / (high - low) - 1 : 0));
     };
     plot($("phase"), {
-      label: `Load and approach over the cycle, each between its extremes; the approach lags by ${withUnit(row.phase_lag_rad * DEGREES, "°")}`,
+      label: `Load and approach over the cycle, each between its extremes; the approach lags by ${withUnit(row.phase_lag_rad * degrees, "°")}`,
       x: over, y: { label: "between extremes", name: "value" },
       series: [{ name: "load", x: part, y: signal(cycle.load_n) }, { name: "approach", x: part, y: signal(cycle.approach_m), dash: 1 }],
     });
@@ -172,8 +174,8 @@ function start(data) {
 
   function drawFacts(row) {
     const line = (name, value, error) => `<tr><th scope="row">${esc(name)}</th><td>${esc(value)}</td><td>${esc(error || "")}</td></tr>`;
-    const lines = QUANTITIES.map(([value, error, name, unit, factor]) =>
-      line(name, row[value] === null ? "undefined" : withUnit(row[value] * factor, unit, 6), row[error] === null ? "" : errorOf(row[value] * factor, row[error] * factor, unit)));
+    const lines = quantities.map(([value, error, name, unit, factor]) =>
+      row[value] === null ? line(name, "undefined") : line(name, ...measured(row[value] * factor, row[error] * factor, unit)));
     data.retardation_times_s.forEach((time, k) => {
       const part = row[`branch_${k + 1}_loss_j`];
       lines.push(line(`dissipated by the branch of ${withUnit(time, "s")}`, `${withUnit(part, "J", 6)} (${significant((100 * part) / row.dissipated_j, 3)} %)`));
@@ -214,10 +216,10 @@ function start(data) {
     const count = data.retardation_times_s.length;
     $("branches-section").hidden = !count || !done.length;
     if (!count) return;
-    const x = list.map((row) => row.angular_frequency_rad_per_s);
+    const x = list.map((row) => row[frequency.column]);
     plot($("branches"), {
-      label: "Energy dissipated per cycle by each branch over angular frequency", legend: true,
-      x: { ...OMEGA, log: $("log-x").checked }, y: { label: "dissipated per cycle", unit: "J", zero: true, log: $("log-y").checked },
+      label: `Energy dissipated per cycle by each branch over ${frequency.quantity}`, legend: true,
+      x: { ...frequency, log: $("log-x").checked }, y: { label: "dissipated per cycle", unit: "J", zero: true, log: $("log-y").checked },
       series: [
         ...data.retardation_times_s.map((time, k) => ({ name: `branch of ${withUnit(time, "s")}`, x, y: list.map((row) => row[`branch_${k + 1}_loss_j`]), marker: 2 })),
         ...(count > 1 ? [{ name: "all", x, y: list.map((row) => row.dissipated_j), colour: 6, dash: 1 }] : []),
@@ -226,7 +228,7 @@ function start(data) {
   }
 
   // ---- controls
-  $("quantity").innerHTML = QUANTITIES.map(([column, , name], k) => (done.some((row) => row[column] !== null) || !k ? `<option value="${k}">${esc(name)}</option>` : "")).join("");
+  $("quantity").innerHTML = quantities.map(([column, , name], k) => (done.some((row) => row[column] !== null) || !k ? `<option value="${k}">${esc(name)}</option>` : "")).join("");
   $("drive").innerHTML = drives.map((row) => `<option value="${key(row)}">${esc(driveText(row))}</option>`).join("");
   $("drive-choice").hidden = drives.length < 2;
   for (const id of ["quantity", "log-x", "log-y"]) $(id).addEventListener("change", () => { drawCurve(); drawBranches(); });

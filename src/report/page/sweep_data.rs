@@ -3,11 +3,13 @@
 use serde::Serialize;
 
 use super::compact::{all_rounded, picked, picked_optional, rounded, spread};
-use super::how::nodes_name;
 use super::surface_data::{Fineness, PressureData, WorkData, share};
 use crate::material::{Material, ModulusKind};
+use crate::quantity::FrequencyUnit;
 use crate::report::figure::moduli::ModulusPoint;
 use crate::report::material::MaterialReport;
+use crate::report::quantities::{Column, SWEEP};
+use crate::report::words::nodes_name;
 use crate::report::work_line::WorkLine;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::{CaseRecord, CaseResult};
@@ -20,6 +22,9 @@ pub(super) struct SweepData<'a> {
     kind: &'static str,
     /// `sweep.csv`.
     csv: &'a str,
+    /// What has a curve.
+    quantities: Vec<QuantityData>,
+    frequency: FrequencyData,
     peaks: &'a [Peak],
     retardation_times_s: Vec<f64>,
     /// What the second axis varies, where there is one.
@@ -30,11 +35,37 @@ pub(super) struct SweepData<'a> {
     cases: Vec<CaseData>,
 }
 
+/// What the axis of frequencies is called, its column in `sweep.csv`, and the factor to it from rad/s.
+#[derive(Serialize)]
+pub(super) struct FrequencyData {
+    label: String,
+    quantity: &'static str,
+    name: char,
+    unit: &'static str,
+    column: &'static str,
+    factor: f64,
+}
+
+impl FrequencyData {
+    pub(super) fn of(unit: FrequencyUnit) -> Self {
+        Self {
+            label: format!("{} {}", unit.quantity(), unit.symbol()),
+            quantity: unit.quantity(),
+            name: unit.symbol(),
+            unit: unit.name(),
+            column: unit.column(),
+            factor: unit.of(1.0),
+        }
+    }
+}
+
 /// Moduli over frequency.
 #[derive(Serialize)]
 pub(super) struct MaterialData {
     symbol: char,
-    angular_frequency_rad_per_s: Vec<f64>,
+    frequency: FrequencyData,
+    /// In the unit of [`MaterialData::frequency`].
+    frequencies: Vec<f64>,
     storage_modulus_pa: Vec<f64>,
     loss_modulus_pa: Vec<f64>,
 }
@@ -62,6 +93,8 @@ impl<'a> SweepData<'a> {
         Self {
             kind: "sweep",
             csv,
+            quantities: SWEEP.iter().filter_map(quantity).collect(),
+            frequency: FrequencyData::of(plan.figures.frequency_unit),
             peaks: &outcome.peaks,
             retardation_times_s: all_rounded(&outcome.retardation_times_s()),
             varied: plan.axis.as_ref().map(|axis| axis.varied.name()),
@@ -70,7 +103,7 @@ impl<'a> SweepData<'a> {
                 Some(_) => "cells along the longer side of the map",
                 None => nodes_name(plan.solver.engine),
             },
-            material: MaterialData::of(&plan.material),
+            material: MaterialData::over(&plan.material, plan.figures.frequency_unit),
             cases: cases
                 .filter_map(|r| Some(case(plan, r, r.result.as_ref()?, count)))
                 .collect(),
@@ -78,9 +111,28 @@ impl<'a> SweepData<'a> {
     }
 }
 
+/// Column, column of its error, name, unit, factor from SI to it.
+type QuantityData = (&'static str, String, &'static str, &'static str, f64);
+
+fn quantity(column: &Column<CaseRecord>) -> Option<QuantityData> {
+    let (unit, factor) = column.unit();
+    Some((
+        column.name,
+        column.error_name()?,
+        column.heading,
+        unit,
+        factor,
+    ))
+}
+
 impl MaterialData {
-    /// Ten points a decade.
+    /// Over angular frequency, ten points a decade.
     pub(super) fn of(material: &Material) -> Self {
+        Self::over(material, FrequencyUnit::RadPerS)
+    }
+
+    /// The same over frequencies in this unit.
+    fn over(material: &Material, unit: FrequencyUnit) -> Self {
         let points = MaterialReport::new(material).moduli(10);
         let numbers =
             |value: fn(&ModulusPoint) -> f64| points.iter().map(value).map(rounded).collect();
@@ -89,7 +141,11 @@ impl MaterialData {
                 ModulusKind::Longitudinal => 'E',
                 ModulusKind::Shear => 'G',
             },
-            angular_frequency_rad_per_s: numbers(|p| p.angular_frequency_rad_per_s),
+            frequency: FrequencyData::of(unit),
+            frequencies: points
+                .iter()
+                .map(|p| rounded(unit.of(p.angular_frequency_rad_per_s)))
+                .collect(),
             storage_modulus_pa: numbers(|p| p.storage_modulus_pa),
             loss_modulus_pa: numbers(|p| p.loss_modulus_pa),
         }

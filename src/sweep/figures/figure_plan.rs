@@ -3,7 +3,7 @@
 
 use std::fmt::Write;
 
-use crate::quantity::{Dimension, format_si};
+use crate::quantity::{Dimension, FrequencyUnit, format_si};
 
 /// What the `[figures]` table asks for. Where it asks for nothing, figures are 800 px wide with text of 16 px (211.7 mm and 12 pt
 /// on a screen of 96 dpi), as SVG and as PNG of one and of two pixels per px; PDF is there to be asked for.
@@ -21,6 +21,8 @@ pub struct FigurePlan {
     /// Pixels of a PNG per inch on paper.
     pub dpi: Option<usize>,
     pub axes: AxisUnits,
+    /// The unit in which frequencies are reported, by tables and text too.
+    pub frequency_unit: FrequencyUnit,
     /// Whether pictures that have a title above the frame show it.
     pub titles: bool,
 }
@@ -87,6 +89,7 @@ impl Default for FigurePlan {
             formats: vec![Format::Svg, Format::Png],
             dpi: None,
             axes: AxisUnits::Si,
+            frequency_unit: FrequencyUnit::RadPerS,
             titles: true,
         }
     }
@@ -168,6 +171,9 @@ impl FigurePlan {
         if self.axes == AxisUnits::Normalised {
             line("axes", Some("\"normalised\"".to_owned()));
         }
+        if self.frequency_unit == FrequencyUnit::Hz {
+            line("frequency_unit", Some("\"Hz\"".to_owned()));
+        }
         if !self.titles {
             line("titles", Some("false".to_owned()));
         }
@@ -206,6 +212,7 @@ mod tests {
             formats: vec![Format::Png, Format::Pdf],
             dpi: Some(600),
             axes: AxisUnits::Normalised,
+            frequency_unit: FrequencyUnit::Hz,
             titles: false,
         }
     }
@@ -218,7 +225,7 @@ mod tests {
         assert_eq!(
             &whole[sweep.len()..],
             "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
-             formats = [\"png\", \"pdf\"]\ndpi = 600\naxes = \"normalised\"\ntitles = false\n"
+             formats = [\"png\", \"pdf\"]\ndpi = 600\naxes = \"normalised\"\nfrequency_unit = \"Hz\"\ntitles = false\n"
         );
         assert_eq!(without_figures(&whole), sweep);
         assert_eq!(without_figures(sweep), sweep);

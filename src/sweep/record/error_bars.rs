@@ -46,24 +46,6 @@ impl Quantity {
         Self::Harmonic3,
     ];
 
-    /// Its column in a table, and that of its error.
-    pub fn columns(self) -> (&'static str, &'static str) {
-        match self {
-            Self::EnergyLoss => ("energy_loss_j", "energy_loss_error_j"),
-            Self::PhaseLag => ("phase_lag_rad", "phase_lag_error_rad"),
-            Self::StorageModulus => ("storage_modulus_pa", "storage_modulus_error_pa"),
-            Self::LossModulus => ("loss_modulus_pa", "loss_modulus_error_pa"),
-            Self::ApproachMin => ("approach_min_m", "approach_min_error_m"),
-            Self::ApproachMax => ("approach_max_m", "approach_max_error_m"),
-            Self::ContactRadiusMin => ("contact_radius_min_m", "contact_radius_min_error_m"),
-            Self::ContactRadiusMax => ("contact_radius_max_m", "contact_radius_max_error_m"),
-            Self::PeakPressureMin => ("peak_pressure_min_pa", "peak_pressure_min_error_pa"),
-            Self::PeakPressureMax => ("peak_pressure_max_pa", "peak_pressure_max_error_pa"),
-            Self::Harmonic2 => ("harmonic_2", "harmonic_2_error"),
-            Self::Harmonic3 => ("harmonic_3", "harmonic_3_error"),
-        }
-    }
-
     /// Its value in a result, where it has one.
     pub fn of(self, result: &CaseResult) -> Option<f64> {
         match self {

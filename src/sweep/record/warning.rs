@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::quantity::{Dimension, format_human};
+use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::sweep::record::CaseRecord;
 
 /// Slope of an indenter up to which slopes are small: a/R of a sphere, 11 degrees of a cone.
@@ -87,11 +87,26 @@ impl Warning {
     }
 }
 
-/// One line.
+/// One line, with frequencies in rad/s.
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write(f, FrequencyUnit::RadPerS)
+    }
+}
+
+/// A warning with frequencies in a unit.
+struct In(FrequencyUnit, Warning);
+
+impl fmt::Display for In {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.1.write(f, self.0)
+    }
+}
+
+impl Warning {
+    fn write(&self, f: &mut fmt::Formatter<'_>, unit: FrequencyUnit) -> fmt::Result {
         let time = |time_s| format_human(time_s, Dimension::Time, 3);
-        let frequency = |time_s: f64| format_human(time_s.recip(), Dimension::AngularFrequency, 3);
+        let frequency = |time_s: f64| format_human(unit.of(time_s.recip()), unit.dimension(), 3);
         match *self {
             Self::BelowMeasured {
                 last_measured_s, ..
@@ -181,10 +196,12 @@ pub struct OverCases {
     pub highest_angular_frequency_rad_per_s: f64,
     #[serde(skip)]
     of: usize,
+    #[serde(skip)]
+    unit: FrequencyUnit,
 }
 
-/// What is to be said of these cases: one entry per kind, in the order in which kinds first occur.
-pub fn over_cases(records: &[CaseRecord]) -> Vec<OverCases> {
+/// What is to be said of these cases, with frequencies in this unit: one entry per kind, in the order in which kinds first occur.
+pub fn over_cases(records: &[CaseRecord], unit: FrequencyUnit) -> Vec<OverCases> {
     let mut kinds: Vec<(Warning, OverCases)> = Vec::new();
     for record in records {
         let omega = record.angular_frequency_rad_per_s;
@@ -211,13 +228,14 @@ pub fn over_cases(records: &[CaseRecord]) -> Vec<OverCases> {
                         lowest_angular_frequency_rad_per_s: omega,
                         highest_angular_frequency_rad_per_s: omega,
                         of: records.len(),
+                        unit,
                     },
                 )),
             }
         }
     }
     let said = |(worst, over): (Warning, OverCases)| OverCases {
-        message: worst.to_string(),
+        message: In(unit, worst).to_string(),
         ..over
     };
     kinds.into_iter().map(said).collect()
@@ -230,25 +248,26 @@ impl fmt::Display for OverCases {
             self.lowest_angular_frequency_rad_per_s,
             self.highest_angular_frequency_rad_per_s,
         );
-        let omega = |value| format_human(value, Dimension::AngularFrequency, 4);
+        let symbol = self.unit.symbol();
+        let value = |omega| format_human(self.unit.of(omega), self.unit.dimension(), 4);
         f.write_str(&self.message)?;
         match (self.cases == self.of, low == high) {
             (true, true) => Ok(()),
             (true, false) => f.write_str(" (all cases)"),
             (false, true) => write!(
                 f,
-                " ({} of {} cases, ω = {})",
+                " ({} of {} cases, {symbol} = {})",
                 self.cases,
                 self.of,
-                omega(low)
+                value(low)
             ),
             (false, false) => write!(
                 f,
-                " ({} of {} cases, ω = {} to {})",
+                " ({} of {} cases, {symbol} = {} to {})",
                 self.cases,
                 self.of,
-                omega(low),
-                omega(high)
+                value(low),
+                value(high)
             ),
         }
     }

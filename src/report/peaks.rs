@@ -1,0 +1,88 @@
+//! The peaks of a sweep in words, for terminal, page and captions.
+
+use super::number::plain;
+use crate::quantity::Dimension;
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::resolved::drive_dimension;
+use crate::sweep::record::Status;
+use crate::sweep::search::peak::Peak;
+use crate::sweep::search::run::Outcome;
+
+/// How a number with its error is written.
+pub type WithError = fn(f64, Option<f64>, Dimension) -> String;
+
+/// A peak in words.
+pub struct PeakWords {
+    pub is_largest: bool,
+    /// `3.5090 ± 0.0003 µJ`.
+    pub loss: String,
+    pub symbol: char,
+    /// `(8.440 ± 0.003) × 10⁻³ rad/s`.
+    pub frequency: String,
+    /// Of several drives under which: `, amplitude 5 N`.
+    pub under: String,
+}
+
+impl PeakWords {
+    /// `3.5090 ± 0.0003 µJ at ω = (8.440 ± 0.003) × 10⁻³ rad/s, amplitude 5 N`.
+    pub fn sentence(&self) -> String {
+        let Self {
+            loss,
+            symbol,
+            frequency,
+            under,
+            ..
+        } = self;
+        format!("{loss} at {symbol} = {frequency}{under}")
+    }
+}
+
+/// All peaks, the largest first.
+pub fn all(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<PeakWords> {
+    let unit = plan.figures.frequency_unit;
+    let words = |(rank, peak): (usize, &Peak)| PeakWords {
+        is_largest: rank == 0,
+        loss: with_error(
+            peak.energy_loss_j,
+            peak.energy_loss_error_j,
+            Dimension::Energy,
+        ),
+        symbol: unit.symbol(),
+        frequency: with_error(
+            unit.of(peak.angular_frequency_rad_per_s),
+            Some(unit.of(peak.angular_frequency_uncertainty_rad_per_s)),
+            unit.dimension(),
+        ),
+        under: under(plan, peak).unwrap_or_default(),
+    };
+    outcome.peaks.iter().enumerate().map(words).collect()
+}
+
+fn under(plan: &SweepPlan, peak: &Peak) -> Option<String> {
+    let varied = plan.axis.as_ref()?.varied;
+    let dimension = drive_dimension(plan.drive.control());
+    let value = plain(peak.drive(varied)?, dimension, 4);
+    Some(format!(", {} {value}", varied.name()))
+}
+
+/// The same; of a sweep of two axes the largest alone: each drive has its own.
+pub fn shown(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<PeakWords> {
+    let mut peaks = all(plan, outcome, with_error);
+    if plan.axis.is_some() {
+        peaks.truncate(1);
+    }
+    peaks
+}
+
+/// Why there is no peak.
+pub fn none(plan: &SweepPlan, outcome: &Outcome) -> &'static str {
+    if outcome.count(Status::Converged) == 0 {
+        "No peak: no case converged."
+    } else if outcome.retardation_times_s().is_empty() {
+        "No peak: the material has no branches; an elastic body loses nothing."
+    } else if plan.angular_frequencies_rad_per_s.len() < 3 {
+        "No peak: it takes at least three frequencies to enclose one."
+    } else {
+        "No peak inside the sweep: the loss is largest at one of its ends. Widen the sweep."
+    }
+}

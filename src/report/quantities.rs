@@ -1,0 +1,445 @@
+//! The columns of `sweep.csv` and of `history.csv`, one row each: what a column is called, what it means, its unit, how its
+//! value and its error are found in a record, and whether results are compared by it. Tables, JSON, comparison, pages and the
+//! reference in `src/guide/results.md` read them here; a column is added by its row.
+
+use super::table::{Cell, csv};
+use crate::quantity::{Dimension, FrequencyUnit};
+use crate::sweep::history::errors::RowErrors;
+use crate::sweep::history::{HistoryRow, SimulationOutcome};
+use crate::sweep::record::error_bars::Quantity;
+use crate::sweep::record::{CaseRecord, CaseResult};
+
+/// A column of a table whose rows are made of `R`.
+pub struct Column<R: 'static> {
+    /// With the SI unit as its last part; `{}` stands for the number of a branch.
+    pub name: &'static str,
+    /// What it means, for the reference of columns.
+    pub meaning: &'static str,
+    value: Value<R>,
+    /// `None` for counts, texts and ratios.
+    pub dimension: Option<Dimension>,
+    /// The quantity in words; the name where there are no better ones.
+    pub heading: &'static str,
+    /// How it is headed in the table of cases of a page, where it is among the columns shown there.
+    pub in_cases: Option<&'static str>,
+    error: Option<fn(&R) -> Option<f64>>,
+    pub compared: Option<Compared>,
+}
+
+enum Value<R: 'static> {
+    Of(fn(&R) -> Cell),
+    /// One column for each branch of the creep compliance, counted from 0.
+    OfBranch(fn(&R, usize) -> Cell),
+}
+
+/// How two values of a column are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Compared {
+    /// By their difference over the larger of them.
+    Relatively,
+    /// By their difference: they are relative already.
+    Absolutely,
+}
+
+impl<R> Column<R> {
+    const fn new(name: &'static str, value: fn(&R) -> Cell, meaning: &'static str) -> Self {
+        Self {
+            name,
+            meaning,
+            value: Value::Of(value),
+            dimension: None,
+            heading: name,
+            in_cases: None,
+            error: None,
+            compared: None,
+        }
+    }
+
+    const fn of_branch(
+        name: &'static str,
+        value: fn(&R, usize) -> Cell,
+        meaning: &'static str,
+    ) -> Self {
+        let mut column = Self::new(name, |_| Cell::Absent, meaning);
+        column.value = Value::OfBranch(value);
+        column
+    }
+
+    const fn called(mut self, heading: &'static str, dimension: Option<Dimension>) -> Self {
+        self.heading = heading;
+        self.dimension = dimension;
+        self
+    }
+
+    const fn in_cases(mut self, heading: &'static str) -> Self {
+        self.in_cases = Some(heading);
+        self
+    }
+
+    const fn with_error(mut self, error: fn(&R) -> Option<f64>) -> Self {
+        self.error = Some(error);
+        self
+    }
+
+    const fn compared(mut self, compared: Compared) -> Self {
+        self.compared = Some(compared);
+        self
+    }
+
+    /// The column of its error, where it has one: `energy_loss_error_j` of `energy_loss_j`.
+    pub fn error_name(&self) -> Option<String> {
+        self.error?;
+        let unit = self.dimension.map(Dimension::si_unit);
+        let unit = unit.map_or(String::new(), |unit| format!("_{}", unit.to_lowercase()));
+        let stem = self.name.strip_suffix(&unit).unwrap_or(self.name);
+        Some(format!("{stem}_error{unit}"))
+    }
+
+    /// The value in a row that is a number.
+    pub fn number(&self, row: &R) -> Option<f64> {
+        match self.value {
+            Value::Of(value) => value(row).number(),
+            Value::OfBranch(_) => None,
+        }
+    }
+
+    /// Its error in a row.
+    pub fn error(&self, row: &R) -> Option<f64> {
+        self.error.and_then(|error| error(row))
+    }
+
+    /// Unit in which it is read, and the factor to it from SI: angles in degrees.
+    pub fn unit(&self) -> (&'static str, f64) {
+        match self.dimension {
+            Some(Dimension::Angle) => ("°", 180.0 / std::f64::consts::PI),
+            Some(dimension) => (dimension.si_unit(), 1.0),
+            None => ("", 1.0),
+        }
+    }
+
+    /// Its columns of values in a table: one, but for branches.
+    fn named(&self, branches: usize) -> Vec<Named<R>> {
+        match self.value {
+            Value::Of(value) => vec![Named {
+                name: self.name.to_owned(),
+                cell: Box::new(value),
+            }],
+            Value::OfBranch(value) => (0..branches)
+                .map(|k| Named {
+                    name: self.name.replace("{}", &(k + 1).to_string()),
+                    cell: Box::new(move |row| value(row, k)),
+                })
+                .collect(),
+        }
+    }
+
+    fn named_error(&self) -> Option<Named<R>> {
+        let (name, error) = (self.error_name()?, self.error?);
+        Some(Named {
+            name,
+            cell: Box::new(move |row| error(row).into()),
+        })
+    }
+}
+
+/// A column as it stands in a table: its name, and its cell in a row.
+pub struct Named<R: 'static> {
+    pub name: String,
+    pub cell: Box<dyn Fn(&R) -> Cell>,
+}
+
+/// The columns of `sweep.csv`, errors beside their values; frequencies in the unit asked for come first.
+pub fn of_cases(branches: usize, unit: FrequencyUnit) -> Vec<Named<CaseRecord>> {
+    let columns = SWEEP.iter();
+    let mut named: Vec<_> = columns
+        .flat_map(|c| c.named(branches).into_iter().chain(c.named_error()))
+        .collect();
+    if let Some(leading) = named.iter().position(|c| c.name == unit.column()) {
+        named[..=leading].rotate_right(1);
+    }
+    named
+}
+
+/// The columns of `history.csv`, errors behind all values.
+pub fn of_moments() -> Vec<Named<Moment>> {
+    let values = HISTORY.iter().flat_map(|column| column.named(0));
+    let errors = HISTORY.iter().filter_map(Column::named_error);
+    values.chain(errors).collect()
+}
+
+/// The column of `sweep.csv` of this name, be it that of a branch.
+pub fn of_name(name: &str) -> Option<&'static Column<CaseRecord>> {
+    SWEEP
+        .iter()
+        .find(|column| match column.name.split_once("{}") {
+            None => column.name == name,
+            Some((before, after)) => {
+                let number = name.strip_prefix(before);
+                let number = number.and_then(|rest| rest.strip_suffix(after));
+                number.is_some_and(|number| number.parse::<usize>().is_ok())
+            }
+        })
+}
+
+/// The value of a quantity that has an error bar, and its error, as functions of a record.
+macro_rules! bar {
+    ($quantity:ident) => {
+        (
+            |r| {
+                r.result
+                    .as_ref()
+                    .and_then(|c| Quantity::$quantity.of(c))
+                    .into()
+            },
+            |r| {
+                let errors = r.result.as_ref()?.errors.as_ref()?;
+                errors.of(Quantity::$quantity)
+            },
+        )
+    };
+}
+
+/// How value and error are found in a record.
+type WithError = (fn(&CaseRecord) -> Cell, fn(&CaseRecord) -> Option<f64>);
+
+/// A column with an error bar.
+const fn barred(
+    name: &'static str,
+    (value, error): WithError,
+    (heading, dimension): (&'static str, Option<Dimension>),
+    meaning: &'static str,
+) -> Column<CaseRecord> {
+    let compared = match dimension {
+        Some(_) => Compared::Relatively,
+        None => Compared::Absolutely,
+    };
+    Column::new(name, value, meaning)
+        .called(heading, dimension)
+        .with_error(error)
+        .compared(compared)
+}
+
+/// A number of the result, where there is one.
+fn of_result(record: &CaseRecord, value: impl Fn(&CaseResult) -> Option<f64>) -> Cell {
+    record.result.as_ref().and_then(value).into()
+}
+
+type OfCase = Column<CaseRecord>;
+type OfMoment = Column<Moment>;
+
+use Compared::{Absolutely, Relatively};
+use Dimension::{Angle, Energy, Length, Stress};
+
+/// Which case it is; what has an error bar; what has none, and how the numbers came about.
+#[rustfmt::skip]
+pub static SWEEP: &[OfCase] = &[
+    OfCase::new("angular_frequency_rad_per_s", |r| r.angular_frequency_rad_per_s.into(), "angular frequency ω of the drive")
+        .called("angular frequency", Some(Dimension::AngularFrequency)),
+    OfCase::new("frequency_hz", |r| r.frequency_hz().into(), "the same as f = ω/2π; the first column of a sweep that is given in Hz")
+        .called("frequency", Some(Dimension::Frequency)),
+    OfCase::new("drive_mean", |r| r.drive_mean.into(), "mean of the prescribed load (N) or approach (m)"),
+    OfCase::new("drive_amplitude", |r| r.drive_amplitude.into(), "amplitude of the prescribed load (N) or approach (m)"),
+    barred("energy_loss_j", bar!(EnergyLoss), ("energy loss per cycle", Some(Energy)),
+        "area of the closed loop, ∮ W dδ over one cycle, from its Fourier coefficients")
+        .in_cases("loss per cycle"),
+    barred("phase_lag_rad", bar!(PhaseLag), ("phase lag of the approach", Some(Angle)),
+        "by how much the first harmonic of the approach lags behind that of the load, θ₁ − φ₁")
+        .in_cases("phase lag"),
+    barred("storage_modulus_pa", bar!(StorageModulus), ("storage modulus from the loop", Some(Stress)),
+        "what instrumented indentation reads from the loop, (1 − ν²) W₁ cos(θ₁ − φ₁)/(2 a₀ δ₁)")
+        .in_cases("E′"),
+    barred("loss_modulus_pa", bar!(LossModulus), ("loss modulus from the loop", Some(Stress)),
+        "the same with the sine")
+        .in_cases("E″"),
+    barred("approach_min_m", bar!(ApproachMin), ("smallest approach", Some(Length)),
+        "smallest approach of the cycle"),
+    barred("approach_max_m", bar!(ApproachMax), ("largest approach", Some(Length)),
+        "largest approach of the cycle")
+        .in_cases("largest approach"),
+    barred("contact_radius_min_m", bar!(ContactRadiusMin), ("smallest contact radius", Some(Length)),
+        "smallest contact radius of the cycle: that of the circle of the contact's area"),
+    barred("contact_radius_max_m", bar!(ContactRadiusMax), ("largest contact radius", Some(Length)),
+        "largest contact radius of the cycle")
+        .in_cases("largest radius"),
+    barred("peak_pressure_min_pa", bar!(PeakPressureMin), ("smallest peak pressure", Some(Stress)),
+        "smallest over the cycle of the largest pressure in the contact; empty where that is unbounded, under a cone or a flat punch"),
+    barred("peak_pressure_max_pa", bar!(PeakPressureMax), ("largest peak pressure", Some(Stress)),
+        "the largest over the cycle")
+        .in_cases("largest pressure"),
+    barred("harmonic_2", bar!(Harmonic2), ("second harmonic of the approach, relative", None),
+        "amplitude of the second harmonic of the approach relative to the first, δ₂/δ₁"),
+    barred("harmonic_3", bar!(Harmonic3), ("third harmonic of the approach, relative", None), "δ₃/δ₁"),
+    OfCase::of_branch("branch_{}_loss_j", |r, k| of_result(r, |c| Some(c.branches.get(k)?.energy_loss_j)),
+        "what the dashpot of each branch of the creep compliance dissipates per cycle, from the memory alone, shortest \
+         retardation time first (`summary.json` lists the times)")
+        .called("dissipated by a branch", Some(Energy)).compared(Relatively),
+    OfCase::new("dissipated_j", |r| of_result(r, |c| Some(c.dissipated_j())), "the sum over the branches, which must be the loss")
+        .called("dissipated by all branches", Some(Energy)).compared(Relatively),
+    OfCase::new("energy_imbalance", |r| of_result(r, CaseResult::energy_imbalance),
+        "`dissipated_j`/`energy_loss_j` − 1: an error of discretisation, not of physics"),
+    OfCase::new("polygon_loss_j", |r| of_result(r, |c| Some(c.analysis.polygon_loss_j)),
+        "area of the polygon through the N samples of the loop, a cross-check that is low by (N/2π) sin(2π/N) for an ellipse")
+        .called("area of the polygon through the samples", Some(Energy)).compared(Relatively),
+    OfCase::new("harmonic_4", |r| of_result(r, |c| c.analysis.approach_harmonic(4)), "δ₄/δ₁")
+        .called("fourth harmonic of the approach, relative", None).compared(Absolutely),
+    OfCase::new("harmonic_5", |r| of_result(r, |c| c.analysis.approach_harmonic(5)), "δ₅/δ₁")
+        .called("fifth harmonic of the approach, relative", None).compared(Absolutely),
+    OfCase::new("index", |r| r.index.into(), "the number in the names of its loop and its record"),
+    OfCase::new("method", |r| r.method.name().into(), "how the stabilised cycle was reached"),
+    OfCase::new("steps", |r| r.steps.into(), "time steps per cycle"),
+    OfCase::new("nodes", |r| r.nodes.into(), "springs, or cells along the longer side"),
+    OfCase::new("cycles", |r| r.cycles.into(), "cycles solved at this resolution").in_cases("cycles"),
+    OfCase::new("steady_distance", |r| r.steady_distance.into(),
+        "estimated distance of the recorded cycle to the stabilised one, relative"),
+    OfCase::new("domain_half_width_m", |r| r.domain_half_width_m.into(), "half width of the computational domain")
+        .called("half width of the domain", Some(Length)),
+    OfCase::new("instants", |r| r.work.instants.into(), "instants solved, on coarser resolutions too, as in the next two columns"),
+    OfCase::new("iterations", |r| r.work.iterations.into(), "iterations of the contact solver"),
+    OfCase::new("convolutions", |r| r.work.convolutions.into(), "convolutions on cells"),
+    OfCase::new("warnings", |r| codes(r).into(),
+        "what lies outside the model, as [codes](super::validity) with blanks between them; empty where nothing does"),
+    OfCase::new("status", |r| r.status.name().into(), "converged, not-converged or failed; the latter two have no result"),
+    OfCase::new("message", |r| r.message.clone().into(), "why there is no result, or what else is to be known"),
+];
+
+/// What is to be kept in mind of a case, as codes.
+fn codes(record: &CaseRecord) -> String {
+    let codes = record.warnings.iter().map(|warning| warning.code());
+    codes.collect::<Vec<_>>().join(" ")
+}
+
+/// A row of a history with its errors.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    pub row: HistoryRow,
+    pub errors: RowErrors,
+}
+
+impl Moment {
+    /// Every moment of a history; without errors where there are none.
+    pub fn all(outcome: &SimulationOutcome) -> impl Iterator<Item = Self> {
+        let rows = outcome.rows.iter().enumerate();
+        rows.map(|(place, row)| Self {
+            row: *row,
+            errors: outcome.errors.get(place).copied().unwrap_or_default(),
+        })
+    }
+}
+
+/// The columns of `history.csv`.
+#[rustfmt::skip]
+pub static HISTORY: &[OfMoment] = &[
+    OfMoment::new("time_s", |m| m.row.time_s.into(), "time; twice the same at a jump")
+        .called("time", Some(Dimension::Time)),
+    OfMoment::new("load_n", |m| m.row.load_n.into(), "load W")
+        .called("load", Some(Dimension::Force)).with_error(|m| m.errors.load_n),
+    OfMoment::new("approach_m", |m| m.row.approach_m.into(),
+        "approach δ; empty where the indenter is clear of the surface under a prescribed load")
+        .called("approach", Some(Length)).with_error(|m| m.errors.approach_m),
+    OfMoment::new("contact_radius_m", |m| m.row.contact_radius_m.into(),
+        "contact radius a: that of the circle of the contact's area")
+        .called("radius", Some(Length)).with_error(|m| m.errors.contact_radius_m),
+    OfMoment::new("contact_area_m2", |m| m.row.contact_area_m2().into(), "contact area")
+        .called("contact area", Some(Dimension::Area)),
+    OfMoment::new("peak_pressure_pa", |m| m.row.peak_pressure_pa.into(),
+        "largest pressure in the contact; empty where it is unbounded")
+        .called("pressure", Some(Stress)).with_error(|m| m.errors.peak_pressure_pa),
+];
+
+/// The rows of these columns.
+fn named<R>(columns: &[Named<R>], rows: &[R]) -> Vec<u8> {
+    let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+    let cells = |row| columns.iter().map(|column| (column.cell)(row)).collect();
+    csv(&names, rows.iter().map(cells).collect::<Vec<Vec<Cell>>>())
+}
+
+/// `sweep.csv`: one row per case, in the order given. `branches` is how many the material's creep compliance has, `unit` the one
+/// in which frequencies come first.
+pub fn sweep(records: &[CaseRecord], branches: usize, unit: FrequencyUnit) -> Vec<u8> {
+    named(&of_cases(branches, unit), records)
+}
+
+/// `history.csv`: one row per time step, two with the same time at a jump. Errors are absolute.
+pub fn history(outcome: &SimulationOutcome) -> Vec<u8> {
+    let moments: Vec<Moment> = Moment::all(outcome).collect();
+    named(&of_moments(), &moments)
+}
+
+/// The reference of columns in `src/guide/results.md`: a row of a table for each.
+pub fn reference<R>(columns: &[Column<R>]) -> String {
+    let row = |column: &Column<R>| {
+        let error = column.error_name();
+        format!(
+            "| `{}` | {} | {} | {} |\n",
+            column.name.replace("{}", "k"),
+            error.map_or(String::new(), |name| format!("`{name}`")),
+            column.dimension.map_or("", Dimension::si_unit),
+            column.meaning
+        )
+    };
+    let rows: String = columns.iter().map(row).collect();
+    format!("| column | its error | unit | meaning |\n|---|---|---|---|\n{rows}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_is_called_after_its_value_and_branches_are_counted_from_one() {
+        let loss = of_name("energy_loss_j").unwrap();
+        assert_eq!(loss.error_name().as_deref(), Some("energy_loss_error_j"));
+        let second = of_name("harmonic_2").unwrap();
+        assert_eq!(second.error_name().as_deref(), Some("harmonic_2_error"));
+        assert_eq!(
+            of_name("branch_12_loss_j").unwrap().name,
+            "branch_{}_loss_j"
+        );
+        assert!(of_name("branch_x_loss_j").is_none());
+        let names = |unit| {
+            let named = of_cases(2, unit).into_iter();
+            named.map(|column| column.name).collect::<Vec<_>>()
+        };
+        let columns = names(FrequencyUnit::RadPerS);
+        assert!(columns.contains(&"branch_2_loss_j".to_owned()));
+        assert_eq!(
+            columns[..2],
+            ["angular_frequency_rad_per_s", "frequency_hz"]
+        );
+        let in_hz = names(FrequencyUnit::Hz);
+        assert_eq!(in_hz[..2], ["frequency_hz", "angular_frequency_rad_per_s"]);
+        assert_eq!(columns[2..], in_hz[2..]);
+    }
+
+    #[test]
+    fn every_quantity_with_an_error_bar_has_a_column() {
+        let barred = SWEEP.iter().filter(|column| column.error_name().is_some());
+        assert_eq!(barred.count(), Quantity::ALL.len());
+    }
+
+    /// `RENEW_GUIDE=1 cargo test --lib quantities` writes it anew.
+    #[test]
+    fn the_guide_lists_every_column() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/src/guide/results.md");
+        let mut guide = std::fs::read_to_string(path).unwrap();
+        let written = guide.clone();
+        for (name, rows) in [
+            ("sweep.csv", reference(SWEEP)),
+            ("history.csv", reference(HISTORY)),
+        ] {
+            let begin =
+                format!("<!-- columns of {name}, written by src/report/quantities.rs -->\n");
+            let from = guide.find(&begin).expect("the mark is there") + begin.len();
+            let to = from + guide[from..].find("<!-- end of columns -->").unwrap();
+            guide.replace_range(from..to, &format!("\n{rows}\n"));
+        }
+        if std::env::var_os("RENEW_GUIDE").is_some() {
+            std::fs::write(path, &guide).unwrap();
+            return;
+        }
+        assert!(
+            guide == written,
+            "stale: RENEW_GUIDE=1 cargo test --lib quantities"
+        );
+    }
+}

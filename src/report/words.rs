@@ -1,0 +1,166 @@
+//! What terminal, pages and captions say alike of cases, drives and settings, as plain text.
+
+use super::number::{self, four_digits, plain, scientific};
+use crate::drive::HarmonicDrive;
+use crate::indenter::{Parameter, Value};
+use crate::quantity::FrequencyUnit;
+use crate::sweep::plan::resolved::drive_dimension;
+use crate::sweep::plan::{EngineKind, SweepPlan, Varied};
+use crate::sweep::search::run::Outcome;
+
+/// A case by its frequency (rad/s): `ω = 0.01000 rad/s`.
+pub fn case(unit: FrequencyUnit, angular_frequency_rad_per_s: f64) -> String {
+    let value = four_digits(unit.of(angular_frequency_rad_per_s));
+    format!("{} = {value} {}", unit.symbol(), unit.name())
+}
+
+/// The cases without a result, each with the reason.
+pub fn without_result(unit: FrequencyUnit, outcome: &Outcome) -> impl Iterator<Item = String> {
+    let cases = outcome.records.iter().filter(|r| r.result.is_none());
+    cases.map(move |r| {
+        format!(
+            "{}: {}: {}",
+            case(unit, r.angular_frequency_rad_per_s),
+            r.status.name(),
+            r.message.as_deref().unwrap_or("no reason recorded")
+        )
+    })
+}
+
+/// What is prescribed, with the range of what a second axis varies: `load 10 N ± 0.1 N to 10 N`.
+pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
+    let dimension = drive_dimension(drive.control());
+    let value = |value| plain(value, dimension, 4);
+    let varied = plan.axis.as_ref().map(|axis| axis.varied);
+    let range = || {
+        let ends = plan.drives().first().zip(plan.drives().last());
+        ends.zip(varied).map_or(String::new(), |((a, b), varied)| {
+            format!("{} to {}", value(varied.value(a)), value(varied.value(b)))
+        })
+    };
+    let mean = match varied {
+        Some(Varied::Mean) => range(),
+        _ => value(drive.mean()),
+    };
+    let amplitude = match varied {
+        Some(Varied::Amplitude) => range(),
+        _ => value(drive.amplitude()),
+    };
+    format!("{} {mean} ± {amplitude}", drive.control().name())
+}
+
+/// A key as words.
+pub fn named(key: &str) -> String {
+    key.replace('_', " ")
+}
+
+/// Settings in one line: `radius 10 mm, height 1 µm`.
+pub fn row(table: &[Parameter]) -> String {
+    let entries: Vec<String> = table
+        .iter()
+        .map(|p| format!("{} {}", named(p.key), value(&p.value)))
+        .collect();
+    entries.join(", ")
+}
+
+/// A setting as text.
+pub fn value(value: &Value) -> String {
+    match value {
+        Value::Quantity(value, dimension) => plain(*value, *dimension, 6),
+        Value::Quantities(values, dimension) => {
+            let texts: Vec<String> = values
+                .iter()
+                .map(|value| plain(*value, *dimension, 6))
+                .collect();
+            texts.join(", ")
+        }
+        Value::Number(number) => number.to_string(),
+        Value::Integer(integer) => integer.to_string(),
+        Value::Text(text) => text.clone(),
+        Value::Tables(tables) => format!("{} of them", tables.len()),
+    }
+}
+
+/// What the nodes of an engine are called.
+pub fn nodes_name(engine: EngineKind) -> &'static str {
+    match engine {
+        EngineKind::Axisymmetric => "springs",
+        EngineKind::HalfSpace => "cells per side",
+    }
+}
+
+/// Smallest and largest of some values; `decimals` 0 prints whole numbers, others that many significant digits.
+pub fn range(values: impl Iterator<Item = f64>, digits: usize) -> String {
+    let (low, high) = number::range(values);
+    if low > high {
+        return "not estimated".to_owned();
+    }
+    let text = |value: f64| match digits {
+        0 => format!("{value:.0}"),
+        _ => scientific(value, digits),
+    };
+    if low == high {
+        text(low)
+    } else {
+        format!("{} to {}", text(low), text(high))
+    }
+}
+
+/// Items of a list as words: `a`, `a and b`, `a, b and c`.
+pub fn listed(items: &[String]) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// A paragraph in lines of at most so many columns, as far as its words allow; `first` stands before the first line, `next` before
+/// the others.
+pub fn wrapped(text: &str, columns: usize, first: &str, next: &str) -> String {
+    let mut lines = vec![first.to_owned()];
+    let mut is_empty = true;
+    for word in text.split_whitespace() {
+        let line = lines.last().map_or(0, |line| line.chars().count());
+        if !is_empty && line + 1 + word.chars().count() > columns {
+            lines.push(next.to_owned());
+            is_empty = true;
+        }
+        if let Some(line) = lines.last_mut() {
+            if !is_empty {
+                line.push(' ');
+            }
+            line.push_str(word);
+            is_empty = false;
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paragraphs_are_wrapped_between_words() {
+        assert_eq!(wrapped("a bb  ccc d", 6, "", " "), "a bb\n ccc d\n");
+        assert_eq!(
+            wrapped("longer than that", 4, "- ", "  "),
+            "- longer\n  than\n  that\n"
+        );
+        assert_eq!(wrapped("", 9, "    ", ""), "    \n");
+    }
+
+    #[test]
+    fn lists_read_as_words() {
+        let items = |count: usize| -> Vec<String> {
+            ["a", "b", "c"]
+                .iter()
+                .take(count)
+                .map(|item| (*item).to_owned())
+                .collect()
+        };
+        let listed: Vec<String> = (0..=3).map(|count| listed(&items(count))).collect();
+        assert_eq!(listed, ["", "a", "a and b", "a, b and c"]);
+    }
+}
