@@ -67,8 +67,12 @@ pub struct SearchState {
 }
 
 impl SearchState {
-    /// Whether this is a state of this many memory variables.
+    /// Whether this can be a state with this number of memory variables.
     fn fits(&self, variables: usize) -> bool {
+        let (since_best, setbacks) = self.since_best;
+        if since_best.max(setbacks) > self.cycles {
+            return false;
+        }
         let vectors = [&self.start, &self.best.1, &self.best.2];
         let anderson = self.anderson.iter().filter(|v| !v.is_empty());
         let mut all = vectors.into_iter().chain(anderson);

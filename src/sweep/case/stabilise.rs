@@ -269,7 +269,8 @@ impl Contact<'_> {
                 distance,
                 march: state,
             } => {
-                if count > 0 && march.restore(&state) {
+                let under_way = 1..self.cycle.max_cycles;
+                if under_way.contains(&count) && march.restore(&state) {
                     (cycles.count, cycles.distance) = (count, distance);
                 }
                 after_search
