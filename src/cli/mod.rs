@@ -12,6 +12,7 @@ mod memory;
 mod plan;
 mod progress;
 mod reproduce;
+mod schema;
 mod simulate;
 mod stored;
 mod sweep;
@@ -84,6 +85,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Compare(flags) => compare::run(&flags),
         Command::Simulate(flags) => simulate::run(&flags),
         Command::Reproduce(flags) => reproduce::run(&flags),
+        Command::Schema(flags) => schema::run(&flags),
         Command::Material(command) => material::run(&command),
         Command::Completions { shell } => {
             let mut text = Vec::new();

@@ -149,6 +149,7 @@ fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {
 mod tests {
     use crate::input::diagnostic::{Problems, Styling};
     use crate::input::document::Document;
+    use crate::input::document::reader::by_name::ByName;
     use crate::quantity::Dimension;
 
     const FILE: &str = "[drive]\nmean = \"10 N\"\n[sweep]\nfrequency = [1, 2]\n";
@@ -169,7 +170,7 @@ mod tests {
         let mut document = document();
         document.set(argument).expect("it can be set");
         let problems = Problems::new();
-        let mut drive = document.root(&problems).table("drive")?;
+        let mut drive = ByName(document.root(&problems)).table("drive")?;
         Some(drive.quantity("mean", Dimension::Force)?.value)
     }
 
@@ -199,7 +200,7 @@ mod tests {
             document.set(argument).expect("it can be set");
         }
         let problems = Problems::new();
-        let mut root = document.root(&problems);
+        let mut root = ByName(document.root(&problems));
         let mut b = root
             .table("a")
             .and_then(|mut a| a.table("b"))
@@ -224,8 +225,7 @@ mod tests {
         document.set("drive.mean=1 N").expect("it can be set");
         document.set("drive.mean=2 N").expect("it can be set");
         let problems = Problems::new();
-        let mean = document
-            .root(&problems)
+        let mean = ByName(document.root(&problems))
             .table("drive")
             .and_then(|mut drive| drive.quantity("mean", Dimension::Force));
         assert_eq!(mean.map(|found| found.value), Some(2.0));
@@ -320,7 +320,7 @@ mod tests {
         assert!(document.set("drive.mean.value=3").is_err());
         assert!(document.set("new.table.x=[").is_err());
         let problems = Problems::new();
-        let mut root = document.root(&problems);
+        let mut root = ByName(document.root(&problems));
         assert!(!root.has("new"));
     }
 
