@@ -328,6 +328,21 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, QuantityError> {
     Ok(value)
 }
 
+/// A regular expression (of ECMA-262) that every text matches which [`parse`] reads as this dimension. What matches may still be
+/// refused: units that are products or quotients are not looked into, nor is the size of the number.
+pub fn pattern(dimension: Dimension, allow_negative: bool) -> String {
+    let sign = match allow_negative {
+        true => "[-+\u{2212}]?",
+        false => "\\+?",
+    };
+    let alone = units::alone(dimension.profile().exponents).join("|");
+    // Behind the exponent of the number, so that `e-3 N` counts as no product.
+    let product = "(?![eE][-+\u{2212}]?[0-9])[^\\s0-9.].*[/^*·⋅×⁻¹²³⁴⁵⁶⁷⁸⁹0-9 ].*|/.*|1\\s*/.*";
+    format!(
+        "^\\s*{sign}\\s*[0-9.]*[0-9][0-9.]*([eE][-+\u{2212}]?[0-9]+)?\\s*({alone}|{product})\\s*$"
+    )
+}
+
 /// The shortest number that reads back as `value`, with the SI unit: `0.01 m`, `1e-9 1/Pa`.
 ///
 /// [`parse`] returns every finite value bit for bit.

@@ -442,10 +442,7 @@ fn wrong_values_are_refused_at_their_place_before_anything_is_computed() {
             ["outside the sweep", "1.000e-3 rad/s to 1.000 rad/s"],
         ),
         ("loops = []", ["1 to 8 loops", "leave it out"]),
-        (
-            "loops = [\"1 Hz\"]",
-            ["figures.loops[0]", "an angular frequency"],
-        ),
+        ("loops = [\"1 Hz\"]", ["outside the sweep", "1.000 rad/s"]),
         ("width = \"85\"", ["figures.width", "a length"]),
         ("width = \"85 m\"", ["between 20 mm and 1 m", "85 mm"]),
         ("width = \"20 mm\"", ["no room for its text", "font_size"]),
@@ -459,15 +456,15 @@ fn wrong_values_are_refused_at_their_place_before_anything_is_computed() {
             ["no room for its text", "smaller `font_size`"],
         ),
         ("font_size = \"8 pt\"", ["figures.font_size", "a number"]),
-        ("font_size = 100", ["4 to 36 pt", "font_size = 8"]),
+        ("font_size = 100", ["between 4 and 36", "font_size = 8"]),
         (
             "formats = [\"eps\"]",
             ["figures.formats[0]", "\"svg\", \"png\" or \"pdf\""],
         ),
-        ("formats = []", ["in no format", "leave it out"]),
+        ("formats = []", ["has 0 entries", "leave it out"]),
         (
             "formats = [\"svg\", \"svg\"]",
-            ["listed twice", "every format once"],
+            ["listed twice", "every entry once"],
         ),
         ("dpi = 10", ["figures.dpi", "from 30 to 2400"]),
         (

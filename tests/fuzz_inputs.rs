@@ -11,6 +11,7 @@ use std::fs;
 use std::path::Path;
 
 use contact_dma::input::document::Document;
+use contact_dma::input::keys;
 use contact_dma::input::sweep_file;
 use contact_dma::report::comparison::{Comparison, SweepTable, Tolerances};
 use contact_dma::sweep::case::Setup;
@@ -69,7 +70,11 @@ fn piece() -> impl Strategy<Value = Vec<u8>> {
         "\"\"\"",
     ];
     let known = prop::sample::select(known.map(|text| text.as_bytes().to_vec()).to_vec());
-    prop_oneof![known, prop::collection::vec(any::<u8>(), 0..6)]
+    let words = keys::words()
+        .into_iter()
+        .map(|word| word.as_bytes().to_vec());
+    let words = prop::sample::select(words.collect::<Vec<_>>());
+    prop_oneof![2 => known, 1 => words, 2 => prop::collection::vec(any::<u8>(), 0..6)]
 }
 
 fn changes() -> impl Strategy<Value = Vec<Change>> {

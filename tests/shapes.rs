@@ -968,8 +968,12 @@ fn what_is_wrong_with_an_indenter_is_said_at_its_place() {
         ),
         (map("map.csv", ""), vec!["missing key `indenter.spacing`"]),
         (
-            map("map.csv", "spacing = [1e-6]"),
-            vec!["sweep.toml:7:11", "has 1 entries, not 2"],
+            map("map.csv", "spacing = [1e-6, 1e-6, 1e-6]"),
+            vec![
+                "sweep.toml:7:11",
+                "has 3 entries",
+                "one for x and one for y",
+            ],
         ),
         (
             map("map.csv", "spacing = \"0 um\""),
@@ -1070,7 +1074,7 @@ fn what_is_wrong_with_an_indenter_is_said_at_its_place() {
         ),
         (
             "shape = \"sphere\"\nradius = 1\noffset = \"1 um\"".to_owned(),
-            vec!["`indenter.offset` must be an array"],
+            vec!["`indenter.offset` has 1 entries", "one for x and one for y"],
         ),
     ] {
         let message = refused(folder.path(), &block);

@@ -412,7 +412,7 @@ fn the_window_and_the_alternatives_of_a_series_are_read_and_bad_ones_are_shown()
         "[[material.alternative]]\nequilibrium = -1\nbranches = []\n",
     );
     assert!(
-        wrong.contains("an equilibrium modulus cannot be negative"),
+        wrong.contains("`material.alternative[0].equilibrium` cannot be negative"),
         "{wrong}"
     );
     let zener = "[material]\npoisson_ratio = 0.3\n[material.zener]\nspring = 1e9\nkelvin_spring = 1e8\ntime = 1\n";

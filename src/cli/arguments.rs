@@ -52,6 +52,8 @@ pub(super) enum Command {
     /// Look at materials: their series, moduli over frequency, sources
     #[command(subcommand)]
     Material(MaterialCommand),
+    /// Print the JSON Schema of sweep or scenario files, by which editors complete and check them
+    Schema(super::schema::SchemaFlags),
     /// Print a completion script for a shell
     #[command(after_help = "\
 Example:

@@ -6,6 +6,8 @@ use std::path::Path;
 use super::Failure;
 use crate::input::diagnostic::Problems;
 use crate::input::document::Document;
+use crate::input::keys;
+use crate::input::keys::drive::SEGMENTS;
 
 /// Refuses a scenario.
 pub(super) fn sweep(document: &Document, file: &Path) -> Result<(), Failure> {
@@ -40,16 +42,16 @@ fn both(file: &Path) -> Failure {
 
 fn has_sweep(document: &Document) -> bool {
     // What is wrong with the file is told when it is read in earnest.
-    document.root(&Problems::new()).has("sweep")
+    document.root(&Problems::new()).has(&keys::SWEEP)
 }
 
 fn has_segments(document: &Document) -> bool {
     let problems = Problems::new();
     let mut root = document.root(&problems);
-    root.has("drive")
+    root.has(&keys::HISTORY)
         && root
-            .table("drive")
-            .is_some_and(|mut drive| drive.has("segments"))
+            .table(&keys::HISTORY)
+            .is_some_and(|mut drive| drive.has(&SEGMENTS))
 }
 
 fn other(file: &Path, what: &str, command: &str) -> Failure {

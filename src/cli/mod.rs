@@ -13,6 +13,7 @@ mod memory;
 mod plan;
 mod progress;
 mod reproduce;
+mod schema;
 mod simulate;
 mod stored;
 mod sweep;
@@ -87,6 +88,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Compare(flags) => compare::run(&flags, format),
         Command::Simulate(flags) => simulate::run(&flags, format),
         Command::Reproduce(flags) => reproduce::run(&flags, format),
+        Command::Schema(flags) => schema::run(&flags),
         Command::Material(command) => material::run(&command, format),
         Command::Completions { shell } => {
             let mut text = Vec::new();

@@ -12,7 +12,7 @@ use super::{Ended, Failure, json, print};
 use crate::input::diagnostic::Problems;
 use crate::input::document::Document;
 use crate::input::figures_block::{self, Figures};
-use crate::input::sweep_file::optional;
+use crate::input::keys;
 use crate::input::{scenario_file, sweep_file};
 use crate::report::words::wrapped;
 use crate::reproduction::{
@@ -113,7 +113,7 @@ fn figures(set: &[String]) -> Result<FigurePlan, Failure> {
     }
     let problems = Problems::new();
     let mut root = document.root(&problems);
-    let figures = optional(&mut root, "figures", Figures::default(), |table| {
+    let figures = root.table_or(&keys::SCENARIO_FIGURES, Figures::default(), |table| {
         figures_block::read(table, &problems)
     });
     root.finish();

@@ -38,7 +38,7 @@ pub enum Control {
 
 impl Control {
     /// The name as written in a file, which is also that of the quantity.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Load => "load",
             Self::Approach => "approach",

@@ -1,74 +1,22 @@
 //! Sweep and scenario files: TOML in which every key and value knows where it was written.
 //!
 //! A [`Document`] is parsed from a file and changed by `--set KEY=VALUE` flags. It is then read through
-//! [`TableReader`]s, which turn values into typed ones and report to [`Problems`] instead of stopping at the
-//! first mistake. Three rules keep reading code short:
+//! `TableReader`s, which turn values into typed ones and report to [`Problems`] instead of stopping at the
+//! first mistake. What a key may hold is in its row (`row::Row`). Three rules keep reading code short:
 //!
-//! - `None` from a reader method means that a problem was reported. (From the `optional_` methods it may
-//!   also mean that the key is absent; [`TableReader::has`] tells the two apart.)
+//! - `None` from a reader method means that a problem was reported. Of a key that may be left out, the answer within is `None` too.
 //! - A value comes as [`Located`], so that a check made later can still point at it.
-//! - [`TableReader::finish`], called once all keys were asked for, reports the keys nobody asked for. Do not
+//! - `TableReader::finish`, called once all keys were asked for, reports the keys nobody asked for. Do not
 //!   call it where a wrong value leaves open which keys belong to the table.
-//!
-//! ```
-//! use contact_dma::input::diagnostic::{Diagnostics, Problems, Styling};
-//! use contact_dma::input::document::Document;
-//! use contact_dma::quantity::Dimension;
-//!
-//! /// Mean and amplitude of the load, newtons.
-//! fn read_load(document: &Document) -> Result<(f64, f64), Diagnostics> {
-//!     let problems = Problems::new();
-//!     let mut root = document.root(&problems);
-//!     let load = root.table("drive").and_then(|mut drive| {
-//!         let mean = drive.quantity("mean", Dimension::Force);
-//!         let amplitude = drive.quantity("amplitude", Dimension::Force);
-//!         drive.finish();
-//!         let (mean, amplitude) = (mean?, amplitude?);
-//!         if amplitude.value > mean.value {
-//!             problems
-//!                 .at(&amplitude, "the load becomes negative within a cycle")
-//!                 .because("larger than the mean")
-//!                 .label(&mean, "the mean")
-//!                 .help("choose an amplitude of at most the mean");
-//!         }
-//!         Some((mean.value, amplitude.value))
-//!     });
-//!     root.finish();
-//!     problems.into_result(load)
-//! }
-//!
-//! let text = "[drive]\nmean = \"10 N\"\namplitude = \"5 N\"\n";
-//! let mut document = Document::parse("sweep.toml", text)?;
-//! assert_eq!(read_load(&document)?, (10.0, 5.0));
-//!
-//! document.set("drive.amplitude=12 N")?;
-//! let refused = read_load(&document).unwrap_err();
-//! assert_eq!(
-//!     refused.render(Styling::Plain),
-//!     "\
-//! error: the load becomes negative within a cycle
-//!  --> command line:1:23
-//!   |
-//!   | --set drive.amplitude=12 N
-//!   |                       ^^^^ larger than the mean
-//!   |
-//!  ::: sweep.toml:2:8
-//!   |
-//! 2 | mean = \"10 N\"
-//!   |        ------ the mean
-//!   |
-//!   = help: choose an amplitude of at most the mean
-//! "
-//! );
-//! # Ok::<(), Diagnostics>(())
-//! ```
 
 mod assignment;
-mod kind;
-mod reader;
+pub(crate) mod kind;
+pub(crate) mod limits;
+pub(crate) mod reader;
+pub(crate) mod row;
 mod similar;
 mod syntax;
-mod tree;
+pub(crate) mod tree;
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -78,7 +26,7 @@ use std::sync::Arc;
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use tree::Table;
 
-pub use reader::{Form, TableReader};
+use reader::TableReader;
 
 /// Largest file read, bytes. Sweep files have a few kilobytes; tables of data belong in files of their own.
 pub const MAX_BYTES: usize = 10_000_000;
@@ -103,6 +51,11 @@ impl<T> Located<T> {
             location: self.location,
         }
     }
+}
+
+/// The values of a list without their places.
+pub(crate) fn plain<T>(list: Vec<Located<T>>) -> Vec<T> {
+    list.into_iter().map(|located| located.value).collect()
 }
 
 impl Located<String> {
@@ -228,7 +181,7 @@ impl Document {
     }
 
     /// Starts reading at the top of the file.
-    pub fn root<'a>(&'a self, problems: &'a Problems) -> TableReader<'a> {
+    pub(crate) fn root<'a>(&'a self, problems: &'a Problems) -> TableReader<'a> {
         let location = Location::whole(&self.source);
         TableReader::new(&self.root, location, String::new(), problems)
     }
@@ -294,6 +247,11 @@ mod tests {
 
     use super::*;
     use crate::input::diagnostic::Styling;
+    use crate::input::document::kind::{
+        Boolean, Choice, Integer, Kind, Table, Text, list, number, quantity,
+    };
+    use crate::input::document::reader::by_name::{NOTHING, below, items, key};
+    use crate::input::document::row::{Optional, Required, Row};
     use crate::quantity::Dimension;
 
     fn refusal(bytes: &[u8]) -> String {
@@ -301,6 +259,51 @@ mod tests {
             Ok(_) => "accepted".to_owned(),
             Err(diagnostics) => diagnostics.render(Styling::Plain),
         }
+    }
+
+    /// Mean and amplitude of the load, newtons.
+    fn read_load(document: &Document) -> Result<(f64, f64), Diagnostics> {
+        let problems = Problems::new();
+        let mut root = document.root(&problems);
+        let load = root.table(&below("drive")).and_then(|mut drive| {
+            let mean = drive.read(&row("mean", quantity(Dimension::Force)));
+            let amplitude = drive.read(&row("amplitude", quantity(Dimension::Force)));
+            drive.finish();
+            let (mean, amplitude) = (mean?, amplitude?);
+            if amplitude.value > mean.value {
+                problems
+                    .at(&amplitude, "the load becomes negative within a cycle")
+                    .because("larger than the mean")
+                    .label(&mean, "the mean")
+                    .help("choose an amplitude of at most the mean");
+            }
+            Some((mean.value, amplitude.value))
+        });
+        root.finish();
+        problems.into_result(load)
+    }
+
+    #[test]
+    fn a_check_made_later_points_at_file_and_flag() {
+        let text = "[drive]\nmean = \"10 N\"\namplitude = \"5 N\"\n";
+        let mut document = Document::parse("sweep.toml", text).unwrap();
+        assert_eq!(read_load(&document).unwrap(), (10.0, 5.0));
+        document.set("drive.amplitude=12 N").unwrap();
+        let refused = read_load(&document).unwrap_err();
+        insta::assert_snapshot!(refused.render(Styling::Plain), @r#"
+        error: the load becomes negative within a cycle
+         --> command line:1:23
+          |
+          | --set drive.amplitude=12 N
+          |                       ^^^^ larger than the mean
+          |
+         ::: sweep.toml:2:8
+          |
+        2 | mean = "10 N"
+          |        ------ the mean
+          |
+          = help: choose an amplitude of at most the mean
+        "#);
     }
 
     #[test]
@@ -349,31 +352,42 @@ mod tests {
         "#);
     }
 
+    fn row<K: Kind>(name: &'static str, kind: K) -> Row<K, Required> {
+        key(name, kind, Required)
+    }
+
     /// Reads every key of every table in every way, so that every message is made once.
-    fn read_everything(mut reader: TableReader<'_>, keys: &[String], depth: usize) {
-        for key in keys {
-            let _ = reader.quantity(key, Dimension::Force);
-            let _ = reader.number(key);
-            let _ = reader.positive_integer(key, 1..=10);
-            let _ = reader.string(key);
-            let _ = reader.boolean(key);
-            let _ = reader.choice_of(key, &[("load", ()), ("approach", ())]);
-            let _ = reader.quantities(key, Dimension::Time);
+    fn read_everything(mut reader: TableReader<'_>, keys: &[&'static str], depth: usize) {
+        for &name in keys {
+            let _ = reader.read(&row(name, quantity(Dimension::Force)));
+            let _ = reader.read(&row(name, number("1.0")));
+            let _ = reader.read(&row(name, Integer(1..=10)));
+            let _ = reader.read(&row(name, Text));
+            let _ = reader.read(&row(name, Boolean));
+            let _ = reader.read(&row(name, Choice(&[("load", ()), ("approach", ())])));
+            let _ = reader.read(&row(name, list(quantity(Dimension::Time))));
             if depth < 3 {
-                let inner = reader.optional_table(key);
-                let items = reader.optional_tables(key).map(|items| items.value);
-                for reader in inner.into_iter().chain(items.into_iter().flatten()) {
-                    read_everything(reader, keys, depth + 1);
-                }
+                let below = key(name, Table(&NOTHING), Optional);
+                let _ = reader.table_or(&below, (), |inner| {
+                    read_everything(inner, keys, depth + 1);
+                    None
+                });
+                let _ = reader.optional_tables(&items(name, Optional), |inner| {
+                    read_everything(inner, keys, depth + 1);
+                    Some(())
+                });
             }
         }
-        let _ = reader.one_of(&[("a", ()), ("b", ())]);
+        let _ = reader.one_of(&[
+            (&crate::input::keys::TITLE, ()),
+            (&crate::input::keys::SWEEP, ()),
+        ]);
         reader.finish();
     }
 
     fn report(document: &Document) -> String {
         let problems = Problems::new();
-        let keys = ["a", "b", "mean", "a-b"].map(str::to_owned);
+        let keys = ["a", "b", "mean", "a-b"];
         read_everything(document.root(&problems), &keys, 0);
         problems
             .into_result(Some(()))

@@ -1,20 +1,18 @@
 //! The `[figures]` block of sweep and scenario files: how figures are to look.
 
 use super::diagnostic::Problems;
-use super::document::{Located, TableReader};
+use super::document::reader::TableReader;
+use super::document::{Located, plain};
+use super::keys::settings::{
+    AXES, COLUMN, FONT_SIZE_PT, FORMATS, FREQUENCY_UNIT, HEIGHT, LOOPS, RESOLUTION, TITLES, WIDTH,
+};
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
-use crate::sweep::figures::figure_plan::{AxisUnits, COLUMNS, FigurePlan, Format};
+use crate::sweep::figures::figure_plan::{AxisUnits, FigurePlan, Format};
 
-/// Sides (m), text (pt) and resolutions beyond these are a slip of the pen rather than a wish.
-const SIDE_M: std::ops::RangeInclusive<f64> = 0.02..=1.0;
-const FONT_SIZE_PT: std::ops::RangeInclusive<f64> = 4.0..=36.0;
-const DPI: std::ops::RangeInclusive<usize> = 30..=2400;
 /// Less room than this (in px of the drawing, whose text is 16 px) is no figure; more pixels than this no computer shows.
 const LEAST_WIDTH_PX: f64 = 320.0;
 const LEAST_HEIGHT_PX: f64 = 240.0;
 const MOST_PIXELS: f64 = 16_000.0;
-/// More loops than this cannot be told apart.
-const MOST_LOOPS: usize = 8;
 
 /// Reads the block of a sweep file; `None` where a problem was reported. `frequencies_rad_per_s` are those of the sweep,
 /// ascending, given in this unit.
@@ -24,11 +22,11 @@ pub(crate) fn of_sweep(
     problems: &Problems,
 ) -> Option<Figures> {
     let loops = loops(&mut table, frequencies_rad_per_s, problems);
-    let unit = table.choice_of_or("frequency_unit", &FrequencyUnit::NAMES, given_in);
+    let unit = table.value(&FREQUENCY_UNIT);
     let figures = read(table, problems);
     let (loops_rad_per_s, unit, mut figures) = (loops?, unit?, figures?);
     figures.plan.loops_rad_per_s = loops_rad_per_s;
-    figures.plan.frequency_unit = unit.value;
+    figures.plan.frequency_unit = unit.unwrap_or(given_in);
     Some(figures)
 }
 
@@ -69,32 +67,29 @@ impl Figures {
 /// Reads the keys that sweeps and scenarios share; `None` where a problem was reported.
 pub(crate) fn read(mut table: TableReader<'_>, problems: &Problems) -> Option<Figures> {
     let default = FigurePlan::default();
-    let width = width(&mut table, problems);
-    let height = side(&mut table, "height", problems);
-    let font_size = font_size(&mut table, problems);
-    let formats = formats(&mut table, problems);
-    let dpi = match table.has("dpi") {
-        true => table.optional_positive_integer("dpi", DPI).map(Some),
-        false => Some(None),
+    let width = match table.has(&WIDTH) && table.has(&COLUMN) {
+        true => table.one_of(&[(&WIDTH, ()), (&COLUMN, ())]).map(|()| None),
+        false if table.has(&COLUMN) => table.read(&COLUMN),
+        false => table.read(&WIDTH),
     };
-    let axes = match table.has("axes") {
-        true => table.choice_of("axes", &AxisUnits::NAMES).map(Some),
-        false => Some(None),
-    };
-    let titles = table.boolean_or("titles", default.titles);
+    let height = table.read(&HEIGHT);
+    let font_size_pt = table.value(&FONT_SIZE_PT);
+    let formats = table.value(&FORMATS);
+    let (dpi, axes) = (table.read(&RESOLUTION), table.read(&AXES));
+    let titles = table.value(&TITLES);
     table.finish();
-    let (width, height, font_size, dpi, axes) = (width?, height?, font_size?, dpi?, axes?);
+    let (width, height, dpi, axes) = (width?, height?, dpi?, axes?);
     let value = |located: &Option<Located<f64>>| located.as_ref().map(|located| located.value);
     let plan = FigurePlan {
         loops_rad_per_s: Vec::new(),
         width_m: value(&width),
         height_m: value(&height),
-        font_size_pt: value(&font_size),
-        formats: formats?,
+        font_size_pt: font_size_pt?,
+        formats: formats?.map_or(default.formats, plain),
         dpi: dpi.as_ref().map(|dpi| dpi.value),
         axes: axes.as_ref().map_or(default.axes, |axes| axes.value),
         frequency_unit: default.frequency_unit,
-        titles: titles?.value,
+        titles: titles?.unwrap_or(default.titles),
     };
     let asked = Asked { width, height, dpi };
     asked
@@ -157,92 +152,15 @@ impl Asked {
     }
 }
 
-/// The width: a length, or that of a journal's columns.
-fn width(table: &mut TableReader<'_>, problems: &Problems) -> Option<Option<Located<f64>>> {
-    if table.has("column") && table.has("width") {
-        table.one_of(&[("width", ()), ("column", ())])?;
-    }
-    if table.has("column") {
-        return table.choice_of("column", &COLUMNS).map(Some);
-    }
-    side(table, "width", problems)
-}
-
-fn side(
-    table: &mut TableReader<'_>,
-    key: &str,
-    problems: &Problems,
-) -> Option<Option<Located<f64>>> {
-    if !table.has(key) {
-        return Some(None);
-    }
-    let side = table.optional_quantity(key, Dimension::Length)?;
-    if SIDE_M.contains(&side.value) {
-        return Some(Some(side));
-    }
-    problems
-        .at(
-            &side,
-            format!("the {key} of a figure lies between 20 mm and 1 m"),
-        )
-        .help(format!("a figure one column wide has `{key} = \"85 mm\"`"));
-    None
-}
-
-fn font_size(table: &mut TableReader<'_>, problems: &Problems) -> Option<Option<Located<f64>>> {
-    if !table.has("font_size") {
-        return Some(None);
-    }
-    let size = table.optional_number("font_size")?;
-    if FONT_SIZE_PT.contains(&size.value) {
-        return Some(Some(size));
-    }
-    problems
-        .at(&size, "the text of a figure has 4 to 36 pt")
-        .help("write a number of points without a unit, such as `font_size = 8`");
-    None
-}
-
-fn formats(table: &mut TableReader<'_>, problems: &Problems) -> Option<Vec<Format>> {
-    if !table.has("formats") {
-        return Some(FigurePlan::default().formats);
-    }
-    let list = table.choices_of("formats", &Format::NAMES)?;
-    if list.value.is_empty() {
-        problems
-            .at(&list, "figures in no format are none")
-            .help("write `formats = [\"svg\", \"png\"]`, or leave it out");
-        return None;
-    }
-    let mut formats: Vec<Format> = Vec::new();
-    for format in list.value {
-        if formats.contains(&format.value) {
-            problems
-                .at(&format, "this format is listed twice")
-                .help("write every format once, as in `formats = [\"svg\", \"png\"]`");
-            return None;
-        }
-        formats.push(format.value);
-    }
-    Some(formats)
-}
-
 /// The frequencies (rad/s) whose loops are drawn, each within the sweep.
 fn loops(
     table: &mut TableReader<'_>,
     frequencies_rad_per_s: Option<&[f64]>,
     problems: &Problems,
 ) -> Option<Vec<f64>> {
-    if !table.has("loops") {
+    let Some(list) = table.read(&LOOPS)? else {
         return Some(Vec::new());
-    }
-    let list = table.optional_quantities("loops", Dimension::AngularFrequency)?;
-    if list.value.is_empty() || list.value.len() > MOST_LOOPS {
-        problems
-            .at(&list, format!("a figure shows 1 to {MOST_LOOPS} loops"))
-            .help("write `loops = [\"0.01 rad/s\"]`, or leave it out: then some are chosen");
-        return None;
-    }
+    };
     // Where the frequencies are wrong, that has been reported.
     let ends = frequencies_rad_per_s.and_then(|all| Some((*all.first()?, *all.last()?)));
     let (first, last) = ends?;
@@ -261,5 +179,5 @@ fn loops(
             .help("choose one within it, or widen the sweep");
         fine = false;
     }
-    fine.then(|| list.value.into_iter().map(|w| w.value).collect())
+    fine.then(|| plain(list.value))
 }

@@ -1,75 +1,32 @@
 //! The `[indenter]` block of a sweep file.
-//!
-//! ```text
-//! shape = "sphere"        radius
-//!         "cone"          half_angle
-//!         "flat-punch"    radius
-//!         "ellipsoid"     radius_x, radius_y                      principal radii of curvature
-//!         "power-law"     exponent, radius, height                gap = height (r / radius)^exponent
-//!         "profile"       file                                    columns r_m, gap_m, from the axis outwards
-//!         "height-map"    file, spacing                           a matrix (CSV or .npy), or columns x_m, y_m, z_m without
-//!                         quantity = "height" | "gap"             spacing; heights are positive towards the half-space
-//!                         height_unit = "m" | "um" | ...          of a matrix
-//!                         level = "none" | "mean" | "plane"       what is taken off the values
-//!                         edge = "unknown" | "rim"
-//!         "asperities"    asperities = [{ center, radius, height }, ...]
-//!         "rough"         cells, spacing, hurst_exponent, rms_height, cut_off_wavelength, roll_off_wavelength, seed,
-//!                         sphere_radius, edge
-//! offset = ["1 um", "0 um"]                                       moves any of them
-//! ```
-//!
-//! Paths start from the folder of the sweep file, in a flag from the working folder. `sha256` beside a `file` makes sure that it is still the same one.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use super::data_file;
 use super::diagnostic::Problems;
-use super::document::{Form, Located, TableReader};
+use super::document::kind::{Describe, Scalar};
+use super::document::reader::TableReader;
+use super::document::row::{Required, Row};
+use super::document::{Located, plain};
 use super::field_file;
+use super::keys::indenter::{
+    ASPERITY_HEIGHT, ASPERITY_LIST, ASPERITY_RADIUS, CENTER, CUT_OFF_WAVELENGTH, EDGE, EXPONENT,
+    FILE, GAP_HEIGHT, GAP_RADIUS, HALF_ANGLE, HEIGHT_UNIT, HURST_EXPONENT, LEVEL, MAP_QUANTITY,
+    MAP_SPACING, OFFSET, RADIUS, RADIUS_X, RADIUS_Y, RMS_HEIGHT, ROLL_OFF_WAVELENGTH, ROUGH_SIDE,
+    ROUGH_SPACING, SEED, SHA256, SHAPE, SPHERE_RADIUS, Shape,
+};
 use crate::indenter::{
     Asperities, Asperity, Cone, DataFile, Ellipsoid, FlatPunch, HEIGHT_UNITS, HeightMap,
-    HeightUnit, Indenter, IndenterError, MapEdge, MapLevel, MapQuantity, MapSource, PowerLaw,
-    Profile, Rough, Roughness, Shifted, Sphere,
+    HeightUnit, Indenter, IndenterError, MapEdge, MapLevel, MapSource, PowerLaw, Profile, Rough,
+    Roughness, Shifted, Sphere,
 };
-use crate::quantity::Dimension;
 use crate::sweep::plan::resolved;
 
-#[derive(Debug, Clone, Copy)]
-enum Shape {
-    Sphere,
-    Cone,
-    FlatPunch,
-    Ellipsoid,
-    PowerLaw,
-    Profile,
-    HeightMap,
-    Asperities,
-    Rough,
-}
-
-const SHAPES: [(&str, Shape); 9] = [
-    ("sphere", Shape::Sphere),
-    ("cone", Shape::Cone),
-    ("flat-punch", Shape::FlatPunch),
-    ("ellipsoid", Shape::Ellipsoid),
-    ("power-law", Shape::PowerLaw),
-    ("profile", Shape::Profile),
-    ("height-map", Shape::HeightMap),
-    ("asperities", Shape::Asperities),
-    ("rough", Shape::Rough),
-];
-
-/// More asperities than this are a height map.
-const MAX_ASPERITIES: usize = 10_000;
 /// The median slope of a map above which it is no surface in contact. Of rough surfaces, paraboloids, punches with walls and maps
 /// with 5 % of bad points the median was at most 0.6 (a cone 30 degrees from flat); the same heights in micrometres read as metres
 /// gave 2e4 and more. The root mean square is above 1 for walls and bad points, too.
 const STEEPEST_MAP: f64 = 1.0;
-/// Cells per side of a rough surface.
-const ROUGH_CELLS: std::ops::RangeInclusive<usize> = 8..=4096;
-/// TOML has signed integers of 64 bits.
-const SEEDS: std::ops::RangeInclusive<usize> = 0..=i64::MAX as usize;
 
 /// A shape, or nothing where a problem was reported.
 type Made = Option<Arc<dyn Indenter>>;
@@ -81,12 +38,12 @@ pub(super) fn read(table: TableReader<'_>, folder: &Path, problems: &Problems) -
         folder,
         problems,
     };
-    let shape = block.table.choice_of("shape", &SHAPES)?;
-    let offset = block.offset();
+    let shape = block.table.read(&SHAPE)?;
+    let offset = block.table.value(&OFFSET);
     let made = match shape.value {
-        Shape::Sphere => block.single("radius", Dimension::Length, "10 mm", Sphere::new),
-        Shape::Cone => block.single("half_angle", Dimension::Angle, "70 deg", Cone::new),
-        Shape::FlatPunch => block.single("radius", Dimension::Length, "10 mm", FlatPunch::new),
+        Shape::Sphere => block.single(&RADIUS, Sphere::new),
+        Shape::Cone => block.single(&HALF_ANGLE, Cone::new),
+        Shape::FlatPunch => block.single(&RADIUS, FlatPunch::new),
         Shape::Ellipsoid => block.ellipsoid(&shape),
         Shape::PowerLaw => block.power_law(&shape),
         Shape::Profile => block.profile(),
@@ -96,13 +53,13 @@ pub(super) fn read(table: TableReader<'_>, folder: &Path, problems: &Problems) -
     };
     block.table.finish();
     let (made, offset) = (made?, offset?);
-    match offset {
-        Some((x_m, y_m)) => {
+    match offset.map(plain).as_deref() {
+        Some(&[x_m, y_m]) => {
             let shifted = Shifted::new(made, x_m, y_m);
             let shifted = shifted.map_err(|error| problems.at(&shape, error.to_string()));
             Some(Arc::new(shifted.ok()?))
         }
-        None => Some(made),
+        _ => Some(made),
     }
 }
 
@@ -116,15 +73,13 @@ impl Block<'_> {
     /// A shape made of one number.
     fn single<S: Indenter + 'static>(
         &mut self,
-        key: &str,
-        dimension: Dimension,
-        example: &str,
+        row: &Row<Scalar, Required>,
         make: fn(f64) -> Result<S, IndenterError>,
     ) -> Made {
-        let size = self.table.quantity(key, dimension)?;
+        let size = self.table.read(row)?;
         let made = make(size.value).map_err(|error| {
             let report = self.problems.at(&size, error.to_string());
-            report.help(format!("for example {key} = \"{example}\""));
+            report.help(format!("for example {} = {}", row.name, row.kind.example()));
         });
         Some(Arc::new(made.ok()?))
     }
@@ -144,62 +99,14 @@ impl Block<'_> {
         }
     }
 
-    /// A length above zero.
-    fn length(&mut self, key: &str) -> Option<f64> {
-        let length = self.table.quantity(key, Dimension::Length)?;
-        self.positive(&length)
-    }
-
-    /// A length above zero that may be absent: `None` is a problem, `Some(None)` an absent key.
-    fn optional_length(&mut self, key: &str) -> Option<Option<f64>> {
-        if !self.table.has(key) {
-            return Some(None);
-        }
-        self.length(key).map(Some)
-    }
-
-    fn positive(&self, length: &Located<f64>) -> Option<f64> {
-        if length.value > 0.0 {
-            return Some(length.value);
-        }
-        self.problems
-            .at(length, format!("`{}` must be above zero", length.path));
-        None
-    }
-
-    /// Two lengths, x and y.
-    fn pair(&mut self, key: &str) -> Option<[Located<f64>; 2]> {
-        let list = self.table.quantities(key, Dimension::Length)?;
-        let count = list.value.len();
-        let place = list.location.clone();
-        match <[Located<f64>; 2]>::try_from(list.value) {
-            Ok(pair) => Some(pair),
-            Err(_) => {
-                let message = format!("`{}` has {count} entries, not 2", list.path);
-                let help = format!("write one for x and one for y: {key} = [\"1 um\", \"0 um\"]");
-                self.problems.at(&place, message).help(help);
-                None
-            }
-        }
-    }
-
-    /// The offset, where there is one.
-    fn offset(&mut self) -> Option<Option<(f64, f64)>> {
-        if !self.table.has("offset") {
-            return Some(None);
-        }
-        let [x, y] = self.pair("offset")?;
-        Some(Some((x.value, y.value)))
-    }
-
     fn ellipsoid(&mut self, shape: &Located<Shape>) -> Made {
-        let (x_m, y_m) = (self.length("radius_x"), self.length("radius_y"));
+        let (x_m, y_m) = (self.table.value(&RADIUS_X), self.table.value(&RADIUS_Y));
         self.made(shape, Ellipsoid::new(x_m?, y_m?))
     }
 
     fn power_law(&mut self, shape: &Located<Shape>) -> Made {
-        let exponent = self.table.number("exponent");
-        let (radius_m, height_m) = (self.length("radius"), self.length("height"));
+        let exponent = self.table.read(&EXPONENT);
+        let (radius_m, height_m) = (self.table.value(&GAP_RADIUS), self.table.value(&GAP_HEIGHT));
         let (exponent, radius_m, height_m) = (exponent?, radius_m?, height_m?);
         match PowerLaw::new(exponent.value, radius_m, height_m) {
             refused @ Err(IndenterError::Exponent { .. }) => self.made(&exponent, refused),
@@ -208,65 +115,39 @@ impl Block<'_> {
     }
 
     fn asperities(&mut self) -> Made {
-        let tables = self.table.tables("asperities")?;
-        let Located {
-            value: tables,
-            path,
-            location,
-        } = tables;
-        let place = Located {
-            value: (),
-            path,
-            location,
-        };
-        if tables.len() > MAX_ASPERITIES {
-            let message = format!("{} asperities are too many", tables.len());
-            let help = format!("give at most {MAX_ASPERITIES}, or a height map");
-            self.problems.at(&place, message).help(help);
-            return None;
-        }
-        let asperity = |table| {
-            let mut block = Block {
-                table,
-                folder: self.folder,
-                problems: self.problems,
-            };
-            let (center, radius_m) = (block.pair("center"), block.length("radius"));
-            let height = block.table.quantity_or("height", Dimension::Length, 0.0);
-            block.table.finish();
-            let [x, y] = center?;
+        let all = self.table.tables(&ASPERITY_LIST, |mut table| {
+            let (center, radius_m) = (table.value(&CENTER), table.value(&ASPERITY_RADIUS));
+            let height_m = table.value(&ASPERITY_HEIGHT);
+            table.finish();
+            let [center_x_m, center_y_m] = plain(center?).try_into().ok()?;
             Some(Asperity {
-                center_x_m: x.value,
-                center_y_m: y.value,
+                center_x_m,
+                center_y_m,
                 radius_m: radius_m?,
-                height_m: height?.value,
+                height_m: height_m?,
             })
-        };
-        // All are read, so that all problems are reported.
-        let all: Vec<_> = tables.into_iter().map(asperity).collect();
-        let all: Option<Vec<Asperity>> = all.into_iter().collect();
-        self.made(&place, Asperities::new(all?))
+        })?;
+        let asperities = Asperities::new(all.value.clone());
+        self.made(&all, asperities)
     }
 
     fn rough(&mut self, shape: &Located<Shape>) -> Made {
-        let cells = self.table.positive_integer("cells", ROUGH_CELLS);
-        let spacing_m = self.length("spacing");
-        let hurst = self.table.number("hurst_exponent");
-        let rms_height_m = self.length("rms_height");
-        let roll_off = self.optional_length("roll_off_wavelength");
-        let cut_off = self.length("cut_off_wavelength");
-        let seed = self.table.positive_integer("seed", SEEDS);
-        let sphere = self.optional_length("sphere_radius");
-        let edge = self.edge();
+        let table = &mut self.table;
+        let (cells, spacing_m) = (table.value(&ROUGH_SIDE), table.value(&ROUGH_SPACING));
+        let (hurst, rms_height_m) = (table.read(&HURST_EXPONENT), table.value(&RMS_HEIGHT));
+        let roll_off = table.value(&ROLL_OFF_WAVELENGTH);
+        let cut_off = table.value(&CUT_OFF_WAVELENGTH);
+        let (seed, sphere) = (table.value(&SEED), table.value(&SPHERE_RADIUS));
+        let edge = table.value(&EDGE);
         let hurst = hurst?;
         let made = Rough::new(Roughness {
-            cells: cells?.value,
+            cells: cells?,
             spacing_m: spacing_m?,
             hurst_exponent: hurst.value,
             rms_height_m: rms_height_m?,
             roll_off_wavelength_m: roll_off?,
             cut_off_wavelength_m: cut_off?,
-            seed: seed?.value as u64,
+            seed: seed? as u64,
             sphere_radius_m: sphere?,
             edge: edge?,
         });
@@ -276,21 +157,10 @@ impl Block<'_> {
         }
     }
 
-    fn edge(&mut self) -> Option<MapEdge> {
-        let edge = self
-            .table
-            .choice_of_or("edge", &MapEdge::NAMES, MapEdge::Unknown);
-        edge.map(|edge| edge.value)
-    }
-
     /// The bytes under `file`, once they are known to be those of `sha256`.
     fn file(&mut self) -> Option<DataOf<Vec<u8>>> {
-        let file = self.table.string("file");
-        let sha256 = match self.table.has("sha256") {
-            true => Some(self.table.string("sha256")?),
-            false => None,
-        };
-        let file = file?;
+        let (file, sha256) = (self.table.read(&FILE), self.table.read(&SHA256));
+        let (file, sha256) = (file?, sha256?);
         let path = file.path_from(self.folder);
         let (name, bytes) = data_file::named(&file, self.folder, self.problems)?;
         let hash = resolved::hash_of_bytes(&bytes);
@@ -331,30 +201,20 @@ impl Block<'_> {
     }
 
     fn height_map(&mut self) -> Made {
-        let quantity =
-            self.table
-                .choice_of_or("quantity", &MapQuantity::NAMES, MapQuantity::Height);
-        let unit = self
-            .table
-            .choice_of_or("height_unit", &HEIGHT_UNITS, HEIGHT_UNITS[0].1);
-        let level = self
-            .table
-            .choice_of_or("level", &MapLevel::NAMES, MapLevel::None);
-        let edge = self.edge();
-        let given = self.table.key_location("spacing");
-        let unit_given = self.table.key_location("height_unit");
-        let file = self.file();
-        // Without the file it is not known whether there must be a spacing; one that is there is read all the same.
-        let spacing = given.is_some().then(|| self.spacing());
+        let quantity = self.table.value(&MAP_QUANTITY);
+        let (unit, level) = (self.table.value(&HEIGHT_UNIT), self.table.value(&LEVEL));
+        let edge = self.table.value(&EDGE);
+        let given = self.table.key_location(&MAP_SPACING);
+        let unit_given = self.table.key_location(&HEIGHT_UNIT);
+        let (spacing, file) = (self.table.value(&MAP_SPACING), self.file());
         let file = file?;
         let field = field_file::field(&file.name, &file.data);
         let mut field = data_file::accepted(field, &file.place, self.problems)?;
-        let spacing_m = match (field.spacing_m, spacing) {
+        let spacing_m = match (field.spacing_m, spacing?) {
             (Some(spacing_m), None) => spacing_m,
-            (None, Some(spacing_m)) => spacing_m?,
+            (None, Some(each)) => (each.first()?.value, each.last()?.value),
             (None, None) => {
-                // Asks for the key, which reports it as missing.
-                self.table.quantity("spacing", Dimension::Length);
+                self.table.report_absent(&MAP_SPACING);
                 return None;
             }
             (Some(_), Some(_)) => {
@@ -367,8 +227,8 @@ impl Block<'_> {
         let source = MapSource {
             data: file.source,
             gives_places: field.spacing_m.is_some(),
-            height_unit: unit?.value,
-            level: level?.value,
+            height_unit: unit?,
+            level: level?,
         };
         if let (true, Some(place)) = (source.gives_places, unit_given) {
             let message = "the file names its columns, and with them their unit";
@@ -380,7 +240,7 @@ impl Block<'_> {
         field.values_m.iter_mut().for_each(|z| *z /= per_m);
         source.level.take_off(field.cells_x, &mut field.values_m);
         let cells = (field.cells_x, field.cells_y);
-        let map = HeightMap::new(cells, spacing_m, field.values_m, quantity?.value, edge?);
+        let map = HeightMap::new(cells, spacing_m, field.values_m, quantity?, edge?);
         if let Ok(map) = &map {
             self.check_slopes(map, &source, &file.place, &file.name)?;
             self.check_border(map, &source, &file.place, &file.name)?;
@@ -450,15 +310,6 @@ impl Block<'_> {
         let because = "beyond the border the shape is not known";
         self.problems.at(place, message).because(because).help(help);
         None
-    }
-
-    /// One spacing for both directions, or two.
-    fn spacing(&mut self) -> Option<(f64, f64)> {
-        if self.table.form("spacing") != Some(Form::Array) {
-            return self.length("spacing").map(|both_m| (both_m, both_m));
-        }
-        let [x, y] = self.pair("spacing")?;
-        Some((self.positive(&x)?, self.positive(&y)?))
     }
 }
 

@@ -1,22 +1,15 @@
 //! The `[material.table]` block: measured data, from a CSV file or written out.
-//!
-//! ```text
-//! file = "creep.csv"                    columns time_s and creep_compliance_per_pa or relaxation_modulus_pa, and other units
-//! times, values = [...], [...]          in place of a file
-//! quantity = "creep" | "relaxation"
-//! modulus = "shear" | "longitudinal"
-//! evaluation = "fit" | "direct"         a series fitted to the samples, or the samples themselves (single histories)
-//! flow = true | false                   whether the series is that of a fluid; absent: as the data say
-//! ```
 
 use std::path::Path;
 
 use super::data_file;
 use super::diagnostic::Problems;
-use super::document::{Located, TableReader};
-use super::material_block::KINDS;
+use super::document::reader::TableReader;
+use super::document::{Located, plain};
+use super::keys::material::{
+    EVALUATION, Evaluation, FILE, FLOW, QUANTITY, TABLE_MODULUS, TIMES, VALUES,
+};
 use super::table_file;
-use super::table_source::{TABLE_SOURCES, TableSource};
 use crate::material::fit::{self, Fit, FitError};
 use crate::material::tabulated::{TableColumn, Tabulated};
 use crate::material::{GivenFace, ModulusKind};
@@ -33,15 +26,6 @@ pub(crate) enum DirectSum {
     Fitted,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Evaluation {
-    Fit,
-    Direct,
-}
-
-const EVALUATIONS: [(&str, Evaluation); 2] =
-    [("fit", Evaluation::Fit), ("direct", Evaluation::Direct)];
-
 /// The material of a table, but for its Poisson ratio.
 pub(crate) enum TableMaterial {
     /// As a series, with the report of the fit.
@@ -57,10 +41,9 @@ pub(crate) fn read(
     direct_sum: DirectSum,
     problems: &Problems,
 ) -> Option<TableMaterial> {
-    let source = table.one_of(&TABLE_SOURCES);
-    let face = table.choice_of("quantity", &table_file::QUANTITIES);
-    let kind = table.choice_of("modulus", &KINDS);
-    let evaluation = table.choice_of_or("evaluation", &EVALUATIONS, Evaluation::Fit);
+    let source = table.one_of(&[(&FILE, true), (&TIMES, false)]);
+    let (face, kind) = (table.value(&QUANTITY), table.value(&TABLE_MODULUS));
+    let (evaluation, flow) = (table.read(&EVALUATION), table.read(&FLOW));
     if let Some(asked) = &evaluation
         && asked.value == Evaluation::Direct
         && direct_sum == DirectSum::Refused
@@ -74,22 +57,16 @@ pub(crate) fn read(
             );
         return None;
     }
-    let flow = table.has("flow").then(|| table.boolean("flow"));
-    let (face, kind) = (face.map(|f| f.value), kind.map(|k| k.value));
     if source.is_none() {
         // In its place beside `times`, which was reported.
-        table.has("values");
+        table.has(&VALUES);
     }
-    let data = match source?.1 {
-        TableSource::File => from_file(table, folder, face, kind, problems),
-        TableSource::WrittenOut => written_out(table, face, kind, problems),
+    let data = match source? {
+        true => from_file(table, folder, face, kind, problems),
+        false => written_out(table, face, kind, problems),
     };
-    let (data, evaluation) = (data?, evaluation?.value);
-    // A problem with the key was reported.
-    let flow = match flow {
-        Some(flow) => Some(flow?),
-        None => None,
-    };
+    // A problem with one of them was reported.
+    let (data, evaluation, flow) = (data?, evaluation?.value, flow?);
     if evaluation == Evaluation::Direct && direct_sum == DirectSum::Taken {
         if let Some(flow) = flow {
             problems
@@ -126,7 +103,7 @@ fn from_file(
     kind: Option<ModulusKind>,
     problems: &Problems,
 ) -> Option<Located<Tabulated>> {
-    let file = table.string("file");
+    let file = table.read(&FILE);
     let (file, face, kind) = (file?, face?, kind?);
     let (name, bytes) = data_file::named(&file, folder, problems)?;
     let data = table_file::parse(&name, &bytes, face, kind);
@@ -141,20 +118,24 @@ fn written_out(
     kind: Option<ModulusKind>,
     problems: &Problems,
 ) -> Option<Located<Tabulated>> {
-    let times = table.quantities("times", Dimension::Time);
+    let times = table.read(&TIMES);
     let Some(face) = face else {
         // Without the quantity it is not known what the values are; the key is in its place all the same.
-        table.has("values");
+        table.has(&VALUES);
         return None;
     };
     let dimension = match face {
         GivenFace::Creep => Dimension::Compliance,
         GivenFace::Relaxation => Dimension::Stress,
     };
-    let values = table.quantities("values", dimension);
+    let values = table.read(&VALUES.of(dimension));
     let (times, values, kind) = (times?, values?, kind?);
-    let plain = |list: &[Located<f64>]| list.iter().map(|v| v.value).collect();
-    match Tabulated::new(face, kind, plain(&times.value), plain(&values.value)) {
+    match Tabulated::new(
+        face,
+        kind,
+        plain(times.value.clone()),
+        plain(values.value.clone()),
+    ) {
         Ok(data) => Some(times.map(|_| data)),
         Err(error) => {
             let place = error.place().and_then(|(row, column)| {

@@ -1,10 +1,15 @@
 //! Scenario files: from a document to a finished plan of one drive history.
 
 use super::diagnostic::{Diagnostics, Problems};
-use super::document::{Document, Located, TableReader};
+use super::document::kind::{Array, Scalar};
+use super::document::reader::TableReader;
+use super::document::row::{Optional, Row};
+use super::document::{Document, Located, plain};
 use super::figures_block::{self, Figures};
+use super::keys;
+use super::keys::settings::{FIELD_CELLS, FIELDS_AT, OUTPUT_ERROR_BARS, PROFILES_AT, TIME_STEP};
 use super::material_table::DirectSum;
-use super::sweep_file::{default_solver, optional, solver};
+use super::sweep_file::{default_solver, solver};
 use super::{indenter_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::quantity::{Dimension, format_human};
@@ -14,9 +19,6 @@ use crate::sweep::plan::scenario::{OutputPlan, ScenarioPlan};
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::scales::elastic::ElasticScale;
 
-/// More surfaces than this fill memory and disk before they are looked at.
-const MAX_SURFACES: usize = 10_000;
-
 /// The plan that a scenario file asks for.
 ///
 /// # Errors
@@ -24,32 +26,30 @@ const MAX_SURFACES: usize = 10_000;
 pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
     let problems = Problems::new();
     let mut root = document.root(&problems);
-    let title = root.string("title");
+    let title = root.value(&keys::TITLE);
     let material =
         material_block::read_body(&mut root, document.folder(), DirectSum::Taken, &problems)
             .and_then(|m| for_contact(&problems, m));
     let indenter = root
-        .table("indenter")
+        .table(&keys::INDENTER)
         .and_then(|t| indenter_block::read(t, document.folder(), &problems));
     let drive = root
-        .table("drive")
+        .table(&keys::HISTORY)
         .and_then(|t| segments_block::read(t, document.folder(), &problems));
-    let step_s = optional(&mut root, "time", None, |t| time(t, &problems));
+    let step_s = root.table_or(&keys::TIME, None, time);
     let default = default_solver(indenter.as_deref());
-    let solver = optional(&mut root, "solver", default, |t| {
-        solver(t, default, &problems)
-    });
-    let output = optional(&mut root, "output", OutputPlan::default(), |t| {
+    let solver = root.table_or(&keys::SOLVER, default, |t| solver(t, default));
+    let output = root.table_or(&keys::OUTPUT, OutputPlan::default(), |t| {
         output(t, &problems, drive.as_ref(), solver.as_ref())
     });
-    let figures = optional(&mut root, "figures", Figures::default(), |t| {
+    let figures = root.table_or(&keys::SCENARIO_FIGURES, Figures::default(), |t| {
         figures_block::read(t, &problems)
     });
     root.finish();
     let plan = (|| {
         let figures = figures?;
         let mut plan = ScenarioPlan {
-            title: title?.value,
+            title: title?,
             material: material?,
             indenter: indenter?,
             drive: drive?,
@@ -77,21 +77,10 @@ fn for_contact(problems: &Problems, material: Located<BodyMaterial>) -> Option<B
 }
 
 /// The time step, where one is given.
-fn time(mut table: TableReader<'_>, problems: &Problems) -> Option<Option<f64>> {
-    if !table.has("step") {
-        table.finish();
-        return Some(None);
-    }
-    let step = table.optional_quantity("step", Dimension::Time);
+fn time(mut table: TableReader<'_>) -> Option<Option<f64>> {
+    let step_s = table.value(&TIME_STEP);
     table.finish();
-    let step = step?;
-    if step.value > 0.0 {
-        return Some(Some(step.value));
-    }
-    problems
-        .at(&step, "a time step must be above zero")
-        .help("leave it out, and steps are chosen from drive and material");
-    None
+    step_s
 }
 
 fn output(
@@ -100,12 +89,11 @@ fn output(
     drive: Option<&SegmentedDrive>,
     solver: Option<&SolverPlan>,
 ) -> Option<OutputPlan> {
-    let profiles = times(&mut table, problems, "profiles_at", drive);
-    let fields = times(&mut table, problems, "fields_at", drive);
-    let place = table.key_location("field_cells");
-    let default = OutputPlan::default().field_cells;
-    let field_cells = table.positive_integer_or("field_cells", SolverPlan::CELLS, default);
-    let error_bars = table.boolean_or("error_bars", OutputPlan::default().error_bars);
+    let profiles = times(&mut table, problems, &PROFILES_AT, drive);
+    let fields = times(&mut table, problems, &FIELDS_AT, drive);
+    let place = table.key_location(&FIELD_CELLS);
+    let field_cells = table.value(&FIELD_CELLS);
+    let error_bars = table.value(&OUTPUT_ERROR_BARS);
     table.finish();
     if let (Some(solver), Some(place)) = (solver, place)
         && solver.engine == EngineKind::HalfSpace
@@ -121,8 +109,8 @@ fn output(
     Some(OutputPlan {
         profiles_at_s: profiles?,
         fields_at_s: fields?,
-        field_cells: field_cells?.value,
-        error_bars: error_bars?.value,
+        field_cells: field_cells?,
+        error_bars: error_bars?,
     })
 }
 
@@ -130,24 +118,17 @@ fn output(
 fn times(
     table: &mut TableReader<'_>,
     problems: &Problems,
-    key: &str,
+    row: &Row<Array<Scalar>, Optional>,
     drive: Option<&SegmentedDrive>,
 ) -> Option<Vec<f64>> {
-    if !table.has(key) {
+    let Some(list) = table.value(row)? else {
         return Some(Vec::new());
-    }
-    let list = table.optional_quantities(key, Dimension::Time)?;
-    if list.value.len() > MAX_SURFACES {
-        problems
-            .at(&list, format!("{} times are too many", list.value.len()))
-            .help(format!("give at most {MAX_SURFACES}"));
-        return None;
-    }
+    };
     let mut fine = true;
     if let Some(end_s) = drive.map(SegmentedDrive::duration_s) {
         // Durations are added up: the end may differ from the time written by rounding.
         let outside = |t: &&Located<f64>| !(0.0..=end_s * (1.0 + 1e-12)).contains(&t.value);
-        for time in list.value.iter().filter(outside) {
+        for time in list.iter().filter(outside) {
             let end = format_human(end_s, Dimension::Time, 6);
             problems
                 .at(time, "this time is not within the drive's history")
@@ -155,5 +136,5 @@ fn times(
             fine = false;
         }
     }
-    fine.then(|| list.value.into_iter().map(|t| t.value).collect())
+    fine.then(|| plain(list))
 }

@@ -4,32 +4,16 @@ use std::path::Path;
 
 use super::data_file;
 use super::diagnostic::{Location, Problems};
-use super::document::{Located, TableReader};
+use super::document::plain;
+use super::document::reader::TableReader;
 use super::drive_table;
-use super::harmonic_block::{CONTROLS, FREQUENCIES, dimension};
-use super::table_source::{TABLE_SOURCES, TableSource};
+use super::keys::drive::{
+    COEFFICIENTS, CONTROL, CYCLES, DURATION, FILE, KIND, PHASE, SEGMENTS, SINE_AMPLITUDE,
+    SINE_ANGULAR_FREQUENCY, SINE_FREQUENCY, SINE_MEAN, SegmentKind, TARGET, TIMES, VALUES,
+};
 use crate::drive::{Control, HistoryError, Segment, SegmentProblem, SegmentedDrive};
 use crate::quantity::Dimension;
-
-/// More segments than this belong into a table.
-const MAX_SEGMENTS: usize = 10_000;
-
-#[derive(Debug, Clone, Copy)]
-enum Kind {
-    Step,
-    Ramp,
-    Polynomial,
-    Sine,
-    Table,
-}
-
-const KINDS: [(&str, Kind); 5] = [
-    ("step", Kind::Step),
-    ("ramp", Kind::Ramp),
-    ("polynomial", Kind::Polynomial),
-    ("sine", Kind::Sine),
-    ("table", Kind::Table),
-];
+use crate::sweep::plan::resolved::drive_dimension;
 
 /// A segment, and where the part of it stands that most of its problems come from.
 struct Placed {
@@ -43,35 +27,20 @@ pub(super) fn read(
     folder: &Path,
     problems: &Problems,
 ) -> Option<SegmentedDrive> {
-    let control = table.choice_of_or("control", &CONTROLS, Control::Load)?;
-    let segments = table.tables("segments");
-    table.finish();
-    let segments = segments?;
-    let whole = segments.location.clone();
-    if segments.value.len() > MAX_SEGMENTS {
-        problems
-            .at(&whole, format!("{} segments are too many", segments.value.len()))
-            .help(format!(
-                "give at most {MAX_SEGMENTS}, or a table: {{ kind = \"table\", file = \"drive.csv\" }}"
-            ));
-        return None;
-    }
+    let control = table.value(&CONTROL)?;
     let reader = Reader {
-        control: control.value,
+        control,
+        dimension: drive_dimension(control),
         folder,
         problems,
     };
-    // All segments are read, so that all problems are reported.
-    let all: Vec<_> = segments
-        .value
-        .into_iter()
-        .map(|t| reader.segment(t))
-        .collect();
-    let all: Vec<Placed> = all.into_iter().collect::<Option<_>>()?;
+    let all = table.tables(&SEGMENTS, |segment| reader.segment(segment));
+    table.finish();
+    let all = all?;
     let (segments, places): (Vec<_>, Vec<_>) =
-        all.into_iter().map(|p| (p.segment, p.place)).unzip();
-    SegmentedDrive::new(control.value, segments)
-        .map_err(|error| report(problems, &error, &whole, &places))
+        all.value.into_iter().map(|p| (p.segment, p.place)).unzip();
+    SegmentedDrive::new(control, segments)
+        .map_err(|error| report(problems, &error, &all.location, &places))
         .ok()
 }
 
@@ -92,25 +61,26 @@ fn report(problems: &Problems, error: &HistoryError, whole: &Location, places: &
 
 struct Reader<'a> {
     control: Control,
+    /// Of the drive's values.
+    dimension: Dimension,
     folder: &'a Path,
     problems: &'a Problems,
 }
 
 impl Reader<'_> {
     fn segment(&self, mut table: TableReader<'_>) -> Option<Placed> {
-        let kind = table.choice_of("kind", &KINDS)?.value;
-        let placed = match kind {
-            Kind::Step => self.to(&mut table, |to, duration_s| Segment::Step {
+        let placed = match table.value(&KIND)? {
+            SegmentKind::Step => self.to(&mut table, |to, duration_s| Segment::Step {
                 to,
                 duration_s,
             }),
-            Kind::Ramp => self.to(&mut table, |to, duration_s| Segment::Ramp {
+            SegmentKind::Ramp => self.to(&mut table, |to, duration_s| Segment::Ramp {
                 to,
                 duration_s,
             }),
-            Kind::Polynomial => self.polynomial(&mut table),
-            Kind::Sine => self.sine(&mut table),
-            Kind::Table => self.table(&mut table),
+            SegmentKind::Polynomial => polynomial(&mut table),
+            SegmentKind::Sine => self.sine(&mut table),
+            SegmentKind::Table => self.table(&mut table),
         };
         table.finish();
         placed
@@ -121,89 +91,63 @@ impl Reader<'_> {
         table: &mut TableReader<'_>,
         build: impl FnOnce(f64, f64) -> Segment,
     ) -> Option<Placed> {
-        let to = table.quantity("to", dimension(self.control));
-        let duration = self.duration(table);
+        let to = table.read(&TARGET.of(self.dimension));
+        let duration_s = table.value(&DURATION);
         let to = to?;
         Some(Placed {
-            segment: build(to.value, duration?),
+            segment: build(to.value, duration_s?),
             place: to.location,
         })
     }
 
-    fn duration(&self, table: &mut TableReader<'_>) -> Option<f64> {
-        self.positive(table.quantity("duration", Dimension::Time), "a duration")
-    }
-
-    fn positive(&self, value: Option<Located<f64>>, what: &str) -> Option<f64> {
-        let value = value?;
-        if value.value > 0.0 {
-            return Some(value.value);
-        }
-        self.problems
-            .at(&value, format!("{what} must be above zero"));
-        None
-    }
-
-    fn polynomial(&self, table: &mut TableReader<'_>) -> Option<Placed> {
-        let coefficients = table.numbers("coefficients");
-        let duration = self.duration(table);
-        let coefficients = coefficients?;
-        Some(Placed {
-            segment: Segment::Polynomial {
-                coefficients: coefficients.value.iter().map(|c| c.value).collect(),
-                duration_s: duration?,
-            },
-            place: coefficients.location,
-        })
-    }
-
     fn sine(&self, table: &mut TableReader<'_>) -> Option<Placed> {
-        let mean = table.quantity("mean", dimension(self.control));
-        let amplitude = table.quantity("amplitude", dimension(self.control));
-        let place = amplitude.as_ref().map(|a| a.location.clone());
-        let amplitude = self.positive(amplitude, "an amplitude");
-        let key = table.one_of(&FREQUENCIES);
-        let frequency = key.and_then(|(key, (dimension, to_angular))| {
-            let value = self.positive(table.quantity(key, dimension), "a frequency");
-            value.map(|value| value * to_angular)
-        });
-        let phase = table.quantity_or("phase", Dimension::Angle, 0.0);
-        let cycles = self.positive(table.number("cycles"), "the number of cycles");
+        let mean = table.value(&SINE_MEAN.of(self.dimension));
+        let amplitude = table.read(&SINE_AMPLITUDE.of(self.dimension));
+        let frequencies = [
+            (&SINE_ANGULAR_FREQUENCY as _, (&SINE_ANGULAR_FREQUENCY, 1.0)),
+            (
+                &SINE_FREQUENCY as _,
+                (&SINE_FREQUENCY, std::f64::consts::TAU),
+            ),
+        ];
+        let chosen = table.one_of(&frequencies);
+        let frequency = chosen.and_then(|(row, to_angular)| Some(table.value(row)? * to_angular));
+        let (phase_rad, cycles) = (table.value(&PHASE), table.value(&CYCLES));
+        let amplitude = amplitude?;
         Some(Placed {
             segment: Segment::Sine {
-                mean: mean?.value,
-                amplitude: amplitude?,
+                mean: mean?,
+                amplitude: amplitude.value,
                 angular_frequency_rad_per_s: frequency?,
-                phase_rad: phase?.value,
+                phase_rad: phase_rad?,
                 cycles: cycles?,
             },
-            place: place?,
+            place: amplitude.location,
         })
     }
 
     fn table(&self, table: &mut TableReader<'_>) -> Option<Placed> {
-        match table.one_of(&TABLE_SOURCES)?.1 {
-            TableSource::File => self.table_of_file(table),
-            TableSource::WrittenOut => self.table_written_out(table),
+        match table.one_of(&[(&FILE, true), (&TIMES, false)])? {
+            true => self.table_of_file(table),
+            false => self.table_written_out(table),
         }
     }
 
     fn table_written_out(&self, table: &mut TableReader<'_>) -> Option<Placed> {
-        let times = table.quantities("times", Dimension::Time);
-        let values = table.quantities("values", dimension(self.control));
+        let times = table.value(&TIMES);
+        let values = table.read(&VALUES.of(self.dimension));
         let (times, values) = (times?, values?);
-        let plain = |list: &[Located<f64>]| list.iter().map(|v| v.value).collect();
         Some(Placed {
             segment: Segment::Table {
-                times_s: plain(&times.value),
-                values: plain(&values.value),
+                times_s: plain(times),
+                values: plain(values.value),
             },
             place: values.location,
         })
     }
 
     fn table_of_file(&self, table: &mut TableReader<'_>) -> Option<Placed> {
-        let file = table.string("file")?;
+        let file = table.read(&FILE)?;
         let (name, bytes) = data_file::named(&file, self.folder, self.problems)?;
         let table = drive_table::parse(&name, &bytes, self.control);
         let (times_s, values) = data_file::accepted(table, &file, self.problems)?;
@@ -212,4 +156,17 @@ impl Reader<'_> {
             place: file.location,
         })
     }
+}
+
+fn polynomial(table: &mut TableReader<'_>) -> Option<Placed> {
+    let coefficients = table.read(&COEFFICIENTS);
+    let duration_s = table.value(&DURATION);
+    let coefficients = coefficients?;
+    Some(Placed {
+        segment: Segment::Polynomial {
+            coefficients: plain(coefficients.value),
+            duration_s: duration_s?,
+        },
+        place: coefficients.location,
+    })
 }

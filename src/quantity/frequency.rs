@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use super::Dimension;
 
 /// The unit in which frequencies are reported.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub enum FrequencyUnit {
     #[default]
+    #[serde(rename = "rad/s")]
     RadPerS,
     Hz,
 }

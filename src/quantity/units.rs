@@ -171,6 +171,21 @@ pub(super) fn conversion(unknown: &str) -> Option<&'static str> {
     known.map(|(_, equal)| *equal)
 }
 
+/// Every symbol of a unit with these exponents, with every prefix that it takes.
+pub(super) fn alone(exponents: Exponents) -> Vec<String> {
+    let symbols = SYMBOLS.iter().filter(|s| s.exponents == exponents);
+    let spellings = symbols.flat_map(|symbol| {
+        let prefixes = PREFIXES.iter().map(|(prefix, _)| *prefix);
+        prefixes
+            .chain(["\u{03BC}"])
+            .filter(|prefix| symbol.takes_prefix || prefix.is_empty())
+            .map(|prefix| format!("{prefix}{}", symbol.text))
+    });
+    spellings
+        .chain((exponents == Exponents([1, 0, 0, 0, 0])).then(|| "\u{212B}".to_owned()))
+        .collect()
+}
+
 /// The prefix of a power of ten, empty for one that has none.
 pub(super) fn prefix_symbol(power: i32) -> &'static str {
     PREFIXES

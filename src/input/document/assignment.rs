@@ -310,8 +310,10 @@ fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {
 
 #[cfg(test)]
 mod tests {
+    use super::{Table, Value};
     use crate::input::diagnostic::{Problems, Styling};
     use crate::input::document::Document;
+    use crate::input::document::reader::by_name::ByName;
     use crate::quantity::Dimension;
 
     const FILE: &str = "[drive]\nmean = \"10 N\"\n[sweep]\nfrequency = [1, 2]\n";
@@ -332,7 +334,7 @@ mod tests {
         let mut document = document();
         document.set(argument).expect("it can be set");
         let problems = Problems::new();
-        let mut drive = document.root(&problems).table("drive")?;
+        let mut drive = ByName(document.root(&problems)).table("drive")?;
         Some(drive.quantity("mean", Dimension::Force)?.value)
     }
 
@@ -362,7 +364,7 @@ mod tests {
             document.set(argument).expect("it can be set");
         }
         let problems = Problems::new();
-        let mut root = document.root(&problems);
+        let mut root = ByName(document.root(&problems));
         let mut b = root
             .table("a")
             .and_then(|mut a| a.table("b"))
@@ -387,8 +389,7 @@ mod tests {
         document.set("drive.mean=1 N").expect("it can be set");
         document.set("drive.mean=2 N").expect("it can be set");
         let problems = Problems::new();
-        let mean = document
-            .root(&problems)
+        let mean = ByName(document.root(&problems))
             .table("drive")
             .and_then(|mut drive| drive.quantity("mean", Dimension::Force));
         assert_eq!(mean.map(|found| found.value), Some(2.0));
@@ -485,7 +486,7 @@ mod tests {
         assert!(document.set("new.item.0.x=").is_err());
         assert!(document.set("new.table.x=[").is_err());
         let problems = Problems::new();
-        let mut root = document.root(&problems);
+        let mut root = ByName(document.root(&problems));
         assert!(!root.has("new"));
     }
 
@@ -553,23 +554,30 @@ mod tests {
     fn an_item_of_a_list_is_set_added_and_removed_by_its_number() {
         const LIST: &str = "[[drive.segments]]\nkind = \"sine\"\nfrequency = 1\ncycles = 2\n\
                             [[drive.segments]]\nkind = \"step\"\nto = 1\n";
+        fn segments(document: &Document) -> Vec<&Table> {
+            let Value::Table(drive) = &document.root.entries["drive"].node.value else {
+                panic!("a table");
+            };
+            let Value::Array(items) = &drive.entries["segments"].node.value else {
+                panic!("an array");
+            };
+            let tables = items.iter().map(|item| match &item.value {
+                Value::Table(table) => table,
+                other => panic!("{}", other.describe()),
+            });
+            tables.collect()
+        }
         let read = |flags: &[&str]| {
             let mut document = Document::parse("sweep.toml", LIST).expect("it is TOML");
             for flag in flags {
                 document.set(flag).expect("it can be set");
             }
-            let problems = Problems::new();
-            let mut root = document.root(&problems);
-            let mut segments = root.table("drive")?.tables("segments")?.value;
-            let kinds = segments
-                .iter_mut()
-                .map(|s| s.string("kind").map(|k| k.value));
-            Some(
-                kinds
-                    .map(Option::unwrap_or_default)
-                    .collect::<Vec<_>>()
-                    .join(" "),
-            )
+            let kinds = segments(&document).into_iter();
+            let kinds = kinds.map(|table| match &table.entries["kind"].node.value {
+                Value::Text(kind) => kind.clone(),
+                other => panic!("{}", other.describe()),
+            });
+            kinds.collect::<Vec<_>>().join(" ")
         };
         for (flags, kinds) in [
             (&["drive.segments.1.kind=ramp"][..], "sine ramp"),
@@ -580,7 +588,7 @@ mod tests {
                 "step ramp",
             ),
         ] {
-            assert_eq!(read(flags).as_deref(), Some(kinds), "{flags:?}");
+            assert_eq!(read(flags), kinds, "{flags:?}");
         }
         let mut document = Document::parse("sweep.toml", LIST).expect("it is TOML");
         for (flag, message) in [
@@ -607,16 +615,10 @@ mod tests {
         document
             .set("drive.segments.1.kind=sine")
             .expect("it can be set");
-        let problems = Problems::new();
-        let mut segments = document
-            .root(&problems)
-            .table("drive")
-            .and_then(|mut d| d.tables("segments"));
-        let [first, second] = segments.as_mut().unwrap().value.as_mut_slice() else {
-            panic!("two segments");
-        };
-        assert!(first.has("angular_frequency") && !first.has("frequency") && first.has("cycles"));
-        assert!(!second.has("to"));
+        let segments = segments(&document);
+        let has = |segment: usize, key| segments[segment].entries.contains_key(key);
+        assert!(has(0, "angular_frequency") && !has(0, "frequency") && has(0, "cycles"));
+        assert!(!has(1, "to"));
     }
 
     #[test]

@@ -1,12 +1,17 @@
 //! The kinds of value a key can have: how each is read, what messages call it, and an example of it.
 
+use std::collections::HashMap;
 use std::ops::RangeInclusive;
 
+use serde_json::{Value as Json, json};
+
 use super::Located;
+use super::limits::Limits;
+use super::row::Rows;
 use super::similar::similar;
 use super::tree::{Node, NumberFault, Value};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
-use crate::quantity::{self, Dimension};
+use crate::quantity::{self, Dimension, QuantityError};
 
 /// Characters of the user's text repeated in a message.
 const MAX_QUOTED: usize = 32;
@@ -15,11 +20,11 @@ const MAX_QUOTED: usize = 32;
 const EXAMPLE_INTEGER: usize = 100;
 
 /// The key a value belongs to.
-pub(super) struct Spot<'a> {
+pub(crate) struct Spot<'a> {
     /// Full dotted key, for messages.
-    pub(super) path: &'a str,
+    pub(crate) path: &'a str,
     /// The key alone, as written in its table; absent for an item of an array.
-    pub(super) key: Option<&'a str>,
+    pub(crate) key: Option<&'a str>,
 }
 
 impl Spot<'_> {
@@ -41,18 +46,37 @@ impl Spot<'_> {
     }
 }
 
-/// A kind of value.
-pub(super) trait Kind {
-    type Value;
-
+/// What can be said of the values of a key, whatever they are.
+pub(crate) trait Describe: Sync {
     /// What is expected, with its article: `a force`.
     fn expected(&self) -> String;
 
     /// The value of an example, as TOML.
     fn example(&self) -> String;
 
+    /// What a JSON Schema says of it.
+    fn schema(&self) -> Json;
+
+    /// Words that the value may be.
+    fn words(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    /// The keys below, where the value is a table or an array of tables.
+    fn rows(&self) -> Option<&'static Rows> {
+        None
+    }
+}
+
+/// A kind of value.
+pub(crate) trait Kind: Describe {
+    type Value: Clone + Sync;
+
     /// The value at `node`, or everything that is wrong with it.
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Self::Value, Diagnostics>;
+
+    /// A value as it is written in a file.
+    fn written(&self, value: &Self::Value) -> Json;
 
     /// A value of another type than expected.
     fn wrong_type(&self, node: &Node, spot: &Spot<'_>) -> Diagnostic {
@@ -74,71 +98,232 @@ fn quoted(text: &str) -> String {
     format!("\"{}\"", shown.escape_debug())
 }
 
-/// A quantity: a string with a unit, or a bare number in SI units. Read as its SI value.
-pub(super) struct Quantity(pub(super) Dimension);
+/// A number: bare, or a quantity, which is a string with a unit or a bare number in SI units and is read as its SI value.
+#[derive(Clone, Copy)]
+pub(crate) struct Scalar {
+    dimension: Option<Dimension>,
+    limits: Limits,
+    /// In place of that of the dimension, as TOML.
+    example: Option<&'static str>,
+}
 
-impl Kind for Quantity {
-    type Value = f64;
-
-    fn expected(&self) -> String {
-        self.0.to_string()
-    }
-
-    fn example(&self) -> String {
-        format!("\"{}\"", self.0.example())
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostics> {
-        let help = || {
-            let written = spot.write(&node.location, &self.example());
-            format!("write a quantity with its unit, such as {written}")
-        };
-        match &node.value {
-            Value::Text(text) => quantity::parse(text, self.0).map_err(|error| {
-                must_be(spot, &self.expected(), node)
-                    .because(error.to_string())
-                    .help(help())
-                    .into()
-            }),
-            Value::Integer(_) | Value::Float(_) => Ok(finite(self, node, spot)?),
-            _ => Err(self.wrong_type(node, spot).help(help()).into()),
-        }
+/// A quantity of any size.
+pub(crate) const fn quantity(dimension: Dimension) -> Scalar {
+    Scalar {
+        dimension: Some(dimension),
+        limits: Limits::NONE,
+        example: None,
     }
 }
 
-/// A bare number.
-pub(super) struct Number;
+/// A bare number of any size, with an example.
+pub(crate) const fn number(example: &'static str) -> Scalar {
+    Scalar {
+        dimension: None,
+        limits: Limits::NONE,
+        example: Some(example),
+    }
+}
 
-impl Kind for Number {
-    type Value = f64;
-
-    fn expected(&self) -> String {
-        "a number".to_owned()
+impl Scalar {
+    /// The same within limits.
+    pub(crate) const fn within(self, limits: Limits) -> Self {
+        Self { limits, ..self }
     }
 
-    fn example(&self) -> String {
-        "1e-4".to_owned()
+    pub(crate) const fn above_zero(self) -> Self {
+        self.within(Limits::ABOVE_ZERO)
     }
 
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostics> {
-        match &node.value {
-            Value::Integer(_) | Value::Float(_) => Ok(finite(self, node, spot)?),
-            Value::Text(text) => {
+    pub(crate) const fn not_negative(self) -> Self {
+        self.within(Limits::NOT_NEGATIVE)
+    }
+
+    /// The same with what to write in place of a value beyond the limits.
+    pub(crate) const fn or_else(self, instead: &'static str) -> Self {
+        self.within(self.limits.or_else(instead))
+    }
+
+    /// The same with another example than that of the dimension, as TOML.
+    pub(crate) const fn such_as(self, example: &'static str) -> Self {
+        Self {
+            example: Some(example),
+            ..self
+        }
+    }
+
+    fn help(&self, node: &Node, spot: &Spot<'_>) -> String {
+        if self.dimension.is_none() {
+            return such_as(self, node, spot);
+        }
+        let written = spot.write(&node.location, &self.example());
+        format!("write a quantity with its unit, such as {written}")
+    }
+
+    fn number(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostic> {
+        match (&node.value, self.dimension) {
+            (Value::Integer(_) | Value::Float(_), _) => finite(self, node, spot),
+            (Value::Text(text), Some(dimension)) => parse(text, dimension).map_err(|error| {
+                must_be(spot, &self.expected(), node)
+                    .because(error.to_string())
+                    .help(self.help(node, spot))
+            }),
+            (Value::Text(text), None) => {
                 let diagnostic = self.wrong_type(node, spot);
-                let diagnostic = match text.trim().parse::<f64>() {
+                Err(match text.trim().parse::<f64>() {
                     Ok(number) if number.is_finite() => {
                         let written = spot.write(&node.location, &shortest(number));
                         diagnostic.help(format!("write it without quotes: {written}"))
                     }
-                    _ => diagnostic.help(such_as(self, node, spot)),
-                };
-                Err(diagnostic.into())
+                    _ => diagnostic.help(self.help(node, spot)),
+                })
             }
-            _ => {
-                let help = such_as(self, node, spot);
-                Err(self.wrong_type(node, spot).help(help).into())
-            }
+            _ => Err(self.wrong_type(node, spot).help(self.help(node, spot))),
         }
+    }
+}
+
+/// A quantity with its unit. An angular frequency may be given in Hz and a frequency in rad/s: the unit tells which is meant.
+fn parse(text: &str, dimension: Dimension) -> Result<f64, QuantityError> {
+    use std::f64::consts::TAU;
+    quantity::parse(text, dimension).or_else(|error| match dimension {
+        Dimension::AngularFrequency => quantity::parse(text, Dimension::Frequency)
+            .map(|hertz| hertz * TAU)
+            .map_err(|_| error),
+        Dimension::Frequency => quantity::parse(text, Dimension::AngularFrequency)
+            .map(|angular| angular / TAU)
+            .map_err(|_| error),
+        _ => Err(error),
+    })
+}
+
+impl Describe for Scalar {
+    fn expected(&self) -> String {
+        let limits = self.limits.qualify(self.dimension);
+        match self.dimension {
+            Some(dimension) => format!("{dimension}{limits}"),
+            None => format!("a number{limits}"),
+        }
+    }
+
+    fn example(&self) -> String {
+        match (self.example, self.dimension) {
+            (Some(example), _) => example.to_owned(),
+            (None, Some(dimension)) => format!("\"{}\"", dimension.example()),
+            (None, None) => "1.0".to_owned(),
+        }
+    }
+
+    fn schema(&self) -> Json {
+        let mut number = self.limits.schema();
+        number["type"] = json!("number");
+        let Some(dimension) = self.dimension else {
+            return number;
+        };
+        let mut texts = vec![dimension];
+        texts.extend(match dimension {
+            Dimension::AngularFrequency => Some(Dimension::Frequency),
+            Dimension::Frequency => Some(Dimension::AngularFrequency),
+            _ => None,
+        });
+        let text = |dimension: Dimension| {
+            let name = text_name(dimension, self.limits.allow_negative());
+            json!({ "$ref": format!("#/$defs/{name}") })
+        };
+        let mut any: Vec<Json> = texts.into_iter().map(text).collect();
+        any.push(number);
+        json!({ "anyOf": any })
+    }
+}
+
+impl Kind for Scalar {
+    type Value = f64;
+
+    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostics> {
+        let value = self.number(node, spot)?;
+        if self.limits.contains(value) {
+            return Ok(value);
+        }
+        let message = format!("`{}` {}", spot.path, self.limits.rule(self.dimension));
+        let help = match self.limits.instead() {
+            "" => such_as(self, node, spot),
+            instead => instead.to_owned(),
+        };
+        Err(Diagnostic::at(&node.location, message).help(help).into())
+    }
+
+    fn written(&self, value: &f64) -> Json {
+        match self.dimension {
+            Some(dimension) => json!(quantity::format_si(*value, dimension)),
+            None => json!(value),
+        }
+    }
+}
+
+/// What a JSON Schema calls the texts of a dimension.
+fn text_name(dimension: Dimension, allow_negative: bool) -> String {
+    let words = dimension.to_string();
+    let name = words
+        .split_once(' ')
+        .map_or("", |(_, name)| name)
+        .replace(' ', "-");
+    match allow_negative {
+        true => name,
+        false => format!("{name}-not-negative"),
+    }
+}
+
+/// Definitions of the texts of every dimension, for a JSON Schema that refers to them.
+pub(crate) fn text_definitions() -> Vec<(String, Json)> {
+    let all = Dimension::ALL
+        .into_iter()
+        .flat_map(|d| [(d, true), (d, false)]);
+    all.map(|(dimension, allow_negative)| {
+        let definition = json!({
+            "type": "string",
+            "pattern": quantity::pattern(dimension, allow_negative),
+            "description": format!("{dimension} with its unit, such as \"{}\"", dimension.example()),
+        });
+        (text_name(dimension, allow_negative), definition)
+    })
+    .collect()
+}
+
+/// A quantity whose dimension another key decides: one of these.
+#[derive(Clone, Copy)]
+pub(crate) struct Dependent {
+    pub(crate) dimensions: [Dimension; 2],
+    pub(crate) limits: Limits,
+}
+
+/// A kind of which a part is decided by another key.
+pub(crate) trait Decided {
+    type Kind: Kind;
+
+    /// The kind, once the dimension is known.
+    fn of(&self, dimension: Dimension) -> Self::Kind;
+}
+
+impl Decided for Dependent {
+    type Kind = Scalar;
+
+    fn of(&self, dimension: Dimension) -> Scalar {
+        quantity(dimension).within(self.limits)
+    }
+}
+
+impl Describe for Dependent {
+    fn expected(&self) -> String {
+        let [one, other] = self.dimensions;
+        format!("{one} or {other}{}", self.limits.qualify(None))
+    }
+
+    fn example(&self) -> String {
+        self.of(self.dimensions[0]).example()
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": self.dimensions.map(|dimension| self.of(dimension).schema()) })
     }
 }
 
@@ -187,11 +372,9 @@ fn number_fault(fault: NumberFault, kind: &impl Kind, node: &Node, spot: &Spot<'
 }
 
 /// An integer within a range.
-pub(super) struct Integer(pub(super) RangeInclusive<usize>);
+pub(crate) struct Integer(pub(crate) RangeInclusive<usize>);
 
-impl Kind for Integer {
-    type Value = usize;
-
+impl Describe for Integer {
     fn expected(&self) -> String {
         match (*self.0.start(), *self.0.end()) {
             (1, usize::MAX) => "a positive integer".to_owned(),
@@ -203,6 +386,22 @@ impl Kind for Integer {
     fn example(&self) -> String {
         let example = EXAMPLE_INTEGER.min(*self.0.end()).max(*self.0.start());
         example.to_string()
+    }
+
+    fn schema(&self) -> Json {
+        let mut schema = json!({ "type": "integer", "minimum": self.0.start() });
+        if *self.0.end() < i64::MAX as usize {
+            schema["maximum"] = json!(self.0.end());
+        }
+        schema
+    }
+}
+
+impl Kind for Integer {
+    type Value = usize;
+
+    fn written(&self, value: &usize) -> Json {
+        json!(value)
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<usize, Diagnostics> {
@@ -239,17 +438,27 @@ impl Kind for Integer {
 }
 
 /// `true` or `false`.
-pub(super) struct Boolean;
+pub(crate) struct Boolean;
 
-impl Kind for Boolean {
-    type Value = bool;
-
+impl Describe for Boolean {
     fn expected(&self) -> String {
         "`true` or `false`".to_owned()
     }
 
     fn example(&self) -> String {
         "true".to_owned()
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "type": "boolean" })
+    }
+}
+
+impl Kind for Boolean {
+    type Value = bool;
+
+    fn written(&self, value: &bool) -> Json {
+        json!(value)
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<bool, Diagnostics> {
@@ -269,17 +478,27 @@ impl Kind for Boolean {
 }
 
 /// Any text.
-pub(super) struct Text;
+pub(crate) struct Text;
 
-impl Kind for Text {
-    type Value = String;
-
+impl Describe for Text {
     fn expected(&self) -> String {
         "a string".to_owned()
     }
 
     fn example(&self) -> String {
         "\"...\"".to_owned()
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "type": "string" })
+    }
+}
+
+impl Kind for Text {
+    type Value = String;
+
+    fn written(&self, value: &String) -> Json {
+        json!(value)
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<String, Diagnostics> {
@@ -301,11 +520,9 @@ impl Kind for Text {
 }
 
 /// One of a few words, each standing for a value.
-pub(super) struct Choice<'a, T>(pub(super) &'a [(&'a str, T)]);
+pub(crate) struct Choice<T: 'static>(pub(crate) &'static [(&'static str, T)]);
 
-impl<T: Copy> Kind for Choice<'_, T> {
-    type Value = T;
-
+impl<T: Copy + PartialEq + Sync> Describe for Choice<T> {
     fn expected(&self) -> String {
         let words: Vec<String> = self
             .0
@@ -324,6 +541,23 @@ impl<T: Copy> Kind for Choice<'_, T> {
         format!("\"{word}\"")
     }
 
+    fn schema(&self) -> Json {
+        json!({ "enum": self.words() })
+    }
+
+    fn words(&self) -> Vec<&'static str> {
+        self.0.iter().map(|(word, _)| *word).collect()
+    }
+}
+
+impl<T: Copy + PartialEq + Sync> Kind for Choice<T> {
+    type Value = T;
+
+    fn written(&self, value: &T) -> Json {
+        let named = self.0.iter().find(|(_, known)| known == value);
+        json!(named.map(|(word, _)| *word))
+    }
+
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<T, Diagnostics> {
         let Value::Text(text) = &node.value else {
             let help = such_as(self, node, spot);
@@ -332,9 +566,8 @@ impl<T: Copy> Kind for Choice<'_, T> {
         if let Some((_, value)) = self.0.iter().find(|(word, _)| word == text) {
             return Ok(*value);
         }
-        let words: Vec<&str> = self.0.iter().map(|(word, _)| *word).collect();
         let diagnostic = must_be(spot, &self.expected(), node);
-        let diagnostic = match similar(text, &words) {
+        let diagnostic = match similar(text, &self.words()) {
             Some(meant) => {
                 let written = spot.write(&node.location, &format!("\"{meant}\""));
                 diagnostic
@@ -352,42 +585,212 @@ impl<T: Copy> Kind for Choice<'_, T> {
     }
 }
 
-/// An array whose items are all of one kind, each with its own place.
-pub(super) struct Array<K>(pub(super) K);
+/// A list of values of one kind, each with its own place; a single value is a list of one.
+#[derive(Clone)]
+pub(crate) struct Array<K> {
+    pub(crate) item: K,
+    pub(crate) entries: RangeInclusive<usize>,
+    /// Whether an entry may be there twice.
+    pub(crate) repeats: bool,
+    /// What to do about entries too few or too many.
+    pub(crate) instead: &'static str,
+}
+
+/// A list of any length.
+pub(crate) const fn list<K>(item: K) -> Array<K> {
+    Array {
+        item,
+        entries: 0..=usize::MAX,
+        repeats: true,
+        instead: "",
+    }
+}
+
+/// Exactly two values, and what to write in place of another number of them.
+pub(crate) const fn pair<K: Copy>(item: K, instead: &'static str) -> Array<K> {
+    Array {
+        item,
+        entries: 2..=2,
+        repeats: true,
+        instead,
+    }
+}
+
+impl<K: Kind> Array<K> {
+    fn check(&self, values: &[Located<K::Value>], node: &Node, spot: &Spot<'_>, found: &Problems) {
+        let (least, most) = (*self.entries.start(), *self.entries.end());
+        if !self.entries.contains(&values.len()) {
+            let allowed = match (least, most) {
+                (least, usize::MAX) => format!("at least {least}"),
+                (least, most) if least == most => format!("exactly {most}"),
+                (0, most) => format!("at most {most}"),
+                (least, most) => format!("{least} to {most}"),
+            };
+            let message = format!(
+                "`{}` has {} entries, where {allowed} are allowed",
+                spot.path,
+                values.len()
+            );
+            let problem = found.at(&node.location, message);
+            if !self.instead.is_empty() {
+                problem.help(self.instead);
+            }
+        }
+        if self.repeats {
+            return;
+        }
+        let mut known: HashMap<String, &Located<K::Value>> = HashMap::new();
+        for value in values {
+            let written = self.item.written(&value.value).to_string();
+            if let Some(other) = known.insert(written, value) {
+                found
+                    .at(value, format!("`{}` is listed twice", value.path))
+                    .label(other, "the other one")
+                    .help("write every entry once");
+            }
+        }
+    }
+}
+
+impl<K: Describe> Describe for Array<K> {
+    fn expected(&self) -> String {
+        match *self.entries.end() {
+            2 => format!("an array of two, each {}", self.item.expected()),
+            _ => format!("an array, each item {}", self.item.expected()),
+        }
+    }
+
+    fn example(&self) -> String {
+        let item = self.item.example();
+        match *self.entries.end() {
+            2 => format!("[{item}, {item}]"),
+            _ => format!("[{item}]"),
+        }
+    }
+
+    fn schema(&self) -> Json {
+        let mut array = json!({ "type": "array", "items": self.item.schema() });
+        array["minItems"] = json!(self.entries.start());
+        if *self.entries.end() < usize::MAX {
+            array["maxItems"] = json!(self.entries.end());
+        }
+        if !self.repeats {
+            array["uniqueItems"] = json!(true);
+        }
+        match self.entries.contains(&1) {
+            true => json!({ "anyOf": [array, self.item.schema()] }),
+            false => array,
+        }
+    }
+
+    fn words(&self) -> Vec<&'static str> {
+        self.item.words()
+    }
+}
 
 impl<K: Kind> Kind for Array<K> {
     type Value = Vec<Located<K::Value>>;
 
-    fn expected(&self) -> String {
-        format!("an array, each item {}", self.0.expected())
-    }
-
-    fn example(&self) -> String {
-        format!("[{}]", self.0.example())
+    fn written(&self, values: &Self::Value) -> Json {
+        let items = values
+            .iter()
+            .map(|located| self.item.written(&located.value));
+        items.collect()
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Self::Value, Diagnostics> {
-        let Value::Array(items) = &node.value else {
-            let help = such_as(self, node, spot);
-            return Err(self.wrong_type(node, spot).help(help).into());
-        };
-        let mut values = Vec::with_capacity(items.len());
-        let found = Problems::new();
-        for (index, item) in items.iter().enumerate() {
-            let path = format!("{}[{index}]", spot.path);
-            let spot = Spot {
-                path: &path,
-                key: None,
-            };
-            match self.0.convert(item, &spot) {
-                Ok(value) => values.push(Located {
-                    value,
-                    path,
-                    location: item.location.clone(),
-                }),
-                Err(diagnostics) => found.extend(diagnostics),
+        let (found, mut values) = (Problems::new(), Vec::new());
+        match &node.value {
+            Value::Array(items) => {
+                for (index, item) in items.iter().enumerate() {
+                    let path = format!("{}[{index}]", spot.path);
+                    let spot = Spot {
+                        path: &path,
+                        key: None,
+                    };
+                    match self.item.convert(item, &spot) {
+                        Ok(value) => values.push(Located {
+                            value,
+                            location: item.location.clone(),
+                            path,
+                        }),
+                        Err(diagnostics) => found.extend(diagnostics),
+                    }
+                }
+            }
+            Value::Text(_) | Value::Integer(_) | Value::Float(_) => values.push(Located {
+                value: self.item.convert(node, spot)?,
+                path: spot.path.to_owned(),
+                location: node.location.clone(),
+            }),
+            _ => {
+                let help = such_as(self, node, spot);
+                return Err(self.wrong_type(node, spot).help(help).into());
             }
         }
+        if found.is_empty() {
+            self.check(&values, node, spot, &found);
+        }
         found.into_result(Some(values))
+    }
+}
+
+impl Decided for Array<Dependent> {
+    type Kind = Array<Scalar>;
+
+    fn of(&self, dimension: Dimension) -> Array<Scalar> {
+        Array {
+            item: self.item.of(dimension),
+            entries: self.entries.clone(),
+            repeats: self.repeats,
+            instead: self.instead,
+        }
+    }
+}
+
+/// A table below, with these keys.
+pub(crate) struct Table(pub(crate) &'static Rows);
+
+impl Describe for Table {
+    fn expected(&self) -> String {
+        "a table".to_owned()
+    }
+
+    fn example(&self) -> String {
+        "{ ... }".to_owned()
+    }
+
+    fn schema(&self) -> Json {
+        self.0.schema()
+    }
+
+    fn rows(&self) -> Option<&'static Rows> {
+        Some(self.0)
+    }
+}
+
+/// An array of tables with these keys, and how many it may have.
+pub(crate) struct Tables {
+    pub(crate) rows: &'static Rows,
+    pub(crate) most: usize,
+    /// What to do in place of too many.
+    pub(crate) instead: &'static str,
+}
+
+impl Describe for Tables {
+    fn expected(&self) -> String {
+        "an array of tables".to_owned()
+    }
+
+    fn example(&self) -> String {
+        "[{ ... }]".to_owned()
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "type": "array", "items": self.rows.schema(), "maxItems": self.most })
+    }
+
+    fn rows(&self) -> Option<&'static Rows> {
+        Some(self.rows)
     }
 }

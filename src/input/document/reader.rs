@@ -1,35 +1,16 @@
 //! Reading a table key by key: typed values, and a report of everything that is wrong.
 
-use std::ops::RangeInclusive;
-
 use super::Located;
-use super::kind::{Array, Boolean, Choice, Integer, Kind, Number, Quantity, Spot, Text};
+use super::kind::{self, Describe, Kind, Spot, Tables};
+use super::row::{AnyRow, Optional, Read, Required, Row};
 use super::similar::similar;
 use super::tree::{Entry, Node, Table, Value};
 use crate::input::diagnostic::{Diagnostic, Location, Problems, Reported};
-use crate::quantity::Dimension;
-
-/// What a key holds, for keys that may be written in more than one way.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
-    /// A string.
-    Text,
-    /// An integer or a float.
-    Number,
-    /// `true` or `false`.
-    Boolean,
-    /// A date or time, which no key of a sweep file takes.
-    DateTime,
-    /// An array, inline or `[[...]]`.
-    Array,
-    /// A table, inline or `[...]`.
-    Table,
-}
 
 /// Reads one table. Keys asked for are remembered; [`TableReader::finish`] reports the others.
 #[derive(Debug)]
 #[must_use = "a table that is not read and finished hides its mistakes"]
-pub struct TableReader<'a> {
+pub(crate) struct TableReader<'a> {
     table: &'a Table,
     /// The header, or the file for the top of it.
     location: Location,
@@ -55,7 +36,7 @@ impl AsRef<Location> for TableReader<'_> {
 
 /// Looking around.
 impl<'a> TableReader<'a> {
-    pub(super) fn new(
+    pub(crate) fn new(
         table: &'a Table,
         location: Location,
         path: String,
@@ -71,51 +52,32 @@ impl<'a> TableReader<'a> {
         }
     }
 
-    /// Full dotted key of this table, empty at the top of the file.
-    pub fn path(&self) -> &str {
-        &self.path
+    /// Whether a key is present, with a right value or a wrong one. Counts as asking for it.
+    pub(crate) fn has(&mut self, row: &dyn AnyRow) -> bool {
+        self.find(row.name()).is_some()
     }
 
-    /// Whether `key` is present, with a right value or a wrong one. Counts as asking for it.
-    pub fn has(&mut self, key: &str) -> bool {
-        self.find(key).is_some()
+    /// Where a key itself is written, `None` when it is absent. Counts as asking for it.
+    pub(crate) fn key_location(&mut self, row: &dyn AnyRow) -> Option<Location> {
+        self.find(row.name()).map(|entry| entry.key.clone())
     }
 
-    /// What `key` holds, `None` when it is absent. Counts as asking for it.
-    pub fn form(&mut self, key: &str) -> Option<Form> {
-        Some(match self.find(key)?.node.value {
-            Value::Text(_) => Form::Text,
-            Value::Integer(_) | Value::Float(_) => Form::Number,
-            Value::Boolean(_) => Form::Boolean,
-            Value::DateTime => Form::DateTime,
-            Value::Array(_) => Form::Array,
-            Value::Table(_) => Form::Table,
-        })
-    }
-
-    /// Where `key` itself is written, `None` when it is absent. Counts as asking for it.
-    pub fn key_location(&mut self, key: &str) -> Option<Location> {
-        self.find(key).map(|entry| entry.key.clone())
-    }
-
-    /// Which one of these keys is present, and the value that belongs to it: `&[("file", Source::File), ...]`. None, or more than
-    /// one, is a problem, and reported.
-    pub fn one_of<T: Copy>(&mut self, choices: &[(&'static str, T)]) -> Option<(&'static str, T)> {
-        let present: Vec<(&'static str, T, &Entry)> = choices
+    /// The value that belongs to the one of these keys that is present. None, or more than one, is a problem, and reported.
+    pub(crate) fn one_of<T: Copy>(&mut self, choices: &[(&'static dyn AnyRow, T)]) -> Option<T> {
+        let present: Vec<(&str, T, &Entry)> = choices
             .iter()
-            .filter_map(|(key, value)| Some((*key, *value, self.find(key)?)))
+            .filter_map(|(row, value)| Some((row.name(), *value, self.find(row.name())?)))
             .collect();
         match present.as_slice() {
-            [(key, value, _)] => Some((key, *value)),
+            [(_, value, _)] => Some(*value),
             [] => {
-                let keys: Vec<&str> = choices.iter().map(|(key, _)| *key).collect();
-                let keys = keys.as_slice();
+                let keys: Vec<&str> = choices.iter().map(|(row, _)| row.name()).collect();
                 let message = match self.path.as_str() {
-                    "" => format!("missing one of {}", in_backticks(keys)),
-                    path => format!("`{path}` needs one of {}", in_backticks(keys)),
+                    "" => format!("missing one of {}", in_backticks(&keys)),
+                    path => format!("`{path}` needs one of {}", in_backticks(&keys)),
                 };
                 let problem = Diagnostic::at(&self.location, message).help("add one of them");
-                self.report_missing(keys, problem);
+                self.report_missing(&keys, problem);
                 None
             }
             [(_, _, entry), others @ ..] => {
@@ -132,7 +94,7 @@ impl<'a> TableReader<'a> {
     }
 
     /// Reports every key that was not asked for. Call it when all keys of the table were.
-    pub fn finish(mut self) {
+    pub(crate) fn finish(mut self) {
         let asked: Vec<&str> = self.asked.iter().map(String::as_str).collect();
         for (key, entry) in &self.table.entries {
             if asked.contains(&key.as_str()) {
@@ -187,23 +149,46 @@ impl<'a> TableReader<'a> {
     }
 }
 
-/// Tables below this one.
+/// Values and tables below.
 impl<'a> TableReader<'a> {
-    /// The table `key`, inline or under a header.
-    pub fn table(&mut self, key: &str) -> Option<TableReader<'a>> {
-        if self.has(key) {
-            return self.optional_table(key);
+    /// What stands under a key, with its place; `None` where a problem was reported.
+    pub(crate) fn read<K: Kind, P: Read<K>>(&mut self, row: &Row<K, P>) -> Option<P::Answer> {
+        P::read(row, self)
+    }
+
+    /// The same without its place.
+    pub(crate) fn value<K: Kind, P: Read<K>>(&mut self, row: &Row<K, P>) -> Option<P::Value> {
+        P::read(row, self).map(P::value)
+    }
+
+    /// The table under a key, inline or under a header.
+    pub(crate) fn table(&mut self, row: &Row<kind::Table, Required>) -> Option<TableReader<'a>> {
+        if self.has(row) {
+            return self.below(row.name);
         }
-        let header = header(&join(&self.path, key));
+        let header = header(&join(&self.path, row.name));
         let problem = Diagnostic::at(&self.location, format!("missing table `{header}`")).help(
             format!("add `{header}` on a line of its own, with its keys below"),
         );
-        self.report_missing(&[key], problem);
+        self.report_missing(&[row.name], problem);
         None
     }
 
-    /// The table `key`, where there is one.
-    pub fn optional_table(&mut self, key: &str) -> Option<TableReader<'a>> {
+    /// What a table that may be left out holds, or what counts without it.
+    pub(crate) fn table_or<T>(
+        &mut self,
+        row: &Row<kind::Table, Optional>,
+        default: T,
+        read: impl FnOnce(TableReader<'a>) -> Option<T>,
+    ) -> Option<T> {
+        match self.has(row) {
+            true => self.below(row.name).and_then(read),
+            false => Some(default),
+        }
+    }
+
+    /// The table `key`, which is there.
+    fn below(&mut self, key: &str) -> Option<TableReader<'a>> {
         let node = &self.find(key)?.node;
         let path = join(&self.path, key);
         if let Value::Table(table) = &node.value {
@@ -219,20 +204,43 @@ impl<'a> TableReader<'a> {
         None
     }
 
-    /// The tables in the array `key`: `[[key]]`, or an inline array of inline tables. May be empty.
-    pub fn tables(&mut self, key: &str) -> Option<Located<Vec<TableReader<'a>>>> {
-        if self.has(key) {
-            return self.optional_tables(key);
+    /// What the tables in an array hold: `[[key]]`, or an inline array of inline tables. May be none. All are read, so that all
+    /// problems are reported.
+    pub(crate) fn tables<T>(
+        &mut self,
+        row: &Row<Tables, Required>,
+        read: impl FnMut(TableReader<'a>) -> Option<T>,
+    ) -> Option<Located<Vec<T>>> {
+        if self.has(row) {
+            return self.items(row.name, &row.kind, read);
         }
-        let path = join(&self.path, key);
+        let path = join(&self.path, row.name);
         let problem = Diagnostic::at(&self.location, format!("missing key `{path}`"))
-            .help(array_of_tables(&path, key));
-        self.report_missing(&[key], problem);
+            .help(array_of_tables(&path, row.name));
+        self.report_missing(&[row.name], problem);
         None
     }
 
-    /// The tables in the array `key`, where there is one.
-    pub fn optional_tables(&mut self, key: &str) -> Option<Located<Vec<TableReader<'a>>>> {
+    /// The same of an array that may be left out.
+    pub(crate) fn optional_tables<T>(
+        &mut self,
+        row: &Row<Tables, Optional>,
+        read: impl FnMut(TableReader<'a>) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        match self.has(row) {
+            true => self
+                .items(row.name, &row.kind, read)
+                .map(|items| items.value),
+            false => Some(Vec::new()),
+        }
+    }
+
+    fn items<T>(
+        &mut self,
+        key: &str,
+        kind: &Tables,
+        mut read: impl FnMut(TableReader<'a>) -> Option<T>,
+    ) -> Option<Located<Vec<T>>> {
         let node = &self.find(key)?.node;
         let path = join(&self.path, key);
         let Value::Array(items) = &node.value else {
@@ -245,13 +253,20 @@ impl<'a> TableReader<'a> {
                 .help(array_of_tables(&path, key));
             return None;
         };
-        let readers: Vec<TableReader<'a>> = items
-            .iter()
-            .enumerate()
-            .filter_map(|(index, item)| self.item(item, format!("{path}[{index}]")))
-            .collect();
-        (readers.len() == items.len()).then(|| Located {
-            value: readers,
+        if items.len() > kind.most {
+            self.problems
+                .at(
+                    &node.location,
+                    format!("{} {key} are too many", items.len()),
+                )
+                .help(format!("give at most {}{}", kind.most, kind.instead));
+            return None;
+        }
+        let readers = items.iter().enumerate();
+        let readers = readers.map(|(index, item)| self.item(item, format!("{path}[{index}]")));
+        let read: Vec<Option<T>> = readers.map(|reader| reader.and_then(&mut read)).collect();
+        Some(Located {
+            value: read.into_iter().collect::<Option<_>>()?,
             path,
             location: node.location.clone(),
         })
@@ -268,191 +283,55 @@ impl<'a> TableReader<'a> {
             .help("write `{ key = value }`");
         None
     }
-}
 
-/// Values. Each method without `optional_` or `_or` reports a key that is absent.
-impl TableReader<'_> {
-    /// A quantity: a string with a unit, or a bare number in SI units. The value is in SI units.
-    pub fn quantity(&mut self, key: &str, dimension: Dimension) -> Option<Located<f64>> {
-        self.required(key, &Quantity(dimension))
-    }
-
-    /// A quantity that may be absent.
-    pub fn optional_quantity(&mut self, key: &str, dimension: Dimension) -> Option<Located<f64>> {
-        self.optional(key, &Quantity(dimension))
-    }
-
-    /// A quantity with a default, in SI units.
-    pub fn quantity_or(
-        &mut self,
-        key: &str,
-        dimension: Dimension,
-        default_si: f64,
-    ) -> Option<Located<f64>> {
-        self.or(key, &Quantity(dimension), default_si)
-    }
-
-    /// An array of quantities, each located. May be empty.
-    pub fn quantities(
-        &mut self,
-        key: &str,
-        dimension: Dimension,
-    ) -> Option<Located<Vec<Located<f64>>>> {
-        self.required(key, &Array(Quantity(dimension)))
-    }
-
-    /// An array of quantities that may be absent.
-    pub fn optional_quantities(
-        &mut self,
-        key: &str,
-        dimension: Dimension,
-    ) -> Option<Located<Vec<Located<f64>>>> {
-        self.optional(key, &Array(Quantity(dimension)))
-    }
-
-    /// An array of bare numbers, each located. May be empty.
-    pub fn numbers(&mut self, key: &str) -> Option<Located<Vec<Located<f64>>>> {
-        self.required(key, &Array(Number))
-    }
-
-    /// A finite number, integer or float.
-    pub fn number(&mut self, key: &str) -> Option<Located<f64>> {
-        self.required(key, &Number)
-    }
-
-    /// A number that may be absent.
-    pub fn optional_number(&mut self, key: &str) -> Option<Located<f64>> {
-        self.optional(key, &Number)
-    }
-
-    /// A number with a default.
-    pub fn number_or(&mut self, key: &str, default: f64) -> Option<Located<f64>> {
-        self.or(key, &Number, default)
-    }
-
-    /// An integer within `range`; end it with `usize::MAX` for no upper bound.
-    pub fn positive_integer(
-        &mut self,
-        key: &str,
-        range: RangeInclusive<usize>,
-    ) -> Option<Located<usize>> {
-        self.required(key, &Integer(range))
-    }
-
-    /// An integer that may be absent.
-    pub fn optional_positive_integer(
-        &mut self,
-        key: &str,
-        range: RangeInclusive<usize>,
-    ) -> Option<Located<usize>> {
-        self.optional(key, &Integer(range))
-    }
-
-    /// An integer with a default.
-    pub fn positive_integer_or(
-        &mut self,
-        key: &str,
-        range: RangeInclusive<usize>,
-        default: usize,
-    ) -> Option<Located<usize>> {
-        self.or(key, &Integer(range), default)
-    }
-
-    /// Any text.
-    pub fn string(&mut self, key: &str) -> Option<Located<String>> {
-        self.required(key, &Text)
-    }
-
-    /// Text that may be absent.
-    pub fn optional_string(&mut self, key: &str) -> Option<Located<String>> {
-        self.optional(key, &Text)
-    }
-
-    /// `true` or `false`.
-    pub fn boolean(&mut self, key: &str) -> Option<Located<bool>> {
-        self.required(key, &Boolean)
-    }
-
-    /// `true` or `false`, with a default.
-    pub fn boolean_or(&mut self, key: &str, default: bool) -> Option<Located<bool>> {
-        self.or(key, &Boolean, default)
-    }
-
-    /// The value that belongs to one of a few words: `&[("load", Control::Load), ...]`.
-    pub fn choice_of<T: Copy>(&mut self, key: &str, choices: &[(&str, T)]) -> Option<Located<T>> {
-        self.required(key, &Choice(choices))
-    }
-
-    /// The value that belongs to one of a few words, with a default.
-    pub fn choice_of_or<T: Copy>(
-        &mut self,
-        key: &str,
-        choices: &[(&str, T)],
-        default: T,
-    ) -> Option<Located<T>> {
-        self.or(key, &Choice(choices), default)
-    }
-
-    /// An array of values that belong to a few words each, each located. May be empty.
-    pub fn choices_of<T: Copy>(
-        &mut self,
-        key: &str,
-        choices: &[(&str, T)],
-    ) -> Option<Located<Vec<Located<T>>>> {
-        self.required(key, &Array(Choice(choices)))
-    }
-
-    fn required<K: Kind>(&mut self, key: &str, kind: &K) -> Option<Located<K::Value>> {
-        if let Some(entry) = self.find(key) {
-            return self.convert(key, entry, kind);
-        }
-        let path = join(&self.path, key);
-        let message = format!("missing key `{path}`");
-        let example = format!("`{key} = {}`", kind.example());
+    /// Reports a key that must be there and is not.
+    pub(crate) fn report_absent<K: Describe, P>(&mut self, row: &Row<K, P>) {
+        let key = row.name;
+        let message = format!("missing key `{}`", join(&self.path, key));
+        let example = format!("`{key} = {}`", row.kind.example());
         let problem = Diagnostic::at(&self.location, message);
         let problem = if self.location.is_whole() {
             problem.help(format!("add {example} above the first table"))
         } else {
             problem
-                .because(format!("needs `{key}`, {}", kind.expected()))
+                .because(format!("needs `{key}`, {}", row.kind.expected()))
                 .help(format!("add {example}"))
         };
         self.report_missing(&[key], problem);
-        None
     }
 
-    fn optional<K: Kind>(&mut self, key: &str, kind: &K) -> Option<Located<K::Value>> {
-        let entry = self.find(key)?;
-        self.convert(key, entry, kind)
-    }
-
-    fn or<K: Kind>(&mut self, key: &str, kind: &K, default: K::Value) -> Option<Located<K::Value>> {
-        match self.find(key) {
-            Some(entry) => self.convert(key, entry, kind),
-            None => Some(Located {
-                value: default,
-                path: join(&self.path, key),
-                location: self.location.clone(),
-            }),
-        }
-    }
-
-    fn convert<K: Kind>(&self, key: &str, entry: &Entry, kind: &K) -> Option<Located<K::Value>> {
-        let path = join(&self.path, key);
+    /// What stands under a key, where it is there; `None` where that is wrong, which is reported.
+    pub(super) fn optional<K: Kind, P>(
+        &mut self,
+        row: &Row<K, P>,
+    ) -> Option<Option<Located<K::Value>>> {
+        let Some(entry) = self.find(row.name) else {
+            return Some(None);
+        };
+        let path = join(&self.path, row.name);
         let spot = Spot {
             path: &path,
-            key: Some(key),
+            key: Some(row.name),
         };
-        match kind.convert(&entry.node, &spot) {
-            Ok(value) => Some(Located {
+        match row.kind.convert(&entry.node, &spot) {
+            Ok(value) => Some(Some(Located {
                 value,
                 path,
                 location: entry.node.location.clone(),
-            }),
+            })),
             Err(diagnostics) => {
                 self.problems.extend(diagnostics);
                 None
             }
+        }
+    }
+
+    /// A value that counts because the key is absent: its place is the table.
+    pub(super) fn in_place_of<T>(&self, key: &str, value: T) -> Located<T> {
+        Located {
+            value,
+            path: join(&self.path, key),
+            location: self.location.clone(),
         }
     }
 }
@@ -489,11 +368,105 @@ fn in_backticks(keys: &[&str]) -> String {
     quoted.join(", ")
 }
 
+/// Reading in tests, by names in place of rows.
+#[cfg(test)]
+pub(super) mod by_name {
+    use super::{Located, TableReader, kind};
+    use crate::input::document::kind::{Tables, Text, number, quantity};
+    use crate::input::document::row::{Presence, Required, Row, Rows};
+    use crate::input::keys::table;
+    use crate::quantity::Dimension;
+
+    pub(in crate::input::document) static NOTHING: Rows = table("", &[]);
+
+    pub(in crate::input::document) fn key<K, P: Presence<K>>(
+        name: &'static str,
+        kind: K,
+        presence: P,
+    ) -> Row<K, P> {
+        Row {
+            name,
+            kind,
+            presence,
+            means: "",
+        }
+    }
+
+    pub(in crate::input::document) fn below(name: &'static str) -> Row<kind::Table, Required> {
+        key(name, kind::Table(&NOTHING), Required)
+    }
+
+    pub(in crate::input::document) fn items<P: Presence<Tables>>(
+        name: &'static str,
+        presence: P,
+    ) -> Row<Tables, P> {
+        let kind = Tables {
+            rows: &NOTHING,
+            most: 2,
+            instead: ", or a table",
+        };
+        key(name, kind, presence)
+    }
+
+    pub(in crate::input::document) struct ByName<'a>(
+        pub(in crate::input::document) TableReader<'a>,
+    );
+
+    #[allow(dead_code)] // Each test has its own part.
+    impl<'a> ByName<'a> {
+        pub(in crate::input::document) fn has(&mut self, name: &'static str) -> bool {
+            self.0.has(&below(name))
+        }
+
+        pub(in crate::input::document) fn table(&mut self, name: &'static str) -> Option<Self> {
+            self.0.table(&below(name)).map(Self)
+        }
+
+        pub(in crate::input::document) fn tables(
+            &mut self,
+            name: &'static str,
+        ) -> Option<Located<Vec<Self>>> {
+            self.0
+                .tables(&items(name, Required), |item| Some(Self(item)))
+        }
+
+        pub(in crate::input::document) fn quantity(
+            &mut self,
+            name: &'static str,
+            dimension: Dimension,
+        ) -> Option<Located<f64>> {
+            self.0.read(&key(name, quantity(dimension), Required))
+        }
+
+        pub(in crate::input::document) fn number(
+            &mut self,
+            name: &'static str,
+        ) -> Option<Located<f64>> {
+            self.0.read(&key(name, number("1.0"), Required))
+        }
+
+        pub(in crate::input::document) fn string(
+            &mut self,
+            name: &'static str,
+        ) -> Option<Located<String>> {
+            self.0.read(&key(name, Text, Required))
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use super::by_name::{NOTHING, below, items, key};
     use crate::input::diagnostic::{Problems, Styling};
-    use crate::input::document::{Document, Form, TableReader};
-    use crate::quantity::Dimension;
+    use crate::input::document::kind::{
+        Array, Boolean, Choice, Integer, Table, Text, list, number, quantity,
+    };
+    use crate::input::document::reader::TableReader;
+    use crate::input::document::row::{AnyRow, Optional, Or, Required, Row};
+    use crate::input::document::{Document, plain};
+    use crate::quantity::Dimension::{Angle, Force, Frequency, Stress, Time};
+
+    const CONTROLS: Choice<()> = Choice(&[("load", ()), ("approach", ())]);
 
     /// What is reported when `read` reads `text` with `flags` set.
     fn report_with(text: &str, flags: &[&str], read: impl FnOnce(TableReader<'_>)) -> String {
@@ -515,20 +488,22 @@ mod tests {
 
     /// Reads every kind of key that a sweep file has.
     fn read_sweep(mut root: TableReader<'_>) {
-        let _ = root.optional_string("title");
-        if let Some(mut drive) = root.table("drive") {
-            let _ = drive.choice_of("control", &[("load", ()), ("approach", ())]);
-            let _ = drive.quantity("mean", Dimension::Force);
-            let _ = drive.quantity("amplitude", Dimension::Force);
-            let _ = drive.quantity_or("phase", Dimension::Angle, 0.0);
+        let _ = root.read(&key("title", Text, Optional));
+        if let Some(mut drive) = root.table(&below("drive")) {
+            let _ = drive.read(&key("control", CONTROLS, Required));
+            let _ = drive.read(&key("mean", quantity(Force), Required));
+            let _ = drive.read(&key("amplitude", quantity(Force), Required));
+            let _ = drive.read(&key("phase", quantity(Angle), Or(0.0)));
             drive.finish();
         }
-        if let Some(mut cycle) = root.optional_table("cycle") {
-            let _ = cycle.positive_integer_or("steps", 8..=10_000, 100);
-            let _ = cycle.number_or("tolerance", 1e-4);
-            let _ = cycle.boolean_or("keep_history", false);
+        let cycle = key("cycle", Table(&NOTHING), Optional);
+        let _ = root.table_or(&cycle, (), |mut cycle| {
+            let _ = cycle.read(&key("steps", Integer(8..=10_000), Or(100)));
+            let _ = cycle.read(&key("tolerance", number("1e-4"), Or(1e-4)));
+            let _ = cycle.read(&key("keep_history", Boolean, Or(false)));
             cycle.finish();
-        }
+            None
+        });
         root.finish();
     }
 
@@ -645,13 +620,13 @@ mod tests {
     fn a_missing_key_below_several_tables_is_named_in_full() {
         let text = "[material]\npoisson_ratio = 0.38\n[material.relaxation.branches]\n";
         let text = report(text, |mut root| {
-            let mut material = root.table("material").expect("it is there");
-            let _ = material.number("poisson_ratio");
-            let mut relaxation = material.table("relaxation").expect("it is there");
-            let mut branches = relaxation.table("branches").expect("it is there");
-            let _ = relaxation.quantity("equilibrium", Dimension::Stress);
-            let _ = branches.quantities("times", Dimension::Time);
-            let _ = material.table("creep");
+            let mut material = root.table(&below("material")).expect("it is there");
+            let _ = material.read(&key("poisson_ratio", number("0.4"), Required));
+            let mut relaxation = material.table(&below("relaxation")).expect("it is there");
+            let mut branches = relaxation.table(&below("branches")).expect("it is there");
+            let _ = relaxation.read(&key("equilibrium", quantity(Stress), Required));
+            let _ = branches.read(&key("times", list(quantity(Time)), Required));
+            let _ = material.table(&below("creep"));
         });
         insta::assert_snapshot!(text, @r#"
         error: missing table `[material.creep]`
@@ -683,7 +658,7 @@ mod tests {
     #[test]
     fn a_missing_key_of_the_top_belongs_above_the_first_table() {
         let text = report("[drive]\n", |mut root| {
-            let _ = root.string("title");
+            let _ = root.read(&key("title", Text, Required));
         });
         insta::assert_snapshot!(text, @r#"
         error: missing key `title`
@@ -990,14 +965,14 @@ tolerance = 1e-400
     #[test]
     fn an_array_of_tables_may_be_written_both_ways_and_each_item_has_its_place() {
         let read = |mut root: TableReader<'_>| {
-            let mut drive = root.table("drive").expect("it is there");
-            let segments = drive.tables("segments").expect("they are tables");
-            assert_eq!(segments.value.len(), 2);
-            for mut segment in segments.value {
-                let _ = segment.quantity("to", Dimension::Force);
-                let _ = segment.quantity("duration", Dimension::Time);
+            let mut drive = root.table(&below("drive")).expect("it is there");
+            let read = drive.tables(&items("segments", Required), |mut segment| {
+                let _ = segment.read(&key("to", quantity(Force), Required));
+                let _ = segment.read(&key("duration", quantity(Time), Required));
                 segment.finish();
-            }
+                Some(())
+            });
+            assert_eq!(read.expect("they are tables").value.len(), 2);
         };
         let inline =
             "[drive]\nsegments = [\n  { to = 1, duration = 2 },\n  { to = 3, time = 4 },\n]\n";
@@ -1042,10 +1017,11 @@ tolerance = 1e-400
     #[test]
     fn an_array_of_other_things_than_tables_is_refused() {
         let text = report("a = [{}, 3]\nb = {}\n", |mut root| {
-            assert!(root.tables("a").is_none());
-            assert!(root.tables("b").is_none());
-            assert!(root.tables("c").is_none());
-            assert!(root.optional_tables("d").is_none());
+            for wrong in ["a", "b", "c"] {
+                assert!(root.tables(&items(wrong, Required), |_| Some(())).is_none());
+            }
+            let absent = root.optional_tables(&items("d", Optional), |_| Some(()));
+            assert_eq!(absent, Some(Vec::new()));
         });
         insta::assert_snapshot!(text, @r#"
         error: missing key `c`
@@ -1072,11 +1048,14 @@ tolerance = 1e-400
 
     #[test]
     fn every_bad_item_of_an_array_is_reported() {
-        let text = "f = [\"1 Hz\", \"2 N\", 3, true]\ng = 1\nh = [1, \"2\"]\n";
+        let text = "f = [\"1 Hz\", \"2 N\", 3, true]\ng = true\nh = [1, \"2\"]\n";
         let text = report(text, |mut root| {
-            assert!(root.quantities("f", Dimension::Frequency).is_none());
-            assert!(root.quantities("g", Dimension::Frequency).is_none());
-            assert!(root.numbers("h").is_none());
+            for wrong in ["f", "g"] {
+                let row = key(wrong, list(quantity(Frequency)), Required);
+                assert!(root.read(&row).is_none());
+            }
+            let numbers = key("h", list(number("2.0")), Required);
+            assert!(root.read(&numbers).is_none());
         });
         insta::assert_snapshot!(text, @r#"
         error: `f[1]` must be a frequency
@@ -1099,8 +1078,8 @@ tolerance = 1e-400
         error: `g` must be an array, each item a frequency
          --> sweep.toml:2:5
           |
-        2 | g = 1
-          |     ^ found an integer
+        2 | g = true
+          |     ^^^^ found a boolean
           |
           = help: write an array, each item a frequency, such as `g = ["10 Hz"]`
 
@@ -1116,9 +1095,19 @@ tolerance = 1e-400
 
     #[test]
     fn one_of_several_keys_must_be_given_and_only_one() {
-        let keys = ["library", "relaxation", "creep"].map(|key| (key, ()));
+        const fn text(name: &'static str) -> Row<Text, Required> {
+            Row {
+                name,
+                kind: Text,
+                presence: Required,
+                means: "",
+            }
+        }
+        static WORDS: [Row<Text, Required>; 3] =
+            [text("library"), text("relaxation"), text("creep")];
         let read = |mut root: TableReader<'_>| {
-            let mut material = root.table("material").expect("it is there");
+            let mut material = root.table(&below("material")).expect("it is there");
+            let keys = WORDS.each_ref().map(|row| (row as &dyn AnyRow, ()));
             assert_eq!(material.one_of(&keys), None);
             material.finish();
         };
@@ -1159,14 +1148,13 @@ tolerance = 1e-400
         let document = Document::parse("sweep.toml", "a = 1\nt = {}\n").expect("it is TOML");
         let problems = Problems::new();
         let mut root = document.root(&problems);
-        assert_eq!(root.number_or("b", 2.5).map(|found| found.value), Some(2.5));
-        let choice = root.choice_of_or("c", &[("x", 1), ("y", 2)], 2);
-        assert_eq!(choice.map(|found| found.value), Some(2));
-        assert!(root.optional_quantity("d", Dimension::Time).is_none());
-        assert!(root.has("a") && !root.has("b"));
-        assert_eq!(root.form("a"), Some(Form::Number));
-        assert_eq!(root.form("t"), Some(Form::Table));
-        assert_eq!(root.form("z"), None);
+        let (absent, present) = (number("1.0"), number("1.0"));
+        assert_eq!(root.value(&key("b", absent, Or(2.5))), Some(2.5));
+        assert_eq!(root.value(&key("a", present, Or(2.5))), Some(1.0));
+        let choice = key("c", Choice(&[("x", 1), ("y", 2)]), Or(2));
+        assert_eq!(root.value(&choice), Some(2));
+        assert_eq!(root.value(&key("d", quantity(Time), Optional)), Some(None));
+        assert!(root.has(&below("t")) && !root.has(&choice));
         root.finish();
         assert!(problems.is_empty());
     }
@@ -1175,11 +1163,10 @@ tolerance = 1e-400
     fn problems_found_later_point_at_the_value() {
         let text = report(DRIVE, |mut root| {
             let problems = root.problems;
-            let mut drive = root.table("drive").expect("it is there");
-            let mean = drive.quantity("mean", Dimension::Force).expect("right");
-            let amplitude = drive
-                .quantity("amplitude", Dimension::Force)
-                .expect("right");
+            let mut drive = root.table(&below("drive")).expect("it is there");
+            let force = |name| key(name, quantity(Force), Required);
+            let mean = drive.read(&force("mean")).expect("right");
+            let amplitude = drive.read(&force("amplitude")).expect("right");
             assert_eq!(amplitude.path, "drive.amplitude");
             problems
                 .at(&amplitude, "the load becomes negative within a cycle")
@@ -1215,5 +1202,115 @@ tolerance = 1e-400
                 "--> command line:1:13",
             ]
         );
+    }
+
+    #[test]
+    fn numbers_beyond_their_limits_are_refused_with_what_to_write() {
+        use crate::input::document::limits::Limits;
+        use crate::quantity::Dimension::Length;
+        use std::ops::Bound;
+        let text = "a = \"0 N\"\nb = -1\nc = \"2 m\"\nd = 0.6\ne = [1, 1]\nf = []\ng = [\"1 s\"]\n";
+        let text = report(text, |mut root| {
+            assert!(
+                root.read(&key("a", quantity(Force).above_zero(), Required))
+                    .is_none()
+            );
+            let hold = quantity(Time).not_negative().or_else("leave it out");
+            assert!(root.read(&key("b", hold, Required)).is_none());
+            let width = quantity(Length).within(Limits::between(0.02, 1.0));
+            assert!(root.read(&key("c", width, Optional)).is_none());
+            let ratio = Limits::new(Bound::Excluded(-1.0), Bound::Included(0.5));
+            assert!(
+                root.read(&key("d", number("0.4").within(ratio), Or(0.4)))
+                    .is_none()
+            );
+            let once = |instead| Array {
+                entries: 1..=3,
+                repeats: false,
+                instead,
+                ..list(number("1.0"))
+            };
+            assert!(root.read(&key("e", once(""), Required)).is_none());
+            assert!(
+                root.read(&key("f", once("leave it out"), Required))
+                    .is_none()
+            );
+            root.finish();
+        });
+        insta::assert_snapshot!(text, @r#"
+        error: `a` must be above zero
+         --> sweep.toml:1:5
+          |
+        1 | a = "0 N"
+          |     ^^^^^
+          |
+          = help: write a force above zero, such as `a = "10 N"`
+
+        error: `b` cannot be negative
+         --> sweep.toml:2:5
+          |
+        2 | b = -1
+          |     ^^
+          |
+          = help: leave it out
+
+        error: `c` must lie between 20 mm and 1 m
+         --> sweep.toml:3:5
+          |
+        3 | c = "2 m"
+          |     ^^^^^
+          |
+          = help: write a length from 20 mm to 1 m, such as `c = "10 mm"`
+
+        error: `d` must be above -1 and at most 0.5
+         --> sweep.toml:4:5
+          |
+        4 | d = 0.6
+          |     ^^^
+          |
+          = help: write a number above -1 and at most 0.5, such as `d = 0.4`
+
+        error: `e[1]` is listed twice
+         --> sweep.toml:5:9
+          |
+        5 | e = [1, 1]
+          |      -  ^
+          |      |
+          |      the other one
+          |
+          = help: write every entry once
+
+        error: `f` has 0 entries, where 1 to 3 are allowed
+         --> sweep.toml:6:5
+          |
+        6 | f = []
+          |     ^^
+          |
+          = help: leave it out
+
+        error: unknown key `g`
+         --> sweep.toml:7:1
+          |
+        7 | g = ["1 s"]
+          | ^ not a key of this table
+          |
+          = help: keys allowed here: `a`, `b`, `c`, `d`, `e`, `f`
+        "#);
+    }
+
+    #[test]
+    fn a_single_value_is_a_list_of_one_and_hertz_are_understood_as_angular_frequencies() {
+        use crate::quantity::Dimension::AngularFrequency;
+        let text = report(
+            "f = \"45 Hz\"\nw = [\"1 Hz\", 2, \"3 rad/s\"]\n",
+            |mut root| {
+                let frequency = key("f", list(quantity(Frequency)), Required);
+                assert_eq!(root.value(&frequency).map(plain), Some(vec![45.0]));
+                let angular = key("w", list(quantity(AngularFrequency)), Required);
+                let values = root.value(&angular).map(plain);
+                assert_eq!(values, Some(vec![std::f64::consts::TAU, 2.0, 3.0]));
+            },
+        );
+        assert_eq!(text, "no problem");
     }
 }

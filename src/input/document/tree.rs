@@ -10,27 +10,27 @@ use crate::input::diagnostic::{Location, Source};
 
 /// The entries of a table, by key.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Table {
-    pub(super) entries: BTreeMap<String, Entry>,
+pub(crate) struct Table {
+    pub(crate) entries: BTreeMap<String, Entry>,
 }
 
 /// A key and what it holds.
 #[derive(Clone, Debug)]
-pub(super) struct Entry {
-    pub(super) key: Location,
-    pub(super) node: Node,
+pub(crate) struct Entry {
+    pub(crate) key: Location,
+    pub(crate) node: Node,
 }
 
 /// A value and its place; of a `[table]` the place is its header.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
-    pub(super) value: Value,
-    pub(super) location: Location,
+pub(crate) struct Node {
+    pub(crate) value: Value,
+    pub(crate) location: Location,
 }
 
 /// What TOML can hold.
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Text(String),
     Integer(Result<i64, NumberFault>),
     Float(Result<f64, NumberFault>),
@@ -43,7 +43,7 @@ pub(super) enum Value {
 /// Why a number as written cannot be computed with. Kept until the number is asked for, so that all
 /// problems of a file are told together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum NumberFault {
+pub(crate) enum NumberFault {
     /// `nan`.
     NotANumber,
     /// `inf`.
@@ -58,7 +58,7 @@ pub(super) enum NumberFault {
 
 impl Table {
     /// Takes over a table parsed by `toml` from the text that begins at `offset` in `source`.
-    pub(super) fn from_toml(table: DeTable<'_>, source: &Arc<Source>, offset: usize) -> Self {
+    pub(crate) fn from_toml(table: DeTable<'_>, source: &Arc<Source>, offset: usize) -> Self {
         let entries = table
             .into_iter()
             .map(|(key, value)| {
@@ -75,7 +75,7 @@ impl Table {
 
 impl Node {
     /// Takes over a value parsed by `toml` at `span` of the text that begins at `offset` in `source`.
-    pub(super) fn from_toml(
+    pub(crate) fn from_toml(
         span: Range<usize>,
         value: DeValue<'_>,
         source: &Arc<Source>,
@@ -110,14 +110,14 @@ impl Node {
     }
 
     /// What is here, with its article, for `found ...`.
-    pub(super) fn describe(&self) -> &'static str {
+    pub(crate) fn describe(&self) -> &'static str {
         self.value.describe()
     }
 }
 
 impl Value {
     /// As [`Node::describe`].
-    pub(super) fn describe(&self) -> &'static str {
+    pub(crate) fn describe(&self) -> &'static str {
         match self {
             Self::Text(_) => "a string",
             Self::Integer(_) => "an integer",

@@ -163,7 +163,7 @@ pub enum Method {
 
 impl Method {
     /// The name as written in a sweep file.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Direct => "direct",
             Self::March => "march",
@@ -195,7 +195,7 @@ pub enum EngineKind {
 
 impl EngineKind {
     /// The name as written in a sweep file.
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Axisymmetric => "axisymmetric",
             Self::HalfSpace => "half-space",
@@ -252,28 +252,38 @@ impl SolverPlan {
     }
 }
 
+impl CyclePlan {
+    /// What counts where nothing is asked for.
+    pub const DEFAULT: Self = Self {
+        steps: 200,
+        method: Method::Direct,
+        tolerance: 1e-4,
+        max_cycles: 1000,
+        error_bars: true,
+        accuracy: None,
+    };
+}
+
 impl Default for CyclePlan {
     fn default() -> Self {
-        Self {
-            steps: 200,
-            method: Method::Direct,
-            tolerance: 1e-4,
-            max_cycles: 1000,
-            error_bars: true,
-            accuracy: None,
-        }
+        Self::DEFAULT
     }
+}
+
+impl SolverPlan {
+    /// What counts where nothing is asked for.
+    pub const DEFAULT: Self = Self {
+        engine: EngineKind::Axisymmetric,
+        time_rule: TimeRule::Linear,
+        springs: 400,
+        cells: 128,
+        tolerance: None,
+    };
 }
 
 impl Default for SolverPlan {
     fn default() -> Self {
-        Self {
-            engine: EngineKind::Axisymmetric,
-            time_rule: TimeRule::Linear,
-            springs: 400,
-            cells: 128,
-            tolerance: None,
-        }
+        Self::DEFAULT
     }
 }
 

@@ -59,14 +59,19 @@ pub struct OutputPlan {
     pub error_bars: bool,
 }
 
+impl OutputPlan {
+    /// What counts where nothing is asked for.
+    pub const DEFAULT: Self = Self {
+        profiles_at_s: Vec::new(),
+        fields_at_s: Vec::new(),
+        field_cells: 128,
+        error_bars: true,
+    };
+}
+
 impl Default for OutputPlan {
     fn default() -> Self {
-        Self {
-            profiles_at_s: Vec::new(),
-            fields_at_s: Vec::new(),
-            field_cells: 128,
-            error_bars: true,
-        }
+        Self::DEFAULT
     }
 }
 

@@ -1,0 +1,35 @@
+//! `contact-dma schema`: the JSON Schema of sweep or scenario files.
+
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+use super::{Ended, Failure, print};
+use crate::input::keys::FileKind;
+use crate::input::schema;
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  contact-dma schema --kind sweep > sweep.json
+
+Editors that know TOML complete and check a file whose first lines hold
+
+  #:schema sweep.json")]
+pub(super) struct SchemaFlags {
+    /// Of which files
+    #[arg(long, value_name = "KIND", default_value = "sweep", value_parser = kinds())]
+    kind: FileKind,
+}
+
+fn kinds() -> impl TypedValueParser<Value = FileKind> {
+    PossibleValuesParser::new(FileKind::NAMES.map(|(name, _)| name)).map(|name| {
+        match name == FileKind::NAMES[0].0 {
+            true => FileKind::NAMES[0].1,
+            false => FileKind::NAMES[1].1,
+        }
+    })
+}
+
+pub(super) fn run(flags: &SchemaFlags) -> Result<Ended, Failure> {
+    print(&schema::text(flags.kind))
+}

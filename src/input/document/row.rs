@@ -1,0 +1,293 @@
+//! The rows of the tables of keys: what may stand under a key, whether it must, and what it means.
+
+use serde_json::{Value as Json, json};
+
+use super::Located;
+use super::kind::{Decided, Describe, Kind};
+use super::reader::TableReader;
+use crate::quantity::Dimension;
+
+/// One key of a table: everything that reading, schema and reference know of it.
+pub(crate) struct Row<K, P> {
+    pub(crate) name: &'static str,
+    pub(crate) kind: K,
+    pub(crate) presence: P,
+    /// A sentence; opens with a blank, as documentation comments do.
+    pub(crate) means: &'static str,
+}
+
+/// A key that must be there.
+#[derive(Clone, Copy)]
+pub(crate) struct Required;
+
+/// A key that may be left out.
+#[derive(Clone, Copy)]
+pub(crate) struct Optional;
+
+/// A key that may be left out and then has this value.
+#[derive(Clone, Copy)]
+pub(crate) struct Or<T>(pub(crate) T);
+
+/// Whether a key must be there.
+pub(crate) trait Presence<K>: Copy + Sync {
+    const REQUIRED: bool = false;
+
+    /// The value that counts where there is none, as it would be written.
+    fn default(&self, _kind: &K) -> Option<Json> {
+        None
+    }
+}
+
+impl<K> Presence<K> for Required {
+    const REQUIRED: bool = true;
+}
+
+impl<K> Presence<K> for Optional {}
+
+impl<K: Kind> Presence<K> for Or<K::Value>
+where
+    K::Value: Copy,
+{
+    fn default(&self, kind: &K) -> Option<Json> {
+        Some(kind.written(&self.0))
+    }
+}
+
+/// How a key is read: the answer is `None` where a problem was reported.
+pub(crate) trait Read<K: Kind>: Presence<K> {
+    type Answer;
+    /// The answer without its place.
+    type Value;
+
+    fn read(row: &Row<K, Self>, table: &mut TableReader<'_>) -> Option<Self::Answer>;
+    fn value(answer: Self::Answer) -> Self::Value;
+}
+
+impl<K: Kind> Read<K> for Required {
+    type Answer = Located<K::Value>;
+    type Value = K::Value;
+
+    fn read(row: &Row<K, Self>, table: &mut TableReader<'_>) -> Option<Self::Answer> {
+        if !table.has(row) {
+            table.report_absent(row);
+            return None;
+        }
+        table.optional(row)?
+    }
+
+    fn value(answer: Self::Answer) -> K::Value {
+        answer.value
+    }
+}
+
+impl<K: Kind> Read<K> for Optional {
+    type Answer = Option<Located<K::Value>>;
+    type Value = Option<K::Value>;
+
+    fn read(row: &Row<K, Self>, table: &mut TableReader<'_>) -> Option<Self::Answer> {
+        table.optional(row)
+    }
+
+    fn value(answer: Self::Answer) -> Self::Value {
+        answer.map(|located| located.value)
+    }
+}
+
+impl<K: Kind> Read<K> for Or<K::Value>
+where
+    K::Value: Copy,
+{
+    type Answer = Located<K::Value>;
+    type Value = K::Value;
+
+    fn read(row: &Row<K, Self>, table: &mut TableReader<'_>) -> Option<Self::Answer> {
+        let found = table.optional(row)?;
+        Some(found.unwrap_or_else(|| table.in_place_of(row.name, row.presence.0)))
+    }
+
+    fn value(answer: Self::Answer) -> K::Value {
+        answer.value
+    }
+}
+
+impl<K: Decided, P: Copy> Row<K, P> {
+    /// The row, once the dimension of its values is known.
+    pub(crate) fn of(&self, dimension: Dimension) -> Row<K::Kind, P> {
+        Row {
+            name: self.name,
+            kind: self.kind.of(dimension),
+            presence: self.presence,
+            means: self.means,
+        }
+    }
+}
+
+/// A row whatever the type of its values.
+pub(crate) trait AnyRow: Sync {
+    fn name(&self) -> &'static str;
+    fn means(&self) -> &'static str;
+    fn kind(&self) -> &dyn Describe;
+    fn is_required(&self) -> bool;
+    fn default(&self) -> Option<Json>;
+}
+
+impl<K: Describe, P: Presence<K>> AnyRow for Row<K, P> {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn means(&self) -> &'static str {
+        self.means.trim_start()
+    }
+
+    fn kind(&self) -> &dyn Describe {
+        &self.kind
+    }
+
+    fn is_required(&self) -> bool {
+        P::REQUIRED
+    }
+
+    fn default(&self) -> Option<Json> {
+        self.presence.default(&self.kind)
+    }
+}
+
+/// Rows of any types.
+pub(crate) type List = &'static [&'static dyn AnyRow];
+
+/// The keys of a table.
+pub(crate) struct Rows {
+    /// What the table is about; opens with a blank.
+    pub(crate) means: &'static str,
+    /// Keys that it may have whatever else it has.
+    pub(crate) keys: List,
+    pub(crate) others: Others,
+}
+
+/// Keys that exclude one another.
+#[derive(Clone, Copy)]
+pub(crate) enum Others {
+    None,
+    /// At most one of these, which are among the keys.
+    AtMostOne(List),
+    /// Those of exactly one of these lists, of which the first key decides.
+    OneList(&'static [List]),
+    /// Those that belong to the word under a key.
+    ByWord(
+        &'static dyn AnyRow,
+        fn() -> Vec<(&'static str, &'static Rows)>,
+    ),
+}
+
+/// One way to fill a table.
+pub(crate) struct Branch {
+    /// Key and word, or the key, that decides for it; none where there is one way alone.
+    pub(crate) decided_by: Vec<(&'static str, Option<&'static str>)>,
+    pub(crate) means: &'static str,
+    /// The keys that come with it.
+    pub(crate) keys: Vec<&'static dyn AnyRow>,
+}
+
+impl Rows {
+    /// Every way to fill the table, without the keys that all have.
+    pub(crate) fn branches(&self) -> Vec<Branch> {
+        match self.others {
+            Others::None | Others::AtMostOne(_) => Vec::new(),
+            Others::OneList(lists) => {
+                let branch = |keys: &List| Branch {
+                    decided_by: vec![(keys[0].name(), None)],
+                    means: "",
+                    keys: keys.to_vec(),
+                };
+                lists.iter().map(branch).collect()
+            }
+            Others::ByWord(row, words) => {
+                let with = |(word, rows): (&'static str, &'static Rows)| {
+                    let mut inner = rows.branches();
+                    if inner.is_empty() {
+                        inner.push(Branch {
+                            decided_by: Vec::new(),
+                            means: "",
+                            keys: Vec::new(),
+                        });
+                    }
+                    for branch in &mut inner {
+                        branch.decided_by.insert(0, (row.name(), Some(word)));
+                        branch.means = rows.means;
+                        branch.keys.splice(0..0, rows.keys.iter().copied());
+                    }
+                    inner
+                };
+                words().into_iter().flat_map(with).collect()
+            }
+        }
+    }
+
+    /// Every key that may stand in the table, in any of the ways to fill it.
+    pub(crate) fn all(&self) -> Vec<&'static dyn AnyRow> {
+        let branches = self.branches().into_iter().flat_map(|branch| branch.keys);
+        self.keys.iter().copied().chain(branches).collect()
+    }
+
+    /// Shows every key, and every key below it, with its dotted path.
+    pub(crate) fn visit(&self, path: &str, see: &mut dyn FnMut(&str, &dyn AnyRow)) {
+        for row in self.all() {
+            let path = match path {
+                "" => row.name().to_owned(),
+                path => format!("{path}.{}", row.name()),
+            };
+            see(&path, row);
+            if let Some(below) = row.kind().rows() {
+                below.visit(&path, see);
+            }
+        }
+    }
+
+    /// The JSON Schema of the table.
+    pub(crate) fn schema(&self) -> Json {
+        let branches = self.branches();
+        let mut schema = match branches.is_empty() {
+            true => object(self.keys, &[]),
+            false => {
+                let all = branches.iter().map(|branch| {
+                    let keys: Vec<_> = self.keys.iter().chain(&branch.keys).copied().collect();
+                    object(&keys, &branch.decided_by)
+                });
+                json!({ "oneOf": all.collect::<Vec<_>>() })
+            }
+        };
+        if let Others::AtMostOne(keys) = self.others {
+            let names: Vec<&str> = keys.iter().map(|row| row.name()).collect();
+            schema["not"] = json!({ "required": names });
+        }
+        schema
+    }
+}
+
+fn object(keys: &[&dyn AnyRow], decided_by: &[(&str, Option<&str>)]) -> Json {
+    let mut properties = serde_json::Map::new();
+    let mut required: Vec<&str> = decided_by.iter().map(|(key, _)| *key).collect();
+    for row in keys {
+        let mut schema = row.kind().schema();
+        schema["description"] = json!(row.means());
+        if let Some(default) = row.default() {
+            schema["default"] = default;
+        }
+        if row.is_required() && !required.contains(&row.name()) {
+            required.push(row.name());
+        }
+        properties.insert(row.name().to_owned(), schema);
+    }
+    for (key, word) in decided_by {
+        if let Some(word) = word {
+            properties.insert((*key).to_owned(), json!({ "const": word }));
+        }
+    }
+    json!({
+        "type": "object",
+        "properties": properties,
+        "required": required,
+        "additionalProperties": false,
+    })
+}

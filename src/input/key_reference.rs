@@ -1,0 +1,78 @@
+//! The reference of keys in the guides: one table for every table of the input files.
+
+use std::fmt::Write;
+
+use super::document::row::{AnyRow, Branch, Rows};
+use super::keys::FileKind;
+
+/// The reference, as Markdown.
+pub fn markdown() -> String {
+    let mut text = String::new();
+    let mut known = Vec::new();
+    for (name, kind) in FileKind::NAMES {
+        let heading = format!("The file of a {name}");
+        section(kind.rows(), &heading, "", &mut known, &mut text);
+    }
+    text
+}
+
+/// A table and those below it; what was written before is not written again.
+fn section(
+    rows: &'static Rows,
+    heading: &str,
+    path: &str,
+    known: &mut Vec<*const Rows>,
+    text: &mut String,
+) {
+    if known.contains(&std::ptr::from_ref(rows)) {
+        return;
+    }
+    known.push(rows);
+    // Writing to a String cannot fail.
+    let _ = write!(text, "### {heading}\n\n{}\n\n", rows.means.trim());
+    list(rows.keys, text);
+    let branches = rows.branches();
+    for branch in &branches {
+        let _ = write!(text, "{}\n\n", introduction(branch));
+        list(&branch.keys, text);
+    }
+    for row in rows.all() {
+        if let Some(below) = row.kind().rows() {
+            let path = match path {
+                "" => row.name().to_owned(),
+                path => format!("{path}.{}", row.name()),
+            };
+            section(below, &format!("`{path}`"), &path, known, text);
+        }
+    }
+}
+
+/// What decides for a way to fill a table.
+fn introduction(branch: &Branch) -> String {
+    let decided = branch.decided_by.iter().map(|(key, word)| match word {
+        Some(word) => format!("`{key} = \"{word}\"`"),
+        None => format!("`{key}`"),
+    });
+    let decided = decided.collect::<Vec<_>>().join(" and ");
+    match branch.means.trim() {
+        "" => format!("With {decided}:"),
+        means => format!("With {decided}: {means}"),
+    }
+}
+
+fn list(rows: &[&dyn AnyRow], text: &mut String) {
+    if rows.is_empty() {
+        return;
+    }
+    text.push_str("| key | value | if left out | meaning |\n|---|---|---|---|\n");
+    for row in rows {
+        let absent = match row.default() {
+            Some(default) => format!("`{default}`"),
+            None if row.is_required() => "needed".to_owned(),
+            None => String::new(),
+        };
+        let (name, value) = (row.name(), row.kind().expected());
+        let _ = writeln!(text, "| `{name}` | {value} | {absent} | {} |", row.means());
+    }
+    text.push('\n');
+}

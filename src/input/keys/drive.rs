@@ -1,0 +1,206 @@
+//! Keys of `[drive]` and `[sweep]`: an oscillation and its axes, or a history of segments.
+
+use super::rows;
+use crate::drive::Control;
+use crate::input::document::kind::Boolean;
+use crate::input::document::kind::{
+    Array, Choice, Dependent, Integer, Scalar, Table, Tables, Text, list, number, quantity,
+};
+use crate::input::document::limits::Limits;
+use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
+use crate::input::points::{MOST_POINTS, Points, SPACINGS, Spacing};
+use crate::quantity::Dimension::{Angle, AngularFrequency, Force, Frequency, Length, Time};
+
+const CONTROLS: [(&str, Control); 2] = [
+    (Control::Load.name(), Control::Load),
+    (Control::Approach.name(), Control::Approach),
+];
+
+/// A load, or an approach where that is controlled.
+const fn of_control(limits: Limits) -> Dependent {
+    Dependent {
+        dimensions: [Force, Length],
+        limits,
+    }
+}
+
+rows! { HARMONIC_KEYS:
+    /// What is prescribed: the load, or the approach; the values below are lengths then.
+    CONTROL: Row<Choice<Control>, Or<Control>> = "control", Choice(&CONTROLS), Or(Control::Load);
+    /// Mean; of a load above zero.
+    MEAN: Row<Dependent, Required> = "mean", of_control(Limits::NONE), Required;
+    /// Amplitude; of a load at most the mean.
+    AMPLITUDE: Row<Dependent, Required> = "amplitude", of_control(Limits::ABOVE_ZERO), Required;
+    /// Phase at which the oscillation begins.
+    PHASE: Row<Scalar, Or<f64>> = "phase", quantity(Angle), Or(0.0);
+    /// Rest under the mean before the oscillation.
+    HOLD: Row<Scalar, Or<f64>> = "hold", quantity(Time).not_negative(), Or(0.0);
+}
+
+pub(super) static HARMONIC: Rows = super::table(
+    " mean + amplitude sin(omega t + phase), after a rest under the mean.",
+    HARMONIC_KEYS,
+);
+
+rows! { _:
+    /// Angular frequencies: a list, or a range. Hz is understood.
+    ANGULAR_FREQUENCY: Row<Points<Scalar>, Required> =
+        "angular_frequency", Points(quantity(AngularFrequency).above_zero()), Required;
+    /// Frequencies: a list, or a range. rad/s is understood.
+    FREQUENCY: Row<Points<Scalar>, Required> = "frequency", Points(quantity(Frequency).above_zero()), Required;
+}
+
+rows! { SWEEP_KEYS:
+    /// A second axis: every frequency under each amplitude or mean.
+    AXIS: Row<Table, Optional> = "drive", Table(&DRIVE_AXIS), Optional;
+    /// Whether frequencies are added where the given ones do not resolve the curve of the loss.
+    REFINE: Row<Boolean, Or<bool>> = "refine", Boolean, Or(false);
+}
+
+pub(super) static SWEEP: Rows = Rows {
+    means: " The cases: exactly one of `angular_frequency` and `frequency`, and perhaps a second axis.",
+    keys: SWEEP_KEYS,
+    others: Others::OneList(&[&[&ANGULAR_FREQUENCY], &[&FREQUENCY]]),
+};
+
+rows! { _:
+    /// Amplitudes: a list, or a range.
+    AXIS_AMPLITUDE: Row<Points<Dependent>, Required> = "amplitude", Points(of_control(Limits::ABOVE_ZERO)), Required;
+    /// Means: a list, or a range.
+    AXIS_MEAN: Row<Points<Dependent>, Required> = "mean", Points(of_control(Limits::ABOVE_ZERO)), Required;
+}
+
+static DRIVE_AXIS: Rows = Rows {
+    means: " The second axis: exactly one of `amplitude` and `mean`, in place of that of `[drive]`.",
+    keys: &[],
+    others: Others::OneList(&[&[&AXIS_AMPLITUDE], &[&AXIS_MEAN]]),
+};
+
+rows! { RANGE_KEYS:
+    /// First point.
+    FROM: Row<Scalar, Required> = "from", quantity(AngularFrequency).above_zero(), Required;
+    /// Last point.
+    TO: Row<Scalar, Required> = "to", quantity(AngularFrequency).above_zero(), Required;
+    /// Number of points, both ends included.
+    POINTS: Row<Integer, Required> = "points", Integer(1..=MOST_POINTS), Required;
+    /// Whether ratios of neighbours are the same, or differences.
+    SPACING: Row<Choice<Spacing>, Or<Spacing>> = "spacing", Choice(&SPACINGS), Or(Spacing::Logarithmic);
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum SegmentKind {
+    Step,
+    Ramp,
+    Polynomial,
+    Sine,
+    Table,
+}
+
+const SEGMENT_KINDS: [(&str, SegmentKind); 5] = [
+    ("step", SegmentKind::Step),
+    ("ramp", SegmentKind::Ramp),
+    ("polynomial", SegmentKind::Polynomial),
+    ("sine", SegmentKind::Sine),
+    ("table", SegmentKind::Table),
+];
+
+impl SegmentKind {
+    fn rows(self) -> &'static Rows {
+        match self {
+            Self::Step => &STEP,
+            Self::Ramp => &RAMP,
+            Self::Polynomial => &POLYNOMIAL,
+            Self::Sine => &SINE,
+            Self::Table => &TABLE,
+        }
+    }
+}
+
+/// More segments than this belong into a table.
+const MOST_SEGMENTS: usize = 10_000;
+
+rows! { _:
+    /// The segments, one after another; a jump between two is placed exactly.
+    SEGMENTS: Row<Tables, Required> =
+        "segments",
+        Tables {
+            rows: &SEGMENT,
+            most: MOST_SEGMENTS,
+            instead: ", or a table: { kind = \"table\", file = \"drive.csv\" }",
+        },
+        Required;
+}
+
+pub(super) static HISTORY: Rows = super::table(
+    " A history of load or approach, from first touch.",
+    &[&CONTROL, &SEGMENTS],
+);
+
+rows! { SEGMENT_KEYS:
+    /// The kind of the segment; what it needs is listed below.
+    KIND: Row<Choice<SegmentKind>, Required> = "kind", Choice(&SEGMENT_KINDS), Required;
+}
+
+static SEGMENT: Rows = Rows {
+    means: " A part of the history.",
+    keys: SEGMENT_KEYS,
+    others: Others::ByWord(&KIND, || {
+        SEGMENT_KINDS
+            .map(|(word, kind)| (word, kind.rows()))
+            .to_vec()
+    }),
+};
+
+rows! { _:
+    /// The value that is held, or reached at the end.
+    TARGET: Row<Dependent, Required> = "to", of_control(Limits::NONE), Required;
+    /// How long the segment lasts.
+    DURATION: Row<Scalar, Required> = "duration", quantity(Time).above_zero(), Required;
+    /// Of 1, t, t^2, ... in SI units, t from the beginning of the segment.
+    COEFFICIENTS: Row<Array<Scalar>, Required> = "coefficients", list(number("2.0")), Required;
+}
+
+static STEP: Rows = super::table(" A jump, and then a constant value.", &[&TARGET, &DURATION]);
+static RAMP: Rows = super::table(
+    " A straight line from where the segment before ends.",
+    &[&TARGET, &DURATION],
+);
+static POLYNOMIAL: Rows = super::table(" A polynomial of time.", &[&COEFFICIENTS, &DURATION]);
+
+rows! { _:
+    /// Mean.
+    SINE_MEAN: Row<Dependent, Required> = "mean", of_control(Limits::NONE), Required;
+    /// Amplitude.
+    SINE_AMPLITUDE: Row<Dependent, Required> = "amplitude", of_control(Limits::ABOVE_ZERO), Required;
+    /// Number of cycles, whole or not.
+    CYCLES: Row<Scalar, Required> = "cycles", number("4.0").above_zero(), Required;
+}
+
+rows! { _:
+    /// Angular frequency; Hz is understood.
+    SINE_ANGULAR_FREQUENCY: Row<Scalar, Required> =
+        "angular_frequency", quantity(AngularFrequency).above_zero(), Required;
+    /// Frequency; rad/s is understood.
+    SINE_FREQUENCY: Row<Scalar, Required> = "frequency", quantity(Frequency).above_zero(), Required;
+}
+
+static SINE: Rows = Rows {
+    means: " mean + amplitude sin(omega t + phase): exactly one of `angular_frequency` and `frequency`.",
+    keys: &[&SINE_MEAN, &SINE_AMPLITUDE, &PHASE, &CYCLES],
+    others: Others::OneList(&[&[&SINE_ANGULAR_FREQUENCY], &[&SINE_FREQUENCY]]),
+};
+
+rows! { _:
+    /// CSV file with the columns `time_s` and `load_n` or `approach_m`.
+    FILE: Row<Text, Required> = "file", Text, Required;
+    /// Times that are written out in place of a file; the first is 0 s, two equal ones are a jump.
+    TIMES: Row<Array<Scalar>, Required> = "times", list(quantity(Time)), Required;
+    /// Their values.
+    VALUES: Row<Array<Dependent>, Required> = "values", list(of_control(Limits::NONE)), Required;
+}
+
+static TABLE: Rows = Rows {
+    means: " Straight lines between points: a `file`, or `times` and `values`.",
+    keys: &[],
+    others: Others::OneList(&[&[&FILE], &[&TIMES, &VALUES]]),
+};

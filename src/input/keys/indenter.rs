@@ -1,0 +1,202 @@
+//! Keys of `[indenter]`: the shape, and what each shape is made of.
+
+use std::ops::RangeInclusive;
+
+use super::rows;
+use crate::indenter::{HEIGHT_UNITS, HeightUnit, MapEdge, MapLevel, MapQuantity};
+use crate::input::document::kind::{
+    Array, Choice, Integer, Scalar, Tables, Text, number, pair, quantity,
+};
+use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
+use crate::quantity::Dimension::{Angle, Length};
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Shape {
+    Sphere,
+    Cone,
+    FlatPunch,
+    Ellipsoid,
+    PowerLaw,
+    Profile,
+    HeightMap,
+    Asperities,
+    Rough,
+}
+
+const SHAPES: [(&str, Shape); 9] = [
+    ("sphere", Shape::Sphere),
+    ("cone", Shape::Cone),
+    ("flat-punch", Shape::FlatPunch),
+    ("ellipsoid", Shape::Ellipsoid),
+    ("power-law", Shape::PowerLaw),
+    ("profile", Shape::Profile),
+    ("height-map", Shape::HeightMap),
+    ("asperities", Shape::Asperities),
+    ("rough", Shape::Rough),
+];
+
+impl Shape {
+    fn rows(self) -> &'static Rows {
+        match self {
+            Self::Sphere => &SPHERE,
+            Self::Cone => &CONE,
+            Self::FlatPunch => &FLAT_PUNCH,
+            Self::Ellipsoid => &ELLIPSOID,
+            Self::PowerLaw => &POWER_LAW,
+            Self::Profile => &PROFILE,
+            Self::HeightMap => &HEIGHT_MAP,
+            Self::Asperities => &ASPERITIES,
+            Self::Rough => &ROUGH,
+        }
+    }
+}
+
+/// Cells per side of a rough surface.
+const ROUGH_CELLS: RangeInclusive<usize> = 8..=4096;
+/// TOML has signed integers of 64 bits.
+const SEEDS: RangeInclusive<usize> = 0..=i64::MAX as usize;
+const LENGTH: Scalar = quantity(Length).above_zero();
+const POSITION: &str = "write one for x and one for y: [\"1 um\", \"0 um\"]";
+
+rows! { INDENTER_KEYS:
+    /// The shape; what it needs is listed below.
+    SHAPE: Row<Choice<Shape>, Required> = "shape", Choice(&SHAPES), Required;
+    /// Moves the indenter along x and y.
+    OFFSET: Row<Array<Scalar>, Optional> = "offset", pair(quantity(Length), POSITION), Optional;
+}
+
+pub(super) static INDENTER: Rows = Rows {
+    means: " The rigid indenter. Those that are no convex bodies of revolution go to the half-space engine.",
+    keys: INDENTER_KEYS,
+    others: Others::ByWord(&SHAPE, || {
+        SHAPES.map(|(word, shape)| (word, shape.rows())).to_vec()
+    }),
+};
+
+rows! { _:
+    /// Radius.
+    RADIUS: Row<Scalar, Required> = "radius", LENGTH, Required;
+    /// Angle between axis and flank; 90 deg is a plane.
+    HALF_ANGLE: Row<Scalar, Required> =
+        "half_angle", quantity(Angle).above_zero().such_as("\"70 deg\""), Required;
+    /// Principal radius of curvature along x.
+    RADIUS_X: Row<Scalar, Required> = "radius_x", LENGTH, Required;
+    /// Principal radius of curvature along y.
+    RADIUS_Y: Row<Scalar, Required> = "radius_y", LENGTH, Required;
+    /// Exponent of the gap; 2 is a paraboloid.
+    EXPONENT: Row<Scalar, Required> = "exponent", number("4.0"), Required;
+    /// Radius at which the gap is `height`.
+    GAP_RADIUS: Row<Scalar, Required> = "radius", LENGTH, Required;
+    /// Gap at `radius`.
+    GAP_HEIGHT: Row<Scalar, Required> = "height", LENGTH, Required;
+}
+
+static SPHERE: Rows = super::table(" A sphere, as the paraboloid of its radius.", &[&RADIUS]);
+static CONE: Rows = super::table(" A cone.", &[&HALF_ANGLE]);
+static FLAT_PUNCH: Rows = super::table(" A flat cylindrical punch.", &[&RADIUS]);
+static ELLIPSOID: Rows = super::table(" An elliptic paraboloid.", &[&RADIUS_X, &RADIUS_Y]);
+static POWER_LAW: Rows = super::table(
+    " gap = height (r / radius)^exponent.",
+    &[&EXPONENT, &GAP_RADIUS, &GAP_HEIGHT],
+);
+
+rows! { FILE_KEYS:
+    /// Data file. Paths start from the folder of this file, in a flag from the working folder.
+    FILE: Row<Text, Required> = "file", Text, Required;
+    /// SHA-256 of the data file, in hexadecimal: makes sure that it is still the same one.
+    SHA256: Row<Text, Optional> = "sha256", Text, Optional;
+}
+
+static PROFILE: Rows = super::table(
+    " A profile of revolution: columns `r_m`, `gap_m`, from the axis outwards.",
+    FILE_KEYS,
+);
+
+rows! { _:
+    /// Distance of two points of a matrix, or one for x and one for y; not where the file has columns `x_m`, `y_m`, `z_m`.
+    MAP_SPACING: Row<Array<Scalar>, Optional> =
+        "spacing", Array { entries: 1..=2, ..pair(LENGTH, POSITION) }, Optional;
+    /// Whether values are heights, positive towards the half-space, or gaps.
+    MAP_QUANTITY: Row<Choice<MapQuantity>, Or<MapQuantity>> =
+        "quantity", Choice(&MapQuantity::NAMES), Or(MapQuantity::Height);
+    /// Unit of the values of a matrix.
+    HEIGHT_UNIT: Row<Choice<HeightUnit>, Or<HeightUnit>> =
+        "height_unit", Choice(&HEIGHT_UNITS), Or(HEIGHT_UNITS[0].1);
+    /// What is taken off the values before they are used: nothing, their mean, or the plane through them.
+    LEVEL: Row<Choice<MapLevel>, Or<MapLevel>> =
+        "level", Choice(&MapLevel::NAMES), Or(MapLevel::None);
+    /// What lies beyond the map: nothing known, so that contact must stay within, or nothing at all (`rim`).
+    EDGE: Row<Choice<MapEdge>, Or<MapEdge>> =
+        "edge", Choice(&MapEdge::NAMES), Or(MapEdge::Unknown);
+}
+
+static HEIGHT_MAP: Rows = super::table(
+    " A measured surface: a matrix (CSV or `.npy`), or columns `x_m`, `y_m`, `z_m`.",
+    &[
+        &FILE,
+        &SHA256,
+        &MAP_SPACING,
+        &MAP_QUANTITY,
+        &HEIGHT_UNIT,
+        &LEVEL,
+        &EDGE,
+    ],
+);
+
+/// More asperities than this are a height map.
+const MOST_ASPERITIES: usize = 10_000;
+
+rows! { ASPERITIES_KEYS:
+    /// The asperities.
+    ASPERITY_LIST: Row<Tables, Required> =
+        "asperities",
+        Tables { rows: &ASPERITY, most: MOST_ASPERITIES, instead: ", or a height map" },
+        Required;
+}
+
+static ASPERITIES: Rows = super::table(" Paraboloids side by side.", ASPERITIES_KEYS);
+
+rows! { ASPERITY_KEYS:
+    /// Place of the summit along x and y.
+    CENTER: Row<Array<Scalar>, Required> = "center", pair(quantity(Length), POSITION), Required;
+    /// Radius of curvature at the summit.
+    ASPERITY_RADIUS: Row<Scalar, Required> = "radius", LENGTH, Required;
+    /// Height of the summit towards the half-space.
+    ASPERITY_HEIGHT: Row<Scalar, Or<f64>> = "height", quantity(Length), Or(0.0);
+}
+
+static ASPERITY: Rows = super::table(" One asperity.", ASPERITY_KEYS);
+
+rows! { _:
+    /// Points per side.
+    ROUGH_SIDE: Row<Integer, Required> = "cells", Integer(ROUGH_CELLS), Required;
+    /// Distance of two points.
+    ROUGH_SPACING: Row<Scalar, Required> = "spacing", LENGTH, Required;
+    /// Hurst exponent of the self-affine spectrum.
+    HURST_EXPONENT: Row<Scalar, Required> = "hurst_exponent", number("0.8"), Required;
+    /// Root mean square height.
+    RMS_HEIGHT: Row<Scalar, Required> = "rms_height", LENGTH, Required;
+    /// Wavelength above which the spectrum is flat; left out: none is.
+    ROLL_OFF_WAVELENGTH: Row<Scalar, Optional> = "roll_off_wavelength", LENGTH, Optional;
+    /// Shortest wavelength.
+    CUT_OFF_WAVELENGTH: Row<Scalar, Required> = "cut_off_wavelength", LENGTH, Required;
+    /// Seed of the random phases: the same seed gives the same surface.
+    SEED: Row<Integer, Required> = "seed", Integer(SEEDS), Required;
+    /// Radius of a sphere under the roughness; left out: the surface is nominally flat.
+    SPHERE_RADIUS: Row<Scalar, Optional> = "sphere_radius", LENGTH, Optional;
+}
+
+static ROUGH: Rows = super::table(
+    " A random self-affine surface.",
+    &[
+        &ROUGH_SIDE,
+        &ROUGH_SPACING,
+        &HURST_EXPONENT,
+        &RMS_HEIGHT,
+        &ROLL_OFF_WAVELENGTH,
+        &CUT_OFF_WAVELENGTH,
+        &SEED,
+        &SPHERE_RADIUS,
+        &EDGE,
+    ],
+);

@@ -1,0 +1,235 @@
+//! Keys of `[material]`: a series, a model of few elements, measured data or a material of the library.
+
+use super::rows;
+use crate::input::document::kind::{
+    Array, Boolean, Choice, Dependent, Scalar, Table, Tables, Text, list, number, pair, quantity,
+};
+use crate::input::document::limits::Limits;
+use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
+use crate::input::table_file::QUANTITIES;
+use crate::material::{GivenFace, ModulusKind};
+use crate::quantity::Dimension::{Compliance, Stress, Time, Viscosity};
+use std::ops::Bound;
+
+/// What a modulus or a compliance is of.
+pub(crate) const MODULUS_KINDS: [(&str, ModulusKind); 2] = [
+    ("longitudinal", ModulusKind::Longitudinal),
+    ("shear", ModulusKind::Shear),
+];
+
+/// How the samples of a table enter.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Evaluation {
+    Fit,
+    Direct,
+}
+
+const EVALUATIONS: [(&str, Evaluation); 2] =
+    [("fit", Evaluation::Fit), ("direct", Evaluation::Direct)];
+
+const POISSON_RATIO_VALUE: Scalar = number("0.4")
+    .within(Limits::new(Bound::Excluded(-1.0), Bound::Included(0.5)))
+    .or_else("an incompressible material has poisson_ratio = 0.5");
+
+/// What to write where an element of a model with few of them has no strength or no time.
+const ELASTIC: &str =
+    "for a body without this element write a [material.relaxation] block with the branches it has";
+const NO_BRANCH: &str = "leave out a branch that is not there";
+const WINDOW: &str =
+    "write the first and the last time of the test, above zero: measured = [\"0.1 s\", \"1000 s\"]";
+
+/// More branches than any fit resolves are a mistake in the file.
+const MOST_BRANCHES: usize = 1000;
+/// Twice as many as a fit gives.
+const MOST_ALTERNATIVES: usize = 8;
+
+rows! { MATERIAL_KEYS:
+    /// What tables and figures call the material.
+    NAME: Row<Text, Optional> = "name", Text, Optional;
+}
+
+rows! { _:
+    /// Poisson ratio, constant in time.
+    POISSON_RATIO: Row<Scalar, Required> = "poisson_ratio", POISSON_RATIO_VALUE, Required;
+    /// First and last time of the test that the series was fitted to, where that is known.
+    MEASURED: Row<Array<Scalar>, Optional> =
+        "measured", pair(quantity(Time).above_zero().or_else(WINDOW), WINDOW), Optional;
+}
+
+rows! { LIBRARY_KEYS:
+    /// A material that comes with the program; `contact-dma material list` names all.
+    LIBRARY: Row<Text, Required> = "library", Text, Required;
+    /// Another Poisson ratio than that of the library.
+    LIBRARY_POISSON_RATIO: Row<Scalar, Optional> = "poisson_ratio", POISSON_RATIO_VALUE, Optional;
+}
+
+rows! { _:
+    /// Generalised Maxwell model (Prony series of the relaxation modulus).
+    RELAXATION: Row<Table, Required> = "relaxation", Table(&RELAXATION_TABLE), Required;
+    /// Generalised Kelvin model (series of the creep compliance).
+    CREEP: Row<Table, Required> = "creep", Table(&CREEP_TABLE), Required;
+    /// Spring and dashpot in series: a fluid, for single histories.
+    MAXWELL: Row<Table, Required> = "maxwell", Table(&MAXWELL_TABLE), Required;
+    /// Spring in series with a Kelvin unit: the standard linear solid.
+    ZENER: Row<Table, Required> = "zener", Table(&ZENER_TABLE), Required;
+    /// Spring and dashpot in parallel; it has no instantaneous compliance, and so no contact: `material show` alone takes it.
+    KELVIN_VOIGT: Row<Table, Required> = "kelvin_voigt", Table(&KELVIN_VOIGT_TABLE), Required;
+    /// Measured creep compliance or relaxation modulus.
+    MEASURED_TABLE: Row<Table, Required> = "table", Table(&TABLE), Required;
+}
+
+rows! { _:
+    /// Other series that fit the same data: a relaxation series beside `relaxation`, a creep series beside `creep`, without their
+    /// `modulus` or `compliance`. What they change is reported as an uncertainty.
+    RELAXATION_ALTERNATIVE: Row<Tables, Optional> =
+        "alternative", alternatives(&RELAXATION_SERIES), Optional;
+    /// Other series that fit the same data: a relaxation series beside `relaxation`, a creep series beside `creep`, without their
+    /// `modulus` or `compliance`. What they change is reported as an uncertainty.
+    CREEP_ALTERNATIVE: Row<Tables, Optional> = "alternative", alternatives(&CREEP_SERIES), Optional;
+}
+
+const fn alternatives(rows: &'static Rows) -> Tables {
+    Tables {
+        rows,
+        most: MOST_ALTERNATIVES,
+        instead: "",
+    }
+}
+
+pub(super) static MATERIAL: Rows = Rows {
+    means: " What the half-space is made of: exactly one of `library`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt` and \
+            `table`.",
+    keys: MATERIAL_KEYS,
+    others: Others::OneList(&[
+        LIBRARY_KEYS,
+        &[
+            &RELAXATION,
+            &POISSON_RATIO,
+            &MEASURED,
+            &RELAXATION_ALTERNATIVE,
+        ],
+        &[&CREEP, &POISSON_RATIO, &MEASURED, &CREEP_ALTERNATIVE],
+        &[&MAXWELL, &POISSON_RATIO, &MEASURED],
+        &[&ZENER, &POISSON_RATIO, &MEASURED],
+        &[&KELVIN_VOIGT, &POISSON_RATIO, &MEASURED],
+        &[&MEASURED_TABLE, &POISSON_RATIO],
+    ]),
+};
+
+const fn branches(rows: &'static Rows) -> Tables {
+    Tables {
+        rows,
+        most: MOST_BRANCHES,
+        instead: "",
+    }
+}
+
+rows! { RELAXATION_KEYS:
+    /// Whether the moduli are Young's or shear moduli.
+    MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
+    /// Modulus at rest; zero for a fluid.
+    EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
+    /// The branches of the series.
+    RELAXATION_BRANCHES: Row<Tables, Required> = "branches", branches(&RELAXATION_BRANCH), Required;
+}
+
+static RELAXATION_TABLE: Rows = super::table(
+    " E(t) = equilibrium + sum of modulus exp(-t / time).",
+    RELAXATION_KEYS,
+);
+static RELAXATION_SERIES: Rows = super::table(
+    " Another series that fits the same data.",
+    &[&EQUILIBRIUM, &RELAXATION_BRANCHES],
+);
+
+rows! { _:
+    /// Modulus of the branch.
+    BRANCH_MODULUS: Row<Scalar, Required> =
+        "modulus", quantity(Stress).above_zero().or_else(NO_BRANCH), Required;
+    /// Creep compliance of the branch.
+    BRANCH_COMPLIANCE: Row<Scalar, Required> =
+        "compliance", quantity(Compliance).above_zero().or_else(NO_BRANCH), Required;
+    /// Relaxation time, or retardation time of a creep series.
+    BRANCH_TIME: Row<Scalar, Required> =
+        "time", quantity(Time).above_zero().or_else(NO_BRANCH), Required;
+}
+
+static RELAXATION_BRANCH: Rows = super::table(" A branch.", &[&BRANCH_MODULUS, &BRANCH_TIME]);
+static CREEP_BRANCH: Rows = super::table(" A branch.", &[&BRANCH_COMPLIANCE, &BRANCH_TIME]);
+
+rows! { CREEP_KEYS:
+    /// Whether the compliances are uniaxial or in shear.
+    COMPLIANCE: Row<Choice<ModulusKind>, Required> = "compliance", Choice(&MODULUS_KINDS), Required;
+    /// Compliance at once.
+    INSTANTANEOUS: Row<Scalar, Required> =
+        "instantaneous", quantity(Compliance).not_negative(), Required;
+    /// Viscosity of a fluid, which adds t / viscosity to the compliance.
+    VISCOSITY: Row<Scalar, Optional> =
+        "viscosity", quantity(Viscosity).above_zero().or_else("leave the key out for a solid"), Optional;
+    /// The branches of the series.
+    CREEP_BRANCHES: Row<Tables, Required> = "branches", branches(&CREEP_BRANCH), Required;
+}
+
+static CREEP_TABLE: Rows = super::table(
+    " D(t) = instantaneous + sum of compliance (1 - exp(-t / time)) + t / viscosity.",
+    CREEP_KEYS,
+);
+static CREEP_SERIES: Rows = super::table(
+    " Another series that fits the same data.",
+    &[&INSTANTANEOUS, &VISCOSITY, &CREEP_BRANCHES],
+);
+
+const ELEMENT: Scalar = quantity(Stress).above_zero().or_else(ELASTIC);
+
+rows! { _:
+    /// Shear modulus of the spring.
+    MAXWELL_MODULUS: Row<Scalar, Required> = "modulus", ELEMENT, Required;
+    /// Shear modulus of the spring.
+    SPRING: Row<Scalar, Required> = "spring", ELEMENT, Required;
+    /// Shear modulus of the spring in the Kelvin unit.
+    KELVIN_SPRING: Row<Scalar, Required> = "kelvin_spring", ELEMENT, Required;
+    /// Viscosity over modulus: relaxation time of a Maxwell body, retardation time of a Kelvin unit.
+    ELEMENT_TIME: Row<Scalar, Required> =
+        "time", quantity(Time).above_zero().or_else(ELASTIC), Required;
+}
+
+static MAXWELL_TABLE: Rows = super::table(
+    " Spring and dashpot in series.",
+    &[&MAXWELL_MODULUS, &ELEMENT_TIME],
+);
+static ZENER_TABLE: Rows = super::table(
+    " Spring in series with a Kelvin unit.",
+    &[&SPRING, &KELVIN_SPRING, &ELEMENT_TIME],
+);
+static KELVIN_VOIGT_TABLE: Rows = super::table(
+    " Spring and dashpot in parallel.",
+    &[&SPRING, &ELEMENT_TIME],
+);
+
+rows! { TABLE_KEYS:
+    /// What the data are of.
+    QUANTITY: Row<Choice<GivenFace>, Required> = "quantity", Choice(&QUANTITIES), Required;
+    /// Whether they are uniaxial or in shear.
+    TABLE_MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
+    /// `fit`: a series is fitted and its misfit reported with the results; `direct` (single histories): the samples themselves.
+    EVALUATION: Row<Choice<Evaluation>, Or<Evaluation>> =
+        "evaluation", Choice(&EVALUATIONS), Or(Evaluation::Fit);
+    /// Whether the fit is that of a fluid; left out: as the data say, a solid where they do not resolve it.
+    FLOW: Row<Boolean, Optional> = "flow", Boolean, Optional;
+}
+
+rows! { _:
+    /// CSV file with the columns `time_s` and `creep_compliance_per_pa` or `relaxation_modulus_pa`, or in other units.
+    FILE: Row<Text, Required> = "file", Text, Required;
+    /// Times of samples that are written out in place of a file.
+    TIMES: Row<Array<Scalar>, Required> = "times", list(quantity(Time)), Required;
+    /// Their values.
+    VALUES: Row<Array<Dependent>, Required> =
+        "values", list(Dependent { dimensions: [Compliance, Stress], limits: Limits::NONE }), Required;
+}
+
+static TABLE: Rows = Rows {
+    means: " Measured data: a `file`, or `times` and `values`.",
+    keys: TABLE_KEYS,
+    others: Others::OneList(&[&[&FILE], &[&TIMES, &VALUES]]),
+};

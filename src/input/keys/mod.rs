@@ -1,0 +1,135 @@
+//! Every key of the input files, once: what it is called, what may stand under it, what counts without it, what it means and
+//! which others it excludes. Reading, JSON Schema, the reference in the guides and the words of the fuzzers come from here.
+
+pub(crate) mod drive;
+pub(super) mod indenter;
+pub(super) mod material;
+pub(super) mod settings;
+
+use super::document::kind::{Table, Text};
+use super::document::row::{List, Optional, Others, Required, Row, Rows};
+
+/// Rows as statics, their meaning being their documentation; with a name before the colon, also the list of them.
+macro_rules! rows {
+    ($list:ident: $( $(#[doc = $means:literal])+ $name:ident: $type:ty = $key:literal, $kind:expr, $presence:expr; )+) => {
+        $crate::input::keys::rows! { _: $( $(#[doc = $means])+ $name: $type = $key, $kind, $presence; )+ }
+        pub(in crate::input) static $list: $crate::input::document::row::List = &[$(&$name),+];
+    };
+    (_: $( $(#[doc = $means:literal])+ $name:ident: $type:ty = $key:literal, $kind:expr, $presence:expr; )+) => {
+        $(
+            $(#[doc = $means])+
+            pub(crate) static $name: $type = Row {
+                name: $key,
+                kind: $kind,
+                presence: $presence,
+                means: concat!($($means),+),
+            };
+        )+
+    };
+}
+pub(in crate::input) use rows;
+
+/// A table whose keys do not exclude one another.
+pub(super) const fn table(means: &'static str, keys: List) -> Rows {
+    Rows {
+        means,
+        keys,
+        others: Others::None,
+    }
+}
+
+/// The two kinds of input files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileKind {
+    /// A frequency sweep.
+    Sweep,
+    /// One drive history.
+    Scenario,
+}
+
+impl FileKind {
+    /// Both, as they are named on the command line.
+    pub const NAMES: [(&str, Self); 2] = [("sweep", Self::Sweep), ("scenario", Self::Scenario)];
+
+    /// The keys of such a file.
+    pub(crate) fn rows(self) -> &'static Rows {
+        match self {
+            Self::Sweep => &SWEEP_FILE,
+            Self::Scenario => &SCENARIO_FILE,
+        }
+    }
+}
+
+rows! { SWEEP_KEYS:
+    /// What figures, tables and the page are headed with.
+    TITLE: Row<Text, Required> = "title", Text, Required;
+    /// What the half-space is made of.
+    MATERIAL: Row<Table, Required> = "material", Table(&material::MATERIAL), Required;
+    /// The rigid indenter.
+    INDENTER: Row<Table, Required> = "indenter", Table(&indenter::INDENTER), Required;
+    /// The load or the approach: an oscillation about a mean.
+    DRIVE: Row<Table, Required> = "drive", Table(&drive::HARMONIC), Required;
+    /// The frequencies, and perhaps a second axis.
+    SWEEP: Row<Table, Required> = "sweep", Table(&drive::SWEEP), Required;
+    /// How a cycle is resolved, and when it counts as stabilised.
+    CYCLE: Row<Table, Optional> = "cycle", Table(&settings::CYCLE), Optional;
+    /// Which contact engine, and how fine.
+    SOLVER: Row<Table, Optional> = "solver", Table(&settings::SOLVER), Optional;
+    /// How figures look; no part of the results.
+    FIGURES: Row<Table, Optional> = "figures", Table(&settings::SWEEP_FIGURES), Optional;
+}
+
+pub(super) static SWEEP_FILE: Rows =
+    table(" A frequency sweep, for `contact-dma sweep`.", SWEEP_KEYS);
+
+rows! { _:
+    /// The load or the approach: a history of segments.
+    HISTORY: Row<Table, Required> = "drive", Table(&drive::HISTORY), Required;
+    /// Time steps.
+    TIME: Row<Table, Optional> = "time", Table(&settings::TIME), Optional;
+    /// What is written beside the history.
+    OUTPUT: Row<Table, Optional> = "output", Table(&settings::OUTPUT), Optional;
+    /// How figures look; no part of the results.
+    SCENARIO_FIGURES: Row<Table, Optional> = "figures", Table(&settings::FIGURES), Optional;
+}
+
+static SCENARIO_FILE: Rows = table(
+    " One drive history, for `contact-dma simulate`.",
+    &[
+        &TITLE,
+        &MATERIAL,
+        &INDENTER,
+        &HISTORY,
+        &TIME,
+        &OUTPUT,
+        &SOLVER,
+        &SCENARIO_FIGURES,
+    ],
+);
+
+/// Everything that is a word of the input files: keys, and what may stand under those that take a word. Sorted.
+pub fn words() -> Vec<&'static str> {
+    let mut words = Vec::new();
+    for (_, kind) in FileKind::NAMES {
+        kind.rows().visit("", &mut |_, row| {
+            words.push(row.name());
+            words.extend(row.kind().words());
+        });
+    }
+    words.sort_unstable();
+    words.dedup();
+    words
+}
+
+/// The dotted path of every key of a kind of file that no table stands under, without the places in lists. Sorted.
+pub fn paths(kind: FileKind) -> Vec<String> {
+    let mut paths = Vec::new();
+    kind.rows().visit("", &mut |path, row| {
+        if row.kind().rows().is_none() {
+            paths.push(path.to_owned());
+        }
+    });
+    paths.sort_unstable();
+    paths.dedup();
+    paths
+}

@@ -1,0 +1,149 @@
+//! The points of an axis of a sweep: a list of quantities, one of them, or a range.
+
+use serde_json::{Value as Json, json};
+
+use super::diagnostic::{Diagnostics, Problems};
+use super::document::kind::{Array, Decided, Dependent, Describe, Kind, Scalar, Spot, list};
+use super::document::reader::TableReader;
+use super::document::row::{Row, Rows};
+use super::document::tree::{Node, Value};
+use super::keys::drive::{FROM, POINTS, RANGE_KEYS, SPACING, TO};
+use super::keys::table;
+use crate::quantity::Dimension;
+
+/// More points than this are a slip of the pen rather than a wish.
+pub(super) const MOST_POINTS: usize = 100_000;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Spacing {
+    Logarithmic,
+    Linear,
+}
+
+pub(super) const SPACINGS: [(&str, Spacing); 2] =
+    [("log", Spacing::Logarithmic), ("linear", Spacing::Linear)];
+
+static RANGE: Rows = table(
+    " A range in place of a list; `from` and `to` are what an entry of the list would be.",
+    RANGE_KEYS,
+);
+
+/// Points of this kind, ascending, each once.
+pub(crate) struct Points<K>(pub(crate) K);
+
+impl<K: Describe> Describe for Points<K> {
+    fn expected(&self) -> String {
+        format!("a list or a range, each {}", self.0.expected())
+    }
+
+    fn example(&self) -> String {
+        format!("[{}]", self.0.example())
+    }
+
+    fn schema(&self) -> Json {
+        let points = json!({ "type": "array", "items": self.0.schema(), "minItems": 1, "maxItems": MOST_POINTS });
+        let mut range = RANGE.schema();
+        for end in [&FROM, &TO] {
+            let means = range["properties"][end.name]["description"].take();
+            range["properties"][end.name] = self.0.schema();
+            range["properties"][end.name]["description"] = means;
+        }
+        json!({ "anyOf": [self.0.schema(), points, range] })
+    }
+
+    fn rows(&self) -> Option<&'static Rows> {
+        Some(&RANGE)
+    }
+}
+
+impl Decided for Points<Dependent> {
+    type Kind = Points<Scalar>;
+
+    fn of(&self, dimension: Dimension) -> Points<Scalar> {
+        Points(self.0.of(dimension))
+    }
+}
+
+impl Kind for Points<Scalar> {
+    type Value = Vec<f64>;
+
+    fn written(&self, values: &Vec<f64>) -> Json {
+        json!(values)
+    }
+
+    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Vec<f64>, Diagnostics> {
+        let problems = Problems::new();
+        let points = match &node.value {
+            Value::Table(table) => {
+                let path = spot.path.to_owned();
+                let table = TableReader::new(table, node.location.clone(), path, &problems);
+                self.range(table, &problems)
+            }
+            Value::Array(items) if items.is_empty() => {
+                let example = format!("{} = {}", spot.key.unwrap_or_default(), self.example());
+                problems
+                    .at(&node.location, "the sweep is empty")
+                    .help(format!("give at least one point, for example {example}"));
+                None
+            }
+            _ => {
+                let distinct = Array {
+                    entries: 1..=MOST_POINTS,
+                    repeats: false,
+                    ..list(self.0)
+                };
+                let mut points = distinct.convert(node, spot)?;
+                points.sort_by(|a, b| a.value.total_cmp(&b.value));
+                Some(points.into_iter().map(|point| point.value).collect())
+            }
+        };
+        problems.into_result(points)
+    }
+}
+
+impl Points<Scalar> {
+    fn range(&self, mut table: TableReader<'_>, problems: &Problems) -> Option<Vec<f64>> {
+        let end = |row: &Row<Scalar, _>| Row {
+            kind: self.0,
+            ..*row
+        };
+        let (from, to) = (table.read(&end(&FROM)), table.read(&end(&TO)));
+        let (points, spacing) = (table.read(&POINTS), table.value(&SPACING));
+        table.finish();
+        let (from, to, points) = (from?, to?, points?);
+        if points.value == 1 && to.value == from.value {
+            return Some(vec![from.value]);
+        }
+        if to.value <= from.value {
+            problems
+                .at(&to, "the sweep ends before it begins")
+                .because("not above the first point")
+                .label(&from, "its first point");
+            return None;
+        }
+        if points.value < 2 {
+            problems
+                .at(&points, "a range needs at least 2 points, its two ends")
+                .help("for one point write a list with one entry");
+            return None;
+        }
+        Some(spaced(from.value, to.value, points.value, spacing?))
+    }
+}
+
+/// `points` values from `from` to `to`, both exact.
+fn spaced(from: f64, to: f64, points: usize, spacing: Spacing) -> Vec<f64> {
+    let last = points - 1;
+    let between = |a: f64, b: f64, i: usize| a + (b - a) * i as f64 / last as f64;
+    (0..points)
+        .map(|i| match i {
+            0 => from,
+            _ if i == last => to,
+            _ => match spacing {
+                // Through decimal logarithms, so that decades come out as written.
+                Spacing::Logarithmic => 10_f64.powf(between(from.log10(), to.log10(), i)),
+                Spacing::Linear => between(from, to, i),
+            },
+        })
+        .collect()
+}
