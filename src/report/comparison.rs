@@ -65,6 +65,7 @@ pub struct Comparison {
     /// The curves of the energy loss.
     pub curve: Vec<CurvePoint>,
     /// In which the baseline has its frequencies first.
+    #[serde(skip)]
     pub unit: FrequencyUnit,
 }
 
