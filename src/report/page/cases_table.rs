@@ -1,8 +1,6 @@
 //! The table of all cases: the numbers most asked for, to five digits, errors to two; the script knows the other columns.
 
-use std::fmt::Write;
-
-use maud::Render;
+use maud::{Markup, html};
 
 use crate::quantity::Dimension;
 use crate::report::number::{cell, digits, largest, prefix};
@@ -21,40 +19,44 @@ struct Column {
 }
 
 /// The table.
-pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
+pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     let columns = columns(plan, &outcome.records);
-    let mut html = String::from("<table id=\"cases\">\n<thead><tr>");
-    for column in &columns {
-        // Writing to a String cannot fail.
-        let _ = write!(
-            html,
-            "<th scope=\"col\" data-column=\"{}\">{}</th>",
-            column.name,
-            column.heading.render().into_string()
-        );
-    }
-    html.push_str("<th scope=\"col\" class=\"text\" data-column=\"status\">status</th></tr></thead>\n<tbody>\n");
-    for (place, record) in outcome.records.iter().enumerate() {
-        let _ = write!(html, "<tr data-index=\"{}\">", record.index);
-        for (k, column) in columns.iter().enumerate() {
-            let value = column.values.get(place).copied().flatten();
-            let text = match column.digits {
-                Some(significant) => digits(value, significant),
-                None => cell(value),
-            };
-            let _ = match k {
-                0 => write!(html, "<th scope=\"row\">{text}</th>"),
-                _ => write!(html, "<td>{text}</td>"),
-            };
+    html! {
+        table id="cases" {
+            thead {
+                tr {
+                    @for column in &columns {
+                        th scope="col" data-column=(column.name) { (column.heading) }
+                    }
+                    th scope="col" class="text" data-column="status" { "status" }
+                }
+            }
+            tbody {
+                @for (place, record) in outcome.records.iter().enumerate() {
+                    tr data-index=(record.index) {
+                        @for (k, column) in columns.iter().enumerate() {
+                            @if k == 0 {
+                                th scope="row" { (column.text(place)) }
+                            } @else {
+                                td { (column.text(place)) }
+                            }
+                        }
+                        td class="text" { (record.status.name()) }
+                    }
+                }
+            }
         }
-        let _ = writeln!(
-            html,
-            "<td class=\"text\">{}</td></tr>",
-            record.status.name()
-        );
     }
-    html.push_str("</tbody>\n</table>");
-    html
+}
+
+impl Column {
+    fn text(&self, case: usize) -> String {
+        let value = self.values.get(case).copied().flatten();
+        match self.digits {
+            Some(significant) => digits(value, significant),
+            None => cell(value),
+        }
+    }
 }
 
 fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {

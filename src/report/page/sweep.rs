@@ -1,6 +1,6 @@
 //! The sections of the page of a sweep.
 
-use maud::{Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 use super::{Pictures, answer, cases_table, how, moduli, question, still};
 use crate::sweep::plan::SweepPlan;
@@ -131,7 +131,7 @@ fn all_frequencies(plan: &SweepPlan, outcome: &Outcome) -> Markup {
                 "Activate a heading to sort by it. The CSV has every column, in the order shown, to the last digit."
             }
             section class="scroll" tabindex="0" aria-label="Table, may be scrolled" {
-                (PreEscaped(cases_table::table(plan, outcome)))
+                (cases_table::table(plan, outcome))
             }
         }
     }
