@@ -14,7 +14,7 @@ use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use super::document::{cannot_read, not_utf8};
 use super::separator;
 use crate::material::tabulated::{TableColumn, TableError, Tabulated};
-use crate::material::{GivenFace, ModulusKind};
+use crate::material::{MaterialFunction, ModulusKind};
 
 /// Largest file read, bytes: a million rows and more.
 const MAX_BYTES: usize = 100_000_000;
@@ -42,22 +42,22 @@ const RELAXATION: Names = [
 ];
 
 /// The words by which files and flags call the two quantities.
-pub(crate) const QUANTITIES: [(&str, GivenFace); 2] = [
-    ("creep", GivenFace::Creep),
-    ("relaxation", GivenFace::Relaxation),
+pub(crate) const QUANTITIES: [(&str, MaterialFunction); 2] = [
+    ("creep", MaterialFunction::Creep),
+    ("relaxation", MaterialFunction::Relaxation),
 ];
 
-fn value_names(face: GivenFace) -> Names {
+fn value_names(face: MaterialFunction) -> Names {
     match face {
-        GivenFace::Creep => CREEP,
-        GivenFace::Relaxation => RELAXATION,
+        MaterialFunction::Creep => CREEP,
+        MaterialFunction::Relaxation => RELAXATION,
     }
 }
 
-fn other(face: GivenFace) -> (&'static str, GivenFace) {
+fn other(face: MaterialFunction) -> (&'static str, MaterialFunction) {
     match face {
-        GivenFace::Creep => QUANTITIES[1],
-        GivenFace::Relaxation => QUANTITIES[0],
+        MaterialFunction::Creep => QUANTITIES[1],
+        MaterialFunction::Relaxation => QUANTITIES[0],
     }
 }
 
@@ -67,7 +67,7 @@ fn other(face: GivenFace) -> (&'static str, GivenFace) {
 /// The file cannot be opened, or [`parse`] refuses it.
 pub(crate) fn read(
     path: &Path,
-    face: GivenFace,
+    face: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
     let name = path.display().to_string();
@@ -94,7 +94,7 @@ pub(crate) fn load(path: &Path) -> io::Result<Vec<u8>> {
 pub(crate) fn parse(
     name: &str,
     bytes: &[u8],
-    face: GivenFace,
+    face: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
     if bytes.len() > MAX_BYTES {
@@ -143,7 +143,7 @@ fn column(
     header: &Row,
     names: &Names,
     what: &str,
-    face: Option<GivenFace>,
+    face: Option<MaterialFunction>,
 ) -> Result<Column, Diagnostic> {
     let find = |names: &Names| -> Vec<(usize, f64)> {
         let cells = header.cells.iter().enumerate();
@@ -178,7 +178,7 @@ fn column(
             };
             let separated = separator::other_than_comma(line.text(), is_wanted);
             let missing = Diagnostic::at(&line, format!("no column `{}`", names[0].0));
-            let (word, other) = other(face.unwrap_or(GivenFace::Creep));
+            let (word, other) = other(face.unwrap_or(MaterialFunction::Creep));
             Err(if face.is_some() && !find(&value_names(other)).is_empty() {
                 missing.help(format!("this table wants the quantity \"{word}\""))
             } else if header.cells.iter().any(|c| c.text.parse::<f64>().is_ok()) {
@@ -255,7 +255,7 @@ fn explain(
     source: &Arc<Source>,
     place: Option<Range<usize>>,
     error: &TableError,
-    face: GivenFace,
+    face: MaterialFunction,
 ) -> Diagnostic {
     let location = place.map_or(Location::whole(source), |span| Location::new(source, span));
     let diagnostic = Diagnostic::at(&location, error.to_string());
@@ -371,7 +371,7 @@ mod tests {
         parse(
             "data.csv",
             bytes,
-            GivenFace::Creep,
+            MaterialFunction::Creep,
             ModulusKind::Longitudinal,
         )
     }

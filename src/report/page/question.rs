@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::html::escaped;
 use crate::drive::HarmonicDrive;
 use crate::indenter::{Indenter, Parameter, Value};
-use crate::material::{GivenFace, Material, ModulusKind};
+use crate::material::{Material, MaterialFunction, ModulusKind};
 use crate::quantity::Dimension;
 use crate::report::number::plain;
 use crate::sweep::plan::resolved::drive_dimension;
@@ -122,7 +122,7 @@ pub(super) fn material(material: &Material) -> String {
     };
     let time = |time_s| plain(time_s, Dimension::Time, 5);
     match (material.given(), material.relaxation()) {
-        (GivenFace::Relaxation, Some(relaxation)) => {
+        (MaterialFunction::Relaxation, Some(relaxation)) => {
             let modulus = |value| plain(value, Dimension::Stress, 6);
             facts.add("given as", &format!("{kind} relaxation modulus"));
             facts.add("equilibrium", &modulus(relaxation.equilibrium_modulus()));
