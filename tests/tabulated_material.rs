@@ -15,7 +15,7 @@ use contact_dma::input::sweep_file;
 use contact_dma::material::fit::fit;
 use contact_dma::material::interpolant::Interpolant;
 use contact_dma::material::tabulated::Tabulated;
-use contact_dma::material::{GivenFace, Material, library};
+use contact_dma::material::{Material, MaterialFunction, library};
 use contact_dma::reference::transient::step_load_contact_radius_m;
 use contact_dma::sweep::plan::resolved::resolved_text;
 use predicates::prelude::*;
@@ -33,13 +33,13 @@ fn times() -> Vec<f64> {
         .collect()
 }
 
-fn csv(face: GivenFace) -> String {
+fn csv(face: MaterialFunction) -> String {
     let material = pmma();
     let (column, value): (_, &dyn Fn(f64) -> f64) = match face {
-        GivenFace::Creep => ("creep_compliance_per_pa", &|t| {
+        MaterialFunction::Creep => ("creep_compliance_per_pa", &|t| {
             material.creep().compliance(t)
         }),
-        GivenFace::Relaxation => ("relaxation_modulus_pa", &|t| {
+        MaterialFunction::Relaxation => ("relaxation_modulus_pa", &|t| {
             material.relaxation().unwrap().modulus(t)
         }),
     };
@@ -93,8 +93,8 @@ modulus = "longitudinal"
 fn the_printed_block_is_a_material_block_with_exact_numbers() {
     let folder = TempDir::new().unwrap();
     for (face, quantity) in [
-        (GivenFace::Creep, "creep"),
-        (GivenFace::Relaxation, "relaxation"),
+        (MaterialFunction::Creep, "creep"),
+        (MaterialFunction::Relaxation, "relaxation"),
     ] {
         write(folder.path(), "data.csv", &csv(face));
         let out = folder.path().join(quantity);
@@ -154,7 +154,11 @@ fn the_printed_block_is_a_material_block_with_exact_numbers() {
 fn a_sweep_takes_its_material_from_a_table_beside_its_file_and_shows_the_misfit() {
     let folder = TempDir::new().unwrap();
     let project = folder.path().join("project");
-    write(&project.join("data"), "creep.csv", &csv(GivenFace::Creep));
+    write(
+        &project.join("data"),
+        "creep.csv",
+        &csv(MaterialFunction::Creep),
+    );
     write(
         &project,
         "sweep.toml",
@@ -212,10 +216,10 @@ fn a_sweep_takes_its_material_from_a_table_beside_its_file_and_shows_the_misfit(
 
 #[test]
 fn a_table_that_cannot_be_used_is_refused_at_its_place() {
-    let good = csv(GivenFace::Creep);
+    let good = csv(MaterialFunction::Creep);
     let first = good.lines().nth(1).unwrap();
-    let falling =
-        csv(GivenFace::Relaxation).replace("relaxation_modulus_pa", "creep_compliance_per_pa");
+    let falling = csv(MaterialFunction::Relaxation)
+        .replace("relaxation_modulus_pa", "creep_compliance_per_pa");
     let rising = good.replace("creep_compliance_per_pa", "relaxation_modulus_pa");
     let cases: [(&str, String, &[&str]); 10] = [
         ("creep", String::new(), &["data.csv", "the table is empty"]),
@@ -433,12 +437,12 @@ fn under_a_pressure_the_surface_of_noisy_samples_is_never_displaced_outwards() {
         state = state * 48_271 % 2_147_483_647;
         state as f64 / 2_147_483_647.0
     };
-    for face in [GivenFace::Creep, GivenFace::Relaxation] {
+    for face in [MaterialFunction::Creep, MaterialFunction::Relaxation] {
         let material = pmma();
         let values = times().into_iter().map(|t| {
             let value = match face {
-                GivenFace::Creep => material.creep().compliance(t),
-                GivenFace::Relaxation => material.relaxation().unwrap().modulus(t),
+                MaterialFunction::Creep => material.creep().compliance(t),
+                MaterialFunction::Relaxation => material.relaxation().unwrap().modulus(t),
             };
             value * (1.0 + 0.06 * (uniform() - 0.5))
         });
@@ -512,7 +516,7 @@ fn a_step_load_on_tabulated_pmma_is_the_same_direct_and_fitted_and_both_are_righ
         .iter()
         .map(|&t| rounded(material.creep().compliance(t)))
         .collect();
-    let table = Tabulated::new(GivenFace::Creep, material.kind(), times(), values).unwrap();
+    let table = Tabulated::new(MaterialFunction::Creep, material.kind(), times(), values).unwrap();
     let contact = table.contact_compliance(0.38).unwrap();
     let interpolation_error = (1..=3000)
         .map(|i| 0.1 * 10_f64.powf(4.0 * f64::from(i) / 3000.0))
@@ -561,7 +565,13 @@ fn a_tabulated_relaxation_modulus_goes_into_contact_without_a_fit() {
         .iter()
         .map(|&t| material.relaxation().unwrap().modulus(t))
         .collect();
-    let table = Tabulated::new(GivenFace::Relaxation, material.kind(), times(), values).unwrap();
+    let table = Tabulated::new(
+        MaterialFunction::Relaxation,
+        material.kind(),
+        times(),
+        values,
+    )
+    .unwrap();
     let contact = table.contact_compliance(0.38).unwrap();
     let direct = step_load(|nodes| DirectMemory::new(contact.clone(), nodes));
     let recursive = step_load(|nodes| Memory::new(compliance.clone(), nodes));

@@ -8,7 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use super::compare;
-use crate::material::{GivenFace, ModulusKind};
+use crate::material::{MaterialFunction, ModulusKind};
 use crate::sweep::share::shard::Shard;
 use crate::sweep::store::checkpoint_file;
 
@@ -344,7 +344,7 @@ pub(super) enum TableQuantity {
     Relaxation,
 }
 
-impl From<TableQuantity> for GivenFace {
+impl From<TableQuantity> for MaterialFunction {
     fn from(quantity: TableQuantity) -> Self {
         match quantity {
             TableQuantity::Creep => Self::Creep,

@@ -305,7 +305,9 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
 mod tests {
     use super::*;
     use crate::history::{Memory, StepWeights};
-    use crate::material::{CreepBranch, GivenFace, ModulusKind, library, tabulated::Tabulated};
+    use crate::material::{
+        CreepBranch, MaterialFunction, ModulusKind, library, tabulated::Tabulated,
+    };
 
     fn pmma() -> Creep {
         let material = library::find("pmma").unwrap().material().unwrap();
@@ -484,7 +486,8 @@ mod tests {
             .map(|i| 0.1 * 10_f64.powf(f64::from(i) / 10.0))
             .collect();
         let values = times.iter().map(|&t| pmma().compliance(t)).collect();
-        let table = Tabulated::new(GivenFace::Creep, ModulusKind::Shear, times, values).unwrap();
+        let table =
+            Tabulated::new(MaterialFunction::Creep, ModulusKind::Shear, times, values).unwrap();
         let curve = table.curve().clone();
         let mut memory = DirectMemory::with_room_for(curve.clone(), 1, 4);
         let (mut time, mut p) = (0.0, 0.0);

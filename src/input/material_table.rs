@@ -12,7 +12,7 @@ use super::keys::material::{
 use super::table_file;
 use crate::material::fit::{self, Fit, FitError};
 use crate::material::tabulated::{TableColumn, Tabulated};
-use crate::material::{GivenFace, ModulusKind};
+use crate::material::{MaterialFunction, ModulusKind};
 use crate::quantity::Dimension;
 
 /// What a command does where a file asks for the direct hereditary sum.
@@ -99,7 +99,7 @@ pub(crate) fn read(
 fn from_file(
     table: &mut TableReader<'_>,
     folder: &Path,
-    face: Option<GivenFace>,
+    face: Option<MaterialFunction>,
     kind: Option<ModulusKind>,
     problems: &Problems,
 ) -> Option<Located<Tabulated>> {
@@ -114,7 +114,7 @@ fn from_file(
 /// Samples in the file itself: `times` and `values`, as a resolved scenario has them.
 fn written_out(
     table: &mut TableReader<'_>,
-    face: Option<GivenFace>,
+    face: Option<MaterialFunction>,
     kind: Option<ModulusKind>,
     problems: &Problems,
 ) -> Option<Located<Tabulated>> {
@@ -125,8 +125,8 @@ fn written_out(
         return None;
     };
     let dimension = match face {
-        GivenFace::Creep => Dimension::Compliance,
-        GivenFace::Relaxation => Dimension::Stress,
+        MaterialFunction::Creep => Dimension::Compliance,
+        MaterialFunction::Relaxation => Dimension::Stress,
     };
     let values = table.read(&VALUES.of(dimension));
     let (times, values, kind) = (times?, values?, kind?);

@@ -6,27 +6,31 @@ use std::path::Path;
 use super::data_file::{Column, DataFile, TIME};
 use super::diagnostic::{Diagnostic, Diagnostics, Location};
 use crate::material::tabulated::{TableColumn, TableError, Tabulated};
-use crate::material::{GivenFace, ModulusKind};
+use crate::material::{MaterialFunction, ModulusKind};
 use crate::quantity::Dimension;
 
 /// The words by which files and flags call the two quantities.
-pub(crate) const QUANTITIES: [(&str, GivenFace); 2] = [
-    ("creep", GivenFace::Creep),
-    ("relaxation", GivenFace::Relaxation),
+pub(crate) const QUANTITIES: [(&str, MaterialFunction); 2] = [
+    ("creep", MaterialFunction::Creep),
+    ("relaxation", MaterialFunction::Relaxation),
 ];
 
 /// The column of a quantity.
-fn values_of(face: GivenFace) -> Column {
+fn values_of(face: MaterialFunction) -> Column {
     match face {
-        GivenFace::Creep => Column::new(&["creep_compliance"], Dimension::Compliance, "values"),
-        GivenFace::Relaxation => Column::new(&["relaxation_modulus"], Dimension::Stress, "values"),
+        MaterialFunction::Creep => {
+            Column::new(&["creep_compliance"], Dimension::Compliance, "values")
+        }
+        MaterialFunction::Relaxation => {
+            Column::new(&["relaxation_modulus"], Dimension::Stress, "values")
+        }
     }
 }
 
-fn other(face: GivenFace) -> (&'static str, GivenFace) {
+fn other(face: MaterialFunction) -> (&'static str, MaterialFunction) {
     match face {
-        GivenFace::Creep => QUANTITIES[1],
-        GivenFace::Relaxation => QUANTITIES[0],
+        MaterialFunction::Creep => QUANTITIES[1],
+        MaterialFunction::Relaxation => QUANTITIES[0],
     }
 }
 
@@ -36,7 +40,7 @@ fn other(face: GivenFace) -> (&'static str, GivenFace) {
 /// The file cannot be opened, or [`parse`] refuses it.
 pub(crate) fn read(
     path: &Path,
-    face: GivenFace,
+    face: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
     tabulated(&DataFile::read(path)?, face, kind)
@@ -49,7 +53,7 @@ pub(crate) fn read(
 pub(crate) fn parse(
     name: &str,
     bytes: &[u8],
-    face: GivenFace,
+    face: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
     tabulated(&DataFile::from_bytes(name, bytes)?, face, kind)
@@ -57,7 +61,7 @@ pub(crate) fn parse(
 
 fn tabulated(
     file: &DataFile,
-    face: GivenFace,
+    face: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
     let (values, (word, other)) = (values_of(face), other(face));
@@ -81,7 +85,7 @@ fn tabulated(
 }
 
 /// What the material room refuses, at its place in the file.
-fn explain(place: &Location, error: &TableError, face: GivenFace) -> Diagnostic {
+fn explain(place: &Location, error: &TableError, face: MaterialFunction) -> Diagnostic {
     let diagnostic = Diagnostic::at(place, error.to_string());
     match error {
         TableError::Reversal { .. } | TableError::Trend { .. } => {
@@ -107,7 +111,7 @@ mod tests {
         parse(
             "data.csv",
             bytes,
-            GivenFace::Creep,
+            MaterialFunction::Creep,
             ModulusKind::Longitudinal,
         )
     }

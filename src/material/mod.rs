@@ -1,6 +1,6 @@
 //! Linear viscoelastic materials: relaxation modulus, creep compliance, complex modulus.
 //!
-//! A [`Material`] holds both faces of one material, the [`Creep`] compliance and, where there is
+//! A [`Material`] holds both functions of one material, the [`Creep`] compliance and, where there is
 //! one, the [`Relaxation`] modulus, with a Poisson ratio that does not depend on time. SI units
 //! throughout; harmonic quantities vary as `exp(+i omega t)`, so `E* = E' + i E''` and
 //! `D* = 1/E* = D' - i D''`.
@@ -61,9 +61,9 @@ pub enum ModulusKind {
     Longitudinal,
 }
 
-/// The face of the material that was given; the other was computed from it.
+/// The function of the material that was given; the other was computed from it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum GivenFace {
+pub enum MaterialFunction {
     /// A relaxation modulus.
     Relaxation,
     /// A creep compliance.
@@ -76,7 +76,7 @@ pub struct Material {
     name: Option<String>,
     poisson_ratio: f64,
     kind: ModulusKind,
-    given: GivenFace,
+    given: MaterialFunction,
     creep: Creep,
     relaxation: Option<Relaxation>,
     fit: Option<fit::FitReport>,
@@ -98,7 +98,7 @@ impl Material {
             name: None,
             poisson_ratio: checked_poisson_ratio(poisson_ratio)?,
             kind,
-            given: GivenFace::Relaxation,
+            given: MaterialFunction::Relaxation,
             creep: relaxation.to_creep()?,
             relaxation: Some(relaxation),
             fit: None,
@@ -123,7 +123,7 @@ impl Material {
             Err(MaterialError::NoRelaxationModulus) => None,
             Err(error) => return Err(error),
         };
-        let given = GivenFace::Creep;
+        let given = MaterialFunction::Creep;
         Ok(Material {
             name: None,
             poisson_ratio,
@@ -203,7 +203,7 @@ impl Material {
     }
 
     /// Which of the two faces was given.
-    pub fn given(&self) -> GivenFace {
+    pub fn given(&self) -> MaterialFunction {
         self.given
     }
 
@@ -301,7 +301,7 @@ impl Material {
     /// The complex modulus from the face that was given, which has seen no conversion.
     fn complex_modulus_as(&self, kind: ModulusKind, omega: f64) -> Complex<f64> {
         let own = match (self.given, &self.relaxation) {
-            (GivenFace::Relaxation, Some(relaxation)) => relaxation.complex_modulus(omega),
+            (MaterialFunction::Relaxation, Some(relaxation)) => relaxation.complex_modulus(omega),
             _ => self.creep.complex_modulus(omega),
         };
         own * self.modulus_factor(kind)
@@ -434,7 +434,7 @@ mod tests {
             .material(0.3)
             .unwrap();
         assert_eq!(material.relaxation(), None);
-        assert_eq!(material.given(), GivenFace::Creep);
+        assert_eq!(material.given(), MaterialFunction::Creep);
         assert_relative_eq!(
             material.shear_complex_modulus(0.5).re,
             1e9,

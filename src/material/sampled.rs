@@ -59,12 +59,13 @@ impl Sampled {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::material::{GivenFace, ModulusKind};
+    use crate::material::{MaterialFunction, ModulusKind};
 
     #[test]
     fn its_contact_compliance_is_that_of_the_table_at_its_poisson_ratio() {
         let (times, values) = (vec![0.0, 1.0, 10.0, 100.0], vec![1e-9, 2e-9, 3e-9, 4e-9]);
-        let table = Tabulated::new(GivenFace::Creep, ModulusKind::Shear, times, values).unwrap();
+        let table =
+            Tabulated::new(MaterialFunction::Creep, ModulusKind::Shear, times, values).unwrap();
         let material = Sampled::new(table.clone(), 0.25).unwrap().named("gel");
         assert_eq!(material.name(), Some("gel"));
         // (1 - nu) J / 2

@@ -25,7 +25,7 @@
 use std::fmt;
 
 use super::interpolant::Interpolant;
-use super::{GivenFace, MaterialError, ModulusKind};
+use super::{MaterialError, MaterialFunction, ModulusKind};
 use crate::quantity::{Dimension, format_si};
 
 /// Fewest samples: one more than an instantaneous value, one branch and its time take.
@@ -96,7 +96,7 @@ pub enum TableError {
 
     #[error("the {} of row {row} is {value:?}: it must be finite and greater than zero", name(*face))]
     Value {
-        face: GivenFace,
+        face: MaterialFunction,
         row: usize,
         value: f64,
     },
@@ -106,7 +106,7 @@ pub enum TableError {
         name(*face), wrong_way(*face), 100.0 * share, 100.0 * limit
     )]
     Reversal {
-        face: GivenFace,
+        face: MaterialFunction,
         earlier_row: usize,
         row: usize,
         share: f64,
@@ -118,7 +118,7 @@ pub enum TableError {
         name(*face), wrong_way(*face), 100.0 * share, 100.0 * scatter
     )]
     Trend {
-        face: GivenFace,
+        face: MaterialFunction,
         earlier_row: usize,
         row: usize,
         share: f64,
@@ -148,17 +148,17 @@ impl TableError {
 }
 
 /// `creep compliance` or `relaxation modulus`.
-pub(super) fn name(face: GivenFace) -> &'static str {
+pub(super) fn name(face: MaterialFunction) -> &'static str {
     match face {
-        GivenFace::Creep => "creep compliance",
-        GivenFace::Relaxation => "relaxation modulus",
+        MaterialFunction::Creep => "creep compliance",
+        MaterialFunction::Relaxation => "relaxation modulus",
     }
 }
 
-fn wrong_way(face: GivenFace) -> &'static str {
+fn wrong_way(face: MaterialFunction) -> &'static str {
     match face {
-        GivenFace::Creep => "falls",
-        GivenFace::Relaxation => "rises",
+        MaterialFunction::Creep => "falls",
+        MaterialFunction::Relaxation => "rises",
     }
 }
 
@@ -167,7 +167,7 @@ fn wrong_way(face: GivenFace) -> &'static str {
 pub enum TableWarning {
     /// Samples on the wrong side of an earlier one: how many, by how much at most, and where (row from 1).
     Noise {
-        face: GivenFace,
+        face: MaterialFunction,
         samples: usize,
         largest_share: f64,
         row: usize,
@@ -225,7 +225,7 @@ pub(super) fn seconds(time_s: f64) -> String {
 /// Checked samples of a creep compliance (1/Pa) or a relaxation modulus (Pa) over time (s).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tabulated {
-    face: GivenFace,
+    face: MaterialFunction,
     kind: ModulusKind,
     curve: Interpolant,
     groups: Groups,
@@ -283,7 +283,7 @@ impl Tabulated {
     /// [`TableError`], naming the row: no or too few samples; a time that is not finite, negative or not after the one
     /// before; a value that is not finite and positive; a course that no passive material can have.
     pub fn new(
-        face: GivenFace,
+        face: MaterialFunction,
         kind: ModulusKind,
         times_s: Vec<f64>,
         values: Vec<f64>,
@@ -306,7 +306,7 @@ impl Tabulated {
     }
 
     /// Whether the samples are a creep compliance or a relaxation modulus.
-    pub fn face(&self) -> GivenFace {
+    pub fn face(&self) -> MaterialFunction {
         self.face
     }
 
@@ -360,8 +360,8 @@ impl Tabulated {
         let monotone = isotonic(self.face, self.values());
         let curve = Interpolant::through(self.times_s().to_vec(), monotone);
         match self.face {
-            GivenFace::Creep => curve,
-            GivenFace::Relaxation => creep_of(&curve),
+            MaterialFunction::Creep => curve,
+            MaterialFunction::Relaxation => creep_of(&curve),
         }
     }
 
@@ -379,7 +379,11 @@ impl Tabulated {
 }
 
 /// Everything that can be said of one sample and the one before.
-fn check_samples(face: GivenFace, times_s: &[f64], values: &[f64]) -> Result<(), TableError> {
+fn check_samples(
+    face: MaterialFunction,
+    times_s: &[f64],
+    values: &[f64],
+) -> Result<(), TableError> {
     if times_s.len() != values.len() {
         let (times, values) = (times_s.len(), values.len());
         return Err(TableError::Lengths { times, values });
@@ -410,10 +414,10 @@ fn check_samples(face: GivenFace, times_s: &[f64], values: &[f64]) -> Result<(),
 }
 
 /// ln C or -ln E: what must not fall.
-fn rising(face: GivenFace, values: &[f64]) -> Vec<f64> {
+fn rising(face: MaterialFunction, values: &[f64]) -> Vec<f64> {
     match face {
-        GivenFace::Creep => values.iter().map(|v| v.ln()).collect(),
-        GivenFace::Relaxation => values.iter().map(|v| -v.ln()).collect(),
+        MaterialFunction::Creep => values.iter().map(|v| v.ln()).collect(),
+        MaterialFunction::Relaxation => values.iter().map(|v| -v.ln()).collect(),
     }
 }
 
@@ -423,7 +427,7 @@ fn share(fall: f64) -> f64 {
 }
 
 /// Samples on the wrong side of an earlier one.
-fn noise(face: GivenFace, values: &[f64]) -> Option<TableWarning> {
+fn noise(face: MaterialFunction, values: &[f64]) -> Option<TableWarning> {
     let mut highest = f64::NEG_INFINITY;
     let (mut samples, mut largest, mut row) = (0, 0.0, 0);
     for (index, value) in rising(face, values).into_iter().enumerate() {
@@ -444,7 +448,11 @@ fn noise(face: GivenFace, values: &[f64]) -> Option<TableWarning> {
 }
 
 /// Tells noise from what no passive material does.
-fn check_course(face: GivenFace, scatter: Scatter, groups: &Groups) -> Result<(), TableError> {
+fn check_course(
+    face: MaterialFunction,
+    scatter: Scatter,
+    groups: &Groups,
+) -> Result<(), TableError> {
     let rising = rising(face, &groups.values);
     let deviations: Vec<f64> = groups.weights().iter().map(|w| 1.0 / w).collect();
     // Few samples say little about their scatter, and what is looked for is part of it.
@@ -581,10 +589,10 @@ fn written(value: f64) -> (i32, i32) {
 }
 
 /// The monotone sequence nearest to the values: rising for a creep compliance, falling for a relaxation modulus.
-fn isotonic(face: GivenFace, values: &[f64]) -> Vec<f64> {
+fn isotonic(face: MaterialFunction, values: &[f64]) -> Vec<f64> {
     let out_of_order = |before: f64, after: f64| match face {
-        GivenFace::Creep => before > after,
-        GivenFace::Relaxation => before < after,
+        MaterialFunction::Creep => before > after,
+        MaterialFunction::Relaxation => before < after,
     };
     // Mean and number of the values of every pool.
     let mut pools: Vec<(f64, usize)> = Vec::new();
@@ -684,7 +692,7 @@ mod tests {
 
     fn creep(times: &[f64], values: &[f64]) -> Result<Tabulated, TableError> {
         Tabulated::new(
-            GivenFace::Creep,
+            MaterialFunction::Creep,
             ModulusKind::Shear,
             times.to_vec(),
             values.to_vec(),
@@ -727,7 +735,7 @@ mod tests {
             assert!(text.contains(words), "{text}");
             let rising = falling.iter().map(|v| 1.0 / v).collect();
             let error = Tabulated::new(
-                GivenFace::Relaxation,
+                MaterialFunction::Relaxation,
                 ModulusKind::Shear,
                 times.clone(),
                 rising,
@@ -796,7 +804,7 @@ mod tests {
             };
             let values = times.iter().map(value).collect();
             Tabulated::new(
-                GivenFace::Relaxation,
+                MaterialFunction::Relaxation,
                 ModulusKind::Shear,
                 times.clone(),
                 values,
@@ -817,7 +825,15 @@ mod tests {
             modulus * (1.0 + 0.03 * noise.normal())
         });
         let values = values.collect();
-        assert!(Tabulated::new(GivenFace::Relaxation, ModulusKind::Shear, times, values).is_ok());
+        assert!(
+            Tabulated::new(
+                MaterialFunction::Relaxation,
+                ModulusKind::Shear,
+                times,
+                values
+            )
+            .is_ok()
+        );
     }
 
     #[test]
@@ -846,11 +862,11 @@ mod tests {
     fn what_goes_into_the_direct_sum_never_falls_and_is_the_samples_where_they_do_not() {
         let mut noise = Noise(3);
         let times = log_spaced(1.0, 1e3, 20);
-        for face in [GivenFace::Creep, GivenFace::Relaxation] {
+        for face in [MaterialFunction::Creep, MaterialFunction::Relaxation] {
             let table = |noise: &mut dyn FnMut() -> f64| {
                 let value = |t: f64| match face {
-                    GivenFace::Creep => 2.0 - (-t / 10.0).exp(),
-                    GivenFace::Relaxation => 1.0 + (-t / 10.0).exp(),
+                    MaterialFunction::Creep => 2.0 - (-t / 10.0).exp(),
+                    MaterialFunction::Relaxation => 1.0 + (-t / 10.0).exp(),
                 };
                 let values = times
                     .iter()
@@ -900,7 +916,8 @@ mod tests {
                 times.insert(0, 0.0);
             }
             let values = times.iter().map(|&t| relaxation.modulus(t)).collect();
-            let table = Tabulated::new(GivenFace::Relaxation, material.kind(), times, values);
+            let table =
+                Tabulated::new(MaterialFunction::Relaxation, material.kind(), times, values);
             let curve = table.unwrap().creep_curve();
             log_spaced(0.01, 9e3, 37)
                 .iter()
@@ -923,7 +940,8 @@ mod tests {
             .iter()
             .map(|&t| material.creep().compliance(t))
             .collect();
-        let table = Tabulated::new(GivenFace::Creep, material.kind(), times, values).unwrap();
+        let table =
+            Tabulated::new(MaterialFunction::Creep, material.kind(), times, values).unwrap();
         let contact = table.contact_compliance(material.poisson_ratio()).unwrap();
         let exact = material.contact_compliance().unwrap();
         for &t in table.times_s() {

@@ -1,7 +1,7 @@
 //! What is said of samples that are taken as they are.
 
 use super::fit::wrapped_line;
-use crate::material::GivenFace;
+use crate::material::MaterialFunction;
 use crate::material::sampled::Sampled;
 use crate::quantity::{Dimension, format_human};
 
@@ -9,8 +9,8 @@ use crate::quantity::{Dimension, format_human};
 pub fn text(sampled: &Sampled, duration_s: f64) -> String {
     let table = sampled.table();
     let name = match table.face() {
-        GivenFace::Creep => "creep compliance",
-        GivenFace::Relaxation => "relaxation modulus",
+        MaterialFunction::Creep => "creep compliance",
+        MaterialFunction::Relaxation => "relaxation modulus",
     };
     let count = table.times_s().len();
     let mut lines = vec![format!(
@@ -50,7 +50,8 @@ mod tests {
         let (times, values) = (vec![1.0, 10.0, 100.0, 1000.0], vec![1e-9, 2e-9, 3e-9, 4e-9]);
         let of = |times: Vec<f64>| {
             let kind = ModulusKind::Shear;
-            let table = Tabulated::new(GivenFace::Creep, kind, times, values.clone()).unwrap();
+            let table =
+                Tabulated::new(MaterialFunction::Creep, kind, times, values.clone()).unwrap();
             Sampled::new(table, 0.5).unwrap()
         };
         let covered = text(&of(vec![0.0, 10.0, 100.0, 1000.0]), 1000.0);

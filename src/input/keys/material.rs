@@ -7,7 +7,7 @@ use crate::input::document::kind::{
 use crate::input::document::limits::Limits;
 use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
 use crate::input::table_file::QUANTITIES;
-use crate::material::{GivenFace, ModulusKind};
+use crate::material::{MaterialFunction, ModulusKind};
 use crate::quantity::Dimension::{Compliance, Stress, Time, Viscosity};
 use std::ops::Bound;
 
@@ -208,7 +208,7 @@ static KELVIN_VOIGT_TABLE: Rows = super::table(
 
 rows! { TABLE_KEYS:
     /// What the data are of.
-    QUANTITY: Row<Choice<GivenFace>, Required> = "quantity", Choice(&QUANTITIES), Required;
+    QUANTITY: Row<Choice<MaterialFunction>, Required> = "quantity", Choice(&QUANTITIES), Required;
     /// Whether they are uniaxial or in shear.
     TABLE_MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
     /// `fit`: a series is fitted and its misfit reported with the results; `direct` (single histories): the samples themselves.

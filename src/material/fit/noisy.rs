@@ -8,7 +8,7 @@ use super::{Fit, fit};
 use crate::material::synthetic::{Noise, log_spaced};
 use crate::material::tabulated::Tabulated;
 use crate::material::{
-    Creep, CreepBranch, GivenFace, Material, ModulusKind, Relaxation, RelaxationBranch,
+    Creep, CreepBranch, Material, MaterialFunction, ModulusKind, Relaxation, RelaxationBranch,
 };
 
 /// Times of a table, from 1 s on.
@@ -30,10 +30,16 @@ impl Times {
     }
 
     /// Three digits with this noise, as far as the function is no less than 1e-4 of its first value.
-    fn measured(&self, face: GivenFace, truth: &Material, noise: f64, random: &mut Noise) -> Fit {
+    fn measured(
+        &self,
+        face: MaterialFunction,
+        truth: &Material,
+        noise: f64,
+        random: &mut Noise,
+    ) -> Fit {
         let value = |t: f64| match face {
-            GivenFace::Creep => truth.creep().compliance(t),
-            GivenFace::Relaxation => truth.relaxation().unwrap().modulus(t),
+            MaterialFunction::Creep => truth.creep().compliance(t),
+            MaterialFunction::Relaxation => truth.relaxation().unwrap().modulus(t),
         };
         let mut times = log_spaced(1.0, self.last_s(), self.per_decade);
         times.retain(|&t| value(t) > 1e-4 * value(0.0));
@@ -100,10 +106,10 @@ fn noisy_solids_stay_solids_and_flows_that_are_resolved_are_found() {
         let flow = random.log_uniform((30.0 * noise).clamp(0.1, 0.9), 0.95);
         let moving = branches(&mut random, 0.1 * last_s);
         let cases = [
-            (GivenFace::Creep, creeping(&resting, last_s, 0.0)),
-            (GivenFace::Creep, creeping(&moving, last_s, flow)),
-            (GivenFace::Relaxation, relaxing(&resting, 1e6)),
-            (GivenFace::Relaxation, relaxing(&moving, 0.0)),
+            (MaterialFunction::Creep, creeping(&resting, last_s, 0.0)),
+            (MaterialFunction::Creep, creeping(&moving, last_s, flow)),
+            (MaterialFunction::Relaxation, relaxing(&resting, 1e6)),
+            (MaterialFunction::Relaxation, relaxing(&moving, 0.0)),
         ];
         for (face, truth) in cases {
             let fit = times.measured(face, &truth, noise, &mut random);
@@ -130,7 +136,7 @@ fn the_alternatives_span_the_modulus_of_a_solid_whose_test_ends_before_it_has_re
         // The slowest goes on beyond the end.
         all.push((3.0, 2.0 * last_s));
         let truth = relaxing(&all, 1e6);
-        let fit = times.measured(GivenFace::Relaxation, &truth, noise, &mut random);
+        let fit = times.measured(MaterialFunction::Relaxation, &truth, noise, &mut random);
         let fitted = fit.material(0.3).unwrap();
         assert_eq!(fitted.measured_window_s(), Some((1.0, last_s)));
         let others = fitted.alternatives();

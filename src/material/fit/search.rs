@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{NOTICEABLE, PRICE};
-use crate::material::GivenFace;
+use crate::material::MaterialFunction;
 use crate::material::nnls::{NnlsError, least_squares, nnls};
 
 /// Times per decade of the grid on which two times next to one another mean one between them, and of the grids that are
@@ -39,7 +39,7 @@ const TRIED: usize = 3;
 
 /// What is fitted, and within which limits.
 pub(super) struct Search<'a> {
-    pub(super) face: GivenFace,
+    pub(super) face: MaterialFunction,
     /// Times in s, values, and how much heavier than a single sample each of them weighs.
     pub(super) times_s: &'a [f64],
     pub(super) values: &'a [f64],
@@ -88,24 +88,24 @@ pub(super) struct Series {
 }
 
 /// What a branch contributes at x = t / time: `1 - exp(-x)` to a creep compliance, `exp(-x)` to a relaxation modulus.
-fn basis(face: GivenFace, x: f64) -> f64 {
+fn basis(face: MaterialFunction, x: f64) -> f64 {
     match face {
-        GivenFace::Creep => -(-x).exp_m1(),
-        GivenFace::Relaxation => (-x).exp(),
+        MaterialFunction::Creep => -(-x).exp_m1(),
+        MaterialFunction::Relaxation => (-x).exp(),
     }
 }
 
 /// Its derivative with respect to the logarithm of the branch time.
-fn basis_slope(face: GivenFace, x: f64) -> f64 {
+fn basis_slope(face: MaterialFunction, x: f64) -> f64 {
     match face {
-        GivenFace::Creep => -x * (-x).exp(),
-        GivenFace::Relaxation => x * (-x).exp(),
+        MaterialFunction::Creep => -x * (-x).exp(),
+        MaterialFunction::Relaxation => x * (-x).exp(),
     }
 }
 
 impl Series {
     /// The value at a time.
-    pub(super) fn value(&self, face: GivenFace, time_s: f64) -> f64 {
+    pub(super) fn value(&self, face: MaterialFunction, time_s: f64) -> f64 {
         let branches = self.branches.iter();
         let delayed: f64 = branches
             .map(|b| b.strength * basis(face, time_s / b.time_s))
@@ -114,7 +114,7 @@ impl Series {
     }
 
     /// The value in question; of the loss, the part of the branches.
-    pub(super) fn open(&self, face: GivenFace, open: Open) -> f64 {
+    pub(super) fn open(&self, face: MaterialFunction, open: Open) -> f64 {
         let branches = self.branches.iter();
         let delayed: f64 = branches
             .map(|b| b.strength * open.weight(face, Column::Branch(b.time_s)))
@@ -129,7 +129,7 @@ impl Series {
 
 impl Open {
     /// How much of a strength is part of the value.
-    fn weight(self, face: GivenFace, column: Column) -> f64 {
+    fn weight(self, face: MaterialFunction, column: Column) -> f64 {
         match (self, column) {
             (Self::Loss(omega), Column::Branch(time_s)) => {
                 let x = omega * time_s;
@@ -137,8 +137,8 @@ impl Open {
             }
             (Self::Loss(_), _) | (_, Column::Flow) => 0.0,
             (_, Column::Constant) => 1.0,
-            (Self::Equilibrium, _) => f64::from(face == GivenFace::Creep),
-            (Self::Instantaneous, _) => f64::from(face == GivenFace::Relaxation),
+            (Self::Equilibrium, _) => f64::from(face == MaterialFunction::Creep),
+            (Self::Instantaneous, _) => f64::from(face == MaterialFunction::Relaxation),
         }
     }
 }
@@ -341,7 +341,7 @@ impl Search<'_> {
 
     /// Constant, branches, flow (per last time), those of them that there are.
     fn columns(&self, times_s: &[f64]) -> Vec<Column> {
-        let creep = self.face == GivenFace::Creep;
+        let creep = self.face == MaterialFunction::Creep;
         let constant = (creep || !self.flow).then_some(Column::Constant);
         let flow = (creep && self.flow).then_some(Column::Flow);
         let branches = times_s.iter().map(|&time_s| Column::Branch(time_s));

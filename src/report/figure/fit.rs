@@ -3,7 +3,7 @@
 use super::{Figure, axis};
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
-use crate::material::{GivenFace, ModulusKind};
+use crate::material::{MaterialFunction, ModulusKind};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Marker, Series};
 use crate::report::number::{prefix, range};
@@ -46,20 +46,20 @@ fn shown(table: &Tabulated, most: usize) -> Vec<(f64, f64)> {
 
 fn curves(table: &Tabulated, fit: &Fit) -> Figure {
     let symbol = match (table.face(), table.kind()) {
-        (GivenFace::Creep, ModulusKind::Longitudinal) => 'D',
-        (GivenFace::Creep, ModulusKind::Shear) => 'J',
-        (GivenFace::Relaxation, ModulusKind::Longitudinal) => 'E',
-        (GivenFace::Relaxation, ModulusKind::Shear) => 'G',
+        (MaterialFunction::Creep, ModulusKind::Longitudinal) => 'D',
+        (MaterialFunction::Creep, ModulusKind::Shear) => 'J',
+        (MaterialFunction::Relaxation, ModulusKind::Longitudinal) => 'E',
+        (MaterialFunction::Relaxation, ModulusKind::Shear) => 'G',
     };
     let values = range(table.values().iter().copied());
     let highest = values.1;
     let (factor, label) = match table.face() {
-        GivenFace::Relaxation => {
+        MaterialFunction::Relaxation => {
             let (factor, unit) = prefix(highest);
             (factor, format!("relaxation modulus {symbol}(t) / {unit}Pa"))
         }
         // A compliance per GPa where moduli are in GPa.
-        GivenFace::Creep => {
+        MaterialFunction::Creep => {
             let (factor, unit) = prefix(highest.recip());
             (
                 factor.recip(),
@@ -125,8 +125,8 @@ fn residual(table: &Tabulated, fit: &Fit) -> Figure {
 
 fn caption(table: &Tabulated, fit: &Fit, shows: &str) -> Caption {
     let what = match table.face() {
-        GivenFace::Creep => "creep compliance",
-        GivenFace::Relaxation => "relaxation modulus",
+        MaterialFunction::Creep => "creep compliance",
+        MaterialFunction::Relaxation => "relaxation modulus",
     };
     let report = fit.report().to_string();
     let sentences = report.lines().map(|line| {
@@ -148,8 +148,8 @@ fn positive_range_s(table: &Tabulated) -> (f64, f64) {
 
 fn data_table(table: &Tabulated, fit: &Fit) -> Vec<u8> {
     let columns = match table.face() {
-        GivenFace::Creep => ["time_s", "creep_compliance_per_pa", "fit_per_pa"],
-        GivenFace::Relaxation => ["time_s", "relaxation_modulus_pa", "fit_pa"],
+        MaterialFunction::Creep => ["time_s", "creep_compliance_per_pa", "fit_per_pa"],
+        MaterialFunction::Relaxation => ["time_s", "relaxation_modulus_pa", "fit_pa"],
     };
     let samples = table.times_s().iter().zip(table.values());
     csv(
@@ -170,7 +170,7 @@ mod tests {
             .iter()
             .map(|t| 1e-9 * (2.0 - (-t / 10.0).exp()))
             .collect();
-        Tabulated::new(GivenFace::Creep, ModulusKind::Shear, times, values).unwrap()
+        Tabulated::new(MaterialFunction::Creep, ModulusKind::Shear, times, values).unwrap()
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::sweep_data::MaterialData;
 use super::{Pictures, moduli, question};
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
-use crate::material::{GivenFace, Material};
+use crate::material::{Material, MaterialFunction};
 use crate::report::ReportError;
 use crate::sweep::plan::resolved;
 
@@ -76,8 +76,8 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
         None => material.given(),
     };
     let (label, unit) = match face {
-        GivenFace::Relaxation => ("relaxation modulus", "Pa"),
-        GivenFace::Creep => ("creep compliance", "1/Pa"),
+        MaterialFunction::Relaxation => ("relaxation modulus", "Pa"),
+        MaterialFunction::Creep => ("creep compliance", "1/Pa"),
     };
     let frame = Frame {
         title: about.title,
@@ -153,7 +153,7 @@ fn curves(material: &Material, fit: Option<(&Tabulated, &Fit)>) -> Vec<Curve> {
     };
     let times = times(0.01 * shortest, 100.0 * longest);
     match (material.given(), relaxation) {
-        (GivenFace::Relaxation, Some(relaxation)) => {
+        (MaterialFunction::Relaxation, Some(relaxation)) => {
             vec![curve("relaxation modulus", times, &|t| {
                 relaxation.modulus(t)
             })]

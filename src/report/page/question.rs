@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::indenter::{Indenter, Value};
-use crate::material::{GivenFace, Material, ModulusKind};
+use crate::material::{Material, MaterialFunction, ModulusKind};
 use crate::quantity::Dimension;
 use crate::report::number::plain;
 use crate::report::words;
@@ -103,7 +103,7 @@ pub(super) fn material(material: &Material) -> Markup {
     };
     let time = |time_s| plain(time_s, Dimension::Time, 5);
     match (material.given(), material.relaxation()) {
-        (GivenFace::Relaxation, Some(relaxation)) => {
+        (MaterialFunction::Relaxation, Some(relaxation)) => {
             let modulus = |value| plain(value, Dimension::Stress, 6);
             facts.add("given as", &format!("{kind} relaxation modulus"));
             facts.add("equilibrium", &modulus(relaxation.equilibrium_modulus()));

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use crate::history::ComplianceFunction;
 use crate::material::interpolant::Interpolant;
 use crate::material::sampled::Sampled;
-use crate::material::{Creep, GivenFace, Material, MaterialError, ModulusKind};
+use crate::material::{Creep, Material, MaterialError, MaterialFunction, ModulusKind};
 use crate::sweep::plan::resolved;
 
 /// The material of a history.
@@ -127,8 +127,8 @@ impl BodyMaterial {
 fn samples_text(sampled: &Sampled) -> String {
     let table = sampled.table();
     let quantity = match table.face() {
-        GivenFace::Creep => "creep",
-        GivenFace::Relaxation => "relaxation",
+        MaterialFunction::Creep => "creep",
+        MaterialFunction::Relaxation => "relaxation",
     };
     let kind = match table.kind() {
         ModulusKind::Shear => "shear",
@@ -164,7 +164,8 @@ mod tests {
     fn the_compliance_of_noisy_samples_never_falls() {
         let times = vec![1.0, 10.0, 100.0, 1000.0];
         let values = vec![1e-9, 2e-9, 1.99e-9, 3e-9];
-        let table = Tabulated::new(GivenFace::Creep, ModulusKind::Shear, times, values).unwrap();
+        let table =
+            Tabulated::new(MaterialFunction::Creep, ModulusKind::Shear, times, values).unwrap();
         let body = BodyMaterial::from(Sampled::new(table, 0.5).unwrap());
         let compliance = body.compliance().unwrap();
         // C = J/4.

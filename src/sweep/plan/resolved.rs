@@ -8,7 +8,7 @@ use sha2::{Digest, Sha256};
 use crate::drive::Control;
 use crate::history::TimeRule;
 use crate::indenter::{Indenter, Parameter, Value};
-use crate::material::{GivenFace, Material, ModulusKind, Relaxation};
+use crate::material::{Material, MaterialFunction, ModulusKind, Relaxation};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::plan::{SolverPlan, SweepPlan};
@@ -213,7 +213,7 @@ fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
 
 /// The relaxation modulus of a material that was given by it.
 fn given_relaxation(material: &Material) -> Option<&Relaxation> {
-    let given = material.given() == GivenFace::Relaxation;
+    let given = material.given() == MaterialFunction::Relaxation;
     material.relaxation().filter(|_| given)
 }
 
