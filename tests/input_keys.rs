@@ -237,7 +237,7 @@ fn files() -> Vec<(FileKind, String)> {
             "[cycle]\nsteps = 100\nmethod = \"direct\"\ntolerance = 1e-4\nmax_cycles = 10\nerror_bars = true\naccuracy = 1e-3\n\
              [solver]\nengine = \"half-space\"\ncells = 32\nsprings = 100\ntolerance = 1e-9\ntime_rule = \"linear\"\n\
              [figures]\nloops = \"0.1 rad/s\"\nwidth = \"85 mm\"\nheight = \"70 mm\"\nfont_size = 8\nformats = [\"svg\"]\ndpi = 300\n\
-             axes = \"si\"\ntitles = true\n",
+             axes = \"si\"\nfrequency_unit = \"Hz\"\ntitles = true\n",
         ),
         sweep(
             [

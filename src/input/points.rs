@@ -10,9 +10,9 @@ use super::document::tree::{Node, Value};
 use super::keys::drive::{FROM, POINTS, RANGE_KEYS, SPACING, TO};
 use super::keys::table;
 use crate::quantity::Dimension;
+use crate::sweep::plan::SweepPlan;
 
-/// More points than this are a slip of the pen rather than a wish.
-pub(super) const MOST_POINTS: usize = 100_000;
+pub(super) const MOST_POINTS: usize = SweepPlan::MAX_POINTS;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Spacing {

@@ -164,12 +164,7 @@ fn varied(
     let (values, location) = (values?, location?);
     let mut drives = Vec::with_capacity(values.len());
     for value in values {
-        let (mean, amplitude) = match varied {
-            Varied::Amplitude => (drive.mean(), value),
-            Varied::Mean => (value, drive.amplitude()),
-        };
-        let (phase_rad, hold_s) = (drive.phase_rad(), drive.hold_s());
-        match HarmonicDrive::new(drive.control(), mean, amplitude, phase_rad, hold_s) {
+        match varied.drive(drive, value) {
             Ok(drive) => drives.push(drive),
             Err(error) => {
                 problems.at(&location, error.to_string());
