@@ -62,12 +62,15 @@ fn text(setup: &Setup, cost: &Cost) -> String {
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let _ = write!(
         text,
-        "\n{} cases on {} ({} engine), {} steps per cycle.\n\
+        "\n{} on {} ({} engine), {} steps per cycle.\n\
          Time: about {} on one thread, about {} on {processors}, from {} per step measured here;\n\
          peaks and refinement come on top, about ten cases for every peak.\n\
          Memory: about {memory} for every thread{free}.\n\
          Shards: {} (below about ten minutes each, more of them gain little).\n",
-        cost.cases.len(),
+        match cost.cases.len() {
+            1 => "1 case".to_owned(),
+            cases => format!("{cases} cases"),
+        },
         nodes(&plan.solver, plan.indenter.as_ref()),
         plan.solver.engine.name(),
         plan.cycle.steps,
