@@ -954,15 +954,16 @@ fn what_is_wrong_with_an_indenter_is_said_at_its_place() {
             map("holed.csv", "spacing = 1e-6"),
             vec![
                 "sweep.toml:6:8",
-                "holed.csv`, line 2, column 2: a hole",
-                "fill holes",
+                "holed.csv:2:3",
+                "a cell of column 2 must be a number",
+                "fill holes before",
             ],
         ),
         (
             map("none.csv", "spacing = 1e-6"),
             vec![
                 "sweep.toml:6:8",
-                "cannot be read",
+                "cannot read",
                 "folder of the file it is written in",
             ],
         ),

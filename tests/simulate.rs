@@ -844,11 +844,14 @@ fn tables_with_mistakes_are_shown_with_file_and_line() {
         &[
             "bad.toml:14:30",
             "load.csv",
-            "line 4",
+            "load.csv:4:1",
             "1 s lies before 2 s",
         ],
     );
-    refused("file = \"empty.csv\"", &["line 3", "load_n is empty"]);
+    refused(
+        "file = \"empty.csv\"",
+        &["empty.csv:3:3", "must be a number", "empty"],
+    );
     refused(
         "file = \"none.csv\"",
         &[

@@ -71,7 +71,7 @@ fn a_flat_punch_has_the_amplitude_and_the_loss_of_the_closed_form_to_second_orde
         let (amplitude_m, loss_j) = exact.flat_punch(PUNCH_RADIUS_M);
         // Every spring does the same: three are as good as three hundred.
         let found =
-            STEPS.map(|steps| result(&closed(pmma_plan(punch(), 5.0), steps, 3), omega).analysis);
+            STEPS.map(|steps| result(&closed(pmma_plan(punch(), 5.0), steps, 10), omega).analysis);
         let amplitudes = found
             .each_ref()
             .map(|f| relative(f.harmonics[0].approach_amplitude_m, amplitude_m));
@@ -94,7 +94,7 @@ fn a_flat_punch_shows_the_complex_modulus_of_the_material_itself() {
     let material = pmma_material();
     for omega in [0.0084, 0.1, 1.0] {
         let expected = material.longitudinal_complex_modulus(omega);
-        let found = result(&closed(pmma_plan(punch(), 5.0), 200, 3), omega);
+        let found = result(&closed(pmma_plan(punch(), 5.0), 200, 10), omega);
         // The errors of amplitude and loss at 200 steps, the latter divided by a loss factor of 0.07.
         let storage = relative(found.storage_modulus_pa.unwrap(), expected.re);
         let loss = relative(found.loss_modulus_pa.unwrap(), expected.im);
