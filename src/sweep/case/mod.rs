@@ -17,6 +17,7 @@ use crate::history::{Work, order_of_steps};
 use crate::material::{Creep, MaterialError, Relaxation};
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::edge_layer::EdgeLayer;
+#[cfg(feature = "report")]
 pub(crate) use crate::sweep::case::stabilise::sample;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
 use crate::sweep::engine::{EngineBuilder, EngineError, LargestContact};
