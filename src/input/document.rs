@@ -9,13 +9,12 @@
 //! - `TableReader::finish`, called once all keys were asked for, reports the keys nobody asked for. Do not
 //!   call it where a wrong value leaves open which keys belong to the table.
 
-mod assignment;
 pub(crate) mod kind;
 pub(crate) mod limits;
 pub(crate) mod reader;
 pub(crate) mod row;
 mod similar;
-mod syntax;
+pub(super) mod syntax;
 pub(crate) mod tree;
 
 use std::fs::File;
@@ -97,11 +96,11 @@ impl<T> AsRef<Location> for Located<T> {
 #[derive(Debug)]
 pub struct Document {
     source: Arc<Source>,
-    root: Table,
+    pub(super) root: Table,
     /// Where paths in the file start from.
     folder: PathBuf,
     /// Flags applied so far; orders their problems.
-    flags: usize,
+    pub(super) flags: usize,
 }
 
 impl Document {
@@ -161,23 +160,6 @@ impl Document {
         } else {
             Err(syntax::explain_all(&source, &errors))
         }
-    }
-
-    /// Applies the argument of a `--set` flag, `cycle.steps=200`: a dotted key, and a TOML value.
-    ///
-    /// What is not TOML counts as a string, so `drive.mean=10 N` needs no inner quotes; but what opens with a
-    /// quote, bracket or brace must be TOML. Tables on the way to the key are made when missing; a value that
-    /// is there is replaced whole. Items of lists have numbers from 0 (`asperities.1.radius`); without a value the
-    /// key is removed. Keys of the file that the new one excludes, as a cone excludes a radius, are removed too.
-    /// Problems with the value found later point into the flag.
-    ///
-    /// # Errors
-    /// No `=`, a key that is not dotted words, a value that opens as TOML but is not, a key below
-    /// something that is neither table nor list, nothing to remove. The document is then unchanged.
-    pub fn set(&mut self, argument: &str) -> Result<(), Diagnostics> {
-        let source = Source::flag(format!("{}{argument}", assignment::PREFIX), self.flags);
-        self.flags = self.flags.saturating_add(1);
-        assignment::apply(&mut self.root, &source)
     }
 
     /// Starts reading at the top of the file.

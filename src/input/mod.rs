@@ -29,6 +29,7 @@
 //! # Ok::<(), Diagnostics>(())
 //! ```
 
+mod assignment;
 pub(crate) mod data_file;
 pub mod diagnostic;
 pub mod document;

@@ -337,7 +337,7 @@ impl<'a> TableReader<'a> {
 }
 
 /// The dotted key of `key` in the table `path`.
-pub(super) fn join(path: &str, key: &str) -> String {
+pub(in crate::input) fn join(path: &str, key: &str) -> String {
     match path {
         "" => key.to_owned(),
         path => format!("{path}.{key}"),
@@ -370,16 +370,16 @@ fn in_backticks(keys: &[&str]) -> String {
 
 /// Reading in tests, by names in place of rows.
 #[cfg(test)]
-pub(super) mod by_name {
+pub(in crate::input) mod by_name {
     use super::{Located, TableReader, kind};
     use crate::input::document::kind::{Tables, Text, number, quantity};
     use crate::input::document::row::{Presence, Required, Row, Rows};
     use crate::input::keys::table;
     use crate::quantity::Dimension;
 
-    pub(in crate::input::document) static NOTHING: Rows = table("", &[]);
+    pub(in crate::input) static NOTHING: Rows = table("", &[]);
 
-    pub(in crate::input::document) fn key<K, P: Presence<K>>(
+    pub(in crate::input) fn key<K, P: Presence<K>>(
         name: &'static str,
         kind: K,
         presence: P,
@@ -392,11 +392,11 @@ pub(super) mod by_name {
         }
     }
 
-    pub(in crate::input::document) fn below(name: &'static str) -> Row<kind::Table, Required> {
+    pub(in crate::input) fn below(name: &'static str) -> Row<kind::Table, Required> {
         key(name, kind::Table(&NOTHING), Required)
     }
 
-    pub(in crate::input::document) fn items<P: Presence<Tables>>(
+    pub(in crate::input) fn items<P: Presence<Tables>>(
         name: &'static str,
         presence: P,
     ) -> Row<Tables, P> {
@@ -408,21 +408,19 @@ pub(super) mod by_name {
         key(name, kind, presence)
     }
 
-    pub(in crate::input::document) struct ByName<'a>(
-        pub(in crate::input::document) TableReader<'a>,
-    );
+    pub(in crate::input) struct ByName<'a>(pub(in crate::input) TableReader<'a>);
 
     #[allow(dead_code)] // Each test has its own part.
     impl<'a> ByName<'a> {
-        pub(in crate::input::document) fn has(&mut self, name: &'static str) -> bool {
+        pub(in crate::input) fn has(&mut self, name: &'static str) -> bool {
             self.0.has(&below(name))
         }
 
-        pub(in crate::input::document) fn table(&mut self, name: &'static str) -> Option<Self> {
+        pub(in crate::input) fn table(&mut self, name: &'static str) -> Option<Self> {
             self.0.table(&below(name)).map(Self)
         }
 
-        pub(in crate::input::document) fn tables(
+        pub(in crate::input) fn tables(
             &mut self,
             name: &'static str,
         ) -> Option<Located<Vec<Self>>> {
@@ -430,7 +428,7 @@ pub(super) mod by_name {
                 .tables(&items(name, Required), |item| Some(Self(item)))
         }
 
-        pub(in crate::input::document) fn quantity(
+        pub(in crate::input) fn quantity(
             &mut self,
             name: &'static str,
             dimension: Dimension,
@@ -438,17 +436,11 @@ pub(super) mod by_name {
             self.0.read(&key(name, quantity(dimension), Required))
         }
 
-        pub(in crate::input::document) fn number(
-            &mut self,
-            name: &'static str,
-        ) -> Option<Located<f64>> {
+        pub(in crate::input) fn number(&mut self, name: &'static str) -> Option<Located<f64>> {
             self.0.read(&key(name, number("1.0"), Required))
         }
 
-        pub(in crate::input::document) fn string(
-            &mut self,
-            name: &'static str,
-        ) -> Option<Located<String>> {
+        pub(in crate::input) fn string(&mut self, name: &'static str) -> Option<Located<String>> {
             self.0.read(&key(name, Text, Required))
         }
     }

@@ -224,6 +224,50 @@ impl Rows {
         }
     }
 
+    /// Names of the keys that give way once `set` is set: those of other ways to fill the table, unless they are the same key in this
+    /// one, or have to be there. `word` is what stands under a key now. A key of several ways decides for none of them.
+    pub(crate) fn excluded_by<'a>(
+        &self,
+        set: &str,
+        word: &dyn Fn(&str) -> Option<&'a str>,
+    ) -> Vec<&'static str> {
+        if let Others::AtMostOne(keys) = self.others {
+            let names: Vec<&str> = keys.iter().map(|row| row.name()).collect();
+            let others = names
+                .iter()
+                .filter(|name| **name != set && names.contains(&set));
+            return others.copied().collect();
+        }
+        let decides = matches!(self.others, Others::ByWord(row, _) if row.name() == set);
+        let branches = self.branches();
+        let stands = |branch: &&Branch| {
+            let mut words = branch.decided_by.iter();
+            words.all(|(key, needed)| needed.is_none_or(|needed| word(key) == Some(needed)))
+        };
+        let has_set = |branch: &&Branch| branch.keys.iter().any(|row| row.name() == set);
+        let rivals = branches.iter().filter(|branch| decides || stands(branch));
+        let own = rivals.clone().filter(|branch| match decides {
+            true => stands(branch),
+            false => has_set(branch),
+        });
+        let own: Vec<&Branch> = own.collect();
+        if own.is_empty() || (own.len() > 1 && !decides) {
+            return Vec::new();
+        }
+        let stays = |row: &&dyn AnyRow| {
+            let mut same = own.iter().flat_map(|branch| &branch.keys);
+            same.any(|known| {
+                std::ptr::addr_eq(*known, *row)
+                    || (known.name() == row.name() && known.is_required())
+            })
+        };
+        let others = rivals.flat_map(|branch| branch.keys.iter().copied());
+        others
+            .filter(|row| !stays(row))
+            .map(|row| row.name())
+            .collect()
+    }
+
     /// Every key that may stand in the table, in any of the ways to fill it.
     pub(crate) fn all(&self) -> Vec<&'static dyn AnyRow> {
         let branches = self.branches().into_iter().flat_map(|branch| branch.keys);

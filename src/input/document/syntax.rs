@@ -20,7 +20,7 @@ const UNQUOTED: &str = "string values must be quoted";
 const NO_FLOAT: &str = "invalid float";
 
 /// Quotation marks of text processors, which TOML does not know.
-pub(super) const CURLY: [char; 8] = ['“', '”', '„', '‟', '‘', '’', '«', '»'];
+pub(in crate::input) const CURLY: [char; 8] = ['“', '”', '„', '‟', '‘', '’', '«', '»'];
 
 /// What other languages write where there is no value.
 const NO_VALUE: [&str; 5] = ["none", "null", "nil", "na", "undefined"];
@@ -77,7 +77,11 @@ pub(super) fn explain_all(source: &Arc<Source>, errors: &[Error]) -> Diagnostics
 }
 
 /// The error of a value that begins at `offset` of `source`.
-pub(super) fn explain_value(source: &Arc<Source>, error: &Error, offset: usize) -> Diagnostic {
+pub(in crate::input) fn explain_value(
+    source: &Arc<Source>,
+    error: &Error,
+    offset: usize,
+) -> Diagnostic {
     explain(source, &fault(error, offset))
 }
 

@@ -102,7 +102,7 @@ impl Node {
     }
 
     /// An empty table, made for the sake of a key.
-    pub(super) fn empty_table(key: &Location) -> Self {
+    pub(in crate::input) fn empty_table(key: &Location) -> Self {
         Self {
             value: Value::Table(Table::default()),
             location: key.clone(),

@@ -107,6 +107,18 @@ static SCENARIO_FILE: Rows = table(
     ],
 );
 
+/// The keys of the table that a dotted path names, `drive.segments[0]`: one answer for each kind of file that has it.
+pub(super) fn tables_at(path: &str) -> Vec<&'static Rows> {
+    let mut tables: Vec<_> = FileKind::NAMES.map(|(_, kind)| kind.rows()).to_vec();
+    for key in path.split('.').filter(|key| !key.is_empty()) {
+        let key = key.split('[').next().unwrap_or(key);
+        let below = tables.iter().flat_map(|rows| rows.all());
+        let below = below.filter(|row| row.name() == key);
+        tables = below.filter_map(|row| row.kind().rows()).collect();
+    }
+    tables
+}
+
 /// Everything that is a word of the input files: keys, and what may stand under those that take a word. Sorted.
 pub fn words() -> Vec<&'static str> {
     let mut words = Vec::new();

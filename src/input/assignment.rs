@@ -8,78 +8,40 @@ use std::sync::Arc;
 
 use toml::de::DeValue;
 
-use super::reader::join;
-use super::syntax;
-use super::tree::{Entry, Node, Table, Value};
-use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Source};
+use super::diagnostic::{Diagnostic, Diagnostics, Location, Source};
+use super::document::Document;
+use super::document::reader::join;
+use super::document::syntax;
+use super::document::tree::{Entry, Node, Table, Value};
+use super::keys::tables_at;
 
 /// What stands before the argument in the text of the flag.
-pub(super) const PREFIX: &str = "--set ";
+const PREFIX: &str = "--set ";
 
 /// Deepest key accepted; sweep files have three levels.
 const MAX_DEPTH: usize = 16;
 
-/// Keys of a table that exclude one another: the table, then groups of keys that belong together.
-const ALTERNATIVES: [(&str, &[&str]); 7] = [
-    ("material", &MATERIALS),
-    ("material.table", &["file", "times values"]),
-    ("sweep", &["angular_frequency", "frequency"]),
-    ("sweep.drive", &["amplitude", "mean"]),
-    ("figures", &["width", "column"]),
-    ("drive.segments[]", &["angular_frequency", "frequency"]),
-    ("drive.segments[]", &["file", "times values"]),
-];
-/// A material of the library has a Poisson ratio of its own.
-const MATERIALS: [&str; 7] = [
-    "library",
-    "relaxation poisson_ratio",
-    "creep poisson_ratio",
-    "maxwell poisson_ratio",
-    "zener poisson_ratio",
-    "kelvin_voigt poisson_ratio",
-    "table poisson_ratio",
-];
-
-/// Keys that belong to some values of another one: the table, that key, its values with what belongs to each.
-type Kinds = (
-    &'static str,
-    &'static str,
-    &'static [(&'static str, &'static str)],
-);
-const KINDS: [Kinds; 2] = [
-    ("indenter", "shape", &SHAPES),
-    ("drive.segments[]", "kind", &SEGMENTS),
-];
-const SHAPES: [(&str, &str); 9] = [
-    ("sphere", "radius"),
-    ("cone", "half_angle"),
-    ("flat-punch", "radius"),
-    ("ellipsoid", "radius_x radius_y"),
-    ("power-law", "exponent radius height"),
-    ("profile", "file sha256"),
-    (
-        "height-map",
-        "file sha256 spacing quantity height_unit level edge",
-    ),
-    ("asperities", "asperities"),
-    (
-        "rough",
-        "cells spacing hurst_exponent rms_height cut_off_wavelength roll_off_wavelength seed sphere_radius edge",
-    ),
-];
-const SEGMENTS: [(&str, &str); 5] = [
-    ("step", "to duration"),
-    ("ramp", "to duration"),
-    ("polynomial", "coefficients duration"),
-    (
-        "sine",
-        "mean amplitude angular_frequency frequency phase cycles",
-    ),
-    ("table", "file times values"),
-];
+impl Document {
+    /// Applies the argument of a `--set` flag, `cycle.steps=200`: a dotted key, and a TOML value.
+    ///
+    /// What is not TOML counts as a string, so `drive.mean=10 N` needs no inner quotes; but what opens with a
+    /// quote, bracket or brace must be TOML. Tables on the way to the key are made when missing; a value that
+    /// is there is replaced whole. Items of lists have numbers from 0 (`asperities.1.radius`); without a value the
+    /// key is removed. Keys of the file that the new one excludes, as a cone excludes a radius, are removed too.
+    /// Problems with the value found later point into the flag.
+    ///
+    /// # Errors
+    /// No `=`, a key that is not dotted words, a value that opens as TOML but is not, a key below
+    /// something that is neither table nor list, nothing to remove. The document is then unchanged.
+    pub fn set(&mut self, argument: &str) -> Result<(), Diagnostics> {
+        let source = Source::flag(format!("{PREFIX}{argument}"), self.flags);
+        self.flags = self.flags.saturating_add(1);
+        apply(&mut self.root, &source)
+    }
+}
 
 /// Applies the flag whose text is `source`.
-pub(super) fn apply(root: &mut Table, source: &Arc<Source>) -> Result<(), Diagnostics> {
+fn apply(root: &mut Table, source: &Arc<Source>) -> Result<(), Diagnostics> {
     let text = source.text();
     let Some(equals) = text.find('=') else {
         let place = Location::new(source, PREFIX.len()..text.len());
@@ -267,38 +229,15 @@ fn item_number(key: &Location, items: usize, adds: bool) -> Option<usize> {
 
 /// Removes what the file says under keys that the one just set excludes. What a flag says stays, and is told to be too much.
 fn remove_excluded(table: &mut Table, path: &str, set: &str) {
-    let pattern: String = path.chars().filter(|c| !c.is_ascii_digit()).collect();
-    let mut excluded: Vec<&str> = Vec::new();
-    let mut exclude = |groups: &[&'static str], own: &str| {
-        let others = groups.iter().flat_map(|group| group.split(' '));
-        excluded.extend(others.filter(|key| !has(own, key)));
+    let word = |key: &str| match table.entries.get(key).map(|entry| &entry.node.value) {
+        Some(Value::Text(word)) => Some(word.as_str()),
+        _ => None,
     };
-    for (_, groups) in ALTERNATIVES.iter().filter(|(of, _)| *of == pattern) {
-        let mut own = groups.iter().filter(|group| has(group, set));
-        // A key of several groups excludes none of them.
-        if let (Some(own), None) = (own.next(), own.next()) {
-            exclude(groups, own);
-        }
-    }
-    for (_, _, kinds) in KINDS
-        .iter()
-        .filter(|(of, key, _)| *of == pattern && *key == set)
-    {
-        let kind = table.entries.get(set).map(|entry| &entry.node.value);
-        let is_it = |name: &str| matches!(kind, Some(Value::Text(kind)) if kind == name);
-        if let Some((_, own)) = kinds.iter().find(|(name, _)| is_it(name)) {
-            let groups: Vec<&str> = kinds.iter().map(|(_, keys)| *keys).collect();
-            exclude(&groups, own);
-        }
-    }
+    let rows = tables_at(path).into_iter();
+    let excluded: Vec<&str> = rows.flat_map(|rows| rows.excluded_by(set, &word)).collect();
     let was_given =
         |name: &str, entry: &Entry| excluded.contains(&name) && !entry.key.source().is_flag();
     table.entries.retain(|name, entry| !was_given(name, entry));
-}
-
-/// Whether a group of keys has this one.
-fn has(group: &str, key: &str) -> bool {
-    group.split(' ').any(|member| member == key)
 }
 
 /// A span without the spaces at its ends.
