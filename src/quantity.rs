@@ -49,6 +49,8 @@ pub enum Dimension {
     Frequency,
     /// J.
     Energy,
+    /// K.
+    Temperature,
 }
 
 /// What there is to know about a dimension.
@@ -64,7 +66,7 @@ struct Profile {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Dimension; 11] = [
+    pub const ALL: [Dimension; 12] = [
         Dimension::Length,
         Dimension::Area,
         Dimension::Force,
@@ -76,6 +78,7 @@ impl Dimension {
         Dimension::AngularFrequency,
         Dimension::Frequency,
         Dimension::Energy,
+        Dimension::Temperature,
     ];
 
     /// The SI unit in which [`parse`] answers, as [`format_si`] writes it.
@@ -88,7 +91,7 @@ impl Dimension {
         self.profile().example
     }
 
-    /// Exponents are those of m, kg, s, rad and cycles.
+    /// Exponents are those of m, kg, s, rad, cycles and K.
     fn profile(self) -> Profile {
         let profile = |name, si_unit, example, exponents, prefixes| Profile {
             name,
@@ -98,43 +101,44 @@ impl Dimension {
             prefixes,
         };
         match self {
-            Self::Length => profile("a length", "m", "10 mm", [1, 0, 0, 0, 0], (-15, 3)),
-            Self::Area => profile("an area", "m^2", "2 mm^2", [2, 0, 0, 0, 0], (0, 0)),
-            Self::Force => profile("a force", "N", "10 N", [1, 1, -2, 0, 0], (-15, 12)),
+            Self::Length => profile("a length", "m", "10 mm", [1, 0, 0, 0, 0, 0], (-15, 3)),
+            Self::Area => profile("an area", "m^2", "2 mm^2", [2, 0, 0, 0, 0, 0], (0, 0)),
+            Self::Force => profile("a force", "N", "10 N", [1, 1, -2, 0, 0, 0], (-15, 12)),
             Self::Stress => profile(
                 "a stress or modulus",
                 "Pa",
                 "1973 MPa",
-                [-1, 1, -2, 0, 0],
+                [-1, 1, -2, 0, 0, 0],
                 (-15, 12),
             ),
             Self::Compliance => profile(
                 "a compliance",
                 "1/Pa",
                 "1e-4 1/MPa",
-                [1, -1, 2, 0, 0],
+                [1, -1, 2, 0, 0, 0],
                 (0, 0),
             ),
             Self::Viscosity => profile(
                 "a viscosity",
                 "Pa s",
                 "2 GPa s",
-                [-1, 1, -1, 0, 0],
+                [-1, 1, -1, 0, 0, 0],
                 (-15, 12),
             ),
             // Long times stay in seconds: nobody reads kiloseconds.
-            Self::Time => profile("a time", "s", "8.93 s", [0, 0, 1, 0, 0], (-15, 0)),
-            Self::Angle => profile("an angle", "rad", "90 deg", [0, 0, 0, 1, 0], (0, 0)),
+            Self::Time => profile("a time", "s", "8.93 s", [0, 0, 1, 0, 0, 0], (-15, 0)),
+            Self::Angle => profile("an angle", "rad", "90 deg", [0, 0, 0, 1, 0, 0], (0, 0)),
             Self::AngularFrequency => profile(
                 "an angular frequency",
                 "rad/s",
                 "0.5 rad/s",
-                [0, 0, -1, 1, 0],
+                [0, 0, -1, 1, 0, 0],
                 (0, 0),
             ),
             // As angular frequencies: those of a sweep are read beside one another.
-            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1], (0, 12)),
-            Self::Energy => profile("an energy", "J", "3.5 µJ", [2, 1, -2, 0, 0], (-15, 12)),
+            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1, 0], (0, 12)),
+            Self::Energy => profile("an energy", "J", "3.5 µJ", [2, 1, -2, 0, 0, 0], (-15, 12)),
+            Self::Temperature => profile("a temperature", "K", "25 °C", [0, 0, 0, 0, 0, 1], (0, 0)),
         }
     }
 }
@@ -274,7 +278,7 @@ fn did_you_mean(suggestions: &[String]) -> String {
 /// and gives it in the SI unit of the dimension.
 ///
 /// A unit is a product or quotient of m, g, s, rad, N, Pa, J, Hz (with any SI prefix from f to T),
-/// Å, min, h, d and deg (or °), with exponents: `N/mm^2` is as good as `MPa`. The blank before the
+/// Å, min, h, d, deg (or °), K and °C (or degC), with exponents: `N/mm^2` is as good as `MPa`. The blank before the
 /// unit may be missing; both micro signs, `u`, superscripts and the Unicode minus are understood.
 ///
 /// # Errors
@@ -319,7 +323,7 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, QuantityError> {
             expected,
         });
     }
-    if value == 0.0 && !number.is_zero() {
+    if value == 0.0 && !number.is_zero() && unit.zero_k == 0.0 {
         return Err(QuantityError::TooSmall {
             text: quoted(),
             expected,
@@ -378,6 +382,16 @@ pub fn format_human(value: f64, dimension: Dimension, significant_digits: usize)
     } else {
         format!("{scientific} {}", profile.si_unit)
     }
+}
+
+/// Absolute temperature of zero degrees Celsius (K).
+pub const ZERO_CELSIUS_K: f64 = 273.15;
+
+/// A temperature (K) as people read it, to a tenth of a degree: `25 °C`, `-49.9 °C`.
+pub fn celsius(temperature_k: f64) -> String {
+    // Adding zero takes the sign off a zero.
+    let tenths = (10.0 * (temperature_k - ZERO_CELSIUS_K)).round() + 0.0;
+    format!("{} °C", tenths / 10.0)
 }
 
 /// `mantissa` (one digit before the point) times ten to the power `shift`, in fixed notation.
@@ -498,8 +512,8 @@ fn common_unit(dimension: Dimension) -> &'static str {
 
 /// What a quantity with these exponents is, with its article.
 fn describe(exponents: Exponents) -> String {
-    const INVERSE_TIME: Exponents = Exponents([0, 0, -1, 0, 0]);
-    const MASS: Exponents = Exponents([0, 1, 0, 0, 0]);
+    const INVERSE_TIME: Exponents = Exponents([0, 0, -1, 0, 0, 0]);
+    const MASS: Exponents = Exponents([0, 1, 0, 0, 0, 0]);
     if let Some(known) = Dimension::ALL
         .into_iter()
         .find(|dimension| dimension.profile().exponents == exponents)
@@ -721,6 +735,20 @@ mod tests {
                 Ok(1.0)
             );
         }
+    }
+
+    #[test]
+    fn temperatures_are_read_in_celsius_and_kelvin_and_their_differences_have_no_zero() {
+        let kelvin = |text| parse(text, Dimension::Temperature).unwrap();
+        assert_eq!(kelvin("25 °C"), 298.15);
+        assert_eq!(kelvin("-10 degC"), 263.15);
+        assert_eq!(kelvin("300 K"), 300.0);
+        assert_eq!(kelvin("-273.15 °C"), 0.0);
+        assert_eq!(Unit::read("m/°C").unwrap().zero_k, 0.0);
+        assert_eq!(Unit::read("1/°C").unwrap().zero_k, 0.0);
+        assert_eq!(celsius(298.15), "25 °C");
+        assert_eq!(celsius(223.24), "-49.9 °C");
+        assert_eq!(celsius(273.14999), "0 °C");
     }
 
     #[test]

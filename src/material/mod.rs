@@ -28,6 +28,7 @@
 //! ```
 
 pub mod classical;
+pub mod dynamic;
 pub mod fit;
 pub mod interpolant;
 pub mod library;

@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
-/// Exponents of metre, kilogram, second, radian and cycle.
+/// Exponents of metre, kilogram, second, radian, cycle and kelvin.
 ///
 /// Radian and cycle are kept apart from a pure number, so that rad/s and Hz are not confused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Exponents(pub(super) [i32; 5]);
+pub(super) struct Exponents(pub(super) [i32; 6]);
 
 impl Exponents {
-    const NONE: Exponents = Exponents([0; 5]);
+    const NONE: Exponents = Exponents([0; 6]);
 
     fn plus(self, other: Exponents, times: i32) -> Exponents {
         let mut sum = self.0;
@@ -20,7 +20,7 @@ impl Exponents {
     }
 }
 
-/// A unit in terms of SI: `10^decimal_exponent * (seconds ratio) * (pi/180)^degrees`.
+/// A unit in terms of SI: `10^decimal_exponent * (seconds ratio) * (pi/180)^degrees`, counted from `zero_k`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unit {
     pub(super) exponents: Exponents,
@@ -29,6 +29,8 @@ pub(super) struct Unit {
     multiplier: f64,
     divisor: f64,
     degrees: i32,
+    /// Where a scale of temperatures begins (K); zero for every other unit, and where °C is part of a product.
+    pub(super) zero_k: f64,
 }
 
 /// Why a text is no unit.
@@ -47,10 +49,11 @@ struct Symbol {
     decimal_exponent: i32,
     multiplier: f64,
     degrees: i32,
+    zero_k: f64,
     takes_prefix: bool,
 }
 
-const fn prefixable(text: &'static str, exponents: [i32; 5], decimal_exponent: i32) -> Symbol {
+const fn prefixable(text: &'static str, exponents: [i32; 6], decimal_exponent: i32) -> Symbol {
     let exponents = Exponents(exponents);
     Symbol {
         text,
@@ -58,49 +61,65 @@ const fn prefixable(text: &'static str, exponents: [i32; 5], decimal_exponent: i
         decimal_exponent,
         multiplier: 1.0,
         degrees: 0,
+        zero_k: 0.0,
         takes_prefix: true,
     }
 }
 
 const fn time(text: &'static str, seconds: f64) -> Symbol {
-    let exponents = Exponents([0, 0, 1, 0, 0]);
+    let exponents = Exponents([0, 0, 1, 0, 0, 0]);
     Symbol {
         text,
         exponents,
         decimal_exponent: 0,
         multiplier: seconds,
         degrees: 0,
+        zero_k: 0.0,
         takes_prefix: false,
     }
 }
 
 const fn degree(text: &'static str) -> Symbol {
-    let exponents = Exponents([0, 0, 0, 1, 0]);
+    let exponents = Exponents([0, 0, 0, 1, 0, 0]);
     Symbol {
         text,
         exponents,
         decimal_exponent: 0,
         multiplier: 1.0,
         degrees: 1,
+        zero_k: 0.0,
         takes_prefix: false,
     }
 }
 
-const SYMBOLS: [Symbol; 14] = [
-    prefixable("m", [1, 0, 0, 0, 0], 0),
-    prefixable("N", [1, 1, -2, 0, 0], 0),
-    prefixable("Pa", [-1, 1, -2, 0, 0], 0),
-    prefixable("s", [0, 0, 1, 0, 0], 0),
-    prefixable("J", [2, 1, -2, 0, 0], 0),
-    prefixable("Hz", [0, 0, -1, 0, 1], 0),
-    prefixable("rad", [0, 0, 0, 1, 0], 0),
-    prefixable("g", [0, 1, 0, 0, 0], -3),
+const fn celsius(text: &'static str) -> Symbol {
+    Symbol {
+        text,
+        exponents: Exponents([0, 0, 0, 0, 0, 1]),
+        decimal_exponent: 0,
+        multiplier: 1.0,
+        degrees: 0,
+        zero_k: 273.15,
+        takes_prefix: false,
+    }
+}
+
+const SYMBOLS: [Symbol; 17] = [
+    prefixable("m", [1, 0, 0, 0, 0, 0], 0),
+    prefixable("N", [1, 1, -2, 0, 0, 0], 0),
+    prefixable("Pa", [-1, 1, -2, 0, 0, 0], 0),
+    prefixable("s", [0, 0, 1, 0, 0, 0], 0),
+    prefixable("J", [2, 1, -2, 0, 0, 0], 0),
+    prefixable("Hz", [0, 0, -1, 0, 1, 0], 0),
+    prefixable("rad", [0, 0, 0, 1, 0, 0], 0),
+    prefixable("g", [0, 1, 0, 0, 0, 0], -3),
     Symbol {
         text: "Å",
-        exponents: Exponents([1, 0, 0, 0, 0]),
+        exponents: Exponents([1, 0, 0, 0, 0, 0]),
         decimal_exponent: -10,
         multiplier: 1.0,
         degrees: 0,
+        zero_k: 0.0,
         takes_prefix: false,
     },
     time("min", 60.0),
@@ -108,6 +127,9 @@ const SYMBOLS: [Symbol; 14] = [
     time("d", 86400.0),
     degree("deg"),
     degree("°"),
+    prefixable("K", [0, 0, 0, 0, 0, 1], 0),
+    celsius("°C"),
+    celsius("degC"),
 ];
 
 /// SI prefixes from femto to tera; the first of two spellings is the one that is written.
@@ -182,7 +204,7 @@ pub(super) fn alone(exponents: Exponents) -> Vec<String> {
             .map(|prefix| format!("{prefix}{}", symbol.text))
     });
     spellings
-        .chain((exponents == Exponents([1, 0, 0, 0, 0])).then(|| "\u{212B}".to_owned()))
+        .chain((exponents == Exponents([1, 0, 0, 0, 0, 0])).then(|| "\u{212B}".to_owned()))
         .collect()
 }
 
@@ -201,6 +223,7 @@ impl Unit {
         multiplier: 1.0,
         divisor: 1.0,
         degrees: 0,
+        zero_k: 0.0,
     };
 
     /// Reads a unit such as `mm`, `1/MPa`, `GPa s`, `rad/s`, `N/mm^2` or `Pa⁻¹`.
@@ -251,6 +274,7 @@ impl Unit {
             multiplier: symbol.multiplier,
             divisor: 1.0,
             degrees: symbol.degrees,
+            zero_k: symbol.zero_k,
         })
     }
 
@@ -266,6 +290,11 @@ impl Unit {
             multiplier: self.multiplier * multiplier.powi(power.abs()),
             divisor: self.divisor * divisor.powi(power.abs()),
             degrees: self.degrees + other.degrees * power,
+            // A difference of temperatures, but for a unit that stands alone.
+            zero_k: match self == Unit::ONE && power == 1 {
+                true => other.zero_k,
+                false => 0.0,
+            },
         }
     }
 
@@ -279,7 +308,11 @@ impl Unit {
         for _ in self.degrees..0 {
             value = value / PI * 180.0;
         }
-        value
+        match self.zero_k == 0.0 {
+            // Zero keeps its sign.
+            true => value,
+            false => value + self.zero_k,
+        }
     }
 }
 

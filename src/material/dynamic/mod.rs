@@ -1,0 +1,233 @@
+//! Dynamic data: storage and loss modulus over frequency at one or several temperatures, and what is made of them.
+//!
+//! [`DynamicData`] is what an instrument measured, checked; [`characterise`] makes a [`Characterisation`] of it: shift factors and
+//! master curve ([`master_curve`], [`shift_law`]), a Prony series with its residuals ([`prony`]), and replicas of that series which
+//! carry the noise of the measurement on ([`replicas`]).
+//!
+//! Temperatures are in K, frequencies in rad/s, moduli in Pa; `E* = E' + i E''`.
+
+pub mod master_curve;
+pub mod prony;
+pub mod replicas;
+pub mod shift_law;
+
+use super::{ModulusKind, Relaxation};
+use master_curve::{MasterCurve, MasterCurveError, ShiftChoice};
+use prony::{PronyError, PronyFit};
+
+/// Storage and loss modulus at one frequency and temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DynamicPoint {
+    /// `None` where the file names no temperature.
+    pub temperature_k: Option<f64>,
+    pub angular_frequency_rad_per_s: f64,
+    pub storage_modulus_pa: f64,
+    pub loss_modulus_pa: f64,
+    /// Standard errors (Pa) of both, where the file gives them.
+    pub errors_pa: Option<(f64, f64)>,
+}
+
+/// Points at one temperature, ascending in frequency.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Isotherm {
+    /// Mean of the temperatures of the points.
+    pub temperature_k: Option<f64>,
+    pub points: Vec<DynamicPoint>,
+}
+
+/// Isotherms of one specimen, ascending in temperature.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DynamicData {
+    kind: ModulusKind,
+    isotherms: Vec<Isotherm>,
+}
+
+/// Why points are no dynamic data. Points count from 0, in the order given.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DynamicDataError {
+    #[error("a series needs at least {needed} points, and there are {found}")]
+    TooFew { needed: usize, found: usize },
+    #[error("{what} must be a positive number, and is {value}")]
+    NotPositive {
+        point: usize,
+        what: &'static str,
+        value: f64,
+    },
+    #[error("some points have a temperature and others have none")]
+    SomeTemperatures { point: usize },
+}
+
+/// Fewest points that a series can be fitted to.
+pub const FEWEST_POINTS: usize = 3;
+
+impl DynamicData {
+    /// Data from isotherms as the file holds them, in any order. Isotherms whose mean temperatures are the same to a hundredth of a
+    /// kelvin are one.
+    ///
+    /// # Errors
+    /// [`DynamicDataError`].
+    pub fn new(kind: ModulusKind, sets: Vec<Vec<DynamicPoint>>) -> Result<Self, DynamicDataError> {
+        let all: Vec<&DynamicPoint> = sets.iter().flatten().collect();
+        if all.len() < FEWEST_POINTS {
+            let (needed, found) = (FEWEST_POINTS, all.len());
+            return Err(DynamicDataError::TooFew { needed, found });
+        }
+        let has_temperature = all.iter().any(|point| point.temperature_k.is_some());
+        for (index, point) in all.iter().enumerate() {
+            point.check(index)?;
+            if has_temperature && point.temperature_k.is_none() {
+                return Err(DynamicDataError::SomeTemperatures { point: index });
+            }
+        }
+        let mut isotherms: Vec<Isotherm> = Vec::new();
+        for points in sets.into_iter().filter(|points| !points.is_empty()) {
+            let isotherm = Isotherm::new(points);
+            let same = isotherms.iter_mut().find(|other| {
+                match (other.temperature_k, isotherm.temperature_k) {
+                    (Some(a), Some(b)) => (a - b).abs() < 0.01,
+                    (a, b) => a == b,
+                }
+            });
+            match same {
+                Some(other) => {
+                    let points = [other.points.clone(), isotherm.points].concat();
+                    *other = Isotherm::new(points);
+                }
+                None => isotherms.push(isotherm),
+            }
+        }
+        let key = |isotherm: &Isotherm| isotherm.temperature_k.unwrap_or_default();
+        isotherms.sort_by(|a, b| key(a).total_cmp(&key(b)));
+        Ok(Self { kind, isotherms })
+    }
+
+    /// Which modulus was measured.
+    pub fn kind(&self) -> ModulusKind {
+        self.kind
+    }
+
+    /// At least one, ascending in temperature.
+    pub fn isotherms(&self) -> &[Isotherm] {
+        &self.isotherms
+    }
+
+    /// Every point, isotherm after isotherm.
+    pub fn points(&self) -> impl Iterator<Item = &DynamicPoint> {
+        self.isotherms.iter().flat_map(|isotherm| &isotherm.points)
+    }
+}
+
+impl DynamicPoint {
+    fn check(&self, point: usize) -> Result<(), DynamicDataError> {
+        let values = [
+            ("the frequency", self.angular_frequency_rad_per_s),
+            ("the storage modulus", self.storage_modulus_pa),
+            ("the loss modulus", self.loss_modulus_pa),
+            (
+                "the absolute temperature",
+                self.temperature_k.unwrap_or(1.0),
+            ),
+        ];
+        let bad = values
+            .into_iter()
+            .find(|(_, value)| !(value.is_finite() && *value > 0.0));
+        match bad {
+            Some((what, value)) => Err(DynamicDataError::NotPositive { point, what, value }),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Isotherm {
+    fn new(mut points: Vec<DynamicPoint>) -> Self {
+        points.sort_by(|a, b| {
+            a.angular_frequency_rad_per_s
+                .total_cmp(&b.angular_frequency_rad_per_s)
+        });
+        let temperatures: Option<Vec<f64>> = points.iter().map(|p| p.temperature_k).collect();
+        let mean = |values: Vec<f64>| values.iter().sum::<f64>() / values.len() as f64;
+        Self {
+            temperature_k: temperatures.map(mean),
+            points,
+        }
+    }
+}
+
+/// What is made of dynamic data, and how.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choices {
+    /// `None`: the temperature of the middle isotherm.
+    pub reference_temperature_k: Option<f64>,
+    pub shift: ShiftChoice,
+    /// Whether isotherms are shifted along the moduli too.
+    pub vertical_shift: bool,
+    /// Branches of the series; `None`: as many as the data resolve.
+    pub branches: Option<usize>,
+    /// Replicas of the material, which carry the noise of the data.
+    pub replicas: usize,
+    /// Of the random numbers of the replicas.
+    pub seed: u64,
+}
+
+impl Default for Choices {
+    fn default() -> Self {
+        Self {
+            reference_temperature_k: None,
+            shift: ShiftChoice::Free,
+            vertical_shift: false,
+            branches: None,
+            replicas: 0,
+            seed: 1,
+        }
+    }
+}
+
+/// Why nothing was made of dynamic data.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DynamicError {
+    #[error("no master curve: {0}")]
+    MasterCurve(#[from] MasterCurveError),
+    #[error("no series: {0}")]
+    Prony(#[from] PronyError),
+}
+
+/// What the data say about the material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Characterisation {
+    pub kind: ModulusKind,
+    /// `None` where the data know no temperature or one alone.
+    pub master: Option<MasterCurve>,
+    /// The series at the reference temperature.
+    pub fit: PronyFit,
+    /// Series at the reference temperature that the data allow as well, alike in probability.
+    pub replicas: Vec<Relaxation>,
+}
+
+/// Makes master curve, series and replicas of the data.
+///
+/// # Errors
+/// [`DynamicError`].
+pub fn characterise(
+    data: &DynamicData,
+    choices: &Choices,
+) -> Result<Characterisation, DynamicError> {
+    let master = match data.isotherms() {
+        [_] => None,
+        _ => Some(master_curve::shift(data, choices)?),
+    };
+    let points = match &master {
+        Some(master) => master.points.clone(),
+        None => data.points().copied().collect(),
+    };
+    let fit = prony::fit(&points, choices.branches)?;
+    let replicas = replicas::draw(&points, &fit, choices)?;
+    let kind = data.kind();
+    Ok(Characterisation {
+        kind,
+        master,
+        fit,
+        replicas,
+    })
+}
