@@ -280,6 +280,97 @@ fn materials_without_a_stabilised_contact_are_refused_with_the_reason() {
     refused("\"pmma\"", "\"pma\"", &["bad.toml:4:11", "pmma"]);
 }
 
+/// A fractional material over four decades; the keys of its model alone are left to say.
+fn fractional(model: &str) -> String {
+    format!(
+        "poisson_ratio = 0.4\n[material.fractional]\nmodulus = \"longitudinal\"\nstiffness = \"1 GPa\"\ntime = \"1 s\"\n\
+         exponent = 0.5\nband = [\"1e-3 rad/s\", \"10 rad/s\"]\nmodel = {model}\n"
+    )
+}
+
+#[test]
+fn a_fractional_material_becomes_a_series_that_the_resolved_file_holds() {
+    let folder = TempDir::new().unwrap();
+    let block = fractional("\"zener\"\nequilibrium = \"1 MPa\"");
+    let text = SMALL.replace("library = \"pmma\"", &block);
+    let file = write(&folder, "zener.toml", &text);
+    let out = folder.path().join("out");
+    let sweep = ["sweep", &file, "--no-figures", "--out"];
+    let printed = program().args(sweep).arg(&out).assert().success();
+    let within = "fractional Zener model as a series of";
+    printed.stdout(contains(within));
+    let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
+    let measured =
+        "measured = [\"0.1 s\", \"1000 s\"]\n\n[material.relaxation]\nmodulus = \"longitudinal\"";
+    assert!(resolved.contains(measured), "{resolved}");
+    // The modulus at rest is the model's own.
+    assert!(
+        resolved.contains("equilibrium = \"1000000 Pa\""),
+        "{resolved}"
+    );
+    let show = ["material", "show", &file];
+    program()
+        .args(show)
+        .assert()
+        .success()
+        .stdout(contains(within));
+    let json = program().args(show).args(["--format", "json"]).assert();
+    let json: serde_json::Value = serde_json::from_slice(&json.get_output().stdout).unwrap();
+    assert!(
+        json["approximation"]["error"].as_f64().unwrap() < 1e-3,
+        "{json}"
+    );
+    // As the classical solid of one branch where the exponent is one.
+    let classical = text.replace("exponent = 0.5", "exponent = 1.0");
+    let classical = write(&folder, "classical.toml", &classical);
+    let out = folder.path().join("classical");
+    let plan = ["sweep", &classical, "--no-figures", "--out"];
+    program().args(plan).arg(&out).assert().success();
+    let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
+    let branch = "branches = [\n    { modulus = \"1000000000 Pa\", time = \"1 s\" },\n]";
+    assert!(resolved.contains(branch), "{resolved}");
+}
+
+#[test]
+fn a_fractional_material_that_cannot_be_is_refused_at_its_place() {
+    let library = "library = \"pmma\"";
+    for fluid in ["\"springpot\"", "\"maxwell\"\nsecond_exponent = 0.2"] {
+        refused(library, &fractional(fluid), &["fluid", "zener", "simulate"]);
+    }
+    let wrong = |from: &str, to: &str, words: &[&str]| {
+        let block = fractional("\"zener\"\nequilibrium = \"1 MPa\"");
+        assert!(block.contains(from));
+        refused(library, &block.replace(from, to), words);
+    };
+    wrong("0.5", "1.5", &["exponent", "at most 1"]);
+    wrong(
+        "\"10 rad/s\"",
+        "\"1e-4 rad/s\"",
+        &["band", "lowest frequency first"],
+    );
+    wrong(
+        "0.5",
+        "0.99999",
+        &["200 branches", "narrow the band", "accuracy"],
+    );
+    wrong("equilibrium = \"1 MPa\"", "", &["equilibrium"]);
+    wrong(
+        "equilibrium",
+        "second_exponent = 0.1\nequilibrium",
+        &["second_exponent"],
+    );
+    refused(
+        library,
+        &fractional("\"maxwell\"\nsecond_exponent = 0.6"),
+        &["second exponent"],
+    );
+    wrong(
+        "[material.fractional]",
+        "measured = [1, 2]\n[material.fractional]",
+        &["measured"],
+    );
+}
+
 #[test]
 fn segments_beside_a_sweep_are_told_of_both_commands() {
     let folder = TempDir::new().unwrap();

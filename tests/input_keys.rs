@@ -287,6 +287,15 @@ fn files() -> Vec<(FileKind, String)> {
         format!("measured = [1, 2]\n[material.{creep}"),
         "measured = [1, 2]\n[material.maxwell]\nmodulus = 1e6\ntime = 1".to_owned(),
         "measured = [1, 2]\n[material.zener]\nspring = 1e6\nkelvin_spring = 1e6\ntime = 1".to_owned(),
+        "[material.fractional]\nmodel = \"springpot\"\nmodulus = \"shear\"\nstiffness = 1e6\ntime = 1\nexponent = 0.5\n\
+         band = [1, 10]\naccuracy = 0.01"
+            .to_owned(),
+        "[material.fractional]\nmodel = \"zener\"\nmodulus = \"shear\"\nequilibrium = 1e5\nstiffness = 1e6\ntime = 1\n\
+         exponent = 0.5\nband = [1, 10]"
+            .to_owned(),
+        "[material.fractional]\nmodel = \"maxwell\"\nmodulus = \"shear\"\nstiffness = 1e6\ntime = 1\nexponent = 0.5\n\
+         second_exponent = 0.2\nband = [1, 10]"
+            .to_owned(),
         "[material.table]\nfile = \"creep.csv\"\nquantity = \"creep\"\nmodulus = \"shear\"\nflow = false".to_owned(),
         "[material.table]\ntimes = [1, 2, 5, 10]\nvalues = [1e-9, 1.5e-9, 2e-9, 2.1e-9]\nquantity = \"creep\"\n\
          modulus = \"shear\"\nevaluation = \"direct\""

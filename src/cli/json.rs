@@ -107,6 +107,7 @@ pub(super) fn material(material: &Material) -> Result<Value, Failure> {
         "moduli": MaterialReport::new(material).moduli(10),
         "peaks": peaks.map_err(Failure::input)?,
         "fit": material.fit().map(fit_report),
+        "approximation": material.approximation(),
         "material_toml": resolved::material_text(material),
     }))
 }

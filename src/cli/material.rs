@@ -111,7 +111,8 @@ pub(super) fn load(name: &str) -> Result<(Material, String), Failure> {
     let material = problems.into_result(material)?.value;
     let title = material.name().unwrap_or("Material").to_owned();
     let fit = material.fit().map(report::fit::text).unwrap_or_default();
-    Ok((material, format!("{title} (from {name})\n{fit}")))
+    let model = report::fit::approximation(&material);
+    Ok((material, format!("{title} (from {name})\n{fit}{model}")))
 }
 
 /// A paragraph set in by four.

@@ -213,6 +213,10 @@ fn text(setup: &Setup, outcome: &Outcome, left_out: &[String], folder: &Path) ->
         text.push_str(&report::fit::text(fit));
         text.push('\n');
     }
+    if plan.material.approximation().is_some() {
+        text.push_str(&report::fit::approximation(&plan.material));
+        text.push('\n');
+    }
     text.push_str(&terminal::table(plan, outcome));
     for part in [
         terminal::peaks(plan, outcome),

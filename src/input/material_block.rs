@@ -10,11 +10,12 @@ use super::document::row::{AnyRow, Optional, Required, Row};
 use super::keys;
 use super::keys::material::{
     BRANCH_COMPLIANCE, BRANCH_MODULUS, BRANCH_TIME, COMPLIANCE, CREEP, CREEP_ALTERNATIVE,
-    CREEP_BRANCHES, ELEMENT_TIME, EQUILIBRIUM, INSTANTANEOUS, KELVIN_SPRING, KELVIN_VOIGT, LIBRARY,
-    LIBRARY_POISSON_RATIO, MAXWELL, MAXWELL_MODULUS, MEASURED, MEASURED_TABLE, MODULUS, NAME,
-    POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE, RELAXATION_BRANCHES, SPRING, VISCOSITY,
-    ZENER,
+    CREEP_BRANCHES, ELEMENT_TIME, EQUILIBRIUM, FRACTIONAL, INSTANTANEOUS, KELVIN_SPRING,
+    KELVIN_VOIGT, LIBRARY, LIBRARY_POISSON_RATIO, MAXWELL, MAXWELL_MODULUS, MEASURED,
+    MEASURED_TABLE, MODULUS, NAME, POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE,
+    RELAXATION_BRANCHES, SPRING, VISCOSITY, ZENER,
 };
+use super::material_fractional;
 use super::material_table::{self, DirectSum, TableMaterial};
 use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
 use crate::material::sampled::Sampled;
@@ -32,17 +33,19 @@ enum Form {
     Maxwell,
     Zener,
     KelvinVoigt,
+    Fractional,
     Measured,
 }
 
 /// The ways to give a material; exactly one of them.
-static FORMS: [(&dyn AnyRow, Form); 7] = [
+static FORMS: [(&dyn AnyRow, Form); 8] = [
     (&LIBRARY, Form::Library),
     (&RELAXATION, Form::Relaxation),
     (&CREEP, Form::Creep),
     (&MAXWELL, Form::Maxwell),
     (&ZENER, Form::Zener),
     (&KELVIN_VOIGT, Form::KelvinVoigt),
+    (&FRACTIONAL, Form::Fractional),
     (&MEASURED_TABLE, Form::Measured),
 ];
 
@@ -138,7 +141,8 @@ fn measured(
     problems: &Problems,
     form: Form,
 ) -> Option<Option<(f64, f64)>> {
-    if let (Form::Library | Form::Measured, Some(place)) = (form, block.key_location(&MEASURED)) {
+    let says_itself = matches!(form, Form::Library | Form::Fractional | Form::Measured);
+    if let (true, Some(place)) = (says_itself, block.key_location(&MEASURED)) {
         problems
             .at(&place, "this material says itself when it was measured")
             .help("leave out `measured`");
@@ -181,6 +185,7 @@ fn from_block(
         Form::Maxwell => &MAXWELL,
         Form::Zener => &ZENER,
         Form::KelvinVoigt => &KELVIN_VOIGT,
+        Form::Fractional => &FRACTIONAL,
         Form::Measured => &MEASURED_TABLE,
     })?;
     let build: Option<Build> = match form {
@@ -198,6 +203,7 @@ fn from_block(
         Form::Measured => {
             material_table::read(&mut table, folder, direct_sum, problems).map(of_table)
         }
+        Form::Fractional => material_fractional::read(&mut table, problems).map(series),
         Form::Maxwell => element(&mut table, &MAXWELL_MODULUS)
             .map(|(modulus, time)| series(move |nu| Maxwell::new(modulus, time)?.material(nu))),
         Form::KelvinVoigt => element(&mut table, &SPRING)

@@ -41,6 +41,7 @@ mod indenter_block;
 pub mod key_reference;
 pub mod keys;
 pub(crate) mod material_block;
+mod material_fractional;
 pub(crate) mod material_table;
 mod points;
 pub mod scenario_file;

@@ -100,6 +100,10 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
                         "write `flow = false` in [material.table] for the solid that fits best, or follow one history \
                          with `contact-dma simulate`"
                     }
+                    None if material.value.approximation().is_some() => {
+                        "write model = \"zener\" with an equilibrium modulus above zero, or follow one history with \
+                         `contact-dma simulate`"
+                    }
                     None => "give it an equilibrium modulus above zero, or leave out its viscosity",
                 });
             None

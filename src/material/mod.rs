@@ -31,6 +31,7 @@ pub mod classical;
 pub mod dynamic;
 pub mod export;
 pub mod fit;
+pub mod fractional;
 pub mod interpolant;
 pub mod library;
 pub mod nnls;
@@ -82,6 +83,7 @@ pub struct Material {
     creep: Creep,
     relaxation: Option<Relaxation>,
     fit: Option<fit::FitReport>,
+    approximation: Option<fractional::Approximation>,
     measured_window_s: Option<(f64, f64)>,
     alternatives: Vec<Material>,
 }
@@ -104,6 +106,7 @@ impl Material {
             creep: relaxation.to_creep()?,
             relaxation: Some(relaxation),
             fit: None,
+            approximation: None,
             measured_window_s: None,
             alternatives: Vec::new(),
         })
@@ -134,6 +137,7 @@ impl Material {
             creep,
             relaxation,
             fit: None,
+            approximation: None,
             measured_window_s: None,
             alternatives: Vec::new(),
         })
@@ -153,6 +157,19 @@ impl Material {
             fit: Some(report),
             ..self
         }
+    }
+
+    /// The same material, known to stand for a fractional model.
+    pub fn approximated(self, approximation: fractional::Approximation) -> Self {
+        Material {
+            approximation: Some(approximation),
+            ..self
+        }
+    }
+
+    /// Where the material stands for a fractional model: over which band, and how well.
+    pub fn approximation(&self) -> Option<&fractional::Approximation> {
+        self.approximation.as_ref()
     }
 
     /// The same material, known to have been measured from the first to the second of these times (s).

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::words::wrapped;
+use crate::material::Material;
 use crate::material::fit::{Fit, FitReport, FittedSeries};
 use crate::quantity::{Dimension, format_human};
 
@@ -10,6 +11,12 @@ use crate::quantity::{Dimension, format_human};
 pub fn text(report: &FitReport) -> String {
     let report = report.to_string();
     report.lines().map(wrapped_line).collect()
+}
+
+/// How well a series stands for the model that was given; empty where none was. Ends with a line end.
+pub fn approximation(material: &Material) -> String {
+    let known = material.approximation();
+    known.map_or_else(String::new, |known| wrapped_line(&format!("{known}.")))
 }
 
 /// One line of at most 80 columns broken between words, what follows the first set in by two.

@@ -16,6 +16,9 @@ use crate::sweep::plan::scenario::ScenarioPlan;
 pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
     let mut text = format!("{}\n\n", plan.title);
     let material = match &plan.material {
+        BodyMaterial::Series(material) if material.approximation().is_some() => {
+            Some(fit::approximation(material))
+        }
         BodyMaterial::Series(material) => material.fit().map(fit::text),
         BodyMaterial::Samples(sampled) => Some(samples::text(sampled, plan.drive.duration_s())),
     };
