@@ -71,6 +71,26 @@ pub enum MaterialFunction {
     Creep,
 }
 
+impl ModulusKind {
+    /// As files and flags call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Shear => "shear",
+            Self::Longitudinal => "longitudinal",
+        }
+    }
+}
+
+impl MaterialFunction {
+    /// As files and flags call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Relaxation => "relaxation",
+            Self::Creep => "creep",
+        }
+    }
+}
+
 /// An isotropic linear viscoelastic material of constant Poisson ratio.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
