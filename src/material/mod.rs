@@ -29,6 +29,7 @@
 
 pub mod classical;
 pub mod dynamic;
+pub mod export;
 pub mod fit;
 pub mod interpolant;
 pub mod library;
