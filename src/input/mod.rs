@@ -42,6 +42,7 @@ pub mod key_reference;
 pub mod keys;
 pub(crate) mod material_block;
 pub(crate) mod material_table;
+mod material_temperature;
 mod points;
 pub mod scenario_file;
 pub mod schema;
