@@ -34,6 +34,7 @@ pub(crate) mod data_file;
 pub mod diagnostic;
 pub mod document;
 mod drive_table;
+pub mod dynamic;
 pub mod field_file;
 pub(crate) mod figures_block;
 mod harmonic_block;
