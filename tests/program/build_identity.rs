@@ -138,6 +138,7 @@ measured = ["1 ms", "1000 s"]
 modulus = "shear"
 equilibrium = "1 MPa"
 branches = [{ modulus = "2 MPa", time = "1 s" }]
+replicas = [{ equilibrium = "1.1 MPa", moduli = ["1.9 MPa"], times = ["1 s"] }]
 [[material.alternative]]
 equilibrium = "2 MPa"
 branches = [{ modulus = "1 MPa", time = "1 s" }]
@@ -178,6 +179,7 @@ const CHANGES: &[&str] = &[
     "material.relaxation.equilibrium=1.1 MPa",
     "material.relaxation.branches=[{ modulus = \"2.1 MPa\", time = \"1 s\" }]",
     "material.relaxation.branches=[{ modulus = \"2 MPa\", time = \"1.1 s\" }]",
+    "material.relaxation.replicas=[{ equilibrium = \"1.1 MPa\", moduli = [\"1.8 MPa\"], times = [\"1 s\"] }]",
     "material.alternative=[{ equilibrium = \"2.1 MPa\", branches = [{ modulus = \"1 MPa\", time = \"1 s\" }] }]",
     "indenter.shape=flat-punch",
     "indenter.radius=11 mm",

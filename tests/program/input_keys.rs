@@ -276,10 +276,24 @@ fn files() -> Vec<(FileKind, String)> {
         ),
     ];
     let series = "relaxation]\nmodulus = \"shear\"\nequilibrium = 1e6\nbranches = [{ modulus = 1e6, time = 1 }]\n\
+                  replicas = [{ equilibrium = 1.1e6, moduli = [9e5, 1e5], times = [1, 2] }]\n\
                   [[material.alternative]]\nequilibrium = 2e6\nbranches = [{ modulus = 2e6, time = 2 }]";
     let creep = "creep]\ncompliance = \"shear\"\ninstantaneous = 1e-6\nviscosity = 1e9\nbranches = [{ compliance = 1e-6, time = 1 }]\n\
                  [[material.alternative]]\ninstantaneous = 2e-6\nviscosity = 1e9\nbranches = [{ compliance = 2e-6, time = 2 }]";
+    let isotherm = |rest: &str| {
+        format!(
+            "[[material.isotherm]]\nmodulus = \"shear\"\nequilibrium = 1e6\nbranches = [{{ modulus = 1e6, time = 1 }}]\n{rest}\n"
+        )
+    };
     for block in [
+        isotherm(
+            "temperature = \"25 °C\"\nmeasured = [1, 2]\nreplicas = [{ equilibrium = 1.1e6, moduli = 9e5, times = 1 }]",
+        ),
+        format!(
+            "temperature = 300\n{}{}",
+            isotherm("temperature = 300"),
+            isotherm("temperature = 303")
+        ),
         format!("name = \"n\"\nmeasured = [1, 2]\n[material.{series}"),
         format!("measured = [1, 2]\n[material.{creep}"),
         "measured = [1, 2]\n[material.maxwell]\nmodulus = 1e6\ntime = 1".to_owned(),

@@ -8,7 +8,7 @@ use crate::input::document::limits::Limits;
 use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
 use crate::input::table_file::QUANTITIES;
 use crate::material::{MaterialFunction, ModulusKind};
-use crate::quantity::Dimension::{Compliance, Stress, Time, Viscosity};
+use crate::quantity::Dimension::{Compliance, Stress, Temperature, Time, Viscosity};
 use std::ops::Bound;
 
 /// What a modulus or a compliance is of.
@@ -42,6 +42,10 @@ const WINDOW: &str =
 const MOST_BRANCHES: usize = 1000;
 /// Twice as many as a fit gives.
 const MOST_ALTERNATIVES: usize = 8;
+/// More tell no more of a spread.
+pub(crate) const MOST_REPLICAS: usize = 1000;
+/// More curves than this are no sweep over temperature.
+const MOST_ISOTHERMS: usize = 1000;
 
 rows! { MATERIAL_KEYS:
     /// What tables and figures call the material.
@@ -74,6 +78,12 @@ rows! { _:
     ZENER: Row<Table, Required> = "zener", Table(&ZENER_TABLE), Required;
     /// Spring and dashpot in parallel; it has no instantaneous compliance, and so no contact: `material show` alone takes it.
     KELVIN_VOIGT: Row<Table, Required> = "kelvin_voigt", Table(&KELVIN_VOIGT_TABLE), Required;
+    /// Series of the relaxation modulus at one temperature or at several, such as a fit to dynamic data gives.
+    ISOTHERMS: Row<Tables, Required> =
+        "isotherm", Tables { rows: &ISOTHERM, most: MOST_ISOTHERMS, instead: "" }, Required;
+    /// Temperature of the body, where the material knows several; left out: the reference temperature of dynamic data, or that of
+    /// the only isotherm. A sweep over `material.temperature` takes its own.
+    TEMPERATURE: Row<Scalar, Optional> = "temperature", quantity(Temperature).above_zero(), Optional;
     /// Measured creep compliance or relaxation modulus.
     MEASURED_TABLE: Row<Table, Required> = "table", Table(&TABLE), Required;
 }
@@ -97,8 +107,8 @@ const fn alternatives(rows: &'static Rows) -> Tables {
 }
 
 pub(super) static MATERIAL: Rows = Rows {
-    means: " What the half-space is made of: exactly one of `library`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt` and \
-            `table`.",
+    means: " What the half-space is made of: exactly one of `library`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt`, \
+            `isotherm` and `table`.",
     keys: MATERIAL_KEYS,
     others: Others::OneList(&[
         LIBRARY_KEYS,
@@ -112,6 +122,7 @@ pub(super) static MATERIAL: Rows = Rows {
         &[&MAXWELL, &POISSON_RATIO, &MEASURED],
         &[&ZENER, &POISSON_RATIO, &MEASURED],
         &[&KELVIN_VOIGT, &POISSON_RATIO, &MEASURED],
+        &[&ISOTHERMS, &POISSON_RATIO, &TEMPERATURE],
         &[&MEASURED_TABLE, &POISSON_RATIO],
     ]),
 };
@@ -131,7 +142,49 @@ rows! { RELAXATION_KEYS:
     EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
     /// The branches of the series.
     RELAXATION_BRANCHES: Row<Tables, Required> = "branches", branches(&RELAXATION_BRANCH), Required;
+    /// Series that a fit gives where the noise of its data falls otherwise, drawn at random. The losses with them are the
+    /// uncertainty of the loss that comes from the material.
+    REPLICAS: Row<Tables, Optional> = "replicas", replicas(), Optional;
 }
+
+const fn replicas() -> Tables {
+    Tables {
+        rows: &REPLICA,
+        most: MOST_REPLICAS,
+        instead: "",
+    }
+}
+
+rows! { REPLICA_KEYS:
+    /// Modulus at rest.
+    REPLICA_EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
+    /// Moduli of the branches.
+    REPLICA_MODULI: Row<Array<Scalar>, Required> =
+        "moduli", list(quantity(Stress).above_zero().or_else(NO_BRANCH)), Required;
+    /// Relaxation times of the branches.
+    REPLICA_TIMES: Row<Array<Scalar>, Required> =
+        "times", list(quantity(Time).above_zero().or_else(NO_BRANCH)), Required;
+}
+
+static REPLICA: Rows = super::table(" A series, its branches as two lists.", REPLICA_KEYS);
+
+rows! { _:
+    /// Temperature at which the series holds.
+    ISOTHERM_TEMPERATURE: Row<Scalar, Required> =
+        "temperature", quantity(Temperature).above_zero(), Required;
+}
+
+static ISOTHERM: Rows = super::table(
+    " The series at one temperature.",
+    &[
+        &ISOTHERM_TEMPERATURE,
+        &MEASURED,
+        &MODULUS,
+        &EQUILIBRIUM,
+        &RELAXATION_BRANCHES,
+        &REPLICAS,
+    ],
+);
 
 static RELAXATION_TABLE: Rows = super::table(
     " E(t) = equilibrium + sum of modulus exp(-t / time).",
