@@ -9,6 +9,7 @@
 //!
 //! Every problem is shown at its place, all of a file at once.
 
+pub(crate) mod grid;
 mod text;
 
 use std::ops::Range;
@@ -99,7 +100,7 @@ impl Column {
 }
 
 /// Name and unit in `Time [s]`, `Time (s)` and `Time / s`.
-fn split_unit(cell: &str) -> (&str, Option<&str>) {
+pub(crate) fn split_unit(cell: &str) -> (&str, Option<&str>) {
     let bracketed = [('[', ']'), ('(', ')')]
         .into_iter()
         .find_map(|(open, close)| cell.strip_suffix(close)?.rsplit_once(open));
@@ -110,7 +111,7 @@ fn split_unit(cell: &str) -> (&str, Option<&str>) {
 }
 
 /// The unit that `per_mpa`, `ms` or `rad_per_s` stand for, where it is one of this dimension.
-fn unit_of_suffix(suffix: &str, dimension: Dimension) -> Option<String> {
+pub(crate) fn unit_of_suffix(suffix: &str, dimension: Dimension) -> Option<String> {
     let spelt = |word: &str| {
         let lower = word.to_lowercase();
         let usual = SUFFIXES.iter().find(|(suffix, _)| *suffix == lower);
@@ -522,12 +523,7 @@ struct Rows<'a> {
     header: &'a Header<'a>,
     table: Table,
     problems: Problems,
-    /// The first number with a decimal point, where a comma could stand for it.
-    point: Option<Range<usize>>,
-    /// The first number with a comma.
-    comma: Option<Range<usize>>,
-    /// Whether some comma separates no thousands.
-    is_decimal: bool,
+    signs: DecimalSigns,
 }
 
 impl<'a> Rows<'a> {
@@ -543,9 +539,7 @@ impl<'a> Rows<'a> {
             header,
             table,
             problems: Problems::new(),
-            point: None,
-            comma: None,
-            is_decimal: false,
+            signs: DecimalSigns::default(),
         }
     }
 
@@ -575,7 +569,7 @@ impl<'a> Rows<'a> {
                 }
             }
         }
-        self.check_commas();
+        self.signs.check(self.header.source, &self.problems);
         std::mem::take(&mut self.problems).into_result(Some(()))
     }
 
@@ -588,13 +582,7 @@ impl<'a> Rows<'a> {
             None => return Err("not a number"),
         };
         if delimiter != ',' {
-            if self.point.is_none() && cell.contains('.') {
-                self.point = Some(span.clone());
-            }
-            if !self.is_decimal && cell.contains(',') {
-                self.comma.get_or_insert_with(|| span.clone());
-                self.is_decimal = !is_like_thousands(cell);
-            }
+            self.signs.see(cell, span);
         }
         match number.is_finite() {
             true => Ok(number),
@@ -616,27 +604,47 @@ impl<'a> Rows<'a> {
             .because(why)
             .help(without_number);
     }
+}
+
+/// How the numbers of a file separate decimals.
+#[derive(Debug, Default)]
+struct DecimalSigns {
+    /// The first number with a decimal point, where a comma could stand for it.
+    point: Option<Range<usize>>,
+    /// The first number with a comma.
+    comma: Option<Range<usize>>,
+    /// Whether some comma separates no thousands.
+    is_decimal: bool,
+}
+
+impl DecimalSigns {
+    fn see(&mut self, cell: &str, span: &Range<usize>) {
+        if self.point.is_none() && cell.contains('.') {
+            self.point = Some(span.clone());
+        }
+        if !self.is_decimal && cell.contains(',') {
+            self.comma.get_or_insert_with(|| span.clone());
+            self.is_decimal = !is_like_thousands(cell);
+        }
+    }
 
     /// Commas must separate decimals, and do it everywhere.
-    fn check_commas(&self) {
+    fn check(&self, source: &Arc<Source>, problems: &Problems) {
         let Some(comma) = &self.comma else {
             return;
         };
-        let comma = Location::new(self.header.source, comma.clone());
+        let comma = Location::new(source, comma.clone());
         if let Some(point) = &self.point {
-            self.problems
+            problems
                 .at(&comma, "a decimal comma in a file with decimal points")
-                .label(
-                    &Location::new(self.header.source, point.clone()),
-                    "a decimal point",
-                )
+                .label(&Location::new(source, point.clone()), "a decimal point")
                 .help("write decimal points, and nothing between thousands");
         } else if !self.is_decimal {
             let (point, none) = (
                 comma.text().replace(',', "."),
                 comma.text().replace(',', ""),
             );
-            self.problems
+            problems
                 .at(&comma, "this comma may separate decimals or thousands")
                 .help(format!("write `{point}` or `{none}`"));
         }

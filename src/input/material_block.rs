@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::diagnostic::Problems;
+use super::diagnostic::{Location, Problems};
 use super::document::Located;
 use super::document::kind::{Scalar, Tables};
 use super::document::reader::TableReader;
@@ -10,17 +10,18 @@ use super::document::row::{AnyRow, Optional, Required, Row};
 use super::keys;
 use super::keys::material::{
     BRANCH_COMPLIANCE, BRANCH_MODULUS, BRANCH_TIME, COMPLIANCE, CREEP, CREEP_ALTERNATIVE,
-    CREEP_BRANCHES, ELEMENT_TIME, EQUILIBRIUM, FRACTIONAL, INSTANTANEOUS, KELVIN_SPRING,
+    CREEP_BRANCHES, ELEMENT_TIME, EQUILIBRIUM, FRACTIONAL, INSTANTANEOUS, ISOTHERMS, KELVIN_SPRING,
     KELVIN_VOIGT, LIBRARY, LIBRARY_POISSON_RATIO, MAXWELL, MAXWELL_MODULUS, MEASURED,
     MEASURED_TABLE, MODULUS, NAME, POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE,
     RELAXATION_BRANCHES, SPRING, VISCOSITY, ZENER,
 };
 use super::material_fractional;
 use super::material_table::{self, DirectSum, TableMaterial};
+use super::material_temperature;
 use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
 use crate::material::sampled::Sampled;
 use crate::material::{
-    Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch, library,
+    Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, library,
 };
 use crate::sweep::plan::body_material::BodyMaterial;
 
@@ -34,11 +35,12 @@ enum Form {
     Zener,
     KelvinVoigt,
     Fractional,
+    Isotherms,
     Measured,
 }
 
 /// The ways to give a material; exactly one of them.
-static FORMS: [(&dyn AnyRow, Form); 8] = [
+static FORMS: [(&dyn AnyRow, Form); 9] = [
     (&LIBRARY, Form::Library),
     (&RELAXATION, Form::Relaxation),
     (&CREEP, Form::Creep),
@@ -46,6 +48,7 @@ static FORMS: [(&dyn AnyRow, Form); 8] = [
     (&ZENER, Form::Zener),
     (&KELVIN_VOIGT, Form::KelvinVoigt),
     (&FRACTIONAL, Form::Fractional),
+    (&ISOTHERMS, Form::Isotherms),
     (&MEASURED_TABLE, Form::Measured),
 ];
 
@@ -69,6 +72,17 @@ pub(crate) fn read_body(
     direct_sum: DirectSum,
     problems: &Problems,
 ) -> Option<Located<BodyMaterial>> {
+    read_over(root, folder, direct_sum, None, problems).map(|(body, _)| body)
+}
+
+/// The same, with the material at each temperature (K) of an axis, where there is one.
+pub(crate) fn read_over(
+    root: &mut TableReader<'_>,
+    folder: &Path,
+    direct_sum: DirectSum,
+    axis: Option<&Located<Vec<f64>>>,
+    problems: &Problems,
+) -> Option<(Located<BodyMaterial>, Vec<Material>)> {
     let mut block = root.table(&keys::MATERIAL)?;
     let name = block.value(&NAME);
     let Some(form) = block.one_of(&FORMS) else {
@@ -78,30 +92,56 @@ pub(crate) fn read_body(
     };
     let place = FORMS.iter().find(|(_, other)| *other == form);
     let place = place.and_then(|(row, _)| block.key_location(*row))?;
-    let refused = |error: MaterialError| {
-        problems.at(&place, error.to_string());
-    };
-    let material = match form {
-        Form::Library => library(&mut block, problems, refused),
+    let read = match form {
+        Form::Isotherms => {
+            let known = material_temperature::isotherms(&mut block, problems);
+            material_temperature::read(&mut block, known, axis, &place, problems)
+                .map(|(material, each)| (material.into(), each))
+        }
         _ => {
-            let build = from_block(&mut block, folder, direct_sum, problems, form);
+            let body = at_one_temperature(&mut block, folder, direct_sum, problems, (form, &place));
+            let none_asked = material_temperature::refuse(&mut block, axis, problems);
+            body.filter(|_| none_asked).map(|body| (body, Vec::new()))
+        }
+    };
+    block.finish();
+    let ((mut value, mut each), name) = (read?, name?);
+    if let Some(name) = name {
+        value = value.named(&name);
+        each = each.into_iter().map(|at| at.named(&name)).collect();
+    }
+    let body = Located {
+        value,
+        path: "material".to_owned(),
+        location: place,
+    };
+    Some((body, each))
+}
+
+/// A material that does not depend on the temperature.
+fn at_one_temperature(
+    block: &mut TableReader<'_>,
+    folder: &Path,
+    direct_sum: DirectSum,
+    problems: &Problems,
+    (form, place): (Form, &Location),
+) -> Option<BodyMaterial> {
+    let refused = |error: MaterialError| {
+        problems.at(place, error.to_string());
+    };
+    let body = match form {
+        Form::Library => library(block, problems, refused),
+        _ => {
+            let build = from_block(block, folder, direct_sum, problems, form);
             let poisson_ratio = block.value(&POISSON_RATIO);
             build.and_then(|build| build(poisson_ratio?).map_err(refused).ok())
         }
     };
-    let measured = measured(&mut block, problems, form);
-    block.finish();
-    let (mut value, name) = (material?, name?);
-    if let Some(window_s) = measured? {
-        value = value.measured(window_s);
-    }
-    if let Some(name) = name {
-        value = value.named(name);
-    }
-    Some(Located {
-        value,
-        path: "material".to_owned(),
-        location: place,
+    let measured = measured(block, problems, form);
+    let body = body?;
+    Some(match measured? {
+        Some(window_s) => body.measured(window_s),
+        None => body,
     })
 }
 
@@ -148,7 +188,15 @@ fn measured(
             .help("leave out `measured`");
         return None;
     }
-    let Some(times) = block.read(&MEASURED)? else {
+    measured_window(block, problems)
+}
+
+/// The times of a `measured`, where there is one; `None` where a problem was reported.
+pub(super) fn measured_window(
+    table: &mut TableReader<'_>,
+    problems: &Problems,
+) -> Option<Option<(f64, f64)>> {
+    let Some(times) = table.read(&MEASURED)? else {
         return Some(None);
     };
     if let [first, last] = times.value.as_slice()
@@ -179,7 +227,7 @@ fn from_block(
     form: Form,
 ) -> Option<Build> {
     let mut table = block.table(match form {
-        Form::Library => return None,
+        Form::Library | Form::Isotherms => return None,
         Form::Relaxation => &RELAXATION,
         Form::Creep => &CREEP,
         Form::Maxwell => &MAXWELL,
@@ -189,16 +237,18 @@ fn from_block(
         Form::Measured => &MEASURED_TABLE,
     })?;
     let build: Option<Build> = match form {
-        Form::Library => None,
+        Form::Library | Form::Isotherms => None,
         Form::Relaxation => {
             let kind = table.value(&MODULUS);
+            let replicas = material_temperature::replicas(&mut table, problems);
             let read = |table: &mut TableReader<'_>| relaxation(table, kind);
-            with_alternatives(block, &mut table, &RELAXATION_ALTERNATIVE, read)
+            let build = with_alternatives(block, &mut table, &RELAXATION_ALTERNATIVE, read);
+            build.and_then(|build| Some(with_replicas(build, kind?, replicas?)))
         }
         Form::Creep => {
             let kind = table.value(&COMPLIANCE);
             let read = |table: &mut TableReader<'_>| creep(table, kind);
-            with_alternatives(block, &mut table, &CREEP_ALTERNATIVE, read)
+            with_alternatives(block, &mut table, &CREEP_ALTERNATIVE, read).map(series)
         }
         Form::Measured => {
             material_table::read(&mut table, folder, direct_sum, problems).map(of_table)
@@ -225,7 +275,7 @@ fn with_alternatives(
     own: &mut TableReader<'_>,
     alternatives: &Row<Tables, Optional>,
     read: impl Fn(&mut TableReader<'_>) -> Option<SeriesBuild>,
-) -> Option<Build> {
+) -> Option<SeriesBuild> {
     let build = read(own);
     let others = block.optional_tables(alternatives, |mut table| {
         let other = read(&mut table);
@@ -235,8 +285,17 @@ fn with_alternatives(
     let (build, others) = (build?, others?);
     Some(Box::new(move |nu| {
         let others: Result<Vec<Material>, _> = others.into_iter().map(|other| other(nu)).collect();
-        Ok(build(nu)?.with_alternatives(others?).into())
+        Ok(build(nu)?.with_alternatives(others?))
     }))
+}
+
+/// A series, and what the noise of its data leaves open.
+fn with_replicas(build: SeriesBuild, kind: ModulusKind, replicas: Vec<Relaxation>) -> Build {
+    series(move |nu| {
+        let replica = |relaxation| Material::from_relaxation(relaxation, kind, nu);
+        let replicas: Result<_, _> = replicas.into_iter().map(replica).collect();
+        Ok(build(nu)?.with_replicas(replicas?))
+    })
 }
 
 fn series(build: impl FnOnce(f64) -> Result<Material, MaterialError> + 'static) -> Build {
@@ -263,8 +322,7 @@ fn relaxation(table: &mut TableReader<'_>, kind: Option<ModulusKind>) -> Option<
     let branches = branches(table, &RELAXATION_BRANCHES, &BRANCH_MODULUS);
     let (kind, equilibrium, branches) = (kind?, equilibrium?, branches?);
     Some(Box::new(move |nu| {
-        let branch = |(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s };
-        let relaxation = Relaxation::new(equilibrium, branches.into_iter().map(branch).collect())?;
+        let relaxation = material_temperature::prony(equilibrium, branches)?;
         Material::from_relaxation(relaxation, kind, nu)
     }))
 }
@@ -286,7 +344,7 @@ fn creep(table: &mut TableReader<'_>, kind: Option<ModulusKind>) -> Option<Serie
 }
 
 /// The branches of a series: (modulus or compliance, time).
-fn branches(
+pub(super) fn branches(
     table: &mut TableReader<'_>,
     branches: &Row<Tables, Required>,
     strength: &Row<Scalar, Required>,

@@ -73,6 +73,26 @@ pub enum MaterialFunction {
     Creep,
 }
 
+impl ModulusKind {
+    /// As files and flags call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Shear => "shear",
+            Self::Longitudinal => "longitudinal",
+        }
+    }
+}
+
+impl MaterialFunction {
+    /// As files and flags call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Relaxation => "relaxation",
+            Self::Creep => "creep",
+        }
+    }
+}
+
 /// An isotropic linear viscoelastic material of constant Poisson ratio.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
@@ -85,7 +105,9 @@ pub struct Material {
     fit: Option<fit::FitReport>,
     approximation: Option<fractional::Approximation>,
     measured_window_s: Option<(f64, f64)>,
+    temperature_k: Option<f64>,
     alternatives: Vec<Material>,
+    replicas: Vec<Material>,
 }
 
 impl Material {
@@ -108,7 +130,9 @@ impl Material {
             fit: None,
             approximation: None,
             measured_window_s: None,
+            temperature_k: None,
             alternatives: Vec::new(),
+            replicas: Vec::new(),
         })
     }
 
@@ -139,7 +163,9 @@ impl Material {
             fit: None,
             approximation: None,
             measured_window_s: None,
+            temperature_k: None,
             alternatives: Vec::new(),
+            replicas: Vec::new(),
         })
     }
 
@@ -199,6 +225,31 @@ impl Material {
     /// own. Empty where the data leave nothing open, and for a material that was not fitted.
     pub fn alternatives(&self) -> &[Material] {
         &self.alternatives
+    }
+
+    /// The same material, known to be at this temperature (K).
+    pub fn at_temperature(self, temperature_k: f64) -> Self {
+        Material {
+            temperature_k: Some(temperature_k),
+            ..self
+        }
+    }
+
+    /// The temperature (K) that the material is at, where that is known.
+    pub fn temperature_k(&self) -> Option<f64> {
+        self.temperature_k
+    }
+
+    /// The same material, known to be one of these but for the noise of the data that it was fitted to.
+    pub fn with_replicas(self, replicas: Vec<Material>) -> Self {
+        Material { replicas, ..self }
+    }
+
+    /// Materials of the same kind, drawn at random: what the fit gives where the noise of the data falls otherwise. All are alike
+    /// in probability, and have no replicas of their own. What a result is with each of them tells its uncertainty. Empty where
+    /// none were drawn.
+    pub fn replicas(&self) -> &[Material] {
+        &self.replicas
     }
 
     /// Where the material was fitted to a table: how well, and what was assumed.

@@ -242,6 +242,11 @@ pub static SWEEP: &[OfCase] = &[
     barred("energy_loss_j", bar!(EnergyLoss), ("energy loss per cycle", Some(Energy)),
         "area of the closed loop, ∮ W dδ over one cycle, from its Fourier coefficients")
         .in_cases("loss per cycle"),
+    OfCase::new("energy_loss_material_error_j", |r| r.energy_loss_material_error_j().into(),
+        "uncertainty of the loss that comes from the noise of the data which the material was fitted to, of 95 %: from the losses \
+         with the replicas of the material; no part of `energy_loss_error_j`, which is numerical; empty for a material without replicas")
+        .called("uncertainty of the loss from the material", Some(Energy))
+        .in_cases("uncertainty from the material"),
     barred("phase_lag_rad", bar!(PhaseLag), ("phase lag of the approach", Some(Angle)),
         "by how much the first harmonic of the approach lags behind that of the load, θ₁ − φ₁")
         .in_cases("phase lag"),

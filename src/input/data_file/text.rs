@@ -34,6 +34,23 @@ pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<String, Diagnostic> {
     })
 }
 
+/// The text of a file that an instrument wrote, and the number of bytes that are no UTF-8: those are taken as letters of Latin-1, one
+/// by one, so that a stray byte does not change how the others are read.
+pub(super) fn decode_instrument(name: &str, bytes: &[u8]) -> Result<(String, usize), Diagnostic> {
+    let is_utf_16 = matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
+        || matches!(bytes, [a, b, ..] if (*a == 0) != (*b == 0));
+    if is_utf_16 || std::str::from_utf8(bytes).is_ok() {
+        return Ok((decode(name, bytes)?, 0));
+    }
+    let (mut text, mut stray) = (String::with_capacity(bytes.len()), 0);
+    for chunk in bytes.utf8_chunks() {
+        text.push_str(chunk.valid());
+        text.extend(chunk.invalid().iter().copied().map(char::from));
+        stray += chunk.invalid().len();
+    }
+    Ok((decode(name, text.as_bytes())?, stray))
+}
+
 fn utf_16(name: &str, bytes: &[u8], unit: fn([u8; 2]) -> u16) -> Result<String, Diagnostic> {
     let units = bytes
         .chunks(2)

@@ -9,13 +9,15 @@ use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
 use crate::input::table_file::QUANTITIES;
 use crate::material::fractional;
 use crate::material::{MaterialFunction, ModulusKind};
-use crate::quantity::Dimension::{AngularFrequency, Compliance, Stress, Time, Viscosity};
+use crate::quantity::Dimension::{
+    AngularFrequency, Compliance, Stress, Temperature, Time, Viscosity,
+};
 use std::ops::Bound;
 
 /// What a modulus or a compliance is of.
 pub(crate) const MODULUS_KINDS: [(&str, ModulusKind); 2] = [
-    ("longitudinal", ModulusKind::Longitudinal),
-    ("shear", ModulusKind::Shear),
+    (ModulusKind::Longitudinal.name(), ModulusKind::Longitudinal),
+    (ModulusKind::Shear.name(), ModulusKind::Shear),
 ];
 
 /// How the samples of a table enter.
@@ -43,6 +45,10 @@ const WINDOW: &str =
 const MOST_BRANCHES: usize = 1000;
 /// Twice as many as a fit gives.
 const MOST_ALTERNATIVES: usize = 8;
+/// More tell no more of a spread.
+pub(crate) const MOST_REPLICAS: usize = 1000;
+/// More curves than this are no sweep over temperature.
+const MOST_ISOTHERMS: usize = 1000;
 
 rows! { MATERIAL_KEYS:
     /// What tables and figures call the material.
@@ -77,6 +83,12 @@ rows! { _:
     KELVIN_VOIGT: Row<Table, Required> = "kelvin_voigt", Table(&KELVIN_VOIGT_TABLE), Required;
     /// Springpot, fractional Zener or fractional Maxwell model, represented by a Prony series over a band.
     FRACTIONAL: Row<Table, Required> = "fractional", Table(&FRACTIONAL_TABLE), Required;
+    /// Series of the relaxation modulus at one temperature or at several, such as a fit to dynamic data gives.
+    ISOTHERMS: Row<Tables, Required> =
+        "isotherm", Tables { rows: &ISOTHERM, most: MOST_ISOTHERMS, instead: "" }, Required;
+    /// Temperature of the body, where the material knows several; left out: the reference temperature of dynamic data, or that of
+    /// the only isotherm. A sweep over `material.temperature` takes its own.
+    TEMPERATURE: Row<Scalar, Optional> = "temperature", quantity(Temperature).above_zero(), Optional;
     /// Measured creep compliance or relaxation modulus.
     MEASURED_TABLE: Row<Table, Required> = "table", Table(&TABLE), Required;
 }
@@ -101,7 +113,7 @@ const fn alternatives(rows: &'static Rows) -> Tables {
 
 pub(super) static MATERIAL: Rows = Rows {
     means: " What the half-space is made of: exactly one of `library`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt`, \
-            `fractional` and `table`.",
+            `fractional`, `isotherm` and `table`.",
     keys: MATERIAL_KEYS,
     others: Others::OneList(&[
         LIBRARY_KEYS,
@@ -116,6 +128,7 @@ pub(super) static MATERIAL: Rows = Rows {
         &[&ZENER, &POISSON_RATIO, &MEASURED],
         &[&KELVIN_VOIGT, &POISSON_RATIO, &MEASURED],
         &[&FRACTIONAL, &POISSON_RATIO],
+        &[&ISOTHERMS, &POISSON_RATIO, &TEMPERATURE],
         &[&MEASURED_TABLE, &POISSON_RATIO],
     ]),
 };
@@ -135,7 +148,49 @@ rows! { RELAXATION_KEYS:
     EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
     /// The branches of the series.
     RELAXATION_BRANCHES: Row<Tables, Required> = "branches", branches(&RELAXATION_BRANCH), Required;
+    /// Series that a fit gives where the noise of its data falls otherwise, drawn at random. The losses with them are the
+    /// uncertainty of the loss that comes from the material.
+    REPLICAS: Row<Tables, Optional> = "replicas", replicas(), Optional;
 }
+
+const fn replicas() -> Tables {
+    Tables {
+        rows: &REPLICA,
+        most: MOST_REPLICAS,
+        instead: "",
+    }
+}
+
+rows! { REPLICA_KEYS:
+    /// Modulus at rest.
+    REPLICA_EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
+    /// Moduli of the branches.
+    REPLICA_MODULI: Row<Array<Scalar>, Required> =
+        "moduli", list(quantity(Stress).above_zero().or_else(NO_BRANCH)), Required;
+    /// Relaxation times of the branches.
+    REPLICA_TIMES: Row<Array<Scalar>, Required> =
+        "times", list(quantity(Time).above_zero().or_else(NO_BRANCH)), Required;
+}
+
+static REPLICA: Rows = super::table(" A series, its branches as two lists.", REPLICA_KEYS);
+
+rows! { _:
+    /// Temperature at which the series holds.
+    ISOTHERM_TEMPERATURE: Row<Scalar, Required> =
+        "temperature", quantity(Temperature).above_zero(), Required;
+}
+
+static ISOTHERM: Rows = super::table(
+    " The series at one temperature.",
+    &[
+        &ISOTHERM_TEMPERATURE,
+        &MEASURED,
+        &MODULUS,
+        &EQUILIBRIUM,
+        &RELAXATION_BRANCHES,
+        &REPLICAS,
+    ],
+);
 
 static RELAXATION_TABLE: Rows = super::table(
     " E(t) = equilibrium + sum of modulus exp(-t / time).",

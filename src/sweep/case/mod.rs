@@ -4,6 +4,8 @@ pub mod checkpoint;
 mod edge_layer;
 mod outside_model;
 mod pressure;
+mod replicas;
+mod solid;
 mod stabilise;
 mod tangent_radius;
 
@@ -14,9 +16,10 @@ use std::sync::{Arc, Mutex};
 use crate::contact::{ContactError, Engine};
 use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::history::{Work, order_of_steps};
-use crate::material::{Creep, MaterialError, Relaxation};
+use crate::material::{Creep, MaterialError};
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::edge_layer::EdgeLayer;
+use crate::sweep::case::solid::Solid;
 #[cfg(feature = "report")]
 pub(crate) use crate::sweep::case::stabilise::sample;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
@@ -50,12 +53,7 @@ pub enum SetupError {
 /// What all cases of a sweep share.
 pub struct Setup {
     plan: SweepPlan,
-    compliance: Creep,
-    /// Its inverse, unless the body answers an instant with no finite modulus.
-    relaxation: Option<Relaxation>,
-    /// Of the solids that the data leave possible beside the material.
-    alternatives: Vec<Creep>,
-    relaxed_compliance_per_pa: f64,
+    solid: Solid,
     engines: Mutex<HashMap<EngineKey, Arc<EngineBuilder>>>,
     /// Ends an instant under way, where the engine's instants are long.
     interrupt: Option<Arc<AtomicBool>>,
@@ -116,20 +114,8 @@ impl Setup {
     pub fn new(mut plan: SweepPlan) -> Result<Self, SetupError> {
         plan.check()?;
         plan.solver = plan.solver.on_own_cells(plan.indenter.as_ref());
-        let compliance = plan.material.contact_compliance()?;
-        let relaxed_compliance_per_pa = compliance
-            .equilibrium_compliance()
-            .ok_or(SetupError::Fluid)?;
-        let mut alternatives = Vec::new();
-        for material in plan.material.alternatives() {
-            alternatives.push(material.contact_compliance()?);
-        }
-        alternatives.retain(|creep| creep.equilibrium_compliance().is_some());
         let setup = Self {
-            alternatives,
-            relaxed_compliance_per_pa,
-            relaxation: compliance.to_relaxation().ok(),
-            compliance,
+            solid: Solid::new(&plan.material)?,
             engines: Mutex::default(),
             interrupt: None,
             plan,
@@ -154,7 +140,7 @@ impl Setup {
 
     /// The contact compliance C(t).
     pub fn compliance(&self) -> &Creep {
-        &self.compliance
+        &self.solid.compliance
     }
 
     /// Engines for a drive with so many springs or cells, built once.
@@ -189,7 +175,7 @@ impl Setup {
     ) -> f64 {
         let omega = angular_frequency_rad_per_s;
         let needed =
-            || instant_tolerance::of_a_cycle(&self.compliance, drive, omega, cycle_tolerance);
+            || instant_tolerance::of_a_cycle(&self.solid.compliance, drive, omega, cycle_tolerance);
         self.plan.solver.tolerance.unwrap_or_else(needed)
     }
 
@@ -202,7 +188,7 @@ impl Setup {
         let largest = LargestContact {
             control: drive.control(),
             maximum: drive.maximum(),
-            compliance_per_pa: self.relaxed_compliance_per_pa,
+            compliance_per_pa: self.solid.relaxed_per_pa,
         };
         let solver = self.plan.solver.with_nodes(nodes);
         EngineBuilder::new(self.plan.indenter.clone(), solver, largest)
@@ -223,8 +209,9 @@ impl Setup {
             maximum,
             compliance_per_pa,
         };
-        let relaxed = self.relaxed_compliance_per_pa;
-        let answer = self
+        let relaxed = contact.solid.relaxed_per_pa;
+        let answer = contact
+            .solid
             .compliance
             .complex_compliance(contact.angular_frequency_rad_per_s);
         // |C*| / C_inf under load control, |E*| / E_inf under approach control.
@@ -313,7 +300,8 @@ impl Setup {
             result: None,
         };
         let contact = Contact {
-            compliance: &self.compliance,
+            solid: &self.solid,
+            compliance: &self.solid.compliance,
             poisson_ratio: self.plan.material.poisson_ratio(),
             drive: case.drive,
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
@@ -327,6 +315,10 @@ impl Setup {
         let ended = ended.and_then(|()| match cycle.accuracy {
             Some(accuracy) => self.to_accuracy(&contact, accuracy, &mut record),
             None => self.at_resolution(&contact, &mut record),
+        });
+        let ended = ended.and_then(|()| match aim {
+            Aim::Plan => self.add_replicas(&contact, &mut record),
+            Aim::Loss(_) => Ok(()),
         });
         match ended {
             Ok(()) => {}
@@ -421,7 +413,7 @@ impl Setup {
             record.message.get_or_insert_with(|| {
                 format!(
                     "the error bars leave out {missing} of the {} materials that fit the data as well: no stabilised cycle was found with them",
-                    self.alternatives.len()
+                    contact.solid.alternatives.len()
                 )
             });
         }
@@ -446,15 +438,13 @@ impl Setup {
         let bars = error_bars(
             (result, steps, middle),
             of_cycle,
-            (order_of_steps(&self.compliance), in_nodes),
+            (order_of_steps(&contact.solid.compliance), in_nodes),
             on,
             on_quarter.as_ref(),
         );
         let indenter = self.plan.indenter.as_ref();
-        let layer = self
-            .relaxation
-            .as_ref()
-            .and_then(|relaxation| EdgeLayer::new(indenter, relaxation));
+        let relaxation = contact.solid.relaxation.as_ref();
+        let layer = relaxation.and_then(|relaxation| EdgeLayer::new(indenter, relaxation));
         Ok(bars.map(|bars| match layer {
             Some(layer) => bars.with_higher_peak(layer.higher_peak_pa(result)),
             None => bars,
@@ -475,7 +465,7 @@ impl Setup {
             checkpoints: &checkpoints,
             ..*contact
         };
-        let alternatives = self.alternatives.iter();
+        let alternatives = contact.solid.alternatives.iter();
         alternatives
             .map(|compliance| self.coarser(&with(compliance), nodes, &[steps], record))
             .collect()

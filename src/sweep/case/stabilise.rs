@@ -13,6 +13,7 @@ use crate::material::Creep;
 use crate::steady::{self, Begin, MeanPressure, Remaining, SteadySettings};
 use crate::sweep::case::checkpoint::{Checkpoints, Level, LevelState};
 use crate::sweep::case::pressure::Pressures;
+use crate::sweep::case::solid::Solid;
 use crate::sweep::case::tangent_radius::TangentRadius;
 use crate::sweep::engine::{AsContactError, EngineError, missed_contact, prescribed};
 use crate::sweep::plan::check::PlanError;
@@ -30,6 +31,9 @@ const LARGEST_ROUNDING: f64 = 1e-6;
 /// What has to be known of a case, whatever its resolution.
 #[derive(Clone, Copy)]
 pub(in crate::sweep) struct Contact<'a> {
+    /// The body of the case, for which engines are laid out.
+    pub solid: &'a Solid,
+    /// What is solved with: that of the body, or of another in its place.
     pub compliance: &'a Creep,
     pub poisson_ratio: f64,
     pub drive: HarmonicDrive,
@@ -507,6 +511,7 @@ impl Contact<'_> {
             contact_radius_m: not_negative(extrema(&samples.contact_radius_m)?),
             peak_pressure_pa: peaks.as_deref().and_then(Extrema::of).map(not_negative),
             errors: None,
+            replica_losses_j: Vec::new(),
             branches: branches
                 .map(|(branch, energy_loss_j)| BranchLoss {
                     retardation_time_s: branch.time_s,

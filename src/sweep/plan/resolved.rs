@@ -6,9 +6,8 @@ use std::fmt::Write;
 use sha2::{Digest, Sha256};
 
 use crate::drive::Control;
-use crate::history::TimeRule;
 use crate::indenter::{Indenter, Parameter, Value};
-use crate::material::{Material, MaterialFunction, ModulusKind, Relaxation};
+use crate::material::{Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::plan::{SolverPlan, SweepPlan};
@@ -99,10 +98,7 @@ pub(in crate::sweep) fn solver_text(solver: &SolverPlan, indenter: &dyn Indenter
         Some(_) => String::new(),
         None => format!("cells = {}\n", solver.cells),
     };
-    let rule = match solver.time_rule {
-        TimeRule::Linear => "linear",
-        TimeRule::Constant => "constant",
-    };
+    let rule = solver.time_rule.name();
     let tolerance = solver.tolerance.map(|t| format!("tolerance = {t:e}\n"));
     format!(
         "[solver]\nengine = \"{}\"\n{cells}springs = {}\n{}time_rule = \"{rule}\"\n",
@@ -187,28 +183,66 @@ pub fn material_text(material: &Material) -> String {
 }
 
 fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    let kind = match material.kind() {
-        ModulusKind::Shear => "shear",
-        ModulusKind::Longitudinal => "longitudinal",
-    };
+    let kind = material.kind().name();
     line("[material]");
     if let Some(name) = material.name() {
         line(&format!("name = {}", toml_string(name)));
     }
     line(&format!("poisson_ratio = {:?}", material.poisson_ratio()));
-    if let Some((first_s, last_s)) = material.measured_window_s() {
-        let [first, last] = [first_s, last_s].map(|time_s| format_si(time_s, Dimension::Time));
-        line(&format!("measured = [\"{first}\", \"{last}\"]"));
+    if let Some(temperature_k) = material.temperature_k() {
+        let temperature = format_si(temperature_k, Dimension::Temperature);
+        line(&format!(
+            "temperature = \"{temperature}\"\n\n[[material.isotherm]]"
+        ));
+        line(&format!("temperature = \"{temperature}\""));
+        measured_line(material, line);
+        line(&format!("modulus = \"{kind}\""));
+        series_lines(material, line);
+        replica_lines(material, line);
+        return;
     }
+    measured_line(material, line);
     match given_relaxation(material) {
         Some(_) => line(&format!("\n[material.relaxation]\nmodulus = \"{kind}\"")),
         None => line(&format!("\n[material.creep]\ncompliance = \"{kind}\"")),
     }
     series_lines(material, line);
+    replica_lines(material, line);
     for alternative in material.alternatives() {
         line("\n[[material.alternative]]");
         series_lines(alternative, line);
     }
+}
+
+fn measured_line(material: &Material, line: &mut dyn FnMut(&str)) {
+    if let Some((first_s, last_s)) = material.measured_window_s() {
+        let [first, last] = [first_s, last_s].map(|time_s| format_si(time_s, Dimension::Time));
+        line(&format!("measured = [\"{first}\", \"{last}\"]"));
+    }
+}
+
+/// The replicas, as bare numbers: there may be hundreds.
+fn replica_lines(material: &Material, line: &mut dyn FnMut(&str)) {
+    let replicas = material.replicas().iter().filter_map(Material::relaxation);
+    let rows: Vec<String> = replicas.map(replica_row).collect();
+    if !rows.is_empty() {
+        line(&format!("replicas = [\n{}]", rows.concat()));
+    }
+}
+
+fn replica_row(replica: &Relaxation) -> String {
+    // Debug keeps the decimal point that TOML asks of a float, and loses no bit.
+    let list = |value: fn(&RelaxationBranch) -> f64| {
+        let values = replica.branches().iter().map(value);
+        let values: Vec<String> = values.map(|value| format!("{value:?}")).collect();
+        values.join(", ")
+    };
+    format!(
+        "    {{ equilibrium = {:?}, moduli = [{}], times = [{}] }},\n",
+        replica.equilibrium_modulus(),
+        list(|branch| branch.modulus_pa),
+        list(|branch| branch.time_s)
+    )
 }
 
 /// The relaxation modulus of a material that was given by it.

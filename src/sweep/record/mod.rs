@@ -1,6 +1,7 @@
 //! What one case came to: the record that is stored, and from which tables and figures are made without solving again.
 
 pub mod error_bars;
+pub mod material_error;
 pub mod warning;
 
 use serde::{Deserialize, Serialize};
@@ -82,6 +83,9 @@ pub struct CaseResult {
     pub peak_pressure_pa: Option<Extrema>,
     /// Errors of the numbers above; `None` where they were not asked for or could not be estimated.
     pub errors: Option<ErrorBars>,
+    /// The loss (J) with each replica of the material in its place; `None` where no stabilised cycle was found with it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub replica_losses_j: Vec<Option<f64>>,
     /// Energy (J) that each branch of the creep compliance dissipates over the cycle, shortest retardation time first.
     pub branches: Vec<BranchLoss>,
     /// Where the energy goes in.
@@ -180,6 +184,13 @@ impl CaseRecord {
     pub fn energy_loss_error_j(&self) -> Option<f64> {
         use crate::sweep::record::error_bars::Quantity::EnergyLoss;
         self.result.as_ref()?.errors.as_ref()?.of(EnergyLoss)
+    }
+
+    /// The error (J) of the loss that comes from the noise of the data which the material was fitted to, where it has replicas: no
+    /// part of [`Self::energy_loss_error_j`].
+    pub fn energy_loss_material_error_j(&self) -> Option<f64> {
+        let result = self.result.as_ref()?;
+        material_error::of(result.analysis.energy_loss_j, &result.replica_losses_j)
     }
 
     /// Whether the case ran under this drive.

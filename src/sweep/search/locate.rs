@@ -5,6 +5,7 @@ use crate::sweep::case::{Aim, Resolution};
 use crate::sweep::plan::Case;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::peak::{self, Loss, PeakError, Point};
+use crate::sweep::search::replica_peaks;
 use crate::sweep::search::run::Outcome;
 use crate::sweep::search::{Missing, Search};
 use crate::sweep::store::StoreError;
@@ -46,6 +47,7 @@ impl Search<'_> {
                         found.drive_mean = Some(bracket.drive.mean());
                         found.drive_amplitude = Some(bracket.drive.amplitude());
                     }
+                    replica_peaks::add_errors(&mut found, &outcome.records, &bracket.drive);
                     outcome.peaks.push(found);
                 }
                 Err(LocateError::Store(error)) => return Err(error),

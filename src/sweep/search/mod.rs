@@ -5,6 +5,7 @@ pub mod builder;
 mod locate;
 pub mod peak;
 pub mod refine;
+mod replica_peaks;
 pub mod run;
 
 use std::path::Path;

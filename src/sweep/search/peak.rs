@@ -14,6 +14,12 @@ pub struct Peak {
     pub angular_frequency_uncertainty_rad_per_s: f64,
     /// Error (J) of the loss there, where the losses have error bars.
     pub energy_loss_error_j: Option<f64>,
+    /// Errors of frequency (rad/s) and loss (J) that come from the noise of the data which the material was fitted to, where it has
+    /// replicas: no part of the two above, which are numerical.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub angular_frequency_material_error_rad_per_s: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub energy_loss_material_error_j: Option<f64>,
     /// Mean and amplitude of the drive (N or m), where the sweep varies one of them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drive_mean: Option<f64>,
@@ -110,6 +116,8 @@ pub fn refine<E: From<PeakError>>(bracket: &[Point; 3], losses: &Losses<'_, E>) 
                 energy_loss_j: loss,
                 angular_frequency_uncertainty_rad_per_s: omega * (moved + shift),
                 energy_loss_error_j: error,
+                angular_frequency_material_error_rad_per_s: None,
+                energy_loss_material_error_j: None,
                 drive_mean: None,
                 drive_amplitude: None,
             });

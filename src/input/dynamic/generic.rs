@@ -1,0 +1,104 @@
+//! Plain tables of dynamic data.
+//!
+//! A line of column names, perhaps a row of units below it, rows of numbers. Needed are a frequency (Hz or rad/s) and storage and loss
+//! modulus, or a loss tangent in place of the latter; a temperature, the number of the isotherm and errors of both moduli are taken
+//! where they are there. Lines above the names are passed over, and the names may stand in a comment, as `numpy.savetxt` writes them.
+//! Names repeated further down begin another table.
+//!
+//! After: tables that users publish beside papers, and those of mastercurves and RHEOS.
+
+use std::sync::Arc;
+
+use super::Reading;
+use super::block::{self, Block};
+use crate::input::data_file::grid::Grid;
+use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
+
+/// Lines above the header at most.
+const MOST_LINES_ABOVE: usize = 300;
+
+/// Reads every table of the text.
+///
+/// # Errors
+/// No header, or what [`Block::read`] refuses.
+pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Diagnostics> {
+    let Some((grid, first)) = header(source) else {
+        return Err(no_header(source).into());
+    };
+    for block in blocks(&grid, first) {
+        reading.add(&block)?;
+    }
+    Ok(())
+}
+
+/// The tables of a text, the first with its header in this line.
+pub(super) fn blocks(grid: &Grid, first: usize) -> Vec<Block<'_>> {
+    let is_header = |line: &usize| {
+        let cells = grid.line(*line);
+        !cells.is_number(0) && block::is_dynamic(&block::names(&cells))
+    };
+    let headers: Vec<usize> = (first..grid.len()).filter(is_header).collect();
+    let ends = headers.iter().skip(1).copied().chain([grid.len()]);
+    headers
+        .iter()
+        .zip(ends)
+        .map(|(header, end)| Block::new(grid, *header, end))
+        .collect()
+}
+
+/// The line that names most columns of dynamic data, cut by the delimiter that shows them.
+pub(super) fn header(source: &Arc<Source>) -> Option<(Grid, usize)> {
+    let mut best: Option<(usize, Grid, usize)> = None;
+    for grid in Grid::every(source) {
+        let found = (0..grid.len().min(MOST_LINES_ABOVE)).find_map(|line| {
+            let names = block::names(&grid.line(line));
+            block::is_dynamic(&names).then(|| (names.iter().flatten().count(), line))
+        });
+        if let Some((count, line)) = found
+            && best.as_ref().is_none_or(|(most, _, _)| count > *most)
+        {
+            best = Some((count, grid, line));
+        }
+    }
+    best.map(|(_, grid, line)| (grid, line))
+}
+
+/// Why a text is no table of dynamic data: by the line that comes closest.
+pub(super) fn no_header(source: &Arc<Source>) -> Diagnostic {
+    let example = "`frequency_hz,storage_modulus_mpa,loss_modulus_mpa,temperature_c`";
+    let mut closest: Option<(usize, Grid, usize)> = None;
+    for grid in Grid::every(source) {
+        for line in 0..grid.len().min(MOST_LINES_ABOVE) {
+            let count = block::names(&grid.line(line)).iter().flatten().count();
+            if count > closest.as_ref().map_or(0, |(most, _, _)| *most) {
+                closest = Some((count, Grid::new(source, grid.delimiter()), line));
+            }
+        }
+    }
+    let lower = source
+        .text()
+        .get(..2000)
+        .unwrap_or(source.text())
+        .to_lowercase();
+    let in_time = ["relax", "creep"].iter().any(|word| lower.contains(word));
+    let problem = match closest {
+        Some((_, grid, line)) => {
+            let what = match block::lacking(&block::names(&grid.line(line))) {
+                Some(what) => format!("the table has no column of {what}"),
+                None => "no header of dynamic data".to_owned(),
+            };
+            Diagnostic::at(&grid.place(line), what)
+        }
+        None => Diagnostic::at(
+            &Grid::new(source, ',').place(0),
+            "no line names the columns of dynamic data",
+        ),
+    };
+    let problem = problem.help(format!(
+        "begin the table with a line of column names, such as {example}"
+    ));
+    match in_time {
+        true => problem.help("relaxation and creep over time are read with `--quantity relaxation` and `--quantity creep`"),
+        false => problem,
+    }
+}

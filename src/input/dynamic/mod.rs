@@ -1,0 +1,419 @@
+//! Files of instruments and tools to [`DynamicData`]: storage and loss modulus over frequency, isotherm by isotherm.
+//!
+//! The format is found from the content, or given. Each format is one file of this folder, which opens with its specification; what
+//! they have in common is in `columns` (names and units), `block` (rows of numbers) and `isotherms` (which rows belong together).
+//! A number marked as missing takes its row out, which is counted; a modulus or frequency that is not positive is refused at its place.
+//!
+//! ```
+//! use contact_dma::input::dynamic::{DynamicFormat, from_bytes};
+//! use contact_dma::material::ModulusKind;
+//!
+//! let text = "f,E_stor,E_loss,T,Set\nHz, MPa, MPa, C, -\n0.1,80,1,20.1,0\n1,90,2,20.0,0\n1,70,5,40.1,1\n";
+//! let file = from_bytes("dma.csv", text.as_bytes(), None, ModulusKind::Longitudinal)?;
+//! assert_eq!(file.format, DynamicFormat::Pyvisco);
+//! assert_eq!(file.data.isotherms().len(), 2);
+//! # Ok::<(), contact_dma::input::diagnostic::Diagnostics>(())
+//! ```
+
+mod block;
+mod columns;
+mod eplexor;
+mod generic;
+mod hysitron;
+mod isotherms;
+mod pyvisco;
+mod reptate;
+mod rheocompass;
+mod shift_factors;
+mod steps;
+mod trios_csv;
+mod trios_lims;
+mod trios_text;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use super::data_file::grid;
+use super::diagnostic::{Diagnostic, Diagnostics, Location, Source};
+use super::document::{cannot_read, read_limited};
+use crate::material::ModulusKind;
+use crate::material::dynamic::{DynamicData, DynamicDataError, DynamicPoint};
+use crate::quantity::celsius;
+use block::{Block, Content, Measured};
+pub use shift_factors::{read_shift_factors, shift_factors_from_bytes};
+
+/// Largest file read, bytes: ten thousand points of a hundred columns of thirty characters each.
+pub const MAX_BYTES: usize = 32_000_000;
+
+/// A format of files of dynamic data.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DynamicFormat {
+    /// Named columns with units.
+    Generic,
+    Pyvisco,
+    TriosText,
+    TriosLims,
+    TriosCsv,
+    RheoCompass,
+    Reptate,
+    Eplexor,
+    Hysitron,
+}
+
+/// The words by which files and flags call the formats.
+pub const FORMATS: [(&str, DynamicFormat); 9] = [
+    ("table", DynamicFormat::Generic),
+    ("pyvisco", DynamicFormat::Pyvisco),
+    ("trios-text", DynamicFormat::TriosText),
+    ("trios-lims", DynamicFormat::TriosLims),
+    ("trios-csv", DynamicFormat::TriosCsv),
+    ("rheocompass", DynamicFormat::RheoCompass),
+    ("reptate", DynamicFormat::Reptate),
+    ("eplexor", DynamicFormat::Eplexor),
+    ("hysitron", DynamicFormat::Hysitron),
+];
+
+impl DynamicFormat {
+    /// The word by which files and flags call it.
+    pub fn name(self) -> &'static str {
+        let own = FORMATS.iter().find(|(_, format)| *format == self);
+        own.map_or("", |(name, _)| name)
+    }
+}
+
+/// What files hold.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DynamicFile {
+    pub data: DynamicData,
+    /// Of the first file.
+    pub format: DynamicFormat,
+    /// What was found, read, assumed and passed over, a line each.
+    pub notes: Vec<String>,
+}
+
+/// Reads files as the isotherms of one specimen.
+///
+/// # Errors
+/// A file cannot be read, or [`from_files`] refuses them.
+pub fn read(
+    files: &[PathBuf],
+    format: Option<DynamicFormat>,
+    kind: ModulusKind,
+) -> Result<DynamicFile, Diagnostics> {
+    let contents = files.iter().map(|path| {
+        let name = path.display().to_string();
+        match read_limited(path, MAX_BYTES) {
+            Ok(bytes) => Ok((name, bytes)),
+            Err(error) => Err(cannot_read(&name, &error)),
+        }
+    });
+    from_files(&contents.collect::<Result<Vec<_>, _>>()?, format, kind)
+}
+
+/// As [`read`], from the bytes of a file that messages call `name`.
+///
+/// # Errors
+/// See [`from_files`].
+pub fn from_bytes(
+    name: &str,
+    bytes: &[u8],
+    format: Option<DynamicFormat>,
+    kind: ModulusKind,
+) -> Result<DynamicFile, Diagnostics> {
+    from_files(&[(name.to_owned(), bytes.to_vec())], format, kind)
+}
+
+/// As [`read`], from names and bytes.
+///
+/// # Errors
+/// No file; what is too large, binary or of an unknown format; columns that are absent, without a unit or of the other modulus; cells
+/// that are no positive numbers; temperatures that make no isotherms.
+pub fn from_files(
+    files: &[(String, Vec<u8>)],
+    format: Option<DynamicFormat>,
+    kind: ModulusKind,
+) -> Result<DynamicFile, Diagnostics> {
+    let mut reading = Reading::new(kind);
+    let mut first = None;
+    for (name, bytes) in files {
+        reading.prefix = if files.len() > 1 {
+            format!("{name}: ")
+        } else {
+            String::new()
+        };
+        let found = one_file(name, bytes, format, &mut reading)?;
+        first.get_or_insert(found);
+    }
+    let Some(format) = first else {
+        return Err(Diagnostic::new("no file of dynamic data is named")
+            .help("name at least one")
+            .into());
+    };
+    let (data, notes) = reading.finish(files)?;
+    Ok(DynamicFile {
+        data,
+        format,
+        notes,
+    })
+}
+
+fn one_file(
+    name: &str,
+    bytes: &[u8],
+    format: Option<DynamicFormat>,
+    reading: &mut Reading,
+) -> Result<DynamicFormat, Diagnostics> {
+    within_limit(name, bytes)?;
+    if name.to_lowercase().ends_with(".tri") {
+        return Err(binary_trios(name).into());
+    }
+    if format == Some(DynamicFormat::Eplexor) || (format.is_none() && eplexor::detect(bytes)) {
+        let reason = if format.is_some() {
+            "as asked for"
+        } else {
+            "a workbook"
+        };
+        reading.note(format!(
+            "format {}: {reason}",
+            DynamicFormat::Eplexor.name()
+        ));
+        eplexor::read(name, bytes, reading)?;
+        return Ok(DynamicFormat::Eplexor);
+    }
+    let source = text(name, bytes, reading)?;
+    let (format, reason) = match format {
+        Some(format) => (format, "as asked for".to_owned()),
+        None => detect(&source),
+    };
+    reading.note(format!("format {}: {reason}", format.name()));
+    let known = TEXTS.iter().find(|known| known.format == format);
+    known.map_or(generic::read as ReadText, |known| known.read)(&source, reading)?;
+    Ok(format)
+}
+
+type ReadText = fn(&Arc<Source>, &mut Reading) -> Result<(), Diagnostics>;
+
+/// A format of texts.
+struct TextFormat {
+    format: DynamicFormat,
+    /// Why a text is taken for it.
+    detect: fn(&Arc<Source>) -> Option<String>,
+    read: ReadText,
+}
+
+/// Formats of texts in the order in which they are tried.
+const TEXTS: [TextFormat; 7] = [
+    text_format(
+        DynamicFormat::TriosLims,
+        trios_lims::detect,
+        trios_lims::read,
+    ),
+    text_format(
+        DynamicFormat::TriosText,
+        trios_text::detect,
+        trios_text::read,
+    ),
+    text_format(DynamicFormat::TriosCsv, trios_csv::detect, trios_csv::read),
+    text_format(DynamicFormat::Reptate, reptate::detect, reptate::read),
+    text_format(DynamicFormat::Pyvisco, pyvisco::detect, pyvisco::read),
+    text_format(DynamicFormat::Hysitron, hysitron::detect, hysitron::read),
+    text_format(
+        DynamicFormat::RheoCompass,
+        rheocompass::detect,
+        rheocompass::read,
+    ),
+];
+
+const fn text_format(
+    format: DynamicFormat,
+    detect: fn(&Arc<Source>) -> Option<String>,
+    read: ReadText,
+) -> TextFormat {
+    TextFormat {
+        format,
+        detect,
+        read,
+    }
+}
+
+/// The text of a file, unless it is known to hold none that can be read.
+fn text(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<Arc<Source>, Diagnostics> {
+    if eplexor::detect(bytes) {
+        return Err(
+            Diagnostic::new(format!("`{name}` is a workbook, and a text was asked for"))
+                .help("leave the format out, to have it found, or write \"eplexor\"")
+                .into(),
+        );
+    }
+    let (source, stray) = grid::source(name, bytes)?;
+    // Text in UTF-16 holds no zeros any more.
+    if source.text().contains('\0') {
+        return Err(binary_trios(name).into());
+    }
+    if stray > 0 {
+        let bytes = if stray == 1 { "byte is" } else { "bytes are" };
+        reading.note(format!("{stray} {bytes} no UTF-8, and taken as Latin-1"));
+    }
+    if source.text().trim_start().starts_with(['{', '<']) {
+        return Err(Diagnostic::at(
+            &grid::Grid::new(&source, ',').place(0),
+            "JSON and XML are not read",
+        )
+        .help("export a table as text or CSV; of TRIOS: `Export to LIMS`, or CSV")
+        .into());
+    }
+    Ok(source)
+}
+
+fn binary_trios(name: &str) -> Diagnostic {
+    Diagnostic::new(format!("`{name}` is binary, and its moduli cannot be read"))
+        .help("export it as text or CSV; of a `.tri` file, in TRIOS: File, Export, as CSV, as text or to LIMS")
+}
+
+/// The format of a text, and why.
+fn detect(source: &Arc<Source>) -> (DynamicFormat, String) {
+    let found = TEXTS
+        .iter()
+        .find_map(|known| Some((known.format, (known.detect)(source)?)));
+    found.unwrap_or((DynamicFormat::Generic, "named columns".to_owned()))
+}
+
+fn within_limit(name: &str, bytes: &[u8]) -> Result<(), Diagnostic> {
+    match bytes.len() > MAX_BYTES {
+        true => Err(Diagnostic::new(format!(
+            "`{name}` is larger than {} MB",
+            MAX_BYTES / 1_000_000
+        ))
+        .help("export fewer columns, and no waveforms")),
+        false => Ok(()),
+    }
+}
+
+/// What was read so far.
+struct Reading {
+    kind: ModulusKind,
+    isotherms: Vec<Vec<Measured>>,
+    notes: Vec<String>,
+    /// Before notes, where there are several files.
+    prefix: String,
+    missing: usize,
+}
+
+impl Reading {
+    fn new(kind: ModulusKind) -> Self {
+        Self {
+            kind,
+            isotherms: Vec::new(),
+            notes: Vec::new(),
+            prefix: String::new(),
+            missing: 0,
+        }
+    }
+
+    /// Says something of the file, once.
+    fn note(&mut self, text: impl Into<String>) {
+        let note = format!("{}{}", self.prefix, text.into());
+        if !self.notes.contains(&note) && self.notes.len() < 200 {
+            self.notes.push(note);
+        }
+    }
+
+    /// Reads a block and adds its isotherms.
+    fn add(&mut self, block: &Block<'_>) -> Result<(), Diagnostics> {
+        let content = block.read(self.kind)?;
+        self.add_content(block, content)
+    }
+
+    /// Adds the isotherms of a block that was read.
+    fn add_content(&mut self, block: &Block<'_>, content: Content) -> Result<(), Diagnostics> {
+        self.note(format!("columns read: {}", content.columns));
+        for assumed in content.assumed {
+            self.note(assumed);
+        }
+        self.missing += content.missing;
+        self.isotherms
+            .extend(isotherms::split(block, content.points)?);
+        Ok(())
+    }
+
+    fn finish(
+        mut self,
+        files: &[(String, Vec<u8>)],
+    ) -> Result<(DynamicData, Vec<String>), Diagnostics> {
+        self.prefix.clear();
+        if self.missing > 0 {
+            let rows = if self.missing == 1 { "row" } else { "rows" };
+            self.note(format!(
+                "{} {rows} passed over: a number is empty or marked as missing",
+                self.missing
+            ));
+        }
+        let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
+        let whole = Source::file(names.join("`, `"), "");
+        let points = |sets: &[Vec<Measured>]| -> Vec<Vec<DynamicPoint>> {
+            sets.iter()
+                .map(|set| set.iter().map(|measured| measured.point).collect())
+                .collect()
+        };
+        let data = DynamicData::new(self.kind, points(&self.isotherms));
+        let data =
+            data.map_err(|error| refused(&error, &self.isotherms, &Location::whole(&whole)))?;
+        if files.len() > 1
+            && data
+                .isotherms()
+                .iter()
+                .all(|isotherm| isotherm.temperature_k.is_none())
+        {
+            return Err(Diagnostic::at(
+                &Location::whole(&whole),
+                "several files, and none says its temperature",
+            )
+            .help("add a column `temperature_c` to each, or name one file")
+            .into());
+        }
+        self.note(summary(&data));
+        Ok((data, self.notes))
+    }
+}
+
+/// What the material room refuses, at its place in the file.
+fn refused(error: &DynamicDataError, isotherms: &[Vec<Measured>], whole: &Location) -> Diagnostic {
+    let place = |point: usize| {
+        let measured = isotherms.iter().flatten().nth(point);
+        measured.map_or_else(|| whole.clone(), |measured| measured.place.clone())
+    };
+    let (place, help) = match error {
+        DynamicDataError::NotPositive { point, .. } => {
+            (place(*point), "leave the row out, or check its units")
+        }
+        DynamicDataError::SomeTemperatures { point } => (
+            place(*point),
+            "give every row a temperature, or leave the temperatures out",
+        ),
+        _ => (
+            whole.clone(),
+            "measure at more frequencies, or name further files",
+        ),
+    };
+    Diagnostic::at(&place, error.to_string()).help(help)
+}
+
+fn summary(data: &DynamicData) -> String {
+    let isotherms = data.isotherms();
+    let points = data.points().count();
+    let ends = isotherms.first().zip(isotherms.last());
+    let ends = ends.and_then(|(first, last)| first.temperature_k.zip(last.temperature_k));
+    let s = if isotherms.len() == 1 { "" } else { "s" };
+    match ends {
+        Some((first, last)) => format!(
+            "{points} points in {} isotherm{s} from {} to {}",
+            isotherms.len(),
+            celsius(first),
+            celsius(last)
+        ),
+        None => format!("{points} points without a temperature"),
+    }
+}
+
+#[cfg(test)]
+mod tests;

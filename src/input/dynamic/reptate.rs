@@ -1,0 +1,169 @@
+//! Files `.osc` and `.tts` of RepTate (jorge-ramirez-upm/RepTate, `data/TTS`, `data/LVE` and its documentation).
+//!
+//! The first line holds parameters, `T=-10;Mw=94.9;chem=PI;label=...;`, of which `T` is the temperature in °C. In `.osc` a row of
+//! names and a row of units follow, `Freq G' G" Temp Strain ...` and `rad/s Pa Pa ...`, with some names more than once; in `.tts`
+//! there may be none. The first three columns are angular frequency, G' and G''; in rad/s and Pa where no units are given. Texts are
+//! Latin-1, cells are separated by blanks or tabs. A `.tts` file is a master curve, reduced to its `T`.
+
+use std::sync::Arc;
+
+use super::Reading;
+use super::block::Measured;
+use super::columns::{self, Role, Scale};
+use crate::input::data_file::grid::{Cell, Grid, Line, Numbers};
+use crate::input::diagnostic::{Diagnostic, Diagnostics, Problems, Source};
+use crate::material::ModulusKind;
+use crate::material::dynamic::DynamicPoint;
+use crate::quantity::ZERO_CELSIUS_K;
+
+const ROLES: [Role; 3] = [Role::AngularFrequency, Role::Storage, Role::Loss];
+
+/// Why a text is taken for this format.
+pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
+    let grid = Grid::new(source, ' ');
+    let line = grid.text(0);
+    let has = |key: &str| parameter(line, key).is_some();
+    (line.contains(';') && (has("T") || has("Mw")))
+        .then(|| "a first line of parameters, `T=...;Mw=...;`".to_owned())
+}
+
+/// Reads the isotherm.
+///
+/// # Errors
+/// The longitudinal modulus was asked for, a temperature or a cell that is no number, a value that is not positive.
+pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Diagnostics> {
+    let grid = Grid::new(source, ' ');
+    if detect(source).is_none() {
+        return Err(Diagnostic::at(
+            &grid.place(0),
+            "not a file of RepTate: the first line holds no parameters",
+        )
+        .help("begin it with `T=25;Mw=100;`, or leave the format out, to have it found")
+        .into());
+    }
+    if reading.kind == ModulusKind::Longitudinal {
+        return Err(Diagnostic::at(
+            &grid.place(0),
+            "files of RepTate hold shear moduli, and the longitudinal modulus was asked for",
+        )
+        .help("write modulus = \"shear\", or give --modulus shear")
+        .into());
+    }
+    let temperature_k = temperature(&grid, reading)?;
+    let first = (1..grid.len())
+        .find(|line| is_row(&grid.line(*line)))
+        .unwrap_or(grid.len());
+    let units = (1..first).find_map(|line| scales(&grid.line(line)));
+    if units.is_none() {
+        reading.note("no row of units: taken in rad/s and Pa");
+    }
+    let scales = units.unwrap_or(ROLES.map(|_| Scale::ONE));
+    reading.note("columns read: the first three, as angular frequency, G' and G''");
+    let (problems, mut numbers, mut points) = (Problems::new(), grid.numbers(), Vec::new());
+    for line in (first..grid.len()).filter(|line| !grid.is_comment(*line)) {
+        let row = grid.line(line);
+        match row_values(&row, &mut numbers, &problems, scales) {
+            Ok(Some(
+                [
+                    angular_frequency_rad_per_s,
+                    storage_modulus_pa,
+                    loss_modulus_pa,
+                ],
+            )) => points.push(Measured {
+                point: DynamicPoint {
+                    temperature_k,
+                    angular_frequency_rad_per_s,
+                    storage_modulus_pa,
+                    loss_modulus_pa,
+                    errors_pa: None,
+                },
+                place: grid.place(line),
+                set: None,
+            }),
+            Ok(None) => reading.missing += 1,
+            Err(()) => {}
+        }
+    }
+    numbers.check(&problems);
+    reading.isotherms.push(problems.into_result(Some(points))?);
+    Ok(())
+}
+
+/// What a parameter is set to.
+fn parameter<'a>(line: &'a str, key: &str) -> Option<&'a str> {
+    let set = line.split(';').filter_map(|part| part.split_once('='));
+    set.into_iter()
+        .find(|(name, _)| name.trim() == key)
+        .map(|(_, value)| value.trim())
+}
+
+fn temperature(grid: &Grid, reading: &mut Reading) -> Result<Option<f64>, Diagnostic> {
+    let Some(text) = parameter(grid.text(0), "T") else {
+        reading.note("no parameter T: the temperature is not known");
+        return Ok(None);
+    };
+    let celsius = text.replace(',', ".").parse::<f64>().ok();
+    match celsius
+        .map(|celsius| celsius + ZERO_CELSIUS_K)
+        .filter(|kelvin| kelvin.is_finite() && *kelvin > 0.0)
+    {
+        Some(kelvin) => Ok(Some(kelvin)),
+        None => Err(Diagnostic::at(
+            &grid.place(0),
+            format!("`T={text}` is no temperature in °C"),
+        )
+        .help("write it as `T=25`")),
+    }
+}
+
+fn is_row(line: &Line<'_>) -> bool {
+    (0..3).all(|cell| line.is_number(cell))
+}
+
+/// The units of the first three columns, where a line holds units.
+fn scales(line: &Line<'_>) -> Option<[Scale; 3]> {
+    let scale = |cell: usize, role| {
+        let unit = line.text(cell);
+        columns::is_unit(unit)
+            .then(|| columns::scale(role, Some(unit)).ok())
+            .flatten()
+    };
+    Some([
+        scale(0, Role::Frequency)?,
+        scale(1, Role::Storage)?,
+        scale(2, Role::Loss)?,
+    ])
+}
+
+/// The values of a row; none where one is missing, an error where a problem was reported.
+fn row_values(
+    row: &Line<'_>,
+    numbers: &mut Numbers<'_>,
+    problems: &Problems,
+    scales: [Scale; 3],
+) -> Result<Option<[f64; 3]>, ()> {
+    let mut values = [0.0; 3];
+    for (cell, ((value, scale), role)) in values.iter_mut().zip(scales).zip(ROLES).enumerate() {
+        let what = role.what();
+        match numbers.read(row, cell) {
+            Cell::Number(number) if number > 0.0 => *value = scale.factor * number,
+            Cell::Number(_) => {
+                let help = "leave the row out: a measured value that is not positive is noise";
+                problems
+                    .at(&row.place(cell), format!("{what} must be positive"))
+                    .help(help);
+                return Err(());
+            }
+            Cell::Missing => return Ok(None),
+            Cell::Bad(why) => {
+                let message = format!("a cell of the column of {what} must be a number");
+                problems
+                    .at(&row.place(cell), message)
+                    .because(why)
+                    .help("leave the row out");
+                return Err(());
+            }
+        }
+    }
+    Ok(Some(values))
+}

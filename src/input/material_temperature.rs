@@ -1,0 +1,191 @@
+//! Materials that know temperatures, and which of them a file asks for: `[material] temperature`, or the axis of a sweep.
+
+use super::diagnostic::{Location, Problems};
+use super::document::Located;
+use super::document::reader::TableReader;
+use super::keys::material::{
+    BRANCH_MODULUS, EQUILIBRIUM, ISOTHERM_TEMPERATURE, ISOTHERMS, MODULUS, POISSON_RATIO,
+    RELAXATION_BRANCHES, REPLICA_EQUILIBRIUM, REPLICA_MODULI, REPLICA_TIMES, REPLICAS, TEMPERATURE,
+};
+use super::material_block::{branches, measured_window};
+use crate::material::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
+use crate::quantity::celsius;
+
+/// A material at any temperature it knows, but for its Poisson ratio.
+pub(super) trait AtTemperature {
+    /// The material at a temperature (K), or at the one that counts where none is asked for; else why there is none.
+    fn material(&self, temperature_k: Option<f64>, poisson_ratio: f64) -> Result<Material, String>;
+}
+
+/// The material of a file, and those of the temperatures of an axis.
+pub(super) type OverTemperature = (Material, Vec<Material>);
+
+/// Reads temperature and Poisson ratio of `[material]`, and gives the material at this temperature and at those of an axis, where
+/// there is one; the first of these is then the material of the file.
+pub(super) fn read(
+    block: &mut TableReader<'_>,
+    known: Option<Box<dyn AtTemperature>>,
+    axis: Option<&Located<Vec<f64>>>,
+    place: &Location,
+    problems: &Problems,
+) -> Option<OverTemperature> {
+    let (poisson_ratio, own) = (block.value(&POISSON_RATIO), block.read(&TEMPERATURE));
+    let (known, poisson_ratio, own) = (known?, poisson_ratio?, own?);
+    let material = |temperature_k: Option<f64>, place: &Location| {
+        let material = known.material(temperature_k, poisson_ratio);
+        material.map_err(|why| problems.at(place, why)).ok()
+    };
+    if let Some(axis) = axis {
+        let each = axis.value.iter();
+        let each = each.map(|temperature_k| material(Some(*temperature_k), &axis.location));
+        let each = each.collect::<Option<Vec<Material>>>()?;
+        return Some((each.first()?.clone(), each));
+    }
+    let place = own.as_ref().map_or(place, |own| &own.location);
+    Some((
+        material(own.as_ref().map(|own| own.value), place)?,
+        Vec::new(),
+    ))
+}
+
+/// Refuses temperatures of a material that knows none; false where there were any.
+pub(super) fn refuse(
+    block: &mut TableReader<'_>,
+    axis: Option<&Located<Vec<f64>>>,
+    problems: &Problems,
+) -> bool {
+    let own = block.key_location(&TEMPERATURE);
+    let Some(place) = own.as_ref().or(axis.map(|axis| &axis.location)) else {
+        return true;
+    };
+    problems
+        .at(place, "this material is known at one temperature alone, and does not say at which")
+        .help("give dynamic data measured at several temperatures in [material.dynamic], or a series for each in [[material.isotherm]]");
+    false
+}
+
+/// A series with its replicas, but for the Poisson ratio.
+pub(super) struct Series {
+    pub(super) kind: ModulusKind,
+    pub(super) relaxation: Relaxation,
+    pub(super) replicas: Vec<Relaxation>,
+}
+
+impl Series {
+    pub(super) fn material(&self, poisson_ratio: f64) -> Result<Material, MaterialError> {
+        let of = |relaxation: &Relaxation| {
+            Material::from_relaxation(relaxation.clone(), self.kind, poisson_ratio)
+        };
+        let replicas: Result<_, _> = self.replicas.iter().map(of).collect();
+        Ok(of(&self.relaxation)?.with_replicas(replicas?))
+    }
+}
+
+/// A Prony series.
+pub(super) fn prony(
+    equilibrium_pa: f64,
+    branches: impl IntoIterator<Item = (f64, f64)>,
+) -> Result<Relaxation, MaterialError> {
+    let branch = |(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s };
+    Relaxation::new(equilibrium_pa, branches.into_iter().map(branch).collect())
+}
+
+/// The replicas of a series.
+pub(super) fn replicas(
+    table: &mut TableReader<'_>,
+    problems: &Problems,
+) -> Option<Vec<Relaxation>> {
+    table.optional_tables(&REPLICAS, |mut table| {
+        let place = table.as_ref().clone();
+        let equilibrium = table.value(&REPLICA_EQUILIBRIUM);
+        let (moduli, times) = (table.read(&REPLICA_MODULI), table.read(&REPLICA_TIMES));
+        table.finish();
+        let (equilibrium, moduli, times) = (equilibrium?, moduli?, times?);
+        if moduli.value.len() != times.value.len() {
+            let (found, wanted) = (times.value.len(), moduli.value.len());
+            problems
+                .at(&times, format!("{found} times for {wanted} moduli"))
+                .help("give one time for each modulus");
+            return None;
+        }
+        let pairs = moduli.value.iter().zip(&times.value);
+        let series = prony(
+            equilibrium,
+            pairs.map(|(modulus, time)| (modulus.value, time.value)),
+        );
+        series
+            .map_err(|error| problems.at(&place, error.to_string()))
+            .ok()
+    })
+}
+
+/// A series that holds at a temperature.
+struct Isotherm {
+    temperature_k: f64,
+    measured_window_s: Option<(f64, f64)>,
+    series: Series,
+}
+
+/// Series at some temperatures, and at no others.
+struct Isotherms(Vec<Isotherm>);
+
+/// Reads `[[material.isotherm]]`.
+pub(super) fn isotherms(
+    block: &mut TableReader<'_>,
+    problems: &Problems,
+) -> Option<Box<dyn AtTemperature>> {
+    let all = block.tables(&ISOTHERMS, |mut table| {
+        let place = table.as_ref().clone();
+        let temperature = table.value(&ISOTHERM_TEMPERATURE);
+        let measured = measured_window(&mut table, problems);
+        let (kind, equilibrium) = (table.value(&MODULUS), table.value(&EQUILIBRIUM));
+        let branches = branches(&mut table, &RELAXATION_BRANCHES, &BRANCH_MODULUS);
+        let replicas = replicas(&mut table, problems);
+        table.finish();
+        let relaxation = prony(equilibrium?, branches?);
+        let relaxation = relaxation.map_err(|error| problems.at(&place, error.to_string()));
+        Some(Isotherm {
+            temperature_k: temperature?,
+            measured_window_s: measured?,
+            series: Series {
+                kind: kind?,
+                relaxation: relaxation.ok()?,
+                replicas: replicas?,
+            },
+        })
+    })?;
+    if all.value.is_empty() {
+        problems
+            .at(&all, "there is no isotherm")
+            .help("give at least one [[material.isotherm]]");
+        return None;
+    }
+    Some(Box::new(Isotherms(all.value)))
+}
+
+impl AtTemperature for Isotherms {
+    fn material(&self, temperature_k: Option<f64>, poisson_ratio: f64) -> Result<Material, String> {
+        let found = match (temperature_k, self.0.as_slice()) {
+            (None, [only]) => Some(only),
+            (None, _) => {
+                return Err(
+                    "there are several isotherms: write `temperature` with that of one of them"
+                        .to_owned(),
+                );
+            }
+            (Some(wanted), all) => all.iter().find(|isotherm| isotherm.temperature_k == wanted),
+        };
+        let isotherm = found.ok_or_else(|| {
+            let known: Vec<String> = self.0.iter().map(|i| celsius(i.temperature_k)).collect();
+            let wanted = celsius(temperature_k.unwrap_or_default());
+            format!("no isotherm at {wanted}: there are {}", known.join(", "))
+        })?;
+        let material = isotherm.series.material(poisson_ratio);
+        let material = material.map_err(|error| error.to_string())?;
+        let material = material.at_temperature(isotherm.temperature_k);
+        Ok(match isotherm.measured_window_s {
+            Some(window_s) => material.measured(window_s),
+            None => material,
+        })
+    }
+}

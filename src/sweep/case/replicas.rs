@@ -1,0 +1,84 @@
+//! The loss of a case with each replica of its material: what the noise of the data, carried through the fit, makes of it.
+//!
+//! A loss is wanted to within the scatter of the replicas alone, a few per cent of it, and the error of a coarse cycle is nearly the same
+//! for every one of them. So the replicas and the material itself are solved on the same few steps and nodes, and the loss with a
+//! replica is that of the case times the ratio of the two.
+
+use crate::sweep::case::checkpoint::Checkpoints;
+use crate::sweep::case::stabilise::{CaseError, Contact};
+use crate::sweep::case::{Resolution, Setup};
+use crate::sweep::plan::{CyclePlan, EngineKind, Method};
+use crate::sweep::record::CaseRecord;
+
+impl Setup {
+    /// Adds the losses with the replicas to a record that has a result.
+    pub(super) fn add_replicas(
+        &self,
+        contact: &Contact<'_>,
+        record: &mut CaseRecord,
+    ) -> Result<(), CaseError> {
+        let Some(loss_j) = record.energy_loss_j() else {
+            return Ok(());
+        };
+        let replicas = &contact.solid.replicas;
+        if replicas.is_empty() {
+            return Ok(());
+        }
+        // Checkpoints are of the case itself.
+        let checkpoints = Checkpoints::none();
+        let contact = Contact {
+            cycle: CyclePlan {
+                method: Method::Direct,
+                ..contact.cycle
+            },
+            checkpoints: &checkpoints,
+            ..*contact
+        };
+        let at = self.coarse_for_replicas();
+        let mut coarse_j = |compliance| -> Result<Option<f64>, CaseError> {
+            let contact = Contact {
+                compliance,
+                ..contact
+            };
+            let solved = self.coarser(&contact, at.nodes, &[at.steps], record)?;
+            let result = solved.result(at.steps);
+            Ok(result.map(|result| result.analysis.energy_loss_j))
+        };
+        let own_j = coarse_j(contact.compliance)?.filter(|own_j| *own_j > 0.0);
+        let mut losses_j = Vec::with_capacity(replicas.len());
+        for replica in replicas {
+            let with_replica = match (own_j, replica) {
+                (Some(_), Some(compliance)) => coarse_j(compliance)?,
+                _ => None,
+            };
+            let ratio = with_replica.zip(own_j).map(|(other, own)| other / own);
+            losses_j.push(ratio.map(|ratio| ratio * loss_j));
+        }
+        let missing = losses_j.iter().filter(|loss| loss.is_none()).count();
+        if missing > 0 {
+            record.message.get_or_insert_with(|| {
+                format!(
+                    "the error of the material leaves out {missing} of its {} replicas: no stabilised cycle was found with them",
+                    replicas.len()
+                )
+            });
+        }
+        if let Some(result) = &mut record.result {
+            result.replica_losses_j = losses_j;
+        }
+        Ok(())
+    }
+
+    /// Steps and nodes on which the replicas are solved. A map has its own cells and no others.
+    fn coarse_for_replicas(&self) -> Resolution {
+        let nodes = match (self.plan.solver.engine, self.plan.indenter.own_cells()) {
+            (EngineKind::Axisymmetric, _) => 48,
+            (EngineKind::HalfSpace, None) => 32,
+            (EngineKind::HalfSpace, Some(_)) => usize::MAX,
+        };
+        Resolution {
+            steps: self.plan.cycle.steps.min(48),
+            nodes: self.plan.solver.nodes().min(nodes),
+        }
+    }
+}

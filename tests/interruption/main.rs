@@ -1,0 +1,10 @@
+//! Runs that are killed, interrupted, resumed and shared. On their own, since they wait for moments that heavy tests would shift.
+
+#[path = "../common/kills.rs"]
+mod kills;
+#[path = "../common/program.rs"]
+mod program;
+
+mod one_plan;
+mod simulate_survival;
+mod survival;

@@ -1,0 +1,274 @@
+//! A folder has one plan: of different sweeps and scenarios that meet in it one goes on and the others are refused.
+
+#![cfg(feature = "cli")]
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command as Process, Output, Stdio};
+
+use crate::kills::{assert_same, signal, wait_for};
+use crate::program::{pmma_sweep, program, write};
+use contact_dma::sweep::plan::resolved::hash;
+use contact_dma::sweep::store::sealed;
+use predicates::prelude::*;
+use predicates::str::contains;
+use tempfile::TempDir;
+
+/// Two cases, of a few milliseconds each, and figures that are drawn quickly.
+const SMALL: &str = r#"[sweep]
+angular_frequency = ["0.01 rad/s", "0.02 rad/s"]
+[cycle]
+steps = 24
+error_bars = false
+[solver]
+springs = 32
+[figures]
+formats = ["svg"]
+"#;
+
+/// Two hundred of them.
+const MANY: [&str; 4] = [
+    "--threads",
+    "1",
+    "--set",
+    "sweep.angular_frequency={from=\"1e-3 rad/s\",to=\"1 rad/s\",points=200}",
+];
+
+const SCENARIO: &str = r#"title = "a step"
+[material]
+library = "pmma"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+segments = [{ kind = "step", to = "10 N", duration = "10 s" }]
+[time]
+step = "1 s"
+[output]
+error_bars = false
+[solver]
+springs = 32
+[figures]
+formats = ["svg"]
+"#;
+
+fn start(arguments: &[&str], out: &Path) -> Child {
+    Process::new(assert_cmd::cargo::cargo_bin("contact-dma"))
+        .args(arguments)
+        .args(["--quiet", "--out"])
+        .arg(out)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+/// Starts all of them and waits for their ends.
+fn together(commands: &[Vec<&str>], out: &Path) -> Vec<Output> {
+    let children: Vec<Child> = commands.iter().map(|c| start(c, out)).collect();
+    let ends = children.into_iter().map(|child| child.wait_with_output());
+    ends.map(Result::unwrap).collect()
+}
+
+fn sweep(file: &str, out: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
+    let mut command = program();
+    command.args(["sweep", file, "--quiet", "--out"]).arg(out);
+    command.args(more).assert()
+}
+
+/// The hashes that the plan, the records and the summary of a folder name; the number of records.
+fn hashes(out: &Path) -> (BTreeSet<String>, usize) {
+    let plan = fs::read_to_string(out.join("resolved.toml")).unwrap();
+    let mut hashes = BTreeSet::from([hash(&plan)]);
+    let of = |json: &[u8]| {
+        let json: serde_json::Value = serde_json::from_slice(json).unwrap();
+        let named = json.get("sweep_hash").or(json.get("scenario_hash"));
+        named.unwrap().as_str().unwrap().to_owned()
+    };
+    let mut records = 0;
+    for folder in ["records", "peaks"] {
+        let entries = fs::read_dir(out.join(folder));
+        for entry in entries.into_iter().flatten() {
+            let path = entry.unwrap().path();
+            // What is being written has no ending yet.
+            if path.extension().is_some_and(|ending| ending == "json") {
+                let bytes = fs::read(path).unwrap();
+                hashes.insert(of(sealed::unseal(&bytes).unwrap()));
+                records += 1;
+            }
+        }
+    }
+    if let Ok(summary) = fs::read(out.join("summary.json")) {
+        hashes.insert(of(&summary));
+    }
+    (hashes, records)
+}
+
+/// Who was refused says so, of this folder and for what to do; the others came to their end.
+fn succeeded(ends: &[Output], out: &Path) -> Vec<bool> {
+    let folder = out.file_name().unwrap().to_str().unwrap();
+    let of = |end: &Output| match end.status.code() {
+        Some(0) => true,
+        Some(2) => {
+            let text = String::from_utf8_lossy(&end.stderr);
+            let is_told = text.contains(folder) && text.contains("another folder with --out");
+            assert!(is_told && text.contains("\n  - ") && text.contains("\n  + "));
+            false
+        }
+        other => panic!("{other:?}: {}", String::from_utf8_lossy(&end.stderr)),
+    };
+    ends.iter().map(of).collect()
+}
+
+#[test]
+fn of_different_plans_that_begin_at_once_one_is_computed_and_the_others_are_refused() {
+    let folder = TempDir::new().unwrap();
+    let (file, scenario) = (
+        write(&folder, "small.toml", &pmma_sweep(SMALL)),
+        write(&folder, "step.toml", SCENARIO),
+    );
+    let commands = [
+        vec!["sweep", &file],
+        vec!["sweep", &file, "--set", "cycle.steps=32"],
+        vec!["simulate", &scenario],
+    ];
+    for round in 0..30 {
+        let out = folder.path().join(format!("round-{round}"));
+        let mut order = commands.clone();
+        order.rotate_left(round % 3);
+        let done = succeeded(&together(&order, &out), &out);
+        assert_eq!(done.iter().filter(|done| **done).count(), 1, "{round}");
+        assert_eq!(hashes(&out).0.len(), 1, "round {round}");
+    }
+}
+
+#[test]
+fn shards_of_one_sweep_share_a_folder_and_nothing_else_joins_them() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
+    let whole = folder.path().join("whole");
+    sweep(&file, &whole, &[]).success();
+    let commands = [
+        vec!["sweep", &file, "--shard", "1/2"],
+        vec!["sweep", &file, "--set", "cycle.steps=32"],
+        vec!["sweep", &file, "--shard", "2/2"],
+    ];
+    for round in 0..6 {
+        let out = folder.path().join(format!("round-{round}"));
+        let done = succeeded(&together(&commands, &out), &out);
+        match done[..] {
+            [true, false, true] => assert_same(&out, &whole),
+            [false, true, false] => {}
+            _ => panic!("round {round}: {done:?}"),
+        }
+        assert_eq!(hashes(&out).0.len(), 1, "round {round}");
+    }
+}
+
+/// Stops a process until it gets the signal to go on, and waits until every thread of it has stopped.
+fn stop(child: &Child) {
+    signal(child, "-STOP");
+    let threads = format!("/proc/{}/task", child.id());
+    wait_for("the process did not stop", || {
+        fs::read_dir(&threads).unwrap().all(|thread| {
+            let stat = fs::read_to_string(thread.unwrap().path().join("stat"));
+            stat.is_ok_and(|stat| stat.contains(") T "))
+        })
+    });
+}
+
+/// A sweep of [`MANY`] that has some of its records.
+fn begun(file: &str, out: &Path) -> Child {
+    let child = start(&[&["sweep", file], &MANY[..]].concat(), out);
+    wait_for("no case was finished", || {
+        fs::read_dir(out.join("records")).map_or(0, Iterator::count) > 2
+    });
+    child
+}
+
+#[test]
+fn what_runs_is_neither_replaced_nor_joined_by_another_and_loses_nothing() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
+    let out = folder.path().join("out");
+    let running = begun(&file, &out);
+    // However slow this machine, it does not end before it has been disturbed.
+    stop(&running);
+    let before = hashes(&out);
+    let in_use = || contains("/out is in use").and(contains("another folder with --out"));
+    let named = || in_use().and(contains("PMMA under a sphere"));
+    sweep(&file, &out, &["--force"]).code(2).stderr(named());
+    let same = [&MANY[..], &["--force"]].concat();
+    sweep(&file, &out, &same).code(2).stderr(named());
+    sweep(&file, &out, &[])
+        .code(2)
+        .stderr(in_use().and(contains("+ angular_frequency").or(contains("-     \"0.001"))));
+    program()
+        .arg("merge")
+        .arg(&out)
+        .args(["--force", "--out"])
+        .arg(&out)
+        .assert()
+        .code(2)
+        .stderr(named());
+    assert_eq!(hashes(&out), before);
+    signal(&running, "-CONT");
+    let end = running.wait_with_output().unwrap();
+    assert_eq!(end.status.code(), Some(0));
+    // The peaks that were located have records too.
+    let (plans, records) = hashes(&out);
+    assert!(plans.len() == 1 && records >= 200, "{plans:?} {records}");
+}
+
+/// Machines that share a file system without locks, as far as one machine can be two: the lock is another file for each.
+#[test]
+fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_to_the_other() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    sweep(&file, &whole, &[]).success();
+    // One case that takes seconds: it is stopped while it computes, not while it writes.
+    let set = [
+        "sweep.angular_frequency=[20]",
+        "cycle.method=\"march\"",
+        "cycle.steps=200",
+        "cycle.tolerance=1e-9",
+        "cycle.max_cycles=100000",
+        "solver.springs=100",
+    ];
+    let set = set.iter().flat_map(|assignment| ["--set", assignment]);
+    let long: Vec<&str> = ["sweep", &file].into_iter().chain(set).collect();
+    let replaced = start(&long, &out);
+    wait_for("the sweep did not start", || {
+        out.join("resolved.toml").exists()
+    });
+    stop(&replaced);
+    assert!(!out.join("records").exists(), "too quick");
+    fs::remove_file(out.join(".contact-dma.lock")).unwrap();
+    sweep(&file, &out, &["--force"]).success();
+    signal(&replaced, "-CONT");
+    let end = replaced.wait_with_output().unwrap();
+    assert_eq!(end.status.code(), Some(1));
+    let told = String::from_utf8_lossy(&end.stderr);
+    assert!(told.contains("/out was taken from this run"), "{told}");
+    assert_same(&out, &whole);
+}
+
+#[test]
+fn a_killed_process_leaves_its_folder_to_the_next_one_whatever_that_is() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    sweep(&file, &whole, &[]).success();
+    let few = folder.path().join("few");
+    for (out, more, records) in [(&out, &MANY[..], 200), (&few, &["--force"], 2)] {
+        let mut killed = begun(&file, out);
+        signal(&killed, "-KILL");
+        killed.wait().unwrap();
+        sweep(&file, out, more).success();
+        let (plans, found) = hashes(out);
+        assert!(plans.len() == 1 && found >= records, "{plans:?} {found}");
+    }
+    assert_same(&few, &whole);
+}

@@ -1,0 +1,245 @@
+//! What a single history survives: it goes on from its checkpoint, and ends as if undisturbed, bit for bit.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::Path;
+use std::process::Child;
+use std::time::{Duration, Instant, SystemTime};
+
+use crate::kills::{
+    Random, assert_same, leave_half_a_file, newest, results, set_clock_back_and_forth, signal,
+    wait_for,
+};
+use crate::program::{program, write};
+use predicates::prelude::*;
+use predicates::str::contains;
+use tempfile::TempDir;
+
+/// Contact on cells that opens and closes, jumps, and is asked for surfaces early and late.
+const CELLS: &str = r#"title = "cells"
+[material]
+library = "pmma"
+[indenter]
+shape = "ellipsoid"
+radius_x = "10 mm"
+radius_y = "20 mm"
+[drive]
+segments = [
+    { kind = "step", to = "10 N", duration = "20 s" },
+    { kind = "ramp", to = "0 N", duration = "5 s" },
+    { kind = "sine", mean = "5 N", amplitude = "4 N", angular_frequency = "0.5 rad/s", cycles = 20 },
+]
+[time]
+step = "0.2 s"
+[output]
+profiles_at = ["10 s", "1 s", "100 s"]
+fields_at = ["2 s", "200 s"]
+[solver]
+cells = 32
+"#;
+
+/// A fluid, whose flow is remembered too, on springs.
+const FLUID: &str = r#"title = "fluid"
+[material]
+poisson_ratio = 0.5
+[material.maxwell]
+modulus = "1 MPa"
+time = "100 s"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+segments = [{ kind = "sine", mean = "1 N", amplitude = "1 N", angular_frequency = "0.5 rad/s", phase = "270 deg", cycles = 200 }]
+[time]
+step = "0.1 s"
+[output]
+profiles_at = ["10 s", "1500 s"]
+fields_at = ["3 s"]
+field_cells = 16
+"#;
+
+/// The whole past, summed at every step.
+const DIRECT: &str = r#"title = "direct"
+[material]
+poisson_ratio = 0.4
+[material.table]
+times = [0.1, 1, 10, 100, 1000]
+values = ["0.40 1/GPa", "0.41 1/GPa", "0.43 1/GPa", "0.47 1/GPa", "0.5 1/GPa"]
+quantity = "creep"
+modulus = "longitudinal"
+evaluation = "direct"
+[indenter]
+shape = "cone"
+half_angle = "80 deg"
+[drive]
+segments = [{ kind = "sine", mean = "2 N", amplitude = "1 N", angular_frequency = "0.5 rad/s", cycles = 12 }]
+[time]
+step = "0.1 s"
+[output]
+profiles_at = ["10 s"]
+[solver]
+springs = 64
+"#;
+
+fn simulate(file: &str, out: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
+    let mut command = program();
+    command
+        .args(["simulate", file, "--out"])
+        .arg(out)
+        .args(more);
+    command.assert()
+}
+
+fn start(file: &str, out: &Path, more: &[&str]) -> Child {
+    crate::kills::start(&[&["simulate", file], more].concat(), out)
+}
+
+const OFTEN: [&str; 2] = ["--checkpoint-every", "0"];
+
+/// Waits until there is a checkpoint of another time than this, be it a wrong one, then a little longer.
+fn wait_for_progress(folder: &Path, before: Option<SystemTime>) {
+    let is_new = || newest(folder).is_some_and(|time| Some(time) != before);
+    wait_for("no checkpoint was written", is_new);
+    std::thread::sleep(Duration::from_millis(30));
+}
+
+#[test]
+fn a_history_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
+    let folder = TempDir::new().unwrap();
+    for (name, text) in [("cells", CELLS), ("fluid", FLUID), ("direct", DIRECT)] {
+        let file = write(&folder, "history.toml", text);
+        let whole = folder.path().join(format!("{name}-whole"));
+        simulate(&file, &whole, &["--quiet"]).success().stderr("");
+        assert!(!whole.join("checkpoints").exists());
+        let out = folder.path().join(format!("{name}-out"));
+        let checkpoints = out.join("checkpoints");
+        for how in ["-KILL", "-TERM", "-KILL"] {
+            let mut child = start(&file, &out, &OFTEN);
+            wait_for_progress(&checkpoints, newest(&checkpoints));
+            signal(&child, how);
+            let status = child.wait().unwrap();
+            assert!(
+                how == "-KILL" || status.code() == Some(130),
+                "{name} {status}"
+            );
+            assert!(checkpoints.join("history").exists(), "{name}: too quick");
+            set_clock_back_and_forth(&out);
+        }
+        simulate(&file, &out, &[])
+            .success()
+            .stderr(contains("steps were already done"))
+            .stderr(contains(" 0 of").not());
+        assert!(!checkpoints.exists());
+        assert_same(&out, &whole);
+    }
+}
+
+/// Ten kills; `CONTACT_DMA_KILLS=100 cargo test --test interruption simulate_survival` for more.
+#[test]
+fn kills_at_any_moment_lose_nothing() {
+    let kills = std::env::var("CONTACT_DMA_KILLS").map_or(10, |text| text.parse().unwrap());
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cells.toml", CELLS);
+    let whole = folder.path().join("whole");
+    let started = Instant::now();
+    simulate(&file, &whole, &["--quiet"]).success();
+    let span = started.elapsed();
+    let mut random = Random(20_261_121);
+    let (mut killed, mut round) = (0, 0);
+    while killed < kills {
+        let out = folder.path().join(format!("out-{round}"));
+        round += 1;
+        loop {
+            let mut child = start(&file, &out, &OFTEN);
+            std::thread::sleep(span.mul_f64(random.unit()));
+            let was_running = child.try_wait().unwrap().is_none();
+            if was_running {
+                signal(&child, "-KILL");
+                killed += 1;
+            }
+            assert!(was_running || child.wait().unwrap().success());
+            child.wait().unwrap();
+            if !was_running || killed >= kills {
+                break;
+            }
+        }
+        simulate(&file, &out, &["--quiet"]).success();
+        assert_same(&out, &whole);
+        fs::remove_dir_all(&out).unwrap();
+    }
+    println!("{killed} kills in {round} folders");
+}
+
+#[test]
+fn a_termination_is_heard_within_a_long_instant_and_leaves_a_checkpoint() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cells.toml", CELLS);
+    let out = folder.path().join("out");
+    let mut child = start(
+        &file,
+        &out,
+        &[
+            "--set",
+            "solver.cells=512",
+            "--set",
+            "solver.tolerance=1e-13",
+        ],
+    );
+    wait_for("the history did not start", || {
+        out.join("resolved.toml").exists()
+    });
+    std::thread::sleep(Duration::from_secs(4));
+    let sent = Instant::now();
+    signal(&child, "-TERM");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let took = sent.elapsed();
+    assert!(took < Duration::from_secs(2), "{took:?}");
+    assert!(out.join("checkpoints/history").exists());
+}
+
+#[test]
+fn a_damaged_checkpoint_is_named_and_not_used() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "fluid.toml", FLUID);
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    simulate(&file, &whole, &["--quiet"]).success();
+    let mut child = start(&file, &out, &OFTEN);
+    let path = out.join("checkpoints/history");
+    wait_for("no checkpoint was written", || path.exists());
+    signal(&child, "-KILL");
+    child.wait().unwrap();
+    let mut bytes = fs::read(&path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&path, bytes).unwrap();
+    // What was being written when the process was killed is swept out of every folder.
+    for name in ["profiles", "fields"] {
+        leave_half_a_file(&out.join(name));
+    }
+    simulate(&file, &out, &[])
+        .success()
+        .stderr(contains("checkpoints/history: it is damaged or torn"))
+        .stderr(contains("from its beginning"));
+    assert_same(&out, &whole);
+}
+
+#[test]
+fn a_changed_scenario_is_refused_and_its_checkpoint_stays() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "fluid.toml", FLUID);
+    let out = folder.path().join("out");
+    let mut child = start(&file, &out, &OFTEN);
+    wait_for_progress(&out.join("checkpoints"), None);
+    signal(&child, "-TERM");
+    child.wait().unwrap();
+    let before = results(&out);
+    let changed = ["--set", "time.step=\"0.3 s\""];
+    simulate(&file, &out, &changed)
+        .code(2)
+        .stderr(contains("- step = \"0.1 s\"").and(contains("+ step = \"0.3 s\"")));
+    assert_eq!(results(&out), before);
+    simulate(&file, &out, &[&changed[..], &["--force"]].concat())
+        .success()
+        .stderr("");
+}

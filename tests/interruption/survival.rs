@@ -1,0 +1,789 @@
+//! What a sweep survives, and how parts of one come together: every end result is that of an undisturbed run, bit for bit.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command as Process, Stdio};
+use std::time::{Duration, Instant};
+
+use crate::kills::{
+    Random, assert_same, leave_half_a_file, newest, results, set_clock_back_and_forth, signal,
+    wait_for,
+};
+use crate::program::{program, write};
+use predicates::prelude::*;
+use predicates::str::contains;
+use tempfile::TempDir;
+
+/// Sixty cases of a few milliseconds.
+const CHEAP: &str = r#"title = "cheap"
+[material]
+library = "pmma"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+mean = "10 N"
+amplitude = "5 N"
+[sweep]
+angular_frequency = { from = "1e-3 rad/s", to = "1 rad/s", points = 60 }
+[cycle]
+steps = 40
+[solver]
+springs = 64
+"#;
+
+/// One case that marches through thousands of cycles.
+const LONG: &str = r#"title = "long"
+[material]
+library = "pmma"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+mean = "10 N"
+amplitude = "5 N"
+[sweep]
+angular_frequency = ["20 rad/s"]
+[cycle]
+steps = 100
+method = "march"
+tolerance = 1e-9
+max_cycles = 100000
+error_bars = false
+[solver]
+springs = 100
+"#;
+
+fn start(file: &str, out: &Path, more: &[&str]) -> Child {
+    crate::kills::start(&[&["sweep", file], more].concat(), out)
+}
+
+fn sweep(file: &str, out: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
+    let mut command = program();
+    command.args(["sweep", file, "--out"]).arg(out).args(more);
+    command.assert()
+}
+
+#[test]
+fn finished_cases_are_read_and_damaged_ones_named_and_computed_again() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    sweep(&file, &whole, &["--quiet"]).success().stderr("");
+    sweep(&file, &out, &["--quiet"]).success();
+    let record = |k: usize| out.join(format!("records/{k:04}.json"));
+    for k in 10..20 {
+        fs::remove_file(record(k)).unwrap();
+    }
+    let torn = fs::read(record(30)).unwrap();
+    fs::write(record(30), &torn[..torn.len() / 2]).unwrap();
+    let mut flipped = fs::read(record(31)).unwrap();
+    flipped[200] ^= 4;
+    fs::write(record(31), flipped).unwrap();
+    fs::remove_file(out.join("sweep.csv")).unwrap();
+    sweep(&file, &out, &["--threads", "1"])
+        .success()
+        .stderr(contains("48 of 60 cases were already done"))
+        .stderr(contains("0030.json").and(contains("0031.json")))
+        .stderr(contains("damaged or torn"));
+    assert_same(&out, &whole);
+    sweep(&file, &out, &[])
+        .success()
+        .stderr(contains("60 of 60 cases were already done"));
+    assert_same(&out, &whole);
+}
+
+#[test]
+fn a_changed_sweep_is_refused_with_what_changed() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let out = folder.path().join("out");
+    let few = ["--quiet", "--set", "sweep.angular_frequency=[0.01]"];
+    sweep(&file, &out, &few).success();
+    let before = results(&out);
+    sweep(
+        &file,
+        &out,
+        &[&few[..], &["--set", "cycle.steps=48"]].concat(),
+    )
+    .code(2)
+    .stderr(contains("- steps = 40").and(contains("+ steps = 48")))
+    .stderr(contains("radius").not());
+    assert_eq!(results(&out), before);
+    let steps = ["--set", "cycle.steps=48", "--force"];
+    sweep(&file, &out, &[&few[..], &steps].concat()).success();
+}
+
+#[test]
+fn a_record_of_a_newer_program_is_not_replaced_unless_told_to() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let out = folder.path().join("out");
+    let one = ["--quiet", "--set", "sweep.angular_frequency=[0.01]"];
+    sweep(&file, &out, &one).success();
+    let whole = results(&out);
+    let path = out.join("records/0000.json");
+    let text = fs::read_to_string(&path).unwrap();
+    let (_, content) = text.split_once("\"content\":").unwrap();
+    let content = content.strip_suffix("}\n").unwrap();
+    let here = format!("\"program_version\":\"{}\"", env!("CARGO_PKG_VERSION"));
+    assert!(content.contains(&here));
+    let newer = content.replace(&here, "\"program_version\":\"1000.0.0\"");
+    fs::write(
+        &path,
+        contact_dma::sweep::store::sealed::seal(newer.as_bytes()),
+    )
+    .unwrap();
+    sweep(&file, &out, &one)
+        .code(2)
+        .stderr(contains("1000.0.0").and(contains("--force")));
+    assert!(fs::read_to_string(&path).unwrap().contains("1000.0.0"));
+    sweep(&file, &out, &[&one[..], &["--force"]].concat()).success();
+    assert_eq!(results(&out), whole);
+}
+
+/// Makes a record one of another build of the same version.
+fn of_another_build(path: &Path) {
+    use contact_dma::sweep::store::{provenance::BUILD, sealed};
+    let bytes = fs::read(path).unwrap();
+    let content = std::str::from_utf8(sealed::unseal(&bytes).unwrap()).unwrap();
+    let here = format!("\"build\":\"{BUILD}\"");
+    assert!(content.contains(&here));
+    let other = content.replace(&here, "\"build\":\"0123456789abcdef\"");
+    fs::write(path, sealed::seal(other.as_bytes())).unwrap();
+}
+
+#[test]
+fn records_of_another_build_are_computed_again_by_a_sweep_and_shown_by_a_report() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    for folder in [&whole, &out] {
+        sweep(&file, folder, &["--quiet"]).success();
+    }
+    let other = out.join("records/0005.json");
+    of_another_build(&other);
+    let altered = fs::read(&other).unwrap();
+    let report = || {
+        let mut command = program();
+        command.arg("report").arg(&out).assert()
+    };
+    report().success().stderr(
+        contains("0005.json: it was written by another build").and(contains("as they are")),
+    );
+    assert_eq!(fs::read(&other).unwrap(), altered);
+    // One result is that of one build.
+    let merged = folder.path().join("merged");
+    program()
+        .arg("merge")
+        .arg(&out)
+        .arg("--out")
+        .arg(&merged)
+        .assert()
+        .code(1)
+        .stderr(contains("0005.json: it was written by another build"))
+        .stderr(contains("1 of 60 cases are in none of the parts"));
+    sweep(&file, &out, &[])
+        .success()
+        .stderr(contains("59 of 60 cases were already done"))
+        .stderr(contains("0005.json: it was written by another build").and(contains("again")));
+    assert_same(&out, &whole);
+}
+
+/// Ten kills; `CONTACT_DMA_KILLS=100 cargo test --test interruption survival` for more.
+#[test]
+fn kills_at_any_moment_lose_nothing() {
+    let kills: usize = std::env::var("CONTACT_DMA_KILLS")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(10);
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let whole = folder.path().join("whole");
+    let started = Instant::now();
+    sweep(&file, &whole, &["--quiet"]).success();
+    let span = started.elapsed();
+    let mut random = Random(20_260_801);
+    let (mut killed, mut same, mut round) = (0, 0, 0);
+    while killed < kills {
+        let out = folder.path().join(format!("out-{round}"));
+        round += 1;
+        // Several kills on one folder, until a run comes to its end before its kill.
+        loop {
+            let mut child = start(&file, &out, &[]);
+            std::thread::sleep(span.mul_f64(random.unit()));
+            let was_running = child.try_wait().unwrap().is_none();
+            if was_running {
+                signal(&child, "-KILL");
+                killed += 1;
+            }
+            assert!(was_running || child.wait().unwrap().success());
+            child.wait().unwrap();
+            if !was_running || killed >= kills {
+                break;
+            }
+        }
+        sweep(&file, &out, &["--quiet"]).success();
+        assert_same(&out, &whole);
+        same += 1;
+        fs::remove_dir_all(&out).unwrap();
+    }
+    println!("{killed} kills in {round} folders, {same} of {round} ended as if undisturbed");
+}
+
+#[test]
+fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
+    let folder = TempDir::new().unwrap();
+    let searched = LONG
+        .replace("method = \"march\"\ntolerance = 1e-9", "tolerance = 1e-12")
+        .replace("error_bars = false", "")
+        .replace("steps = 100", "steps = 20000");
+    let cells = LONG
+        .replace("20 rad/s", "1 rad/s")
+        .replace("steps = 100", "steps = 24")
+        .replace("springs = 100", "engine = \"half-space\"\ncells = 16");
+    let ways = [("march", LONG), ("search", &searched), ("cells", &cells)];
+    for (name, text) in ways {
+        let file = write(&folder, "long.toml", text);
+        let whole = folder.path().join(format!("{name}-whole"));
+        sweep(&file, &whole, &["--quiet"]).success();
+        let out = folder.path().join(format!("{name}-out"));
+        let often = ["--checkpoint-every", "0"];
+        let case = out.join("checkpoints/0000");
+        for (round, how) in ["-KILL", "-TERM"].into_iter().enumerate() {
+            let mut child = start(&file, &out, &often);
+            let before = newest(&case);
+            wait_for("no checkpoint was written", || newest(&case) > before);
+            std::thread::sleep(Duration::from_millis(30));
+            signal(&child, how);
+            let status = child.wait().unwrap();
+            assert!(
+                how == "-KILL" || status.code() == Some(130),
+                "{name} {round}"
+            );
+            assert!(!out.join("records/0000.json").exists(), "{name}: too quick");
+        }
+        sweep(&file, &out, &["--quiet"]).success();
+        assert!(!out.join("checkpoints").exists());
+        assert_same(&out, &whole);
+    }
+}
+
+/// A clock that was wrong when files were written, or has been set since: times of files, in the far past and in the future,
+/// decide nothing.
+#[test]
+fn a_clock_that_jumps_between_interruption_and_resumption_changes_nothing() {
+    let folder = TempDir::new().unwrap();
+    for (name, text, what) in [
+        ("cheap", CHEAP, "records"),
+        ("long", LONG, "checkpoints/0000"),
+    ] {
+        let file = write(&folder, "clock.toml", text);
+        let whole = folder.path().join(format!("{name}-whole"));
+        sweep(&file, &whole, &["--quiet"]).success();
+        let out = folder.path().join(format!("{name}-out"));
+        let mut child = start(&file, &out, &["--checkpoint-every", "0", "--threads", "1"]);
+        wait_for("nothing was written", || newest(&out.join(what)).is_some());
+        signal(&child, "-TERM");
+        assert_eq!(child.wait().unwrap().code(), Some(130));
+        // What a killed process leaves is swept out, however old or young it claims to be.
+        let left_over = leave_half_a_file(&out);
+        set_clock_back_and_forth(&out);
+        let kept = fs::read_dir(out.join("records")).map_or(0, Iterator::count);
+        sweep(&file, &out, &[])
+            .success()
+            .stderr(contains(format!("{kept} of 60 cases were already done")).or(contains("1/1")))
+            .stderr(contains("damaged").not());
+        assert!(!left_over.exists());
+        assert_same(&out, &whole);
+        let run: serde_json::Value =
+            serde_json::from_slice(&fs::read(out.join("run.json")).unwrap()).unwrap();
+        let wall_s = run["wall_time_s"].as_f64().unwrap();
+        assert!((0.0..600.0).contains(&wall_s), "{wall_s}");
+    }
+}
+
+/// Intervals are taken from a clock that cannot jump: the other one is asked in one place, for the stamps of run.json.
+#[test]
+fn the_time_of_day_is_asked_for_stamps_alone() {
+    let mut folders = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join("src")];
+    let mut asking = Vec::new();
+    while let Some(next) = folders.pop() {
+        for entry in fs::read_dir(next).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "rs") {
+                let text = fs::read_to_string(&path).unwrap();
+                let words = [
+                    "SystemTime",
+                    "UNIX_EPOCH",
+                    ".modified()",
+                    ".created()",
+                    ".accessed()",
+                ];
+                if words.iter().any(|word| text.contains(word)) {
+                    asking.push(path.file_name().unwrap().to_owned());
+                }
+            }
+        }
+    }
+    assert_eq!(asking, ["provenance.rs"]);
+}
+
+#[test]
+fn a_damaged_checkpoint_is_passed_over() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "long.toml", LONG);
+    let whole = folder.path().join("whole");
+    sweep(&file, &whole, &["--quiet"]).success();
+    let out = folder.path().join("out");
+    let mut child = start(&file, &out, &["--checkpoint-every", "0"]);
+    let path = out.join("checkpoints/0000/00.cycle");
+    wait_for("no checkpoint was written", || path.exists());
+    signal(&child, "-KILL");
+    child.wait().unwrap();
+    let mut bytes = fs::read(&path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&path, bytes).unwrap();
+    sweep(&file, &out, &["--quiet"]).success();
+    assert_same(&out, &whole);
+}
+
+#[test]
+fn a_termination_is_heard_within_an_instant_of_the_finest_grid() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let out = folder.path().join("out");
+    let cells = ["--set", "solver.engine=\"half-space\"", "--set"];
+    let cells = [&cells[..], &["solver.cells=256"]].concat();
+    let mut child = start(&file, &out, &cells);
+    wait_for("the sweep did not start", || {
+        out.join("resolved.toml").exists()
+    });
+    std::thread::sleep(Duration::from_secs(2));
+    let sent = Instant::now();
+    signal(&child, "-TERM");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(
+        sent.elapsed() < Duration::from_secs(2),
+        "{:?}",
+        sent.elapsed()
+    );
+}
+
+#[test]
+fn a_second_interrupt_ends_the_program_at_once_and_the_next_run_goes_on() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    sweep(&file, &whole, &["--quiet"]).success();
+    let mut child = start(&file, &out, &["--threads", "1"]);
+    let records = out.join("records");
+    wait_for("no case was finished", || {
+        fs::read_dir(&records).map_or(0, Iterator::count) > 2
+    });
+    signal(&child, "-INT");
+    signal(&child, "-INT");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    sweep(&file, &out, &["--quiet"]).success();
+    assert_same(&out, &whole);
+}
+
+#[test]
+fn two_processes_in_one_folder_do_each_other_no_harm() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    sweep(&file, &whole, &["--quiet"]).success();
+    let children: Vec<Child> = (0..3)
+        .map(|_| start(&file, &out, &["--threads", "1"]))
+        .collect();
+    for mut child in children {
+        assert_eq!(child.wait().unwrap().code(), Some(0));
+    }
+    assert_same(&out, &whole);
+}
+
+/// A file system of so many bytes, where this may be mounted; taken away at the end.
+struct Small(PathBuf);
+
+impl Small {
+    fn mount(path: &Path, options: &str) -> Option<Self> {
+        fs::create_dir_all(path).unwrap();
+        let mounted = Process::new("mount")
+            .args(["-t", "tmpfs", "-o", options, "none"])
+            .arg(path)
+            .stderr(Stdio::null())
+            .status();
+        mounted
+            .is_ok_and(|status| status.success())
+            .then(|| Self(path.to_path_buf()))
+    }
+}
+
+impl Drop for Small {
+    fn drop(&mut self) {
+        let _ = Process::new("umount").arg(&self.0).status();
+    }
+}
+
+#[test]
+fn a_full_disk_is_told_and_what_was_whole_before_stays_whole() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let out = folder.path().join("out");
+    let Some(_disk) = Small::mount(&out, "size=200k") else {
+        println!("skipped: no small file system can be mounted here");
+        return;
+    };
+    sweep(&file, &out, &["--quiet"])
+        .code(1)
+        .stderr(contains("cannot write").and(contains("No space left")));
+    let records: Vec<_> = fs::read_dir(out.join("records")).unwrap().collect();
+    assert!(!records.is_empty());
+    for entry in records {
+        let path = entry.unwrap().path();
+        let bytes = fs::read(&path).unwrap();
+        let whole = contact_dma::sweep::store::sealed::unseal(&bytes).is_some();
+        assert!(whole, "{} is half-written", path.display());
+    }
+}
+
+#[test]
+fn folders_that_cannot_be_written_or_are_not_there_are_named() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let out = folder.path().join("out");
+    match Small::mount(&out, "size=200k,ro") {
+        Some(_disk) => {
+            sweep(&file, &out, &["--quiet"])
+                .code(1)
+                .stderr(contains("out/resolved.toml").and(contains("Read-only")));
+        }
+        None => println!("skipped: no read-only file system can be mounted here"),
+    }
+    // A file where the folder of records should be.
+    let blocked = folder.path().join("blocked");
+    fs::create_dir(&blocked).unwrap();
+    fs::write(blocked.join("records"), "").unwrap();
+    sweep(&file, &blocked, &["--quiet"])
+        .code(1)
+        .stderr(contains("blocked/records"));
+    let nowhere = folder.path().join("nowhere");
+    program()
+        .arg("report")
+        .arg(&nowhere)
+        .assert()
+        .code(2)
+        .stderr(contains("nowhere").and(contains("resolved.toml")));
+    program()
+        .arg("merge")
+        .arg(&nowhere)
+        .arg("--out")
+        .arg(&out)
+        .assert()
+        .code(2)
+        .stderr(contains("nowhere"));
+}
+
+#[test]
+fn shards_in_folders_of_their_own_merge_to_the_result_of_one_process() {
+    let folder = TempDir::new().unwrap();
+    let refined = CHEAP
+        .replace("points = 60", "points = 12")
+        .replace("[cycle]", "refine = true\n[cycle]");
+    let file = write(&folder, "cheap.toml", &refined);
+    let whole = folder.path().join("whole");
+    sweep(&file, &whole, &["--quiet"]).success();
+    let part = |k: usize| folder.path().join(format!("part-{k}"));
+    for k in 1..=3 {
+        let shard = format!("{k}/3");
+        sweep(&file, &part(k), &["--shard", &shard])
+            .success()
+            .stdout(contains("4 of 4 cases are done").and(contains("merge")));
+        assert!(part(k).join(format!("run-{k}-of-3.json")).exists());
+    }
+    let out = folder.path().join("out");
+    let merge = |parts: &[usize]| {
+        let mut command = program();
+        command.arg("merge").args(parts.iter().map(|k| part(*k)));
+        command.arg("--out").arg(&out).arg("--quiet").assert()
+    };
+    merge(&[1, 3])
+        .code(1)
+        .stderr(contains("4 of 12 cases are in none of the parts"))
+        .stderr(contains("case 1: ω = "));
+    merge(&[1, 2, 3]).success();
+    assert_same(&out, &whole);
+    sweep(
+        &file,
+        &part(4),
+        &["--quiet", "--shard", "1/3", "--set", "cycle.steps=48"],
+    )
+    .success();
+    merge(&[1, 2, 4])
+        .code(2)
+        .stderr(contains("another sweep").and(contains("+ steps = 48")));
+}
+
+#[test]
+fn shards_in_one_folder_end_with_the_result_of_one_process() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    sweep(&file, &whole, &["--quiet"]).success();
+    sweep(&file, &out, &["--quiet", "--shard", "2/3"]).success();
+    // The same shard twice, and the two others, all at once.
+    let shards = ["1/3", "2/3", "3/3", "3/3"];
+    let children: Vec<Child> = shards
+        .into_iter()
+        .map(|shard| start(&file, &out, &["--shard", shard, "--threads", "1"]))
+        .collect();
+    for mut child in children {
+        assert_eq!(child.wait().unwrap().code(), Some(0));
+    }
+    assert_same(&out, &whole);
+    sweep(&file, &out, &["--shard", "4/3"])
+        .code(2)
+        .stderr(contains("2/8"));
+}
+
+#[test]
+fn tables_and_figures_are_drawn_again_from_records_alone() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    for folder in [&whole, &out] {
+        sweep(&file, folder, &["--quiet"]).success();
+    }
+    for name in [
+        "sweep.csv",
+        "summary.json",
+        "energy-loss.svg",
+        "loops@2x.png",
+    ] {
+        fs::remove_file(out.join(name)).unwrap();
+    }
+    fs::remove_dir_all(out.join("loops")).unwrap();
+    let report = || {
+        let mut command = program();
+        command.arg("report").arg(&out).assert()
+    };
+    report().success().stdout(contains("Peak: "));
+    assert_same(&out, &whole);
+    // Without the losses that locate the peak everything else is drawn, and what the peak takes is said.
+    let peaks = folder.path().join("peaks");
+    fs::rename(out.join("peaks"), &peaks).unwrap();
+    fs::remove_file(out.join("energy-loss.svg")).unwrap();
+    let printed = report().success().get_output().stdout.clone();
+    let printed = String::from_utf8(printed).unwrap();
+    let words = printed.split_whitespace().collect::<Vec<_>>().join(" ");
+    for said in [
+        "Peak not located: losses near ",
+        " have no record in ",
+        "`contact-dma sweep FILE --out ",
+    ] {
+        assert!(words.contains(said), "{printed}");
+    }
+    assert!(!words.contains("nterrupted"), "{printed}");
+    assert!(out.join("energy-loss.svg").exists());
+    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
+    assert!(summary.contains("\"interrupted\": false"), "{summary}");
+    fs::remove_dir_all(out.join("peaks")).unwrap_or_default();
+    fs::rename(&peaks, out.join("peaks")).unwrap();
+    // A record that is gone leaves a gap; nothing is solved for it.
+    fs::remove_file(out.join("records/0005.json")).unwrap();
+    report().code(3).stdout(contains("59 of 60 cases are done"));
+    assert!(!out.join("records/0005.json").exists());
+}
+
+#[test]
+fn more_threads_than_any_machine_has_a_use_for_are_not_started() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let (few, many) = (folder.path().join("few"), folder.path().join("many"));
+    sweep(&file, &few, &["--quiet", "--threads", "1"]).success();
+    sweep(&file, &many, &["--quiet", "--threads", "100000"]).success();
+    assert_same(&few, &many);
+    let run = fs::read(many.join("run.json")).unwrap();
+    let run: serde_json::Value = serde_json::from_slice(&run).unwrap();
+    let processors = std::thread::available_parallelism().unwrap().get();
+    assert_eq!(run["threads"], 4 * processors);
+}
+
+#[test]
+fn pictures_and_run_json_say_where_they_come_from() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let out = folder.path().join("out");
+    sweep(&file, &out, &["--quiet", "--threads", "2"]).success();
+    let json = |name: &str| -> serde_json::Value {
+        serde_json::from_slice(&fs::read(out.join(name)).unwrap()).unwrap()
+    };
+    let (run, summary) = (json("run.json"), json("summary.json"));
+    let hash = summary["sweep_hash"].as_str().unwrap();
+    assert_eq!(run["sweep_hash"], hash);
+    assert_eq!(run["program_version"], env!("CARGO_PKG_VERSION"));
+    assert_eq!(run["build"], contact_dma::sweep::store::provenance::BUILD);
+    assert_eq!(
+        (&run["threads"], &run["cases_computed"]),
+        (&2.into(), &60.into())
+    );
+    assert_eq!(run["engine"], "axisymmetric");
+    for time in ["wall_time_s", "cpu_time_s"] {
+        let time = run[time].as_f64().unwrap();
+        assert!((0.0..600.0).contains(&time));
+    }
+    let started = run["started"].as_str().unwrap();
+    assert!(started.ends_with('Z') && started.len() == 20, "{started}");
+    let svg = fs::read_to_string(out.join("energy-loss.svg")).unwrap();
+    let metadata = format!("sweep sha256 {hash}</metadata>");
+    assert!(svg.contains(&metadata));
+    let png = fs::read(out.join("loops@2x.png")).unwrap();
+    let text = format!("Source\0sweep sha256 {hash}");
+    assert!(
+        png.windows(text.len())
+            .any(|window| window == text.as_bytes())
+    );
+}
+
+#[test]
+fn a_plan_tells_cases_and_cost_and_computes_nothing() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let out = folder.path().join("out");
+    let telling = || {
+        contains("60 cases on 64 springs")
+            .and(contains("Time: about"))
+            .and(contains("Memory: about"))
+            .and(contains("Shards: 1"))
+    };
+    program()
+        .args(["plan", &file])
+        .assert()
+        .success()
+        .stdout(telling());
+    sweep(&file, &out, &["--dry-run"])
+        .success()
+        .stdout(telling());
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_comparison_finds_a_shifted_peak_and_a_missing_case() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "cheap.toml", CHEAP);
+    let baseline = folder.path().join("baseline");
+    sweep(&file, &baseline, &["--quiet"]).success();
+    let compare = |new: &Path, more: &[&str]| {
+        let mut command = program();
+        command.arg("compare").arg(&baseline).arg(new).args(more);
+        command.assert()
+    };
+    let drawn = folder.path().join("drawn");
+    compare(&baseline, &["--out", drawn.to_str().unwrap()])
+        .success()
+        .stdout(contains("60 cases in both").and(contains("are the same")));
+    for name in ["comparison.svg", "comparison.png", "comparison.csv"] {
+        assert!(drawn.join(name).is_file(), "{name}");
+    }
+    // Only the files that a comparison reads, changed in one place.
+    let planted = |name: &str, change: &dyn Fn(&str, String) -> String| {
+        let new = folder.path().join(name);
+        fs::create_dir(&new).unwrap();
+        for file in ["sweep.csv", "summary.json"] {
+            let text = fs::read_to_string(baseline.join(file)).unwrap();
+            fs::write(new.join(file), change(file, text)).unwrap();
+        }
+        new
+    };
+    let shifted = planted("shifted", &|file, text| {
+        if file == "sweep.csv" {
+            return text;
+        }
+        let mut summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let omega = &mut summary["peaks"][0]["angular_frequency_rad_per_s"];
+        *omega = (omega.as_f64().unwrap() * 1.003).into();
+        summary.to_string()
+    });
+    compare(&shifted, &[])
+        .code(4)
+        .stdout(contains("moved by +3.0e-1 %").and(contains("differ")));
+    compare(&shifted, &["--relative", "1e-2"]).success();
+    let missing = planted("missing", &|file, text| {
+        if file != "sweep.csv" {
+            return text;
+        }
+        let lines = text.lines().enumerate().filter(|(line, _)| *line != 7);
+        lines.map(|(_, line)| format!("{line}\n")).collect()
+    });
+    compare(&missing, &[])
+        .code(4)
+        .stdout(contains("1 cases missing in the new result").and(contains("ω = 2.019e-3 rad/s")));
+    compare(&missing.join("sweep.csv"), &[]).code(4);
+    compare(Path::new("/no/such"), &[])
+        .code(2)
+        .stderr(contains("/no/such"));
+    compare(&baseline, &["--relative", "-1"]).code(2);
+    compare(&baseline, &["--tolerance", "nothing=1"])
+        .code(2)
+        .stderr(contains("no column nothing"));
+}
+
+#[test]
+fn a_sweep_that_was_moved_with_its_data_and_renamed_goes_on() {
+    let folder = TempDir::new().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let sweep = |file: &str, data: &str| {
+        let text = CHEAP
+            .replace(
+                "shape = \"sphere\"\nradius = \"10 mm\"",
+                "shape = \"profile\"\nfile = \"DATA\"",
+            )
+            .replace("points = 60", "points = 3")
+            .replace("DATA", data);
+        fs::write(at(file), text).unwrap();
+    };
+    let run = |file: &str, out: &str| {
+        let mut command = program();
+        command
+            .args(["sweep", "--quiet"])
+            .arg(at(file))
+            .arg("--out")
+            .arg(at(out));
+        command.assert()
+    };
+    let found = |out: &str| {
+        let text = fs::read_to_string(at(out).join("run.json")).unwrap();
+        let run: serde_json::Value = serde_json::from_str(&text).unwrap();
+        (run["cases_computed"].as_u64(), run["cases_found"].as_u64())
+    };
+    fs::create_dir(at("here")).unwrap();
+    let tip = "r_m,gap_m\n0,0\n1e-3,5e-5\n2e-3,2e-4\n4e-3,8e-4\n";
+    fs::write(at("here/tip.csv"), tip).unwrap();
+    sweep("here/sweep.toml", "tip.csv");
+    run("here/sweep.toml", "here/out").success();
+    assert_eq!(found("here/out"), (Some(3), Some(0)));
+
+    fs::rename(at("here"), at("there")).unwrap();
+    fs::rename(at("there/tip.csv"), at("there/point.csv")).unwrap();
+    fs::remove_file(at("there/sweep.toml")).unwrap();
+    sweep("there/other.toml", "point.csv");
+    run("there/other.toml", "there/out").success();
+    assert_eq!(found("there/out"), (Some(0), Some(3)));
+    // The folder knows where the data lie now.
+    program()
+        .arg("report")
+        .arg(at("there/out"))
+        .assert()
+        .success();
+
+    fs::write(at("there/point.csv"), tip.replace("8e-4", "9e-4")).unwrap();
+    run("there/other.toml", "there/out")
+        .code(2)
+        .stderr(contains("sha256"));
+}

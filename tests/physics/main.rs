@@ -1,0 +1,23 @@
+//! What the library computes: contact, cycles, histories, error bars, against closed forms, the other engine and refinement.
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod contact_shape;
+mod direct_cycle;
+mod elastic_contact;
+mod energy_balance;
+mod error_bars;
+mod half_space_work;
+mod instant_tolerance;
+mod pmma_baseline;
+mod pressure_profiles;
+mod quarter;
+mod random_solids;
+mod recontact;
+mod shapes;
+mod simulate_errors;
+mod steady_cycle;
+mod transient_contact;
+mod two_engines;
+mod units;

@@ -1,0 +1,236 @@
+//! The map of rooms in the crate documentation, held to: a room uses those above it, never those below.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Rooms from top to bottom.
+const ROOMS: [&str; 15] = [
+    "quantity",
+    "material",
+    "indenter",
+    "drive",
+    "contact",
+    "history",
+    "cycle",
+    "steady",
+    "reference",
+    "sweep",
+    "input",
+    "report",
+    "reproduction",
+    "cli",
+    "guide",
+];
+
+/// Folders of the room `sweep` from top to bottom.
+const SWEEP: [&str; 10] = [
+    "figures", "plan", "record", "engine", "store", "case", "history", "scales", "share", "search",
+];
+
+/// Parts of the room `report` from top to bottom.
+const REPORT: [&str; 26] = [
+    "number",
+    "words",
+    "peaks",
+    "work_line",
+    "profile_lines",
+    "table",
+    "quantities",
+    "fit",
+    "dynamic",
+    "samples",
+    "caption",
+    "comparison",
+    "npy",
+    "vti",
+    "stamp",
+    "chart",
+    "figure",
+    "material",
+    "page",
+    "summary",
+    "machine",
+    "terminal",
+    "terminal_simulation",
+    "scenario",
+    "fonts",
+    "mod",
+];
+
+/// Rooms that do not know one another, although one stands above the other.
+const STRANGERS: [&str; 5] = ["material", "indenter", "drive", "contact", "cycle"];
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// Production code: what stands before the unit tests, without comments.
+fn production(text: &str) -> String {
+    let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or("");
+    let lines = code.lines().filter(|l| !l.trim_start().starts_with("//"));
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// Rooms named as `crate::room` in the code.
+fn rooms_used(code: &str) -> Vec<&'static str> {
+    used(code, "crate::", &ROOMS)
+}
+
+/// Those of these names that the code has behind this prefix.
+fn used(code: &str, prefix: &str, names: &[&'static str]) -> Vec<&'static str> {
+    let named = |name: &&&str| {
+        code.match_indices(&format!("{prefix}{name}"))
+            .any(|(at, found)| {
+                let next = code[at + found.len()..].chars().next();
+                !next.is_some_and(|c| c.is_alphanumeric() || c == '_')
+            })
+    };
+    names.iter().filter(named).copied().collect()
+}
+
+fn rooms() -> Vec<(usize, PathBuf, Vec<&'static str>)> {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut all = Vec::new();
+    for path in sources(&src) {
+        let inside = path.strip_prefix(&src).unwrap();
+        let first = inside.components().next().unwrap().as_os_str();
+        let name = first.to_str().unwrap().trim_end_matches(".rs");
+        if let Some(room) = ROOMS.iter().position(|r| *r == name) {
+            let code = production(&fs::read_to_string(&path).unwrap());
+            all.push((room, inside.to_path_buf(), rooms_used(&code)));
+        } else {
+            assert!(
+                ["build", "lib", "main"].contains(&name),
+                "{name} is not on the map"
+            );
+        }
+    }
+    assert!(all.len() > 40, "the sources were not found");
+    all
+}
+
+#[test]
+fn a_room_uses_only_rooms_above_it() {
+    for (room, file, used) in rooms() {
+        for name in used {
+            let other = ROOMS.iter().position(|r| *r == name).unwrap();
+            assert!(
+                other <= room,
+                "{} uses {name}, which is below it",
+                file.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_folder_of_the_sweep_uses_only_folders_above_it() {
+    let sweep = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/sweep");
+    let mut seen = 0;
+    for path in sources(&sweep) {
+        let inside = path.strip_prefix(&sweep).unwrap();
+        let folder = inside.components().next().unwrap().as_os_str();
+        let Some(own) = SWEEP.iter().position(|name| *name == folder) else {
+            assert_eq!(inside, Path::new("mod.rs"), "not on the map");
+            continue;
+        };
+        seen += 1;
+        let code = production(&fs::read_to_string(&path).unwrap());
+        assert!(!code.contains("sweep::{"), "{}", inside.display());
+        for name in used(&code, "crate::sweep::", &SWEEP) {
+            let other = SWEEP.iter().position(|folder| *folder == name).unwrap();
+            assert!(
+                other <= own,
+                "{} uses {name}, which is below it",
+                inside.display()
+            );
+        }
+    }
+    assert!(seen > 20, "the sources were not found");
+}
+
+#[test]
+fn a_part_of_the_report_uses_only_parts_above_it() {
+    let report = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/report");
+    let mut seen = 0;
+    for path in sources(&report) {
+        let inside = path.strip_prefix(&report).unwrap();
+        let first = inside.components().next().unwrap().as_os_str();
+        let name = first.to_str().unwrap().trim_end_matches(".rs");
+        let own = REPORT.iter().position(|part| *part == name);
+        let own = own.unwrap_or_else(|| panic!("{} is not on the map", inside.display()));
+        seen += 1;
+        let code = production(&fs::read_to_string(&path).unwrap());
+        let mut parts = used(&code, "crate::report::", &REPORT);
+        let is_a_whole_part = inside.components().count() == 1;
+        if is_a_whole_part && name != "mod" {
+            assert!(!code.contains("use super::{"), "{}", inside.display());
+            parts.extend(used(&code, "super::", &REPORT));
+        }
+        assert!(!code.contains("report::{"), "{}", inside.display());
+        for part in parts {
+            let other = REPORT.iter().position(|p| *p == part).unwrap();
+            // Pictures that are being written are kept for the page.
+            let kept = inside == Path::new("figure/press.rs") && part == "page";
+            assert!(
+                other <= own || kept,
+                "{} uses {part}, which is below it",
+                inside.display()
+            );
+        }
+    }
+    assert!(seen > 60, "the sources were not found");
+}
+
+#[test]
+fn material_indenter_drive_contact_and_cycle_do_not_know_one_another() {
+    for (room, file, used) in rooms() {
+        if STRANGERS.contains(&ROOMS[room]) {
+            for name in used {
+                let stranger = STRANGERS.contains(&name) && name != ROOMS[room];
+                assert!(!stranger, "{} uses {name}", file.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn no_production_code_rests_on_the_reference_solutions() {
+    for (room, file, used) in rooms() {
+        // The reproduction of the base paper draws closed forms as lines and compares with them.
+        let own = ["reference", "reproduction"].contains(&ROOMS[room]);
+        assert!(own || !used.contains(&"reference"), "{}", file.display());
+    }
+}
+
+#[test]
+fn every_source_file_opens_by_saying_what_it_is_for() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for path in sources(&src) {
+        let text = fs::read_to_string(&path).unwrap();
+        let first = text.lines().next().unwrap_or("");
+        assert!(first.starts_with("//! "), "{}", path.display());
+        assert!(first.len() > 20, "{}", path.display());
+    }
+}
+
+#[test]
+fn only_the_command_line_knows_flags() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for path in sources(&src) {
+        let code = production(&fs::read_to_string(&path).unwrap());
+        let inside = path.strip_prefix(&src).unwrap();
+        if !inside.starts_with("cli") {
+            assert!(!code.contains("clap"), "{}", inside.display());
+        }
+    }
+}

@@ -1,0 +1,261 @@
+//! The identity of a build: what changes it, and what must not.
+
+#[path = "../../src/build.rs"]
+mod build;
+
+use std::fs;
+use std::path::Path;
+
+use contact_dma::input::document::Document;
+use contact_dma::input::sweep_file;
+use contact_dma::sweep::plan::SweepPlan;
+use contact_dma::sweep::plan::resolved;
+use contact_dma::sweep::store::provenance::BUILD;
+use tempfile::TempDir;
+
+fn copy(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let path = entry.unwrap().path();
+        let target = to.join(path.file_name().unwrap());
+        if path.is_dir() {
+            copy(&path, &target);
+        } else {
+            fs::copy(&path, target).unwrap();
+        }
+    }
+}
+
+/// The sources somewhere else, and how to change one of them.
+struct Sources(TempDir);
+
+impl Sources {
+    fn new() -> Self {
+        let folder = TempDir::new().unwrap();
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        copy(&root.join("src"), &folder.path().join("src"));
+        fs::copy(root.join("Cargo.lock"), folder.path().join("Cargo.lock")).unwrap();
+        Self(folder)
+    }
+
+    fn identity(&self) -> String {
+        build::identity(self.0.path()).unwrap()
+    }
+
+    /// The identity with a file changed; the file is then as before.
+    fn with(&self, name: &str, change: impl Fn(&str) -> String) -> String {
+        let path = self.0.path().join(name);
+        let text = fs::read_to_string(&path).unwrap();
+        let changed = change(&text);
+        assert!(changed != text, "{name}: nothing was changed");
+        fs::write(&path, changed).unwrap();
+        let identity = self.identity();
+        fs::write(&path, text).unwrap();
+        identity
+    }
+}
+
+/// What is before the line of this package's version in a lock file, with another version behind it.
+fn with_version_of<'a>(package: &'a str) -> impl Fn(&str) -> String + 'a {
+    move |lock| {
+        let line = format!("name = \"{package}\"\nversion = \"");
+        lock.replace(&line, &format!("{line}9"))
+    }
+}
+
+#[test]
+fn the_same_sources_have_the_same_identity_wherever_they_lie() {
+    let sources = Sources::new();
+    assert_eq!(sources.identity(), BUILD);
+    assert!(BUILD.len() == 64 && BUILD.bytes().all(|b| b.is_ascii_hexdigit()));
+}
+
+#[test]
+fn what_makes_no_number_changes_nothing() {
+    let sources = Sources::new();
+    let engine = "src/contact/axisymmetric.rs";
+    let same = [
+        sources.with(engine, |text| text.replace('\n', "\r\n")),
+        sources.with(engine, |text| format!("//! More to read.\n\n{text}")),
+        sources.with(engine, |text| {
+            text.replace("    /// Position", "    /// The position")
+        }),
+        sources.with("src/history/direct.rs", |text| {
+            format!("{text}\n#[test]\nfn more() {{}}\n")
+        }),
+        sources.with("src/report/quantities.rs", |text| {
+            text.replace("energy loss", "work")
+        }),
+        sources.with("src/cli/sweep.rs", |text| {
+            format!("{text}// more\nconst A: u8 = 1;\n")
+        }),
+        sources.with("src/sweep/figures/figure_plan.rs", |text| {
+            text.replace("FONT_SIZE_PT: f64 = 8.0", "FONT_SIZE_PT: f64 = 9.0")
+        }),
+        sources.with("src/sweep/store/mod.rs", |text| {
+            text.replace("cannot", "can not")
+        }),
+        sources.with("Cargo.lock", with_version_of("clap")),
+    ];
+    for (which, identity) in same.iter().enumerate() {
+        assert_eq!(identity, BUILD, "{which}");
+    }
+}
+
+#[test]
+fn whatever_may_make_another_number_makes_another_identity() {
+    let sources = Sources::new();
+    let mut others = vec![
+        sources.with("src/contact/axisymmetric.rs", |text| {
+            text.replace("0.5 * (", "0.6 * (")
+        }),
+        sources.with("src/quantity.rs", |text| {
+            text.replace("fn parse", "fn parse_it")
+        }),
+        sources.with("src/sweep/record/mod.rs", |text| {
+            text.replace("pub steps", "pub the_steps")
+        }),
+        sources.with("src/steady/iteration.rs", |text| {
+            text.replace("DEPTH: usize = 8", "DEPTH: usize = 9")
+        }),
+        sources.with("Cargo.lock", with_version_of("rustfft")),
+    ];
+    fs::write(sources.0.path().join("src/history/more.rs"), "fn f() {}\n").unwrap();
+    others.push(sources.identity());
+    others.push(BUILD.to_owned());
+    others.sort();
+    others.dedup();
+    assert_eq!(others.len(), 7);
+}
+
+/// A sweep in which every key has a value that may be changed alone.
+const SWEEP: &str = r#"title = "every key"
+[material]
+name = "a"
+poisson_ratio = 0.4
+measured = ["1 ms", "1000 s"]
+[material.relaxation]
+modulus = "shear"
+equilibrium = "1 MPa"
+branches = [{ modulus = "2 MPa", time = "1 s" }]
+replicas = [{ equilibrium = "1.1 MPa", moduli = ["1.9 MPa"], times = ["1 s"] }]
+[[material.alternative]]
+equilibrium = "2 MPa"
+branches = [{ modulus = "1 MPa", time = "1 s" }]
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+control = "load"
+mean = "10 N"
+amplitude = "5 N"
+phase = "0 deg"
+hold = "0 s"
+[sweep]
+frequency = ["1 Hz", "2 Hz"]
+refine = false
+[cycle]
+steps = 200
+method = "direct"
+tolerance = 1e-4
+max_cycles = 1000
+error_bars = true
+accuracy = 1e-2
+[solver]
+engine = "axisymmetric"
+cells = 128
+springs = 400
+time_rule = "linear"
+tolerance = 1e-9
+"#;
+
+/// What each key may be changed to.
+const CHANGES: &[&str] = &[
+    "title=b",
+    "material.name=b",
+    "material.poisson_ratio=0.41",
+    "material.measured=[\"1 ms\", \"1001 s\"]",
+    "material.relaxation.modulus=longitudinal",
+    "material.relaxation.equilibrium=1.1 MPa",
+    "material.relaxation.branches=[{ modulus = \"2.1 MPa\", time = \"1 s\" }]",
+    "material.relaxation.branches=[{ modulus = \"2 MPa\", time = \"1.1 s\" }]",
+    "material.relaxation.replicas=[{ equilibrium = \"1.1 MPa\", moduli = [\"1.8 MPa\"], times = [\"1 s\"] }]",
+    "material.alternative=[{ equilibrium = \"2.1 MPa\", branches = [{ modulus = \"1 MPa\", time = \"1 s\" }] }]",
+    "indenter.shape=flat-punch",
+    "indenter.radius=11 mm",
+    "drive.control=approach",
+    "drive.mean=11 N",
+    "drive.amplitude=4 N",
+    "drive.phase=1 deg",
+    "drive.hold=1 s",
+    "sweep.frequency=[\"1 Hz\", \"2.1 Hz\"]",
+    "sweep.drive.amplitude=[\"1 N\", \"2 N\"]",
+    "sweep.refine=true",
+    "cycle.steps=204",
+    "cycle.method=march",
+    "cycle.tolerance=1e-5",
+    "cycle.max_cycles=999",
+    "cycle.error_bars=false",
+    "cycle.accuracy=2e-2",
+    "solver.engine=half-space",
+    "solver.cells=64",
+    "solver.springs=300",
+    "solver.time_rule=constant",
+    "solver.tolerance=1e-10",
+];
+
+fn plan_with(changes: &[&str]) -> SweepPlan {
+    let mut document = Document::parse("every-key.toml", SWEEP).ok().unwrap();
+    for change in changes {
+        document.set(change).ok().unwrap();
+    }
+    sweep_file::plan(&document).unwrap_or_else(|why| panic!("{changes:?}: {why}"))
+}
+
+#[test]
+fn every_key_of_a_sweep_makes_another_sweep_and_the_look_of_its_figures_does_not() {
+    let identity = |plan: &SweepPlan| resolved::hash(&resolved::resolved_text(plan));
+    let base = plan_with(&[]);
+    let mut seen = vec![identity(&base)];
+    for change in CHANGES {
+        // What a key excludes is taken away with it.
+        let changes = match *change {
+            "drive.control=approach" => vec![*change, "drive.mean=10 um", "drive.amplitude=5 um"],
+            change => vec![change],
+        };
+        let plan = plan_with(&changes);
+        assert_ne!(
+            format!("{plan:?}"),
+            format!("{base:?}"),
+            "{change}: the same plan"
+        );
+        let found = identity(&plan);
+        assert!(!seen.contains(&found), "{change}: the same sweep");
+        seen.push(found);
+    }
+    let looks = [
+        "figures.width=90 mm",
+        "figures.titles=false",
+        "figures.axes=normalised",
+    ];
+    for look in looks {
+        assert_eq!(identity(&plan_with(&[look])), seen[0], "{look}");
+    }
+}
+
+#[test]
+fn what_an_indenter_is_read_from_may_lie_anywhere() {
+    let text = "[indenter]\nshape = \"map\"\nfile = \"/a/b.csv\"\nsha256 = \"12\"\nheight_unit = \"1 m\"\n";
+    let moved = text.replace("/a/b", "/c/d");
+    assert_eq!(resolved::hash(text), resolved::hash(&moved));
+    assert_ne!(
+        resolved::hash(text),
+        resolved::hash(&text.replace("12", "13"))
+    );
+    // A line that only looks like one counts.
+    let title = "title = \"\"\"\nfile = 1\n\"\"\"\n";
+    assert_ne!(
+        resolved::hash(title),
+        resolved::hash(&title.replace('1', "2"))
+    );
+}

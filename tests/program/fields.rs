@@ -1,0 +1,312 @@
+//! Fields of the axisymmetric engine: its radius revolved onto cells, against the half-space engine and closed forms.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::sync::atomic::AtomicBool;
+
+use crate::program::{program, write};
+use contact_dma::contact::surface::{CellSurface, Surface};
+use contact_dma::input::document::Document;
+use contact_dma::input::scenario_file;
+use contact_dma::reference::elastic::Hertz;
+use contact_dma::sweep::history::{Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord};
+use tempfile::TempDir;
+
+const ZENER: &str = "title = \"fields\"\n[material]\npoisson_ratio = 0.5\n[material.zener]\nspring = \"1 MPa\"\n\
+                     kelvin_spring = \"1 MPa\"\ntime = \"10 s\"\n";
+const SPHERE: &str = "[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n";
+const DRIVE: &str = "[drive]\nsegments = [{ kind = \"step\", to = \"1 N\", duration = \"20 s\" }, { kind = \"ramp\", to = \
+                     \"0.3 N\", duration = \"10 s\" }]\n[time]\nstep = \"0.5 s\"\n";
+
+fn run(text: &str) -> SimulationOutcome {
+    let document = Document::parse("scenario.toml", text).unwrap();
+    let plan = scenario_file::plan(&document).unwrap_or_else(|e| panic!("{e}"));
+    let simulation = Simulation::new(plan).unwrap();
+    let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});
+    assert_eq!(outcome.ended, SimulationEnd::Done);
+    outcome
+}
+
+fn cells(record: &SurfaceRecord) -> &CellSurface {
+    match &record.surface {
+        Surface::Cells(cells) => cells,
+        Surface::Radial(_) => panic!("no field"),
+    }
+}
+
+/// Both engines on the same cells: (axisymmetric, half-space) at every time asked for.
+fn both(indenter: &str, drive: &str, times: &str, cells: usize) -> [SimulationOutcome; 2] {
+    let fields = format!("[output]\nfields_at = {times}\n");
+    let springs = format!("{ZENER}{indenter}{drive}{fields}field_cells = {cells}\n");
+    let solver = format!("[solver]\nengine = \"half-space\"\ncells = {cells}\n");
+    [
+        run(&springs),
+        run(&format!("{ZENER}{indenter}{drive}{fields}{solver}")),
+    ]
+}
+
+/// Root mean square difference of two fields over the root mean square of the second.
+fn apart(one: &[f64], other: &[f64]) -> f64 {
+    let pairs = one.iter().zip(other);
+    let difference: f64 = pairs.map(|(a, b)| (a - b).powi(2)).sum();
+    (difference / other.iter().map(|b| b * b).sum::<f64>()).sqrt()
+}
+
+#[test]
+fn the_fields_of_a_sphere_are_those_of_the_half_space_engine_on_the_same_cells() {
+    let times = "[\"0 s\", \"20 s\", \"30 s\"]";
+    let [springs, grid] = both(SPHERE, DRIVE, times, 64);
+    assert_eq!(springs.fields.len(), 3);
+    for (a, b) in springs.fields.iter().zip(&grid.fields) {
+        let approach_m = b.row.approach_m.unwrap();
+        let (gap_a, gap_b) = (a.gap_m.as_ref().unwrap(), b.gap_m.as_ref().unwrap());
+        let (a, b) = (cells(a), cells(b));
+        assert_eq!(a.grid, b.grid);
+        let (pressure, displacement) = (
+            apart(&a.pressure_pa, &b.pressure_pa),
+            apart(&a.displacement_m, &b.displacement_m),
+        );
+        let gap = gap_a.iter().zip(gap_b).map(|(a, b)| (a - b).abs());
+        let gap = gap.fold(0.0, f64::max) / approach_m;
+        println!("pressure {pressure:.1e}, displacement {displacement:.1e}, gap {gap:.1e}");
+        // Forty to sixty cells across the contact. The pressure of the cells that straddle the edge is of first order.
+        assert!(pressure < 0.02, "{pressure:e}");
+        assert!(displacement < 3e-4, "{displacement:e}");
+        assert!(gap < 1e-3, "{gap:e}");
+    }
+}
+
+#[test]
+fn the_first_field_of_a_sphere_is_that_of_hertz_at_every_cell() {
+    let output = "[output]\nfields_at = [0]\nfield_cells = 31\n";
+    let drive = "[drive]\nsegments = [{ kind = \"step\", to = \"1 N\", duration = \"1 s\" }]\n";
+    let outcome = run(&format!("{ZENER}{SPHERE}{drive}{output}"));
+    let hertz = Hertz {
+        radius_m: 0.01,
+        load_n: 1.0,
+        compliance_per_pa: 2.5e-7,
+    };
+    let field = cells(&outcome.fields[0]);
+    assert_eq!(field.grid.cells(), 31 * 31);
+    let (mut outside, mut inside) = (0, 0);
+    for (cell, u_m) in field.displacement_m.iter().enumerate() {
+        let (x_m, y_m) = field.grid.center(cell);
+        let r_m = x_m.hypot(y_m);
+        // Springs of second order in 1/400.
+        let off = u_m / hertz.displacement_m(r_m) - 1.0;
+        assert!(off.abs() < 2e-5, "{r_m:e}: {off:e}");
+        let (found, exact) = (field.pressure_pa[cell], hertz.pressure_pa(r_m));
+        if exact == 0.0 {
+            assert_eq!(found, 0.0);
+            outside += 1;
+        } else {
+            // Of second order but at the very edge.
+            assert!((found - exact).abs() < 2e-3 * hertz.peak_pressure_pa());
+            inside += 1;
+        }
+    }
+    assert!(inside > 100 && outside > 100, "{inside} {outside}");
+}
+
+#[test]
+fn the_cell_about_an_apex_has_its_mean_pressure_and_the_others_that_of_the_half_space_engine() {
+    let cone = "[indenter]\nshape = \"cone\"\nhalf_angle = \"80 deg\"\n";
+    let drive = "[drive]\nsegments = [{ kind = \"step\", to = \"1 N\", duration = \"5 s\" }]\n";
+    // An odd number of cells puts one on the apex.
+    let [springs, grid] = both(cone, drive, "[0]", 49);
+    let (a, b) = (cells(&springs.fields[0]), cells(&grid.fields[0]));
+    assert_eq!(a.grid, b.grid);
+    // Cells of a singular pressure: the apex of the half-space engine is 14 % too high.
+    let pressure = apart(&a.pressure_pa, &b.pressure_pa);
+    assert!(pressure < 0.04, "{pressure:e}");
+    // Sneddon: p = cot(alpha) acosh(a/r) / (2 C), over a cell by a midpoint rule that does not meet r = 0.
+    let radius_m = springs.fields[0].row.contact_radius_m;
+    let factor = 1.0 / 80_f64.to_radians().tan() / 2.0 / 2.5e-7;
+    let points = 200;
+    let side_m = a.grid.spacing_x_m();
+    let at = |k: usize| side_m * ((k as f64 + 0.5) / points as f64 - 0.5);
+    let values = (0..points * points).map(|k| {
+        let r_m = at(k / points).hypot(at(k % points));
+        factor * (radius_m / r_m).acosh()
+    });
+    let mean = values.sum::<f64>() / (points * points) as f64;
+    let off = a.pressure_pa[a.grid.cells() / 2] / mean - 1.0;
+    // A square for a disc: 0.3 %.
+    assert!(off.abs() < 5e-3, "{off:e}");
+}
+
+#[test]
+fn under_a_flat_punch_the_revolved_pressure_is_finite_and_that_of_the_half_space_engine_away_from_the_rim()
+ {
+    let punch = "[indenter]\nshape = \"flat-punch\"\nradius = \"1 mm\"\n";
+    let drive = "[drive]\nsegments = [{ kind = \"step\", to = \"1 N\", duration = \"5 s\" }]\n";
+    let [springs, grid] = both(punch, drive, "[\"5 s\"]", 48);
+    let (a, b) = (cells(&springs.fields[0]), cells(&grid.fields[0]));
+    assert_eq!(a.grid, b.grid);
+    for (cell, p) in a.pressure_pa.iter().enumerate() {
+        let (x_m, y_m) = a.grid.center(cell);
+        assert!(p.is_finite());
+        if x_m.hypot(y_m) < 0.8e-3 {
+            // The staircase of the rim makes the punch of cells wider or narrower by a part of a cell, 1/22 of the radius.
+            assert!((p / b.pressure_pa[cell] - 1.0).abs() < 0.03);
+        }
+    }
+}
+
+#[test]
+fn a_field_out_of_contact_is_the_recovering_surface_and_an_infinite_gap_is_one_without_indenter() {
+    let drive = "[drive]\nsegments = [{ kind = \"step\", to = \"1 N\", duration = \"20 s\" }, { kind = \"step\", to = 0, \
+                 duration = \"20 s\" }]\n";
+    let [springs, grid] = both(SPHERE, drive, "[\"30 s\"]", 48);
+    let (a, b) = (&springs.fields[0], &grid.fields[0]);
+    assert!(a.gap_m.is_none() && b.gap_m.is_none());
+    let (a, b) = (cells(a), cells(b));
+    assert!(a.pressure_pa.iter().all(|&p| p == 0.0));
+    let displacement = apart(&a.displacement_m, &b.displacement_m);
+    // Forty-four cells across the dent.
+    assert!(displacement < 1e-3, "{displacement:e}");
+    assert!(a.displacement_m.iter().all(|&u| u > 0.0));
+}
+
+#[test]
+fn the_program_writes_revolved_fields_as_it_does_cells() {
+    let folder = TempDir::new().unwrap();
+    let output = "[output]\nfields_at = [\"0 s\", \"30 s\"]\nprofiles_at = [\"30 s\"]\n";
+    let file = write(
+        &folder,
+        "fields.toml",
+        &format!("{ZENER}{SPHERE}{DRIVE}{output}"),
+    );
+    let out = folder.path().join("out");
+    let simulate = |arguments: &[&str]| {
+        program()
+            .args(["simulate", &file, "--quiet", "--force", "--out"])
+            .arg(&out)
+            .args(arguments)
+            .assert()
+            .success();
+    };
+    simulate(&[]);
+    let values = |name: &str| -> Vec<f64> {
+        let bytes = fs::read(out.join(name)).unwrap();
+        let header = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+        let doubles = bytes[header..].chunks_exact(8);
+        doubles
+            .map(|b| f64::from_le_bytes(b.try_into().unwrap()))
+            .collect()
+    };
+    // 128 cells per side unless asked otherwise.
+    let pressure = values("fields/0-pressure_pa.npy");
+    assert_eq!(pressure.len(), 128 * 128);
+    let index = fs::read_to_string(out.join("fields/index.csv")).unwrap();
+    let spacing: f64 = index
+        .lines()
+        .nth(1)
+        .unwrap()
+        .split(',')
+        .nth(7)
+        .unwrap()
+        .parse()
+        .unwrap();
+    let load_n = pressure.iter().sum::<f64>() * spacing * spacing;
+    // The sum over 116 cells across the contact.
+    assert!((load_n - 1.0).abs() < 1e-3, "{load_n}");
+    for name in [
+        "fields/1.vti",
+        "fields/1-gap_m.npy",
+        "fields/1-displacement_m.npy",
+        "pressure-map.svg",
+        "profiles/0.csv",
+    ] {
+        assert!(out.join(name).is_file(), "{name} is missing");
+    }
+    let profile = fs::read_to_string(out.join("profiles/0.csv")).unwrap();
+    assert!(
+        profile.starts_with("radius_m,"),
+        "profiles stay along the radius"
+    );
+    let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
+    assert!(resolved.contains("field_cells = 128"));
+    simulate(&["--set", "output.field_cells=20"]);
+    assert_eq!(values("fields/0-pressure_pa.npy").len(), 400);
+}
+
+/// Rows of a CSV file as (column name, text).
+fn table(text: &str) -> Vec<std::collections::HashMap<String, String>> {
+    let rows = csv::Reader::from_reader(text.as_bytes());
+    rows.into_deserialize().map(|row| row.unwrap()).collect()
+}
+
+#[test]
+fn profiles_hold_pressure_gap_and_displacement_along_a_radius_or_lines_at_the_times_asked_for() {
+    let folder = TempDir::new().unwrap();
+    let output = "[output]\nprofiles_at = [\"20 s\", 0, \"25 s\"]\n";
+    let file = write(
+        &folder,
+        "profiles.toml",
+        &format!("{ZENER}{SPHERE}{DRIVE}{output}"),
+    );
+    let hertz = Hertz {
+        radius_m: 0.01,
+        load_n: 1.0,
+        compliance_per_pa: 2.5e-7,
+    };
+    let peak_pa = hertz.peak_pressure_pa();
+    // 64 cells: the pressure next to the edge is of first order.
+    for (engine, column, at_edge) in [
+        ("axisymmetric", "radius_m", 0.02),
+        ("half-space", "position_m", 0.1),
+    ] {
+        let out = folder.path().join(engine);
+        program()
+            .args(["simulate", &file, "--quiet", "--set", "solver.cells=64"])
+            .args(["--set", &format!("solver.engine={engine}"), "--out"])
+            .arg(&out)
+            .assert()
+            .success();
+        let read =
+            |name: &str| table(&fs::read_to_string(out.join("profiles").join(name)).unwrap());
+        let times: Vec<f64> = read("index.csv")
+            .iter()
+            .map(|r| r["time_s"].parse().unwrap())
+            .collect();
+        assert_eq!(times, [20.0, 0.0, 25.0]);
+        // At the first moment the contact is elastic.
+        let approach_m: f64 = read("index.csv")[1]["approach_m"].parse().unwrap();
+        assert!((approach_m / hertz.approach_m() - 1.0).abs() < 1e-3);
+        let rows = read("1.csv");
+        assert!(rows.len() > 100);
+        for row in &rows {
+            let value = |name: &str| row[name].parse::<f64>().unwrap();
+            // Lines of an even grid run half a cell beside the centre: along two rows whose mean is given.
+            let r_m = value(column).abs();
+            let near_edge = (r_m / hertz.contact_radius_m() - 1.0).abs() < 0.07;
+            let off_pa = (value("pressure_pa") - hertz.pressure_pa(r_m)).abs() / peak_pa;
+            assert!(
+                off_pa < if near_edge { at_edge } else { 5e-3 },
+                "{r_m:e}: {off_pa:e}"
+            );
+            let off_m = value("displacement_m") - hertz.displacement_m(r_m);
+            assert!(off_m.abs() < 2e-3 * approach_m, "{r_m:e}: {off_m:e}");
+            let gap_m = r_m * r_m / 0.02 + hertz.displacement_m(r_m) - hertz.approach_m();
+            assert!(
+                (value("gap_m") - gap_m).abs() < 3e-3 * approach_m,
+                "{r_m:e}"
+            );
+        }
+        // Held, the contact has crept; unloading, it presses less.
+        let middle = |name: &str| {
+            let rows = read(name);
+            let least = |row: &std::collections::HashMap<String, String>| {
+                row[column].parse::<f64>().unwrap().abs()
+            };
+            let row = rows
+                .iter()
+                .min_by(|a, b| least(a).total_cmp(&least(b)))
+                .unwrap();
+            row["displacement_m"].parse::<f64>().unwrap()
+        };
+        assert!(middle("0.csv") > 1.3 * middle("1.csv") && middle("2.csv") < middle("0.csv"));
+    }
+}

@@ -1,0 +1,490 @@
+//! What is said of the keys of input files, in the schemas, in the guide, in the words of the fuzzer, is what the table of keys says;
+//! and every key comes back in the resolved file. `RENEW=1 cargo test --test program input_keys` writes the files that follow from the
+//! table.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::program::{pmma_sweep, program};
+use contact_dma::input::document::Document;
+use contact_dma::input::keys::{self, FileKind};
+use contact_dma::input::{key_reference, scenario_file, schema, sweep_file};
+use contact_dma::sweep::plan::resolved::{identity, resolved_text};
+use contact_dma::sweep::plan::scenario;
+use tempfile::TempDir;
+use toml::Value;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// Holds a file to what it should be, or writes that.
+fn assert_current(file: &str, expected: &str) {
+    let path = root().join(file);
+    if std::env::var_os("RENEW").is_some() {
+        fs::write(&path, expected).unwrap();
+    }
+    let found = fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        found == expected,
+        "{file} is stale: RENEW=1 cargo test --test program input_keys writes it anew"
+    );
+}
+
+/// A text with other content between two markers.
+fn between(text: &str, begin: &str, end: &str, content: &str) -> String {
+    let (head, rest) = text.split_once(begin).unwrap();
+    let (_, tail) = rest.split_once(end).unwrap();
+    format!("{head}{begin}{content}{end}{tail}")
+}
+
+#[test]
+fn the_committed_schemas_are_what_the_command_prints() {
+    for (name, kind) in FileKind::NAMES {
+        let printed = program()
+            .args(["schema", "--kind", name])
+            .assert()
+            .success();
+        let printed = String::from_utf8(printed.get_output().stdout.clone()).unwrap();
+        assert_eq!(printed, schema::text(kind));
+        assert_current(&format!("sweeps/schema/{name}.json"), &printed);
+    }
+    program()
+        .args(["schema", "--kind", "sweeps"])
+        .assert()
+        .code(2);
+}
+
+#[test]
+fn the_key_reference_of_the_guide_is_that_of_the_table() {
+    let file = "src/guide/input_files.md";
+    let text = fs::read_to_string(root().join(file)).unwrap();
+    let (begin, end) = ("<!-- keys: begin -->\n", "<!-- keys: end -->");
+    let reference = format!("\n{}", key_reference::markdown());
+    assert_current(file, &between(&text, begin, end, &reference));
+}
+
+#[test]
+fn the_fuzzer_knows_every_key_and_word() {
+    let file = "tests/fuzz/words.txt";
+    let text = fs::read_to_string(root().join(file)).unwrap();
+    let words: String = keys::words()
+        .iter()
+        .map(|word| format!("\"{word}\"\n"))
+        .collect();
+    let words = words.replace('µ', "\\xc2\\xb5");
+    assert_current(
+        file,
+        &between(&text, "# Keys and their words.\n", "# End.", &words),
+    );
+}
+
+fn validator(kind: FileKind) -> jsonschema::Validator {
+    let schema = serde_json::from_str(&schema::text(kind)).unwrap();
+    jsonschema::draft202012::new(&schema).unwrap()
+}
+
+fn json(text: &str) -> serde_json::Value {
+    serde_json::to_value(text.parse::<toml::Table>().unwrap()).unwrap()
+}
+
+fn problems(kind: FileKind, text: &str) -> String {
+    let (validator, instance) = (validator(kind), json(text));
+    let errors = validator
+        .iter_errors(&instance)
+        .map(|error| error.to_string());
+    errors.collect::<Vec<_>>().join("\n")
+}
+
+/// All TOML files below a folder.
+fn below(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let found = entries.flat_map(|path| match path.is_dir() {
+        true => below(&path),
+        false => vec![path],
+    });
+    found
+        .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+        .collect()
+}
+
+#[test]
+fn every_example_names_its_schema_and_validates() {
+    let all = below(&root().join("sweeps"));
+    assert!(all.len() > 25);
+    for path in all.iter().filter(|path| !path.ends_with("claims.toml")) {
+        let text = fs::read_to_string(path).unwrap();
+        let table: toml::Table = text.parse().unwrap();
+        let (name, kind) = FileKind::NAMES[usize::from(!table.contains_key("sweep"))];
+        let named = text
+            .lines()
+            .find_map(|line| line.strip_prefix("#:schema "))
+            .unwrap();
+        let named = path.parent().unwrap().join(named).canonicalize().unwrap();
+        assert!(
+            named.ends_with(format!("sweeps/schema/{name}.json")),
+            "{}",
+            path.display()
+        );
+        assert_eq!(problems(kind, &text), "", "{}", path.display());
+    }
+}
+
+/// A sweep with a key replaced, as tests of messages have them.
+const WRONG: [(&str, &str); 28] = [
+    ("title = \"PMMA under a sphere\"", ""),
+    ("title = \"PMMA under a sphere\"", "title = 3"),
+    ("radius = \"10 mm\"", "raduis = \"10 mm\""),
+    ("radius = \"10 mm\"", ""),
+    ("radius = \"10 mm\"", "radius = \"10 N\""),
+    ("radius = \"10 mm\"", "radius = \"10\""),
+    ("radius = \"10 mm\"", "radius = \"10 parsec\""),
+    ("radius = \"10 mm\"", "radius = \"-10 mm\""),
+    ("radius = \"10 mm\"", "radius = \"\""),
+    ("radius = \"10 mm\"", "radius = 0"),
+    ("shape = \"sphere\"", "shape = \"shpere\""),
+    ("shape = \"sphere\"", "shape = \"cone\""),
+    ("amplitude = \"5 N\"", "amplitude = true"),
+    ("amplitude = \"5 N\"", "amplitude = \"5 N\"\nspeed = 3"),
+    (
+        "amplitude = \"5 N\"",
+        "amplitude = \"5 N\"\nhold = \"-1 s\"",
+    ),
+    ("[sweep]", "[cycle]\nsteps = 5\n[sweep]"),
+    ("[sweep]", "[cycle]\nsteps = 200.5\n[sweep]"),
+    ("[sweep]", "[cycle]\ntolerance = 0.0\n[sweep]"),
+    ("[sweep]", "[cycle]\nmethod = \"search\"\n[sweep]"),
+    ("[sweep]", "[solver]\ncells = \"128\"\n[sweep]"),
+    (
+        "[sweep]",
+        "[figures]\nwidth = \"85 mm\"\ncolumn = \"one\"\n[sweep]",
+    ),
+    (
+        "[sweep]",
+        "[figures]\nformats = [\"svg\", \"svg\"]\n[sweep]",
+    ),
+    ("[sweep]", "[figures]\nloops = []\n[sweep]"),
+    ("[sweep]", "[sovler]\n[sweep]"),
+    ("[sweep]", "[sweep]\nfrequency = [1]"),
+    (
+        "library = \"pmma\"",
+        "library = \"pmma\"\nmeasured = [1, 2]",
+    ),
+    (
+        "library = \"pmma\"",
+        "poisson_ratio = 0.6\n[material.zener]\nspring = 1\nkelvin_spring = 1\ntime = 1",
+    ),
+    (
+        "library = \"pmma\"",
+        "poisson_ratio = 0.4\n[material.relaxation]\nmodulus = \"shear\"\nequilibrium = \"1 GPa\"\n\
+         branches = [{ modulus = \"-1 MPa\", time = \"1 s\" }]",
+    ),
+];
+
+#[test]
+fn what_a_schema_can_see_of_a_wrong_file_it_refuses_as_the_program_does() {
+    let right = pmma_sweep("[sweep]\nangular_frequency = [\"0.01 rad/s\"]\n");
+    assert_eq!(problems(FileKind::Sweep, &right), "");
+    for (from, to) in WRONG {
+        assert!(right.contains(from), "{from}");
+        let wrong = right.replacen(from, to, 1);
+        assert_ne!(problems(FileKind::Sweep, &wrong), "", "{to}");
+        let document = Document::parse("wrong.toml", &wrong).unwrap();
+        assert!(sweep_file::plan(&document).is_err(), "{to}");
+    }
+}
+
+const SPHERE: &str = "[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n";
+const LIBRARY: &str = "[material]\nlibrary = \"pmma\"\npoisson_ratio = 0.4\n";
+const HARMONIC: &str = "[drive]\nmean = 10\namplitude = 5\n";
+const ONE: &str = "[sweep]\nangular_frequency = 0.01\n";
+
+fn sweep(parts: [&str; 4], rest: &str) -> (FileKind, String) {
+    (
+        FileKind::Sweep,
+        format!("title = \"t\"\n{}{rest}", parts.concat()),
+    )
+}
+
+fn history(material: &str, indenter: &str, segments: &str, rest: &str) -> (FileKind, String) {
+    let drive = format!("[drive]\ncontrol = \"load\"\nsegments = [{segments}]\n");
+    (
+        FileKind::Scenario,
+        format!("title = \"t\"\n{material}{indenter}{drive}{rest}"),
+    )
+}
+
+/// Files that have, together, every key.
+fn files() -> Vec<(FileKind, String)> {
+    let step = "{ kind = \"step\", to = 1e-3, duration = \"3 s\" }";
+    let material = |text: &str| format!("[material]\npoisson_ratio = 0.4\n{text}\n");
+    let mut files = vec![
+        sweep([LIBRARY, SPHERE, HARMONIC, ONE], ""),
+        sweep(
+            [
+                LIBRARY,
+                SPHERE,
+                "[drive]\ncontrol = \"load\"\nmean = 1e-3\namplitude = 5e-4\nphase = \"10 deg\"\nhold = \"5 s\"\n",
+                "[sweep]\nfrequency = { from = \"1 mHz\", to = \"1 Hz\", points = 4, spacing = \"log\" }\n\
+                 drive.amplitude = { from = 1e-4, to = 4e-4, points = 3, spacing = \"linear\" }\nrefine = true\n",
+            ],
+            "[cycle]\nsteps = 100\nmethod = \"direct\"\ntolerance = 1e-4\nmax_cycles = 10\nerror_bars = true\naccuracy = 1e-3\n\
+             [solver]\nengine = \"half-space\"\ncells = 32\nsprings = 100\ntolerance = 1e-9\ntime_rule = \"linear\"\n\
+             [figures]\nloops = \"0.1 rad/s\"\nwidth = \"85 mm\"\nheight = \"70 mm\"\nfont_size = 8\nformats = [\"svg\"]\ndpi = 300\n\
+             axes = \"si\"\nfrequency_unit = \"Hz\"\ntitles = true\n",
+        ),
+        sweep(
+            [
+                LIBRARY,
+                SPHERE,
+                HARMONIC,
+                "[sweep]\nangular_frequency = { from = 0.01, to = 1, points = 3, spacing = \"linear\" }\n\
+                 drive.mean = { from = 6, to = 9, points = 3, spacing = \"log\" }\n",
+            ],
+            "[figures]\ncolumn = \"one\"\n",
+        ),
+        sweep(
+            [
+                LIBRARY,
+                SPHERE,
+                HARMONIC,
+                "[sweep]\nfrequency = [1, 2]\ndrive.amplitude = [1, 2]\n",
+            ],
+            "",
+        ),
+        sweep(
+            [
+                LIBRARY,
+                SPHERE,
+                HARMONIC,
+                "[sweep]\nangular_frequency = [1, 2]\ndrive.mean = [6, 7]\n",
+            ],
+            "",
+        ),
+        history(
+            LIBRARY,
+            SPHERE,
+            "{ kind = \"step\", to = 2, duration = \"3 s\" }, { kind = \"ramp\", to = 3, duration = 1 },\n\
+             { kind = \"polynomial\", coefficients = [3.0, 0.1], duration = 1 },\n\
+             { kind = \"sine\", mean = 3, amplitude = 1, angular_frequency = 1, phase = 1, cycles = 2 },\n\
+             { kind = \"sine\", mean = 3, amplitude = 1, frequency = 1, cycles = 2 },\n\
+             { kind = \"table\", times = [0, 1], values = [3, 4] }, { kind = \"table\", file = \"load.csv\" }",
+            "[time]\nstep = \"0.1 s\"\n[output]\nprofiles_at = \"1 s\"\nfields_at = [\"1 s\"]\nfield_cells = 16\nerror_bars = true\n",
+        ),
+    ];
+    let series = "relaxation]\nmodulus = \"shear\"\nequilibrium = 1e6\nbranches = [{ modulus = 1e6, time = 1 }]\n\
+                  replicas = [{ equilibrium = 1.1e6, moduli = [9e5, 1e5], times = [1, 2] }]\n\
+                  [[material.alternative]]\nequilibrium = 2e6\nbranches = [{ modulus = 2e6, time = 2 }]";
+    let creep = "creep]\ncompliance = \"shear\"\ninstantaneous = 1e-6\nviscosity = 1e9\nbranches = [{ compliance = 1e-6, time = 1 }]\n\
+                 [[material.alternative]]\ninstantaneous = 2e-6\nviscosity = 1e9\nbranches = [{ compliance = 2e-6, time = 2 }]";
+    let isotherm = |rest: &str| {
+        format!(
+            "[[material.isotherm]]\nmodulus = \"shear\"\nequilibrium = 1e6\nbranches = [{{ modulus = 1e6, time = 1 }}]\n{rest}\n"
+        )
+    };
+    for block in [
+        isotherm(
+            "temperature = \"25 °C\"\nmeasured = [1, 2]\nreplicas = [{ equilibrium = 1.1e6, moduli = 9e5, times = 1 }]",
+        ),
+        format!(
+            "temperature = 300\n{}{}",
+            isotherm("temperature = 300"),
+            isotherm("temperature = 303")
+        ),
+        format!("name = \"n\"\nmeasured = [1, 2]\n[material.{series}"),
+        format!("measured = [1, 2]\n[material.{creep}"),
+        "measured = [1, 2]\n[material.maxwell]\nmodulus = 1e6\ntime = 1".to_owned(),
+        "measured = [1, 2]\n[material.zener]\nspring = 1e6\nkelvin_spring = 1e6\ntime = 1".to_owned(),
+        "[material.fractional]\nmodel = \"springpot\"\nmodulus = \"shear\"\nstiffness = 1e6\ntime = 1\nexponent = 0.5\n\
+         band = [1, 10]\naccuracy = 0.01"
+            .to_owned(),
+        "[material.fractional]\nmodel = \"zener\"\nmodulus = \"shear\"\nequilibrium = 1e5\nstiffness = 1e6\ntime = 1\n\
+         exponent = 0.5\nband = [1, 10]"
+            .to_owned(),
+        "[material.fractional]\nmodel = \"maxwell\"\nmodulus = \"shear\"\nstiffness = 1e6\ntime = 1\nexponent = 0.5\n\
+         second_exponent = 0.2\nband = [1, 10]"
+            .to_owned(),
+        "[material.table]\nfile = \"creep.csv\"\nquantity = \"creep\"\nmodulus = \"shear\"\nflow = false".to_owned(),
+        "[material.table]\ntimes = [1, 2, 5, 10]\nvalues = [1e-9, 1.5e-9, 2e-9, 2.1e-9]\nquantity = \"creep\"\n\
+         modulus = \"shear\"\nevaluation = \"direct\""
+            .to_owned(),
+    ] {
+        files.push(history(&material(&block), SPHERE, step, ""));
+    }
+    for shape in [
+        "sphere\"\nradius = 1\noffset = [1e-6, 0]",
+        "cone\"\nhalf_angle = \"70 deg\"",
+        "flat-punch\"\nradius = 1",
+        "ellipsoid\"\nradius_x = 1\nradius_y = 2",
+        "power-law\"\nexponent = 4\nradius = 1e-3\nheight = 1e-6",
+        "profile\"\nfile = \"profile.csv\"",
+        "height-map\"\nfile = \"map.csv\"\nspacing = 1e-3\nquantity = \"height\"\nheight_unit = \"um\"\nlevel = \"none\"\n\
+         edge = \"rim\"",
+        "asperities\"\nasperities = [{ center = [0, 0], radius = 1e-3, height = 1e-6 }, { center = [1e-3, 0], radius = 1e-3 }]",
+        "rough\"\ncells = 16\nspacing = 1e-6\nhurst_exponent = 0.8\nrms_height = 1e-8\nroll_off_wavelength = 10e-6\n\
+         cut_off_wavelength = 4e-6\nseed = 3\nsphere_radius = 1e-3\nedge = \"unknown\"",
+    ] {
+        files.push(history(
+            LIBRARY,
+            &format!("[indenter]\nshape = \"{shape}\n"),
+            step,
+            "",
+        ));
+    }
+    files
+}
+
+/// Keys that cannot be changed alone, or that no file above shows, and why.
+const APART: [&str; 8] = [
+    // What the files hold counts, and the hash of it, not what they are called.
+    "indenter.file",
+    "indenter.sha256",
+    "material.table.file",
+    "drive.segments.file",
+    // There is no other material in the library.
+    "material.library",
+    // Creep rises and relaxation falls: no values are both.
+    "material.table.quantity",
+    // Has no contact, and so neither sweep nor history.
+    "material.kelvin_voigt.spring",
+    "material.kelvin_voigt.time",
+];
+
+fn data() -> TempDir {
+    let folder = TempDir::new().unwrap();
+    for (name, text) in [
+        ("load.csv", "time_s,load_n\n0,4\n2,5\n"),
+        (
+            "creep.csv",
+            "time_s,creep_compliance_per_pa\n1,1e-9\n2,1.5e-9\n5,2e-9\n10,2.1e-9\n",
+        ),
+        (
+            "profile.csv",
+            "r_m,gap_m\n0,0\n1e-4,1e-6\n2e-4,4e-6\n3e-4,9e-6\n",
+        ),
+        ("map.csv", "0,1,2,0\n1,9,8,2\n2,7,9,1\n0,2,1,3\n"),
+    ] {
+        fs::write(folder.path().join(name), text).unwrap();
+    }
+    folder
+}
+
+/// The resolved text of a file, or why it is refused.
+fn resolved(kind: FileKind, text: &str, folder: &Path) -> Result<String, String> {
+    let document = Document::parse("file.toml", text)
+        .unwrap()
+        .in_folder(folder);
+    let text = match kind {
+        FileKind::Sweep => sweep_file::plan(&document).map(|plan| resolved_text(&plan)),
+        FileKind::Scenario => {
+            scenario_file::plan(&document).map(|plan| scenario::resolved_text(&plan))
+        }
+    };
+    text.map_err(|why| why.render(contact_dma::input::diagnostic::Styling::Plain))
+}
+
+/// Every value that is no table, by the dotted path of its key.
+fn leaves(value: &mut Value, path: &str, see: &mut dyn FnMut(&str, &mut Value)) {
+    match value {
+        Value::Table(table) => {
+            for (key, value) in table.iter_mut() {
+                let path = format!("{path}.{key}");
+                leaves(value, path.trim_start_matches('.'), see);
+            }
+        }
+        Value::Array(items) if items.iter().all(Value::is_table) => {
+            items.iter_mut().for_each(|item| leaves(item, path, see));
+        }
+        value => see(path, value),
+    }
+}
+
+/// Other values of the same kind.
+fn others(value: &Value) -> Vec<Value> {
+    let scaled = |by: f64| match value {
+        Value::Integer(integer) => Value::Float(*integer as f64 * by),
+        Value::Float(float) => Value::Float(float * by),
+        Value::String(text) => {
+            let (number, unit) = text.split_once(' ').unwrap_or((text, ""));
+            let number: f64 = number.parse().unwrap_or_default();
+            Value::String(format!("{} {unit}", by * number))
+        }
+        other => other.clone(),
+    };
+    let mut others: Vec<Value> = [1.01, 0.99].map(scaled).into();
+    match value {
+        Value::Integer(integer) => others.extend([1, -1].map(|by| Value::Integer(integer + by))),
+        Value::Boolean(boolean) => others.push(Value::Boolean(!boolean)),
+        Value::String(text) => {
+            let words = keys::words().into_iter().chain(["rubber"]);
+            others.extend(words.map(Value::from));
+            others.push(Value::String(format!("{text} and more")));
+        }
+        Value::Array(items) => {
+            for place in 0..items.len() {
+                let replace = |other| {
+                    let mut items = items.clone();
+                    items[place] = other;
+                    Value::Array(items)
+                };
+                others.extend(self::others(&items[place]).into_iter().map(replace));
+            }
+        }
+        _ => {}
+    }
+    others
+}
+
+/// Adds the paths of a file whose value, when changed, changes the resolved file; of those that were not seen yet.
+fn see_changes(kind: FileKind, text: &str, folder: &Path, seen: &mut BTreeSet<String>) {
+    let before = resolved(kind, text, folder).unwrap();
+    let mut whole: Value = Value::Table(text.parse().unwrap());
+    let mut candidates: Vec<(String, usize, Vec<Value>)> = Vec::new();
+    leaves(&mut whole, "", &mut |path, value| {
+        candidates.push((path.to_owned(), candidates.len(), others(value)));
+    });
+    candidates.retain(|(path, ..)| !seen.contains(path));
+    for (path, place, others) in candidates {
+        let changes = others.into_iter().any(|other| {
+            let (mut changed, mut at) = (whole.clone(), 0);
+            leaves(&mut changed, "", &mut |_, value| {
+                if at == place {
+                    *value = other.clone();
+                }
+                at += 1;
+            });
+            let Ok(after) = resolved(kind, &toml::to_string(&changed).unwrap(), folder) else {
+                return false;
+            };
+            let of_figures = path.starts_with("figures.");
+            assert!(
+                !of_figures || identity(&after) == identity(&before),
+                "{path}"
+            );
+            after != before && (of_figures || identity(&after) != identity(&before))
+        });
+        if changes {
+            seen.insert(path);
+        }
+    }
+}
+
+#[test]
+fn every_key_validates_changes_the_resolved_file_and_comes_back_from_it() {
+    let folder = data();
+    let mut seen: BTreeSet<String> = APART.map(str::to_owned).into();
+    for (kind, text) in files() {
+        assert_eq!(problems(kind, &text), "", "{text}");
+        let first =
+            resolved(kind, &text, folder.path()).unwrap_or_else(|why| panic!("{text}{why}"));
+        assert_eq!(problems(kind, &first), "", "{first}");
+        assert_eq!(resolved(kind, &first, folder.path()).as_ref(), Ok(&first));
+        see_changes(kind, &text, folder.path(), &mut seen);
+    }
+    let known = FileKind::NAMES.map(|(_, kind)| keys::paths(kind)).concat();
+    let missed: Vec<&String> = known.iter().filter(|path| !seen.contains(*path)).collect();
+    assert!(missed.is_empty(), "{missed:?}");
+}

@@ -1,0 +1,32 @@
+//! What the program and the library answer: input and its messages, outputs, figures, pages, guides, the rules of the code.
+
+#[path = "../common/mod.rs"]
+mod common;
+#[path = "../common/page.rs"]
+mod html;
+#[path = "../common/inputs.rs"]
+mod inputs;
+#[path = "../common/program.rs"]
+mod program;
+
+mod architecture;
+mod build_identity;
+mod command_line;
+mod data_files;
+mod direct_sum;
+mod examples;
+mod fields;
+mod figures;
+mod fuzz_inputs;
+mod guides;
+mod input_keys;
+mod library;
+mod machine_output;
+mod page;
+mod paths;
+mod refined_sweep;
+mod reproduce;
+mod simulate;
+mod sweep_figures;
+mod tabulated_material;
+mod warnings;

@@ -1,0 +1,967 @@
+//! Single drive histories: scenario files, closed forms, both controls, what is written and what is refused.
+
+#![cfg(feature = "cli")]
+
+use crate::program::{program, write};
+use std::f64::consts::PI;
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use predicates::prelude::PredicateBooleanExt;
+use predicates::str::contains;
+use tempfile::TempDir;
+
+use contact_dma::contact::surface::Surface;
+use contact_dma::contact::{Engine, Prescribed};
+use contact_dma::drive::Control;
+use contact_dma::drive::Moment;
+use contact_dma::history::{March, TimeRule};
+use contact_dma::input::document::Document;
+use contact_dma::input::scenario_file;
+use contact_dma::material::Creep;
+use contact_dma::reference::transient::maxwell_half_sine_cubed_radius;
+use contact_dma::sweep::engine::{EngineBuilder, LargestContact};
+use contact_dma::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
+use contact_dma::sweep::plan::{EngineKind, SolverPlan};
+
+/// Zener body of equal springs, C_0 = 2.5e-7 1/Pa and tau = 10 s, under a sphere of 10 mm.
+const ZENER: &str = r#"title = "test"
+[material]
+poisson_ratio = 0.5
+[material.zener]
+spring = "1 MPa"
+kelvin_spring = "1 MPa"
+time = "10 s"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+"#;
+const COMPLIANCE: f64 = 2.5e-7;
+const TAU_S: f64 = 10.0;
+const RADIUS_M: f64 = 0.01;
+
+/// The same with a Maxwell body, C = C_0 (1 + t/tau).
+fn maxwell() -> String {
+    ZENER.replace(
+        "[material.zener]\nspring = \"1 MPa\"\nkelvin_spring = \"1 MPa\"",
+        "[material.maxwell]\nmodulus = \"1 MPa\"",
+    )
+}
+
+fn drive(control: &str, segments: &str) -> String {
+    format!("[drive]\ncontrol = \"{control}\"\nsegments = [{segments}]\n")
+}
+
+fn simulation(text: &str) -> Simulation {
+    let document = Document::parse("scenario.toml", text).unwrap();
+    let plan = scenario_file::plan(&document).unwrap_or_else(|e| panic!("{e}"));
+    Simulation::new(plan).unwrap()
+}
+
+fn run(text: &str) -> SimulationOutcome {
+    simulation(text).run(&AtomicBool::new(false), &|_, _| {})
+}
+
+/// The rows of a history that ran to its end.
+fn rows(text: &str) -> Vec<HistoryRow> {
+    let outcome = run(text);
+    assert_eq!(outcome.ended, SimulationEnd::Done);
+    outcome.rows
+}
+
+/// Zener: C(t), and its integral from 0 to t.
+fn creep(t: f64) -> f64 {
+    COMPLIANCE * (2.0 - (-t / TAU_S).exp())
+}
+
+fn integrated_creep(t: f64) -> f64 {
+    COMPLIANCE * (2.0 * t + TAU_S * (-t / TAU_S).exp_m1())
+}
+
+/// a from (4/3) a^3 / R = integral of C dW.
+fn contact_radius_m(integral: f64) -> f64 {
+    (0.75 * RADIUS_M * integral).cbrt()
+}
+
+#[test]
+fn a_step_and_a_ramp_follow_lee_and_radok_at_every_time_step() {
+    let step = drive(
+        "load",
+        "{ kind = \"step\", to = \"1 N\", duration = \"100 s\" }",
+    );
+    for row in rows(&(ZENER.to_owned() + &step)) {
+        let a = contact_radius_m(creep(row.time_s));
+        // The edge lies between a spring that remembers and one that does not: known to a part of their distance, a/390. The
+        // approach rests on the sum of the forces, which knows no error of time: (1/400)^2 and less.
+        assert!((row.contact_radius_m / a - 1.0).abs() < 1e-3, "{row:?}");
+        assert!((row.approach_m.unwrap() / (a * a / RADIUS_M) - 1.0).abs() < 1e-5);
+    }
+    let ramp = drive(
+        "load",
+        "{ kind = \"ramp\", to = \"1 N\", duration = \"30 s\" }",
+    );
+    let rows = rows(&(ZENER.to_owned() + &ramp));
+    assert_eq!((rows[0].load_n, rows[0].approach_m), (0.0, Some(0.0)));
+    for row in &rows {
+        let a = contact_radius_m(integrated_creep(row.time_s) / 30.0);
+        let largest = contact_radius_m(integrated_creep(30.0) / 30.0);
+        // A contact of a few springs is known to their width; the largest has 392.
+        assert!((row.contact_radius_m - a).abs() < 1e-3 * largest, "{row:?}");
+        let approach_m = a * a / RADIUS_M;
+        let largest_m = largest * largest / RADIUS_M;
+        assert!((row.approach_m.unwrap() - approach_m).abs() < 1e-4 * largest_m);
+    }
+}
+
+#[test]
+fn half_a_sine_on_a_fluid_follows_ting_past_the_maximum() {
+    let omega = 1.0 / TAU_S;
+    let half = format!(
+        "{{ kind = \"sine\", mean = 0, amplitude = \"1 N\", angular_frequency = {omega}, cycles = 0.5 }}"
+    );
+    let rows = rows(&(maxwell() + &drive("load", &half)));
+    let hertz_m = contact_radius_m(COMPLIANCE);
+    for row in &rows {
+        let exact = hertz_m * maxwell_half_sine_cubed_radius(row.time_s * omega).cbrt();
+        // Known to a spring near the end, where the radius falls to zero like a root.
+        assert!(
+            (row.contact_radius_m - exact).abs() < 3e-3 * hertz_m,
+            "{row:?}"
+        );
+    }
+    // It begins and ends with a touch at zero load; the approach at the end is what the body has kept.
+    let last = rows.last().unwrap();
+    assert_eq!((rows[0].approach_m, last.load_n), (Some(0.0), 0.0));
+    assert!(last.approach_m.unwrap() > 0.5 * hertz_m * hertz_m / RADIUS_M);
+}
+
+#[test]
+fn segments_meet_exactly_and_a_jump_is_two_states_at_one_time() {
+    let segments = drive(
+        "load",
+        "{ kind = \"step\", to = \"1 N\", duration = \"5 s\" },
+         { kind = \"step\", to = \"0.25 N\", duration = \"5 s\" },
+         { kind = \"polynomial\", coefficients = [0.25, 0.05, 0.01], duration = \"3 s\" },
+         { kind = \"sine\", mean = \"0.5 N\", amplitude = \"0.2 N\", frequency = \"0.5 Hz\", cycles = 2 },
+         { kind = \"table\", times = [0, 1, 1, 2], values = [0.5, 0.7, 0.1, 0.1] }",
+    );
+    let rows = rows(&(ZENER.to_owned() + &segments));
+    let at = |time_s: f64| -> Vec<f64> {
+        let found = rows.iter().filter(|r| (r.time_s - time_s).abs() < 1e-9);
+        found.map(|r| (1e9 * r.load_n).round() / 1e9).collect()
+    };
+    assert_eq!(at(0.0), [1.0]);
+    assert_eq!(at(5.0), [1.0, 0.25]);
+    assert_eq!(at(10.0), [0.25]);
+    // 0.25 + 0.15 + 0.09, then the sine's mean.
+    assert_eq!(at(13.0), [0.49, 0.5]);
+    assert_eq!(at(17.0), [0.5]);
+    assert_eq!(at(18.0), [0.7, 0.1]);
+    assert_eq!(at(19.0), [0.1]);
+    // At the jump the surface springs back at once: all springs lose the same force (elastic, C_0).
+    let jump = rows
+        .windows(2)
+        .find(|p| p[1].time_s == p[0].time_s)
+        .unwrap();
+    assert!(jump[1].approach_m.unwrap() < jump[0].approach_m.unwrap());
+    assert!(rows.windows(2).all(|p| p[1].time_s >= p[0].time_s));
+}
+
+/// Marches a step load, imposes the approach it led to on a fresh body, and returns the largest difference between the two
+/// pressures at any node and time, relative to the largest pressure.
+fn displacement_driven_difference(
+    engine: &mut dyn Engine,
+    compliance: &Creep,
+    moments: &[Moment],
+) -> f64 {
+    let mut follow = |prescribed: &dyn Fn(usize) -> Prescribed| {
+        let mut march = March::new(engine, compliance.clone(), TimeRule::Linear);
+        let mut instants = Vec::new();
+        for (index, moment) in moments.iter().enumerate() {
+            let weights = march.weights(moment.step_s);
+            let solution = march.step(&weights, prescribed(index)).unwrap();
+            instants.push((solution.approach_m, march.pressure().to_vec()));
+        }
+        instants
+    };
+    let loaded = follow(&|index| Prescribed::LoadN(moments[index].value));
+    let approached = follow(&|index| Prescribed::ApproachM(loaded[index].0));
+    let (mut largest, mut off) = (0.0_f64, 0.0_f64);
+    for ((_, a), (_, b)) in loaded.iter().zip(&approached) {
+        for (a, b) in a.iter().zip(b) {
+            largest = largest.max(*a);
+            off = off.max((a - b).abs());
+        }
+    }
+    off / largest
+}
+
+#[test]
+fn imposing_the_approach_of_a_step_load_gives_its_pressure_history_back_at_every_node() {
+    let step = drive(
+        "load",
+        "{ kind = \"step\", to = \"1 N\", duration = \"20 s\" }",
+    );
+    // The solver of the half-space stops at its tolerance, relative to displacements; pressures answer to their differences
+    // between cells.
+    let solver = "[solver]\ncells = 32\nsprings = 200\ntolerance = 1e-11\n";
+    let simulation = simulation(&[ZENER, &step, solver].concat());
+    let plan = simulation.plan();
+    let material = plan.material.series().unwrap();
+    let compliance = material.contact_compliance().unwrap();
+    for engine in [EngineKind::Axisymmetric, EngineKind::HalfSpace] {
+        let solver = SolverPlan {
+            engine,
+            ..plan.solver
+        };
+        let largest = LargestContact {
+            control: Control::Load,
+            maximum: 1.0,
+            compliance_per_pa: compliance.compliance(20.0),
+        };
+        let builder = EngineBuilder::new(plan.indenter.clone(), solver, largest).unwrap();
+        let mut engine = builder.engine(0).unwrap();
+        let moments = &simulation.schedule().moments;
+        let off = displacement_driven_difference(engine.as_mut(), &compliance, moments);
+        assert!(off < 1e-6, "{solver:?}: {off:e}");
+    }
+}
+
+#[test]
+fn the_engines_agree_on_the_surface_inside_and_outside_the_contact() {
+    let scenario = [
+        ZENER,
+        &drive("load", "{ kind = \"step\", to = \"1 N\", duration = \"20 s\" }, { kind = \"ramp\", to = \"0.3 N\", duration = \"10 s\" }"),
+        "[time]\nstep = \"0.5 s\"\n[output]\nprofiles_at = [\"20 s\", \"30 s\"]\n",
+    ]
+    .concat();
+    let springs = run(&scenario);
+    let cells = run(&(scenario + "[solver]\nengine = \"half-space\"\ncells = 64\n"));
+    for (a, b) in springs.profiles.iter().zip(&cells.profiles) {
+        let (Surface::Radial(radial), Surface::Cells(field)) = (&a.surface, &b.surface) else {
+            panic!("engines mixed up");
+        };
+        let scale_m = a.row.approach_m.unwrap();
+        let gap_m = (a.gap_m.as_ref().unwrap(), b.gap_m.as_ref().unwrap());
+        for cell in (0..field.grid.cells()).step_by(37) {
+            let (x, y) = field.grid.center(cell);
+            let place = x.hypot(y);
+            let after = radial.radius_m.partition_point(|r| *r < place);
+            let (from, to) = (radial.radius_m[after - 1], radial.radius_m[after]);
+            let part = (place - from) / (to - from);
+            let between =
+                |values: &[f64]| values[after - 1] + part * (values[after] - values[after - 1]);
+            // 64 cells a side, corners of the domain included.
+            let off = field.displacement_m[cell] - between(&radial.displacement_m);
+            assert!(off.abs() < 5e-4 * scale_m, "r = {place:e}: {off:e}");
+            let off = gap_m.1[cell] - between(gap_m.0);
+            assert!(off.abs() < 1e-3 * scale_m, "r = {place:e}: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn the_approach_is_undefined_out_of_contact_but_not_where_the_load_just_touches_zero() {
+    let touching = drive(
+        "load",
+        "{ kind = \"sine\", mean = \"0.5 N\", amplitude = \"0.5 N\", frequency = \"0.1 Hz\", phase = \"-90 deg\", cycles = 2 }",
+    );
+    let touching = rows(&(ZENER.to_owned() + &touching));
+    assert!(touching.iter().all(|r| r.approach_m.is_some()));
+    assert_eq!(touching.iter().filter(|r| r.load_n == 0.0).count(), 3);
+    let resting = drive(
+        "load",
+        "{ kind = \"ramp\", to = \"1 N\", duration = \"5 s\" }, { kind = \"ramp\", to = 0, duration = \"5 s\" },
+         { kind = \"step\", to = 0, duration = \"5 s\" }, { kind = \"ramp\", to = \"1 N\", duration = \"5 s\" }",
+    );
+    let resting = rows(&(ZENER.to_owned() + &resting));
+    for row in &resting[1..] {
+        assert_eq!(row.approach_m.is_none(), row.load_n == 0.0, "{row:?}");
+        assert_eq!(row.contact_radius_m == 0.0, row.load_n == 0.0);
+        assert_eq!(row.peak_pressure_pa == Some(0.0), row.load_n == 0.0);
+    }
+    assert!(resting.iter().filter(|r| r.load_n == 0.0).count() > 10);
+    // Met again, the surface is still dented: the same load goes deeper than the first time.
+    let at_one = |row: &&HistoryRow| row.load_n == 1.0;
+    let (first, last) = (
+        resting.iter().find(at_one).unwrap(),
+        resting.iter().rfind(at_one).unwrap(),
+    );
+    assert!(last.approach_m.unwrap() > 1.05 * first.approach_m.unwrap());
+}
+
+#[test]
+fn a_retracted_indenter_carries_nothing_and_keeps_its_approach() {
+    let segments = drive(
+        "approach",
+        "{ kind = \"step\", to = \"-20 um\", duration = \"1 s\" }, { kind = \"ramp\", to = \"100 um\", duration = \"5 s\" },
+         { kind = \"step\", to = \"-1 mm\", duration = \"5 s\" }, { kind = \"step\", to = \"100 um\", duration = \"1 s\" }",
+    );
+    for solver in ["", "[solver]\nengine = \"half-space\"\ncells = 32\n"] {
+        let rows = rows(&[ZENER, &segments, solver].concat());
+        assert_eq!(rows[0].approach_m, Some(-20e-6));
+        for row in &rows {
+            let approach_m = row.approach_m.unwrap();
+            if approach_m <= 0.0 {
+                assert_eq!((row.load_n, row.contact_radius_m), (0.0, 0.0));
+            }
+        }
+        let jump = rows
+            .windows(2)
+            .rfind(|p| p[0].time_s == p[1].time_s)
+            .unwrap();
+        // Back at once to where it was: against a surface that has only partly recovered, less than on a fresh one.
+        let fresh_n = 4.0 / 3.0 * (1e-4_f64 * RADIUS_M).powf(1.5) / RADIUS_M / COMPLIANCE;
+        assert!(jump[1].load_n > 0.3 * fresh_n && jump[1].load_n < 0.99 * fresh_n);
+    }
+}
+
+#[test]
+fn halving_the_steps_chosen_by_a_factor_of_four_changes_little_and_of_second_order_where_given() {
+    let segments = drive(
+        "approach",
+        "{ kind = \"sine\", mean = \"50 um\", amplitude = \"100 um\", angular_frequency = \"0.3 rad/s\", cycles = 1.5 }",
+    );
+    // Near the second crest.
+    let output = "[output]\nprofiles_at = [\"26 s\"]\n[solver]\nsprings = 1000\n";
+    let load_at_crest = |time: &str| {
+        let outcome = run(&[ZENER, &segments, time, output].concat());
+        outcome.profiles[0].row.load_n
+    };
+    let exact = load_at_crest("[time]\nstep = \"5 ms\"\n");
+    let chosen = load_at_crest("");
+    assert!((chosen / exact - 1.0).abs() < 1e-4, "{chosen} {exact}");
+    // The contact opens and closes between two steps, which does not spoil the order at the crest by much.
+    let error = |step: &str| load_at_crest(&format!("[time]\nstep = \"{step}\"\n")) / exact - 1.0;
+    let order = (error("0.4 s") / error("0.2 s")).abs().log2();
+    assert!((1.5..2.6).contains(&order), "{order}");
+}
+
+#[test]
+fn steps_far_longer_than_the_relaxation_time_follow_a_growing_contact() {
+    // Glass to rubber 1000 to 1, relaxing in 1 s, and steps of 30 s while the contact grows.
+    let material = ZENER.replace(
+        "[material.zener]\nspring = \"1 MPa\"\nkelvin_spring = \"1 MPa\"\ntime = \"10 s\"",
+        "[material.relaxation]\nmodulus = \"shear\"\nequilibrium = \"1 MPa\"\nbranches = [{ modulus = \"999 MPa\", time = \"1 s\" }]",
+    );
+    let slow = drive(
+        "load",
+        "{ kind = \"polynomial\", coefficients = [0.01, 1e-6], duration = \"5000 s\" }",
+    );
+    let outcome = run(&[&material, &slow, "[time]\nstep = \"30 s\"\n"].concat());
+    assert_eq!(outcome.ended, SimulationEnd::Done);
+    // Lee and Radok with J from 1e-9 to 1e-6 1/Pa in a retardation time of 1000 s, and C = J/4.
+    let spring_m = outcome.domain_half_width_m / 400.0;
+    let rows = outcome.rows.iter().zip(&outcome.errors);
+    for (row, errors) in rows.filter(|(row, _)| row.time_s > 300.0) {
+        let left = (-row.time_s / 1000.0).exp();
+        let (glassy, rubbery) = (1e-9, 1e-6);
+        let creep = rubbery - (rubbery - glassy) * left;
+        let integrated = rubbery * row.time_s - (rubbery - glassy) * 1000.0 * (1.0 - left);
+        let exact = contact_radius_m(0.25 * (0.01 * creep + 1e-6 * integrated));
+        // Steps thirty times the relaxation time leave the force of the spring just met too high or too low, so that the edge is
+        // known to one spring (of the width at the end); and not worse than the row says.
+        let off_m = (row.contact_radius_m - exact).abs();
+        assert!(off_m < spring_m, "{row:?}: {off_m:e} of {spring_m:e}");
+        assert!(
+            off_m < errors.contact_radius_m.unwrap(),
+            "{row:?}: {off_m:e}"
+        );
+    }
+}
+
+#[test]
+fn the_domain_of_a_fluid_holds_its_contact_and_a_wrong_guess_is_mended() {
+    let held = drive(
+        "load",
+        "{ kind = \"step\", to = \"1 N\", duration = \"1000 s\" }",
+    );
+    // A cell of 32 is a fifteenth of the radius; the area averages it. The springs are of second order in 1/400.
+    let cells = "[solver]\nengine = \"half-space\"\ncells = 32\n";
+    for (solver, tolerance) in [("", 2e-5), (cells, 0.03)] {
+        let outcome = run(&[&maxwell(), &held, solver].concat());
+        assert_eq!(outcome.ended, SimulationEnd::Done);
+        assert_eq!(outcome.domain_enlarged, 0);
+        let last = outcome.rows.last().unwrap();
+        let exact = contact_radius_m(COMPLIANCE * 101.0);
+        let off = last.contact_radius_m / exact - 1.0;
+        assert!(off.abs() < tolerance, "{solver}: {off:e}");
+    }
+}
+
+#[test]
+fn an_indenter_whose_contact_is_a_ring_is_refused_on_springs_with_advice_and_solved_on_the_half_space()
+ {
+    let folder = TempDir::new().unwrap();
+    write(
+        &folder,
+        "ring.csv",
+        "r_m,gap_m\n0,2e-5\n1e-3,0\n2e-3,2e-5\n3e-3,8e-5\n5e-3,3.2e-4\n",
+    );
+    let text = ZENER.replace(
+        "shape = \"sphere\"\nradius = \"10 mm\"",
+        "shape = \"profile\"\nfile = \"ring.csv\"",
+    ) + &drive(
+        "load",
+        "{ kind = \"step\", to = \"5 mN\", duration = \"5 s\" }",
+    ) + "[output]\nprofiles_at = [\"5 s\"]\n";
+    let file = write(&folder, "ring.toml", &text);
+    let out = folder.path().join("out");
+    let simulate = |engine: &[&str]| {
+        let mut command = program();
+        command
+            .args(["simulate", &file, "--set", "solver.cells=48", "--out"])
+            .arg(&out)
+            .args(engine);
+        command.assert()
+    };
+    simulate(&["--set", "solver.engine=axisymmetric"])
+        .code(2)
+        .stderr(contains("not convex").and(contains("set solver.engine = \"half-space\"")));
+    assert!(!out.exists());
+    // Left to itself the program takes the half-space engine. The middle stays out of contact.
+    simulate(&[]).success();
+    let profile = fs::read_to_string(out.join("profiles/0.csv")).unwrap();
+    let mut largest = (0.0, 0.0);
+    for line in profile.lines().filter(|line| line.starts_with("x,")) {
+        let cell = |k: usize| line.split(',').nth(k).unwrap().parse::<f64>().unwrap();
+        let (x_m, pressure_pa, gap_m) = (cell(1).abs(), cell(2), cell(4));
+        if x_m < 3e-4 {
+            assert!(pressure_pa == 0.0 && gap_m > 1e-6, "{line}");
+        }
+        if pressure_pa > largest.1 {
+            largest = (x_m, pressure_pa);
+        }
+    }
+    assert!((0.8e-3..1.2e-3).contains(&largest.0), "{largest:?}");
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// Sweeps under approach control
+
+/// The rows of a sweep's table as (name of column, text).
+fn sweep_table(text: &str) -> Vec<std::collections::HashMap<String, String>> {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("sweep.toml");
+    fs::write(&file, text).unwrap();
+    let out = folder.path().join("out");
+    program()
+        .args(["sweep", "--quiet", "--out"])
+        .args([&out, &file])
+        .assert()
+        .success();
+    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
+    let rows = csv::Reader::from_reader(table.as_bytes());
+    rows.into_deserialize().map(|row| row.unwrap()).collect()
+}
+
+#[test]
+fn the_loss_of_a_flat_punch_under_an_imposed_approach_is_that_of_the_complex_modulus() {
+    let sweep = |drive: &str| {
+        let material = ZENER.replace(
+            "shape = \"sphere\"\nradius = \"10 mm\"",
+            "shape = \"flat-punch\"\nradius = \"1 mm\"",
+        );
+        let rest = "[sweep]\nangular_frequency = [\"0.03 rad/s\", \"0.2 rad/s\", \"2 rad/s\"]\n\
+                    [cycle]\nsteps = 200\ntolerance = 1e-6\n[solver]\nsprings = 20\n";
+        sweep_table(&format!("{material}[drive]\n{drive}\n{rest}"))
+    };
+    let amplitude_m = 2e-6;
+    let approached = sweep("control = \"approach\"\nmean = \"10 um\"\namplitude = \"2 um\"");
+    for row in &approached {
+        let value = |name: &str| row[name].parse::<f64>().unwrap();
+        let omega = value("angular_frequency_rad_per_s");
+        // 1/C* of C* = C_0 (1 + 1/(1 + i omega tau)), and loss = pi delta_A^2 2 a Im(1/C*).
+        let x = omega * TAU_S;
+        let (re, im) = (1.0 + 1.0 / (1.0 + x * x), -x / (1.0 + x * x));
+        let modulus_im = -im / (re * re + im * im) / COMPLIANCE;
+        let exact = PI * amplitude_m * amplitude_m * 2.0 * 1e-3 * modulus_im;
+        let loss = value("energy_loss_j");
+        // Second order in 200 steps per cycle.
+        assert!((loss / exact - 1.0).abs() < 2e-4, "{omega}: {loss} {exact}");
+        // Imposing the load amplitude that this approach takes dissipates the same.
+        let stiffness = 2.0 * 1e-3 / COMPLIANCE / re.hypot(im);
+        let load_n = stiffness * amplitude_m;
+        let loaded = sweep(&format!("mean = \"0.04 N\"\namplitude = \"{load_n} N\""));
+        let twin = loaded
+            .iter()
+            .find(|r| r["angular_frequency_rad_per_s"] == row["angular_frequency_rad_per_s"]);
+        let twin: f64 = twin.unwrap()["energy_loss_j"].parse().unwrap();
+        assert!((twin / loss - 1.0).abs() < 4e-4, "{omega}: {twin} {loss}");
+    }
+}
+
+#[test]
+fn an_indenter_that_leaves_the_surface_in_each_cycle_has_a_loss_too() {
+    let drive = "[drive]\ncontrol = \"approach\"\nmean = \"20 um\"\namplitude = \"60 um\"\n";
+    let rest = "[sweep]\nangular_frequency = [\"0.2 rad/s\"]\n[cycle]\nsteps = 100\n";
+    let springs = sweep_table(&format!("{ZENER}{drive}{rest}"));
+    let cells = "[solver]\nengine = \"half-space\"\ncells = 48\n";
+    let cells = sweep_table(&format!("{ZENER}{drive}{rest}{cells}"));
+    let value = |row: &std::collections::HashMap<String, String>, name: &str| -> f64 {
+        row[name].parse().unwrap()
+    };
+    for row in [&springs[0], &cells[0]] {
+        assert_eq!(value(row, "contact_radius_min_m"), 0.0);
+        assert!(value(row, "energy_loss_j") > 0.0);
+        assert!((value(row, "approach_min_m") + 40e-6).abs() < 1e-9);
+    }
+    let (a, b) = (
+        value(&springs[0], "energy_loss_j"),
+        value(&cells[0], "energy_loss_j"),
+    );
+    // 48 cells.
+    assert!((a / b - 1.0).abs() < 5e-3, "{a} {b}");
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The program
+
+const SMALL: &str = r#"title = "small"
+
+[material]
+library = "pmma"
+
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+
+[drive]
+control = "load"
+segments = [
+    { kind = "step", to = "10 N", duration = "20 s" },
+    { kind = "ramp", to = "2 N", duration = "5 s" },
+    { kind = "sine", mean = "2 N", amplitude = "1 N", angular_frequency = "0.5 rad/s", cycles = 1 },
+]
+
+[time]
+step = "1 s"
+
+[output]
+profiles_at = ["0 s", "25 s"]
+
+[solver]
+springs = 100
+"#;
+
+/// Runs a scenario file with one replacement made in it and expects it to be refused as bad input, with nothing written.
+fn refused(from: &str, to: &str, expected: &[&str]) {
+    let folder = TempDir::new().unwrap();
+    assert!(SMALL.contains(from), "{from}");
+    write(&folder, "load.csv", "time_s,load_n\n0,1\n2,2\n1,3\n");
+    write(&folder, "empty.csv", "time_s,load_n\n0,1\n1,\n");
+    let file = write(&folder, "bad.toml", &SMALL.replacen(from, to, 1));
+    let out = folder.path().join("out");
+    let assert = program()
+        .args(["simulate", &file, "--out"])
+        .arg(&out)
+        .assert()
+        .code(2)
+        .stdout("");
+    let stderr = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    for text in expected {
+        assert!(stderr.contains(text), "{text:?} is missing in:\n{stderr}");
+    }
+    assert!(!out.exists(), "a refused scenario has left a folder");
+}
+
+#[test]
+fn a_scenario_prints_its_end_and_leaves_every_file() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    let assert = program()
+        .current_dir(folder.path())
+        .args(["simulate", &file])
+        .assert()
+        .success()
+        .stdout(contains("Results in reports/small").and(contains("time steps")));
+    let stdout = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
+    assert!(
+        stdout.lines().all(|line| line.chars().count() <= 80),
+        "{stdout}"
+    );
+    let out = folder.path().join("reports/small");
+    let history = fs::read_to_string(out.join("history.csv")).unwrap();
+    assert!(history.starts_with(
+        "time_s,load_n,approach_m,contact_radius_m,contact_area_m2,peak_pressure_pa,\
+         load_error_n,approach_error_m,contact_radius_error_m,peak_pressure_error_pa\n0e0,1e1,"
+    ));
+    assert!(stdout.contains("+-"), "{stdout}");
+    // Of some load that is prescribed, rounding; none of the rest is empty.
+    let empty = |line: &str| line.split(',').any(str::is_empty);
+    assert!(!history.lines().any(empty), "{history}");
+    let profile = fs::read_to_string(out.join("profiles/1.csv")).unwrap();
+    assert!(profile.starts_with("radius_m,pressure_pa,displacement_m,gap_m\n0e0,"));
+    let index = fs::read_to_string(out.join("profiles/index.csv")).unwrap();
+    assert!(index.lines().nth(2).unwrap().starts_with("1,2.5e1,2e0,"));
+    for name in [
+        "history.svg",
+        "history@2x.png",
+        "profiles.svg",
+        "profiles.png",
+        "profiles.csv",
+    ] {
+        assert!(out.join(name).is_file(), "{name} is missing");
+    }
+    let summary = fs::read_to_string(out.join("summary.json")).unwrap();
+    assert!(summary.contains("\"status\": \"done\""));
+}
+
+#[test]
+fn errors_are_left_out_where_nobody_asks_for_them_and_change_no_row() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    let history = |out: &str, more: &[&str]| {
+        let out = folder.path().join(out);
+        let mut command = program();
+        command
+            .args(["simulate", &file, "--quiet", "--out"])
+            .arg(&out);
+        command.args(more).assert().success();
+        let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
+        assert_eq!(resolved.contains("error_bars = false"), !more.is_empty());
+        fs::read_to_string(out.join("history.csv")).unwrap()
+    };
+    let with = history("with", &[]);
+    let without = history("flag", &["--no-error-bars"]);
+    assert_eq!(
+        without,
+        history("key", &["--set", "output.error_bars=false"])
+    );
+    for (with, without) in with.lines().zip(without.lines()).skip(1) {
+        let values = without.strip_suffix(",,,,").unwrap();
+        assert!(with.starts_with(values) && !with.ends_with(','), "{with}");
+    }
+}
+
+#[test]
+fn the_resolved_scenario_is_a_scenario_file_with_the_same_results() {
+    let folder = TempDir::new().unwrap();
+    write(
+        &folder,
+        "load.csv",
+        "time_s,load_n\n0,2\n0.1,2.5\n0.1,3\n7,0\n",
+    );
+    let table = "    { kind = \"table\", file = \"load.csv\" },\n    { kind = \"polynomial\", coefficients = [0, 0.3], duration = \"3 s\" },\n]";
+    let file = write(
+        &folder,
+        "small.toml",
+        &SMALL.replacen("\n]", &format!("\n{table}"), 1),
+    );
+    let (first, second) = (folder.path().join("first"), folder.path().join("second"));
+    for (file, out) in [
+        (Path::new(&file), &first),
+        (&first.join("resolved.toml"), &second),
+    ] {
+        let mut command = program();
+        command
+            .arg("simulate")
+            .arg(file)
+            .arg("--quiet")
+            .arg("--out")
+            .arg(out);
+        command.assert().success().stdout("").stderr("");
+    }
+    for name in [
+        "resolved.toml",
+        "history.csv",
+        "summary.json",
+        "profiles/1.csv",
+    ] {
+        let read = |folder: &Path| fs::read_to_string(folder.join(name)).unwrap();
+        assert_eq!(read(&first), read(&second), "{name}");
+    }
+}
+
+#[test]
+fn fields_are_arrays_for_numpy_and_images_for_paraview() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    let out = folder.path().join("out");
+    program()
+        .args([
+            "simulate",
+            &file,
+            "--quiet",
+            "--set",
+            "solver.engine=half-space",
+        ])
+        .args([
+            "--set",
+            "solver.cells=24",
+            "--set",
+            "output.fields_at=[\"0 s\", \"20 s\"]",
+            "--out",
+        ])
+        .arg(&out)
+        .assert()
+        .success();
+    for k in 0..2 {
+        let bytes = fs::read(out.join(format!("fields/{k}-pressure_pa.npy"))).unwrap();
+        assert!(bytes.starts_with(b"\x93NUMPY\x01\x00"));
+        let header = 10 + usize::from(u16::from_le_bytes([bytes[8], bytes[9]]));
+        let values: Vec<f64> = bytes[header..]
+            .chunks_exact(8)
+            .map(|b| f64::from_le_bytes(b.try_into().unwrap()))
+            .collect();
+        assert_eq!(values.len(), 24 * 24);
+        // The pressure carries the load, and is symmetric.
+        let index = fs::read_to_string(out.join("fields/index.csv")).unwrap();
+        let spacing: f64 = index
+            .lines()
+            .nth(1)
+            .unwrap()
+            .split(',')
+            .nth(7)
+            .unwrap()
+            .parse()
+            .unwrap();
+        assert!((values.iter().sum::<f64>() * spacing * spacing - 10.0).abs() < 1e-9);
+        assert!((values[24 * 10 + 7] - values[24 * 13 + 16]).abs() < 1e-6 * values[24 * 12 + 12]);
+        let image = fs::read(out.join(format!("fields/{k}.vti"))).unwrap();
+        assert!(image.starts_with(b"<?xml version=\"1.0\"?>\n<VTKFile type=\"ImageData\""));
+        assert!(out.join(format!("fields/{k}-gap_m.npy")).is_file());
+    }
+    for name in [
+        "pressure-map.svg",
+        "pressure-map.png",
+        "profiles/0.csv",
+        "fields/1-displacement_m.npy",
+    ] {
+        assert!(out.join(name).is_file(), "{name} is missing");
+    }
+    let profile = fs::read_to_string(out.join("profiles/0.csv")).unwrap();
+    assert!(profile.starts_with("line,position_m,pressure_pa,displacement_m,gap_m\nx,"));
+    assert_eq!(profile.lines().filter(|l| l.starts_with("y,")).count(), 24);
+}
+
+#[test]
+fn results_of_another_scenario_or_sweep_are_replaced_only_when_asked() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    let simulate = |flags: &[&str]| {
+        let mut command = program();
+        command
+            .current_dir(folder.path())
+            .args(["simulate", &file, "--quiet"]);
+        command.args(flags).assert()
+    };
+    simulate(&[]).success();
+    let history = folder.path().join("reports/small/history.csv");
+    let before = fs::read(&history).unwrap();
+    let other = ["--set", "output.profiles_at=[]"];
+    simulate(&other).code(2).stderr(contains("--force"));
+    assert_eq!(fs::read(&history).unwrap(), before);
+    simulate(&[&other[..], &["--force"]].concat()).success();
+    assert!(!folder.path().join("reports/small/profiles").exists());
+    assert!(!folder.path().join("reports/small/profiles.svg").exists());
+}
+
+#[test]
+fn a_load_that_would_pull_is_refused_with_its_place_and_time() {
+    refused(
+        "\"2 N\", duration",
+        "\"-2 N\", duration",
+        &[
+            "bad.toml:14:27",
+            "segment 2",
+            "-2.000 N at 25",
+            "pull",
+            "out of contact",
+        ],
+    );
+    refused(
+        "amplitude = \"1 N\"",
+        "amplitude = \"3 N\"",
+        &["bad.toml:15:48", "segment 3", "-1.000 N at 34.42", "9.42"],
+    );
+    refused(
+        "{ kind = \"ramp\", to = \"2 N\", duration = \"5 s\" }",
+        "{ kind = \"polynomial\", coefficients = [1, -3], duration = \"2 s\" }",
+        &["bad.toml:14:43", "-5.000 N at 22"],
+    );
+}
+
+#[test]
+fn segments_with_mistakes_are_shown_where_they_stand() {
+    refused(
+        "kind = \"ramp\"",
+        "kind = \"jump\"",
+        &["bad.toml:14:14", "ramp"],
+    );
+    refused("\"5 s\" }", "\"0 s\" }", &["bad.toml:14:45", "above zero"]);
+    refused(
+        "duration = \"5 s\"",
+        "time = \"5 s\"",
+        &["segments[1].duration", "segments[1].time"],
+    );
+    refused(
+        "to = \"2 N\"",
+        "to = \"2 mm\"",
+        &["bad.toml:14:27", "a force"],
+    );
+    refused("cycles = 1", "cycles = 0", &["bad.toml:15:", "cycles"]);
+    refused(
+        "amplitude = \"1 N\"",
+        "amplitude = 0",
+        &["bad.toml:15:48", "amplitude"],
+    );
+    refused(
+        "control = \"load\"",
+        "control = \"approach\"",
+        &["bad.toml:13:27", "a length"],
+    );
+    refused(
+        "control = \"load\"",
+        "control = \"laod\"",
+        &["bad.toml:11:11", "load"],
+    );
+    let all = &SMALL[SMALL.find("segments").unwrap()..SMALL.find("[time]").unwrap()];
+    refused(
+        all,
+        "segments = []\n",
+        &["bad.toml:12:12", "at least one segment"],
+    );
+    refused(
+        all,
+        "segments = [{ kind = \"step\", to = 0, duration = 1 }]\n",
+        &["never rises above zero"],
+    );
+    refused(all, "segment = []\n", &["drive.segment", "segments"]);
+}
+
+#[test]
+fn tables_with_mistakes_are_shown_with_file_and_line() {
+    let table = |text: &str| format!("{{ kind = \"table\", {text} }}");
+    let ramp = "{ kind = \"ramp\", to = \"2 N\", duration = \"5 s\" }";
+    let refused = |text: &str, expected: &[&str]| refused(ramp, &table(text), expected);
+    refused(
+        "file = \"load.csv\"",
+        &[
+            "bad.toml:14:30",
+            "load.csv",
+            "load.csv:4:1",
+            "1 s lies before 2 s",
+        ],
+    );
+    refused(
+        "file = \"empty.csv\"",
+        &["empty.csv:3:3", "must be a number", "empty"],
+    );
+    refused(
+        "file = \"none.csv\"",
+        &[
+            "bad.toml:14:30",
+            "cannot read",
+            "folder of the file it is written in",
+        ],
+    );
+    refused(
+        "times = [0, 1], values = [1]",
+        &["bad.toml:14:", "as many values as times"],
+    );
+    refused("times = [1, 2], values = [1, 2]", &["the first is 0 s"]);
+    refused(
+        "times = [0, 2, 1], values = [1, 2, 3]",
+        &["point 3", "does not follow 2 s"],
+    );
+    refused("times = [0, 1], values = [1, \"2 mm\"]", &["a force"]);
+    refused("values = [1, 2]", &["file", "times"]);
+}
+
+#[test]
+fn outputs_and_steps_out_of_place_are_shown_where_they_stand() {
+    refused(
+        "\"25 s\"]",
+        "\"100 s\"]",
+        &["bad.toml:22:23", "0 s to 37.56"],
+    );
+    refused("\"25 s\"]", "\"-1 s\"]", &["bad.toml:22:23", "not within"]);
+    refused(
+        "[output]\nprofiles_at = [\"0 s\", \"25 s\"]\n\n[solver]",
+        "[output]\nfields_at = [\"1 s\"]\nfield_cells = 64\n\n[solver]\nengine = \"half-space\"",
+        &["bad.toml:23:1", "its own cells", "solver.cells"],
+    );
+    refused(
+        "step = \"1 s\"",
+        "step = \"0 s\"",
+        &["bad.toml:19:8", "above zero"],
+    );
+    refused("step = \"1 s\"", "steps = \"1 s\"", &["write `step`"]);
+    refused("step = \"1 s\"", "step = \"1 ns\"", &["longer step"]);
+    refused("[output]", "[outputs]", &["outputs"]);
+    refused("springs = 100", "springs = 1", &["bad.toml:25:11"]);
+}
+
+#[test]
+fn a_kelvin_voigt_body_is_refused_and_a_fluid_is_not() {
+    let with = |block: &str| format!("poisson_ratio = 0.4\n{block}");
+    refused(
+        "library = \"pmma\"",
+        &with("[material.kelvin_voigt]\nspring = \"1 MPa\"\ntime = \"1 s\""),
+        &["instantaneous", "bad.toml:5"],
+    );
+    let fluid = with("[material.maxwell]\nmodulus = \"1 GPa\"\ntime = \"10 s\"");
+    assert!(!rows(&SMALL.replace("library = \"pmma\"", &fluid)).is_empty());
+}
+
+#[test]
+fn an_approach_history_written_by_one_run_drives_the_next() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", SMALL);
+    let out = folder.path().join("out");
+    program()
+        .args(["simulate", &file, "--quiet", "--out"])
+        .arg(&out)
+        .assert()
+        .success();
+    let (head, tail) = (
+        SMALL.split("[drive]").next().unwrap(),
+        "[time]\nstep = \"1 h\"\n[solver]\nsprings = 100\n",
+    );
+    let again = drive(
+        "approach",
+        "{ kind = \"table\", file = \"out/history.csv\" }",
+    );
+    let file = write(&folder, "again.toml", &format!("{head}{again}{tail}"));
+    let second = folder.path().join("second");
+    program()
+        .args(["simulate", &file, "--quiet", "--out"])
+        .arg(&second)
+        .assert()
+        .success();
+    let loads = |folder: &Path| -> Vec<f64> {
+        let text = fs::read_to_string(folder.join("history.csv")).unwrap();
+        let load = |line: &str| line.split(',').nth(1).unwrap().parse().unwrap();
+        text.lines().skip(1).map(load).collect()
+    };
+    let (first, second) = (loads(&out), loads(&second));
+    assert_eq!(first.len(), second.len());
+    for (a, b) in first.iter().zip(&second) {
+        // The domains, and with them the springs, differ by their sizing from load and from approach.
+        assert!((a - b).abs() < 1e-4 * 10.0, "{a} {b}");
+    }
+}
+
+#[test]
+fn a_dry_run_tells_steps_and_memory_and_writes_nothing() {
+    let folder = TempDir::new().unwrap();
+    let segments = r#"{ kind = "step", to = "10 N", duration = "2 s" }"#;
+    let solver = "[solver]\nengine = \"half-space\"\ncells = 1024\n[time]\nstep = \"0.5 s\"\n";
+    let text = maxwell() + &drive("load", segments) + solver;
+    let file = write(&folder, "dry.toml", &text);
+    let out = folder.path().join("out");
+    program()
+        .args(["simulate", &file, "--dry-run", "--out"])
+        .arg(&out)
+        .assert()
+        .success()
+        .stdout(
+            contains("time steps on 1024 x 1024 cells (half-space engine)")
+                .and(contains("for the errors"))
+                .and(contains("Memory: about"))
+                .and(contains(" MB")),
+        );
+    assert!(!out.exists());
+}

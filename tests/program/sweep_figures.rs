@@ -1,0 +1,313 @@
+//! The figures of sweeps: what their data say, which there are, and what is left out.
+
+#![cfg(feature = "report")]
+
+use std::collections::{BTreeSet, HashMap};
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use crate::common::{pmma_material, sweep_plan};
+use contact_dma::drive::{Control, HarmonicDrive};
+use contact_dma::indenter::{FlatPunch, HeightMap, MapEdge, MapQuantity, Sphere};
+use contact_dma::material::{Material, ModulusKind, Relaxation};
+use contact_dma::report;
+use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::plan::{DriveAxis, EngineKind, SweepPlan, Varied};
+use contact_dma::sweep::record::CaseRecord;
+use contact_dma::sweep::search::run::{self, Outcome, Progress};
+use contact_dma::sweep::store::Store;
+use contact_dma::sweep::store::files;
+use tempfile::TempDir;
+
+struct Silent;
+
+impl Progress for Silent {
+    fn case_finished(&self, _: &CaseRecord) {}
+    fn locating_peaks(&self, _: usize) {}
+}
+
+/// A sweep with what it left in its folder.
+struct Swept {
+    folder: TempDir,
+    outcome: Outcome,
+    left_out: Vec<String>,
+}
+
+fn swept(plan: SweepPlan) -> Swept {
+    let folder = TempDir::new().unwrap();
+    let setup = Setup::new(plan).unwrap();
+    let store = Store::open(folder.path(), "a sweep", false).unwrap();
+    let outcome = run::run(&setup, &store, 2, &AtomicBool::new(false), &Silent).unwrap();
+    let left_out = report::write_sweep(&store, setup.plan(), &outcome).unwrap();
+    Swept {
+        folder,
+        outcome,
+        left_out,
+    }
+}
+
+impl Swept {
+    /// A table by columns; an empty cell is `None`.
+    fn table(&self, name: &str) -> HashMap<String, Vec<Option<f64>>> {
+        let mut reader = csv::Reader::from_path(self.folder.path().join(name)).unwrap();
+        let headers = reader.headers().unwrap().clone();
+        let mut table: HashMap<String, Vec<Option<f64>>> = HashMap::new();
+        for row in reader.records().map(|row| row.unwrap()) {
+            for (header, cell) in headers.iter().zip(&row) {
+                let column = table.entry(header.to_owned()).or_default();
+                column.push(cell.parse().ok());
+            }
+        }
+        table
+    }
+
+    fn column(&self, table: &str, column: &str) -> Vec<f64> {
+        let column = self.table(table).remove(column).unwrap();
+        column.into_iter().map(|cell| cell.unwrap()).collect()
+    }
+
+    fn figures(&self) -> BTreeSet<String> {
+        let names = top_level(self.folder.path()).into_iter();
+        names
+            .filter_map(|name| Some(name.strip_suffix("@2x.png")?.to_owned()))
+            .collect()
+    }
+}
+
+fn top_level(folder: &Path) -> BTreeSet<String> {
+    let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap());
+    let files = entries.filter(|entry| entry.path().is_file());
+    files
+        .map(|entry| entry.file_name().into_string().unwrap())
+        .collect()
+}
+
+/// PMMA under the sphere of the main job, coarse.
+fn pmma(angular_frequencies_rad_per_s: &[f64]) -> SweepPlan {
+    let sphere = Sphere::new(10e-3).unwrap();
+    let mut plan = sweep_plan(pmma_material(), Arc::new(sphere), 10.0, 5.0);
+    plan.angular_frequencies_rad_per_s = angular_frequencies_rad_per_s.to_vec();
+    plan.cycle.steps = 60;
+    plan.solver.springs = 120;
+    plan
+}
+
+fn with_amplitudes(mut plan: SweepPlan, amplitudes: &[f64]) -> SweepPlan {
+    let drive = |&amplitude: &f64| {
+        HarmonicDrive::new(plan.drive.control(), plan.drive.mean(), amplitude, 0.0, 0.0).unwrap()
+    };
+    plan.axis = Some(DriveAxis {
+        varied: Varied::Amplitude,
+        drives: amplitudes.iter().map(drive).collect(),
+    });
+    plan
+}
+
+#[test]
+fn the_slow_branch_of_pmma_makes_its_peak_and_the_fast_one_the_shoulder() {
+    let swept = swept(pmma(&[0.00844, 0.0757]));
+    let branches = |case: usize| {
+        let result = swept.outcome.records[case].result.as_ref().unwrap();
+        let share = |b: usize| result.branches[b].energy_loss_j / result.analysis.energy_loss_j;
+        (
+            result.branches[0].retardation_time_s,
+            share(0),
+            result.branches[1].retardation_time_s,
+            share(1),
+        )
+    };
+    let (fast_s, fast, slow_s, slow) = branches(0);
+    // The paper's equation (10) has the reciprocals 0.1006 and 0.00747 to these digits.
+    assert!((fast_s - 9.936).abs() < 5e-3 && (slow_s - 133.9).abs() < 0.1);
+    assert!(slow > 0.85 && fast < 0.15, "{slow} {fast}");
+    let (_, fast, _, slow) = branches(1);
+    assert!(fast > 0.75 && slow < 0.25, "{fast} {slow}");
+    // The figure's data are these numbers.
+    let losses = swept.column("dissipation.csv", "branch_loss_j");
+    let total = swept.column("dissipation.csv", "energy_loss_j");
+    let peak: f64 = losses[..2].iter().sum();
+    // Loop area and dissipation agree to the discretisation: 60 steps, of second order.
+    assert!((peak / total[0] - 1.0).abs() < 2e-3);
+    assert!((losses[1] / total[0] - 0.88).abs() < 0.02);
+}
+
+/// The integral of the mapped density over the surface.
+fn integral(swept: &Swept) -> f64 {
+    let name = "dissipation-map.csv";
+    let density = swept.column(name, "work_j_per_m2");
+    let table = swept.table(name);
+    if table.contains_key("radius_m") {
+        let r = swept.column(name, "radius_m");
+        let ring = |k: usize| {
+            let at = |k: usize| std::f64::consts::TAU * r[k] * density[k];
+            0.5 * (at(k) + at(k + 1)) * (r[k + 1] - r[k])
+        };
+        return (0..r.len() - 1).map(ring).sum();
+    }
+    let x = swept.column(name, "x_m");
+    let spacing = x[1] - x[0];
+    spacing * spacing * density.iter().sum::<f64>()
+}
+
+#[test]
+fn the_work_over_the_surface_adds_up_to_the_energy_loss_with_both_engines() {
+    let springs = swept(pmma(&[0.00844]));
+    let mut plan = pmma(&[0.00844]);
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = 64;
+    let cells = swept(plan);
+    for (swept, tolerance) in [
+        // Trapezia over 120 springs, with steps of the contact's edge across them.
+        (&springs, 5e-3),
+        // A sum over cells is the load itself; what remains is the closing of the loop by 60 steps: (2 pi/60)^2/6.
+        (&cells, 3e-3),
+    ] {
+        let loss = swept.outcome.records[0].energy_loss_j().unwrap();
+        let sum = integral(swept);
+        assert!((sum / loss - 1.0).abs() < tolerance, "{sum:e} {loss:e}");
+    }
+    // In the middle, away from the edge that cells resolve to one in thirty, both engines have the same density.
+    let middle = |swept: &Swept, place: &str| {
+        let r = swept.column("dissipation-profile.csv", place);
+        let w = swept.column("dissipation-profile.csv", "work_j_per_m2");
+        let inside = r.iter().zip(w).filter(|(r, _)| r.abs() < 100e-6);
+        let (sum, count) = inside.fold((0.0, 0.0), |(s, n), (_, w)| (s + w, n + 1.0));
+        sum / count
+    };
+    let (a, b) = (middle(&springs, "radius_m"), middle(&cells, "radius_m"));
+    assert!((a / b - 1.0).abs() < 0.02, "{a} {b}");
+}
+
+#[test]
+fn every_figure_is_known_by_name_so_that_another_sweep_clears_it() {
+    let omegas = [0.004, 0.008, 0.02];
+    let one = swept(pmma(&omegas));
+    let two = swept(with_amplitudes(pmma(&omegas), &[1.0, 10.0]));
+    assert!(one.left_out.is_empty() && two.left_out.is_empty());
+    let known: BTreeSet<String> = files::of_sweep()
+        .chain([".contact-dma.lock", "resolved.toml"].map(str::to_owned))
+        .collect();
+    for swept in [&one, &two] {
+        assert!(top_level(swept.folder.path()).is_subset(&known));
+    }
+    assert_eq!(one.figures().len(), 9);
+    let all: BTreeSet<String> = files::FIGURES.map(str::to_owned).into();
+    assert_eq!(two.figures(), all);
+    Store::open(two.folder.path(), "another sweep", true).unwrap();
+    let left: Vec<String> = top_level(two.folder.path()).into_iter().collect();
+    assert_eq!(left, [".contact-dma.lock", "resolved.toml"]);
+}
+
+#[test]
+fn the_indentation_formula_is_exact_for_a_punch_and_the_worse_the_larger_the_amplitude_for_a_sphere()
+ {
+    let omegas = [0.004, 0.008, 0.02];
+    let mut plan = pmma(&omegas);
+    plan.indenter = Arc::new(FlatPunch::new(1e-3).unwrap());
+    let punch = swept(plan);
+    let differences = |swept: &Swept, of: &str| swept.column("moduli.csv", of);
+    for of in ["storage_relative_difference", "loss_relative_difference"] {
+        // The correspondence principle, but for 60 steps of second order.
+        assert!(differences(&punch, of).iter().all(|d| d.abs() < 3e-3));
+    }
+    let sphere = swept(with_amplitudes(pmma(&omegas), &[0.5, 2.0, 10.0]));
+    let error = differences(&sphere, "loss_relative_difference");
+    // The frequency in the middle under each amplitude.
+    let [small, middle, large] = [1, 4, 7].map(|k| -error[k]);
+    assert!(small < middle && middle < large, "{error:?}");
+    assert!(small < 0.01 && large > 0.05, "{error:?}");
+    assert_eq!(
+        error,
+        sphere.column("moduli-error.csv", "loss_relative_difference")
+    );
+}
+
+#[test]
+fn figures_that_do_not_apply_are_left_out_and_said() {
+    let single = swept(pmma(&[0.008]));
+    assert_eq!(single.left_out.len(), 2, "{:?}", single.left_out);
+    assert!(single.figures().contains("dissipation-map"));
+    assert!(!single.figures().contains("cole-cole") && !single.figures().contains("dissipation"));
+
+    let mut elastic = pmma(&[0.004, 0.008, 0.02]);
+    let relaxation = Relaxation::new(2e9, Vec::new()).unwrap();
+    elastic.material =
+        Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap();
+    let elastic = swept(elastic);
+    assert!(elastic.left_out.iter().any(|why| why.contains("branches")));
+    assert!(!elastic.figures().contains("dissipation"));
+
+    // An approach that is prescribed has no harmonics to be mapped.
+    let mut approach = pmma(&[0.004, 0.008, 0.02]);
+    approach.drive = HarmonicDrive::new(Control::Approach, 1e-6, 0.5e-6, 0.0, 0.0).unwrap();
+    let approach = swept(with_amplitudes(approach, &[0.2e-6, 0.5e-6, 2e-6]));
+    assert!(
+        approach
+            .left_out
+            .iter()
+            .any(|why| why.contains("harmonic-2"))
+    );
+    assert!(!approach.figures().contains("harmonic-2-map"));
+    assert!(approach.figures().contains("loss-map"));
+}
+
+#[test]
+fn an_earlier_run_that_came_further_leaves_no_figures_beside_new_tables() {
+    let swept = swept(pmma(&[0.004, 0.008, 0.02]));
+    let mut interrupted = swept.outcome.clone();
+    interrupted.records.truncate(1);
+    interrupted.peaks.clear();
+    let store = Store::open(swept.folder.path(), "a sweep", false).unwrap();
+    report::write_sweep(&store, &pmma(&[0.004, 0.008, 0.02]), &interrupted).unwrap();
+    assert!(!swept.figures().contains("cole-cole"));
+    assert!(swept.figures().contains("loops"));
+}
+
+#[test]
+fn a_map_is_told_by_its_own_cells_whatever_the_plan_asks_for() {
+    let place = |i: usize, n: usize| 40e-6 * (i as f64 - 0.5 * (n as f64 - 1.0));
+    let gap = |k: usize| {
+        let (x, y) = (place(k % 20, 20), place(k / 20, 15));
+        (x * x + y * y) / (2.0 * 10e-3)
+    };
+    let gaps = (0..20 * 15).map(gap).collect();
+    let map = HeightMap::new(
+        (20, 15),
+        (40e-6, 40e-6),
+        gaps,
+        MapQuantity::Gap,
+        MapEdge::Unknown,
+    );
+    let mut plan = sweep_plan(pmma_material(), Arc::new(map.unwrap()), 1.0, 0.5);
+    plan.angular_frequencies_rad_per_s = vec![0.008];
+    plan.cycle.steps = 32;
+    plan.solver.engine = EngineKind::HalfSpace;
+    assert_eq!(plan.solver.cells, 128);
+    let swept = swept(plan);
+    assert_eq!(swept.outcome.records[0].nodes, 20);
+    let caption = fs::read_to_string(swept.folder.path().join("loops.caption.txt")).unwrap();
+    assert!(caption.contains("20 × 15 cells of the map"), "{caption}");
+    assert!(!caption.contains("128"), "{caption}");
+}
+
+#[test]
+fn an_elastic_body_loses_nothing_and_is_not_asked_for_a_wider_sweep() {
+    for engine in [EngineKind::Axisymmetric, EngineKind::HalfSpace] {
+        let relaxation = Relaxation::new(1e9, Vec::new()).unwrap();
+        let body = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap();
+        let mut plan = pmma(&[0.01, 0.1, 1.0]);
+        plan.material = body;
+        plan.cycle.steps = 32;
+        plan.solver.engine = engine;
+        plan.solver.cells = 32;
+        let told = report::terminal::peaks(&plan, &swept(plan.clone()).outcome);
+        assert!(told.contains("an elastic body loses nothing"), "{told}");
+        for record in &swept(plan).outcome.records {
+            // Not -0 either, which a table would show.
+            let loss_j = record.energy_loss_j().unwrap();
+            assert_eq!(loss_j.to_bits(), 0.0_f64.to_bits(), "{engine:?}: {loss_j}");
+        }
+    }
+}

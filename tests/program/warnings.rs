@@ -1,0 +1,277 @@
+//! What lies outside the model is said on the terminal, in the record, in tables and on the page; and what lies inside is not.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+
+use crate::html::{between, unescaped};
+use crate::program::{pmma_sweep, program, write};
+use serde_json::Value;
+use tempfile::TempDir;
+
+const THREE: &str = r#"[sweep]
+angular_frequency = ["0.004 rad/s", "0.008 rad/s", "0.02 rad/s"]
+"#;
+
+/// Everything a command left and printed.
+struct Left {
+    folder: TempDir,
+    printed: String,
+    summary: Value,
+    page: String,
+}
+
+fn run(command: &str, text: &str, files: &[(&str, &str)]) -> Left {
+    let folder = TempDir::new().unwrap();
+    for (name, text) in files {
+        write(&folder, name, text);
+    }
+    let file = write(&folder, "input.toml", text);
+    let out = folder.path().join("out");
+    let assert = program().args([command, &file, "--out"]).arg(&out).assert();
+    let assert = assert.success();
+    let printed = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
+    assert!(
+        printed
+            .lines()
+            .all(|line| line.chars().count() <= 80 || line.starts_with("Results"))
+    );
+    let summary = fs::read(out.join("summary.json")).unwrap();
+    Left {
+        printed: printed.split_whitespace().collect::<Vec<_>>().join(" "),
+        summary: serde_json::from_slice(&summary).unwrap(),
+        page: fs::read_to_string(out.join("index.html")).unwrap(),
+        folder,
+    }
+}
+
+impl Left {
+    /// Codes in summary.json.
+    fn codes(&self) -> Vec<&str> {
+        let warnings = self.summary["warnings"].as_array().unwrap();
+        warnings
+            .iter()
+            .map(|w| w["code"].as_str().unwrap())
+            .collect()
+    }
+
+    /// Each message of summary.json stands on the terminal once, and on the page; without any, nothing does.
+    fn says_them(&self) {
+        let warnings = self.summary["warnings"].as_array().unwrap();
+        assert_eq!(self.printed.matches("warning:").count(), warnings.len());
+        if warnings.is_empty() {
+            assert!(!self.page.contains("class=\"warnings\""));
+            return;
+        }
+        let list = unescaped(between(&self.page, "class=\"warnings\">", "</div>"));
+        for warning in warnings {
+            let message = warning["message"].as_str().unwrap();
+            assert_eq!(self.printed.matches(message).count(), 1, "{message}");
+            assert!(list.contains(message), "{message}\n{list}");
+        }
+    }
+
+    /// The column `warnings` of sweep.csv.
+    fn column(&self) -> Vec<String> {
+        let mut table = csv::Reader::from_path(self.folder.path().join("out/sweep.csv")).unwrap();
+        let column = table
+            .headers()
+            .unwrap()
+            .iter()
+            .position(|c| c == "warnings");
+        let rows = table
+            .records()
+            .map(|row| row.unwrap()[column.unwrap()].to_owned());
+        rows.collect()
+    }
+}
+
+#[test]
+fn a_sweep_inside_the_model_is_not_warned_of() {
+    let left = run("sweep", &pmma_sweep(THREE), &[]);
+    assert!(left.codes().is_empty());
+    left.says_them();
+    assert_eq!(left.column(), ["", "", ""]);
+}
+
+#[test]
+fn ten_newtons_on_a_tip_of_ten_nanometres_are_warned_of_everywhere() {
+    let text = pmma_sweep(THREE).replace("10 mm", "10 nm");
+    let left = run("sweep", &text, &[]);
+    assert_eq!(left.codes(), ["large-strain", "steep-slope"]);
+    left.says_them();
+    assert_eq!(left.column(), ["large-strain steep-slope"; 3]);
+    for warning in left.summary["warnings"].as_array().unwrap() {
+        assert_eq!(warning["cases"], 3);
+        assert_eq!(warning["lowest_angular_frequency_rad_per_s"], 0.004);
+        assert_eq!(warning["highest_angular_frequency_rad_per_s"], 0.02);
+    }
+    assert!(left.printed.contains("(all cases)"));
+    // a/R of the record, which the slope of the paraboloid is, and a fifth of it.
+    let out = left.folder.path().join("out");
+    let record = fs::read_to_string(out.join("records/0001.json")).unwrap();
+    let record: Value = serde_json::from_str(&record).unwrap();
+    let case = &record["content"]["case"];
+    let ratio = case["result"]["contact_radius_m"]["maximum"]
+        .as_f64()
+        .unwrap()
+        / 1e-8;
+    assert!(ratio > 300.0, "{ratio}");
+    let of = |code: &str, number: &str| {
+        let warnings = case["warnings"].as_array().unwrap();
+        let warning = warnings.iter().find(|w| w["code"] == code).unwrap();
+        warning[number].as_f64().unwrap()
+    };
+    // Differentiated over a thousandth of the radius.
+    assert!((of("steep-slope", "slope") / ratio - 1.0).abs() < 1e-3);
+    assert!((of("large-strain", "strain") / (0.2 * ratio) - 1.0).abs() < 1e-3);
+    // Drawn again from the records, the same is said; asked to be quiet, nothing.
+    let again = program().args(["report"]).arg(&out).assert().success();
+    let again = String::from_utf8(again.get_output().stdout.clone()).unwrap();
+    assert_eq!(again.matches("warning:").count(), 2);
+    let quiet = program().args(["report", "--quiet"]).arg(&out).assert();
+    quiet.success().stdout("").stderr("");
+}
+
+#[test]
+fn only_the_cases_that_are_outside_are_warned_of() {
+    // A modulus of 0.9 GPa at rest and 1.5 GPa at once, and a strain of 1.2 %: glassy at high frequencies alone.
+    let text = r#"title = "leathery"
+[material]
+poisson_ratio = 0.4
+[material.relaxation]
+modulus = "longitudinal"
+equilibrium = "0.9 GPa"
+branches = [{ modulus = "0.6 GPa", time = "1 s" }]
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+mean = "24 N"
+amplitude = "1 N"
+[sweep]
+angular_frequency = ["0.01 rad/s", "0.1 rad/s", "10 rad/s", "100 rad/s"]
+"#;
+    let left = run("sweep", text, &[]);
+    assert_eq!(left.codes(), ["large-strain"]);
+    left.says_them();
+    assert_eq!(left.column(), ["", "", "large-strain", "large-strain"]);
+    let said = "(2 of 4 cases, ω = 10.00 rad/s to 100.0 rad/s)";
+    assert!(left.printed.contains(said), "{}", left.printed);
+}
+
+/// Heights in metres of a paraboloid of 10 mm, on 20 x 15 points 40 um apart.
+fn map() -> String {
+    let at = |i: usize, n: usize| 4e-5 * (i as f64 - 0.5 * (n - 1) as f64);
+    let height = |x, y| -(at(x, 20).powi(2) + at(y, 15).powi(2)) / 0.02;
+    let row = |y| -> Vec<String> { (0..20).map(|x| format!("{:e}", height(x, y))).collect() };
+    (0..15).map(|y| row(y).join(",") + "\n").collect()
+}
+
+const MAP: &str = "shape = \"height-map\"\nfile = \"map.csv\"\nspacing = \"40 um\"";
+const SPHERE: &str = "shape = \"sphere\"\nradius = \"10 mm\"";
+
+#[test]
+fn a_map_has_its_own_cells_and_no_error_bars_and_both_are_said() {
+    let rest = "[sweep]\nangular_frequency = [\"0.008 rad/s\"]\n[cycle]\nsteps = 32\n";
+    let text = pmma_sweep(rest)
+        .replace(SPHERE, MAP)
+        .replace("10 N", "1 N")
+        .replace("5 N", "0.5 N");
+    let left = run("sweep", &text, &[("map.csv", &map())]);
+    assert_eq!(left.codes(), ["no-error-bars"]);
+    left.says_them();
+    assert_eq!(left.column(), ["no-error-bars"]);
+    assert!(
+        left.page
+            .contains("<dt>cells of the map</dt><dd>20 × 15</dd>")
+    );
+    let mut table = csv::Reader::from_path(left.folder.path().join("out/sweep.csv")).unwrap();
+    let nodes = table.headers().unwrap().iter().position(|c| c == "nodes");
+    let row = table.records().next().unwrap().unwrap();
+    assert_eq!(&row[nodes.unwrap()], "20");
+    // Asked for none, none are missed.
+    let text = text.replace("steps = 32", "steps = 32\nerror_bars = false");
+    let left = run("sweep", &text, &[("map.csv", &map())]);
+    assert!(left.codes().is_empty());
+    left.says_them();
+}
+
+#[test]
+fn on_cells_the_same_is_said_as_on_springs() {
+    // a/R about 0.25 of a rubber: beyond small slopes, and not glassy.
+    let rest = "[sweep]\nangular_frequency = [\"1 rad/s\"]\n[cycle]\nsteps = 32\nerror_bars = false\n[solver]\ncells = 32\n";
+    let rubber = "poisson_ratio = 0.5\n[material.zener]\nspring = \"2 MPa\"\nkelvin_spring = \"2 MPa\"\ntime = \"1 s\"";
+    let text = pmma_sweep(rest)
+        .replace("library = \"pmma\"", rubber)
+        .replace("10 N", "6 N")
+        .replace("5 N", "1 N");
+    let ellipsoid = "shape = \"ellipsoid\"\nradius_x = \"10 mm\"\nradius_y = \"9.9 mm\"";
+    for shape in [SPHERE, ellipsoid] {
+        let left = run("sweep", &text.replace(SPHERE, shape), &[]);
+        assert_eq!(left.codes(), ["steep-slope"], "{shape}");
+        left.says_them();
+    }
+}
+
+/// A history on a material given by its samples, which were measured from 1 s to 1000 s.
+fn history(indenter: &str, load: &str, segments: &str) -> String {
+    format!(
+        "title = \"history\"\n[material]\npoisson_ratio = 0.4\n[material.table]\nquantity = \"creep\"\nmodulus = \"longitudinal\"\n\
+         evaluation = \"direct\"\ntimes = [1.0, 10.0, 100.0, 1000.0]\nvalues = [4e-10, 4.2e-10, 4.5e-10, 4.6e-10]\n\
+         [indenter]\n{indenter}\n[drive]\nsegments = [{{ kind = \"ramp\", to = \"{load}\", duration = \"10 s\" }}, {segments}]\n\
+         [time]\nstep = \"1 s\"\n[solver]\nsprings = 50\n"
+    )
+}
+
+#[test]
+fn a_history_outside_the_measured_times_and_of_a_steep_contact_is_warned_of() {
+    let hold = "{ kind = \"ramp\", to = \"1 N\", duration = \"20 s\" }";
+    let left = run("simulate", &history(SPHERE, "1 N", hold), &[]);
+    assert!(left.codes().is_empty());
+    left.says_them();
+    let jump = "{ kind = \"step\", to = \"2 N\", duration = \"1100 s\" }";
+    let left = run("simulate", &history(SPHERE, "1 N", jump), &[]);
+    assert_eq!(
+        left.codes(),
+        ["shorter-than-measured", "longer-than-measured"]
+    );
+    left.says_them();
+    let cone = "shape = \"cone\"\nhalf_angle = \"70 deg\"";
+    let left = run("simulate", &history(cone, "1 N", hold), &[]);
+    assert_eq!(left.codes(), ["large-strain", "steep-slope"]);
+    left.says_them();
+}
+
+#[test]
+fn a_history_on_a_map_is_judged_by_the_part_of_it_in_contact() {
+    let hold = "{ kind = \"ramp\", to = \"1 N\", duration = \"5 s\" }";
+    let gentle = run(
+        "simulate",
+        &history(MAP, "1 N", hold),
+        &[("map.csv", &map())],
+    );
+    assert!(gentle.codes().is_empty());
+    assert!(
+        gentle
+            .page
+            .contains("<dt>cells of the map</dt><dd>20 × 15</dd>")
+    );
+    // Twenty times as high, on points as far apart.
+    let steep = MAP.replace("map.csv", "steep.csv");
+    let rows = map().replace("e-", "e-0");
+    let lines = rows.lines().map(|line| {
+        let cells = line
+            .split(',')
+            .map(|cell| (20.0 * cell.parse::<f64>().unwrap()).to_string());
+        cells.collect::<Vec<_>>().join(",") + "\n"
+    });
+    let steep_map: String = lines.collect();
+    let left = run(
+        "simulate",
+        &history(&steep, "30 N", hold),
+        &[("steep.csv", &steep_map)],
+    );
+    assert_eq!(left.codes(), ["large-strain", "steep-slope"]);
+    left.says_them();
+}
