@@ -10,6 +10,8 @@ pub mod master_curve;
 pub mod prony;
 pub mod replicas;
 pub mod shift_law;
+#[cfg(test)]
+mod synthetic;
 
 use super::{ModulusKind, Relaxation};
 use master_curve::{MasterCurve, MasterCurveError, ShiftChoice};
