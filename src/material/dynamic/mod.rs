@@ -196,6 +196,8 @@ pub enum DynamicError {
     Prony(#[from] PronyError),
     #[error(transparent)]
     Material(#[from] MaterialError),
+    #[error("no replicas: {0}")]
+    Replica(#[from] DynamicDataError),
     /// The data say nothing about this temperature.
     #[error("the data do not reach to {}{}", crate::quantity::celsius(*temperature_k), range(*range_k))]
     Temperature {
@@ -253,12 +255,9 @@ pub fn characterise(
             (Some(master), Some(temperature_k))
         }
     };
-    let points = match &master {
-        Some(master) => master.points.clone(),
-        None => data.points().copied().collect(),
-    };
+    let points = master_points(data, master.as_ref());
     let fit = prony::fit(&points, choices.branches)?;
-    let replicas = replicas::draw(&points, &fit, choices)?;
+    let replicas = replicas::draw(data, master.as_ref(), &fit, choices)?;
     let kind = data.kind();
     Ok(Characterisation {
         kind,
@@ -267,6 +266,14 @@ pub fn characterise(
         fit,
         replicas,
     })
+}
+
+/// The points of a master curve, or of the data where there is none.
+fn master_points(data: &DynamicData, master: Option<&MasterCurve>) -> Vec<DynamicPoint> {
+    match master {
+        Some(master) => master.points.clone(),
+        None => data.points().copied().collect(),
+    }
 }
 
 impl Characterisation {

@@ -27,7 +27,8 @@ use super::DynamicPoint;
 use crate::material::nnls::NnlsError;
 use crate::material::{MaterialError, Relaxation, RelaxationBranch};
 use rows::{Part, SPECTRUM};
-pub(super) use rows::{Rows, Series};
+pub(super) use rows::errors_known;
+use rows::{Rows, Series};
 use selection::Selection;
 
 /// By how much chi squared may be higher for a series that fits about as well (two standard deviations).
@@ -124,6 +125,33 @@ pub fn fit(points: &[DynamicPoint], branches: Option<usize>) -> Result<PronyFit,
     })
 }
 
+/// The best spectrum of any number of branches on five times per decade, which lie this share of a step beyond those of the limits:
+/// quickly, with the noise of a fit to points that are much alike, and a solid if that is one.
+pub(super) fn refitted(
+    points: &[DynamicPoint],
+    like: &PronyFit,
+    offset: f64,
+) -> Result<Relaxation, PronyError> {
+    let rows = Rows::like(points, like);
+    let (shortest, longest) = limits(&rows, BEYOND);
+    let step = 10_f64.powf(offset / COARSE);
+    let lowest = rows.lowest_storage();
+    let series = match like.relaxation.is_fluid() {
+        true => {
+            let (slowest, _) = rows.window();
+            let times = Rows::grid((shortest, 1.0 / slowest), COARSE);
+            rows.strengths(&times, (false, 0.0))?
+        }
+        false => {
+            let times = Rows::grid((shortest * step, longest * step), COARSE);
+            let solid = rows.strengths(&times, (true, 0.0))?;
+            let free = solid.constant > NOTHING * lowest;
+            if free { solid } else { held_solid(&rows, lowest)? }
+        }
+    };
+    Ok(rows.relaxation(&series)?)
+}
+
 /// Rows in units of the noise, and the best spectrum.
 pub(super) fn weighed(points: &[DynamicPoint]) -> Result<(Rows, Series), NnlsError> {
     let mut rows = Rows::new(points);
@@ -163,6 +191,17 @@ fn rest(rows: &Rows, spectrum: Series) -> Result<(Series, Equilibrium), NnlsErro
     if loss > storage && rows.chi_squared(&with(LEFT * storage)?) > allowed {
         return Ok((fluid, (false, 0.0)));
     }
+    let solid = held_solid(rows, storage)?;
+    let held = solid.constant;
+    Ok((solid, (false, held)))
+}
+
+/// A solid of half the largest equilibrium modulus that the data allow; `storage` is their modulus at the lowest frequency.
+fn held_solid(rows: &Rows, storage: f64) -> Result<Series, NnlsError> {
+    let (lowest, _) = rows.window();
+    let times = Rows::grid((limits(rows, BEYOND).0, 1.0 / lowest), COARSE);
+    let with = |held: f64| rows.strengths(&times, (false, held));
+    let allowed = rows.chi_squared(&with(0.0)?) + ALLOWED;
     let (mut least, mut most) = (NOTHING * storage, storage);
     for _ in 0..HALVINGS {
         let middle = (least * most).sqrt();
@@ -171,8 +210,7 @@ fn rest(rows: &Rows, spectrum: Series) -> Result<(Series, Equilibrium), NnlsErro
             false => most = middle,
         }
     }
-    let held = 0.5 * least;
-    Ok((with(held)?, (false, held)))
+    with(0.5 * least)
 }
 
 /// Consistency of storage and loss modulus, see above.

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::PronyFit;
 use crate::material::dynamic::DynamicPoint;
 use crate::material::harmonic::Debye;
 use crate::material::nnls::{NnlsError, nnls};
@@ -60,6 +61,12 @@ pub(super) enum Part {
     Both,
 }
 
+/// Whether every point has errors, by which it can be weighted.
+pub(super) fn errors_known<'a>(mut points: impl Iterator<Item = &'a DynamicPoint>) -> bool {
+    let usable = |error: f64| error.is_finite() && error > 0.0;
+    points.all(|p| matches!(p.errors_pa, Some((a, b)) if usable(a) && usable(b)))
+}
+
 /// Points in units of a reference modulus, and their noise.
 #[derive(Debug, Clone)]
 pub(in crate::material::dynamic) struct Rows {
@@ -87,10 +94,7 @@ impl Rows {
                 p.loss_modulus_pa / reference_pa,
             )
         };
-        let usable = |error: f64| error.is_finite() && error > 0.0;
-        let errors_known = points
-            .iter()
-            .all(|p| matches!(p.errors_pa, Some((a, b)) if usable(a) && usable(b)));
+        let errors_known = errors_known(points.iter());
         let relative = |p: &DynamicPoint| match p.errors_pa {
             Some((storage, loss)) if errors_known => {
                 (storage / p.storage_modulus_pa, loss / p.loss_modulus_pa)
@@ -111,6 +115,26 @@ impl Rows {
         };
         rows.set_deviations(&rows.values.clone());
         rows
+    }
+
+    /// The rows of points that are much like those of a fit, with its noise.
+    pub(super) fn like(points: &[DynamicPoint], fit: &PronyFit) -> Self {
+        let mut rows = Self::new(points);
+        let sizes = rows.omegas.iter().map(|&omega| {
+            let modulus = fit.relaxation.complex_modulus(omega) / rows.reference_pa;
+            (modulus.re, modulus.im)
+        });
+        let sizes: Vec<Both> = sizes.collect();
+        rows.noise = fit.noise;
+        rows.set_deviations(&sizes);
+        rows
+    }
+
+    /// Storage modulus at the lowest frequency.
+    pub(super) fn lowest_storage(&self) -> f64 {
+        let both = self.omegas.iter().zip(&self.values);
+        let lowest = both.min_by(|left, right| left.0.total_cmp(right.0));
+        lowest.map_or(0.0, |(_, values)| values.0)
     }
 
     /// Deviations proportional to these moduli.
