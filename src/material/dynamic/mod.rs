@@ -6,7 +6,12 @@
 //!
 //! Temperatures are in K, frequencies in rad/s, moduli in Pa; `E* = E' + i E''`.
 
+mod interpolation;
 pub mod master_curve;
+mod neighbours;
+pub mod noise;
+mod normal_equations;
+mod one_curve;
 pub mod prony;
 pub mod replicas;
 pub mod shift_law;
@@ -160,7 +165,7 @@ impl Isotherm {
 /// What is made of dynamic data, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choices {
-    /// `None`: the temperature of the middle isotherm.
+    /// `None`: the temperature of the middle isotherm, or the one at which given shift factors are zero.
     pub reference_temperature_k: Option<f64>,
     pub shift: ShiftChoice,
     /// Whether isotherms are shifted along the moduli too.
