@@ -26,8 +26,8 @@ mod selection;
 use super::DynamicPoint;
 use crate::material::nnls::NnlsError;
 use crate::material::{MaterialError, Relaxation, RelaxationBranch};
-use rows::{Part, SPECTRUM};
 pub(super) use rows::errors_known;
+use rows::{Part, SPECTRUM};
 use rows::{Rows, Series};
 use selection::Selection;
 
@@ -146,7 +146,11 @@ pub(super) fn refitted(
             let times = Rows::grid((shortest * step, longest * step), COARSE);
             let solid = rows.strengths(&times, (true, 0.0))?;
             let free = solid.constant > NOTHING * lowest;
-            if free { solid } else { held_solid(&rows, lowest)? }
+            if free {
+                solid
+            } else {
+                held_solid(&rows, lowest)?
+            }
         }
     };
     Ok(rows.relaxation(&series)?)

@@ -127,7 +127,8 @@ impl Model {
         let isotherms: Vec<[Modelled; 2]> = isotherms
             .map(|(index, isotherm)| modelled(isotherm, shift(index), fit, errors_known))
             .collect();
-        let common = [0, 1].map(|part| Common::of(isotherms.iter().map(|both| both[part].residuals)));
+        let common =
+            [0, 1].map(|part| Common::of(isotherms.iter().map(|both| both[part].residuals)));
         Self { isotherms, common }
     }
 
@@ -143,13 +144,12 @@ impl Model {
                 [0, 1].map(|part| both[part].measured_again(self.common[part], random));
             let moduli = storage.into_iter().zip(loss);
             let points = isotherm.points.iter().zip(moduli);
-            let point = |(point, (storage_modulus_pa, loss_modulus_pa)): (&DynamicPoint, _)| {
-                DynamicPoint {
+            let point =
+                |(point, (storage_modulus_pa, loss_modulus_pa)): (&DynamicPoint, _)| DynamicPoint {
                     storage_modulus_pa,
                     loss_modulus_pa,
                     ..*point
-                }
-            };
+                };
             sets.push(points.map(point).collect());
         }
         Ok(DynamicData::new(data.kind(), sets)?)
@@ -163,19 +163,23 @@ fn modelled(
     fit: &PronyFit,
     errors_known: bool,
 ) -> [Modelled; 2] {
-    let part = |of: fn(&DynamicPoint) -> (f64, Option<f64>), model: &dyn Fn(f64) -> f64, noise: f64| {
-        let values = isotherm.points.iter().map(|point| {
-            let relative = match of(point) {
-                (value, Some(error)) if errors_known => noise.max(1.0) * error / value,
-                _ => noise,
-            };
-            (model(a_t * point.angular_frequency_rad_per_s) / b_t, relative)
-        });
-        let values: Vec<(f64, f64)> = values.collect();
-        let measured: Vec<f64> = isotherm.points.iter().map(|point| of(point).0).collect();
-        let residuals = Residuals::of(&values, &measured);
-        Modelled { values, residuals }
-    };
+    let part =
+        |of: fn(&DynamicPoint) -> (f64, Option<f64>), model: &dyn Fn(f64) -> f64, noise: f64| {
+            let values = isotherm.points.iter().map(|point| {
+                let relative = match of(point) {
+                    (value, Some(error)) if errors_known => noise.max(1.0) * error / value,
+                    _ => noise,
+                };
+                (
+                    model(a_t * point.angular_frequency_rad_per_s) / b_t,
+                    relative,
+                )
+            });
+            let values: Vec<(f64, f64)> = values.collect();
+            let measured: Vec<f64> = isotherm.points.iter().map(|point| of(point).0).collect();
+            let residuals = Residuals::of(&values, &measured);
+            Modelled { values, residuals }
+        };
     let modulus = |omega: f64| fit.relaxation.complex_modulus(omega);
     [
         part(
@@ -231,7 +235,10 @@ impl Common {
 impl Modelled {
     /// Other moduli (Pa) of this model. Logarithmic, so that none of them is negative.
     fn measured_again(&self, common: Common, random: &mut Noise) -> Vec<f64> {
-        let (level, tilt) = (common.level * random.normal(), common.tilt * random.normal());
+        let (level, tilt) = (
+            common.level * random.normal(),
+            common.tilt * random.normal(),
+        );
         let count = self.values.len();
         let values = self.values.iter().enumerate();
         values
@@ -278,7 +285,14 @@ mod tests {
                 ..Choices::default()
             };
             let start = std::time::Instant::now();
-            let alone = characterise(&made.data, &Choices { replicas: 0, ..choices.clone() }).unwrap();
+            let alone = characterise(
+                &made.data,
+                &Choices {
+                    replicas: 0,
+                    ..choices.clone()
+                },
+            )
+            .unwrap();
             let first_s = start.elapsed().as_secs_f64();
             let found = characterise(&made.data, &choices).unwrap();
             let seconds = start.elapsed().as_secs_f64() - 2.0 * first_s;
