@@ -43,6 +43,7 @@ mod creep;
 mod error;
 mod harmonic;
 mod peaks;
+mod random;
 mod relaxation;
 #[cfg(test)]
 mod synthetic;
@@ -104,6 +105,7 @@ pub struct Material {
     relaxation: Option<Relaxation>,
     fit: Option<fit::FitReport>,
     approximation: Option<fractional::Approximation>,
+    shift: Option<dynamic::shift_law::Wlf>,
     measured_window_s: Option<(f64, f64)>,
     temperature_k: Option<f64>,
     alternatives: Vec<Material>,
@@ -129,6 +131,7 @@ impl Material {
             relaxation: Some(relaxation),
             fit: None,
             approximation: None,
+            shift: None,
             measured_window_s: None,
             temperature_k: None,
             alternatives: Vec::new(),
@@ -162,6 +165,7 @@ impl Material {
             relaxation,
             fit: None,
             approximation: None,
+            shift: None,
             measured_window_s: None,
             temperature_k: None,
             alternatives: Vec::new(),
@@ -183,6 +187,19 @@ impl Material {
             fit: Some(report),
             ..self
         }
+    }
+
+    /// The same material, known to shift in time with the temperature by this law, which refers to the material's own.
+    pub fn shifting(self, law: dynamic::shift_law::Wlf) -> Self {
+        Material {
+            shift: Some(law),
+            ..self
+        }
+    }
+
+    /// How the material shifts in time with the temperature, where that is known, from the temperature of its series on.
+    pub fn shift(&self) -> Option<&dynamic::shift_law::Wlf> {
+        self.shift.as_ref()
     }
 
     /// The same material, known to stand for a fractional model.

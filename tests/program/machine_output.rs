@@ -367,6 +367,55 @@ fn what_is_exported_has_the_same_complex_modulus_when_it_is_read_back() {
 }
 
 #[test]
+fn a_material_from_dynamic_data_is_exported_with_its_shift() {
+    let folder = TempDir::new().unwrap();
+    let solid = Prony {
+        equilibrium_pa: 1e6,
+        branches: (0..7).map(|k| (2e7, 10_f64.powi(k - 4))).collect(),
+    };
+    let (c1, c2) = (8.86, 101.6);
+    let shift = |celsius: f64| -c1 * (celsius - 25.0) / (c2 + celsius - 25.0);
+    let mut table = "temperature_c,frequency_hz,storage_modulus_pa,loss_modulus_pa\n".to_owned();
+    for celsius in [5.0, 15.0, 25.0, 35.0, 45.0, 55.0] {
+        for k in 0..11 {
+            let hertz = 10_f64.powf(f64::from(k) / 5.0 - 1.0);
+            let reduced = std::f64::consts::TAU * hertz * 10_f64.powf(shift(celsius));
+            let (storage, loss) = solid.moduli(reduced);
+            table.push_str(&format!("{celsius},{hertz},{storage},{loss}\n"));
+        }
+    }
+    write(&folder, "dma.csv", &table);
+    let block = "[material]\npoisson_ratio = 0.45\n[material.dynamic]\nfile = \"dma.csv\"\nmodulus = \"shear\"\n\
+                 reference_temperature = \"25 °C\"\n";
+    write(&folder, "material.toml", block);
+    let at_40 = block.replace(
+        "[material.dynamic]",
+        "temperature = \"40 °C\"\n[material.dynamic]",
+    );
+    write(&folder, "at_40.toml", &at_40);
+    for (file, reference) in [("material.toml", 25.0), ("at_40.toml", 40.0)] {
+        let printed = json(&folder, &["material", "export", file, "--to", "abaqus"]);
+        let text = printed["text"].as_str().unwrap();
+        let (_, law) = text.split_once("*TRS, DEFINITION=WLF\n").unwrap();
+        let [reference_k, c1, c2] = numbers(law.trim())[..] else {
+            panic!("{law}")
+        };
+        assert_eq!(reference_k, reference + 273.15);
+        // What shift factors are held to, in decades.
+        for celsius in [5.0, 30.0, 55.0] {
+            let above = celsius - reference;
+            let read = -c1 * above / (c2 + above);
+            let exact = shift(celsius) - shift(reference);
+            assert!((read - exact).abs() < 0.03, "{read}, {exact}");
+        }
+        assert_eq!(
+            json(&folder, &["material", "export", file, "--to", "ansys"])["program"],
+            "ansys"
+        );
+    }
+}
+
+#[test]
 fn an_export_goes_into_a_file_or_alone_to_standard_output() {
     let folder = TempDir::new().unwrap();
     let export = |arguments: &[&str]| {

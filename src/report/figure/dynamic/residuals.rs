@@ -37,10 +37,10 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
         &format!("Relative difference of the fitted series from the data, {symbol}′ and {symbol}″"),
     );
     let replicas = report.made.replicas.len();
-    if Band::of(&report.made.replicas, lowest).is_some() {
+    if Band::of(report.made, lowest).is_some() {
         chart.series.extend(bands(report));
         caption = caption.say(format!(
-            "Lines: between them lie 95 % of {replicas} replicas of the series, which carry the noise of the data, relative to it."
+            "Lines: the band of {replicas} replicas of the series, which carry the noise of the data."
         ));
     }
     let rows = residuals()
@@ -63,15 +63,15 @@ fn bands(report: &DynamicReport<'_>) -> Vec<Series> {
     let [mut storage, mut loss] = [[Vec::new(), Vec::new()], [Vec::new(), Vec::new()]];
     for omega in frequencies(report) {
         let own = report.relaxation().complex_modulus(omega);
-        let band = Band::of(&report.made.replicas, omega);
-        let place = |end: Option<f64>, own: f64| {
-            let relative = 100.0 * (end? / own - 1.0);
-            (own > 0.0).then_some((omega, relative))
-        };
-        storage[0].push(place(band.map(|b| b.storage_pa.0), own.re));
-        storage[1].push(place(band.map(|b| b.storage_pa.1), own.re));
-        loss[0].push(place(band.map(|b| b.loss_pa.0), own.im));
-        loss[1].push(place(band.map(|b| b.loss_pa.1), own.im));
+        let band = Band::of(report.made, omega);
+        let relative =
+            |half: Option<f64>, own: f64| Some(100.0 * half? / own).filter(|r| r.is_finite());
+        let of_storage = relative(band.map(|band| band.storage_pa), own.re);
+        let of_loss = relative(band.map(|band| band.loss_pa), own.im);
+        for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            storage[end].push(of_storage.map(|half| (omega, sign * half)));
+            loss[end].push(of_loss.map(|half| (omega, sign * half)));
+        }
     }
     let storage = storage.map(Series::line);
     let loss = loss.map(|ends| Series::line(ends).color(1).style(LineStyle::Dashed));
