@@ -5,7 +5,12 @@ use crate::input::diagnostic::Styling;
 
 /// Reads a text by itself.
 pub(super) fn read_text(text: &str, kind: ModulusKind) -> Result<DynamicFile, String> {
-    from_bytes("dma.csv", text.as_bytes(), None, kind).map_err(|refused| {
+    read_bytes(text.as_bytes(), kind)
+}
+
+/// Reads a file by itself; a refusal on one line.
+pub(super) fn read_bytes(bytes: &[u8], kind: ModulusKind) -> Result<DynamicFile, String> {
+    from_bytes("dma.csv", bytes, None, kind).map_err(|refused| {
         let text = refused.render(Styling::Plain);
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     })
@@ -37,7 +42,7 @@ pub(super) fn assert_points(file: &DynamicFile, expected: &[[f64; 4]]) {
     }
 }
 
-const TAU: f64 = std::f64::consts::TAU;
+pub(super) const TAU: f64 = std::f64::consts::TAU;
 
 #[test]
 fn one_table_in_every_dialect_is_the_same() {
