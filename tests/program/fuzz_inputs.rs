@@ -223,12 +223,12 @@ fn a_file_of_dynamic_data_is_read_or_refused() {
     assert!(seeds.len() > 8);
     for seed in &seeds {
         assert!(
-            inputs::dynamic_file(seed),
+            crate::inputs::dynamic_file(seed),
             "{}",
             String::from_utf8_lossy(seed)
         );
         assault_with(40, &[seed], |bytes| {
-            inputs::dynamic_file(bytes);
+            crate::inputs::dynamic_file(bytes);
         });
     }
 }
@@ -313,7 +313,7 @@ fn what_the_fuzzer_has_found_stays_mended() {
                 "quantities" => crate::inputs::quantity(&bytes),
                 "height_maps" => crate::inputs::height_map(&bytes),
                 "tables" => tables.check_any(&bytes),
-                "dynamic_files" => inputs::dynamic_file(&bytes),
+                "dynamic_files" => crate::inputs::dynamic_file(&bytes),
                 "records" => records.bytes(&bytes) | records.case(&bytes),
                 "checkpoints" => crate::inputs::check_any_checkpoint(&checkpoints, &bytes),
                 other => panic!("no target is called {other}"),

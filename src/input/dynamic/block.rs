@@ -112,7 +112,7 @@ pub(super) fn lacking(names: &[Option<Named>]) -> Option<&'static str> {
 impl<'a> Block<'a> {
     /// A table whose header is this line: the rows down to `end`, the first of which may be one of units.
     pub(super) fn new(grid: &'a Grid, header: usize, end: usize) -> Self {
-        let cells = grid.line(header);
+        let cells = grid.header(header);
         let below = grid.line(header + 1);
         let roles = names(&cells);
         let of_column = |place: usize| roles.get(place).is_some_and(Option::is_some);
@@ -156,7 +156,7 @@ impl<'a> Block<'a> {
             columns: columns.described(self),
             assumed: columns.assumed.clone(),
         };
-        let (problems, mut numbers) = (Problems::new(), self.grid.numbers());
+        let (problems, mut numbers) = (Problems::new(), self.grid.numbers(self.rows.clone()));
         let is_read = |line: &usize| {
             !self.grid.is_comment(*line) && self.skipped.binary_search(line).is_err()
         };

@@ -394,6 +394,17 @@ impl Reading {
             .help("add a column `temperature_c` to each, or name one file")
             .into());
         }
+        let steps = self.isotherms.iter().filter(|set| !set.is_empty()).count();
+        if steps > 1
+            && data
+                .isotherms()
+                .iter()
+                .all(|isotherm| isotherm.temperature_k.is_none())
+        {
+            self.note(format!(
+                "{steps} tables without a temperature, taken for one isotherm"
+            ));
+        }
         self.note(summary(&data));
         Ok((data, self.notes))
     }

@@ -67,7 +67,8 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
     }
     let scales = units.unwrap_or(ROLES.map(|_| Scale::ONE));
     reading.note("columns read: the first three, as angular frequency, G' and G''");
-    let (problems, mut numbers, mut points) = (Problems::new(), grid.numbers(), Vec::new());
+    let (problems, mut numbers, mut points) =
+        (Problems::new(), grid.numbers(first..grid.len()), Vec::new());
     for line in (first..grid.len()).filter(|line| !grid.is_comment(*line)) {
         let row = grid.line(line);
         match row_values(&row, &mut numbers, &problems, scales) {

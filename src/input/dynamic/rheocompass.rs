@@ -143,7 +143,7 @@ fn invalid(grid: &Grid, block: &Block<'_>) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use crate::input::dynamic::DynamicFormat;
-    use crate::input::dynamic::tests::{TAU, assert_points, read_bytes, read_text};
+    use crate::input::dynamic::tests::{assert_points, read_bytes, read_text};
     use crate::material::ModulusKind;
 
     const FILE: &str = "Project:\tpolymer\r\nTest:\tFrequency sweep\r\n\r\nResult:\tFS 25 °C\r\n\r\nInterval and data \

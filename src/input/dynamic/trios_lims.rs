@@ -81,7 +81,7 @@ fn step<'a>(grid: &'a Grid, start: usize, reading: &mut Reading) -> Option<Block
 #[cfg(test)]
 mod tests {
     use crate::input::dynamic::DynamicFormat;
-    use crate::input::dynamic::tests::{TAU, assert_points, read_text};
+    use crate::input::dynamic::tests::{assert_points, read_text};
     use crate::material::ModulusKind;
 
     const HEAD: &str = "[Version]\nTA Instruments LIMS export format version\t0\n[Header]\nRun date\t1/2/2026\n[Procedure: Steps]\nStep \
