@@ -88,7 +88,9 @@ impl Moduli {
 
 /// What the names of a header say, cell by cell.
 pub(super) fn names(header: &Line<'_>) -> Vec<Option<Named>> {
-    header.texts().map(columns::recognise).collect()
+    // No instrument writes as many; a hostile file may.
+    let cells = header.texts().take(2000);
+    cells.map(columns::recognise).collect()
 }
 
 /// Whether these columns are dynamic data: a frequency, and two that give both moduli.

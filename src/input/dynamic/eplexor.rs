@@ -4,6 +4,8 @@
 //! `---` marks what is missing. In the workbook of a master curve the sheet `Shiftlist` holds the reference temperature and
 //! `WLF | C1 : 13.50 | C2 : 141.19 K`; its frequencies are reduced, and `T` of its rows is not that of the curve.
 //!
+//! In a workbook without that sheet, every sheet with dynamic data is read, as TRIOS writes one for every step.
+//!
 //! The sheet is laid out as text with tabs, a line for every row, so that places in it are those of the workbook.
 
 use std::io::{Cursor, Read as _, copy, sink};
@@ -11,7 +13,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use calamine::{Data, DataRef, Reader, Xls, Xlsx};
 
-use super::{Reading, generic};
+use super::{Reading, generic, steps};
+use crate::input::data_file::grid::Grid;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
 use crate::quantity::{ZERO_CELSIUS_K, celsius};
 
@@ -55,23 +58,49 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
             .help("open it and save it again, or save the sheet as CSV")
     })?;
     let shifts = sheets.iter().find(|(sheet, _)| sheet == SHIFTS);
-    let data = sheets.iter().find(|(sheet, _)| sheet == DATA);
-    let Some((sheet, text)) = data.or_else(|| sheets.iter().find(|(sheet, _)| sheet != SHIFTS))
-    else {
-        return Err(
-            Diagnostic::new(format!("the workbook `{name}` has no sheet with data"))
-                .help(format!("name the sheet `{DATA}`"))
-                .into(),
-        );
-    };
-    let source = Source::file(format!("{name}[{sheet}]"), text.clone());
-    reading.note(format!("sheet `{sheet}`"));
-    let Some((grid, header)) = generic::header(&source) else {
-        return Err(generic::no_header(&source).into());
-    };
-    for block in generic::blocks(&grid, header) {
+    let is_named = sheets.iter().any(|(sheet, _)| sheet == DATA);
+    let wanted = sheets.iter().filter(|(sheet, _)| {
+        let is_data = if is_named {
+            sheet == DATA
+        } else {
+            sheet != SHIFTS
+        };
+        is_data && !steps::is_derived(sheet)
+    });
+    let (mut first, mut read) = (None, false);
+    for (sheet, text) in wanted {
+        let source = Source::file(format!("{name}[{sheet}]"), text.clone());
+        match generic::header(&source) {
+            Some((grid, header)) => {
+                reading.note(format!("sheet `{sheet}`"));
+                let shifts = shifts.map(|(_, text)| text.as_str());
+                one_sheet(&grid, header, shifts, reading)?;
+                read = true;
+            }
+            None => first = first.or(Some(source)),
+        }
+    }
+    match (read, first) {
+        (true, _) => Ok(()),
+        (false, Some(source)) => Err(generic::no_header(&source).into()),
+        (false, None) => Err(Diagnostic::new(format!(
+            "the workbook `{name}` has no sheet with data"
+        ))
+        .help(format!("name the sheet `{DATA}`"))
+        .into()),
+    }
+}
+
+/// Reads the tables of a sheet; those of a master curve where there is a list of shift factors.
+fn one_sheet(
+    grid: &Grid,
+    header: usize,
+    shifts: Option<&str>,
+    reading: &mut Reading,
+) -> Result<(), Diagnostics> {
+    for block in generic::blocks(grid, header) {
         let mut block = block.by_instrument();
-        if let Some((_, shifts)) = shifts {
+        if let Some(shifts) = shifts {
             block.is_master = true;
             block.temperature_k = reference(shifts);
             let at = block
@@ -328,6 +357,44 @@ mod tests {
                 file.notes
             );
         }
+    }
+
+    #[test]
+    fn a_workbook_with_a_sheet_for_every_step_is_read_but_for_what_was_computed() {
+        let step = |celsius: &'static str| {
+            vec![
+                vec!["Frequency sweep"],
+                vec![
+                    "Angular frequency",
+                    "Temperature",
+                    "Storage modulus",
+                    "Loss modulus",
+                ],
+                vec!["rad/s", "°C", "MPa", "MPa"],
+                vec!["1", celsius, "2", "0.1"],
+                vec!["10", celsius, "3", "0.2"],
+            ]
+        };
+        let details = (
+            "Details",
+            vec![vec!["Filename", "x"], vec!["Operator", "y"]],
+        );
+        let sheets = [
+            details,
+            ("Step 1", step("20")),
+            ("Step 2", step("40")),
+            ("TTS - master curve", step("30")),
+        ];
+        let file = read_bytes(&xlsx(&sheets), ModulusKind::Shear).unwrap();
+        assert_points(
+            &file,
+            &[
+                [293.15, 1.0, 2e6, 1e5],
+                [293.15, 10.0, 3e6, 2e5],
+                [313.15, 1.0, 2e6, 1e5],
+                [313.15, 10.0, 3e6, 2e5],
+            ],
+        );
     }
 
     #[test]

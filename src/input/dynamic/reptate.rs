@@ -28,7 +28,7 @@ pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
             .filter(|part| !part.is_empty())
     };
     let is_set = |part: &str| {
-        let name = part.split_once('=').map_or("", |(name, _)| name);
+        let name = part.split_once('=').map_or("", |(name, _)| name.trim());
         !name.is_empty() && !name.contains([' ', '\t', ','])
     };
     let are_parameters = line.contains(';') && parts().count() > 0 && parts().all(is_set);
@@ -209,7 +209,7 @@ mod tests {
                 file.notes
             );
         }
-        let tts = "C1=8.8;T=-35;isof=true;Mw=1131;\n1e-3 100 1000\n1 2e4 3e4\n1e3\t5e5\t1e5\n";
+        let tts = "C1=8.8;T = -35 ;isof=true;Mw=1131;\n1e-3 100 1000\n1 2e4 3e4\n1e3\t5e5\t1e5\n";
         let file = read_text(tts, ModulusKind::Shear).unwrap();
         assert_points(
             &file,

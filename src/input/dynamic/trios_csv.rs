@@ -16,13 +16,19 @@ pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
         line.trim_matches([',', ';', ' ', '\r', '"'])
             .eq_ignore_ascii_case("[step]")
     };
-    let mut lines = source.text().lines();
-    let has_tabs = source
-        .text()
+    let text = source.text();
+    let heads = [
+        "Filename,",
+        "rundate,",
+        "Geometry name,",
+        "Instrument name,",
+    ];
+    let has_head = text
         .lines()
-        .take(40)
-        .any(|line| line.contains('\t'));
-    (!has_tabs && lines.any(is_step))
+        .take(60)
+        .any(|line| heads.iter().any(|head| line.starts_with(head)));
+    let has_tabs = text.lines().take(40).any(|line| line.contains('\t'));
+    ((has_head || !has_tabs) && text.lines().any(is_step))
         .then(|| "lines `[step]` and cells separated by commas".to_owned())
 }
 

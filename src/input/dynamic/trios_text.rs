@@ -13,7 +13,9 @@ use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
 /// Why a text is taken for this format.
 pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
     let text = source.text();
-    let has_step = text.lines().any(|line| line.trim_end() == "[step]");
+    let has_step = text
+        .lines()
+        .any(|line| line.trim().eq_ignore_ascii_case("[step]"));
     let has_head = text.lines().take(40).any(|line| {
         [
             "Filename\t",
