@@ -30,6 +30,7 @@
 pub mod caption;
 pub mod chart;
 pub mod comparison;
+pub mod dynamic;
 pub mod figure;
 pub mod fit;
 pub mod machine;

@@ -28,7 +28,7 @@ const SWEEP: [&str; 10] = [
 ];
 
 /// Parts of the room `report` from top to bottom.
-const REPORT: [&str; 25] = [
+const REPORT: [&str; 26] = [
     "number",
     "words",
     "peaks",
@@ -37,6 +37,7 @@ const REPORT: [&str; 25] = [
     "table",
     "quantities",
     "fit",
+    "dynamic",
     "samples",
     "caption",
     "comparison",

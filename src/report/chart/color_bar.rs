@@ -1,10 +1,9 @@
-//! The colour bar of a heat map: the scale of its colours, right of the frame.
+//! The colour bar of a heat map, or of series coloured by a quantity: the scale of the colours, right of the frame.
 
 use std::sync::Arc;
 
-use super::ChartError;
 use super::canvas::{Canvas, Direction, HPos};
-use super::color_map::LEVELS;
+use super::color_map::{self, LEVELS};
 use super::geometry::Rect;
 use super::heat_map::{Boxes, HeatMap};
 use super::layout::crisp;
@@ -12,14 +11,18 @@ use super::look::*;
 use super::scale::AxisMap;
 use super::text::{ASCENT_EM, CAPITAL_EM, DESCENT_EM, widths_em};
 use super::ticks::{self, Ticks};
+use super::{Chart, ChartError, Color, Scale, color_scale};
 
 /// From the frame to the colour bar, and its width.
 const BAR_GAP: f64 = 22.0;
 const BAR_WIDTH: f64 = 20.0;
 
-/// A map with the range of its colours and the bar that explains them.
+/// The range of the colours and the bar that explains them.
 pub(super) struct Bar {
-    pub(super) map: Arc<HeatMap>,
+    /// `None` where series have the colours.
+    pub(super) map: Option<Arc<HeatMap>>,
+    label: String,
+    scale: Scale,
     /// The values at the two ends.
     pub(super) range: (f64, f64),
     pub(super) ticks: Ticks,
@@ -28,20 +31,41 @@ pub(super) struct Bar {
 }
 
 impl Bar {
+    /// The bar of the chart's map, else of its colour scale.
+    ///
     /// # Errors
     /// [`ChartError`] where the values of the map cannot be drawn.
-    pub(super) fn new(map: &Arc<HeatMap>) -> Result<Self, ChartError> {
-        let range = map.checked_range()?;
+    pub(super) fn of(chart: &Chart) -> Result<Option<Self>, ChartError> {
+        match (&chart.map, &chart.color_scale) {
+            (Some(map), _) => {
+                let (label, scaled) = (&map.value_label, (map.value_scale, map.checked_range()?));
+                Self::new(Some(Arc::clone(map)), label, scaled).map(Some)
+            }
+            (None, Some(colors)) => {
+                let scaled = (Scale::Linear, colors.checked_range()?);
+                Self::new(None, &colors.label, scaled).map(Some)
+            }
+            (None, None) => Ok(None),
+        }
+    }
+
+    fn new(
+        map: Option<Arc<HeatMap>>,
+        label: &str,
+        (scale, range): (Scale, (f64, f64)),
+    ) -> Result<Self, ChartError> {
         // Along a bar of unit length; the frame's height is not known yet.
-        let unit = along(map, range, (0.0, 1.0));
-        let ticks = ticks::choose(map.value_scale, range.0, range.1, |ticks| {
+        let unit = along(scale, range, (0.0, 1.0));
+        let ticks = ticks::choose(scale, range.0, range.1, |ticks| {
             let apart = |pair: &[ticks::Tick]| unit.px(pair[1].value) - unit.px(pair[0].value);
             ticks.windows(2).all(|pair| apart(pair) >= 1.0 / 9.0)
         });
         let widths = widths_em(ticks.major.iter().map(|tick| tick.label.as_str()))?;
-        let label_em = widths_em([map.value_label.as_str()])?;
+        let label_em = widths_em([label])?;
         Ok(Self {
-            map: Arc::clone(map),
+            map,
+            label: label.to_owned(),
+            scale,
             range,
             widest_label: TICK_TEXT * widths.into_iter().fold(0.0, f64::max),
             label_em: label_em.first().copied().unwrap_or(0.0),
@@ -52,6 +76,14 @@ impl Bar {
     pub(super) fn total_width(&self) -> f64 {
         let label = LABEL_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP;
         BAR_GAP + BAR_WIDTH + MAJOR_TICK + TICK_GAP + self.widest_label + label
+    }
+
+    /// The colour of a level.
+    pub(super) fn color(&self, level: usize) -> Color {
+        match self.map {
+            Some(_) => color_map::color(level),
+            None => color_scale::color(level),
+        }
     }
 
     fn rect(&self, frame: &Rect) -> Rect {
@@ -79,7 +111,7 @@ impl Bar {
         let bar = self.rect(frame);
         let right = bar.right;
         canvas.outline(&bar, FRAME_STROKE, FRAME);
-        let along = along(&self.map, self.range, (frame.bottom, frame.top));
+        let along = along(self.scale, self.range, (frame.bottom, frame.top));
         for (value, length) in self.ticks.lengths() {
             let y = crisp(along.px(value));
             canvas.line(&[(right, y), (right + length, y)], FRAME_STROKE, FRAME);
@@ -102,14 +134,14 @@ impl Bar {
         let beside = right + MAJOR_TICK + TICK_GAP + self.widest_label + LABEL_GAP;
         let at = (beside + LABEL_TEXT * ASCENT_EM, middle);
         let upwards = (HPos::Center, Direction::Upwards);
-        canvas.text(&self.map.value_label, at, size, upwards);
+        canvas.text(&self.label, at, size, upwards);
     }
 }
 
 /// The map of values to lengths along a bar between these two ends.
-fn along(map: &HeatMap, (low, high): (f64, f64), (from_px, to_px): (f64, f64)) -> AxisMap {
+fn along(scale: Scale, (low, high): (f64, f64), (from_px, to_px): (f64, f64)) -> AxisMap {
     AxisMap {
-        scale: map.value_scale,
+        scale,
         low,
         high,
         from_px,

@@ -89,7 +89,7 @@ pub(super) fn arrange(chart: &Chart) -> Result<Arrangement, ChartError> {
 /// As [`arrange`], with a frame that begins no further left than `left`.
 fn arrange_beside(chart: &Chart, left: f64) -> Result<Arrangement, ChartError> {
     check(chart)?;
-    let bar = chart.map.as_ref().map(Bar::new).transpose()?;
+    let bar = Bar::of(chart)?;
     let of_bar = bar.as_ref().map_or(0.0, Bar::total_width);
     let beside = |reserve: Reserve| Reserve {
         left,
@@ -159,9 +159,11 @@ fn paint(chart: &Chart, arrangement: &Arrangement, canvas: &Canvas) {
         labels,
         bar,
     } = arrangement;
-    match bar {
-        Some(bar) => heat_map::colors(bar, layout, canvas),
-        None => grid(layout, canvas),
+    if chart.map.is_none() {
+        grid(layout, canvas);
+    }
+    if let Some(bar) = bar {
+        heat_map::colors(bar, layout, canvas);
     }
     for (series, curve) in chart.series.iter().zip(curves) {
         for fill in &curve.fills {

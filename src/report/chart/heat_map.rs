@@ -189,19 +189,24 @@ impl HeatMap {
 
 /// Everything below the ink: cells or discs, the colours of the bar, contour lines.
 pub(super) fn colors(bar: &Bar, layout: &Layout, canvas: &Canvas) {
-    let mut boxes = Boxes::new();
-    match bar.map.shape {
-        MapShape::Turned => discs(bar, layout, canvas),
-        MapShape::ToScale | MapShape::HeightPx(_) => {
-            cells(bar, layout, &mut boxes);
-            boxes.draw(canvas);
+    if let Some(map) = &bar.map {
+        match map.shape {
+            MapShape::Turned => discs(map, bar, layout, canvas),
+            MapShape::ToScale | MapShape::HeightPx(_) => {
+                let mut boxes = Boxes::new();
+                cells(map, bar, layout, &mut boxes);
+                boxes.draw(bar, canvas);
+            }
         }
     }
     let mut boxes = Boxes::new();
     bar.strips(&layout.frame, &mut boxes);
-    boxes.draw(canvas);
-    if bar.map.contours && bar.map.shape != MapShape::Turned {
-        contours(bar, layout, canvas);
+    boxes.draw(bar, canvas);
+    if let Some(map) = &bar.map
+        && map.contours
+        && map.shape != MapShape::Turned
+    {
+        contours(map, bar, layout, canvas);
     }
 }
 
@@ -218,10 +223,10 @@ impl Boxes {
     }
 
     /// One path per colour.
-    fn draw(self, canvas: &Canvas) {
+    fn draw(self, bar: &Bar, canvas: &Canvas) {
         for (level, boxes) in self.0.iter().enumerate() {
             let paint = Paint::Fill {
-                color: color(level).rgb(),
+                color: bar.color(level).rgb(),
                 opacity: 1.0,
                 crisp: true,
             };
@@ -231,8 +236,7 @@ impl Boxes {
 }
 
 /// The cells, those of one colour side by side as one box.
-fn cells(bar: &Bar, layout: &Layout, boxes: &mut Boxes) {
-    let map = &bar.map;
+fn cells(map: &HeatMap, bar: &Bar, layout: &Layout, boxes: &mut Boxes) {
     let block = map.columns.max(map.rows).div_ceil(MOST_CELLS).max(1);
     let (columns, rows) = (map.columns.div_ceil(block), map.rows.div_ceil(block));
     let edge = |axis: &AxisMap, place: usize, count: usize| {
@@ -262,8 +266,8 @@ fn cells(bar: &Bar, layout: &Layout, boxes: &mut Boxes) {
 
 /// A profile turned about an axis: one disc per change of colour, from the edge of the map inwards. Circles stay round at any size,
 /// and take a twentieth of the room of cells.
-fn discs(bar: &Bar, layout: &Layout, canvas: &Canvas) {
-    let (map, frame) = (&bar.map, &layout.frame);
+fn discs(map: &HeatMap, bar: &Bar, layout: &Layout, canvas: &Canvas) {
+    let frame = &layout.frame;
     let center = (
         0.5 * (frame.left + frame.right),
         0.5 * (frame.top + frame.bottom),
@@ -297,8 +301,7 @@ fn contrast(level: usize) -> Color {
 }
 
 /// The contour lines, one path for each labelled value.
-fn contours(bar: &Bar, layout: &Layout, canvas: &Canvas) {
-    let map = &bar.map;
+fn contours(map: &HeatMap, bar: &Bar, layout: &Layout, canvas: &Canvas) {
     // On the scale of the colours the values are closer to linear between the cells.
     let scaled = |value: f64| match map.value_scale {
         Scale::Linear => value,
@@ -327,7 +330,10 @@ fn contours(bar: &Bar, layout: &Layout, canvas: &Canvas) {
 /// Dots and rings, in what stands out against the cells below them.
 pub(super) fn dots(bar: &Bar, layout: &Layout, canvas: &Canvas) {
     const DOT: f64 = 1.6;
-    let (map, frame) = (&bar.map, &layout.frame);
+    let Some(map) = &bar.map else {
+        return;
+    };
+    let frame = &layout.frame;
     let below = |(x, y): Point| {
         let part =
             |value: f64, count: usize| ((value * count as f64) as usize).min(count.max(1) - 1);
@@ -447,8 +453,8 @@ mod tests {
         let of_cells = |map: &HeatMap| {
             painted(map, |bar, layout, canvas| {
                 let mut boxes = Boxes::new();
-                cells(bar, layout, &mut boxes);
-                boxes.draw(canvas);
+                cells(map, bar, layout, &mut boxes);
+                boxes.draw(bar, canvas);
             })
         };
         assert_eq!(of_cells(&map), ["#440154", "#fde725"]);
@@ -463,10 +469,11 @@ mod tests {
         map.shape = MapShape::Turned;
         map.value_range = Some((0.0, 8.0));
         map.values = vec![None, Some(8.0), Some(8.0), Some(0.0), None];
-        assert_eq!(painted(&map, discs), ["#440154", "#fde725", "#ffffff"]);
+        let turned = |bar: &Bar, layout: &Layout, canvas: &Canvas| discs(&map, bar, layout, canvas);
+        assert_eq!(painted(&map, turned), ["#440154", "#fde725", "#ffffff"]);
         let Arrangement { layout, bar, .. } = laid_out(map.clone());
         let canvas = Canvas::new(Size::default());
-        discs(&bar.unwrap(), &layout, &canvas);
+        discs(&map, &bar.unwrap(), &layout, &canvas);
         let outermost = canvas.finish().unwrap()[0].path.bounds().width();
         let expected = 0.8 * layout.frame.width() * FINE;
         // Single precision.

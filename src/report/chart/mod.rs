@@ -27,6 +27,7 @@ mod canvas;
 mod check;
 mod color_bar;
 mod color_map;
+mod color_scale;
 mod contour;
 mod curves;
 mod draw;
@@ -48,6 +49,7 @@ mod stroke;
 mod text;
 mod ticks;
 
+pub use color_scale::ColorScale;
 pub use draw::stack;
 pub use drawing::Drawing;
 pub use error::{AxisName, ChartError};
@@ -64,6 +66,8 @@ pub struct Chart {
     pub y: Axis,
     /// Drawn below everything else, in place of a grid.
     pub map: Option<Arc<HeatMap>>,
+    /// What the colours of the series stand for, drawn as a bar right of the frame; a map has a bar of its own.
+    pub color_scale: Option<ColorScale>,
     /// Drawn in this order, later ones on top.
     pub series: Vec<Series>,
     pub marks: Vec<Mark>,
@@ -80,6 +84,7 @@ impl Chart {
             x,
             y,
             map: None,
+            color_scale: None,
             series: Vec::new(),
             marks: Vec::new(),
             legend: Some(LegendPlace::Auto),
@@ -118,6 +123,13 @@ impl Chart {
     #[must_use]
     pub fn all_marks(mut self, marks: impl IntoIterator<Item = Mark>) -> Self {
         self.marks.extend(marks);
+        self
+    }
+
+    /// Adds the bar that explains colours taken from [`ColorScale::color`].
+    #[must_use]
+    pub fn color_scale(mut self, scale: ColorScale) -> Self {
+        self.color_scale = Some(scale);
         self
     }
 

@@ -7,6 +7,7 @@ pub mod dissipation;
 pub mod dissipation_map;
 pub mod dissipation_profile;
 pub mod drive_map;
+pub mod dynamic;
 pub mod energy_loss;
 pub mod equivalent;
 pub mod fit;

@@ -1,0 +1,297 @@
+//! Dynamic data as text: what was read, the shift factors and their laws, how well the series fits, and what to know of it. Tables
+//! for files are in [`tables`], the summary in [`summary`].
+
+pub mod summary;
+pub mod tables;
+mod text;
+
+pub(super) use text::{arrhenius, wlf};
+
+use std::borrow::Cow;
+
+use super::number::scientific;
+use crate::material::dynamic::master_curve::MasterCurveWarning;
+use crate::material::dynamic::{Characterisation, DynamicData, DynamicPoint};
+use crate::material::{ModulusKind, Relaxation};
+use crate::quantity;
+
+/// Where dynamic data come from.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Source {
+    /// Names of the files.
+    pub files: Vec<String>,
+    /// The format found.
+    pub format: String,
+    /// How it was found.
+    pub how: String,
+    /// What the reader had to assume or leave out.
+    pub notes: Vec<String>,
+}
+
+/// Dynamic data, where they come from, and what was made of them.
+#[derive(Debug, Clone, Copy)]
+pub struct DynamicReport<'a> {
+    pub source: &'a Source,
+    pub data: &'a DynamicData,
+    pub made: &'a Characterisation,
+}
+
+/// Inconsistent by more than this many times the noise, storage and loss modulus are warned of: of a thousand consistent sets fewer
+/// than three are so far off by chance.
+const INCONSISTENT: f64 = 3.0;
+
+impl<'a> DynamicReport<'a> {
+    /// The points that the series was fitted to, in the order of its residuals: on the master curve, or as measured.
+    pub fn points(&self) -> Cow<'a, [DynamicPoint]> {
+        match &self.made.master {
+            Some(master) => Cow::Borrowed(&master.points),
+            None => Cow::Owned(self.data.points().copied().collect()),
+        }
+    }
+
+    /// The series.
+    pub fn relaxation(&self) -> &'a Relaxation {
+        &self.made.fit.relaxation
+    }
+
+    /// The letter of the modulus.
+    pub fn symbol(&self) -> char {
+        match self.made.kind {
+            ModulusKind::Longitudinal => 'E',
+            ModulusKind::Shear => 'G',
+        }
+    }
+
+    /// The temperature (K) that the series belongs to, where the data name one.
+    pub fn reference_temperature_k(&self) -> Option<f64> {
+        match &self.made.master {
+            Some(master) => Some(master.reference_temperature_k),
+            None => self.data.isotherms().first()?.temperature_k,
+        }
+    }
+
+    /// First and last time (s) at which the material was observed.
+    pub fn window_s(&self) -> (f64, f64) {
+        let (lowest, highest) = self.made.fit.window_rad_per_s;
+        (highest.recip(), lowest.recip())
+    }
+
+    /// What to know before the series is used, in whole sentences without their full stops.
+    pub fn warnings(&self) -> Vec<String> {
+        let master = self.made.master.iter().flat_map(|master| &master.warnings);
+        let mut warnings: Vec<String> = master.map(master_warning).collect();
+        let symbol = self.symbol();
+        let kramers_kronig = self.made.fit.kramers_kronig;
+        if kramers_kronig > INCONSISTENT {
+            warnings.push(format!(
+                "{symbol}′ and {symbol}″ do not belong to one another by {} times the noise: no passive material has both \
+                 (Kramers and Kronig); look for slip of the clamps, the compliance or inertia of the instrument, or another \
+                 modulus in one of the columns",
+                scientific(kramers_kronig, 2)
+            ));
+        }
+        if self.relaxation().is_fluid() {
+            warnings.push(
+                "the series has no equilibrium modulus: the material is a fluid and creeps without end under a mean load; \
+                 `simulate` takes it, `sweep` does not"
+                    .to_owned(),
+            );
+        }
+        warnings
+    }
+}
+
+fn master_warning(warning: &MasterCurveWarning) -> String {
+    match warning {
+        MasterCurveWarning::NotSimple { simplicity } => format!(
+            "the isotherms lie on no single curve, by {} times the noise: the material is not thermorheologically simple, and the \
+             master curve mixes what is apart at each temperature (look at the van Gurp-Palmen figure)",
+            scientific(*simplicity, 2)
+        ),
+        MasterCurveWarning::NoOverlap { lower_k, upper_k } => format!(
+            "the isotherms at {} and {} share no range of moduli: the shift between them is an extrapolation",
+            quantity::celsius(*lower_k),
+            quantity::celsius(*upper_k)
+        ),
+    }
+}
+
+/// Lowest and highest of the moduli that the replicas have at a frequency, without the outermost 2.5 % on each side.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Band {
+    pub storage_pa: (f64, f64),
+    pub loss_pa: (f64, f64),
+}
+
+impl Band {
+    /// `None` without at least two replicas.
+    pub fn of(replicas: &[Relaxation], angular_frequency_rad_per_s: f64) -> Option<Self> {
+        let moduli = replicas
+            .iter()
+            .map(|series| series.complex_modulus(angular_frequency_rad_per_s));
+        let (mut storage, mut loss): (Vec<f64>, Vec<f64>) = moduli.map(|m| (m.re, m.im)).unzip();
+        Some(Self {
+            storage_pa: middle(&mut storage)?,
+            loss_pa: middle(&mut loss)?,
+        })
+    }
+}
+
+/// What is left of some values without the outermost 2.5 % on each side: of fewer than forty, all.
+fn middle(values: &mut [f64]) -> Option<(f64, f64)> {
+    values.sort_by(f64::total_cmp);
+    let outside = (0.025 * values.len() as f64).floor() as usize;
+    let last = values.len().checked_sub(outside + 1)?;
+    (values.len() > 1).then_some((*values.get(outside)?, *values.get(last)?))
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::material::RelaxationBranch;
+    use crate::material::dynamic::master_curve::{MasterCurve, ShiftFactor};
+    use crate::material::dynamic::prony::PronyFit;
+    use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
+
+    /// A solid of two branches at 25 °C.
+    pub(crate) fn solid() -> Relaxation {
+        let branch = |modulus_pa, time_s| RelaxationBranch { modulus_pa, time_s };
+        Relaxation::new(5e6, vec![branch(8e8, 1e-3), branch(6e7, 10.0)]).unwrap()
+    }
+
+    /// Its isotherms from 5 to 45 °C, exact, shifted by a WLF law, and what is made of them when nothing goes wrong.
+    pub(crate) fn measured() -> (DynamicData, Characterisation) {
+        let law = Wlf {
+            reference_temperature_k: 298.15,
+            c1: 12.0,
+            c2_k: 60.0,
+            c1_error: 0.2,
+            c2_error_k: 1.5,
+        };
+        let truth = solid();
+        let temperatures = [278.15, 288.15, 298.15, 308.15, 318.15];
+        let isotherm = |temperature_k: f64| -> Vec<DynamicPoint> {
+            let a_t = 10_f64.powf(law.log10_a_t(temperature_k).unwrap());
+            let frequencies = (0..=8).map(|i| 10_f64.powf(-1.0 + 0.375 * f64::from(i)));
+            let point = |omega: f64| {
+                let modulus = truth.complex_modulus(a_t * omega);
+                DynamicPoint {
+                    temperature_k: Some(temperature_k),
+                    angular_frequency_rad_per_s: omega,
+                    storage_modulus_pa: modulus.re,
+                    loss_modulus_pa: modulus.im,
+                    errors_pa: None,
+                }
+            };
+            frequencies.map(point).collect()
+        };
+        let kind = ModulusKind::Longitudinal;
+        let data = DynamicData::new(kind, temperatures.map(isotherm).into()).unwrap();
+        let mut points: Vec<DynamicPoint> = data.points().copied().collect();
+        for point in &mut points {
+            let temperature_k = point.temperature_k.unwrap();
+            point.angular_frequency_rad_per_s *= 10_f64.powf(law.log10_a_t(temperature_k).unwrap());
+        }
+        let omega = |p: &DynamicPoint| p.angular_frequency_rad_per_s;
+        points.sort_by(|a, b| omega(a).total_cmp(&omega(b)));
+        let window_rad_per_s = (omega(&points[0]), omega(points.last().unwrap()));
+        let factor = |temperature_k| ShiftFactor {
+            temperature_k,
+            log10_a_t: law.log10_a_t(temperature_k).unwrap(),
+            log10_a_t_error: Some(match temperature_k == 298.15 {
+                true => 0.0,
+                false => 0.08,
+            }),
+            b_t: 1.0,
+        };
+        let arrhenius = Arrhenius {
+            reference_temperature_k: 298.15,
+            activation_energy_j_per_mol: 3.1e5,
+            activation_energy_error_j_per_mol: 4e3,
+        };
+        let made = Characterisation {
+            kind,
+            fit: PronyFit {
+                residuals: (0..points.len())
+                    .map(|i| (0.01 * (i as f64).sin(), 0.02 * (1.7 * i as f64).cos()))
+                    .collect(),
+                storage_rms: 0.01 / 2.0_f64.sqrt(),
+                loss_rms: 0.02 / 2.0_f64.sqrt(),
+                window_rad_per_s,
+                kramers_kronig: 1.1,
+                relaxation: truth.clone(),
+            },
+            replicas: (1..=50)
+                .map(|i| truth.scaled(1.0 + 4e-4 * f64::from(i - 25)).unwrap())
+                .collect(),
+            master: Some(MasterCurve {
+                reference_temperature_k: 298.15,
+                shifts: temperatures.map(factor).into(),
+                wlf: Some(law),
+                arrhenius: Some(arrhenius),
+                preferred: Some(ShiftLaw::Wlf(law)),
+                points,
+                simplicity: Some(1.2),
+                warnings: Vec::new(),
+            }),
+        };
+        (data, made)
+    }
+
+    pub(crate) fn source() -> Source {
+        Source {
+            files: vec!["solid.csv".to_owned()],
+            format: "generic table".to_owned(),
+            how: "columns named with their units".to_owned(),
+            notes: vec!["two points without a loss modulus were left out".to_owned()],
+        }
+    }
+
+    #[test]
+    fn warnings_are_sentences_about_what_is_wrong() {
+        let (data, mut made) = measured();
+        let source = source();
+        let report = |made: &Characterisation| {
+            let report = DynamicReport {
+                source: &source,
+                data: &data,
+                made,
+            };
+            report.warnings()
+        };
+        assert!(report(&made).is_empty());
+        let master = made.master.as_mut().unwrap();
+        master.warnings = vec![
+            MasterCurveWarning::NotSimple { simplicity: 6.4 },
+            MasterCurveWarning::NoOverlap {
+                lower_k: 278.15,
+                upper_k: 288.15,
+            },
+        ];
+        made.fit.kramers_kronig = 8.0;
+        made.fit.relaxation = Relaxation::new(0.0, solid().branches().to_vec()).unwrap();
+        let warnings = report(&made);
+        let parts = ["by 6.4 times", "5 °C and 15 °C", "by 8 times", "a fluid"];
+        assert_eq!(warnings.len(), parts.len());
+        for (warning, part) in warnings.iter().zip(parts) {
+            assert!(warning.contains(part), "{warning}");
+        }
+    }
+
+    #[test]
+    fn a_band_leaves_out_the_outermost_replicas() {
+        let (_, made) = measured();
+        let exact = solid().complex_modulus(3.0);
+        let band = Band::of(&made.replicas, 3.0).unwrap();
+        // Fifty replicas: one is left out on each side. Factors go from 1 - 0.0096 to 1 + 0.01.
+        let expected = (
+            exact.re * (1.0 - 23.0 * 4e-4),
+            exact.re * (1.0 + 24.0 * 4e-4),
+        );
+        // Rounding of sums of two branches.
+        assert!((band.storage_pa.0 / expected.0 - 1.0).abs() < 1e-14);
+        assert!((band.storage_pa.1 / expected.1 - 1.0).abs() < 1e-14);
+        assert_eq!(Band::of(&made.replicas[..1], 3.0), None);
+        assert_eq!(Band::of(&[], 3.0), None);
+    }
+}

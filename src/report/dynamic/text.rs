@@ -1,0 +1,265 @@
+//! What the terminal and the comments of a material block say of dynamic data.
+
+use std::fmt::Write;
+
+use super::DynamicReport;
+use crate::material::dynamic::master_curve::MasterCurve;
+use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
+use crate::quantity::{Dimension, celsius, format_human};
+use crate::report::number::{four_digits, scientific};
+use crate::report::words::{listed, wrapped};
+
+impl DynamicReport<'_> {
+    /// What was read, how well it fits and what to know of it, in lines of at most 80 columns; ends with a line end.
+    pub fn text(&self) -> String {
+        self.lines()
+            .iter()
+            .map(|line| wrapped(line, 80, "", "  "))
+            .collect()
+    }
+
+    /// The same, one fact a line.
+    pub fn lines(&self) -> Vec<String> {
+        let notes = self.source.notes.iter().map(|note| format!("Note: {note}"));
+        let warnings = self.warnings();
+        let warnings = warnings
+            .iter()
+            .map(|warning| format!("Warning: {warning}."));
+        let mut lines = vec![self.read()];
+        lines.extend(notes);
+        lines.extend(self.made.master.iter().flat_map(laws));
+        lines.extend(self.quality());
+        lines.extend(warnings);
+        lines
+    }
+
+    /// Files, format, isotherms.
+    fn read(&self) -> String {
+        let source = self.source;
+        let how = match source.how.is_empty() {
+            true => String::new(),
+            false => format!(" ({})", source.how),
+        };
+        let points = self.data.points().count();
+        let isotherms = self.data.isotherms();
+        let ends = [isotherms.first(), isotherms.last()].map(|i| i?.temperature_k.map(celsius));
+        let isotherms = match (isotherms.len(), ends) {
+            (1, [Some(at), _]) => format!("at {at}"),
+            (count, [Some(from), Some(to)]) => format!("in {count} isotherms from {from} to {to}"),
+            _ => "at a temperature that the file does not name".to_owned(),
+        };
+        let (symbol, files) = (self.symbol(), listed(&source.files));
+        format!(
+            "{files}: {}{how}; {points} points of {symbol}′ and {symbol}″ {isotherms}.",
+            source.format
+        )
+    }
+
+    /// Series, misfit, window, consistency.
+    fn quality(&self) -> Vec<String> {
+        let (fit, symbol) = (&self.made.fit, self.symbol());
+        let count = self.relaxation().branches().len();
+        let plural = if count == 1 { "" } else { "es" };
+        let at = match self.reference_temperature_k() {
+            Some(temperature_k) => format!(" at {}", celsius(temperature_k)),
+            None => String::new(),
+        };
+        let omega = |value| format_human(value, Dimension::AngularFrequency, 4);
+        let (lowest, highest) = fit.window_rad_per_s;
+        let mut lines = vec![
+            format!(
+                "Series{at}: {count} branch{plural}; misfit relative to the data {} rms of {symbol}′, {} rms of {symbol}″.",
+                percent(fit.storage_rms),
+                percent(fit.loss_rms)
+            ),
+            format!(
+                "Measured from ω = {} to {}{at}; outside, the series is an extrapolation.",
+                omega(lowest),
+                omega(highest)
+            ),
+        ];
+        let simple = self.made.master.as_ref().and_then(|m| m.simplicity);
+        lines.extend(simple.map(|simplicity| {
+            format!(
+                "Thermorheological simplicity: {} (distance of the isotherms from one curve over the noise; about 1 where one \
+                 curve holds them all).",
+                scientific(simplicity, 2)
+            )
+        }));
+        lines.push(format!(
+            "Kramers-Kronig: {} (what {symbol}′ is off from {symbol}″ over the noise; about 1 where they belong together).",
+            scientific(fit.kramers_kronig, 2)
+        ));
+        if !self.made.replicas.is_empty() {
+            lines.push(format!(
+                "{} replicas of the series carry the noise of the data on.",
+                self.made.replicas.len()
+            ));
+        }
+        lines
+    }
+
+    /// The shift factors as a table of at most 80 columns; nothing without a master curve.
+    pub fn shift_table(&self) -> String {
+        let Some(master) = &self.made.master else {
+            return String::new();
+        };
+        let vertical = master.shifts.iter().any(|shift| shift.b_t != 1.0);
+        let heading = if vertical { "   vertical b_T" } else { "" };
+        let mut text = format!(
+            "Temperature    log10 a_T   std. error   points    ω from      ω to{heading}\n"
+        );
+        for shift in &master.shifts {
+            let isotherms = self.data.isotherms().iter();
+            let of = |t: f64| (t - shift.temperature_k).abs() < 0.01;
+            let isotherm = isotherms
+                .into_iter()
+                .find(|i| i.temperature_k.is_some_and(of));
+            let points = isotherm.map(|i| &i.points[..]).unwrap_or_default();
+            let omega = |point: Option<&crate::material::dynamic::DynamicPoint>| {
+                let value = point.map(|p| four_digits(p.angular_frequency_rad_per_s));
+                value.unwrap_or_else(|| "-".to_owned())
+            };
+            let error = match shift.log10_a_t_error {
+                Some(error) => format!("{error:.4}"),
+                None => "-".to_owned(),
+            };
+            let b_t = match vertical {
+                true => format!("{:>14.4}", shift.b_t),
+                false => String::new(),
+            };
+            // Writing to a String cannot fail.
+            let _ = writeln!(
+                text,
+                "{:>11}  {:>11.4}  {error:>11}  {:>7}  {:>8}  {:>8}{b_t}",
+                celsius(shift.temperature_k),
+                shift.log10_a_t,
+                points.len(),
+                omega(points.first()),
+                omega(points.last()),
+            );
+        }
+        text
+    }
+
+    /// Equilibrium and branches, to be read; exact ones are in the material block.
+    pub fn branches(&self) -> String {
+        let relaxation = self.relaxation();
+        let modulus = |value| format_human(value, Dimension::Stress, 5);
+        let equilibrium = modulus(relaxation.equilibrium_modulus());
+        let mut text = format!("Equilibrium modulus: {equilibrium}\n");
+        let _ = writeln!(text, "Branch {:>18} {:>18}", "modulus", "relaxation time");
+        for (index, branch) in relaxation.branches().iter().enumerate() {
+            let time = format_human(branch.time_s, Dimension::Time, 5);
+            let modulus = modulus(branch.modulus_pa);
+            let _ = writeln!(text, "{:>6} {modulus:>18} {time:>18}", index + 1);
+        }
+        text
+    }
+}
+
+/// Reference temperature and the laws through the shift factors.
+fn laws(master: &MasterCurve) -> Vec<String> {
+    let reference = celsius(master.reference_temperature_k);
+    let mut lines = vec![format!("Master curve at {reference}.")];
+    let prefers = |wlf: bool| {
+        let preferred = match master.preferred {
+            Some(ShiftLaw::Wlf(_)) => wlf,
+            Some(ShiftLaw::Arrhenius(_)) => !wlf,
+            None => false,
+        };
+        // Alone, a law is preferred to nothing.
+        let both = master.wlf.is_some() && master.arrhenius.is_some();
+        if preferred && both {
+            "; the data prefer it"
+        } else {
+            ""
+        }
+    };
+    lines.extend(
+        master
+            .wlf
+            .as_ref()
+            .map(|law| format!("{}{}.", wlf(law), prefers(true))),
+    );
+    let arrhenius = master.arrhenius.as_ref().map(arrhenius);
+    lines.extend(arrhenius.map(|law| format!("{law}{}.", prefers(false))));
+    lines
+}
+
+/// The constants of a WLF law with their errors.
+pub(in crate::report) fn wlf(law: &Wlf) -> String {
+    format!(
+        "WLF: c1 = {}, c2 = {} K",
+        plus_minus(law.c1, law.c1_error),
+        plus_minus(law.c2_k, law.c2_error_k)
+    )
+}
+
+/// The activation energy with its error.
+pub(in crate::report) fn arrhenius(law: &Arrhenius) -> String {
+    let (energy, error) = (
+        law.activation_energy_j_per_mol,
+        law.activation_energy_error_j_per_mol,
+    );
+    format!(
+        "Arrhenius: activation energy {} kJ/mol",
+        plus_minus(1e-3 * energy, 1e-3 * error)
+    )
+}
+
+/// A value with as many decimals as the first two digits of its error take.
+fn plus_minus(value: f64, error: f64) -> String {
+    if !(error.is_finite() && error > 0.0) {
+        return scientific(value, 5);
+    }
+    let decimals = (1 - error.log10().floor() as i32).clamp(0, 6) as usize;
+    format!("{value:.decimals$} ± {error:.decimals$}")
+}
+
+/// A share in per cent, in two digits.
+pub(in crate::report) fn percent(share: f64) -> String {
+    format!("{} %", scientific(100.0 * share, 2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::dynamic::tests::{measured, source};
+
+    #[test]
+    fn the_text_says_all_of_it_in_eighty_columns() {
+        let (data, mut made) = measured();
+        let source = source();
+        made.master.as_mut().unwrap().shifts[3].log10_a_t_error = None;
+        let report = DynamicReport {
+            source: &source,
+            data: &data,
+            made: &made,
+        };
+        let text = format!(
+            "{}{}{}",
+            report.text(),
+            report.shift_table(),
+            report.branches()
+        );
+        assert!(
+            text.lines().all(|line| line.chars().count() <= 80),
+            "{text}"
+        );
+        let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        for part in [
+            "solid.csv: generic table (columns named with their units); 45 points of E′ and E″ in 5 isotherms from 5 °C to 45 °C.",
+            "Note: two points",
+            "Master curve at 25 °C.",
+            "WLF: c1 = 12.00 ± 0.20, c2 = 60.0 ± 1.5 K; the data prefer it.",
+            "Arrhenius: activation energy 310.0 ± 4.0 kJ/mol.",
+            "Series at 25 °C: 2 branches; misfit relative to the data 0.71 % rms of E′, 1.4 % rms of E″.",
+            "25 °C 0.0000 0.0000 9 0.1000 100.0",
+            "35 °C -1.7143 - 9",
+            "2 60.000 MPa 10.000 s",
+        ] {
+            assert!(words.contains(part), "{part}\n{text}");
+        }
+    }
+}

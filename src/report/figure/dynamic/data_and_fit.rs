@@ -1,0 +1,96 @@
+//! Storage and loss modulus over the reduced frequency, with the series fitted to them.
+
+use super::{MARKERS, caption, frequencies, frequency_title};
+use crate::material::dynamic::DynamicPoint;
+use crate::report::chart::{Axis, Chart, LineStyle, Series};
+use crate::report::dynamic::{Band, DynamicReport};
+use crate::report::figure::Figure;
+use crate::report::number::{largest, prefix, scientific};
+use crate::report::table::{cells, csv};
+
+/// The figure; its data are the curve, since the points are in `master.csv`.
+pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
+    let points = report.points();
+    let symbol = report.symbol();
+    let (factor, unit) = prefix(largest(points.iter().map(|p| p.storage_modulus_pa)));
+    let measured = |value: fn(&DynamicPoint) -> f64| {
+        let points = points.iter();
+        let places = points.map(|p| (p.angular_frequency_rad_per_s, factor * value(p)));
+        Series::scatter(places.collect::<Vec<_>>()).spaced()
+    };
+    let series = report.relaxation();
+    let curve = |part: fn((f64, f64)) -> f64| {
+        let curve = frequencies(report).into_iter().map(|omega| {
+            let modulus = series.complex_modulus(omega);
+            let value = factor * part((modulus.re, modulus.im));
+            (value > 0.0).then_some((omega, value))
+        });
+        Series::line(curve)
+    };
+    let chart = Chart::new(
+        Axis::log(frequency_title(report)),
+        Axis::log(format!("modulus / {unit}Pa")),
+    )
+    .series(curve(|m| m.0).label(format!("fit {symbol}′")))
+    .series(
+        curve(|m| m.1)
+            .label(format!("fit {symbol}″"))
+            .style(LineStyle::Dashed)
+            .color(1),
+    )
+    .series(
+        measured(|p| p.storage_modulus_pa)
+            .marker(MARKERS[0])
+            .label(format!("storage modulus {symbol}′")),
+    )
+    .series(
+        measured(|p| p.loss_modulus_pa)
+            .marker(MARKERS[1])
+            .color(1)
+            .label(format!("loss modulus {symbol}″")),
+    );
+    let branches = series.branches().len();
+    let percent = |share: f64| scientific(100.0 * share, 2);
+    let fit = &report.made.fit;
+    Figure {
+        name: "fit",
+        picture: chart.into(),
+        caption: caption(
+            report,
+            &format!("Storage modulus {symbol}′ and loss modulus {symbol}″, data and the series fitted to them"),
+        )
+        .say(format!(
+            "{branches} branches; misfit relative to the data {} % rms of {symbol}′ and {} % rms of {symbol}″.",
+            percent(fit.storage_rms),
+            percent(fit.loss_rms)
+        ))
+        .say("Symbols that would touch are left out; all points are in the figure of the residuals."),
+        data: data(report),
+    }
+}
+
+fn data(report: &DynamicReport<'_>) -> Vec<u8> {
+    let rows = frequencies(report).into_iter().map(|omega| {
+        let modulus = report.relaxation().complex_modulus(omega);
+        let band = Band::of(&report.made.replicas, omega);
+        cells![
+            omega,
+            modulus.re,
+            modulus.im,
+            band.map(|b| b.storage_pa.0),
+            band.map(|b| b.storage_pa.1),
+            band.map(|b| b.loss_pa.0),
+            band.map(|b| b.loss_pa.1),
+        ]
+    });
+    let columns = [
+        "angular_frequency_rad_per_s",
+        "storage_fit_pa",
+        "loss_fit_pa",
+        "storage_replicas_low_pa",
+        "storage_replicas_high_pa",
+        "loss_replicas_low_pa",
+        "loss_replicas_high_pa",
+    ];
+    csv(&columns, rows)
+}

@@ -1,0 +1,163 @@
+//! Figures of dynamic data and of what was made of them: the list of them, and what they have in common.
+
+mod data_and_fit;
+mod isotherms;
+mod master_curve;
+mod residuals;
+mod shift_factors;
+mod spectrum;
+mod van_gurp_palmen;
+
+use super::Figure;
+use crate::material::dynamic::DynamicPoint;
+use crate::quantity::celsius;
+use crate::report::caption::Caption;
+use crate::report::chart::{Color, ColorScale, Marker, Series};
+use crate::report::dynamic::DynamicReport;
+use crate::report::dynamic::tables::celsius as celsius_number;
+
+/// Every figure that the data have: shift factors and isotherms take several temperatures.
+pub fn figures(report: &DynamicReport<'_>) -> Vec<Figure> {
+    let of_all = [
+        Some(data_and_fit::figure(report)),
+        Some(residuals::figure(report)),
+        master_curve::figure(report),
+        isotherms::figure(report),
+        shift_factors::figure(report),
+        Some(spectrum::figure(report)),
+        Some(van_gurp_palmen::figure(report)),
+    ];
+    of_all.into_iter().flatten().collect()
+}
+
+/// Storage modulus as a disc, loss modulus as a square, wherever both stand in one frame.
+const MARKERS: [Marker; 2] = [Marker::Disc, Marker::Square];
+
+/// The axis of frequencies: reduced where isotherms were shifted.
+fn frequency_title(report: &DynamicReport<'_>) -> &'static str {
+    match report.made.master {
+        Some(_) => "reduced angular frequency a_T ω / rad·s⁻¹",
+        None => "angular frequency ω / rad·s⁻¹",
+    }
+}
+
+/// What the figures say of the data.
+fn caption(report: &DynamicReport<'_>, shows: &str) -> Caption {
+    let points = report.data.points().count();
+    let at = report.reference_temperature_k().map(celsius);
+    let data = match (&report.made.master, at) {
+        (Some(master), Some(at)) => format!(
+            "{points} points in {} isotherms, shifted to {at}.",
+            master.shifts.len()
+        ),
+        (_, Some(at)) => format!("{points} points at {at}."),
+        _ => format!("{points} points."),
+    };
+    Caption::new(shows).say(data)
+}
+
+/// The colours of the temperatures; `None` where the data name none, or a single one.
+fn temperatures(report: &DynamicReport<'_>) -> Option<ColorScale> {
+    let isotherms = report.data.isotherms();
+    let known = isotherms.iter().filter_map(|i| i.temperature_k);
+    match isotherms.len() {
+        1 => None,
+        _ => ColorScale::over("temperature T / °C", known.map(celsius_number)),
+    }
+}
+
+/// One set of symbols for each isotherm, in the colour of its temperature.
+fn coloured(
+    report: &DynamicReport<'_>,
+    points: &[DynamicPoint],
+    marker: Marker,
+    place: impl Fn(&DynamicPoint) -> Option<(f64, f64)>,
+) -> Vec<Series> {
+    let scale = temperatures(report);
+    let isotherms = report.data.isotherms().iter();
+    let of_isotherm = isotherms.map(|isotherm| {
+        // A point belongs to the isotherm that is nearest to it.
+        let own = |point: &&DynamicPoint| nearest(report, point) == isotherm.temperature_k;
+        let places = points.iter().filter(own).map(&place);
+        let color = match (&scale, isotherm.temperature_k) {
+            (Some(scale), Some(temperature_k)) => scale.color(celsius_number(temperature_k)),
+            _ => Color::Palette(0),
+        };
+        Series::scatter(places.collect::<Vec<_>>())
+            .marker(marker)
+            .color(color)
+    });
+    of_isotherm.collect()
+}
+
+/// The temperature (K) of the isotherm that a point belongs to.
+fn nearest(report: &DynamicReport<'_>, point: &DynamicPoint) -> Option<f64> {
+    let of_point = point.temperature_k?;
+    let isotherms = report.data.isotherms().iter();
+    let known = isotherms.filter_map(|isotherm| isotherm.temperature_k);
+    known.min_by(|a, b| (a - of_point).abs().total_cmp(&(b - of_point).abs()))
+}
+
+/// An entry of the legend without points: what a symbol stands for where its colours stand for something else.
+fn legend_of_marker(label: String, marker: Marker) -> Series {
+    Series::scatter(Vec::<(f64, f64)>::new())
+        .marker(marker)
+        .color(Color::Rgb(0x40, 0x40, 0x40))
+        .label(label)
+}
+
+/// As many frequencies from the lowest to the highest of the data as a smooth curve takes.
+fn frequencies(report: &DynamicReport<'_>) -> Vec<f64> {
+    const POINTS: i32 = 400;
+    let (lowest, highest) = report.made.fit.window_rad_per_s;
+    let decades = (highest / lowest).log10();
+    (0..=POINTS)
+        .map(|i| lowest * 10_f64.powf(decades * f64::from(i) / f64::from(POINTS)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::dynamic::tests::{measured, source};
+
+    #[test]
+    fn every_figure_can_be_drawn_with_isotherms_and_without() {
+        let (data, mut made) = measured();
+        let source = source();
+        let names = |made: &_| {
+            let report = DynamicReport {
+                source: &source,
+                data: &data,
+                made,
+            };
+            let figures = figures(&report);
+            for figure in &figures {
+                let drawing = figure.picture.draw().unwrap();
+                std::fs::write(
+                    format!("/tmp/fp-{}.png", figure.name),
+                    drawing.to_png(1.0).unwrap(),
+                )
+                .unwrap();
+                let rows = String::from_utf8(figure.data.clone()).unwrap();
+                let columns = rows.lines().next().unwrap_or_default().split(',').count();
+                assert!(rows.lines().all(|row| row.split(',').count() == columns));
+            }
+            figures.iter().map(|figure| figure.name).collect::<Vec<_>>()
+        };
+        let all = [
+            "fit",
+            "fit-residual",
+            "master-curve",
+            "isotherms",
+            "shift-factors",
+            "spectrum",
+            "van-gurp-palmen",
+        ];
+        assert_eq!(names(&made), all);
+        made.master = None;
+        assert_eq!(names(&made), [all[0], all[1], all[5], all[6]]);
+        made.replicas.clear();
+        assert_eq!(names(&made).len(), 4);
+    }
+}
