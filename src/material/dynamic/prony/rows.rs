@@ -62,7 +62,9 @@ pub(super) enum Part {
 }
 
 /// Whether every point has errors, by which it can be weighted.
-pub(super) fn errors_known<'a>(mut points: impl Iterator<Item = &'a DynamicPoint>) -> bool {
+pub(in crate::material::dynamic) fn errors_known<'a>(
+    mut points: impl Iterator<Item = &'a DynamicPoint>,
+) -> bool {
     let usable = |error: f64| error.is_finite() && error > 0.0;
     points.all(|p| matches!(p.errors_pa, Some((a, b)) if usable(a) && usable(b)))
 }
