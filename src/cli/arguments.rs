@@ -14,6 +14,7 @@ use super::compare;
 use crate::input::dynamic::{self, DynamicFormat};
 use crate::input::keys::material::{MOST_BRANCHES, MOST_REPLICAS};
 use crate::material::ModulusKind;
+use crate::material::export::Program;
 use crate::quantity::{Dimension, parse};
 use crate::sweep::share::shard::Shard;
 use crate::sweep::store::checkpoint_file;
@@ -391,6 +392,55 @@ Dynamic data are one file or several of one specimen, tables with named columns 
 or named by --data-format (`--format pyvisco` says the same). Isotherms are shifted to one temperature, which gives shift.csv and
 master.csv, and summary.json has every number of the fit.")]
     Fit(FitFlags),
+    /// Write a material as input of a finite element program
+    #[command(after_help = "\
+Examples:
+  contact-dma material export pmma --to abaqus
+  contact-dma material export reports/fit/material.toml --to ansys --out rubber.mac
+  contact-dma material export sweeps/pmma.toml --to csv --out prony.csv
+
+The Prony series, and the WLF shift where the material knows one, in the normalisation and syntax
+of the program, in SI units. Comments say what constant Poisson ratio means there, and how far E*
+of the printed digits is from that of the material.")]
+    Export(ExportFlags),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ExportFlags {
+    /// A name of the library, or a file with a [material] block; - reads standard input
+    pub(super) material: String,
+    /// The program
+    #[arg(long = "to", value_name = "PROGRAM")]
+    pub(super) program: ExportProgram,
+    /// The file to write [default: standard output]
+    #[arg(long, value_name = "FILE")]
+    pub(super) out: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub(super) enum ExportProgram {
+    /// *ELASTIC, *VISCOELASTIC, TIME=PRONY, *TRS
+    Abaqus,
+    /// TB,PRONY in shear and bulk, TB,SHIFT
+    Ansys,
+    /// *MAT_GENERAL_VISCOELASTIC (076)
+    LsDyna,
+    /// Table of branches of the Viscoelasticity node
+    Comsol,
+    /// Columns modulus_pa, time_s; the equilibrium modulus first
+    Csv,
+}
+
+impl From<ExportProgram> for Program {
+    fn from(program: ExportProgram) -> Self {
+        match program {
+            ExportProgram::Abaqus => Self::Abaqus,
+            ExportProgram::Ansys => Self::Ansys,
+            ExportProgram::LsDyna => Self::LsDyna,
+            ExportProgram::Comsol => Self::Comsol,
+            ExportProgram::Csv => Self::Csv,
+        }
+    }
 }
 
 #[derive(Debug, Args)]

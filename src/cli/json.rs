@@ -6,8 +6,8 @@ use std::path::Path;
 use serde_json::{Map, Value, json};
 
 use super::{Ended, Failure, write_out};
+use crate::material::Material;
 use crate::material::fit::{Fit, FitReport};
-use crate::material::{Material, ModulusKind};
 use crate::report::comparison::Comparison;
 use crate::report::material::MaterialReport;
 use crate::sweep::case::Setup;
@@ -98,10 +98,7 @@ pub(super) fn material(material: &Material) -> Result<Value, Failure> {
     Ok(json!({
         "name": material.name(),
         "poisson_ratio": material.poisson_ratio(),
-        "modulus": match material.kind() {
-            ModulusKind::Longitudinal => "longitudinal",
-            ModulusKind::Shear => "shear",
-        },
+        "modulus": material.kind().name(),
         "relaxation": material.relaxation(),
         "creep": material.creep(),
         "moduli": MaterialReport::new(material).moduli(10),

@@ -1,9 +1,11 @@
-//! `contact-dma material`: the library, one material in full, and fits.
+//! `contact-dma material`: the library, one material in full, fits, and other programs.
 
 use std::path::Path;
 
 use super::arguments::{MaterialCommand, OutputFormat, ShowFlags};
-use super::{Ended, Failure, STANDARD_INPUT, json, material_fit, print, read_document};
+use super::{
+    Ended, Failure, STANDARD_INPUT, json, material_export, material_fit, print, read_document,
+};
 use crate::input::diagnostic::Problems;
 use crate::input::dynamic::DynamicFormat;
 use crate::input::material_block;
@@ -28,6 +30,7 @@ pub(super) fn run(
         MaterialCommand::List => list(format),
         MaterialCommand::Show(flags) => show(flags, format),
         MaterialCommand::Fit(flags) => material_fit::run(flags, format, data_format),
+        MaterialCommand::Export(flags) => material_export::run(flags, format),
     }
 }
 
@@ -87,7 +90,7 @@ fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
 }
 
 /// A material by name or from a file, and the lines that introduce it.
-fn load(name: &str) -> Result<(Material, String), Failure> {
+pub(super) fn load(name: &str) -> Result<(Material, String), Failure> {
     if let Some(entry) = library::find(name) {
         let material = entry.material().map_err(Failure::run)?;
         let head = format!(

@@ -7,6 +7,7 @@ mod arguments;
 mod compare;
 mod json;
 mod material;
+mod material_export;
 mod material_fit;
 mod material_fit_dynamic;
 mod meant_for;

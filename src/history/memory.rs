@@ -18,6 +18,16 @@ pub enum TimeRule {
     Constant,
 }
 
+impl TimeRule {
+    /// As files call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Constant => "constant",
+        }
+    }
+}
+
 /// Weights of one branch over one step: m <- decay m + old p_old + new p_new.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct BranchWeights {

@@ -11,8 +11,11 @@ use crate::quantity::Dimension;
 
 /// The words by which files and flags call the two quantities.
 pub(crate) const QUANTITIES: [(&str, MaterialFunction); 2] = [
-    ("creep", MaterialFunction::Creep),
-    ("relaxation", MaterialFunction::Relaxation),
+    (MaterialFunction::Creep.name(), MaterialFunction::Creep),
+    (
+        MaterialFunction::Relaxation.name(),
+        MaterialFunction::Relaxation,
+    ),
 ];
 
 /// The column of a quantity.

@@ -541,10 +541,7 @@ fn share(value: f64) -> String {
 impl fmt::Display for FitReport {
     /// Lines to be printed, without a line end after the last.
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kind = match self.kind {
-            ModulusKind::Longitudinal => "longitudinal",
-            ModulusKind::Shear => "shear",
-        };
+        let kind = self.kind.name();
         let plural = if self.branches == 1 { "" } else { "es" };
         write!(
             formatter,

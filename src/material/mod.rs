@@ -29,6 +29,7 @@
 
 pub mod classical;
 pub mod dynamic;
+pub mod export;
 pub mod fit;
 pub mod interpolant;
 pub mod library;
@@ -70,6 +71,26 @@ pub enum MaterialFunction {
     Relaxation,
     /// A creep compliance.
     Creep,
+}
+
+impl ModulusKind {
+    /// As files and flags call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Shear => "shear",
+            Self::Longitudinal => "longitudinal",
+        }
+    }
+}
+
+impl MaterialFunction {
+    /// As files and flags call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Relaxation => "relaxation",
+            Self::Creep => "creep",
+        }
+    }
 }
 
 /// An isotropic linear viscoelastic material of constant Poisson ratio.

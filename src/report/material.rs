@@ -104,10 +104,12 @@ impl<'a> MaterialReport<'a> {
     pub fn text(&self) -> Result<String, MaterialError> {
         let mut text = String::new();
         let symbol = self.symbol;
-        let (kind, compliance) = match self.material.kind() {
-            ModulusKind::Longitudinal => ("longitudinal", 'D'),
-            ModulusKind::Shear => ("shear", 'J'),
+        let kind = self.material.kind();
+        let compliance = match kind {
+            ModulusKind::Longitudinal => 'D',
+            ModulusKind::Shear => 'J',
         };
+        let kind = kind.name();
         // Writing to a String cannot fail.
         let _ = writeln!(text, "Poisson ratio {}", self.material.poisson_ratio());
         let _ = writeln!(text, "\nRelaxation modulus ({kind}; MPa, s)");

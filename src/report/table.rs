@@ -1,6 +1,5 @@
 //! Tables as CSV: one header line, then rows; numbers as short as they can be without losing a bit, absent values empty.
 
-use super::ReportError;
 use super::work_line::WorkLine;
 use crate::cycle::Loop;
 use crate::drive::Control;
@@ -190,48 +189,4 @@ pub fn work(line: &WorkLine) -> Vec<u8> {
         &[line.along.column(), "work_j_per_m2"],
         rows.map(|(position_m, density)| cells![*position_m, *density]),
     )
-}
-
-/// A table being written row by row.
-pub struct Table {
-    name: &'static str,
-    writer: csv::Writer<Vec<u8>>,
-}
-
-impl Table {
-    /// A table with these columns. `name` is for error messages.
-    pub fn new(name: &'static str, columns: &[&str]) -> Result<Self, ReportError> {
-        let mut table = Self {
-            name,
-            writer: csv::Writer::from_writer(Vec::new()),
-        };
-        table.row(columns)?;
-        Ok(table)
-    }
-
-    /// Adds a row.
-    pub fn row<C: AsRef<[u8]>>(&mut self, cells: &[C]) -> Result<(), ReportError> {
-        self.writer
-            .write_record(cells)
-            .map_err(|error| ReportError::Table {
-                name: self.name,
-                reason: error.to_string(),
-            })
-    }
-
-    /// Adds a row of numbers.
-    pub fn numbers(&mut self, values: &[f64]) -> Result<(), ReportError> {
-        let cells: Vec<String> = values.iter().copied().map(number).collect();
-        self.row(&cells)
-    }
-
-    /// The finished text.
-    pub fn finish(self) -> Result<Vec<u8>, ReportError> {
-        self.writer
-            .into_inner()
-            .map_err(|error| ReportError::Table {
-                name: self.name,
-                reason: error.to_string(),
-            })
-    }
 }

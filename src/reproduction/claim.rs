@@ -1,8 +1,8 @@
 //! Claims: one number each, as it is, as both engines compute it, and what the paper states of it.
 
 use super::number::{difference, significant};
-use super::{ByEngine, Figure, Result};
-use crate::report::table::Table;
+use super::{ByEngine, Figure};
+use crate::report::table::{Cell, cells, csv};
 
 /// One number.
 #[derive(Debug, Clone, PartialEq)]
@@ -290,19 +290,17 @@ const TABLE: [Column; 12] = [
 ];
 
 /// `claims.csv`.
-pub(super) fn table(figures: &[Figure]) -> Result<Vec<u8>> {
+pub(super) fn table(figures: &[Figure]) -> Vec<u8> {
     let columns: Vec<&str> = std::iter::once("figure")
         .chain(TABLE.map(|(name, _)| name))
         .collect();
-    let mut table = Table::new("claims.csv", &columns)?;
-    for figure in figures {
-        for claim in &figure.claims {
-            let mut cells = vec![figure.number.to_string()];
-            cells.extend(TABLE.map(|(_, cell)| cell(claim)));
-            table.row(&cells)?;
-        }
-    }
-    Ok(table.finish()?)
+    let rows = figures.iter().flat_map(|figure| {
+        figure.claims.iter().map(|claim| {
+            let cells = TABLE.map(|(_, cell)| Cell::from(cell(claim)));
+            [cells![usize::from(figure.number)].as_slice(), &cells].concat()
+        })
+    });
+    csv(&columns, rows)
 }
 
 #[cfg(test)]
@@ -349,7 +347,7 @@ mod tests {
             claims: vec![claim(Source::Refined, None, measure)],
             statements: Vec::new(),
         };
-        let text = String::from_utf8(table(&[figure]).unwrap()).unwrap();
+        let text = String::from_utf8(table(&[figure])).unwrap();
         let row = text.lines().nth(1).unwrap();
         assert_eq!(
             row,

@@ -29,10 +29,10 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
         rows.map(|row| (row.time_s, held(row.load_n))).collect()
     });
     let line = curve(0.0, 1000.0, 200, modulus_mpa);
-    let mut data = Data::new(&["source", "time_s", "relaxation_modulus_mpa"])?;
-    data.points(&[&"closed form"], &line)?;
-    data.points(&[&"axisymmetric"], &springs)?;
-    data.points(&[&"half-space"], &cells)?;
+    let mut data = Data::new(&["source", "time_s", "relaxation_modulus_mpa"]);
+    data.points(&[&"closed form"], &line);
+    data.points(&[&"axisymmetric"], &springs);
+    data.points(&[&"half-space"], &cells);
     let last = [&springs, &cells].map(|points| points.last().map(|point| point.1));
     let values = [0.0, 1000.0].map(modulus_mpa);
     let claims = claims(values, last, &material.shear_creep_function()?);

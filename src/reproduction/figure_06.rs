@@ -102,7 +102,7 @@ struct Computed {
 
 /// The figure.
 pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figure>> {
-    let mut data = Data::new(&["loading_case", "source", "time_tau", "contact_radius_a_h"])?;
+    let mut data = Data::new(&["loading_case", "source", "time_tau", "contact_radius_a_h"]);
     let mut claims = Vec::new();
     let mut chart = Chart::new(
         Axis::linear("time t / 2τ (cases 1, 2), t / πτ (case 3)").range(0.0, 1.5),
@@ -117,9 +117,9 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
         let exact = spread(&signals.exact, 301);
         let springs = spread(&signals.axisymmetric, 31);
         let number = case.number.to_string();
-        data.points(&[&number, &"exact"], &exact)?;
-        data.points(&[&number, &"axisymmetric"], &springs)?;
-        data.points(&[&number, &"half-space"], &signals.half_space)?;
+        data.points(&[&number, &"exact"], &exact);
+        data.points(&[&number, &"axisymmetric"], &springs);
+        data.points(&[&number, &"half-space"], &signals.half_space);
         let member = Member { step, of: 3 };
         let drawn = |signal: &Signal| signal.iter().map(|(t, a)| (t / case.axis, *a)).collect();
         let label = format!("case {number}: {}", case.law);

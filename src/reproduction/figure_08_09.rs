@@ -47,7 +47,7 @@ pub(super) fn figures(
 fn figure_8(slow: &History, fast: &History, cycles: &Cycles<'_>) -> Result<Figure> {
     let scale = &cycles.scale;
     let columns = ["f", "source", "time_tau", "approach_delta_h", "load_w0"];
-    let mut data = Data::new(&columns)?;
+    let mut data = Data::new(&columns);
     let mut panels = Vec::new();
     for (f, part, history) in [("0.1", 'a', slow), ("1", 'b', fast)] {
         let [by_springs, by_cells] = &history.computed;
@@ -61,7 +61,7 @@ fn figure_8(slow: &History, fast: &History, cycles: &Cycles<'_>) -> Result<Figur
                     continue;
                 };
                 let point = (approach_m / scale.approach_m, row.load_n / scale.load_n);
-                data.row(&[&f, &source, &row.time_s, &point.0, &point.1])?;
+                data.row(&[&f, &source, &row.time_s, &point.0, &point.1]);
                 points.push(point);
             }
             Ok::<_, ReproductionError>(points)
@@ -136,13 +136,13 @@ fn figure_9(history: &History, cycles: &Cycles<'_>) -> Result<Figure> {
         "approach_delta_h",
         "contact_radius_a_h",
         "peak_pressure_p_h",
-    ])?;
+    ]);
     for (source, rows) in [("axisymmetric", &springs), ("half-space", &cells)] {
         for row in rows {
             let [load, approach, radius, pressure] = SIGNALS.map(|(_, signal)| signal(row, scale));
             let cells: [&dyn Cell; 6] =
                 [&source, &row.time_s, &load, &approach, &radius, &pressure];
-            data.row(&cells)?;
+            data.row(&cells);
         }
     }
     let mut chart = Chart::new(

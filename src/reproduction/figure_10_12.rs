@@ -23,7 +23,7 @@ pub(super) fn figures(cycles: &Cycles<'_>) -> Result<Vec<Figure>> {
 
 fn figure_10(cycles: &Cycles<'_>) -> Result<Figure> {
     let columns = ["source", "f", "largest_radius_a_h", "largest_pressure_p_h"];
-    let mut data = Data::new(&columns)?;
+    let mut data = Data::new(&columns);
     let near = |f: f64| move |shown: &f64| (shown / f - 1.0).abs() < 1e-9;
     let swept = cycles.curve.iter().copied();
     let swept: Vec<(f64, Numbers)> = swept
@@ -35,7 +35,7 @@ fn figure_10(cycles: &Cycles<'_>) -> Result<Figure> {
         .collect();
     for (source, points) in [("axisymmetric", &swept), ("half-space", &on_cells)] {
         for (f, numbers) in points {
-            data.row(&[&source, f, &numbers.radius, &numbers.pressure])?;
+            data.row(&[&source, f, &numbers.radius, &numbers.pressure]);
         }
     }
     let drawn = |points: &[(f64, Numbers)], read: fn(&Numbers) -> Option<f64>| {
@@ -108,7 +108,7 @@ const QUARTERS: [&str; 3] = ["W = W₀/2, loading", "W = W₀", "W = W₀/2, unl
 
 fn figure_11(cycles: &Cycles<'_>) -> Result<Figure> {
     let columns = ["f", "state", "source", "radius_a_h", "pressure_p_h"];
-    let mut data = Data::new(&columns)?;
+    let mut data = Data::new(&columns);
     let mut chart = Chart::new(
         Axis::linear("radial coordinate r / Hertz radius").range(0.0, 1.4),
         Axis::linear("pressure p / Hertz peak pressure").range(0.0, 0.8),
@@ -127,8 +127,8 @@ fn figure_11(cycles: &Cycles<'_>) -> Result<Figure> {
         for (step, state) in QUARTERS.into_iter().enumerate() {
             let line = spread(&loaded(on_springs.get(step), 1), 120);
             let cells = spread(&loaded(on_cells.get(step), 0), 18);
-            data.points(&[&case.f, &state, &"axisymmetric"], &line)?;
-            data.points(&[&case.f, &state, &"half-space"], &cells)?;
+            data.points(&[&case.f, &state, &"axisymmetric"], &line);
+            data.points(&[&case.f, &state, &"half-space"], &cells);
             // The paper shows f = 0.6 alone.
             if (case.f - 0.6).abs() < 1e-9 {
                 let member = Member { step, of: 3 };
@@ -206,7 +206,7 @@ fn pressure_difference(case: &Case, cycles: &Cycles<'_>) -> Option<f64> {
 }
 
 fn figure_12(cycles: &Cycles<'_>) -> Result<Figure> {
-    let mut data = Data::new(&["f", "source", "kind", "x", "y"])?;
+    let mut data = Data::new(&["f", "source", "kind", "x", "y"]);
     let panels = vec![
         loops_panel(cycles, &mut data)?,
         losses_panel(cycles, &mut data)?,
@@ -233,8 +233,8 @@ fn loops_panel(cycles: &Cycles<'_>, data: &mut Data) -> Result<Chart> {
         };
         let line = points(&case.samples.axisymmetric, 101);
         let cells = points(&case.samples.half_space, 17);
-        data.points(&[&case.f, &"axisymmetric", &"loop"], &line)?;
-        data.points(&[&case.f, &"half-space", &"loop"], &cells)?;
+        data.points(&[&case.f, &"axisymmetric", &"loop"], &line);
+        data.points(&[&case.f, &"half-space", &"loop"], &cells);
         let of = cases.len();
         let [line, cells] = Member { step, of }.line_and_cells(line, cells, cycles.cells);
         let label = format!("f = {}", short(case.f));
@@ -248,7 +248,7 @@ fn losses_panel(cycles: &Cycles<'_>, data: &mut Data) -> Result<Chart> {
     let losses = losses(cycles);
     for (source, points) in [("axisymmetric", &line), ("half-space", &losses.half_space)] {
         for (f, loss) in points {
-            data.row(&[f, &source, &"loss", f, loss])?;
+            data.row(&[f, &source, &"loss", f, loss]);
         }
     }
     let (f, largest) = peak(about(&losses.exact, TAU.recip())?)?;

@@ -56,7 +56,7 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
         "angular_frequency_rad_per_s",
         "energy_j",
         "share_of_largest",
-    ])?;
+    ]);
     for (quantity, curve, shares) in [
         ("stabilised loop", &loops.energy_j, &closed),
         ("work from first touch", &work.energy_j, &touched),
@@ -68,7 +68,7 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
             for ((omega, energy_j), (_, share)) in energies.iter().zip(shares) {
                 // Joules are far from 1: to five digits, whatever their size.
                 let energy_j = format!("{energy_j:.4e}");
-                data.row(&[&quantity, &source, omega, &energy_j, share])?;
+                data.row(&[&quantity, &source, omega, &energy_j, share]);
             }
         }
     }

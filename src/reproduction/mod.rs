@@ -166,7 +166,7 @@ impl Figure {
             number,
             caption: caption.into(),
             panels,
-            data: data.finish()?,
+            data: data.finish(),
             claims,
             statements: Vec::new(),
         })
@@ -289,7 +289,7 @@ pub fn write(figures: &[Figure], plan: &FigurePlan, folder: &Path) -> Result<()>
         press.picture_at(resolutions, names, &picture, &figure.full_caption())?;
         Ok::<(), ReproductionError>(())
     })?;
-    let claims = claim::table(figures)?;
+    let claims = claim::table(figures);
     write("claims.csv", &claims)?;
     write("README.md", readme::text(figures).as_bytes())?;
     let page = page::page(figures, &pictures, &claims)?;

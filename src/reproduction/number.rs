@@ -1,8 +1,7 @@
 //! Numbers as they are written: few enough digits that neither another processor nor another iteration changes them; and the
 //! data behind a figure.
 
-use super::Result;
-use crate::report::table::Table;
+use crate::report::table;
 
 /// Below this, in units in which results are of order 1, a value is rounding and stands as 0.
 const NOISE: f64 = 1e-9;
@@ -43,62 +42,64 @@ pub fn difference(value: f64) -> String {
 
 /// What stands in a cell of the data behind a figure: text, or a number to five significant digits, empty where undefined.
 pub(super) trait Cell {
-    fn text(&self) -> String;
+    fn cell(&self) -> table::Cell;
 }
 
 impl Cell for &str {
-    fn text(&self) -> String {
-        (*self).to_owned()
+    fn cell(&self) -> table::Cell {
+        (*self).into()
     }
 }
 
 impl Cell for String {
-    fn text(&self) -> String {
-        self.clone()
+    fn cell(&self) -> table::Cell {
+        self.as_str().into()
     }
 }
 
 impl Cell for f64 {
-    fn text(&self) -> String {
-        significant(*self, 5)
+    fn cell(&self) -> table::Cell {
+        significant(*self, 5).into()
     }
 }
 
 impl Cell for Option<f64> {
-    fn text(&self) -> String {
-        self.map(|value| value.text()).unwrap_or_default()
+    fn cell(&self) -> table::Cell {
+        self.map(|value| significant(value, 5)).into()
     }
 }
 
 /// The data behind a figure, as CSV.
-pub(super) struct Data(Table);
+pub(super) struct Data {
+    columns: Vec<String>,
+    rows: Vec<Vec<table::Cell>>,
+}
 
 impl Data {
     /// Under these columns.
-    pub fn new(columns: &[&str]) -> Result<Self> {
-        Ok(Self(Table::new("data of a figure", columns)?))
+    pub fn new(columns: &[&str]) -> Self {
+        Self {
+            columns: columns.iter().map(|&column| column.to_owned()).collect(),
+            rows: Vec::new(),
+        }
     }
 
     /// Adds a row.
-    pub fn row(&mut self, cells: &[&dyn Cell]) -> Result<()> {
-        let cells: Vec<String> = cells.iter().map(|cell| cell.text()).collect();
-        Ok(self.0.row(&cells)?)
+    pub fn row(&mut self, cells: &[&dyn Cell]) {
+        self.rows
+            .push(cells.iter().map(|cell| cell.cell()).collect());
     }
 
     /// Adds a row for each point, with these cells before it.
-    pub fn points<X: Cell, Y: Cell>(
-        &mut self,
-        before: &[&dyn Cell],
-        points: &[(X, Y)],
-    ) -> Result<()> {
-        points
-            .iter()
-            .try_for_each(|(x, y)| self.row(&[before, &[x, y]].concat()))
+    pub fn points<X: Cell, Y: Cell>(&mut self, before: &[&dyn Cell], points: &[(X, Y)]) {
+        for (x, y) in points {
+            self.row(&[before, &[x, y]].concat());
+        }
     }
 
     /// The text.
-    pub fn finish(self) -> Result<Vec<u8>> {
-        Ok(self.0.finish()?)
+    pub fn finish(self) -> Vec<u8> {
+        table::csv(&self.columns, self.rows)
     }
 }
 
@@ -118,9 +119,9 @@ mod tests {
             (3e-17, "0"),
             (0.0, "0"),
         ] {
-            assert_eq!(value.text(), text);
+            assert_eq!(f64::cell(&value).text(), text);
         }
-        assert_eq!(None.text(), "");
+        assert_eq!(None::<f64>.cell().text(), "");
     }
 
     #[test]

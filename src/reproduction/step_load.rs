@@ -105,9 +105,9 @@ impl<'a> Held<'a> {
     ) -> Result<[Series; 3]> {
         let of = self.times.len();
         let member = Member { step: k, of };
-        data.points(&[before, &[&"closed form"]].concat(), &curves.exact)?;
-        data.points(&[before, &[&"axisymmetric"]].concat(), &curves.axisymmetric)?;
-        data.points(&[before, &[&"half-space"]].concat(), &curves.half_space)?;
+        data.points(&[before, &[&"closed form"]].concat(), &curves.exact);
+        data.points(&[before, &[&"axisymmetric"]].concat(), &curves.axisymmetric);
+        data.points(&[before, &[&"half-space"]].concat(), &curves.half_space);
         // A value is absent where its y is.
         let drawn = curves.map(|points| -> Vec<Option<(f64, f64)>> {
             let points = points.into_iter();
@@ -211,7 +211,7 @@ fn difference(a: &Surface, b: &Surface) -> Option<f64> {
 }
 
 fn pressures(held: &Held<'_>) -> Result<(Chart, Data)> {
-    let mut data = Data::new(&["time_tau", "source", "radius_a_h", "pressure_p_h"])?;
+    let mut data = Data::new(&["time_tau", "source", "radius_a_h", "pressure_p_h"]);
     let mut chart = Chart::new(
         Axis::linear("radial coordinate r / Hertz radius"),
         Axis::linear("pressure p / Hertz peak pressure"),
@@ -293,7 +293,7 @@ pub(super) fn figure_7(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figu
         "radius_a_h",
         "displacement_delta_h",
     ];
-    let mut data = Data::new(&columns)?;
+    let mut data = Data::new(&columns);
     let (mut panels, mut claims) = (Vec::new(), Vec::new());
     // And a place outside the contact throughout (Hertz radii).
     for (file, name, part, outside) in [

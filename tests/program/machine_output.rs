@@ -146,6 +146,251 @@ fn materials_are_printed_as_objects_too() {
     assert!(block.contains("[material.creep]"), "{block}");
 }
 
+/// A series of a test: equilibrium (Pa) and branches (Pa, s).
+struct Prony {
+    equilibrium_pa: f64,
+    branches: Vec<(f64, f64)>,
+}
+
+impl Prony {
+    /// Storage and loss modulus in closed form.
+    fn moduli(&self, omega: f64) -> (f64, f64) {
+        let mut sum = (self.equilibrium_pa, 0.0);
+        for (modulus, time) in &self.branches {
+            let x = omega * time;
+            sum.0 += modulus * x * x / (1.0 + x * x);
+            sum.1 += modulus * x / (1.0 + x * x);
+        }
+        sum
+    }
+
+    fn scaled(&self, factor: f64) -> Self {
+        let branches = self.branches.iter().map(|(g, tau)| (g * factor, *tau));
+        Self {
+            equilibrium_pa: self.equilibrium_pa * factor,
+            branches: branches.collect(),
+        }
+    }
+
+    /// From an instantaneous modulus and ratios to it.
+    fn of_ratios(instantaneous: f64, ratios: &[(f64, f64)]) -> Self {
+        let sum: f64 = ratios.iter().map(|(ratio, _)| ratio).sum();
+        let branches = ratios
+            .iter()
+            .map(|(ratio, tau)| (ratio * instantaneous, *tau));
+        Self {
+            equilibrium_pa: instantaneous * (1.0 - sum),
+            branches: branches.collect(),
+        }
+    }
+
+    /// Largest relative difference of the two complex moduli over ten decades.
+    fn difference(&self, other: &Self) -> f64 {
+        let differences = (0..=100).map(|k| {
+            let omega = 10_f64.powf(f64::from(k) / 10.0 - 5.0);
+            let ((a, b), (c, d)) = (self.moduli(omega), other.moduli(omega));
+            (a - c).hypot(b - d) / a.hypot(b)
+        });
+        differences.fold(0.0, f64::max)
+    }
+}
+
+fn numbers(line: &str) -> Vec<f64> {
+    let cells = line.split([',', ' ']).filter(|cell| !cell.is_empty());
+    cells.map(|cell| cell.parse().unwrap()).collect()
+}
+
+/// Shear modulus and bulk over shear modulus, for a Young's modulus of one.
+fn shear_and_bulk(nu: f64) -> (f64, f64) {
+    let shear = 1.0 / (2.0 * (1.0 + nu));
+    (shear, 1.0 / (3.0 * (1.0 - 2.0 * nu)) / shear)
+}
+
+/// Longitudinal series of Abaqus keywords.
+fn read_abaqus(text: &str) -> Prony {
+    let lines: Vec<&str> = text
+        .lines()
+        .filter(|line| !line.starts_with("**"))
+        .collect();
+    let below = |keyword: &str| {
+        let at = lines.iter().position(|line| line.starts_with(keyword));
+        lines[at.unwrap() + 1..]
+            .iter()
+            .take_while(|line| !line.starts_with('*'))
+            .map(|line| numbers(line))
+            .collect::<Vec<_>>()
+    };
+    let elastic = below("*ELASTIC, MODULI=INSTANTANEOUS");
+    let ratios = below("*VISCOELASTIC, TIME=PRONY").into_iter().map(|line| {
+        assert_eq!(line[0], line[1], "shear and bulk relax alike");
+        (line[0], line[2])
+    });
+    Prony::of_ratios(elastic[0][0], &ratios.collect::<Vec<_>>())
+}
+
+/// Longitudinal series of APDL commands.
+fn read_ansys(text: &str) -> Prony {
+    let (mut young, mut tables) = (0.0, Vec::<Vec<f64>>::new());
+    for line in text.lines().filter(|line| !line.starts_with('!')) {
+        let fields: Vec<&str> = line.split(',').collect();
+        match fields[..] {
+            ["MP", "EX", "1", value] => young = value.parse().unwrap(),
+            ["TB", "PRONY", "1", "1", pairs, "SHEAR" | "BULK"] => {
+                tables.push(vec![0.0; 2 * pairs.parse::<usize>().unwrap()]);
+            }
+            ["TBDATA", first, ..] => {
+                let table = tables.last_mut().unwrap();
+                assert!(fields.len() <= 8, "six constants a command: {line}");
+                for (k, value) in fields[2..].iter().enumerate() {
+                    table[first.parse::<usize>().unwrap() - 1 + k] = value.parse().unwrap();
+                }
+            }
+            _ => assert!(line.starts_with("MP,PRXY,1,"), "{line}"),
+        }
+    }
+    assert_eq!(tables[0], tables[1], "shear and bulk relax alike");
+    let pairs: Vec<(f64, f64)> = tables[0].chunks(2).map(|pair| (pair[0], pair[1])).collect();
+    Prony::of_ratios(young, &pairs)
+}
+
+/// Longitudinal series of the terms of `*MAT_076`.
+fn read_ls_dyna(text: &str, nu: f64) -> Prony {
+    let (_, cards) = text.split_once("betaki\n").unwrap();
+    let (shear, bulk_over_shear) = shear_and_bulk(nu);
+    let mut series = Prony {
+        equilibrium_pa: 0.0,
+        branches: Vec::new(),
+    };
+    for card in cards.lines() {
+        let fields = card
+            .as_bytes()
+            .chunks(10)
+            .map(|field| std::str::from_utf8(field).unwrap());
+        let fields: Vec<f64> = fields.map(|field| field.trim().parse().unwrap()).collect();
+        let [g, beta, k, beta_k] = fields[..] else {
+            panic!("{card}")
+        };
+        // Five digits each.
+        assert!((k / g / bulk_over_shear - 1.0).abs() < 1e-4 && beta == beta_k);
+        match beta {
+            0.0 => series.equilibrium_pa = g / shear,
+            _ => series.branches.push((g / shear, beta.recip())),
+        }
+    }
+    series
+}
+
+/// Longitudinal series of a table of branches, beside E and nu of the parent node.
+fn read_comsol(text: &str, nu: f64) -> Prony {
+    let comments = text.lines().filter_map(|line| line.strip_prefix("% "));
+    let comments = comments.collect::<Vec<_>>().join(" ");
+    let (_, rest) = comments.split_once("E = ").unwrap();
+    let young = rest.split(' ').next().unwrap().parse().unwrap();
+    let rows = text
+        .lines()
+        .filter(|line| !line.starts_with('%'))
+        .map(numbers);
+    Prony {
+        equilibrium_pa: young,
+        branches: rows
+            .map(|row| (row[1] / shear_and_bulk(nu).0, row[2]))
+            .collect(),
+    }
+}
+
+#[test]
+fn what_is_exported_has_the_same_complex_modulus_when_it_is_read_back() {
+    let folder = TempDir::new().unwrap();
+    let branches = (0..17).map(|k| {
+        let k = f64::from(k);
+        (
+            2e7 * (1.0 + (2.3 * k).sin().abs()),
+            10_f64.powf(0.5 * k - 5.0) * 1.7,
+        )
+    });
+    let own = Prony {
+        equilibrium_pa: 1.3e6,
+        branches: branches.collect(),
+    };
+    let rows = own.branches.iter();
+    let rows: String = rows
+        .map(|(g, tau)| format!("{{ modulus = \"{g:?} Pa\", time = \"{tau:?} s\" }},"))
+        .collect();
+    for (kind, nu, to_longitudinal) in [("shear", 0.45, 2.9), ("longitudinal", 0.3, 1.0)] {
+        let block = format!(
+            "[material]\npoisson_ratio = {nu}\n[material.relaxation]\nmodulus = \"{kind}\"\n\
+             equilibrium = \"1.3 MPa\"\nbranches = [{rows}]\n"
+        );
+        write(&folder, "material.toml", &block);
+        let exact = own.scaled(to_longitudinal);
+        let export = |name: &str| {
+            let printed = json(
+                &folder,
+                &["material", "export", "material.toml", "--to", name],
+            );
+            let text = printed["text"].as_str().unwrap().to_owned();
+            (text, printed["conversion_error"].as_f64().unwrap())
+        };
+        // Thirteen digits of ratios that add up to all but 1/300 of one; of moduli, thirteen digits; of ten columns, five.
+        for (name, digits) in [
+            ("abaqus", 1e-9),
+            ("ansys", 1e-9),
+            ("comsol", 1e-12),
+            ("ls-dyna", 5e-5),
+        ] {
+            let (text, error) = export(name);
+            let read = match name {
+                "abaqus" => read_abaqus(&text),
+                "ansys" => read_ansys(&text),
+                "comsol" => read_comsol(&text, nu),
+                _ => read_ls_dyna(&text, nu),
+            };
+            assert_eq!(read.branches.len(), 17);
+            let difference = read.difference(&exact);
+            assert!(difference < digits, "{name}: {difference:e}");
+            // The program looks at more frequencies, at bulk moduli as well, and rounds in another order.
+            assert!(
+                difference < 2.0 * error + 1e-14,
+                "{name}: {difference:e}, {error:e}"
+            );
+        }
+        let (text, error) = export("csv");
+        assert_eq!(error, 0.0);
+        let mut lines = text.lines();
+        assert_eq!(lines.next(), Some("modulus_pa,time_s"));
+        assert_eq!(lines.next(), Some("1300000.0,"));
+        let read: Vec<(f64, f64)> = lines
+            .map(|line| (numbers(line)[0], numbers(line)[1]))
+            .collect();
+        assert_eq!(read, own.branches);
+    }
+}
+
+#[test]
+fn an_export_goes_into_a_file_or_alone_to_standard_output() {
+    let folder = TempDir::new().unwrap();
+    let export = |arguments: &[&str]| {
+        let mut command = program();
+        command.current_dir(folder.path());
+        command
+            .args(["material", "export", "pmma", "--to"])
+            .args(arguments);
+        command.assert()
+    };
+    let printed = export(&["csv"]).success();
+    let csv = "modulus_pa,time_s\n1973000000.0,\n254776000.0,8.93\n263662800.0,117.96\n";
+    assert_eq!(String::from_utf8_lossy(&printed.get_output().stdout), csv);
+    let said = String::from_utf8_lossy(&printed.get_output().stderr).into_owned();
+    assert!(said.contains("Error of the conversion") && said.contains("Poisson ratio 0.38"));
+    export(&["abaqus", "--out", "inp/pmma.inp"]).success();
+    let text = std::fs::read_to_string(folder.path().join("inp/pmma.inp")).unwrap();
+    assert!(text.contains("*MATERIAL, NAME=PMMA\n"), "{text}");
+    let folder_name = folder.path().to_str().unwrap();
+    for wrong in [["nastran", "--out", "x"], ["csv", "--out", folder_name]] {
+        export(&wrong).code(predicates::ord::ne(0));
+    }
+}
+
 /// What a sweep of PMMA around its peak leaves in this folder, and what it prints; frequencies as given.
 fn swept(folder: &TempDir, name: &str, frequencies: &str) -> (std::path::PathBuf, String) {
     let file = write(folder, &format!("{name}.toml"), &pmma_sweep(frequencies));

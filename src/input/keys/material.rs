@@ -16,8 +16,8 @@ use std::ops::Bound;
 
 /// What a modulus or a compliance is of.
 pub(crate) const MODULUS_KINDS: [(&str, ModulusKind); 2] = [
-    ("longitudinal", ModulusKind::Longitudinal),
-    ("shear", ModulusKind::Shear),
+    (ModulusKind::Longitudinal.name(), ModulusKind::Longitudinal),
+    (ModulusKind::Shear.name(), ModulusKind::Shear),
 ];
 
 /// How the samples of a table enter.

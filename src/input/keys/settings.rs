@@ -61,8 +61,8 @@ const ENGINES: [(&str, EngineKind); 2] = [
 ];
 
 const TIME_RULES: [(&str, TimeRule); 2] = [
-    ("linear", TimeRule::Linear),
-    ("constant", TimeRule::Constant),
+    (TimeRule::Linear.name(), TimeRule::Linear),
+    (TimeRule::Constant.name(), TimeRule::Constant),
 ];
 
 rows! { SOLVER_KEYS:

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::indenter::{Indenter, Value};
-use crate::material::{Material, MaterialFunction, ModulusKind};
+use crate::material::{Material, MaterialFunction};
 use crate::quantity::Dimension;
 use crate::report::number::plain;
 use crate::report::words;
@@ -97,10 +97,7 @@ pub(super) fn material(material: &Material) -> Markup {
         facts.add("name", name);
     }
     facts.add("Poisson ratio", &format!("{}", material.poisson_ratio()));
-    let kind = match material.kind() {
-        ModulusKind::Longitudinal => "longitudinal",
-        ModulusKind::Shear => "shear",
-    };
+    let kind = material.kind().name();
     let time = |time_s| plain(time_s, Dimension::Time, 5);
     match (material.given(), material.relaxation()) {
         (MaterialFunction::Relaxation, Some(relaxation)) => {

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use crate::history::ComplianceFunction;
 use crate::material::interpolant::Interpolant;
 use crate::material::sampled::Sampled;
-use crate::material::{Creep, Material, MaterialError, MaterialFunction, ModulusKind};
+use crate::material::{Creep, Material, MaterialError};
 use crate::sweep::plan::resolved;
 
 /// The material of a history.
@@ -126,14 +126,8 @@ impl BodyMaterial {
 
 fn samples_text(sampled: &Sampled) -> String {
     let table = sampled.table();
-    let quantity = match table.face() {
-        MaterialFunction::Creep => "creep",
-        MaterialFunction::Relaxation => "relaxation",
-    };
-    let kind = match table.kind() {
-        ModulusKind::Shear => "shear",
-        ModulusKind::Longitudinal => "longitudinal",
-    };
+    let quantity = table.face().name();
+    let kind = table.kind().name();
     // `{:?}` writes a float as TOML reads it, with a point or an exponent, and loses no bit.
     let list = |values: &[f64]| {
         let numbers: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
@@ -159,6 +153,7 @@ fn samples_text(sampled: &Sampled) -> String {
 mod tests {
     use super::*;
     use crate::material::tabulated::Tabulated;
+    use crate::material::{MaterialFunction, ModulusKind};
 
     #[test]
     fn the_compliance_of_noisy_samples_never_falls() {

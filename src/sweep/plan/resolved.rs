@@ -6,9 +6,8 @@ use std::fmt::Write;
 use sha2::{Digest, Sha256};
 
 use crate::drive::Control;
-use crate::history::TimeRule;
 use crate::indenter::{Indenter, Parameter, Value};
-use crate::material::{Material, MaterialFunction, ModulusKind, Relaxation, RelaxationBranch};
+use crate::material::{Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::plan::{SolverPlan, SweepPlan};
@@ -99,10 +98,7 @@ pub(in crate::sweep) fn solver_text(solver: &SolverPlan, indenter: &dyn Indenter
         Some(_) => String::new(),
         None => format!("cells = {}\n", solver.cells),
     };
-    let rule = match solver.time_rule {
-        TimeRule::Linear => "linear",
-        TimeRule::Constant => "constant",
-    };
+    let rule = solver.time_rule.name();
     let tolerance = solver.tolerance.map(|t| format!("tolerance = {t:e}\n"));
     format!(
         "[solver]\nengine = \"{}\"\n{cells}springs = {}\n{}time_rule = \"{rule}\"\n",
@@ -197,10 +193,7 @@ pub fn material_text_without_poisson_ratio(material: &Material) -> String {
 }
 
 fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    let kind = match material.kind() {
-        ModulusKind::Shear => "shear",
-        ModulusKind::Longitudinal => "longitudinal",
-    };
+    let kind = material.kind().name();
     line("[material]");
     if let Some(name) = material.name() {
         line(&format!("name = {}", toml_string(name)));

@@ -1,0 +1,59 @@
+//! ANSYS Mechanical APDL: `MP,EX` and `MP,PRXY` as the instantaneous elasticity, `TB,PRONY` twice, `TB,SHIFT` for the shift.
+//!
+//! ANSYS Mechanical APDL Material Reference, "Viscoelasticity": `TB,PRONY,MAT,NTEMP,NPTS,SHEAR` or `BULK`, with `TBDATA` giving pairs of
+//! relative modulus alpha_i and relaxation time tau_i, at most six constants a command and 100 pairs; `G(t) = G_0 (alpha_inf + sum
+//! alpha_i exp(-t/tau_i))` with G_0 from EX and PRXY. `TB,SHIFT,MAT,NTEMP,3,WLF` with `TBDATA,1,Tr,C1,C2`, where `log10 A = C1 (T -
+//! Tr)/(C2 + T - Tr)` and time is multiplied by A, the reciprocal of a_T: so C1 and C2 are those of WLF as they stand. S. Imaoka,
+//! "Viscoelasticity", memo STI0807B (ANSYS 11.0, 2008), has examples.
+
+use super::number::Printed;
+use super::{Draft, ExportError, Series};
+
+const MOST_PAIRS: usize = 100;
+/// Two constants each, of the six that one `TBDATA` takes.
+const PAIRS_PER_COMMAND: usize = 3;
+
+pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
+    series
+        .finite_bulk("EX and PRXY of an incompressible material make an infinite bulk modulus")?;
+    let young = Printed::free(series.longitudinal.instantaneous_modulus());
+    let ratios = series.ratios();
+    series.at_most(MOST_PAIRS, ratios.len())?;
+    let written = Series::of_ratios(&young, &ratios)?;
+    let nu = series.nu();
+    let mut text = format!("MP,EX,1,{young}\n");
+    text.push_str(&format!("MP,PRXY,1,{nu:?}\n"));
+    let kinds: &[&str] = if ratios.is_empty() {
+        &[]
+    } else {
+        &["SHEAR", "BULK"]
+    };
+    for kind in kinds {
+        let pairs = ratios.len();
+        text.push_str(&format!("TB,PRONY,1,1,{pairs},{kind}\n"));
+        for (command, pairs) in ratios.chunks(PAIRS_PER_COMMAND).enumerate() {
+            let first = 2 * PAIRS_PER_COMMAND * command + 1;
+            let values = pairs.iter().map(|(ratio, time)| format!(",{ratio},{time}"));
+            text.push_str(&format!("TBDATA,{first}{}\n", values.collect::<String>()));
+        }
+    }
+    let mut remarks = vec![
+        "Constant Poisson ratio: the same relative moduli in shear and in bulk. EX is the instantaneous modulus. Read in /PREP7; \
+         the material has the number 1."
+            .to_owned(),
+    ];
+    if let (Some(wlf), false) = (series.shift, ratios.is_empty()) {
+        let values = [wlf.reference_temperature_k, wlf.c1, wlf.c2_k].map(Printed::free);
+        let [reference, c1, c2] = values;
+        text.push_str(&format!(
+            "TB,SHIFT,1,1,3,WLF\nTBDATA,1,{reference},{c1},{c2}\n"
+        ));
+        remarks.push("Temperatures of the model must be in K, as that of TB,SHIFT.".to_owned());
+    }
+    Ok(Draft {
+        text,
+        written,
+        remarks,
+        comment: Some("!"),
+    })
+}
