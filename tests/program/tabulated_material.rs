@@ -766,3 +766,218 @@ fn what_is_wrong_with_dynamic_data_is_shown_at_its_place() {
         "{library}"
     );
 }
+
+/// Isotherms of a solid of two branches from 5 to 45 °C under a WLF law, exact to eight digits, as a table; and the law's log10 a_T
+/// at these temperatures, 25 °C being the reference.
+fn isotherms() -> (String, Vec<(f64, f64)>) {
+    let branch = |modulus_pa, time_s| RelaxationBranch { modulus_pa, time_s };
+    let solid = Relaxation::new(5e6, vec![branch(8e8, 1e-3), branch(6e7, 1.0)]).unwrap();
+    let law: Vec<(f64, f64)> = (0..5)
+        .map(|i| 5.0 + 10.0 * f64::from(i))
+        .map(|celsius| (celsius, -12.0 * (celsius - 25.0) / (60.0 + celsius - 25.0)))
+        .collect();
+    let mut table = "temperature_c,frequency_hz,storage_modulus_pa,loss_modulus_pa\n".to_owned();
+    for &(celsius, log10_a_t) in &law {
+        for i in 0..=12 {
+            let frequency_hz = 10_f64.powf(-2.0 + f64::from(i) / 3.0);
+            let omega = std::f64::consts::TAU * frequency_hz;
+            let modulus = solid.complex_modulus(10_f64.powf(log10_a_t) * omega);
+            table += &format!(
+                "{celsius},{frequency_hz:e},{:.8e},{:.8e}\n",
+                modulus.re, modulus.im
+            );
+        }
+    }
+    (table, law)
+}
+
+/// The rows of a table as numbers, empty cells as `None`; its columns.
+fn rows_of(text: &str) -> (Vec<String>, Vec<Vec<Option<f64>>>) {
+    let mut lines = text.lines();
+    let columns = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .map(str::to_owned)
+        .collect();
+    let number = |cell: &str| (!cell.is_empty()).then(|| cell.parse().unwrap());
+    let rows = lines.map(|line| line.split(',').map(number).collect());
+    (columns, rows.collect())
+}
+
+const FIT_DYNAMIC: [&str; 7] = [
+    "material",
+    "fit",
+    "dma.csv",
+    "--quantity",
+    "dynamic",
+    "--modulus",
+    "longitudinal",
+];
+
+#[test]
+fn dynamic_data_become_a_block_tables_figures_and_a_page() {
+    let folder = TempDir::new().unwrap();
+    let (table, law) = isotherms();
+    fs::write(folder.path().join("dma.csv"), table).unwrap();
+    program()
+        .current_dir(&folder)
+        .args(FIT_DYNAMIC)
+        .args([
+            "--poisson-ratio",
+            "0.35",
+            "--reference-temperature",
+            "25 °C",
+        ])
+        .args(["--replicas", "3", "--out", "out"])
+        .env("COLUMNS", "80")
+        .assert()
+        .success()
+        .stdout(contains("found from the content").and(contains("Master curve at 25 °C")));
+    let read = |name: &str| fs::read_to_string(folder.path().join("out").join(name)).unwrap();
+    let (columns, prony) = rows_of(&read("prony.csv"));
+    assert_eq!(columns, ["modulus_pa", "time_s"]);
+    assert_eq!(prony[0][1], None);
+    assert!(
+        prony[1..]
+            .iter()
+            .all(|row| row[0] > Some(0.0) && row[1] > Some(0.0))
+    );
+    let (columns, shifts) = rows_of(&read("shift.csv"));
+    assert_eq!(columns, ["temperature_c", "log10_a_t", "log10_a_t_error"]);
+    assert_eq!(shifts.len(), law.len());
+    for (row, (celsius, log10_a_t)) in shifts.iter().zip(&law) {
+        assert_eq!(row[0], Some(*celsius));
+        // The demand on data with noise of 1 %; these have none.
+        assert!((row[1].unwrap() - log10_a_t).abs() < 0.03, "{row:?}");
+    }
+    let (columns, points) = rows_of(&read("master.csv"));
+    let expected = "angular_frequency_rad_per_s,storage_modulus_pa,loss_modulus_pa,temperature_c,storage_fit_pa,loss_fit_pa";
+    assert_eq!(columns.join(","), expected);
+    assert_eq!(points.len(), 65);
+    for row in &points {
+        // Two branches fit two branches; what is left is what the shifts leave.
+        assert!(
+            (row[4].unwrap() / row[1].unwrap() - 1.0).abs() < 0.03,
+            "{row:?}"
+        );
+    }
+    let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    assert_eq!(
+        (&summary["points"], &summary["isotherms"]),
+        (&65.into(), &5.into())
+    );
+    assert_eq!(summary["reference_temperature_c"], 25.0);
+    assert_eq!(summary["branches"], prony.len() - 1);
+    for name in [
+        "fit",
+        "fit-residual",
+        "master-curve",
+        "isotherms",
+        "shift-factors",
+        "spectrum",
+        "van-gurp-palmen",
+    ] {
+        let svg = read(&format!("{name}.svg"));
+        assert!(svg.starts_with("<svg"));
+        assert!(read("index.html").contains("<figcaption"));
+        assert!(folder.path().join(format!("out/{name}.png")).exists());
+    }
+    // The block is that of a sweep file.
+    let block = read("material.toml");
+    assert!(
+        block.contains("poisson_ratio = 0.35\nmeasured = [")
+            && block.contains("[material.relaxation]")
+    );
+    program()
+        .current_dir(&folder)
+        .args(["material", "show", "out/material.toml"])
+        .assert()
+        .success();
+}
+
+#[test]
+fn shift_factors_that_were_given_have_no_errors_and_without_a_poisson_ratio_the_block_says_so() {
+    let folder = TempDir::new().unwrap();
+    let (table, law) = isotherms();
+    fs::write(folder.path().join("dma.csv"), table).unwrap();
+    let factors: String = law
+        .iter()
+        .map(|(celsius, log)| format!("{celsius},{log}\n"))
+        .collect();
+    fs::write(
+        folder.path().join("a.csv"),
+        format!("temperature_c,log10_a_t\n{factors}"),
+    )
+    .unwrap();
+    let run = |more: &[&str]| {
+        let mut command = program();
+        command.current_dir(&folder).args(FIT_DYNAMIC).args(more);
+        command.assert()
+    };
+    let printed = run(&[
+        "--shift", "a.csv", "--out", "out", "--format", "json", "--format", "table",
+    ]);
+    let printed = printed.success();
+    let json: serde_json::Value = serde_json::from_slice(&printed.get_output().stdout).unwrap();
+    assert!(json["shift_factors"][0]["log10_a_t_error"].is_null());
+    assert_eq!(json["format"], "table");
+    assert_eq!(json["format_found_by"], "as named");
+    let block = json["material_toml"].as_str().unwrap();
+    assert!(
+        block.contains("# poisson_ratio = ") && !block.contains("\npoisson_ratio"),
+        "{block}"
+    );
+    let shifts = fs::read_to_string(folder.path().join("out/shift.csv")).unwrap();
+    let (_, rows) = rows_of(&shifts);
+    assert!(rows.iter().all(|row| row[2].is_none()));
+    for (more, words) in [
+        (&["--shift", "b.csv"][..], "there is no such file"),
+        (&["--reference-temperature", "25"], "'25 °C'"),
+        (&["--branches", "0"], "a whole number from 1"),
+        (&["--flow", "true"], "--flow is for creep"),
+        (
+            &["--data-format", "pyvisco", "--format", "table"],
+            "two formats",
+        ),
+        (&["--format", "xml"], "invalid value"),
+    ] {
+        run(more).code(2).stderr(contains(words));
+    }
+}
+
+#[test]
+fn what_is_for_dynamic_data_is_refused_for_creep() {
+    let folder = TempDir::new().unwrap();
+    fs::write(
+        folder.path().join("creep.csv"),
+        csv(MaterialFunction::Creep),
+    )
+    .unwrap();
+    let run = |more: &[&str]| {
+        let mut command = program();
+        let creep = [
+            "material",
+            "fit",
+            "creep.csv",
+            "--quantity",
+            "creep",
+            "--modulus",
+            "shear",
+        ];
+        command.current_dir(&folder).args(creep).args(more).assert()
+    };
+    run(&[]).code(2).stderr(contains("--poisson-ratio <NU>"));
+    let wrong = ["--poisson-ratio", "0.38", "--shift", "wlf"];
+    run(&wrong)
+        .code(2)
+        .stderr(contains("for --quantity dynamic"));
+    run(&["creep.csv", "--poisson-ratio", "0.38"])
+        .code(2)
+        .stderr(contains("one table"));
+    run(&["--poisson-ratio", "0.38", "--out", "out"]).success();
+    let (columns, rows) =
+        rows_of(&fs::read_to_string(folder.path().join("out/prony.csv")).unwrap());
+    assert_eq!(columns, ["modulus_pa", "time_s"]);
+    assert!(rows.len() > 1 && rows[0][1].is_none());
+}
