@@ -1,15 +1,21 @@
 //! What can be typed: commands, flags, their help texts.
 
+use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::builder::{PathBufValueParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::builder::{
+    EnumValueParser, PathBufValueParser, PossibleValue, PossibleValuesParser, TypedValueParser,
+};
+use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
 use super::compare;
+use crate::input::dynamic::{self, DynamicFormat};
+use crate::input::keys::material::{MOST_BRANCHES, MOST_REPLICAS};
+use crate::material::ModulusKind;
 use crate::material::export::Program;
-use crate::material::{MaterialFunction, ModulusKind};
+use crate::quantity::{Dimension, parse};
 use crate::sweep::share::shard::Shard;
 use crate::sweep::store::checkpoint_file;
 
@@ -20,9 +26,75 @@ use crate::sweep::store::checkpoint_file;
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Command,
-    /// What to print at the end; json: one object for other programs, with --quiet too
-    #[arg(long, value_name = "FORMAT", default_value = "text", global = true)]
-    pub(super) format: OutputFormat,
+    /// What to print at the end; json: one object for other programs, with --quiet too. For `material fit` also a format of its
+    /// data, as --data-format has them
+    #[arg(
+        long, value_name = "FORMAT", default_value = "text", global = true, value_parser = AnyFormat,
+        action = ArgAction::Append
+    )]
+    pub(super) format: Vec<FormatWord>,
+}
+
+impl Arguments {
+    /// What to print at the end: the last that was asked for.
+    pub(super) fn output_format(&self) -> OutputFormat {
+        let output = self.format.iter().rev().find_map(|word| match word {
+            FormatWord::Output(format) => Some(*format),
+            FormatWord::Data(_) => None,
+        });
+        output.unwrap_or(OutputFormat::Text)
+    }
+
+    /// The format of the data that `--format` names.
+    pub(super) fn data_format(&self) -> Option<DynamicFormat> {
+        self.format.iter().rev().find_map(|word| match word {
+            FormatWord::Output(_) => None,
+            FormatWord::Data(format) => Some(*format),
+        })
+    }
+}
+
+/// What `--format` may name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum FormatWord {
+    /// What is printed.
+    Output(OutputFormat),
+    /// How data are written that are read: in `material fit` alone.
+    Data(DynamicFormat),
+}
+
+/// Reads a [`FormatWord`].
+#[derive(Debug, Clone, Copy)]
+struct AnyFormat;
+
+impl TypedValueParser for AnyFormat {
+    type Value = FormatWord;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<FormatWord, clap::Error> {
+        let data = value.to_str().and_then(dynamic_format);
+        match data.filter(|_| command.get_name() == "fit") {
+            Some(format) => Ok(FormatWord::Data(format)),
+            None => EnumValueParser::new()
+                .parse_ref(command, argument, value)
+                .map(FormatWord::Output),
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let values = OutputFormat::value_variants().iter();
+        Some(Box::new(values.filter_map(ValueEnum::to_possible_value)))
+    }
+}
+
+/// The format of dynamic data of this name.
+fn dynamic_format(name: &str) -> Option<DynamicFormat> {
+    let found = dynamic::FORMATS.iter().find(|(word, _)| *word == name);
+    found.map(|(_, format)| *format)
 }
 
 const EXIT_CODES: &str = "\
@@ -293,14 +365,16 @@ Examples:
 With --out, the moduli over frequency and the relaxation modulus over time are written as
 SVG, PNG and CSV, and index.html, one page of everything.")]
     Show(ShowFlags),
-    /// Fit a series to measured creep compliance or relaxation modulus
+    /// Fit a series to measured creep compliance or relaxation modulus, or to storage and loss modulus over frequency and temperature
     #[command(after_help = "\
 Examples:
   contact-dma material fit creep.csv --quantity creep --modulus shear --poisson-ratio 0.38
   contact-dma material fit stress.csv --quantity relaxation --modulus longitudinal \\
       --poisson-ratio 0.38 --out reports/fit
+  contact-dma material fit dma.csv --quantity dynamic --modulus longitudinal \\
+      --poisson-ratio 0.35 --reference-temperature '25 °C' --out reports/dma
 
-The table is text: a line of column names, then rows. Columns: time_s, and
+A table of creep or relaxation is text: a line of column names, then rows. Columns: time_s, and
 creep_compliance_per_pa or relaxation_modulus_pa, or in other units, as in time_min,
 `Creep compliance [1/GPa]`, or with a row of units. Commas, semicolons, tabs or blanks
 separate cells; numbers may have decimal commas where commas do not. Printed are the misfit, what had to be assumed,
@@ -312,7 +386,11 @@ a sweep file names the table:
   quantity = \"creep\"
   modulus = \"shear\"
 
-With --out, that block, figures of data, fit and difference, and index.html are written.")]
+With --out, that block, the series as prony.csv, figures of data, fit and difference, and index.html are written.
+
+Dynamic data are one file or several of one specimen, tables with named columns or exports of instruments; the format is found,
+or named by --data-format (`--format pyvisco` says the same). Isotherms are shifted to one temperature, which gives shift.csv and
+master.csv, and summary.json has every number of the fit.")]
     Fit(FitFlags),
     /// Write a material as input of a finite element program
     #[command(after_help = "\
@@ -367,40 +445,115 @@ impl From<ExportProgram> for Program {
 
 #[derive(Debug, Args)]
 pub(super) struct FitFlags {
-    /// The table (CSV)
-    pub(super) data: PathBuf,
+    /// The table (CSV); files of dynamic data
+    #[arg(required = true, value_name = "FILE")]
+    pub(super) data: Vec<PathBuf>,
     /// What the table holds
     #[arg(long, value_name = "QUANTITY")]
-    pub(super) quantity: TableQuantity,
+    pub(super) quantity: FitQuantity,
     /// Which modulus, or which modulus the compliance belongs to
     #[arg(long, value_name = "KIND")]
     pub(super) modulus: TableModulus,
-    /// Poisson ratio of the material
-    #[arg(long, value_name = "NU", allow_negative_numbers = true)]
-    pub(super) poisson_ratio: f64,
+    /// Poisson ratio of the material; dynamic data are fitted without one too, and the block then says where it is to be written
+    #[arg(
+        long, value_name = "NU", allow_negative_numbers = true,
+        required_if_eq_any([("quantity", "creep"), ("quantity", "relaxation")])
+    )]
+    pub(super) poisson_ratio: Option<f64>,
     /// Whether the material flows without end; without this flag the data decide
     #[arg(long, value_name = "true|false")]
     pub(super) flow: Option<bool>,
+    #[command(flatten)]
+    pub(super) dynamic: DynamicFlags,
     /// Folder for the material block, figures and their data
     #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum TableQuantity {
+/// What is made of dynamic data, and how.
+#[derive(Debug, Args, PartialEq)]
+#[command(next_help_heading = "Dynamic data")]
+pub(super) struct DynamicFlags {
+    /// Temperature of the master curve, for example '25 °C' [default: that of the middle isotherm]
+    #[arg(long, value_name = "T", value_parser = temperature, allow_hyphen_values = true)]
+    pub(super) reference_temperature: Option<f64>,
+    /// How isotherms are shifted: free, each for itself; wlf or arrhenius, by a law; none; or a file of shift factors
+    /// (temperature_c,log10_a_t) [default: free]
+    #[arg(long, value_name = "free|wlf|arrhenius|none|FILE")]
+    pub(super) shift: Option<PathBuf>,
+    /// Shift isotherms along the moduli too
+    #[arg(long)]
+    pub(super) vertical_shift: bool,
+    /// Number of branches [default: auto, as many as the data resolve]
+    #[arg(long, value_name = "auto|N", value_parser = branches)]
+    pub(super) branches: Option<Branches>,
+    /// Replicas of the series that carry the noise of the data on [default: 0]
+    #[arg(long, value_name = "N", value_parser = replicas)]
+    pub(super) replicas: Option<usize>,
+    /// Format of the files [default: found from what they hold]
+    #[arg(long, value_name = "FORMAT", value_parser = data_format())]
+    pub(super) data_format: Option<DynamicFormat>,
+}
+
+/// Branches of a series.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Branches {
+    Auto,
+    Number(NonZeroUsize),
+}
+
+fn branches(text: &str) -> Result<Branches, String> {
+    let number = text
+        .parse()
+        .ok()
+        .filter(|number: &NonZeroUsize| number.get() <= MOST_BRANCHES);
+    match (text, number) {
+        ("auto", _) => Ok(Branches::Auto),
+        (_, Some(number)) => Ok(Branches::Number(number)),
+        _ => Err(format!(
+            "`{text}` is no number of branches: write auto, or a whole number from 1 to {MOST_BRANCHES}"
+        )),
+    }
+}
+
+fn replicas(text: &str) -> Result<usize, String> {
+    let number = text.parse().ok().filter(|number| *number <= MOST_REPLICAS);
+    number.ok_or_else(|| {
+        format!("`{text}` is no number of replicas: write a whole number from 0 to {MOST_REPLICAS}")
+    })
+}
+
+fn temperature(text: &str) -> Result<f64, String> {
+    let bare: Result<f64, _> = text.trim().parse();
+    if bare.is_ok() {
+        return Err(format!(
+            "`{text}` has no unit: write '{text} °C' or '{text} K'"
+        ));
+    }
+    let temperature_k = parse(text, Dimension::Temperature).map_err(|error| error.to_string())?;
+    match temperature_k > 0.0 {
+        true => Ok(temperature_k),
+        false => Err(format!(
+            "`{text}` is not above absolute zero: write a temperature above -273.15 °C"
+        )),
+    }
+}
+
+fn data_format() -> impl TypedValueParser<Value = DynamicFormat> {
+    let names = dynamic::FORMATS.iter().map(|(name, _)| *name);
+    PossibleValuesParser::new(names)
+        .try_map(|name| dynamic_format(&name).ok_or("this is no format of dynamic data"))
+}
+
+/// What a file of measured data holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum FitQuantity {
     /// Creep compliance
     Creep,
     /// Relaxation modulus
     Relaxation,
-}
-
-impl From<TableQuantity> for MaterialFunction {
-    fn from(quantity: TableQuantity) -> Self {
-        match quantity {
-            TableQuantity::Creep => Self::Creep,
-            TableQuantity::Relaxation => Self::Relaxation,
-        }
-    }
+    /// Storage and loss modulus over frequency, at one temperature or at several
+    Dynamic,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]

@@ -7,6 +7,7 @@ use super::{
     Ended, Failure, STANDARD_INPUT, json, material_export, material_fit, print, read_document,
 };
 use crate::input::diagnostic::Problems;
+use crate::input::dynamic::DynamicFormat;
 use crate::input::material_block;
 use crate::input::material_table::DirectSum;
 use crate::material::{Material, library};
@@ -20,11 +21,15 @@ use crate::sweep::plan::resolved;
 use crate::sweep::store::write_atomically;
 
 /// Runs one of the subcommands.
-pub(super) fn run(command: &MaterialCommand, format: OutputFormat) -> Result<Ended, Failure> {
+pub(super) fn run(
+    command: &MaterialCommand,
+    format: OutputFormat,
+    data_format: Option<DynamicFormat>,
+) -> Result<Ended, Failure> {
     match command {
         MaterialCommand::List => list(format),
         MaterialCommand::Show(flags) => show(flags, format),
-        MaterialCommand::Fit(flags) => material_fit::run(flags, format),
+        MaterialCommand::Fit(flags) => material_fit::run(flags, format, data_format),
         MaterialCommand::Export(flags) => material_export::run(flags, format),
     }
 }

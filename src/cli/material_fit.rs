@@ -1,11 +1,15 @@
 //! `contact-dma material fit`: from a table of measured data to a material block.
 
-use super::arguments::{FitFlags, OutputFormat};
-use super::{Ended, Failure, json, print};
+use std::path::Path;
+
+use super::arguments::{DynamicFlags, FitFlags, FitQuantity, OutputFormat};
+use super::{Ended, Failure, json, material_fit_dynamic, print};
+use crate::input::dynamic::DynamicFormat;
 use crate::input::table_file;
-use crate::material::Material;
 use crate::material::fit;
+use crate::material::{Material, MaterialFunction};
 use crate::report::caption::Setting;
+use crate::report::dynamic::tables;
 use crate::report::figure::press::Press;
 use crate::report::page::{self, Pictures, material::About};
 use crate::report::{self, figure};
@@ -13,12 +17,48 @@ use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::resolved;
 use crate::sweep::store::write_atomically;
 
-/// Runs the command.
-pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failure> {
-    let table = table_file::read(&flags.data, flags.quantity.into(), flags.modulus.into())?;
+/// Runs the command; `data_format` is what `--format` says of the data.
+pub(super) fn run(
+    flags: &FitFlags,
+    format: OutputFormat,
+    data_format: Option<DynamicFormat>,
+) -> Result<Ended, Failure> {
+    let function = match flags.quantity {
+        FitQuantity::Dynamic => return material_fit_dynamic::run(flags, format, data_format),
+        FitQuantity::Creep => MaterialFunction::Creep,
+        FitQuantity::Relaxation => MaterialFunction::Relaxation,
+    };
+    let none = DynamicFlags {
+        reference_temperature: None,
+        shift: None,
+        vertical_shift: false,
+        branches: None,
+        replicas: None,
+        data_format: None,
+    };
+    if flags.dynamic != none || data_format.is_some() {
+        return Err(Failure::input(
+            "--reference-temperature, --shift, --vertical-shift, --branches, --replicas and --data-format are for --quantity dynamic",
+        ));
+    }
+    let ([data], Some(poisson_ratio)) = (&flags.data[..], flags.poisson_ratio) else {
+        return Err(Failure::input(
+            "creep and relaxation are fitted to one table: name one file, and --poisson-ratio",
+        ));
+    };
+    fit_table(flags, (data, function, poisson_ratio), format)
+}
+
+/// A creep compliance or relaxation modulus over time.
+fn fit_table(
+    flags: &FitFlags,
+    (data, function, poisson_ratio): (&Path, MaterialFunction, f64),
+    format: OutputFormat,
+) -> Result<Ended, Failure> {
+    let table = table_file::read(data, function, flags.modulus.into())?;
     let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
-    let material = fit.material(flags.poisson_ratio).map_err(Failure::input)?;
-    let block = block(flags, &material);
+    let material = fit.material(poisson_ratio).map_err(Failure::input)?;
+    let block = block(data, &material);
     match format {
         OutputFormat::Json => json::print(&json::fit(&fit, &material)?)?,
         OutputFormat::Text => print(&format!(
@@ -34,6 +74,9 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
     let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     write("material.toml", block.as_bytes()).map_err(Failure::run)?;
+    if let Some(relaxation) = material.relaxation() {
+        write("prony.csv", &tables::prony(relaxation)).map_err(Failure::run)?;
+    }
     let press = Press {
         plan: &FigurePlan::default(),
         write: &write,
@@ -42,7 +85,7 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
     let drawn = press.figures(&figures, &Setting::of_material(&material));
     drawn.map_err(Failure::run)?;
     if let Some(figure) = figures.first() {
-        let name = flags.data.file_name().unwrap_or_default();
+        let name = data.file_name().unwrap_or_default();
         let about = About {
             title: &format!("Fit to {}", name.display()),
             text: &report::fit::text(fit.report()),
@@ -61,14 +104,14 @@ pub(super) fn run(flags: &FitFlags, format: OutputFormat) -> Result<Ended, Failu
 }
 
 /// The material block of a sweep file, ready to paste, every number exact.
-fn block(flags: &FitFlags, material: &Material) -> String {
+fn block(data: &Path, material: &Material) -> String {
     let comments: String = material.fit().map_or_else(String::new, |report| {
         let report = report::fit::text(report);
         report.lines().map(|line| format!("# {line}\n")).collect()
     });
     format!(
         "# From {}\n{comments}{}",
-        flags.data.display().to_string().escape_debug(),
+        data.display().to_string().escape_debug(),
         resolved::material_text(material)
     )
 }

@@ -9,6 +9,7 @@ mod json;
 mod material;
 mod material_export;
 mod material_fit;
+mod material_fit_dynamic;
 mod meant_for;
 mod memory;
 mod plan;
@@ -80,7 +81,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
         }
     };
-    let format = arguments.format;
+    let (format, data_format) = (arguments.output_format(), arguments.data_format());
     let ended = match arguments.command {
         Command::Sweep(flags) => sweep::run(&flags, format),
         Command::Plan(flags) => plan::run(&flags, format),
@@ -90,7 +91,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Simulate(flags) => simulate::run(&flags, format),
         Command::Reproduce(flags) => reproduce::run(&flags, format),
         Command::Schema(flags) => schema::run(&flags),
-        Command::Material(command) => material::run(&command, format),
+        Command::Material(command) => material::run(&command, format, data_format),
         Command::Completions { shell } => {
             let mut text = Vec::new();
             clap_complete::generate(shell, &mut Arguments::command(), "contact-dma", &mut text);

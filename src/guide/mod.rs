@@ -6,6 +6,7 @@
 //! | [`first_sweep`] | from nothing to a curve of the energy loss, in five minutes |
 //! | [`input_files`] | every key of a sweep file and of a file of one drive history |
 //! | [`own_material`] | how a material is given: series, tables of measured data, code |
+//! | [`measured_material`] | from the file of a DMA instrument to a master curve, a series and a loss curve with its uncertainty |
 //! | [`own_indenter`] | how a shape is given: profile, height map, code |
 //! | [`own_loading`] | what drives the contact: oscillations about a mean, histories, records |
 //! | [`cluster`] | sweeps on several machines: shards, Slurm; what a folder remembers, how results are compared |
@@ -27,6 +28,10 @@ pub mod input_files {
 
 pub mod own_material {
     #![doc = include_str!("own_material.md")]
+}
+
+pub mod measured_material {
+    #![doc = include_str!("measured_material.md")]
 }
 
 pub mod own_indenter {

@@ -10,13 +10,13 @@ use super::document::row::{AnyRow, Optional, Required, Row};
 use super::keys;
 use super::keys::material::{
     BRANCH_COMPLIANCE, BRANCH_MODULUS, BRANCH_TIME, COMPLIANCE, CREEP, CREEP_ALTERNATIVE,
-    CREEP_BRANCHES, ELEMENT_TIME, EQUILIBRIUM, INSTANTANEOUS, ISOTHERMS, KELVIN_SPRING,
+    CREEP_BRANCHES, DYNAMIC, ELEMENT_TIME, EQUILIBRIUM, INSTANTANEOUS, ISOTHERMS, KELVIN_SPRING,
     KELVIN_VOIGT, LIBRARY, LIBRARY_POISSON_RATIO, MAXWELL, MAXWELL_MODULUS, MEASURED,
     MEASURED_TABLE, MODULUS, NAME, POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE,
     RELAXATION_BRANCHES, SPRING, VISCOSITY, ZENER,
 };
 use super::material_table::{self, DirectSum, TableMaterial};
-use super::material_temperature;
+use super::{material_dynamic, material_temperature};
 use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
 use crate::material::sampled::Sampled;
 use crate::material::{
@@ -34,11 +34,12 @@ enum Form {
     Zener,
     KelvinVoigt,
     Isotherms,
+    Dynamic,
     Measured,
 }
 
 /// The ways to give a material; exactly one of them.
-static FORMS: [(&dyn AnyRow, Form); 8] = [
+static FORMS: [(&dyn AnyRow, Form); 9] = [
     (&LIBRARY, Form::Library),
     (&RELAXATION, Form::Relaxation),
     (&CREEP, Form::Creep),
@@ -46,6 +47,7 @@ static FORMS: [(&dyn AnyRow, Form); 8] = [
     (&ZENER, Form::Zener),
     (&KELVIN_VOIGT, Form::KelvinVoigt),
     (&ISOTHERMS, Form::Isotherms),
+    (&DYNAMIC, Form::Dynamic),
     (&MEASURED_TABLE, Form::Measured),
 ];
 
@@ -90,8 +92,12 @@ pub(crate) fn read_over(
     let place = FORMS.iter().find(|(_, other)| *other == form);
     let place = place.and_then(|(row, _)| block.key_location(*row))?;
     let read = match form {
-        Form::Isotherms => {
-            let known = material_temperature::isotherms(&mut block, problems);
+        Form::Isotherms | Form::Dynamic => {
+            let known = match form {
+                Form::Isotherms => material_temperature::isotherms(&mut block, problems),
+                _ => (block.table(&DYNAMIC))
+                    .and_then(|table| material_dynamic::read(table, folder, problems)),
+            };
             material_temperature::read(&mut block, known, axis, &place, problems)
                 .map(|(material, each)| (material.into(), each))
         }
@@ -223,7 +229,7 @@ fn from_block(
     form: Form,
 ) -> Option<Build> {
     let mut table = block.table(match form {
-        Form::Library | Form::Isotherms => return None,
+        Form::Library | Form::Isotherms | Form::Dynamic => return None,
         Form::Relaxation => &RELAXATION,
         Form::Creep => &CREEP,
         Form::Maxwell => &MAXWELL,
@@ -232,7 +238,7 @@ fn from_block(
         Form::Measured => &MEASURED_TABLE,
     })?;
     let build: Option<Build> = match form {
-        Form::Library | Form::Isotherms => None,
+        Form::Library | Form::Isotherms | Form::Dynamic => None,
         Form::Relaxation => {
             let kind = table.value(&MODULUS);
             let replicas = material_temperature::replicas(&mut table, problems);

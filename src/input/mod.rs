@@ -42,6 +42,7 @@ mod indenter_block;
 pub mod key_reference;
 pub mod keys;
 pub(crate) mod material_block;
+pub(crate) mod material_dynamic;
 pub(crate) mod material_table;
 mod material_temperature;
 mod points;

@@ -42,6 +42,7 @@ mod creep;
 mod error;
 mod harmonic;
 mod peaks;
+mod random;
 mod relaxation;
 #[cfg(test)]
 mod synthetic;

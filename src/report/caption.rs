@@ -195,6 +195,19 @@ pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
     })
 }
 
+/// What the band of the material means; nothing where there is none.
+pub fn material_band(material: &Material, outcome: &Outcome) -> Option<String> {
+    let mut records = outcome.records.iter();
+    let any = records.any(|record| record.energy_loss_material_error_j().is_some());
+    any.then(|| {
+        format!(
+            "Shaded: uncertainty of the material, apart from the numerical error: three times the root mean square difference that {} \
+             series make, fitted to the same data with other noise.",
+            material.replicas().len()
+        )
+    })
+}
+
 /// Cases that are absent from the curves; nothing where all are there.
 pub fn absent(outcome: &Outcome) -> Option<String> {
     let without = outcome

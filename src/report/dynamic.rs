@@ -10,10 +10,8 @@ pub(super) use text::{arrhenius, wlf};
 use std::borrow::Cow;
 
 use super::number::scientific;
-use crate::material::dynamic::master_curve::MasterCurveWarning;
-use crate::material::dynamic::{Characterisation, DynamicData, DynamicPoint};
+use crate::material::dynamic::{Characterisation, DynamicData, DynamicPoint, replicas};
 use crate::material::{ModulusKind, Relaxation};
-use crate::quantity;
 
 /// Where dynamic data come from.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -36,8 +34,7 @@ pub struct DynamicReport<'a> {
     pub made: &'a Characterisation,
 }
 
-/// Inconsistent by more than this many times the noise, storage and loss modulus are warned of: of a thousand consistent sets fewer
-/// than three are so far off by chance.
+/// Inconsistent by more than this many times the noise, storage and loss modulus are warned of.
 const INCONSISTENT: f64 = 3.0;
 
 impl<'a> DynamicReport<'a> {
@@ -64,10 +61,7 @@ impl<'a> DynamicReport<'a> {
 
     /// The temperature (K) that the series belongs to, where the data name one.
     pub fn reference_temperature_k(&self) -> Option<f64> {
-        match &self.made.master {
-            Some(master) => Some(master.reference_temperature_k),
-            None => self.data.isotherms().first()?.temperature_k,
-        }
+        self.made.temperature_k
     }
 
     /// First and last time (s) at which the material was observed.
@@ -79,10 +73,10 @@ impl<'a> DynamicReport<'a> {
     /// What to know before the series is used, in whole sentences without their full stops.
     pub fn warnings(&self) -> Vec<String> {
         let master = self.made.master.iter().flat_map(|master| &master.warnings);
-        let mut warnings: Vec<String> = master.map(master_warning).collect();
+        let mut warnings: Vec<String> = master.map(ToString::to_string).collect();
         let symbol = self.symbol();
         let kramers_kronig = self.made.fit.kramers_kronig;
-        if kramers_kronig > INCONSISTENT {
+        if let Some(kramers_kronig) = kramers_kronig.filter(|number| *number > INCONSISTENT) {
             warnings.push(format!(
                 "{symbol}′ and {symbol}″ do not belong to one another by {} times the noise: no passive material has both \
                  (Kramers and Kronig); look for slip of the clamps, the compliance or inertia of the instrument, or another \
@@ -101,56 +95,41 @@ impl<'a> DynamicReport<'a> {
     }
 }
 
-fn master_warning(warning: &MasterCurveWarning) -> String {
-    match warning {
-        MasterCurveWarning::NotSimple { simplicity } => format!(
-            "the isotherms lie on no single curve, by {} times the noise: the material is not thermorheologically simple, and the \
-             master curve mixes what is apart at each temperature (look at the van Gurp-Palmen figure)",
-            scientific(*simplicity, 2)
-        ),
-        MasterCurveWarning::NoOverlap { lower_k, upper_k } => format!(
-            "the isotherms at {} and {} share no range of moduli: the shift between them is an extrapolation",
-            quantity::celsius(*lower_k),
-            quantity::celsius(*upper_k)
-        ),
-    }
-}
-
-/// Lowest and highest of the moduli that the replicas have at a frequency, without the outermost 2.5 % on each side.
+/// Half widths (Pa) of the bands about the moduli of the series that its replicas make.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Band {
-    pub storage_pa: (f64, f64),
-    pub loss_pa: (f64, f64),
+    pub storage_pa: f64,
+    pub loss_pa: f64,
 }
 
 impl Band {
-    /// `None` without at least two replicas.
-    pub fn of(replicas: &[Relaxation], angular_frequency_rad_per_s: f64) -> Option<Self> {
-        let moduli = replicas
-            .iter()
-            .map(|series| series.complex_modulus(angular_frequency_rad_per_s));
-        let (mut storage, mut loss): (Vec<f64>, Vec<f64>) = moduli.map(|m| (m.re, m.im)).unzip();
+    /// The band at a frequency, as [`replicas::band`] has it; `None` without at least two replicas.
+    pub fn of(made: &Characterisation, angular_frequency_rad_per_s: f64) -> Option<Self> {
+        let own = made
+            .fit
+            .relaxation
+            .complex_modulus(angular_frequency_rad_per_s);
+        let moduli = made.replicas.iter().map(|replica| {
+            let modulus = replica
+                .relaxation
+                .complex_modulus(angular_frequency_rad_per_s);
+            (modulus.re, modulus.im)
+        });
+        let (storage, loss): (Vec<f64>, Vec<f64>) = moduli.unzip();
         Some(Self {
-            storage_pa: middle(&mut storage)?,
-            loss_pa: middle(&mut loss)?,
+            storage_pa: replicas::band(own.re, &storage)?,
+            loss_pa: replicas::band(own.im, &loss)?,
         })
     }
-}
-
-/// What is left of some values without the outermost 2.5 % on each side: of fewer than forty, all.
-fn middle(values: &mut [f64]) -> Option<(f64, f64)> {
-    values.sort_by(f64::total_cmp);
-    let outside = (0.025 * values.len() as f64).floor() as usize;
-    let last = values.len().checked_sub(outside + 1)?;
-    (values.len() > 1).then_some((*values.get(outside)?, *values.get(last)?))
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
     use crate::material::RelaxationBranch;
-    use crate::material::dynamic::master_curve::{MasterCurve, ShiftFactor};
+    use crate::material::dynamic::master_curve::{MasterCurve, MasterCurveWarning, ShiftFactor};
     use crate::material::dynamic::prony::PronyFit;
+    use crate::material::dynamic::replicas::Replica;
     use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
 
     /// A solid of two branches at 25 °C.
@@ -211,6 +190,7 @@ pub(crate) mod tests {
         };
         let made = Characterisation {
             kind,
+            temperature_k: Some(298.15),
             fit: PronyFit {
                 residuals: (0..points.len())
                     .map(|i| (0.01 * (i as f64).sin(), 0.02 * (1.7 * i as f64).cos()))
@@ -218,11 +198,15 @@ pub(crate) mod tests {
                 storage_rms: 0.01 / 2.0_f64.sqrt(),
                 loss_rms: 0.02 / 2.0_f64.sqrt(),
                 window_rad_per_s,
-                kramers_kronig: 1.1,
+                kramers_kronig: Some(1.1),
+                noise: (0.007, 0.014),
                 relaxation: truth.clone(),
             },
             replicas: (1..=50)
-                .map(|i| truth.scaled(1.0 + 4e-4 * f64::from(i - 25)).unwrap())
+                .map(|i| Replica {
+                    relaxation: truth.scaled(1.0 + 4e-4 * f64::from(i - 25)).unwrap(),
+                    master: None,
+                })
                 .collect(),
             master: Some(MasterCurve {
                 reference_temperature_k: 298.15,
@@ -262,16 +246,25 @@ pub(crate) mod tests {
         assert!(report(&made).is_empty());
         let master = made.master.as_mut().unwrap();
         master.warnings = vec![
-            MasterCurveWarning::NotSimple { simplicity: 6.4 },
+            MasterCurveWarning::NotSimple {
+                simplicity: 6.4,
+                storage_rms: 0.01,
+                loss_rms: 0.03,
+            },
             MasterCurveWarning::NoOverlap {
                 lower_k: 278.15,
                 upper_k: 288.15,
             },
         ];
-        made.fit.kramers_kronig = 8.0;
+        made.fit.kramers_kronig = Some(8.0);
         made.fit.relaxation = Relaxation::new(0.0, solid().branches().to_vec()).unwrap();
         let warnings = report(&made);
-        let parts = ["by 6.4 times", "5 °C and 15 °C", "by 8 times", "a fluid"];
+        let parts = [
+            "6.4 times the noise",
+            "5 °C and 15 °C",
+            "by 8 times",
+            "a fluid",
+        ];
         assert_eq!(warnings.len(), parts.len());
         for (warning, part) in warnings.iter().zip(parts) {
             assert!(warning.contains(part), "{warning}");
@@ -279,19 +272,17 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn a_band_leaves_out_the_outermost_replicas() {
-        let (_, made) = measured();
+    fn a_band_is_about_the_series_and_takes_replicas() {
+        let (_, mut made) = measured();
         let exact = solid().complex_modulus(3.0);
-        let band = Band::of(&made.replicas, 3.0).unwrap();
-        // Fifty replicas: one is left out on each side. Factors go from 1 - 0.0096 to 1 + 0.01.
-        let expected = (
-            exact.re * (1.0 - 23.0 * 4e-4),
-            exact.re * (1.0 + 24.0 * 4e-4),
-        );
-        // Rounding of sums of two branches.
-        assert!((band.storage_pa.0 / expected.0 - 1.0).abs() < 1e-14);
-        assert!((band.storage_pa.1 / expected.1 - 1.0).abs() < 1e-14);
-        assert_eq!(Band::of(&made.replicas[..1], 3.0), None);
-        assert_eq!(Band::of(&[], 3.0), None);
+        let band = Band::of(&made, 3.0).unwrap();
+        // Replicas are the series times 1 + 4e-4 (i - 25): the same share of both moduli.
+        let (storage, loss) = (band.storage_pa / exact.re, band.loss_pa / exact.im);
+        // Rounding of the differences, which are a hundredth of the values.
+        assert!(storage > 0.0 && (storage / loss - 1.0).abs() < 1e-10);
+        made.replicas.truncate(1);
+        assert_eq!(Band::of(&made, 3.0), None);
+        made.replicas.clear();
+        assert_eq!(Band::of(&made, 3.0), None);
     }
 }

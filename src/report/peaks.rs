@@ -19,6 +19,8 @@ pub struct PeakWords {
     pub symbol: char,
     /// `(8.440 ± 0.003) × 10⁻³ rad/s`.
     pub frequency: String,
+    /// What the noise of the data behind the material makes of both: `; from the material ± 0.2 µJ, ± 3 × 10⁻⁴ rad/s`.
+    pub material: String,
     /// Of several drives under which: `, amplitude 5 N`.
     pub under: String,
 }
@@ -31,9 +33,10 @@ impl PeakWords {
             symbol,
             frequency,
             under,
+            material,
             ..
         } = self;
-        format!("{loss} at {symbol} = {frequency}{under}")
+        format!("{loss} at {symbol} = {frequency}{under}{material}")
     }
 }
 
@@ -54,8 +57,17 @@ pub fn all(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<Pe
             unit.dimension(),
         ),
         under: under(plan, peak).unwrap_or_default(),
+        material: of_material(plan, peak).unwrap_or_default(),
     };
     outcome.peaks.iter().enumerate().map(words).collect()
+}
+
+fn of_material(plan: &SweepPlan, peak: &Peak) -> Option<String> {
+    let unit = plan.figures.frequency_unit;
+    let loss = plain(peak.energy_loss_material_error_j?, Dimension::Energy, 2);
+    let omega = peak.angular_frequency_material_error_rad_per_s?;
+    let frequency = plain(unit.of(omega), unit.dimension(), 2);
+    Some(format!("; from the material ± {loss} and ± {frequency}"))
 }
 
 fn under(plan: &SweepPlan, peak: &Peak) -> Option<String> {

@@ -30,25 +30,52 @@ fn frequency_head(unit: FrequencyUnit) -> String {
 }
 
 fn cases(unit: FrequencyUnit, records: &[CaseRecord]) -> String {
+    let has_material_error = (records.iter()).any(|r| r.energy_loss_material_error_j().is_some());
+    // Both would make the lines too long.
+    let fourth = if has_material_error {
+        "material"
+    } else {
+        "cycles"
+    };
     let mut text = format!(
-        "{:>10}   loss / cycle              phase / deg   cycles   status\n",
+        "{:>10}   loss / cycle              phase / deg   {fourth:>6}   status\n",
         frequency_head(unit)
     );
     for record in records {
         let loss = loss(record.energy_loss_j(), record.energy_loss_error_j());
         let analysis = record.result.as_ref().map(|r| &r.analysis);
         let phase = analysis.map(|a| format!("{:.4}", a.phase_lag_rad.to_degrees()));
+        let fourth = match has_material_error {
+            true => format!(
+                "{:>8}",
+                material_error(record).unwrap_or_else(|| "-".to_owned())
+            ),
+            false => format!("{:>6}", record.cycles),
+        };
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{:>10}   {loss}   {:>11}   {:>6}   {}",
+            "{:>10}   {loss}   {:>11}   {fourth}   {}",
             four_digits(unit.of(record.angular_frequency_rad_per_s)),
             phase.unwrap_or_else(|| "-".to_owned()),
-            record.cycles,
             record.status.name()
         );
     }
+    if has_material_error {
+        text.push_str(
+            "Beside the loss: numerical error; material: uncertainty from its data's noise.\n",
+        );
+    }
     text
+}
+
+/// The uncertainty of a loss that comes from the material, relative: `± 4.2 %`.
+fn material_error(record: &CaseRecord) -> Option<String> {
+    let (loss_j, error_j) = (
+        record.energy_loss_j()?,
+        record.energy_loss_material_error_j()?,
+    );
+    (loss_j != 0.0).then(|| format!("± {:.1} %", 100.0 * (error_j / loss_j).abs()))
 }
 
 /// Each drive with its highest peak.

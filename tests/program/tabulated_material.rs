@@ -22,7 +22,8 @@ use contact_dma::material::{
 };
 use contact_dma::reference::transient::step_load_contact_radius_m;
 use contact_dma::sweep::Sweep;
-use contact_dma::sweep::plan::resolved::resolved_text;
+use contact_dma::sweep::plan::SweepPlan;
+use contact_dma::sweep::plan::resolved::{self, resolved_text};
 use contact_dma::sweep::record::material_error;
 use predicates::prelude::*;
 use predicates::str::contains;
@@ -667,4 +668,316 @@ fn the_loss_with_a_replica_is_found_on_few_steps_and_springs() {
             assert!(off.abs() < 1e-3, "{k}: {off}");
         }
     }
+}
+
+/// Dynamic data of the rubber at -20, 0, 20 and 40 °C with 1 % of noise, shifted by 8 (T - 20 °C)/(100 K + T - 20 °C) decades.
+fn dynamic_csv() -> String {
+    let material = rubber(0.0, 0);
+    let mut state = 7_u64;
+    let mut noisy = |value: f64| {
+        state = state * 48_271 % 2_147_483_647;
+        // Uniform, of a standard deviation of 1 %.
+        value * (1.0 + 0.0346 * (state as f64 / 2_147_483_647.0 - 0.5))
+    };
+    let mut text =
+        "frequency_rad_per_s,storage_modulus_pa,loss_modulus_pa,temperature_c\n".to_owned();
+    for celsius in [-20.0, 0.0, 20.0, 40.0] {
+        let shift = 10_f64.powf(-8.0 * (celsius - 20.0) / (80.0 + celsius));
+        for k in 0..=12 {
+            let omega = 0.1 * 10_f64.powf(f64::from(k) / 4.0);
+            let modulus = material.longitudinal_complex_modulus(shift * omega);
+            let (storage, loss) = (noisy(modulus.re), noisy(modulus.im));
+            text.push_str(&format!("{omega:e},{storage:e},{loss:e},{celsius}\n"));
+        }
+    }
+    text
+}
+
+const DYNAMIC: &str = "[material]\npoisson_ratio = 0.49\n[material.dynamic]\nfile = \"dma.csv\"\nmodulus = \"longitudinal\"\n\
+                       reference_temperature = \"20 °C\"\nreplicas = 10\n";
+
+/// The plan of a sweep of dynamic data with flags, or why it is refused.
+fn dynamic_plan(folder: &Path, sets: &[&str]) -> Result<SweepPlan, String> {
+    let text = format!("title = \"x\"\n{DYNAMIC}{REST}");
+    let document = Document::parse("sweep.toml", &text).unwrap();
+    let mut document = document.in_folder(folder);
+    for set in sets {
+        document.set(set).unwrap();
+    }
+    sweep_file::plan(&document).map_err(|why| why.render(Styling::Plain))
+}
+
+#[test]
+fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
+    let folder = TempDir::new().unwrap();
+    write(folder.path(), "dma.csv", &dynamic_csv());
+    let plan = |sets: &[&str]| dynamic_plan(folder.path(), sets).unwrap();
+    let identity = |sets: &[&str]| resolved::hash(&resolved_text(&plan(sets)));
+    let own = plan(&[]);
+    assert_eq!(own.material.temperature_k(), Some(293.15));
+    assert_eq!(own.material.replicas().len(), 10);
+    let text = resolved_text(&own);
+    let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
+    assert_eq!(resolved_text(&again), text);
+    assert_eq!(again.material, own.material);
+    // Colder by 40 K, two decades and two thirds: by so much slower, and measured at lower frequencies.
+    let cold = plan(&["material.temperature=-20 °C"]).material;
+    let (warm_s, cold_s) = (own.material.measured_window_s(), cold.measured_window_s());
+    let decades = (cold_s.unwrap().0 / warm_s.unwrap().0).log10();
+    assert!((decades - 8.0 * 40.0 / 60.0).abs() < 0.1, "{decades}");
+    let hash = identity(&[]);
+    for change in [
+        "material.dynamic.replicas=11",
+        "material.dynamic.seed=2",
+        "material.temperature=21 °C",
+        "material.dynamic.branches=5",
+    ] {
+        assert_ne!(identity(&[change]), hash, "{change}");
+    }
+    write(folder.path(), "moved.csv", &dynamic_csv());
+    assert_eq!(identity(&["material.dynamic.file=moved.csv"]), hash);
+    assert_eq!(identity(&["material.dynamic.branches=auto"]), hash);
+}
+
+#[test]
+fn what_is_wrong_with_dynamic_data_is_shown_at_its_place() {
+    let folder = TempDir::new().unwrap();
+    write(folder.path(), "dma.csv", &dynamic_csv());
+    let refused = |sets: &[&str]| dynamic_plan(folder.path(), sets).unwrap_err();
+    let shift = refused(&["material.dynamic.shift=wfl"]);
+    assert!(shift.contains("did you mean \"wlf\"?"), "{shift}");
+    let missing = refused(&["material.dynamic.file=none.csv"]);
+    assert!(missing.contains("cannot read `"), "{missing}");
+    let far = refused(&["material.temperature=-150 °C"]);
+    assert!(
+        far.contains("-150 °C") && far.contains("material.temperature"),
+        "{far}"
+    );
+    let bad = dynamic_csv().replacen("1e-1,", "-1e-1,", 1);
+    write(folder.path(), "dma.csv", &bad);
+    let bad = refused(&[]);
+    assert!(
+        bad.contains("dma.csv:2") && bad.contains("the file is named here"),
+        "{bad}"
+    );
+    let library = refusal("[material]\nlibrary = \"pmma\"\ntemperature = \"25 °C\"\n");
+    assert!(
+        library.contains("known at one temperature alone"),
+        "{library}"
+    );
+}
+
+/// Isotherms of a solid of two branches from 5 to 45 °C under a WLF law, exact to eight digits, as a table; and the law's log10 a_T
+/// at these temperatures, 25 °C being the reference.
+fn isotherms() -> (String, Vec<(f64, f64)>) {
+    let branch = |modulus_pa, time_s| RelaxationBranch { modulus_pa, time_s };
+    let solid = Relaxation::new(5e6, vec![branch(8e8, 1e-3), branch(6e7, 1.0)]).unwrap();
+    let law: Vec<(f64, f64)> = (0..5)
+        .map(|i| 5.0 + 10.0 * f64::from(i))
+        .map(|celsius| (celsius, -12.0 * (celsius - 25.0) / (60.0 + celsius - 25.0)))
+        .collect();
+    let mut table = "temperature_c,frequency_hz,storage_modulus_pa,loss_modulus_pa\n".to_owned();
+    for &(celsius, log10_a_t) in &law {
+        for i in 0..=12 {
+            let frequency_hz = 10_f64.powf(-2.0 + f64::from(i) / 3.0);
+            let omega = std::f64::consts::TAU * frequency_hz;
+            let modulus = solid.complex_modulus(10_f64.powf(log10_a_t) * omega);
+            table += &format!(
+                "{celsius},{frequency_hz:e},{:.8e},{:.8e}\n",
+                modulus.re, modulus.im
+            );
+        }
+    }
+    (table, law)
+}
+
+/// The rows of a table as numbers, empty cells as `None`; its columns.
+fn rows_of(text: &str) -> (Vec<String>, Vec<Vec<Option<f64>>>) {
+    let mut lines = text.lines();
+    let columns = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .map(str::to_owned)
+        .collect();
+    let number = |cell: &str| (!cell.is_empty()).then(|| cell.parse().unwrap());
+    let rows = lines.map(|line| line.split(',').map(number).collect());
+    (columns, rows.collect())
+}
+
+const FIT_DYNAMIC: [&str; 7] = [
+    "material",
+    "fit",
+    "dma.csv",
+    "--quantity",
+    "dynamic",
+    "--modulus",
+    "longitudinal",
+];
+
+#[test]
+fn dynamic_data_become_a_block_tables_figures_and_a_page() {
+    let folder = TempDir::new().unwrap();
+    let (table, law) = isotherms();
+    fs::write(folder.path().join("dma.csv"), table).unwrap();
+    program()
+        .current_dir(&folder)
+        .args(FIT_DYNAMIC)
+        .args([
+            "--poisson-ratio",
+            "0.35",
+            "--reference-temperature",
+            "25 °C",
+        ])
+        .args(["--replicas", "3", "--out", "out"])
+        .env("COLUMNS", "80")
+        .assert()
+        .success()
+        .stdout(contains("found from the content").and(contains("Master curve at 25 °C")));
+    let read = |name: &str| fs::read_to_string(folder.path().join("out").join(name)).unwrap();
+    let (columns, prony) = rows_of(&read("prony.csv"));
+    assert_eq!(columns, ["modulus_pa", "time_s"]);
+    assert_eq!(prony[0][1], None);
+    assert!(
+        prony[1..]
+            .iter()
+            .all(|row| row[0] > Some(0.0) && row[1] > Some(0.0))
+    );
+    let (columns, shifts) = rows_of(&read("shift.csv"));
+    assert_eq!(columns, ["temperature_c", "log10_a_t", "log10_a_t_error"]);
+    assert_eq!(shifts.len(), law.len());
+    for (row, (celsius, log10_a_t)) in shifts.iter().zip(&law) {
+        assert_eq!(row[0], Some(*celsius));
+        // The demand on data with noise of 1 %; these have none.
+        assert!((row[1].unwrap() - log10_a_t).abs() < 0.03, "{row:?}");
+    }
+    let (columns, points) = rows_of(&read("master.csv"));
+    let expected = "angular_frequency_rad_per_s,storage_modulus_pa,loss_modulus_pa,temperature_c,storage_fit_pa,loss_fit_pa";
+    assert_eq!(columns.join(","), expected);
+    assert_eq!(points.len(), 65);
+    for row in &points {
+        // Two branches fit two branches; what is left is what the shifts leave.
+        assert!(
+            (row[4].unwrap() / row[1].unwrap() - 1.0).abs() < 0.03,
+            "{row:?}"
+        );
+    }
+    let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    assert_eq!(
+        (&summary["points"], &summary["isotherms"]),
+        (&65.into(), &5.into())
+    );
+    assert_eq!(summary["reference_temperature_c"], 25.0);
+    assert_eq!(summary["branches"], prony.len() - 1);
+    for name in [
+        "fit",
+        "fit-residual",
+        "master-curve",
+        "isotherms",
+        "shift-factors",
+        "spectrum",
+        "van-gurp-palmen",
+    ] {
+        let svg = read(&format!("{name}.svg"));
+        assert!(svg.starts_with("<svg"));
+        assert!(read("index.html").contains("<figcaption"));
+        assert!(folder.path().join(format!("out/{name}.png")).exists());
+    }
+    // The block is that of a sweep file.
+    let block = read("material.toml");
+    assert!(
+        block.contains("poisson_ratio = 0.35\nmeasured = [")
+            && block.contains("[material.relaxation]")
+    );
+    program()
+        .current_dir(&folder)
+        .args(["material", "show", "out/material.toml"])
+        .assert()
+        .success();
+}
+
+#[test]
+fn shift_factors_that_were_given_have_no_errors_and_without_a_poisson_ratio_the_block_says_so() {
+    let folder = TempDir::new().unwrap();
+    let (table, law) = isotherms();
+    fs::write(folder.path().join("dma.csv"), table).unwrap();
+    let factors: String = law
+        .iter()
+        .map(|(celsius, log)| format!("{celsius},{log}\n"))
+        .collect();
+    fs::write(
+        folder.path().join("a.csv"),
+        format!("temperature_c,log10_a_t\n{factors}"),
+    )
+    .unwrap();
+    let run = |more: &[&str]| {
+        let mut command = program();
+        command.current_dir(&folder).args(FIT_DYNAMIC).args(more);
+        command.assert()
+    };
+    let printed = run(&[
+        "--shift", "a.csv", "--out", "out", "--format", "json", "--format", "table",
+    ]);
+    let printed = printed.success();
+    let json: serde_json::Value = serde_json::from_slice(&printed.get_output().stdout).unwrap();
+    assert!(json["shift_factors"][0]["log10_a_t_error"].is_null());
+    assert_eq!(json["format"], "table");
+    assert_eq!(json["format_found_by"], "as named");
+    let block = json["material_toml"].as_str().unwrap();
+    assert!(
+        block.contains("# poisson_ratio = ") && !block.contains("\npoisson_ratio"),
+        "{block}"
+    );
+    let shifts = fs::read_to_string(folder.path().join("out/shift.csv")).unwrap();
+    let (_, rows) = rows_of(&shifts);
+    assert!(rows.iter().all(|row| row[2].is_none()));
+    for (more, words) in [
+        (&["--shift", "b.csv"][..], "there is no such file"),
+        (&["--reference-temperature", "25"], "'25 °C'"),
+        (&["--branches", "0"], "a whole number from 1"),
+        (&["--flow", "true"], "--flow is for creep"),
+        (
+            &["--data-format", "pyvisco", "--format", "table"],
+            "two formats",
+        ),
+        (&["--format", "xml"], "invalid value"),
+    ] {
+        run(more).code(2).stderr(contains(words));
+    }
+}
+
+#[test]
+fn what_is_for_dynamic_data_is_refused_for_creep() {
+    let folder = TempDir::new().unwrap();
+    fs::write(
+        folder.path().join("creep.csv"),
+        csv(MaterialFunction::Creep),
+    )
+    .unwrap();
+    let run = |more: &[&str]| {
+        let mut command = program();
+        let creep = [
+            "material",
+            "fit",
+            "creep.csv",
+            "--quantity",
+            "creep",
+            "--modulus",
+            "shear",
+        ];
+        command.current_dir(&folder).args(creep).args(more).assert()
+    };
+    run(&[]).code(2).stderr(contains("--poisson-ratio <NU>"));
+    let wrong = ["--poisson-ratio", "0.38", "--shift", "wlf"];
+    run(&wrong)
+        .code(2)
+        .stderr(contains("for --quantity dynamic"));
+    run(&["creep.csv", "--poisson-ratio", "0.38"])
+        .code(2)
+        .stderr(contains("one table"));
+    run(&["--poisson-ratio", "0.38", "--out", "out"]).success();
+    let (columns, rows) =
+        rows_of(&fs::read_to_string(folder.path().join("out/prony.csv")).unwrap());
+    assert_eq!(columns, ["modulus_pa", "time_s"]);
+    assert!(rows.len() > 1 && rows[0][1].is_none());
 }

@@ -2,10 +2,13 @@
 
 use super::rows;
 use crate::input::document::kind::{
-    Array, Boolean, Choice, Dependent, Scalar, Table, Tables, Text, list, number, pair, quantity,
+    Array, Boolean, Choice, Dependent, Integer, Scalar, Table, Tables, Text, list, number, pair,
+    quantity,
 };
 use crate::input::document::limits::Limits;
 use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
+use crate::input::dynamic::{DynamicFormat, FORMATS};
+use crate::input::material_dynamic::{Branches, Shift};
 use crate::input::table_file::QUANTITIES;
 use crate::material::{MaterialFunction, ModulusKind};
 use crate::quantity::Dimension::{Compliance, Stress, Temperature, Time, Viscosity};
@@ -39,7 +42,7 @@ const WINDOW: &str =
     "write the first and the last time of the test, above zero: measured = [\"0.1 s\", \"1000 s\"]";
 
 /// More branches than any fit resolves are a mistake in the file.
-const MOST_BRANCHES: usize = 1000;
+pub(crate) const MOST_BRANCHES: usize = 1000;
 /// Twice as many as a fit gives.
 const MOST_ALTERNATIVES: usize = 8;
 /// More tell no more of a spread.
@@ -78,6 +81,9 @@ rows! { _:
     ZENER: Row<Table, Required> = "zener", Table(&ZENER_TABLE), Required;
     /// Spring and dashpot in parallel; it has no instantaneous compliance, and so no contact: `material show` alone takes it.
     KELVIN_VOIGT: Row<Table, Required> = "kelvin_voigt", Table(&KELVIN_VOIGT_TABLE), Required;
+    /// Storage and loss modulus over frequency, measured at one temperature or at several: a master curve is made of them, and a
+    /// series fitted to it.
+    DYNAMIC: Row<Table, Required> = "dynamic", Table(&DYNAMIC_TABLE), Required;
     /// Series of the relaxation modulus at one temperature or at several, such as a fit to dynamic data gives.
     ISOTHERMS: Row<Tables, Required> =
         "isotherm", Tables { rows: &ISOTHERM, most: MOST_ISOTHERMS, instead: "" }, Required;
@@ -108,7 +114,7 @@ const fn alternatives(rows: &'static Rows) -> Tables {
 
 pub(super) static MATERIAL: Rows = Rows {
     means: " What the half-space is made of: exactly one of `library`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt`, \
-            `isotherm` and `table`.",
+            `isotherm`, `dynamic` and `table`.",
     keys: MATERIAL_KEYS,
     others: Others::OneList(&[
         LIBRARY_KEYS,
@@ -123,6 +129,7 @@ pub(super) static MATERIAL: Rows = Rows {
         &[&ZENER, &POISSON_RATIO, &MEASURED],
         &[&KELVIN_VOIGT, &POISSON_RATIO, &MEASURED],
         &[&ISOTHERMS, &POISSON_RATIO, &TEMPERATURE],
+        &[&DYNAMIC, &POISSON_RATIO, &TEMPERATURE],
         &[&MEASURED_TABLE, &POISSON_RATIO],
     ]),
 };
@@ -286,3 +293,46 @@ static TABLE: Rows = Rows {
     keys: TABLE_KEYS,
     others: Others::OneList(&[&[&FILE], &[&TIMES, &VALUES]]),
 };
+
+rows! { DYNAMIC_KEYS:
+    /// The format of the files; left out: found from what they hold.
+    FORMAT: Row<Choice<DynamicFormat>, Optional> = "format", Choice(&FORMATS), Optional;
+    /// Whether the moduli are Young's or shear moduli.
+    DYNAMIC_MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
+    /// Temperature of the master curve; left out: that of the middle isotherm.
+    REFERENCE_TEMPERATURE: Row<Scalar, Optional> =
+        "reference_temperature", quantity(Temperature).above_zero(), Optional;
+    /// How isotherms are shifted onto one curve: each on its own (`free`, which counts where it is left out), by a law whose
+    /// constants come from the data, not at all, or by the factors of a file.
+    SHIFT: Row<Shift, Optional> = "shift", Shift, Optional;
+    /// Whether they are shifted along the moduli too.
+    VERTICAL_SHIFT: Row<Boolean, Or<bool>> = "vertical_shift", Boolean, Or(false);
+    /// Branches of the series: a number, or `auto`, which counts where it is left out: as many as the data resolve.
+    DYNAMIC_BRANCHES: Row<Branches, Optional> = "branches", Branches(1..=MOST_BRANCHES), Optional;
+    /// Replicas of the material, from which the uncertainty of the results comes that the noise of the data makes; 50 tell it to a
+    /// tenth of itself.
+    DYNAMIC_REPLICAS: Row<Integer, Or<usize>> = "replicas", Integer(0..=MOST_REPLICAS), Or(0);
+    /// Of the random numbers of the replicas.
+    SEED: Row<Integer, Or<usize>> = "seed", Integer(0..=MOST_SEED), Or(1);
+}
+
+/// The largest integer of TOML.
+const MOST_SEED: usize = i64::MAX as usize;
+
+rows! { _:
+    /// File of an instrument, or a table.
+    DYNAMIC_FILE: Row<Text, Required> = "file", Text, Required;
+    /// Several of one specimen.
+    DYNAMIC_FILES: Row<Array<Text>, Required> = "files", list(Text), Required;
+}
+
+static DYNAMIC_TABLE: Rows = Rows {
+    means: " Measured storage and loss modulus: a `file`, or `files`.",
+    keys: DYNAMIC_KEYS,
+    others: Others::OneList(&[&[&DYNAMIC_FILE], &[&DYNAMIC_FILES]]),
+};
+
+rows! { SHIFT_KEYS:
+    /// CSV file with the columns `temperature_c` and `log10_a_t`.
+    SHIFT_FILE: Row<Text, Required> = "file", Text, Required;
+}

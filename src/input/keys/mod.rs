@@ -3,7 +3,7 @@
 
 pub(crate) mod drive;
 pub(super) mod indenter;
-pub(super) mod material;
+pub(crate) mod material;
 pub(super) mod settings;
 
 use super::document::kind::{Table, Text};

@@ -6,14 +6,22 @@
 //!
 //! Temperatures are in K, frequencies in rad/s, moduli in Pa; `E* = E' + i E''`.
 
+mod interpolation;
 pub mod master_curve;
+mod neighbours;
+pub mod noise;
+mod normal_equations;
+mod one_curve;
 pub mod prony;
 pub mod replicas;
 pub mod shift_law;
+#[cfg(test)]
+mod synthetic;
 
-use super::{ModulusKind, Relaxation};
-use master_curve::{MasterCurve, MasterCurveError, ShiftChoice};
+use super::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
+use master_curve::{MasterCurve, MasterCurveError, ShiftChoice, ShiftFactor};
 use prony::{PronyError, PronyFit};
+use replicas::Replica;
 
 /// Storage and loss modulus at one frequency and temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -157,7 +165,7 @@ impl Isotherm {
 /// What is made of dynamic data, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Choices {
-    /// `None`: the temperature of the middle isotherm.
+    /// `None`: the temperature of the middle isotherm, or the one at which given shift factors are zero.
     pub reference_temperature_k: Option<f64>,
     pub shift: ShiftChoice,
     /// Whether isotherms are shifted along the moduli too.
@@ -191,6 +199,32 @@ pub enum DynamicError {
     MasterCurve(#[from] MasterCurveError),
     #[error("no series: {0}")]
     Prony(#[from] PronyError),
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    #[error("no replicas: {0}")]
+    Replica(#[from] DynamicDataError),
+    /// The data say nothing about this temperature.
+    #[error("the data do not reach to {}{}", crate::quantity::celsius(*temperature_k), range(*range_k))]
+    Temperature {
+        temperature_k: f64,
+        /// Of the isotherms, where they have temperatures.
+        range_k: Option<(f64, f64)>,
+    },
+}
+
+fn range(range_k: Option<(f64, f64)>) -> String {
+    match range_k {
+        None => ": they name no temperature, so leave the temperature out".to_owned(),
+        Some((lowest, highest)) if lowest == highest => format!(
+            ": they were measured at {} alone",
+            crate::quantity::celsius(lowest)
+        ),
+        Some((lowest, highest)) => format!(
+            ": they were measured from {} to {}",
+            crate::quantity::celsius(lowest),
+            crate::quantity::celsius(highest)
+        ),
+    }
 }
 
 /// What the data say about the material.
@@ -199,11 +233,16 @@ pub struct Characterisation {
     pub kind: ModulusKind,
     /// `None` where the data know no temperature or one alone.
     pub master: Option<MasterCurve>,
-    /// The series at the reference temperature.
+    /// Of the series: that of the master curve, or of the only isotherm; `None` where the data name none.
+    pub temperature_k: Option<f64>,
+    /// The series at this temperature.
     pub fit: PronyFit,
-    /// Series at the reference temperature that the data allow as well, alike in probability.
-    pub replicas: Vec<Relaxation>,
+    /// Materials that the data allow as well, alike in probability.
+    pub replicas: Vec<Replica>,
 }
+
+/// Difference of temperatures (K) that counts as none where the data have one temperature alone.
+const SAME_TEMPERATURE_K: f64 = 0.5;
 
 /// Makes master curve, series and replicas of the data.
 ///
@@ -213,21 +252,127 @@ pub fn characterise(
     data: &DynamicData,
     choices: &Choices,
 ) -> Result<Characterisation, DynamicError> {
-    let master = match data.isotherms() {
-        [_] => None,
-        _ => Some(master_curve::shift(data, choices)?),
+    let (master, temperature_k) = match data.isotherms() {
+        [only] => (None, only.temperature_k),
+        _ => {
+            let master = master_curve::shift(data, choices)?;
+            let temperature_k = master.reference_temperature_k;
+            (Some(master), Some(temperature_k))
+        }
     };
-    let points = match &master {
-        Some(master) => master.points.clone(),
-        None => data.points().copied().collect(),
-    };
+    let points = master_points(data, master.as_ref());
     let fit = prony::fit(&points, choices.branches)?;
-    let replicas = replicas::draw(&points, &fit, choices)?;
+    let replicas = replicas::draw(data, master.as_ref(), &fit, choices)?;
     let kind = data.kind();
     Ok(Characterisation {
         kind,
         master,
+        temperature_k,
         fit,
         replicas,
     })
+}
+
+/// The points of a master curve, or of the data where there is none.
+fn master_points(data: &DynamicData, master: Option<&MasterCurve>) -> Vec<DynamicPoint> {
+    match master {
+        Some(master) => master.points.clone(),
+        None => data.points().copied().collect(),
+    }
+}
+
+impl Characterisation {
+    /// The material at a temperature (K), or at that of the series.
+    ///
+    /// Its [measured times](Material::measured_window_s) are one over the angular frequencies of the data, shifted to this
+    /// temperature: a frequency outside is an extrapolation.
+    ///
+    /// # Errors
+    /// [`DynamicError::Temperature`]: there is no shift factor for the temperature; a Poisson ratio outside -1 < nu <= 1/2.
+    pub fn material(
+        &self,
+        temperature_k: Option<f64>,
+        poisson_ratio: f64,
+    ) -> Result<Material, DynamicError> {
+        let master = self.master.as_ref();
+        self.at(temperature_k, &self.fit.relaxation, master, poisson_ratio)
+    }
+
+    /// The replicas at a temperature, each by its own shift factors, as [`material`](Self::material).
+    ///
+    /// # Errors
+    /// As there.
+    pub fn replica_materials(
+        &self,
+        temperature_k: Option<f64>,
+        poisson_ratio: f64,
+    ) -> Result<Vec<Material>, DynamicError> {
+        let replicas = self.replicas.iter();
+        replicas
+            .map(|replica| {
+                let master = replica.master.as_ref();
+                self.at(temperature_k, &replica.relaxation, master, poisson_ratio)
+            })
+            .collect()
+    }
+
+    fn at(
+        &self,
+        temperature_k: Option<f64>,
+        relaxation: &Relaxation,
+        master: Option<&MasterCurve>,
+        poisson_ratio: f64,
+    ) -> Result<Material, DynamicError> {
+        let (a_t, b_t) = match temperature_k {
+            None => (1.0, 1.0),
+            Some(temperature_k) => self.shift_to(temperature_k, master)?,
+        };
+        let branches = relaxation.branches().iter().map(|branch| RelaxationBranch {
+            modulus_pa: branch.modulus_pa / b_t,
+            time_s: branch.time_s * a_t,
+        });
+        let shifted = Relaxation::new(relaxation.equilibrium_modulus() / b_t, branches.collect())?;
+        let (lowest, highest) = self.fit.window_rad_per_s;
+        let material = Material::from_relaxation(shifted, self.kind, poisson_ratio)?;
+        Ok(material.measured((a_t / highest, a_t / lowest)))
+    }
+
+    /// Shift factors, horizontal and vertical, to a temperature.
+    fn shift_to(
+        &self,
+        temperature_k: f64,
+        master: Option<&MasterCurve>,
+    ) -> Result<(f64, f64), DynamicError> {
+        let own = |own: f64| (own - temperature_k).abs() < SAME_TEMPERATURE_K;
+        let range_k = match master.map(|master| master.shifts.as_slice()) {
+            Some([first, .., last]) => Some((first.temperature_k, last.temperature_k)),
+            _ => self.temperature_k.map(|own| (own, own)),
+        };
+        match master {
+            None if self.temperature_k.is_some_and(own) => Some((1.0, 1.0)),
+            None => None,
+            Some(master) => master
+                .log10_a_t(temperature_k)
+                .map(|log10_a_t| (10_f64.powf(log10_a_t), b_t(&master.shifts, temperature_k))),
+        }
+        .ok_or(DynamicError::Temperature {
+            temperature_k,
+            range_k,
+        })
+    }
+}
+
+/// Vertical shift at a temperature: between isotherms its logarithm is interpolated, outside it stays what it was at the last.
+fn b_t(shifts: &[ShiftFactor], temperature_k: f64) -> f64 {
+    let above = shifts.partition_point(|shift| shift.temperature_k < temperature_k);
+    let below = above.checked_sub(1).and_then(|below| shifts.get(below));
+    match (below, shifts.get(above)) {
+        (Some(below), Some(above)) => {
+            let share =
+                (temperature_k - below.temperature_k) / (above.temperature_k - below.temperature_k);
+            below.b_t * (above.b_t / below.b_t).powf(share)
+        }
+        (Some(only), None) | (None, Some(only)) => only.b_t,
+        (None, None) => 1.0,
+    }
 }

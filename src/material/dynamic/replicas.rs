@@ -1,18 +1,347 @@
-//! Replicas of a fitted series: what the noise of the data leaves open, as materials drawn at random.
+//! Replicas of a fitted series: what the noise of the data leaves open, as materials drawn at random, and the band they make.
+//!
+//! A parametric bootstrap (B. Efron and R. J. Tibshirani, *An Introduction to the Bootstrap*, Chapman and Hall 1993, section 6.5):
+//! the best spectrum of any number of branches is measured again at the frequencies and temperatures of the data, with their noise; the isotherms are shifted again, and
+//! a series is fitted again. The noise is what the best spectrum leaves of the data, or the errors of the file where these are
+//! larger. The spectrum has as much structure as the data
+//! allow, and the series of few branches has lost it again. Where isotherms lie beside the curve as a whole, by more than the noise of their points explains (the material is not
+//! thermorheologically simple, or its temperature or clamping is not what it should be), their levels and tilts are drawn again as
+//! well. The times of a replica lie on a grid of their own, so that what a series of few branches smooths away shows as a difference.
 
-use super::prony::{PronyError, PronyFit};
-use super::{Choices, DynamicPoint};
+use rayon::prelude::*;
+
+use super::master_curve::{self, MasterCurve};
+use super::prony::{self, PronyFit};
+use super::{Choices, DynamicData, DynamicError, DynamicPoint, Isotherm, master_points};
 use crate::material::Relaxation;
+use crate::material::random::Noise;
 
-/// Draws the replicas asked for; the same seed gives the same ones.
+/// Standard deviations of a band: at ten to twenty frequencies that err on their own, about as many as a master curve has decades,
+/// the whole curve lies within three of them in 95 % of cases or more.
+const DEVIATIONS: f64 = 3.0;
+
+/// Fewest replicas that a band is made of.
+const FEWEST: usize = 2;
+
+/// A material that the data allow as well.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Replica {
+    /// The series at the reference temperature.
+    pub relaxation: Relaxation,
+    /// The shift factors that belong to it, where there are any.
+    pub master: Option<MasterCurve>,
+}
+
+/// Half width of the band about the value of the material itself, from the values of its replicas: three times the root mean square
+/// of their differences, which contains what the fit smooths away beside what the noise leaves open. A band of the whole curve: the
+/// truth lies within it at all frequencies at once in about 95 % of cases, and at a single frequency nearly always. `None` where
+/// there are fewer than two replicas, or one of them has no value.
+pub fn band(value: f64, replicas: &[f64]) -> Option<f64> {
+    if replicas.len() < FEWEST {
+        return None;
+    }
+    let squares: f64 = replicas.iter().map(|other| (other - value).powi(2)).sum();
+    let half_width = DEVIATIONS * (squares / replicas.len() as f64).sqrt();
+    half_width.is_finite().then_some(half_width)
+}
+
+/// Draws the replicas asked for; the same seed gives the same ones, whatever number of threads there is. One whose noise leaves
+/// no master curve or no series is left out.
 ///
 /// # Errors
-/// As [`super::prony::fit`].
+/// [`DynamicError`] of the first, where none of them is left.
 pub fn draw(
-    points: &[DynamicPoint],
+    data: &DynamicData,
+    master: Option<&MasterCurve>,
     fit: &PronyFit,
     choices: &Choices,
-) -> Result<Vec<Relaxation>, PronyError> {
-    let _ = (points, fit, choices);
-    Ok(Vec::new())
+) -> Result<Vec<Replica>, DynamicError> {
+    let spectrum = prony::spectrum(&master_points(data, master), fit)?;
+    let model = Model::new(data, master, fit, &spectrum);
+    let replica = |number: usize| {
+        let mut random = Noise::stream(choices.seed, number as u64);
+        let measured = model.measured_again(data, &mut random)?;
+        let master = match master {
+            Some(master) => Some(master_curve::refined_from(&measured, master, choices)?),
+            None => None,
+        };
+        let points = master_points(&measured, master.as_ref());
+        let relaxation = prony::refitted(&points, fit, random.uniform())?;
+        Ok(Replica { relaxation, master })
+    };
+    let drawn: Vec<Result<Replica, DynamicError>> =
+        (0..choices.replicas).into_par_iter().map(replica).collect();
+    let (drawn, failed): (Vec<_>, Vec<_>) = drawn.into_iter().partition(Result::is_ok);
+    match failed.into_iter().next() {
+        Some(Err(error)) if drawn.is_empty() => Err(error),
+        _ => drawn.into_iter().collect(),
+    }
+}
+
+/// The spectrum at every point of the data, and how far a measurement is from it.
+struct Model {
+    isotherms: Vec<[Modelled; 2]>,
+    /// Of storage and loss modulus.
+    common: [Common; 2],
+}
+
+/// A modulus of an isotherm.
+struct Modelled {
+    /// Values of the spectrum (Pa), and the relative noise of each.
+    values: Vec<(f64, f64)>,
+    residuals: Residuals,
+}
+
+/// What an isotherm has beside the spectrum.
+#[derive(Debug, Clone, Copy, Default)]
+struct Residuals {
+    level: f64,
+    tilt: f64,
+    /// Variances that the noise of the points gives both of them.
+    level_variance: f64,
+    tilt_variance: f64,
+}
+
+/// What all points of an isotherm have in common beyond their noise (relative standard deviations): nothing where the data lie on
+/// one curve.
+#[derive(Debug, Clone, Copy, Default)]
+struct Common {
+    level: f64,
+    tilt: f64,
+}
+
+/// Place of a point in its isotherm: -1 to 1.
+fn place(index: usize, count: usize) -> f64 {
+    match count {
+        0 | 1 => 0.0,
+        _ => 2.0 * index as f64 / (count - 1) as f64 - 1.0,
+    }
+}
+
+impl Model {
+    fn new(
+        data: &DynamicData,
+        master: Option<&MasterCurve>,
+        fit: &PronyFit,
+        spectrum: &Relaxation,
+    ) -> Self {
+        let shift = |index: usize| match master.and_then(|master| master.shifts.get(index)) {
+            Some(shift) => (10_f64.powf(shift.log10_a_t), shift.b_t),
+            None => (1.0, 1.0),
+        };
+        let errors_known = prony::errors_known(data.points());
+        let isotherms = data.isotherms().iter().enumerate();
+        let isotherms: Vec<[Modelled; 2]> = isotherms
+            .map(|(index, isotherm)| {
+                let noise = (fit.noise, errors_known);
+                modelled(isotherm, shift(index), spectrum, noise)
+            })
+            .collect();
+        let common =
+            [0, 1].map(|part| Common::of(isotherms.iter().map(|both| both[part].residuals)));
+        Self { isotherms, common }
+    }
+
+    /// The same measurement with other noise.
+    fn measured_again(
+        &self,
+        data: &DynamicData,
+        random: &mut Noise,
+    ) -> Result<DynamicData, DynamicError> {
+        let mut sets = Vec::with_capacity(self.isotherms.len());
+        for (isotherm, both) in data.isotherms().iter().zip(&self.isotherms) {
+            let [storage, loss] =
+                [0, 1].map(|part| both[part].measured_again(self.common[part], random));
+            let moduli = storage.into_iter().zip(loss);
+            let points = isotherm.points.iter().zip(moduli);
+            let point =
+                |(point, (storage_modulus_pa, loss_modulus_pa)): (&DynamicPoint, _)| DynamicPoint {
+                    storage_modulus_pa,
+                    loss_modulus_pa,
+                    ..*point
+                };
+            sets.push(points.map(point).collect());
+        }
+        Ok(DynamicData::new(data.kind(), sets)?)
+    }
+}
+
+/// Storage and loss modulus of the spectrum at the points of an isotherm.
+fn modelled(
+    isotherm: &Isotherm,
+    (a_t, b_t): (f64, f64),
+    spectrum: &Relaxation,
+    (noise, errors_known): ((f64, f64), bool),
+) -> [Modelled; 2] {
+    let part =
+        |of: fn(&DynamicPoint) -> (f64, Option<f64>), model: &dyn Fn(f64) -> f64, noise: f64| {
+            let values = isotherm.points.iter().map(|point| {
+                let relative = match of(point) {
+                    (value, Some(error)) if errors_known => noise.max(1.0) * error / value,
+                    _ => noise,
+                };
+                (
+                    model(a_t * point.angular_frequency_rad_per_s) / b_t,
+                    relative,
+                )
+            });
+            let values: Vec<(f64, f64)> = values.collect();
+            let measured: Vec<f64> = isotherm.points.iter().map(|point| of(point).0).collect();
+            let residuals = Residuals::of(&values, &measured);
+            Modelled { values, residuals }
+        };
+    let modulus = |omega: f64| spectrum.complex_modulus(omega);
+    [
+        part(
+            |p| (p.storage_modulus_pa, p.errors_pa.map(|errors| errors.0)),
+            &|omega| modulus(omega).re,
+            noise.0,
+        ),
+        part(
+            |p| (p.loss_modulus_pa, p.errors_pa.map(|errors| errors.1)),
+            &|omega| modulus(omega).im,
+            noise.1,
+        ),
+    ]
+}
+
+impl Residuals {
+    /// Least squares of level and tilt, which are orthogonal for points at even places.
+    fn of(values: &[(f64, f64)], measured: &[f64]) -> Self {
+        let count = values.len();
+        let mut found = Self::default();
+        let mut places = 0.0;
+        for (index, ((value, noise), measured)) in values.iter().zip(measured).enumerate() {
+            let (residual, place) = ((measured / value).ln(), place(index, count));
+            found.level += residual / count as f64;
+            found.tilt += residual * place;
+            places += place * place;
+            found.level_variance += (noise / count as f64).powi(2);
+            found.tilt_variance += (noise * place).powi(2);
+        }
+        if places > 0.0 {
+            found.tilt /= places;
+            found.tilt_variance /= places * places;
+        }
+        found
+    }
+}
+
+impl Common {
+    /// What the mean squares have beyond those that the noise explains.
+    fn of(residuals: impl Iterator<Item = Residuals> + Clone) -> Self {
+        let count = residuals.clone().count().max(1) as f64;
+        let beyond = |excess: fn(Residuals) -> f64| {
+            let sum: f64 = residuals.clone().map(excess).sum();
+            (sum / count).max(0.0).sqrt()
+        };
+        Self {
+            level: beyond(|r| r.level * r.level - r.level_variance),
+            tilt: beyond(|r| r.tilt * r.tilt - r.tilt_variance),
+        }
+    }
+}
+
+impl Modelled {
+    /// Other moduli (Pa) of this model. Logarithmic, so that none of them is negative.
+    fn measured_again(&self, common: Common, random: &mut Noise) -> Vec<f64> {
+        let (level, tilt) = (
+            common.level * random.normal(),
+            common.tilt * random.normal(),
+        );
+        let count = self.values.len();
+        let values = self.values.iter().enumerate();
+        values
+            .map(|(index, (value, noise))| {
+                let common = level + tilt * place(index, count);
+                value * (common + noise * random.normal()).exp()
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::dynamic::characterise;
+    use crate::material::dynamic::synthetic::{measurement, noise_of};
+    use num_complex::Complex;
+
+    fn from_environment(name: &str, default: u64) -> u64 {
+        let asked = std::env::var(name).ok();
+        asked.map_or(default, |text| text.parse().unwrap())
+    }
+
+    /// Loss compliance, to which the energy loss of a sphere is proportional at a small amplitude.
+    fn loss_compliance(relaxation: &Relaxation, omega: f64) -> f64 {
+        let modulus: Complex<f64> = relaxation.complex_modulus(omega);
+        modulus.im / modulus.norm_sqr()
+    }
+
+    /// `REPLICA_CASES=200 REPLICA_SEED=1 cargo test --lib replicas -- --nocapture` tries and prints as many as asked for.
+    #[test]
+    fn the_loss_curve_of_random_solids_lies_in_its_band() {
+        let (cases, first) = (
+            from_environment("REPLICA_CASES", 4),
+            from_environment("REPLICA_SEED", 0),
+        );
+        let (mut inside, mut points_inside, mut points) = (0, 0, 0);
+        for seed in first..first + cases {
+            let made = measurement(seed, noise_of(seed));
+            let choices = Choices {
+                reference_temperature_k: Some(made.law.reference_temperature_k),
+                replicas: 50,
+                seed,
+                ..Choices::default()
+            };
+            let start = std::time::Instant::now();
+            let alone = characterise(
+                &made.data,
+                &Choices {
+                    replicas: 0,
+                    ..choices.clone()
+                },
+            )
+            .unwrap();
+            let first_s = start.elapsed().as_secs_f64();
+            let found = characterise(&made.data, &choices).unwrap();
+            let seconds = start.elapsed().as_secs_f64() - 2.0 * first_s;
+            assert_eq!(alone.fit, found.fit);
+            let (lowest, highest) = found.fit.window_rad_per_s;
+            let mut worst = (0.0_f64, 0.0);
+            let mut widths = 0.0;
+            for step in 0..=40 {
+                let omega = lowest * (highest / lowest).powf(f64::from(step) / 40.0);
+                let value = loss_compliance(&found.fit.relaxation, omega);
+                let replicas = found.replicas.iter();
+                let others: Vec<f64> = replicas
+                    .map(|replica| loss_compliance(&replica.relaxation, omega))
+                    .collect();
+                let half_width = band(value, &others).unwrap();
+                let ratio = (loss_compliance(&made.truth, omega) - value).abs() / half_width;
+                widths += half_width / value / 41.0;
+                if ratio > worst.0 {
+                    worst = (ratio, f64::from(step) / 40.0);
+                }
+                points += 1;
+                points_inside += u32::from(ratio <= 1.0);
+            }
+            inside += u32::from(worst.0 <= 1.0);
+            println!(
+                "{seed}: noise {:.3} {:.2} {:.2}; {} isotherms; branches {} of {}; {} replicas; worst {:.2} at {:.2}; band {:.1} noise; fit {first_s:.2} s, replicas {seconds:.2} s",
+                made.noise,
+                found.fit.noise.0 / made.noise,
+                found.fit.noise.1 / made.noise,
+                made.data.isotherms().len(),
+                found.fit.relaxation.branches().len(),
+                made.truth.branches().len(),
+                found.replicas.len(),
+                worst.0,
+                worst.1,
+                widths / made.noise
+            );
+        }
+        println!("{inside} of {cases} curves inside, {points_inside} of {points} points");
+        assert!(f64::from(inside) >= 0.95 * cases as f64);
+    }
 }

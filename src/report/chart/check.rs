@@ -64,7 +64,7 @@ fn series_name(series: &Series, place: usize) -> String {
 }
 
 fn check_series(chart: &Chart, series: &Series, name: &str) -> Result<(), ChartError> {
-    if series.line.is_none() && series.marker.is_none() && series.fill_to.is_none() {
+    if series.line.is_none() && series.marker.is_none() && !series.is_filled() {
         return Err(ChartError::Invisible {
             series: name.to_owned(),
         });

@@ -59,6 +59,9 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
                 .points
                 .extend(line.iter().copied().filter(|&point| reach.contains(point)));
         }
+        if series.closed {
+            curve.fills.push(frame.clip_polygon(&line));
+        }
         if let (Some(base), Some(first), Some(last)) = (series.fill_to, line.first(), line.last()) {
             let base = layout.y.px(base);
             let outline: Vec<Point> = line

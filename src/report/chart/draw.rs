@@ -346,7 +346,7 @@ fn draw_legend(chart: &Chart, curves: &[Curve], legend: &Legend, canvas: &Canvas
         };
         let end = (at.0 + LEGEND_SAMPLE, at.1);
         let middle = (at.0 + LEGEND_SAMPLE / 2.0, at.1);
-        if series.fill_to.is_some() {
+        if series.is_filled() {
             canvas.rect(&swatch(series, at), series.color, opacity(series));
         }
         line(series, &[vec![at, end]], canvas);

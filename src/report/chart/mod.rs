@@ -204,6 +204,8 @@ pub struct Series {
     pub color: Color,
     /// Fills the area between the curve and this y.
     pub fill_to: Option<f64>,
+    /// Fills the area that the points enclose: a band, there along one edge and back along the other.
+    pub closed: bool,
     /// Whether the area is filled with the full colour, as in a stack of areas, or with a tint that shows what lies behind.
     pub solid_fill: bool,
     /// Whether markers that crowd are left out, for a series without a line: see [`Series::spaced`].
@@ -222,10 +224,28 @@ impl Series {
             marker: None,
             color: Color::Palette(0),
             fill_to: None,
+            closed: false,
             solid_fill: false,
             spaced: false,
             error: None,
         }
+    }
+
+    /// An area without a line between two values of y at each x, given as `(x, lower, upper)`, in a tint of its colour.
+    pub fn band(points: impl IntoIterator<Item = (f64, f64, f64)>) -> Self {
+        let points: Vec<(f64, f64, f64)> = points.into_iter().collect();
+        let lower = points.iter().map(|(x, lower, _)| (*x, *lower));
+        let upper = points.iter().rev().map(|(x, _, upper)| (*x, *upper));
+        Self {
+            line: None,
+            closed: true,
+            ..Self::line(lower.chain(upper))
+        }
+    }
+
+    /// Whether it has an area.
+    pub(super) fn is_filled(&self) -> bool {
+        self.closed || self.fill_to.is_some()
     }
 
     /// Points that no line joins, drawn as discs unless another marker is chosen.

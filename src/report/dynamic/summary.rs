@@ -26,7 +26,10 @@ struct Summary<'a> {
     /// About one where the data are thermorheologically simple.
     simplicity: Option<f64>,
     /// About one where storage and loss modulus belong to one another.
-    kramers_kronig: f64,
+    kramers_kronig: Option<f64>,
+    /// Relative standard deviations of the noise; where the file gives errors, how many times larger than these it is.
+    storage_noise: f64,
+    loss_noise: f64,
     storage_relative_rms: f64,
     loss_relative_rms: f64,
     branches: usize,
@@ -65,6 +68,8 @@ pub fn summary(report: &DynamicReport<'_>) -> Result<Value, ReportError> {
         }),
         simplicity: master.and_then(|m| m.simplicity),
         kramers_kronig: made.fit.kramers_kronig,
+        storage_noise: made.fit.noise.0,
+        loss_noise: made.fit.noise.1,
         storage_relative_rms: made.fit.storage_rms,
         loss_relative_rms: made.fit.loss_rms,
         branches: report.relaxation().branches().len(),

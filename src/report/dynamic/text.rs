@@ -86,10 +86,14 @@ impl DynamicReport<'_> {
                 scientific(simplicity, 2)
             )
         }));
-        lines.push(format!(
-            "Kramers-Kronig: {} (what {symbol}′ is off from {symbol}″ over the noise; about 1 where they belong together).",
-            scientific(fit.kramers_kronig, 2)
-        ));
+        lines.push(match fit.kramers_kronig {
+            Some(number) => format!(
+                "Kramers-Kronig: {} (what a passive material with both {symbol}′ and {symbol}″ misses, over the noise; about 1 \
+                 where they belong together).",
+                scientific(number, 2)
+            ),
+            None => "Kramers-Kronig: not known from so few points.".to_owned(),
+        });
         if !self.made.replicas.is_empty() {
             lines.push(format!(
                 "{} replicas of the series carry the noise of the data on.",

@@ -40,16 +40,19 @@ pub fn figure(plan: &SweepPlan, outcome: &Outcome, all: &[Curve<'_>], units: &Un
     let log = highest > WIDE * lowest;
     let label = format!("energy loss per cycle / {unit}");
     let series = shown.iter().enumerate().map(|(step, curve)| {
-        let of = shown.len();
-        let color = match of {
-            1 => Color::Palette(0),
-            _ => Color::Ramp { step, of },
-        };
-        let series = of_curve(curve, (to_omega, factor), log).color(color);
+        let series = of_curve(curve, (to_omega, factor), log).color(color(step, shown.len()));
         match &curve.label {
             Some(label) => series.label(label.clone()).marker(Marker::nth(step)),
+            None if has_band(curve) => series.label("energy loss, numerical error"),
             None => series,
         }
+    });
+    let bands = shown.iter().enumerate().filter_map(|(step, curve)| {
+        let band = band_of(curve, (to_omega, factor), log)?.color(color(step, shown.len()));
+        Some(match curve.label {
+            Some(_) => band,
+            None => band.label("uncertainty of the material"),
+        })
     });
     let marks = peaks()
         .filter(|peak| !log || peak.energy_loss_j > 0.0)
@@ -60,6 +63,7 @@ pub fn figure(plan: &SweepPlan, outcome: &Outcome, all: &[Curve<'_>], units: &Un
         Axis::linear(label)
     };
     let chart = Chart::new(Axis::log(units.frequency_title()), y)
+        .all_series(bands)
         .all_series(series)
         .all_marks(marks);
     Figure {
@@ -68,6 +72,39 @@ pub fn figure(plan: &SweepPlan, outcome: &Outcome, all: &[Curve<'_>], units: &Un
         caption: caption(plan, outcome, &shown, units),
         data: data(plan, outcome, units),
     }
+}
+
+fn color(step: usize, of: usize) -> Color {
+    match of {
+        1 => Color::Palette(0),
+        _ => Color::Ramp { step, of },
+    }
+}
+
+fn has_band(curve: &Curve<'_>) -> bool {
+    let mut records = curve.records.iter();
+    records.any(|record| record.energy_loss_material_error_j().is_some())
+}
+
+/// What the noise of the data behind the material makes of the curve; `None` where it has no replicas.
+fn band_of(curve: &Curve<'_>, (to_omega, factor): (f64, f64), log: bool) -> Option<Series> {
+    let points: Vec<(f64, f64, f64)> = (curve.records.iter())
+        .filter_map(|record| {
+            let (loss, error) = (
+                record.energy_loss_j()?,
+                record.energy_loss_material_error_j()?,
+            );
+            // On a logarithmic axis an edge below zero would have no place.
+            let lowest = if log { 1e-3 * loss } else { f64::NEG_INFINITY };
+            let lower = (loss - error).max(lowest);
+            (!log || loss > 0.0).then_some((
+                to_omega * record.angular_frequency_rad_per_s,
+                factor * lower,
+                factor * (loss + error),
+            ))
+        })
+        .collect();
+    (points.len() > 1).then(|| Series::band(points))
 }
 
 fn of_curve(curve: &Curve<'_>, (to_omega, factor): (f64, f64), log: bool) -> Series {
@@ -134,6 +171,7 @@ fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>], units: &Un
     let parts = [
         rings,
         caption::error_bars(plan, outcome),
+        caption::material_band(&plan.material, outcome),
         caption::absent(outcome),
     ];
     caption.say_all(parts.into_iter().flatten())
@@ -147,6 +185,7 @@ fn data(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
         "angular_frequency_rad_per_s",
         "energy_loss_j",
         "energy_loss_error_j",
+        "energy_loss_material_error_j",
     ];
     let cases = outcome.records.iter().map(|record| {
         cells![
@@ -156,6 +195,7 @@ fn data(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
             record.angular_frequency_rad_per_s,
             record.energy_loss_j(),
             record.energy_loss_error_j(),
+            record.energy_loss_material_error_j(),
         ]
     });
     let peaks = outcome.peaks.iter().map(|peak| {
@@ -166,6 +206,7 @@ fn data(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
             peak.angular_frequency_rad_per_s,
             peak.energy_loss_j,
             peak.energy_loss_error_j,
+            peak.energy_loss_material_error_j,
         ]
     });
     csv_leading(units.frequency_unit(), &columns, cases.chain(peaks))

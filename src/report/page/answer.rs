@@ -26,7 +26,7 @@ pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> Markup {
             @for peak in peaks {
                 li {
                     @if peak.is_largest { "Peak: " } @else { "Lower peak: " }
-                    strong { (peak.loss) } " per cycle at " (peak.symbol) " = " strong { (peak.frequency) } (peak.under)
+                    strong { (peak.loss) } " per cycle at " (peak.symbol) " = " strong { (peak.frequency) } (peak.under) (peak.material)
                 }
             }
         }

@@ -47,6 +47,20 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
         .iter()
         .filter_map(|r| Some((r.energy_loss_error_j()? / r.energy_loss_j()?).abs()));
     facts.add("estimated error of the loss, relative", &range(relative, 2));
+    let of_material = records
+        .iter()
+        .filter_map(|r| Some((r.energy_loss_material_error_j()? / r.energy_loss_j()?).abs()));
+    let of_material: Vec<f64> = of_material.collect();
+    if !of_material.is_empty() {
+        facts.add(
+            "uncertainty of the loss from the material, relative",
+            &format!(
+                "{} ({} replicas)",
+                range(of_material.into_iter(), 2),
+                plan.material.replicas().len()
+            ),
+        );
+    }
     let imbalance = records
         .iter()
         .filter_map(|r| r.result.as_ref().and_then(CaseResult::energy_imbalance));

@@ -5,6 +5,7 @@ mod answer;
 mod cases_table;
 mod compact;
 pub mod comparison;
+pub mod dynamic;
 pub mod frame;
 pub(super) mod how;
 pub mod html;

@@ -182,6 +182,16 @@ pub fn material_text(material: &Material) -> String {
     text
 }
 
+/// The same of a material whose Poisson ratio is not known: a comment in its place says what to write.
+pub fn material_text_without_poisson_ratio(material: &Material) -> String {
+    let lines = material_text(material);
+    let lines = lines.lines().map(|line| match line.starts_with("poisson_ratio = ") {
+        true => "# poisson_ratio = 0.4   # not known: write that of the material before the block goes into a sweep\n".to_owned(),
+        false => format!("{line}\n"),
+    });
+    lines.collect()
+}
+
 fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
     let kind = material.kind().name();
     line("[material]");

@@ -72,25 +72,21 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
 fn data(report: &DynamicReport<'_>) -> Vec<u8> {
     let rows = frequencies(report).into_iter().map(|omega| {
         let modulus = report.relaxation().complex_modulus(omega);
-        let band = Band::of(&report.made.replicas, omega);
+        let band = Band::of(report.made, omega);
         cells![
             omega,
             modulus.re,
             modulus.im,
-            band.map(|b| b.storage_pa.0),
-            band.map(|b| b.storage_pa.1),
-            band.map(|b| b.loss_pa.0),
-            band.map(|b| b.loss_pa.1),
+            band.map(|band| band.storage_pa),
+            band.map(|band| band.loss_pa),
         ]
     });
     let columns = [
         "angular_frequency_rad_per_s",
         "storage_fit_pa",
         "loss_fit_pa",
-        "storage_replicas_low_pa",
-        "storage_replicas_high_pa",
-        "loss_replicas_low_pa",
-        "loss_replicas_high_pa",
+        "storage_fit_material_error_pa",
+        "loss_fit_material_error_pa",
     ];
     csv(&columns, rows)
 }

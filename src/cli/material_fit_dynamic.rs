@@ -1,0 +1,185 @@
+//! `contact-dma material fit --quantity dynamic`: from files of storage and loss modulus to a master curve and a material block.
+
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+use super::arguments::{Branches, FitFlags, OutputFormat};
+use super::{Ended, Failure, json, print};
+use crate::input::dynamic::{self, DynamicFormat};
+use crate::material::dynamic::master_curve::ShiftChoice;
+use crate::material::dynamic::{Choices, characterise};
+use crate::report::caption::Setting;
+use crate::report::dynamic::{DynamicReport, Source, summary, tables};
+use crate::report::figure;
+use crate::report::figure::press::Press;
+use crate::report::page::{self, Pictures};
+use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::resolved;
+use crate::sweep::store::write_atomically;
+
+/// Runs the command.
+pub(super) fn run(
+    flags: &FitFlags,
+    format: OutputFormat,
+    named: Option<DynamicFormat>,
+) -> Result<Ended, Failure> {
+    if flags.flow.is_some() {
+        return Err(Failure::input(
+            "--flow is for creep and relaxation: the equilibrium modulus of dynamic data is fitted freely, and may be zero",
+        ));
+    }
+    let asked = data_format(flags.dynamic.data_format, named)?;
+    let choices = choices(flags)?;
+    let file = dynamic::read(&flags.data, asked, flags.modulus.into())?;
+    let made = characterise(&file.data, &choices).map_err(|error| refused(flags, error))?;
+    let names = flags.data.iter().map(|path| {
+        let name = path.file_name().unwrap_or(path.as_os_str());
+        name.display().to_string()
+    });
+    let source = Source {
+        files: names.collect(),
+        format: file.format.name().to_owned(),
+        how: match asked {
+            Some(_) => "as named".to_owned(),
+            None => "found from the content".to_owned(),
+        },
+        notes: file.notes,
+    };
+    let report = DynamicReport {
+        source: &source,
+        data: &file.data,
+        made: &made,
+    };
+    let block = block(flags, &report)?;
+    match format {
+        OutputFormat::Json => json::print(&printed_json(&report, &block)?)?,
+        OutputFormat::Text => {
+            let (text, shifts) = (report.text(), report.shift_table());
+            let branches = report.branches();
+            print(&format!("{text}\n{shifts}\n{branches}\n{block}"))?
+        }
+    };
+    let Some(folder) = &flags.out else {
+        return Ok(Ended::Done);
+    };
+    write(folder, &report, &block)?;
+    match format {
+        OutputFormat::Json => Ok(Ended::Done),
+        OutputFormat::Text => print(&format!("\nMaterial and figures in {}\n", folder.display())),
+    }
+}
+
+/// The format by `--data-format` or by `--format`, which may say the same.
+fn data_format(
+    own: Option<DynamicFormat>,
+    named: Option<DynamicFormat>,
+) -> Result<Option<DynamicFormat>, Failure> {
+    match (own, named) {
+        (Some(own), Some(named)) if own != named => Err(Failure::input(format!(
+            "--data-format {} and --format {} name two formats: give one",
+            own.name(),
+            named.name()
+        ))),
+        _ => Ok(own.or(named)),
+    }
+}
+
+fn choices(flags: &FitFlags) -> Result<Choices, Failure> {
+    let dynamic = &flags.dynamic;
+    let shift = match dynamic.shift.as_deref() {
+        None => ShiftChoice::Free,
+        Some(word) if word == Path::new("free") => ShiftChoice::Free,
+        Some(word) if word == Path::new("wlf") => ShiftChoice::Wlf,
+        Some(word) if word == Path::new("arrhenius") => ShiftChoice::Arrhenius,
+        Some(word) if word == Path::new("none") => ShiftChoice::None,
+        Some(file) if !file.exists() => {
+            return Err(Failure::input(format!(
+                "--shift {}: there is no such file; write free, wlf, arrhenius, none, or the path of a table with the columns \
+                 temperature_c,log10_a_t",
+                file.display()
+            )));
+        }
+        Some(file) => ShiftChoice::Given(dynamic::read_shift_factors(file)?),
+    };
+    Ok(Choices {
+        reference_temperature_k: dynamic.reference_temperature,
+        shift,
+        vertical_shift: dynamic.vertical_shift,
+        branches: dynamic.branches.and_then(|branches| match branches {
+            Branches::Auto => None,
+            Branches::Number(number) => Some(number.get()),
+        }),
+        replicas: dynamic.replicas.unwrap_or(0),
+        ..Choices::default()
+    })
+}
+
+fn refused(flags: &FitFlags, error: impl std::fmt::Display) -> Failure {
+    let files = flags.data.iter().map(|path| path.display().to_string());
+    let files = files.collect::<Vec<_>>().join(", ");
+    Failure::input(format!("{files}: {error}"))
+}
+
+/// The material block of a sweep file, every number exact, with where it comes from.
+fn block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<String, Failure> {
+    let comments = report.text();
+    let comments = comments.lines().map(|line| format!("# {line}\n"));
+    let comments: String = comments.collect();
+    // Without a Poisson ratio there is none in the text either: the series does not depend on it.
+    let nu = flags.poisson_ratio.unwrap_or(0.0);
+    let material = report.made.material(None, nu).map_err(Failure::input)?;
+    let replicas = report.made.replica_materials(None, nu);
+    let material = material.with_replicas(replicas.map_err(Failure::input)?);
+    let block = match flags.poisson_ratio {
+        Some(_) => resolved::material_text(&material),
+        None => resolved::material_text_without_poisson_ratio(&material),
+    };
+    Ok(format!("{comments}{block}"))
+}
+
+/// The summary, with what else the files hold.
+fn printed_json(report: &DynamicReport<'_>, block: &str) -> Result<Value, Failure> {
+    let mut value = summary::summary(report).map_err(Failure::run)?;
+    let shifts = report.made.master.as_ref().map(|master| {
+        let shifts = master.shifts.iter().map(|shift| {
+            json!({
+                "temperature_c": tables::celsius(shift.temperature_k),
+                "log10_a_t": shift.log10_a_t,
+                "log10_a_t_error": shift.log10_a_t_error,
+                "b_t": shift.b_t,
+            })
+        });
+        shifts.collect::<Vec<_>>()
+    });
+    value["shift_factors"] = json!(shifts);
+    value["relaxation"] = json!(report.relaxation());
+    value["material_toml"] = block.into();
+    Ok(value)
+}
+
+/// Every file of the folder.
+fn write(folder: &Path, report: &DynamicReport<'_>, block: &str) -> Result<(), Failure> {
+    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
+    let put = |name: &str, bytes: &[u8]| write(name, bytes).map_err(Failure::run);
+    put("material.toml", block.as_bytes())?;
+    put("prony.csv", &tables::prony(report.relaxation()))?;
+    if let Some(master) = &report.made.master {
+        put("shift.csv", &tables::shift_factors(master))?;
+    }
+    put("master.csv", &tables::master_curve(report))?;
+    let summary = summary::summary(report).map_err(Failure::run)?;
+    let summary = serde_json::to_string_pretty(&summary).map_err(Failure::run)?;
+    put("summary.json", format!("{summary}\n").as_bytes())?;
+    let pictures = Pictures::default();
+    let figures = figure::dynamic::figures(report);
+    let press = Press {
+        plan: &FigurePlan::default(),
+        write: &write,
+        pictures: &pictures,
+    };
+    let drawn = press.figures(&figures, &Setting::default());
+    drawn.map_err(Failure::run)?;
+    let page = page::dynamic::page(report, &figures, block, &pictures).map_err(Failure::run)?;
+    put("index.html", page.as_bytes())
+}

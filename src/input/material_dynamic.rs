@@ -1,0 +1,238 @@
+//! The `[material.dynamic]` block: measured storage and loss modulus, made a material at any temperature that they reach.
+
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+use serde_json::{Value as Json, json};
+
+use super::data_file;
+use super::diagnostic::{Diagnostics, Problems};
+use super::document::Located;
+use super::document::kind::{Choice, Describe, Integer, Kind, Spot, Text};
+use super::document::reader::TableReader;
+use super::document::row::Rows;
+use super::document::tree::{Node, Value};
+use super::dynamic::{self, DynamicFormat, shift_factors_from_bytes};
+use super::keys::material::{
+    DYNAMIC_BRANCHES, DYNAMIC_FILE, DYNAMIC_FILES, DYNAMIC_MODULUS, DYNAMIC_REPLICAS, FORMAT,
+    REFERENCE_TEMPERATURE, SEED, SHIFT, SHIFT_FILE, SHIFT_KEYS, VERTICAL_SHIFT,
+};
+use super::keys::table;
+use super::material_temperature::AtTemperature;
+use crate::material::dynamic::master_curve::ShiftChoice;
+use crate::material::dynamic::{Characterisation, Choices, DynamicData, characterise};
+use crate::material::{Material, ModulusKind};
+
+/// Reads the block and makes master curve, series and replicas of its data; files are looked for in `folder`. `None` where a problem
+/// was reported.
+pub(super) fn read(
+    mut table: TableReader<'_>,
+    folder: &Path,
+    problems: &Problems,
+) -> Option<Box<dyn AtTemperature>> {
+    let files = match table.one_of(&[(&DYNAMIC_FILE as _, true), (&DYNAMIC_FILES as _, false)]) {
+        Some(true) => table.read(&DYNAMIC_FILE).map(|file| vec![file]),
+        Some(false) => table.value(&DYNAMIC_FILES),
+        None => None,
+    };
+    let (format, kind) = (table.value(&FORMAT), table.value(&DYNAMIC_MODULUS));
+    let choices = choices(&mut table, folder, problems);
+    let place = table.as_ref().clone();
+    table.finish();
+    let (files, format, kind, choices) = (files?, format?, kind?, choices?);
+    let data = data(&files, format, kind, folder, problems)?;
+    let made = characterise(&data, &choices);
+    let made = made
+        .map_err(|error| problems.at(&place, error.to_string()))
+        .ok()?;
+    Some(Box::new(made))
+}
+
+/// The isotherms of all files.
+fn data(
+    files: &[Located<String>],
+    format: Option<DynamicFormat>,
+    kind: ModulusKind,
+    folder: &Path,
+    problems: &Problems,
+) -> Option<DynamicData> {
+    let named = files
+        .iter()
+        .map(|file| data_file::named(file, folder, problems));
+    let named = named.collect::<Option<Vec<_>>>()?;
+    match (dynamic::from_files(&named, format, kind), files.first()) {
+        (Ok(found), _) => Some(found.data),
+        (refused, Some(first)) => {
+            data_file::accepted(refused, first, problems).map(|found| found.data)
+        }
+        (Err(refused), None) => {
+            problems.extend(refused);
+            None
+        }
+    }
+}
+
+fn choices(table: &mut TableReader<'_>, folder: &Path, problems: &Problems) -> Option<Choices> {
+    let reference = table.value(&REFERENCE_TEMPERATURE);
+    let shift = table.value(&SHIFT).and_then(|shift| match shift {
+        None => Some(ShiftChoice::Free),
+        Some(ShiftValue::Word(word)) => Some(word.choice()),
+        Some(ShiftValue::File(file)) => {
+            let (name, bytes) = data_file::named(&file, folder, problems)?;
+            let factors = shift_factors_from_bytes(&name, &bytes);
+            data_file::accepted(factors, &file, problems).map(ShiftChoice::Given)
+        }
+    });
+    let vertical = table.value(&VERTICAL_SHIFT);
+    let branches = table.value(&DYNAMIC_BRANCHES);
+    let (replicas, seed) = (table.value(&DYNAMIC_REPLICAS), table.value(&SEED));
+    Some(Choices {
+        reference_temperature_k: reference?,
+        shift: shift?,
+        vertical_shift: vertical?,
+        branches: branches?.flatten(),
+        replicas: replicas?,
+        seed: seed? as u64,
+    })
+}
+
+impl AtTemperature for Characterisation {
+    fn material(&self, temperature_k: Option<f64>, poisson_ratio: f64) -> Result<Material, String> {
+        let said = |error: crate::material::dynamic::DynamicError| error.to_string();
+        let material = Self::material(self, temperature_k, poisson_ratio).map_err(said)?;
+        let replicas = self.replica_materials(temperature_k, poisson_ratio);
+        let material = material.with_replicas(replicas.map_err(said)?);
+        Ok(match temperature_k.or(self.temperature_k) {
+            Some(temperature_k) => material.at_temperature(temperature_k),
+            None => material,
+        })
+    }
+}
+
+/// How isotherms are shifted, as a word.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum ShiftWord {
+    Free,
+    Wlf,
+    Arrhenius,
+    None,
+}
+
+impl ShiftWord {
+    fn choice(self) -> ShiftChoice {
+        match self {
+            Self::Free => ShiftChoice::Free,
+            Self::Wlf => ShiftChoice::Wlf,
+            Self::Arrhenius => ShiftChoice::Arrhenius,
+            Self::None => ShiftChoice::None,
+        }
+    }
+}
+
+const SHIFT_WORDS: Choice<ShiftWord> = Choice(&[
+    ("free", ShiftWord::Free),
+    ("wlf", ShiftWord::Wlf),
+    ("arrhenius", ShiftWord::Arrhenius),
+    ("none", ShiftWord::None),
+]);
+
+static SHIFT_TABLE: Rows = table(" Shift factors of a file.", SHIFT_KEYS);
+
+/// How isotherms are shifted: a word, or a table that names a file.
+pub(crate) struct Shift;
+
+/// What stands under `shift`.
+#[derive(Debug, Clone)]
+pub(crate) enum ShiftValue {
+    Word(ShiftWord),
+    File(Located<String>),
+}
+
+impl Describe for Shift {
+    fn expected(&self) -> String {
+        format!("{}, or a table with a file", SHIFT_WORDS.expected())
+    }
+
+    fn example(&self) -> String {
+        SHIFT_WORDS.example()
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [SHIFT_WORDS.schema(), SHIFT_TABLE.schema()] })
+    }
+
+    fn words(&self) -> Vec<&'static str> {
+        SHIFT_WORDS.words()
+    }
+
+    fn rows(&self) -> Option<&'static Rows> {
+        Some(&SHIFT_TABLE)
+    }
+}
+
+impl Kind for Shift {
+    type Value = ShiftValue;
+
+    fn written(&self, value: &ShiftValue) -> Json {
+        match value {
+            ShiftValue::Word(word) => SHIFT_WORDS.written(word),
+            ShiftValue::File(file) => json!({ "file": Text.written(&file.value) }),
+        }
+    }
+
+    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<ShiftValue, Diagnostics> {
+        let Value::Table(table) = &node.value else {
+            return SHIFT_WORDS.convert(node, spot).map(ShiftValue::Word);
+        };
+        let problems = Problems::new();
+        let path = spot.path.to_owned();
+        let mut table = TableReader::new(table, node.location.clone(), path, &problems);
+        let file = table.read(&SHIFT_FILE);
+        table.finish();
+        problems.into_result(file.map(ShiftValue::File))
+    }
+}
+
+/// A number of branches, or `auto`.
+pub(crate) struct Branches(pub(crate) RangeInclusive<usize>);
+
+const AUTO: Choice<()> = Choice(&[("auto", ())]);
+
+impl Branches {
+    fn number(&self) -> Integer {
+        Integer(self.0.clone())
+    }
+}
+
+impl Describe for Branches {
+    fn expected(&self) -> String {
+        format!("{}, or {}", AUTO.expected(), self.number().expected())
+    }
+
+    fn example(&self) -> String {
+        AUTO.example()
+    }
+
+    fn schema(&self) -> Json {
+        json!({ "anyOf": [AUTO.schema(), self.number().schema()] })
+    }
+
+    fn words(&self) -> Vec<&'static str> {
+        AUTO.words()
+    }
+}
+
+impl Kind for Branches {
+    type Value = Option<usize>;
+
+    fn written(&self, value: &Option<usize>) -> Json {
+        value.map_or_else(|| AUTO.written(&()), |number| json!(number))
+    }
+
+    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Option<usize>, Diagnostics> {
+        match &node.value {
+            Value::Text(_) => AUTO.convert(node, spot).map(|()| None),
+            _ => self.number().convert(node, spot).map(Some),
+        }
+    }
+}

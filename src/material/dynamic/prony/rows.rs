@@ -1,0 +1,312 @@
+//! The least squares problem of a series through storage and loss modulus: rows in units of the noise, columns per branch time.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::PronyFit;
+use crate::material::dynamic::DynamicPoint;
+use crate::material::harmonic::Debye;
+use crate::material::nnls::{NnlsError, nnls};
+
+/// Least relative noise: smaller misfits count as none, however clean the data are.
+pub(super) const NOTICEABLE: f64 = 1e-4;
+
+/// Times per decade of the spectrum that says what the data determine, and most times in any grid.
+pub(super) const SPECTRUM: f64 = 10.0;
+const MOST_TIMES: f64 = 600.0;
+
+/// Degrees of freedom that the noise of both moduli together lends to each of them, so that a few points of one that are met
+/// exactly do not count as free of noise.
+const LENT: f64 = 2.0;
+
+/// Largest correction of the size of a point by the spectrum.
+const CORRECTION: f64 = 3.0;
+
+/// `constant + sum of modulus * Debye(omega * time)`, in units of the reference modulus of the [`Rows`].
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::material::dynamic) struct Series {
+    pub(in crate::material::dynamic) constant: f64,
+    /// Moduli and times (s), ascending in time.
+    pub(in crate::material::dynamic) branches: Vec<(f64, f64)>,
+}
+
+impl Series {
+    /// Values chosen to fit: strengths and times.
+    pub(super) fn parameters(&self) -> usize {
+        usize::from(self.constant > 0.0) + 2 * self.branches.len()
+    }
+
+    /// Values of the linear problem alone.
+    pub(super) fn strengths(&self) -> usize {
+        usize::from(self.constant > 0.0) + self.branches.len()
+    }
+
+    /// Storage and loss modulus.
+    pub(super) fn moduli(&self, omega: f64) -> (f64, f64) {
+        let start = (self.constant, 0.0);
+        self.branches.iter().fold(start, |sum, (modulus, time_s)| {
+            let debye = Debye::at(omega * time_s);
+            (sum.0 + modulus * debye.frozen, sum.1 + modulus * debye.loss)
+        })
+    }
+}
+
+/// Storage and loss modulus of one point, or anything else that both have.
+pub(super) type Both = (f64, f64);
+
+/// Which moduli take part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Part {
+    Storage,
+    Loss,
+    Both,
+}
+
+/// Whether every point has errors, by which it can be weighted.
+pub(in crate::material::dynamic) fn errors_known<'a>(
+    mut points: impl Iterator<Item = &'a DynamicPoint>,
+) -> bool {
+    let usable = |error: f64| error.is_finite() && error > 0.0;
+    points.all(|p| matches!(p.errors_pa, Some((a, b)) if usable(a) && usable(b)))
+}
+
+/// Points in units of a reference modulus, and their noise.
+#[derive(Debug, Clone)]
+pub(in crate::material::dynamic) struct Rows {
+    pub(super) omegas: Vec<f64>,
+    pub(super) values: Vec<Both>,
+    /// Standard deviations, in the same units.
+    pub(super) deviations: Vec<Both>,
+    /// The part of them that does not depend on the fit: relative errors as the file gives them, or one.
+    relative: Vec<Both>,
+    /// What those are multiplied by: relative noise, or how much larger it is than the file says.
+    pub(super) noise: Both,
+    /// Pa.
+    pub(super) reference_pa: f64,
+    pub(super) part: Part,
+}
+
+impl Rows {
+    /// The rows of points, their noise not known yet: as large for both moduli.
+    pub(super) fn new(points: &[DynamicPoint]) -> Self {
+        let logarithms = points.iter().map(|p| p.storage_modulus_pa.ln());
+        let reference_pa = (logarithms.sum::<f64>() / points.len().max(1) as f64).exp();
+        let value = |p: &DynamicPoint| {
+            (
+                p.storage_modulus_pa / reference_pa,
+                p.loss_modulus_pa / reference_pa,
+            )
+        };
+        let errors_known = errors_known(points.iter());
+        let relative = |p: &DynamicPoint| match p.errors_pa {
+            Some((storage, loss)) if errors_known => {
+                (storage / p.storage_modulus_pa, loss / p.loss_modulus_pa)
+            }
+            _ => (1.0, 1.0),
+        };
+        let mut rows = Self {
+            omegas: points
+                .iter()
+                .map(|p| p.angular_frequency_rad_per_s)
+                .collect(),
+            values: points.iter().map(value).collect(),
+            deviations: Vec::new(),
+            relative: points.iter().map(relative).collect(),
+            noise: (1.0, 1.0),
+            reference_pa,
+            part: Part::Both,
+        };
+        rows.set_deviations(&rows.values.clone());
+        rows
+    }
+
+    /// The rows of points that are much like those of a fit, with its noise.
+    pub(super) fn like(points: &[DynamicPoint], fit: &PronyFit) -> Self {
+        let mut rows = Self::new(points);
+        let sizes = rows.omegas.iter().map(|&omega| {
+            let modulus = fit.relaxation.complex_modulus(omega) / rows.reference_pa;
+            (modulus.re, modulus.im)
+        });
+        let sizes: Vec<Both> = sizes.collect();
+        rows.noise = fit.noise;
+        rows.set_deviations(&sizes);
+        rows
+    }
+
+    /// Storage modulus at the lowest frequency.
+    pub(super) fn lowest_storage(&self) -> f64 {
+        let both = self.omegas.iter().zip(&self.values);
+        let lowest = both.min_by(|left, right| left.0.total_cmp(right.0));
+        lowest.map_or(0.0, |(_, values)| values.0)
+    }
+
+    /// Deviations proportional to these moduli.
+    fn set_deviations(&mut self, sizes: &[Both]) {
+        let size = |size: f64, value: f64| size.clamp(value / CORRECTION, value * CORRECTION);
+        let rows = sizes.iter().zip(&self.values).zip(&self.relative);
+        self.deviations = rows
+            .map(|((sizes, values), relative)| {
+                (
+                    self.noise.0 * relative.0 * size(sizes.0, values.0),
+                    self.noise.1 * relative.1 * size(sizes.1, values.1),
+                )
+            })
+            .collect();
+    }
+
+    /// The same with the noise that is left of the best spectrum, relative to this spectrum: relative to the data themselves,
+    /// values that happen to be low would weigh the more.
+    pub(super) fn with_noise_from(&self, spectrum: &Series) -> Self {
+        let mut rows = self.clone();
+        let fitted: Vec<Both> = self.omegas.iter().map(|&w| spectrum.moduli(w)).collect();
+        rows.noise = (1.0, 1.0);
+        rows.set_deviations(&fitted);
+        rows.noise = rows.noise_beside(spectrum);
+        rows.set_deviations(&fitted);
+        rows
+    }
+
+    fn noise_beside(&self, spectrum: &Series) -> Both {
+        let (storage, loss) = self.squares(spectrum);
+        let free = (self.omegas.len() as f64 - 0.5 * spectrum.strengths() as f64).max(1.0);
+        let pooled = (storage + loss) / (2.0 * free);
+        let noise = |squares: f64| {
+            let variance = (squares + LENT * pooled) / (free + LENT);
+            variance.sqrt().max(self.least_noise())
+        };
+        (noise(storage), noise(loss))
+    }
+
+    /// The same with the noise that spectra of storage and loss modulus alone leave; `None` where one of them has fewer degrees
+    /// of freedom than this left.
+    pub(super) fn with_noise_of_each(
+        &self,
+        storage: &Series,
+        loss: &Series,
+        fewest: usize,
+    ) -> Option<Self> {
+        let mut rows = self.clone();
+        let sizes = self.omegas.iter();
+        let sizes: Vec<Both> = sizes
+            .map(|&omega| (storage.moduli(omega).0, loss.moduli(omega).1))
+            .collect();
+        rows.set_deviations(&sizes);
+        let noise = |squares: f64, spectrum: &Series| {
+            let free = self.omegas.len().checked_sub(spectrum.strengths())?;
+            let variance = squares / free as f64;
+            (free >= fewest).then(|| variance.sqrt().max(self.least_noise()))
+        };
+        rows.noise = (
+            noise(rows.squares(storage).0, storage)?,
+            noise(rows.squares(loss).1, loss)?,
+        );
+        rows.set_deviations(&sizes);
+        Some(rows)
+    }
+
+    /// The least noise that is reckoned with, as a multiple of the relative errors.
+    fn least_noise(&self) -> f64 {
+        let least = self.relative.iter().map(|r| r.0.min(r.1));
+        NOTICEABLE / least.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The same with one modulus alone.
+    pub(super) fn only(&self, part: Part) -> Self {
+        Self {
+            part,
+            ..self.clone()
+        }
+    }
+
+    /// Number of values that take part.
+    pub(super) fn count(&self) -> usize {
+        match self.part {
+            Part::Both => 2 * self.omegas.len(),
+            Part::Storage | Part::Loss => self.omegas.len(),
+        }
+    }
+
+    /// Lowest and highest angular frequency.
+    pub(super) fn window(&self) -> (f64, f64) {
+        let least = self.omegas.iter().copied().fold(f64::INFINITY, f64::min);
+        (least, self.omegas.iter().copied().fold(0.0, f64::max))
+    }
+
+    /// Sums of squares of both moduli, in units of the variance of the noise.
+    pub(super) fn squares(&self, series: &Series) -> Both {
+        let mut sums = (0.0, 0.0);
+        for (index, &omega) in self.omegas.iter().enumerate() {
+            let (moduli, values) = (series.moduli(omega), self.values[index]);
+            let deviations = self.deviations[index];
+            sums.0 += ((moduli.0 - values.0) / deviations.0).powi(2);
+            sums.1 += ((moduli.1 - values.1) / deviations.1).powi(2);
+        }
+        sums
+    }
+
+    /// The sum over the moduli that take part.
+    pub(super) fn chi_squared(&self, series: &Series) -> f64 {
+        let (storage, loss) = self.squares(series);
+        match self.part {
+            Part::Both => storage + loss,
+            Part::Storage => storage,
+            Part::Loss => loss,
+        }
+    }
+
+    /// Times evenly spaced in their logarithm, the limits among them.
+    pub(super) fn grid((shortest, longest): (f64, f64), per_decade: f64) -> Vec<f64> {
+        let steps = ((longest / shortest).log10() * per_decade)
+            .ceil()
+            .clamp(1.0, MOST_TIMES);
+        let share = |i: usize| i as f64 / steps;
+        (0..=steps as usize)
+            .map(|i| shortest.powf(1.0 - share(i)) * longest.powf(share(i)))
+            .collect()
+    }
+
+    /// The best moduli at these times, none negative; with an equilibrium modulus where one is allowed, and `held` as part of
+    /// it in any case.
+    pub(in crate::material::dynamic) fn strengths(
+        &self,
+        times_s: &[f64],
+        (free, held): (bool, f64),
+    ) -> Result<Series, NnlsError> {
+        let first = usize::from(free);
+        let mut matrix = DMatrix::zeros(self.count(), first + times_s.len());
+        let mut right = DVector::zeros(self.count());
+        let loss_from = match self.part {
+            Part::Both => self.omegas.len(),
+            Part::Storage | Part::Loss => 0,
+        };
+        for (point, &omega) in self.omegas.iter().enumerate() {
+            let deviations = self.deviations[point];
+            let (storage, loss) = (point, loss_from + point);
+            let basis = times_s.iter().map(|time_s| Debye::at(omega * time_s));
+            if self.part != Part::Loss {
+                right[storage] = (self.values[point].0 - held) / deviations.0;
+                if free {
+                    matrix[(storage, 0)] = 1.0 / deviations.0;
+                }
+                for (place, debye) in basis.clone().enumerate() {
+                    matrix[(storage, first + place)] = debye.frozen / deviations.0;
+                }
+            }
+            if self.part != Part::Storage {
+                right[loss] = self.values[point].1 / deviations.1;
+                for (place, debye) in basis.enumerate() {
+                    matrix[(loss, first + place)] = debye.loss / deviations.1;
+                }
+            }
+        }
+        let strengths = nnls(&matrix, &right)?;
+        let branches = strengths
+            .iter()
+            .skip(first)
+            .copied()
+            .zip(times_s.iter().copied());
+        Ok(Series {
+            constant: held + if free { strengths[0] } else { 0.0 },
+            branches: branches.filter(|(modulus, _)| *modulus > 0.0).collect(),
+        })
+    }
+}
