@@ -12,7 +12,7 @@ use clap_complete::Shell;
 
 use super::compare;
 use crate::input::dynamic::{self, DynamicFormat};
-use crate::input::keys::material::MOST_REPLICAS;
+use crate::input::keys::material::{MOST_BRANCHES, MOST_REPLICAS};
 use crate::material::ModulusKind;
 use crate::material::export::Program;
 use crate::quantity::{Dimension, parse};
@@ -515,9 +515,6 @@ fn branches(text: &str) -> Result<Branches, String> {
         )),
     }
 }
-
-/// More branches than this are no longer told apart by any data, and cost much.
-const MOST_BRANCHES: usize = 200;
 
 fn replicas(text: &str) -> Result<usize, String> {
     let number = text.parse().ok().filter(|number| *number <= MOST_REPLICAS);

@@ -137,6 +137,15 @@ impl Location {
         self.source.text.get(span).unwrap_or("")
     }
 
+    /// The file and the line, as messages show them: `dma.txt:12`.
+    pub fn line(&self) -> String {
+        let start = self.span.as_ref().map(|span| span.start);
+        match start.and_then(|start| self.source.text.get(..start)) {
+            Some(before) => format!("{}:{}", self.source.name, before.matches('\n').count() + 1),
+            None => self.source.name.clone(),
+        }
+    }
+
     /// Order in which places are reported: files, then flags; by position within each.
     fn order(&self) -> (usize, &str, Option<usize>) {
         let start = self.span.as_ref().map(|span| span.start);

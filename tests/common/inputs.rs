@@ -10,7 +10,9 @@ use std::time::Duration;
 
 use contact_dma::input::diagnostic::{Diagnostics, Styling};
 use contact_dma::input::document::Document;
+use contact_dma::input::dynamic::{self, DynamicFormat, FORMATS};
 use contact_dma::input::{field_file, scenario_file, sweep_file};
+use contact_dma::material::ModulusKind;
 use contact_dma::quantity::{self, Dimension};
 use contact_dma::report::work_line::WorkLine;
 use contact_dma::report::{machine, page, quantities, table};
@@ -112,6 +114,50 @@ pub fn height_map(bytes: &[u8]) -> bool {
             false
         }
     }
+}
+
+/// A file of dynamic data holds positive numbers or is refused, whatever format it is taken for. The first byte chooses that: 0 leaves
+/// it to be found, others name one, and those above 127 a table of shift factors.
+pub fn dynamic_file(bytes: &[u8]) -> bool {
+    let Some((first, content)) = bytes.split_first() else {
+        return false;
+    };
+    if *first > 127 {
+        let pairs = refused(dynamic::shift_factors_from_bytes("shift", content));
+        let pairs = pairs.unwrap_or_default();
+        assert!(
+            pairs
+                .iter()
+                .all(|(kelvin, log)| *kelvin > 0.0 && kelvin.is_finite() && log.is_finite())
+        );
+        return !pairs.is_empty();
+    }
+    let format = usize::from(*first)
+        .checked_sub(1)
+        .and_then(|place| FORMATS.get(place % FORMATS.len()));
+    let format = format.map(|(_, format)| *format);
+    // The crate that reads workbooks panics on some, which is caught, but not under the fuzzer.
+    let is_workbook = content.starts_with(b"PK") || content.starts_with(b"\xd0\xcf");
+    if is_workbook || format == Some(DynamicFormat::Eplexor) {
+        return false;
+    }
+    let mut accepted = false;
+    for kind in [ModulusKind::Longitudinal, ModulusKind::Shear] {
+        if let Some(file) = refused(dynamic::from_bytes("dma", content, format, kind)) {
+            assert!(!file.notes.is_empty());
+            assert!(format.is_none_or(|format| format == file.format));
+            for point in file.data.points() {
+                let values = [
+                    point.angular_frequency_rad_per_s,
+                    point.storage_modulus_pa,
+                    point.loss_modulus_pa,
+                ];
+                assert!(values.iter().all(|value| *value > 0.0 && value.is_finite()));
+            }
+            accepted = true;
+        }
+    }
+    accepted
 }
 
 /// A profile holds finite numbers or is refused.

@@ -6,7 +6,11 @@
 use std::fs;
 
 use crate::program::{program, write};
-use contact_dma::material::library;
+use std::path::Path;
+
+use contact_dma::input::diagnostic::Styling;
+use contact_dma::input::dynamic::{self, DynamicFile};
+use contact_dma::material::{ModulusKind, library};
 use tempfile::TempDir;
 
 /// Runs `simulate` on a scenario that names `data.csv` and expects it to be refused, with these words on standard error.
@@ -364,4 +368,63 @@ fn a_fit_to_noisy_gappy_or_short_data_says_what_it_did_and_impossible_data_are_r
     let (code, text) = fit(&rows(&|i, _| if i == 5 { -1.0 } else { 1.0 }));
     assert_eq!(code, Some(2), "{text}");
     assert!(text.contains("greater than zero"), "{text}");
+}
+
+/// Dynamic data of a text, as a file named `data.csv`; a refusal on one line.
+fn dynamic(data: &str, kind: ModulusKind) -> Result<DynamicFile, String> {
+    let folder = TempDir::new().unwrap();
+    write(&folder, "data.csv", data);
+    dynamic::read(&[folder.path().join("data.csv")], None, kind).map_err(|refused| {
+        let text = refused.render(Styling::Plain);
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    })
+}
+
+#[test]
+fn the_measured_isotherms_of_pyvisco_are_read_from_their_file() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/pyvisco-freq-user-raw.csv");
+    let file = dynamic::read(&[path], None, ModulusKind::Longitudinal).unwrap();
+    assert_eq!(file.format.name(), "pyvisco");
+    let isotherms = file.data.isotherms();
+    assert_eq!(isotherms.len(), 21);
+    assert!(isotherms.iter().all(|isotherm| isotherm.points.len() == 10));
+    let temperatures: Vec<f64> = isotherms
+        .iter()
+        .filter_map(|isotherm| isotherm.temperature_k)
+        .collect();
+    assert!(
+        (temperatures[0] - 223.24).abs() < 0.01 && (temperatures[20] - 373.1).abs() < 0.2,
+        "{temperatures:?}"
+    );
+    assert!(
+        file.notes
+            .iter()
+            .any(|note| note.contains("210 points in 21 isotherms")),
+        "{:?}",
+        file.notes
+    );
+}
+
+#[test]
+fn dynamic_data_that_leave_a_question_open_are_refused_with_it() {
+    for (data, expected) in [
+        (
+            "f,E' [MPa],E'' [MPa]\n1,2,3\n",
+            "write `f [Hz]` or `f [rad/s]`",
+        ),
+        ("f [Hz],G' [MPa],G'' [MPa]\n1,2,3\n", "--modulus shear"),
+        ("f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,-1,3\n", "data.csv:3:3"),
+        ("{\"Results\": 1}\n", "JSON and XML are not read"),
+        ("\0\0\u{1}\0binary", "is binary"),
+    ] {
+        let refused = dynamic(data, ModulusKind::Longitudinal).unwrap_err();
+        assert!(
+            refused.contains("data.csv") && refused.contains(expected),
+            "{data}\n{refused}"
+        );
+    }
+    let binary = dynamic::from_bytes("run.tri", b"TRIOS", None, ModulusKind::Shear)
+        .unwrap_err()
+        .to_string();
+    assert!(binary.contains("in TRIOS: File, Export"), "{binary}");
 }

@@ -214,6 +214,26 @@ fn tables_become_materials_drives_and_indenters_or_are_refused() {
 }
 
 #[test]
+fn a_file_of_dynamic_data_is_read_or_refused() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/seeds/dynamic_files");
+    let seeds: Vec<Vec<u8>> = fs::read_dir(folder)
+        .unwrap()
+        .map(|seed| fs::read(seed.unwrap().path()).unwrap())
+        .collect();
+    assert!(seeds.len() > 8);
+    for seed in &seeds {
+        assert!(
+            crate::inputs::dynamic_file(seed),
+            "{}",
+            String::from_utf8_lossy(seed)
+        );
+        assault_with(40, &[seed], |bytes| {
+            crate::inputs::dynamic_file(bytes);
+        });
+    }
+}
+
+#[test]
 fn tables_to_compare_are_compared_or_refused() {
     let table = b"angular_frequency_rad_per_s,drive_mean,energy_loss_j,energy_loss_error_j,status\n1e-3,10,2e-6,1e-9,converged\n\
                   2e-3,10,,,not-converged\n";
@@ -293,6 +313,7 @@ fn what_the_fuzzer_has_found_stays_mended() {
                 "quantities" => crate::inputs::quantity(&bytes),
                 "height_maps" => crate::inputs::height_map(&bytes),
                 "tables" => tables.check_any(&bytes),
+                "dynamic_files" => crate::inputs::dynamic_file(&bytes),
                 "records" => records.bytes(&bytes) | records.case(&bytes),
                 "checkpoints" => crate::inputs::check_any_checkpoint(&checkpoints, &bytes),
                 other => panic!("no target is called {other}"),

@@ -22,7 +22,8 @@ use contact_dma::material::{
 };
 use contact_dma::reference::transient::step_load_contact_radius_m;
 use contact_dma::sweep::Sweep;
-use contact_dma::sweep::plan::resolved::resolved_text;
+use contact_dma::sweep::plan::SweepPlan;
+use contact_dma::sweep::plan::resolved::{self, resolved_text};
 use contact_dma::sweep::record::material_error;
 use predicates::prelude::*;
 use predicates::str::contains;
@@ -669,6 +670,103 @@ fn the_loss_with_a_replica_is_found_on_few_steps_and_springs() {
     }
 }
 
+/// Dynamic data of the rubber at -20, 0, 20 and 40 °C with 1 % of noise, shifted by 8 (T - 20 °C)/(100 K + T - 20 °C) decades.
+fn dynamic_csv() -> String {
+    let material = rubber(0.0, 0);
+    let mut state = 7_u64;
+    let mut noisy = |value: f64| {
+        state = state * 48_271 % 2_147_483_647;
+        // Uniform, of a standard deviation of 1 %.
+        value * (1.0 + 0.0346 * (state as f64 / 2_147_483_647.0 - 0.5))
+    };
+    let mut text =
+        "frequency_rad_per_s,storage_modulus_pa,loss_modulus_pa,temperature_c\n".to_owned();
+    for celsius in [-20.0, 0.0, 20.0, 40.0] {
+        let shift = 10_f64.powf(-8.0 * (celsius - 20.0) / (80.0 + celsius));
+        for k in 0..=12 {
+            let omega = 0.1 * 10_f64.powf(f64::from(k) / 4.0);
+            let modulus = material.longitudinal_complex_modulus(shift * omega);
+            let (storage, loss) = (noisy(modulus.re), noisy(modulus.im));
+            text.push_str(&format!("{omega:e},{storage:e},{loss:e},{celsius}\n"));
+        }
+    }
+    text
+}
+
+const DYNAMIC: &str = "[material]\npoisson_ratio = 0.49\n[material.dynamic]\nfile = \"dma.csv\"\nmodulus = \"longitudinal\"\n\
+                       reference_temperature = \"20 °C\"\nreplicas = 10\n";
+
+/// The plan of a sweep of dynamic data with flags, or why it is refused.
+fn dynamic_plan(folder: &Path, sets: &[&str]) -> Result<SweepPlan, String> {
+    let text = format!("title = \"x\"\n{DYNAMIC}{REST}");
+    let document = Document::parse("sweep.toml", &text).unwrap();
+    let mut document = document.in_folder(folder);
+    for set in sets {
+        document.set(set).unwrap();
+    }
+    sweep_file::plan(&document).map_err(|why| why.render(Styling::Plain))
+}
+
+#[test]
+fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
+    let folder = TempDir::new().unwrap();
+    write(folder.path(), "dma.csv", &dynamic_csv());
+    let plan = |sets: &[&str]| dynamic_plan(folder.path(), sets).unwrap();
+    let identity = |sets: &[&str]| resolved::hash(&resolved_text(&plan(sets)));
+    let own = plan(&[]);
+    assert_eq!(own.material.temperature_k(), Some(293.15));
+    assert_eq!(own.material.replicas().len(), 10);
+    let text = resolved_text(&own);
+    let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
+    assert_eq!(resolved_text(&again), text);
+    assert_eq!(again.material, own.material);
+    // Colder by 40 K, two decades and two thirds: by so much slower, and measured at lower frequencies.
+    let cold = plan(&["material.temperature=-20 °C"]).material;
+    let (warm_s, cold_s) = (own.material.measured_window_s(), cold.measured_window_s());
+    let decades = (cold_s.unwrap().0 / warm_s.unwrap().0).log10();
+    assert!((decades - 8.0 * 40.0 / 60.0).abs() < 0.1, "{decades}");
+    let hash = identity(&[]);
+    for change in [
+        "material.dynamic.replicas=11",
+        "material.dynamic.seed=2",
+        "material.temperature=21 °C",
+        "material.dynamic.branches=5",
+    ] {
+        assert_ne!(identity(&[change]), hash, "{change}");
+    }
+    write(folder.path(), "moved.csv", &dynamic_csv());
+    assert_eq!(identity(&["material.dynamic.file=moved.csv"]), hash);
+    assert_eq!(identity(&["material.dynamic.branches=auto"]), hash);
+}
+
+#[test]
+fn what_is_wrong_with_dynamic_data_is_shown_at_its_place() {
+    let folder = TempDir::new().unwrap();
+    write(folder.path(), "dma.csv", &dynamic_csv());
+    let refused = |sets: &[&str]| dynamic_plan(folder.path(), sets).unwrap_err();
+    let shift = refused(&["material.dynamic.shift=wfl"]);
+    assert!(shift.contains("did you mean \"wlf\"?"), "{shift}");
+    let missing = refused(&["material.dynamic.file=none.csv"]);
+    assert!(missing.contains("cannot read `"), "{missing}");
+    let far = refused(&["material.temperature=-150 °C"]);
+    assert!(
+        far.contains("-150 °C") && far.contains("material.temperature"),
+        "{far}"
+    );
+    let bad = dynamic_csv().replacen("1e-1,", "-1e-1,", 1);
+    write(folder.path(), "dma.csv", &bad);
+    let bad = refused(&[]);
+    assert!(
+        bad.contains("dma.csv:2") && bad.contains("the file is named here"),
+        "{bad}"
+    );
+    let library = refusal("[material]\nlibrary = \"pmma\"\ntemperature = \"25 °C\"\n");
+    assert!(
+        library.contains("known at one temperature alone"),
+        "{library}"
+    );
+}
+
 /// Isotherms of a solid of two branches from 5 to 45 °C under a WLF law, exact to eight digits, as a table; and the law's log10 a_T
 /// at these temperatures, 25 °C being the reference.
 fn isotherms() -> (String, Vec<(f64, f64)>) {
@@ -707,7 +805,7 @@ fn rows_of(text: &str) -> (Vec<String>, Vec<Vec<Option<f64>>>) {
     (columns, rows.collect())
 }
 
-const DYNAMIC: [&str; 7] = [
+const FIT_DYNAMIC: [&str; 7] = [
     "material",
     "fit",
     "dma.csv",
@@ -724,7 +822,7 @@ fn dynamic_data_become_a_block_tables_figures_and_a_page() {
     fs::write(folder.path().join("dma.csv"), table).unwrap();
     program()
         .current_dir(&folder)
-        .args(DYNAMIC)
+        .args(FIT_DYNAMIC)
         .args([
             "--poisson-ratio",
             "0.35",
@@ -814,7 +912,7 @@ fn shift_factors_that_were_given_have_no_errors_and_without_a_poisson_ratio_the_
     .unwrap();
     let run = |more: &[&str]| {
         let mut command = program();
-        command.current_dir(&folder).args(DYNAMIC).args(more);
+        command.current_dir(&folder).args(FIT_DYNAMIC).args(more);
         command.assert()
     };
     let printed = run(&[

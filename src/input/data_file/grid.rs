@@ -26,6 +26,8 @@ pub(crate) fn source(name: &str, bytes: &[u8]) -> Result<(Arc<Source>, usize), D
 pub(crate) struct Grid {
     source: Arc<Source>,
     delimiter: char,
+    /// Whether several blanks, not one, separate the cells of a header, so that names may hold blanks.
+    wide: bool,
     /// Where the lines begin that hold anything.
     starts: Vec<usize>,
 }
@@ -42,9 +44,12 @@ pub(crate) enum Cell {
 impl Grid {
     /// Every way to cut a text, that which hides the others first.
     pub(crate) fn every(source: &Arc<Source>) -> impl Iterator<Item = Self> {
-        DELIMITERS
-            .map(|(delimiter, _)| Self::new(source, delimiter))
-            .into_iter()
+        let wide = Self {
+            wide: true,
+            ..Self::new(source, ' ')
+        };
+        let single = DELIMITERS.map(|(delimiter, _)| Self::new(source, delimiter));
+        single.into_iter().chain([wide])
     }
 
     /// Cuts a text. Quotation marks hide delimiters, and do not hide line ends.
@@ -64,6 +69,7 @@ impl Grid {
         Self {
             source,
             delimiter,
+            wide: false,
             starts,
         }
     }
@@ -129,10 +135,41 @@ impl Grid {
         }
     }
 
-    /// Refuses numbers whose commas may separate decimals or thousands.
-    pub(crate) fn numbers(&self) -> Numbers<'_> {
+    /// The cells of a line that may hold names: where blanks separate cells, a unit in brackets belongs to the name before it.
+    pub(crate) fn header(&self, line: usize) -> Line<'_> {
+        let mut cut = self.line(line);
+        if self.delimiter != ' ' {
+            return cut;
+        }
+        let text = self.source.text();
+        let joined = |before: &Range<usize>, next: &Range<usize>| {
+            let between = text.get(before.end..next.start).unwrap_or_default();
+            let cell = text.get(next.clone()).unwrap_or_default();
+            let is_unit = cell.starts_with(['[', '(']) && cell.ends_with([']', ')']);
+            is_unit || (self.wide && between == " ")
+        };
+        let is_units = cut.text(0).starts_with('[');
+        let mut cells: Vec<Range<usize>> = Vec::new();
+        for next in cut.cells.drain(..) {
+            match cells
+                .last_mut()
+                .filter(|before| !is_units && joined(before, &next))
+            {
+                Some(before) => before.end = next.end,
+                None => cells.push(next),
+            }
+        }
+        cut.cells = cells;
+        cut
+    }
+
+    /// Reads the numbers of these lines. Where one of them has both a point and a comma, `1,234.5` or `1.234,5`, or one of them twice,
+    /// the other groups thousands in all; else commas that may separate decimals or thousands are refused.
+    pub(crate) fn numbers(&self, lines: Range<usize>) -> Numbers<'_> {
+        let grouped = |line: usize| self.line(line).texts().find_map(grouping_sign);
         Numbers {
             grid: self,
+            grouping: lines.clone().find_map(grouped),
             signs: DecimalSigns::default(),
         }
     }
@@ -182,6 +219,8 @@ impl<'a> Line<'a> {
 /// Reads cells as numbers, and remembers how they separate decimals.
 pub(crate) struct Numbers<'a> {
     grid: &'a Grid,
+    /// The sign that groups thousands, where one does.
+    grouping: Option<char>,
     signs: DecimalSigns,
 }
 
@@ -190,6 +229,9 @@ impl Numbers<'_> {
         let text = line.text(cell);
         if MISSING.contains(&text.to_lowercase().as_str()) {
             return Cell::Missing;
+        }
+        if let Some(sign) = self.grouping {
+            return grouped_number(text, sign);
         }
         match number(text, line.delimiter) {
             None => Cell::Bad("not a number"),
@@ -208,6 +250,59 @@ impl Numbers<'_> {
     /// Reports commas that may separate decimals or thousands.
     pub(crate) fn check(&self, problems: &Problems) {
         self.signs.check(&self.grid.source, problems);
+    }
+}
+
+/// The sign that groups thousands, where a number tells.
+fn grouping_sign(text: &str) -> Option<char> {
+    let digits = text.trim_start_matches(['-', '+', '\u{2212}']);
+    let is_numeric = digits.starts_with(|c: char| c.is_ascii_digit())
+        && digits
+            .chars()
+            .all(|c| c.is_ascii_digit() || ".,eE+-".contains(c));
+    if !is_numeric {
+        return None;
+    }
+    [(',', '.'), ('.', ',')]
+        .into_iter()
+        .find_map(|(sign, decimal)| {
+            let (whole, has_decimals) = match digits.split_once(decimal) {
+                Some((whole, _)) => (whole, true),
+                None => (digits, false),
+            };
+            let groups = whole.matches(sign).count();
+            let is_told = groups > 1 || (groups == 1 && has_decimals);
+            (is_told && are_groups(whole, sign)).then_some(sign)
+        })
+}
+
+/// Whether a number is of digits in groups of three.
+fn are_groups(whole: &str, sign: char) -> bool {
+    let mut groups = whole.split(sign);
+    let is_digits = |group: &str| group.bytes().all(|byte| byte.is_ascii_digit());
+    let first = groups.next().unwrap_or_default();
+    (1..=3).contains(&first.len())
+        && is_digits(first)
+        && groups.all(|group| group.len() == 3 && is_digits(group))
+}
+
+/// A number whose thousands may be grouped by this sign.
+fn grouped_number(text: &str, sign: char) -> Cell {
+    let decimal = if sign == ',' { '.' } else { ',' };
+    let whole = text.split([decimal, 'e', 'E']).next().unwrap_or_default();
+    let digits = whole.trim_start_matches(['-', '+']);
+    if digits.contains(sign) && !are_groups(digits, sign) {
+        return Cell::Bad("not a number where thousands are grouped");
+    }
+    let plain: String = text
+        .chars()
+        .filter(|c| *c != sign)
+        .map(|c| if c == decimal { '.' } else { c })
+        .collect();
+    match plain.parse::<f64>() {
+        Ok(number) if number.is_finite() => Cell::Number(number),
+        Ok(_) => Cell::Bad("not a finite number"),
+        Err(_) => Cell::Bad("not a number"),
     }
 }
 

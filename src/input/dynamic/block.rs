@@ -41,6 +41,8 @@ pub(super) struct Content {
     pub(super) points: Vec<Measured>,
     /// Rows in which a number is marked as missing.
     pub(super) missing: usize,
+    /// Rows of an instrument in which a value is not positive: the first, and how many.
+    pub(super) noise: Option<(Location, usize)>,
     /// The columns read, with their units.
     pub(super) columns: String,
     pub(super) assumed: Vec<String>,
@@ -86,7 +88,9 @@ impl Moduli {
 
 /// What the names of a header say, cell by cell.
 pub(super) fn names(header: &Line<'_>) -> Vec<Option<Named>> {
-    header.texts().map(columns::recognise).collect()
+    // No instrument writes as many; a hostile file may.
+    let cells = header.texts().take(2000);
+    cells.map(columns::recognise).collect()
 }
 
 /// Whether these columns are dynamic data: a frequency, and two that give both moduli.
@@ -110,7 +114,7 @@ pub(super) fn lacking(names: &[Option<Named>]) -> Option<&'static str> {
 impl<'a> Block<'a> {
     /// A table whose header is this line: the rows down to `end`, the first of which may be one of units.
     pub(super) fn new(grid: &'a Grid, header: usize, end: usize) -> Self {
-        let cells = grid.line(header);
+        let cells = grid.header(header);
         let below = grid.line(header + 1);
         let roles = names(&cells);
         let of_column = |place: usize| roles.get(place).is_some_and(Option::is_some);
@@ -150,10 +154,11 @@ impl<'a> Block<'a> {
         let mut content = Content {
             points: Vec::new(),
             missing: 0,
+            noise: None,
             columns: columns.described(self),
             assumed: columns.assumed.clone(),
         };
-        let (problems, mut numbers) = (Problems::new(), self.grid.numbers());
+        let (problems, mut numbers) = (Problems::new(), self.grid.numbers(self.rows.clone()));
         let is_read = |line: &usize| {
             !self.grid.is_comment(*line) && self.skipped.binary_search(line).is_err()
         };
@@ -165,12 +170,28 @@ impl<'a> Block<'a> {
                 problems: &problems,
                 row: &row,
                 bad: false,
-                missing: false,
+                noise: false,
             };
-            match reader.point(&columns, self.grid.place(line)) {
+            let place = self.grid.place(line);
+            match reader.point(&columns, place.clone()) {
                 Some(measured) => content.points.push(measured),
+                None if reader.noise => content.noise.get_or_insert((place, 0)).1 += 1,
                 None => content.missing += usize::from(!reader.bad),
             }
+        }
+        if let Some((first, count)) = content
+            .noise
+            .as_ref()
+            .filter(|(_, count)| *count > content.points.len())
+        {
+            let message = format!(
+                "{count} rows of a table of {} hold a value that is not positive",
+                count + content.points.len()
+            );
+            problems
+                .at(first, message)
+                .because("the first")
+                .help("check the columns and their signs");
         }
         numbers.check(&problems);
         problems.into_result(Some(content))
@@ -409,7 +430,8 @@ struct RowReader<'a, 'b> {
     row: &'a Line<'b>,
     /// Whether a problem of this row was reported.
     bad: bool,
-    missing: bool,
+    /// Whether an instrument wrote a value that is not positive.
+    noise: bool,
 }
 
 impl RowReader<'_, '_> {
@@ -513,6 +535,10 @@ impl RowReader<'_, '_> {
         if number > 0.0 {
             return Some(number);
         }
+        if self.block.by_instrument {
+            self.noise = true;
+            return None;
+        }
         self.bad = true;
         let (cell, what) = (self.row.place(column.place), column.role.what());
         self.problems
@@ -526,10 +552,7 @@ impl RowReader<'_, '_> {
         let name = self.block.header.text(column.place);
         match self.numbers.read(self.row, column.place) {
             Cell::Number(number) => Some(column.scale.zero + column.scale.factor * number),
-            Cell::Missing => {
-                self.missing = true;
-                None
-            }
+            Cell::Missing => None,
             Cell::Bad(why) => {
                 self.bad = true;
                 let cell = self.row.place(column.place);

@@ -88,6 +88,11 @@ const NAMES: [(Role, &[&str]); 9] = [
             "oscillation frequency",
             "dynamic frequency",
             "dyn freq",
+            "dynamic freq",
+            "ref freq",
+            "reference frequency",
+            "drive frequency",
+            "drive freq",
             "excitation frequency",
             "loading frequency",
             "frequency average",
@@ -258,6 +263,9 @@ const NAMES: [(Role, &[&str]); 9] = [
             "temperature sample",
             "temperatur",
             "probentemperatur",
+            "ts",
+            "ϑ",
+            "θ",
             "température",
             "temperatura",
             "温度",
@@ -383,6 +391,21 @@ fn role(words: &str) -> Option<(Role, Option<ModulusKind>)> {
             _ => None,
         };
     }
+    known(words).or_else(|| {
+        // A word and its symbol: `Storage modulus E'`, `T Temperature`.
+        let (first, rest) = words.split_once(' ')?;
+        let (start, last) = words.rsplit_once(' ')?;
+        [(first, rest), (start, last)]
+            .into_iter()
+            .find_map(|(a, b)| {
+                let (a, b) = (known(a)?, known(b)?);
+                (a.0 == b.0).then_some((a.0, a.1.or(b.1)))
+            })
+    })
+}
+
+/// What one of the names of the table means.
+fn known(words: &str) -> Option<(Role, Option<ModulusKind>)> {
     let (kinds, neutral) = kind_of(words);
     NAMES.iter().find_map(|(role, names)| {
         let is_modulus = matches!(role, Role::Storage | Role::Loss | Role::Complex);
@@ -418,7 +441,7 @@ fn kind_of(words: &str) -> (Option<ModulusKind>, String) {
 /// The unit that the words behind a name are.
 fn suffix(words: &str, role: Role) -> Option<String> {
     let known = match (role, words) {
-        (Role::Temperature, "c" | "degc" | "deg c" | "celsius") => Some("°C"),
+        (Role::Temperature, "c" | "°c" | "degc" | "deg c" | "celsius") => Some("°C"),
         (Role::Temperature, "k" | "kelvin") => Some("K"),
         (
             Role::Frequency | Role::AngularFrequency,

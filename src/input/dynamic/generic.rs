@@ -34,7 +34,7 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
 /// The tables of a text, the first with its header in this line.
 pub(super) fn blocks(grid: &Grid, first: usize) -> Vec<Block<'_>> {
     let is_header = |line: &usize| {
-        let cells = grid.line(*line);
+        let cells = grid.header(*line);
         !cells.is_number(0) && block::is_dynamic(&block::names(&cells))
     };
     let headers: Vec<usize> = (first..grid.len()).filter(is_header).collect();
@@ -48,11 +48,17 @@ pub(super) fn blocks(grid: &Grid, first: usize) -> Vec<Block<'_>> {
 
 /// The line that names most columns of dynamic data, cut by the delimiter that shows them.
 pub(super) fn header(source: &Arc<Source>) -> Option<(Grid, usize)> {
-    let mut best: Option<(usize, Grid, usize)> = None;
+    let mut best: Option<((usize, bool), Grid, usize)> = None;
     for grid in Grid::every(source) {
+        // As many names as the rows further down have cells.
+        let fits = |line: usize| grid.header(line).len() == grid.line(line + 2).len();
         let found = (0..grid.len().min(MOST_LINES_ABOVE)).find_map(|line| {
-            let names = block::names(&grid.line(line));
-            block::is_dynamic(&names).then(|| (names.iter().flatten().count(), line))
+            // A line of names with other delimiters is not one of names between blanks.
+            if grid.delimiter() == ' ' && grid.text(line).contains([',', ';']) {
+                return None;
+            }
+            let names = block::names(&grid.header(line));
+            block::is_dynamic(&names).then(|| ((names.iter().flatten().count(), fits(line)), line))
         });
         if let Some((count, line)) = found
             && best.as_ref().is_none_or(|(most, _, _)| count > *most)
@@ -69,7 +75,7 @@ pub(super) fn no_header(source: &Arc<Source>) -> Diagnostic {
     let mut closest: Option<(usize, Grid, usize)> = None;
     for grid in Grid::every(source) {
         for line in 0..grid.len().min(MOST_LINES_ABOVE) {
-            let count = block::names(&grid.line(line)).iter().flatten().count();
+            let count = block::names(&grid.header(line)).iter().flatten().count();
             if count > closest.as_ref().map_or(0, |(most, _, _)| *most) {
                 closest = Some((count, Grid::new(source, grid.delimiter()), line));
             }
@@ -83,7 +89,7 @@ pub(super) fn no_header(source: &Arc<Source>) -> Diagnostic {
     let in_time = ["relax", "creep"].iter().any(|word| lower.contains(word));
     let problem = match closest {
         Some((_, grid, line)) => {
-            let what = match block::lacking(&block::names(&grid.line(line))) {
+            let what = match block::lacking(&block::names(&grid.header(line))) {
                 Some(what) => format!("the table has no column of {what}"),
                 None => "no header of dynamic data".to_owned(),
             };
@@ -93,6 +99,10 @@ pub(super) fn no_header(source: &Arc<Source>) -> Diagnostic {
             &Grid::new(source, ',').place(0),
             "no line names the columns of dynamic data",
         ),
+    };
+    let problem = match lower.contains("log") {
+        true => problem.help("write plain values, not their logarithms"),
+        false => problem,
     };
     let problem = problem.help(format!(
         "begin the table with a line of column names, such as {example}"

@@ -2,7 +2,8 @@
 //!
 //! The format is found from the content, or given. Each format is one file of this folder, which opens with its specification; what
 //! they have in common is in `columns` (names and units), `block` (rows of numbers) and `isotherms` (which rows belong together).
-//! A number marked as missing takes its row out, which is counted; a modulus or frequency that is not positive is refused at its place.
+//! A number marked as missing takes its row out, which is counted. A modulus or frequency that is not positive is refused at its place
+//! in a table; in a file of an instrument, whose noise it is, it takes its row out, and a note says so.
 //!
 //! ```
 //! use contact_dma::input::dynamic::{DynamicFormat, from_bytes};
@@ -297,6 +298,9 @@ struct Reading {
     /// Before notes, where there are several files.
     prefix: String,
     missing: usize,
+    /// Rows of instruments in which a value is not positive, and the first of them.
+    noise: usize,
+    first_noise: Option<Location>,
 }
 
 impl Reading {
@@ -307,6 +311,8 @@ impl Reading {
             notes: Vec::new(),
             prefix: String::new(),
             missing: 0,
+            noise: 0,
+            first_noise: None,
         }
     }
 
@@ -330,10 +336,19 @@ impl Reading {
         for assumed in content.assumed {
             self.note(assumed);
         }
-        self.missing += content.missing;
+        self.count(content.missing, content.noise);
         self.isotherms
             .extend(isotherms::split(block, content.points)?);
         Ok(())
+    }
+
+    /// Counts rows passed over.
+    fn count(&mut self, missing: usize, noise: Option<(Location, usize)>) {
+        self.missing += missing;
+        if let Some((first, count)) = noise {
+            self.noise += count;
+            self.first_noise.get_or_insert(first);
+        }
     }
 
     fn finish(
@@ -346,6 +361,14 @@ impl Reading {
             self.note(format!(
                 "{} {rows} passed over: a number is empty or marked as missing",
                 self.missing
+            ));
+        }
+        if let Some(first) = self.first_noise.take() {
+            let rows = if self.noise == 1 { "row" } else { "rows" };
+            self.note(format!(
+                "{} {rows} passed over: a value is not positive, which is noise of the instrument (first in {})",
+                self.noise,
+                first.line()
             ));
         }
         let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
@@ -370,6 +393,17 @@ impl Reading {
             )
             .help("add a column `temperature_c` to each, or name one file")
             .into());
+        }
+        let steps = self.isotherms.iter().filter(|set| !set.is_empty()).count();
+        if steps > 1
+            && data
+                .isotherms()
+                .iter()
+                .all(|isotherm| isotherm.temperature_k.is_none())
+        {
+            self.note(format!(
+                "{steps} tables without a temperature, taken for one isotherm"
+            ));
         }
         self.note(summary(&data));
         Ok((data, self.notes))
@@ -403,10 +437,12 @@ fn summary(data: &DynamicData) -> String {
     let points = data.points().count();
     let ends = isotherms.first().zip(isotherms.last());
     let ends = ends.and_then(|(first, last)| first.temperature_k.zip(last.temperature_k));
-    let s = if isotherms.len() == 1 { "" } else { "s" };
     match ends {
+        Some((first, _)) if isotherms.len() == 1 => {
+            format!("{points} points at {}", celsius(first))
+        }
         Some((first, last)) => format!(
-            "{points} points in {} isotherm{s} from {} to {}",
+            "{points} points in {} isotherms from {} to {}",
             isotherms.len(),
             celsius(first),
             celsius(last)
@@ -417,3 +453,5 @@ fn summary(data: &DynamicData) -> String {
 
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod workbook;

@@ -70,7 +70,11 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
     let scale = columns::scale(Role::Temperature, Some(&unit)).map_err(|why| {
         Diagnostic::at(&names.place(temperature), "the temperatures have no unit").help(why)
     })?;
-    let (problems, mut numbers, mut pairs) = (Problems::new(), grid.numbers(), Vec::new());
+    let (problems, mut numbers, mut pairs) = (
+        Problems::new(),
+        grid.numbers(header + 1..grid.len()),
+        Vec::new(),
+    );
     for line in header + 1 + usize::from(has_units)..grid.len() {
         if grid.is_comment(line) {
             continue;

@@ -60,7 +60,8 @@ pub(super) fn read(
     Ok(())
 }
 
-fn is_derived(name: &str) -> bool {
+/// Whether software computed a step of this name from others.
+pub(super) fn is_derived(name: &str) -> bool {
     let lower = name.trim().to_lowercase();
     lower.starts_with("tts")
         || ["shift factor", "master curve", "mastercurve"]

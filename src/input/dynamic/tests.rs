@@ -5,7 +5,12 @@ use crate::input::diagnostic::Styling;
 
 /// Reads a text by itself.
 pub(super) fn read_text(text: &str, kind: ModulusKind) -> Result<DynamicFile, String> {
-    from_bytes("dma.csv", text.as_bytes(), None, kind).map_err(|refused| {
+    read_bytes(text.as_bytes(), kind)
+}
+
+/// Reads a file by itself; a refusal on one line.
+pub(super) fn read_bytes(bytes: &[u8], kind: ModulusKind) -> Result<DynamicFile, String> {
+    from_bytes("dma.csv", bytes, None, kind).map_err(|refused| {
         let text = refused.render(Styling::Plain);
         text.split_whitespace().collect::<Vec<_>>().join(" ")
     })
@@ -37,7 +42,7 @@ pub(super) fn assert_points(file: &DynamicFile, expected: &[[f64; 4]]) {
     }
 }
 
-const TAU: f64 = std::f64::consts::TAU;
+pub(super) const TAU: f64 = std::f64::consts::TAU;
 
 #[test]
 fn one_table_in_every_dialect_is_the_same() {
@@ -336,4 +341,46 @@ fn shift_factors_are_read_as_pyvisco_and_as_this_program_write_them() {
             .to_string();
         assert!(refused.contains(reason), "{text}\n{refused}");
     }
+}
+
+#[test]
+fn names_may_have_symbols_and_blanks_and_stand_below_other_lines() {
+    let expected = [
+        [298.15, 0.1 * TAU, 2e6, 1e5],
+        [298.15, TAU, 3e6, 2e5],
+        [298.15, 10.0 * TAU, 4e6, 3e5],
+    ];
+    let latin = "Frequenz f [Hz];Speichermodul E' [MPa];Verlustmodul E'' [MPa];Temperatur [°C]\r\n0,1;2;0,1;25\r\n1;3;0,2;25\r\n10;4;0,3;25\r\n";
+    let latin: Vec<u8> = latin.chars().map(|c| c as u8).collect();
+    assert_points(
+        &read_bytes(&latin, ModulusKind::Longitudinal).unwrap(),
+        &expected,
+    );
+    for text in [
+        "# f [Hz]  E' [MPa]  E'' [MPa]  T [°C]\n0.1 2 0.1 25\n1 3 0.2 25\n10 4 0.3 25\n",
+        "Curve:\n  film\n  Frequency   Storage modulus   Tan Delta   Temp.\n  [Hz]   [MPa]   []   [°C]\n  0.1  2  0.05  25\n  1  3  0.066666666666666666  25\n  10  4  0.075  25\n",
+        "DMA;X\n\nTime min;Frequency Hz;Temperature °C;Storage Modulus MPa;Loss Modulus MPa\n1;0.1;25;2;0.1\n2;1;25;3;0.2\n3;10;25;4;0.3\n",
+        "#FORMAT:\tX\n##Temp./°C\tTime/min\tf/Hz\tE'/MPa\tE''/MPa\n25\t1\t0.1\t2\t0.1\n25\t2\t1\t3\t0.2\n25\t3\t10\t4\t0.3\n",
+        "f [Hz],E' [kPa],E'' [kPa],ϑ / °C\n0.1,\"2,000.0\",100,25\n1,\"3,000\",200,25\n10,4000,300,25\n",
+        "f [Hz]\tE' [kPa]\tE'' [kPa]\tT [°C]\n0,1\t2.000,0\t100\t25\n1\t3.000\t200\t25\n10\t4000\t300\t25\n",
+    ] {
+        assert_points(
+            &read_text(text, ModulusKind::Longitudinal).unwrap(),
+            &expected,
+        );
+    }
+    let refused = read_text(
+        "log f [Hz],log E' [Pa],log E'' [Pa]\n-1,9,8\n0,9.1,8\n",
+        ModulusKind::Longitudinal,
+    )
+    .unwrap_err();
+    assert!(refused.contains("not their logarithms"), "{refused}");
+    let complex = "Frequency [Hz],|G*| [Pa],phase angle [deg]\n1,1000,45\n2,1000,30\n3,1000,60\n";
+    let file = read_text(complex, ModulusKind::Shear).unwrap();
+    let point = file.data.isotherms()[0].points[1];
+    assert!(
+        (point.loss_modulus_pa - 500.0).abs() < 1e-9
+            && (point.storage_modulus_pa - 750_000_f64.sqrt()).abs() < 1e-9,
+        "{point:?}"
+    );
 }

@@ -45,7 +45,7 @@ const WINDOW: &str =
     "write the first and the last time of the test, above zero: measured = [\"0.1 s\", \"1000 s\"]";
 
 /// More branches than any fit resolves are a mistake in the file.
-const MOST_BRANCHES: usize = 1000;
+pub(crate) const MOST_BRANCHES: usize = 1000;
 /// Twice as many as a fit gives.
 const MOST_ALTERNATIVES: usize = 8;
 /// More tell no more of a spread.

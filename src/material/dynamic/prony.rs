@@ -135,25 +135,36 @@ pub(super) fn refitted(
     let rows = Rows::like(points, like);
     let (shortest, longest) = limits(&rows, BEYOND);
     let step = 10_f64.powf(offset / COARSE);
-    let lowest = rows.lowest_storage();
-    let series = match like.relaxation.is_fluid() {
-        true => {
-            let (slowest, _) = rows.window();
-            let times = Rows::grid((shortest, 1.0 / slowest), COARSE);
-            rows.strengths(&times, (false, 0.0))?
-        }
-        false => {
-            let times = Rows::grid((shortest * step, longest * step), COARSE);
-            let solid = rows.strengths(&times, (true, 0.0))?;
-            let free = solid.constant > NOTHING * lowest;
-            if free {
-                solid
-            } else {
-                held_solid(&rows, lowest)?
-            }
-        }
-    };
+    let limits_s = (shortest * step, longest * step);
+    let series = spectrum_like(&rows, like, limits_s, COARSE)?;
     Ok(rows.relaxation(&series)?)
+}
+
+/// The best spectrum of any number of branches through the points of a fit, with its noise; a solid if that is one.
+pub(super) fn spectrum(points: &[DynamicPoint], fit: &PronyFit) -> Result<Relaxation, PronyError> {
+    let rows = Rows::like(points, fit);
+    let series = spectrum_like(&rows, fit, limits(&rows, BEYOND), SPECTRUM)?;
+    Ok(rows.relaxation(&series)?)
+}
+
+fn spectrum_like(
+    rows: &Rows,
+    fit: &PronyFit,
+    (shortest, longest): (f64, f64),
+    per_decade: f64,
+) -> Result<Series, NnlsError> {
+    if fit.relaxation.is_fluid() {
+        let (slowest, _) = rows.window();
+        let times = Rows::grid((shortest, 1.0 / slowest), per_decade);
+        return rows.strengths(&times, (false, 0.0));
+    }
+    let times = Rows::grid((shortest, longest), per_decade);
+    let solid = rows.strengths(&times, (true, 0.0))?;
+    let storage = rows.lowest_storage();
+    match solid.constant > NOTHING * storage {
+        true => Ok(solid),
+        false => held_solid(rows, storage),
+    }
 }
 
 /// Rows in units of the noise, and the best spectrum.

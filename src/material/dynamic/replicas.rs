@@ -1,9 +1,10 @@
 //! Replicas of a fitted series: what the noise of the data leaves open, as materials drawn at random, and the band they make.
 //!
 //! A parametric bootstrap (B. Efron and R. J. Tibshirani, *An Introduction to the Bootstrap*, Chapman and Hall 1993, section 6.5):
-//! the fit is measured again at the frequencies and temperatures of the data, with their noise; the isotherms are shifted again, and
+//! the best spectrum of any number of branches is measured again at the frequencies and temperatures of the data, with their noise; the isotherms are shifted again, and
 //! a series is fitted again. The noise is what the best spectrum leaves of the data, or the errors of the file where these are
-//! larger. Where isotherms lie beside the curve as a whole, by more than the noise of their points explains (the material is not
+//! larger. The spectrum has as much structure as the data
+//! allow, and the series of few branches has lost it again. Where isotherms lie beside the curve as a whole, by more than the noise of their points explains (the material is not
 //! thermorheologically simple, or its temperature or clamping is not what it should be), their levels and tilts are drawn again as
 //! well. The times of a replica lie on a grid of their own, so that what a series of few branches smooths away shows as a difference.
 
@@ -55,7 +56,8 @@ pub fn draw(
     fit: &PronyFit,
     choices: &Choices,
 ) -> Result<Vec<Replica>, DynamicError> {
-    let model = Model::new(data, master, fit);
+    let spectrum = prony::spectrum(&master_points(data, master), fit)?;
+    let model = Model::new(data, master, fit, &spectrum);
     let replica = |number: usize| {
         let mut random = Noise::stream(choices.seed, number as u64);
         let measured = model.measured_again(data, &mut random)?;
@@ -76,7 +78,7 @@ pub fn draw(
     }
 }
 
-/// The fit at every point of the data, and how far a measurement is from it.
+/// The spectrum at every point of the data, and how far a measurement is from it.
 struct Model {
     isotherms: Vec<[Modelled; 2]>,
     /// Of storage and loss modulus.
@@ -85,12 +87,12 @@ struct Model {
 
 /// A modulus of an isotherm.
 struct Modelled {
-    /// Values of the fit (Pa), and the relative noise of each.
+    /// Values of the spectrum (Pa), and the relative noise of each.
     values: Vec<(f64, f64)>,
     residuals: Residuals,
 }
 
-/// What an isotherm has beside the fit.
+/// What an isotherm has beside the spectrum.
 #[derive(Debug, Clone, Copy, Default)]
 struct Residuals {
     level: f64,
@@ -117,7 +119,12 @@ fn place(index: usize, count: usize) -> f64 {
 }
 
 impl Model {
-    fn new(data: &DynamicData, master: Option<&MasterCurve>, fit: &PronyFit) -> Self {
+    fn new(
+        data: &DynamicData,
+        master: Option<&MasterCurve>,
+        fit: &PronyFit,
+        spectrum: &Relaxation,
+    ) -> Self {
         let shift = |index: usize| match master.and_then(|master| master.shifts.get(index)) {
             Some(shift) => (10_f64.powf(shift.log10_a_t), shift.b_t),
             None => (1.0, 1.0),
@@ -125,7 +132,10 @@ impl Model {
         let errors_known = prony::errors_known(data.points());
         let isotherms = data.isotherms().iter().enumerate();
         let isotherms: Vec<[Modelled; 2]> = isotherms
-            .map(|(index, isotherm)| modelled(isotherm, shift(index), fit, errors_known))
+            .map(|(index, isotherm)| {
+                let noise = (fit.noise, errors_known);
+                modelled(isotherm, shift(index), spectrum, noise)
+            })
             .collect();
         let common =
             [0, 1].map(|part| Common::of(isotherms.iter().map(|both| both[part].residuals)));
@@ -156,12 +166,12 @@ impl Model {
     }
 }
 
-/// Storage and loss modulus of the fit at the points of an isotherm.
+/// Storage and loss modulus of the spectrum at the points of an isotherm.
 fn modelled(
     isotherm: &Isotherm,
     (a_t, b_t): (f64, f64),
-    fit: &PronyFit,
-    errors_known: bool,
+    spectrum: &Relaxation,
+    (noise, errors_known): ((f64, f64), bool),
 ) -> [Modelled; 2] {
     let part =
         |of: fn(&DynamicPoint) -> (f64, Option<f64>), model: &dyn Fn(f64) -> f64, noise: f64| {
@@ -180,17 +190,17 @@ fn modelled(
             let residuals = Residuals::of(&values, &measured);
             Modelled { values, residuals }
         };
-    let modulus = |omega: f64| fit.relaxation.complex_modulus(omega);
+    let modulus = |omega: f64| spectrum.complex_modulus(omega);
     [
         part(
             |p| (p.storage_modulus_pa, p.errors_pa.map(|errors| errors.0)),
             &|omega| modulus(omega).re,
-            fit.noise.0,
+            noise.0,
         ),
         part(
             |p| (p.loss_modulus_pa, p.errors_pa.map(|errors| errors.1)),
             &|omega| modulus(omega).im,
-            fit.noise.1,
+            noise.1,
         ),
     ]
 }

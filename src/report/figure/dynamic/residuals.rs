@@ -1,7 +1,7 @@
 //! What the fitted series misses of each point, and the band of its replicas.
 
 use super::{MARKERS, caption, frequencies, frequency_title};
-use crate::report::chart::{Axis, Chart, Color, LineStyle, Series};
+use crate::report::chart::{Axis, Chart, Color, Series};
 use crate::report::dynamic::{Band, DynamicReport};
 use crate::report::figure::Figure;
 use crate::report::table::{cells, csv};
@@ -40,7 +40,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     if Band::of(report.made, lowest).is_some() {
         chart.series.extend(bands(report));
         caption = caption.say(format!(
-            "Lines: the band of {replicas} replicas of the series, which carry the noise of the data."
+            "Shaded: three times the root mean square difference that {replicas} series make, fitted to the same data with other noise."
         ));
     }
     let rows = residuals()
@@ -58,22 +58,24 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     }
 }
 
-/// Lower and upper ends of the bands of both moduli, in per cent of the fit.
-fn bands(report: &DynamicReport<'_>) -> Vec<Series> {
-    let [mut storage, mut loss] = [[Vec::new(), Vec::new()], [Vec::new(), Vec::new()]];
+/// The bands of both moduli, in per cent of the fit.
+fn bands(report: &DynamicReport<'_>) -> [Series; 2] {
+    let [mut storage, mut loss] = [Vec::new(), Vec::new()];
     for omega in frequencies(report) {
         let own = report.relaxation().complex_modulus(omega);
-        let band = Band::of(report.made, omega);
-        let relative =
-            |half: Option<f64>, own: f64| Some(100.0 * half? / own).filter(|r| r.is_finite());
-        let of_storage = relative(band.map(|band| band.storage_pa), own.re);
-        let of_loss = relative(band.map(|band| band.loss_pa), own.im);
-        for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
-            storage[end].push(of_storage.map(|half| (omega, sign * half)));
-            loss[end].push(of_loss.map(|half| (omega, sign * half)));
-        }
+        let Some(band) = Band::of(report.made, omega) else {
+            continue;
+        };
+        let relative = |half_pa: f64, own_pa: f64| {
+            let half = 100.0 * half_pa / own_pa;
+            half.is_finite().then_some((omega, -half, half))
+        };
+        storage.extend(relative(band.storage_pa, own.re));
+        loss.extend(relative(band.loss_pa, own.im));
     }
-    let storage = storage.map(Series::line);
-    let loss = loss.map(|ends| Series::line(ends).color(1).style(LineStyle::Dashed));
-    storage.into_iter().chain(loss).collect()
+    let [storage, loss] = [storage, loss].map(Series::band);
+    [
+        loss.color(1).label("band of the loss modulus"),
+        storage.label("band of the storage modulus"),
+    ]
 }
