@@ -144,8 +144,12 @@ pub fn shift(data: &DynamicData, choices: &Choices) -> Result<MasterCurve, Maste
         ShiftChoice::None => work.given(vec![0.0; work.temperatures_k.len()], false),
         ShiftChoice::Given(given) => work.given(given_factors(given, &work.temperatures_k)?, true),
         ShiftChoice::Free | ShiftChoice::Wlf | ShiftChoice::Arrhenius => {
-            let chain = neighbours::chain(data.isotherms(), &work.noise, choices.vertical_shift);
-            work.found(&chain)
+            let chain = |vertical| neighbours::chain(data.isotherms(), &work.noise, vertical);
+            let mut starts = vec![chain(false)];
+            if choices.vertical_shift {
+                starts.push(chain(true));
+            }
+            work.found(&starts)
         }
     }
 }
@@ -167,7 +171,7 @@ pub fn refined_from(
     let searched = !matches!(choices.shift, ShiftChoice::None | ShiftChoice::Given(_));
     if searched && start.shifts.len() == data.isotherms().len() {
         let factors: Vec<f64> = start.shifts.iter().map(|s| s.log10_a_t).collect();
-        return Work::new(data, &choices)?.found(&factors);
+        return Work::new(data, &choices)?.found(&[factors]);
     }
     shift(data, &choices)
 }
@@ -261,20 +265,36 @@ impl<'a> Work<'a> {
         variance * state.correlated
     }
 
-    /// Factors from the data, by what is chosen, from these on.
-    fn found(&self, start: &[f64]) -> Result<MasterCurve, MasterCurveError> {
-        let start = self.relative_to_fixed(start);
+    /// The state that is best of those that these lead to, and the covariance of its unknowns for data of unit variance. Data that no
+    /// one curve describes are described best where they are far apart: there neighbours are held to what they say as a pair.
+    fn refined(&self, starts: &[Vec<f64>], by: &DMatrix<f64>) -> (State, Option<DMatrix<f64>>) {
+        let refined = starts.iter().map(|start| {
+            let start = self.relative_to_fixed(start);
+            (self.curve.refine(&start), start)
+        });
+        let best = refined.min_by(|a, b| a.0.objective.total_cmp(&b.0.objective));
+        let none = || {
+            let start = vec![0.0; self.temperatures_k.len()];
+            (self.curve.refine(&start), start)
+        };
+        let (state, start) = best.unwrap_or_else(none);
+        if self.variance(&state, by.ncols()) <= SIMPLE * SIMPLE {
+            let covariance = self.curve.covariance(&state, by);
+            return (state, covariance);
+        }
+        let start = self.relative_to_fixed(starts.first().unwrap_or(&start));
+        let held = one_curve(self.data, self.choices, &self.noise, self.fixed);
+        let held = held.expecting(&start, self.scale(&state, by.ncols()));
+        let state = held.refine(&start);
+        let covariance = held.covariance(&state, by);
+        (state, covariance)
+    }
+
+    /// Factors from the data, by what is chosen, from the best of these on.
+    fn found(&self, starts: &[Vec<f64>]) -> Result<MasterCurve, MasterCurveError> {
         let free = self.curve.free();
         let by = self.curve.directions(&free);
-        let mut state = self.curve.refine(&start);
-        let variance = self.variance(&state, by.ncols());
-        let mut own = self.curve.covariance(&state, &by);
-        if variance > SIMPLE * SIMPLE {
-            let held = one_curve(self.data, self.choices, &self.noise, self.fixed);
-            let held = held.expecting(&start, self.scale(&state, by.ncols()));
-            state = held.refine(&start);
-            own = held.covariance(&state, &by);
-        }
+        let (state, own) = self.refined(starts, &by);
         let scale = self.scale(&state, by.ncols());
         let count = free.ncols();
         let own = own.map(|own| own.view((0, 0), (count, count)) * scale + self.gaps(&state));

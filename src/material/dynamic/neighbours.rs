@@ -82,9 +82,10 @@ fn searched(curve: &OneCurve, colder: &Isotherm, hotter: &Isotherm) -> f64 {
         .iter()
         .map(|s| s.squares)
         .fold(f64::INFINITY, f64::min);
+    let noise = (least / curve.count() as f64).max(1.0);
     let alike = refined
         .iter()
-        .filter(|s| s.squares < least + ALIKE)
+        .filter(|s| s.squares < least + ALIKE * noise)
         .map(|s| s.places[0]);
     alike
         .min_by(|a, b| a.abs().total_cmp(&b.abs()))

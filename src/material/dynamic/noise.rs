@@ -22,6 +22,9 @@ const UNKNOWN: f64 = 0.01;
 /// Below this the series that stands for the master curve is no better than the data.
 const LEAST: f64 = 2e-4;
 
+/// Share of the values that must be left as degrees of freedom for a series to show their scatter.
+const FREE: f64 = 0.1;
+
 /// Highest power of the logarithm of the frequency in the curve of an isotherm.
 const HIGHEST_POWER: usize = 6;
 
@@ -37,7 +40,7 @@ impl Noise {
             storage: UNKNOWN,
             loss: UNKNOWN,
         };
-        let series = alike.about_series(data).unwrap_or(alike);
+        let series = alike.about_series(data);
         Self {
             storage: polynomials.storage.min(series.storage),
             loss: polynomials.loss.min(series.loss),
@@ -45,13 +48,15 @@ impl Noise {
     }
 
     /// The scatter about a series for each isotherm, weighted by the noise assumed. Which of the moduli a series takes its
-    /// degrees of freedom from, the projection onto its columns tells.
-    fn about_series(&self, data: &DynamicData) -> Option<Self> {
+    /// degrees of freedom from, the projection onto its columns tells; of a modulus that it does little but repeat, it says nothing.
+    fn about_series(&self, data: &DynamicData) -> Self {
         let mut squares = [0.0, 0.0];
+        let mut all = 0.0;
         let mut freedom = [0.0, 0.0];
         for isotherm in data.isotherms() {
             let state = OneCurve::new(&[isotherm], self, 0, false).at(&[0.0], &[]);
             let points = isotherm.points.len() as f64;
+            all += points;
             for part in 0..2 {
                 squares[part] += points * state.relative[part].powi(2);
                 freedom[part] += points - state.taken[part];
@@ -59,12 +64,12 @@ impl Noise {
         }
         let level = |part: usize| {
             let variance = squares[part] / freedom[part];
-            (freedom[part] >= 1.0).then(|| variance.sqrt().max(LEAST))
+            (freedom[part] >= FREE * all).then(|| variance.sqrt().max(LEAST))
         };
-        Some(Self {
-            storage: level(0)?,
-            loss: level(1)?,
-        })
+        Self {
+            storage: level(0).unwrap_or(f64::INFINITY),
+            loss: level(1).unwrap_or(f64::INFINITY),
+        }
     }
 
     /// Relative standard deviations of a point: its own, where the file gave them.

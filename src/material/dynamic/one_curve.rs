@@ -17,8 +17,9 @@ use super::normal_equations::{NormalEquations, Solution};
 /// Times per decade: a branch between two of the grid is represented to a few tenths of a per cent.
 const TIMES_PER_DECADE: f64 = 8.0;
 
-/// How far the times go beyond the reciprocals of the angular frequencies (decades).
-const BEYOND: f64 = 0.5;
+/// How far the times go beyond the reciprocals of the angular frequencies (decades): so far that the flank of a branch outside is
+/// represented. What this says of the equilibrium modulus does not matter for shifts.
+const BEYOND: f64 = 1.5;
 
 /// Largest step of a shift in one iteration (decades).
 const LARGEST_STEP: f64 = 0.7;
@@ -52,7 +53,7 @@ pub(super) struct State {
     /// Sum of squares of the residuals, in standard deviations.
     pub(super) squares: f64,
     /// The same with what was expected of the places.
-    objective: f64,
+    pub(super) objective: f64,
     /// Root mean square of the relative residuals of storage and loss modulus.
     pub(super) relative: [f64; 2],
     /// How much more the mean of neighbouring residuals varies than that of independent ones, `(1 + r) / (1 - r)` with the
@@ -102,14 +103,10 @@ impl OneCurve {
         });
         let count = isotherms.len();
         let places = if vertical { 2 * count } else { count };
-        let vertical_only = |i: usize, j: usize| i == j && i >= count;
-        let expected = DMatrix::from_fn(places, places, |i, j| {
-            if vertical_only(i, j) {
-                VERTICAL.powi(-2)
-            } else {
-                0.0
-            }
-        });
+        let mut expected = DMatrix::zeros(places, places);
+        if vertical {
+            neighbours(&mut expected, count, count, VERTICAL.powi(-2));
+        }
         Self {
             values: values.collect(),
             isotherms: count,
@@ -122,16 +119,9 @@ impl OneCurve {
     /// The same, where the shift between neighbours is expected to be about that of `shifts`, with the weight of the data divided by
     /// `variance`: for data that no one curve describes, which would be described best where they are far apart.
     pub(super) fn expecting(mut self, shifts: &[f64], variance: f64) -> Self {
-        let weight = variance * NEIGHBOURS.powi(-2);
         let (curvature, least) = &mut self.expected;
-        for i in 1..self.isotherms {
-            for (j, k) in [(i, i), (i - 1, i - 1)] {
-                curvature[(j, k)] += weight;
-            }
-            for (j, k) in [(i, i - 1), (i - 1, i)] {
-                curvature[(j, k)] -= weight;
-            }
-        }
+        *curvature *= variance;
+        neighbours(curvature, 0, self.isotherms, variance * NEIGHBOURS.powi(-2));
         least
             .iter_mut()
             .zip(shifts)
@@ -187,7 +177,7 @@ impl OneCurve {
     pub(super) fn at(&self, places: &[f64], start: &[i64]) -> State {
         let columns = self.columns(places);
         let right = self.right();
-        let products = columns.matrix.tr_mul(&columns.matrix);
+        let products = columns.products();
         let projected = columns.matrix.tr_mul(&right);
         let equations = NormalEquations {
             products: &products,
@@ -265,7 +255,8 @@ impl OneCurve {
                     let gained = state.objective - tried.objective;
                     (unknowns, state) = (next, tried);
                     damping = f64::max(damping / 10.0, 1e-9);
-                    if largest < CLOSE || gained < GAIN {
+                    let noise = (state.objective / self.count() as f64).max(1.0);
+                    if largest < CLOSE || gained < GAIN * noise {
                         break;
                     }
                 }
@@ -286,7 +277,7 @@ impl OneCurve {
         directions: &DMatrix<f64>,
     ) -> Option<DMatrix<f64>> {
         let columns = self.columns(&state.places);
-        let products = columns.matrix.tr_mul(&columns.matrix);
+        let products = columns.products();
         let projected = columns.matrix.tr_mul(&self.right());
         let equations = NormalEquations {
             products: &products,
@@ -461,6 +452,19 @@ impl OneCurve {
 }
 
 impl Columns {
+    fn products(&self) -> DMatrix<f64> {
+        let count = self.matrix.ncols();
+        let mut products = DMatrix::zeros(count, count);
+        for i in 0..count {
+            for j in 0..=i {
+                let product = self.matrix.column(i).dot(&self.matrix.column(j));
+                products[(i, j)] = product;
+                products[(j, i)] = product;
+            }
+        }
+        products
+    }
+
     /// Storage and loss modulus of a solution (Pa) at a reduced angular frequency (natural logarithm), and their derivatives by it.
     fn modulus(&self, solution: &Solution, reduced: f64) -> [(f64, f64); 2] {
         let step = LN_10 / TIMES_PER_DECADE;
@@ -522,8 +526,9 @@ impl Columns {
     }
 }
 
-/// Vertical shifts are expected to be within some of these of one (decades): what holds them where nothing else does.
-const VERTICAL: f64 = 0.3;
+/// Vertical shifts of neighbours are expected to differ by some of these (decades): what holds them where nothing else does. Density
+/// and temperature, which rubber elasticity goes by, make a tenth of it in five kelvin.
+const VERTICAL: f64 = 0.03;
 
 /// Of data that no one curve describes: shifts between neighbours are expected to be within some of these of what the pair says.
 const NEIGHBOURS: f64 = 0.3;
@@ -536,6 +541,16 @@ const ITERATIONS: usize = 40;
 /// Steps below this (decades), and gains below this (of the sum of squares), end the refinement.
 const CLOSE: f64 = 1e-4;
 const GAIN: f64 = 1e-3;
+
+/// Adds the curvature of this weight times the square of what each of `count` places from `first` on differs from the next.
+fn neighbours(curvature: &mut DMatrix<f64>, first: usize, count: usize, weight: f64) {
+    for i in first + 1..first + count {
+        curvature[(i, i)] += weight;
+        curvature[(i - 1, i - 1)] += weight;
+        curvature[(i, i - 1)] -= weight;
+        curvature[(i - 1, i)] -= weight;
+    }
+}
 
 /// The damped step of the unknowns, and the largest step of a shift that comes with it, held to [`LARGEST_STEP`].
 fn damped(
