@@ -23,7 +23,7 @@ const UNKNOWN: f64 = 0.01;
 const LEAST: f64 = 2e-4;
 
 /// Share of the values that must be left as degrees of freedom for a series to show their scatter.
-const FREE: f64 = 0.1;
+const FREE: f64 = 0.25;
 
 /// Highest power of the logarithm of the frequency in the curve of an isotherm.
 const HIGHEST_POWER: usize = 6;
@@ -48,7 +48,8 @@ impl Noise {
     }
 
     /// The scatter about a series for each isotherm, weighted by the noise assumed. Which of the moduli a series takes its
-    /// degrees of freedom from, the projection onto its columns tells; of a modulus that it does little but repeat, it says nothing.
+    /// degrees of freedom from, the projection onto its columns tells; a loss modulus that it
+    /// does little but repeat is taken to be no better than the storage modulus.
     fn about_series(&self, data: &DynamicData) -> Self {
         let mut squares = [0.0, 0.0];
         let mut all = 0.0;
@@ -62,13 +63,12 @@ impl Noise {
                 freedom[part] += points - state.taken[part];
             }
         }
-        let level = |part: usize| {
-            let variance = squares[part] / freedom[part];
-            (freedom[part] >= FREE * all).then(|| variance.sqrt().max(LEAST))
-        };
+        let level = |part: usize| (squares[part] / freedom[part].max(1.0)).sqrt().max(LEAST);
+        let (storage, loss) = (level(0), level(1));
+        let shown = |part: usize| freedom[part] >= FREE * all;
         Self {
-            storage: level(0).unwrap_or(f64::INFINITY),
-            loss: level(1).unwrap_or(f64::INFINITY),
+            storage: if shown(0) { storage } else { f64::INFINITY },
+            loss: if shown(1) { loss } else { loss.max(storage) },
         }
     }
 
