@@ -407,6 +407,9 @@ impl<'a> Work<'a> {
 
     /// Laws through the factors of all isotherms but the fixed one.
     fn laws(&self, shifts: &[f64], covariance: &DMatrix<f64>) -> (Option<LawFit>, Option<LawFit>) {
+        if shifts.len() < 2 {
+            return (None, None);
+        }
         let others = |values: &[f64]| -> Vec<f64> {
             let all = values.iter().enumerate().filter(|(i, _)| *i != self.fixed);
             all.map(|(_, &value)| value).collect()

@@ -235,6 +235,9 @@ impl OneCurve {
     ) -> Option<(Vec<f64>, State)> {
         let mut unknowns = start.to_vec();
         let mut state = self.at(&places(&unknowns)?, &[]);
+        if unknowns.is_empty() {
+            return Some((unknowns, state));
+        }
         let mut damping = 1e-3;
         for _ in 0..ITERATIONS {
             let by = directions(&unknowns);

@@ -200,3 +200,178 @@ fn data_with_an_activation_energy_prefer_arrhenius() {
         );
     }
 }
+
+fn wlf(temperature_k: f64) -> f64 {
+    -12.0 * (temperature_k - 320.0) / (70.0 + temperature_k - 320.0)
+}
+
+fn shifted(data: &DynamicData, choice: ShiftChoice) -> MasterCurve {
+    let choices = Choices {
+        shift: choice,
+        ..Choices::default()
+    };
+    shift(data, &choices).unwrap()
+}
+
+#[test]
+fn given_factors_are_used_interpolated_and_missed() {
+    let temperatures: Vec<f64> = (0..8).map(|i| 305.0 + 5.0 * f64::from(i)).collect();
+    let data = made_by(1, &temperatures, wlf);
+    // Given in another order, one isotherm of them left out and the last a third of a kelvin off; zero at 320 K.
+    let given = |last: f64| -> Vec<(f64, f64)> {
+        let kept = temperatures.iter().rev().filter(|t| **t != 330.0);
+        kept.map(|&t| (if t == 340.0 { last } else { t }, wlf(t)))
+            .collect()
+    };
+    let curve = shifted(&data, ShiftChoice::Given(given(339.7)));
+    assert_eq!(curve.reference_temperature_k, 320.0);
+    for factor in &curve.shifts {
+        assert_eq!(factor.log10_a_t_error, None);
+        // A cubic over ten kelvin of a hyperbola, and a third of a kelvin at 0.1 decades each.
+        assert!(
+            (factor.log10_a_t - wlf(factor.temperature_k)).abs() < 0.05,
+            "{factor:?}"
+        );
+    }
+    let choices = Choices {
+        shift: ShiftChoice::Given(given(339.0)),
+        ..Choices::default()
+    };
+    let missed = shift(&data, &choices).unwrap_err();
+    assert_eq!(
+        missed,
+        MasterCurveError::NoFactor {
+            temperature_k: 340.0
+        }
+    );
+}
+
+#[test]
+fn no_shift_leaves_the_data_as_they_are() {
+    let temperatures = [300.0, 310.0, 320.0];
+    let data = made_by(2, &temperatures, |_| 0.0);
+    let curve = shifted(&data, ShiftChoice::None);
+    assert!(
+        curve
+            .shifts
+            .iter()
+            .all(|s| s.log10_a_t == 0.0 && s.log10_a_t_error.is_none() && s.b_t == 1.0)
+    );
+    assert_eq!(curve.points.len(), data.points().count());
+    assert_eq!(
+        (curve.wlf, curve.arrhenius, curve.preferred),
+        (None, None, None)
+    );
+}
+
+#[test]
+fn a_law_that_is_chosen_is_refined_with_the_curve() {
+    let temperatures: Vec<f64> = (0..9).map(|i| 300.0 + 5.0 * f64::from(i)).collect();
+    let data = made_by(4, &temperatures, wlf);
+    let curve = shifted(&data, ShiftChoice::Wlf);
+    let law = curve.wlf.unwrap();
+    for factor in &curve.shifts {
+        assert!((factor.log10_a_t - law.log10_a_t(factor.temperature_k).unwrap()).abs() < 1e-9);
+    }
+    // Constants at 320 K, the middle isotherm.
+    assert_eq!(law.reference_temperature_k, 320.0);
+    assert!((law.c1 - 12.0).abs() < 3.0 * law.c1_error, "{law:?}");
+    assert!((law.c2_k - 70.0).abs() < 3.0 * law.c2_error_k, "{law:?}");
+    let curve = shifted(&data, ShiftChoice::Arrhenius);
+    assert!(matches!(curve.preferred, Some(ShiftLaw::Arrhenius(_))));
+    assert!(
+        curve
+            .warnings
+            .iter()
+            .any(|w| matches!(w, MasterCurveWarning::NoLaw { .. }))
+    );
+}
+
+#[test]
+fn isotherms_that_do_not_meet_are_named() {
+    // Four decades apart, of three each.
+    let data = made_by(5, &[300.0, 310.0, 320.0], |t| {
+        if t < 305.0 { 4.0 } else { -0.1 * (t - 310.0) }
+    });
+    let curve = free(&data);
+    let named = MasterCurveWarning::NoOverlap {
+        lower_k: 300.0,
+        upper_k: 310.0,
+    };
+    assert_eq!(
+        curve
+            .warnings
+            .iter()
+            .filter(|w| matches!(w, MasterCurveWarning::NoOverlap { .. }))
+            .collect::<Vec<_>>(),
+        [&named]
+    );
+}
+
+#[test]
+fn vertical_shifts_are_found_with_the_horizontal_ones() {
+    let temperatures: Vec<f64> = (0..9).map(|i| 300.0 + 5.0 * f64::from(i)).collect();
+    let moved = made_by(6, &temperatures, wlf);
+    let sets = moved.isotherms().iter().map(|isotherm| {
+        let b_t = 320.0 / isotherm.temperature_k.unwrap();
+        let points = isotherm.points.iter().map(|point| DynamicPoint {
+            storage_modulus_pa: point.storage_modulus_pa / b_t,
+            loss_modulus_pa: point.loss_modulus_pa / b_t,
+            ..*point
+        });
+        points.collect()
+    });
+    let data = DynamicData::new(ModulusKind::Shear, sets.collect()).unwrap();
+    let choices = Choices {
+        vertical_shift: true,
+        ..Choices::default()
+    };
+    let curve = shift(&data, &choices).unwrap();
+    for factor in &curve.shifts {
+        let error = (factor.log10_a_t - wlf(factor.temperature_k)).abs();
+        assert!(
+            error <= 3.0 * factor.log10_a_t_error.unwrap(),
+            "{factor:?}, {error}"
+        );
+    }
+}
+
+#[test]
+fn replicas_start_from_what_was_found() {
+    let made = measurement(3, 0.01);
+    let curve = free(&made.data);
+    let again = refined_from(&made.data, &curve, &Choices::default()).unwrap();
+    for (one, other) in curve.shifts.iter().zip(&again.shifts) {
+        // The same minimum, to the step at which a refinement ends.
+        assert!((one.log10_a_t - other.log10_a_t).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn few_points_and_a_single_isotherm_do_no_harm() {
+    let data = made_by(7, &[300.0, 310.0, 320.0], |t| -0.05 * (t - 310.0));
+    let few = |isotherms: usize, points: usize| {
+        let sets = data.isotherms().iter().take(isotherms);
+        let sets = sets.map(|isotherm| isotherm.points.iter().take(points).copied().collect());
+        DynamicData::new(ModulusKind::Shear, sets.collect()).unwrap()
+    };
+    for (isotherms, points) in [(3, 1), (2, 2), (1, 3), (2, 3), (3, 4)] {
+        for vertical_shift in [false, true] {
+            for shift_choice in [
+                ShiftChoice::Free,
+                ShiftChoice::Arrhenius,
+                ShiftChoice::Wlf,
+                ShiftChoice::None,
+            ] {
+                let choices = Choices {
+                    vertical_shift,
+                    shift: shift_choice,
+                    ..Choices::default()
+                };
+                if let Ok(curve) = shift(&few(isotherms, points), &choices) {
+                    assert!(curve.shifts.iter().all(|s| s.log10_a_t.is_finite()));
+                }
+            }
+        }
+    }
+}
