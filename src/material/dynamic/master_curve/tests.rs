@@ -86,7 +86,7 @@ fn tried(noise: impl Fn(u64) -> f64) -> (u64, f64, f64) {
 #[test]
 fn factors_at_one_per_cent_of_noise_are_within_three_hundredths_of_a_decade() {
     let (close, inside, constants) = tried(|_| 0.01);
-    // Of the seeds 0 to 59, one missed by the fourth digit.
+    // Of the seeds 0 to 199 two missed, by 0.0315 and 0.0374 with stated errors of 0.0156 and 0.0189.
     assert!(close as f64 >= 0.8 * from_environment("CASES", 6) as f64);
     // Errors of neighbours hang together: few cases are far fewer independent ones.
     assert!(inside > 0.85, "{inside}");
