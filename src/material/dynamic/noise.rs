@@ -22,6 +22,9 @@ const UNKNOWN: f64 = 0.01;
 /// Below this the series that stands for the master curve is no better than the data.
 const LEAST: f64 = 2e-4;
 
+/// Share of the values that must be left as degrees of freedom for a series to show their scatter.
+const FREE: f64 = 0.25;
+
 /// Highest power of the logarithm of the frequency in the curve of an isotherm.
 const HIGHEST_POWER: usize = 6;
 
@@ -37,34 +40,36 @@ impl Noise {
             storage: UNKNOWN,
             loss: UNKNOWN,
         };
-        let series = alike.about_series(data).unwrap_or(alike);
+        let series = alike.about_series(data);
         Self {
             storage: polynomials.storage.min(series.storage),
             loss: polynomials.loss.min(series.loss),
         }
     }
 
-    /// The scatter about a series for each isotherm, weighted by the noise assumed. Each unknown of a series takes a degree of
-    /// freedom, half of it from either modulus.
-    fn about_series(&self, data: &DynamicData) -> Option<Self> {
+    /// The scatter about a series for each isotherm, weighted by the noise assumed. Which of the moduli a series takes its
+    /// degrees of freedom from, the projection onto its columns tells; a loss modulus that it
+    /// does little but repeat is taken to be no better than the storage modulus.
+    fn about_series(&self, data: &DynamicData) -> Self {
         let mut squares = [0.0, 0.0];
-        let mut freedom = 0.0;
+        let mut all = 0.0;
+        let mut freedom = [0.0, 0.0];
         for isotherm in data.isotherms() {
             let state = OneCurve::new(&[isotherm], self, 0, false).at(&[0.0], &[]);
             let points = isotherm.points.len() as f64;
-            let left = points - 0.5 * state.linear as f64;
-            if left >= 1.0 {
-                let [storage, loss] = state.relative;
-                squares[0] += points * storage * storage;
-                squares[1] += points * loss * loss;
-                freedom += left;
+            all += points;
+            for part in 0..2 {
+                squares[part] += points * state.relative[part].powi(2);
+                freedom[part] += points - state.taken[part];
             }
         }
-        let level = |squares: f64| (squares / freedom).sqrt().max(LEAST);
-        (freedom > 0.0).then(|| Self {
-            storage: level(squares[0]),
-            loss: level(squares[1]),
-        })
+        let level = |part: usize| (squares[part] / freedom[part].max(1.0)).sqrt().max(LEAST);
+        let (storage, loss) = (level(0), level(1));
+        let shown = |part: usize| freedom[part] >= FREE * all;
+        Self {
+            storage: if shown(0) { storage } else { f64::INFINITY },
+            loss: if shown(1) { loss } else { loss.max(storage) },
+        }
     }
 
     /// Relative standard deviations of a point: its own, where the file gave them.
