@@ -7,7 +7,7 @@
 
 use std::fmt;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 use super::interpolation::{Interpolation, monotone};
 use super::neighbours;
@@ -231,11 +231,10 @@ impl<'a> Work<'a> {
         let nearest = (0..temperatures_k.len()).min_by(|i, j| distance(i).total_cmp(&distance(j)));
         let fixed = nearest.unwrap_or_default();
         let noise = Noise::of(data);
-        let all: Vec<_> = isotherms.iter().collect();
         Ok(Self {
             data,
             choices,
-            curve: OneCurve::new(&all, &noise, fixed, choices.vertical_shift),
+            curve: one_curve(data, choices, &noise, fixed),
             temperatures_k,
             noise,
             reference_temperature_k,
@@ -246,15 +245,6 @@ impl<'a> Work<'a> {
     fn relative_to_fixed(&self, shifts: &[f64]) -> Vec<f64> {
         let zero = shifts.get(self.fixed).copied().unwrap_or_default();
         shifts.iter().map(|s| s - zero).collect()
-    }
-
-    /// How the factors depend on those that are free, all but the fixed one.
-    fn free(&self) -> DMatrix<f64> {
-        let count = self.temperatures_k.len();
-        let column = |j: usize| if j < self.fixed { j } else { j + 1 };
-        DMatrix::from_fn(count, count.saturating_sub(1), |i, j| {
-            f64::from(u8::from(i == column(j)))
-        })
     }
 
     /// Variance of the data in units of their noise, as the misfit of a state says.
@@ -273,17 +263,28 @@ impl<'a> Work<'a> {
 
     /// Factors from the data, by what is chosen, from these on.
     fn found(&self, start: &[f64]) -> Result<MasterCurve, MasterCurveError> {
-        let state = self.curve.refine(&self.relative_to_fixed(start));
-        let by = self.free();
+        let start = self.relative_to_fixed(start);
+        let free = self.curve.free();
+        let by = self.curve.directions(&free);
+        let mut state = self.curve.refine(&start);
+        let variance = self.variance(&state, by.ncols());
+        let mut own = self.curve.covariance(&state, &by);
+        if variance > SIMPLE * SIMPLE {
+            let held = one_curve(self.data, self.choices, &self.noise, self.fixed);
+            let held = held.expecting(&start, self.scale(&state, by.ncols()));
+            state = held.refine(&start);
+            own = held.covariance(&state, &by);
+        }
         let scale = self.scale(&state, by.ncols());
-        let own = state.covariance(&by).map(|c| c * scale + self.gaps(&state));
+        let count = free.ncols();
+        let own = own.map(|own| own.view((0, 0), (count, count)) * scale + self.gaps(&state));
         let (wlf, arrhenius) = match &own {
-            Some(own) => self.laws(&state.shifts, own),
+            Some(own) => self.laws(&state.places[..self.temperatures_k.len()], own),
             None => (None, None),
         };
         let mut found = Found {
             simplicity: Some(self.variance(&state, by.ncols()).sqrt()),
-            covariance: own.map(|own| &by * own * by.transpose()),
+            covariance: own.map(|own| &free * own * free.transpose()),
             preferred: preferred(&wlf, &arrhenius, self.curve.count()),
             warnings: self.warnings(&state, by.ncols()),
             state,
@@ -311,18 +312,31 @@ impl<'a> Work<'a> {
         };
         let fit = fit.as_mut()?;
         let law = fit.hyperbola;
-        let shifts = |unknowns: &[f64]| {
+        let constants = law.unknowns();
+        let by = |constants: &[f64]| law.with(constants).derivatives(&self.temperatures_k);
+        let directions = |unknowns: &[f64]| self.curve.directions(&by(unknowns));
+        let count = self.temperatures_k.len();
+        let places = |unknowns: &[f64]| {
             let law = law.with(unknowns);
-            self.temperatures_k
-                .iter()
-                .map(|&t| law.log10_a_t(t))
-                .collect()
+            let factors = self.temperatures_k.iter().map(|&t| law.log10_a_t(t));
+            let mut places = self.curve.places(&factors.collect::<Option<Vec<f64>>>()?);
+            // Vertical shifts are unknowns of their own, after the constants of the law.
+            let moved = unknowns.get(constants.len()..).unwrap_or_default();
+            let isotherms = (0..count).filter(|i| *i != self.fixed);
+            for (isotherm, &b_t) in isotherms.zip(moved) {
+                places[count + isotherm] = b_t;
+            }
+            Some(places)
         };
-        let derivatives = |unknowns: &[f64]| law.with(unknowns).derivatives(&self.temperatures_k);
-        let (unknowns, state) = self.curve.refine_by(&law.unknowns(), shifts, derivatives)?;
+        let mut start = constants.clone();
+        start.resize(directions(&constants).ncols(), 0.0);
+        let (unknowns, state) = self.curve.refine_by(&start, places, directions)?;
         fit.hyperbola = law.with(&unknowns);
-        let by = derivatives(&unknowns);
-        fit.covariance = state.covariance(&by)? * self.scale(&state, by.ncols());
+        let scale = self.scale(&state, unknowns.len());
+        let covariance = self.curve.covariance(&state, &directions(&unknowns))?;
+        let own = (constants.len(), constants.len());
+        fit.covariance = covariance.view((0, 0), own) * scale;
+        let by = by(&unknowns);
         found.covariance = Some(&by * &fit.covariance * by.transpose());
         found.state = state;
         found.preferred = Some(form);
@@ -331,24 +345,44 @@ impl<'a> Work<'a> {
 
     /// Factors as they are given; relative to one another, if `referred`.
     fn given(&self, factors: Vec<f64>, referred: bool) -> Result<MasterCurve, MasterCurveError> {
-        let state = self.curve.at(&self.relative_to_fixed(&factors), &[]);
-        let by = self.free();
-        let free = self.curve.refine(&state.shifts);
-        let count = by.ncols();
+        let mut state = self
+            .curve
+            .at(&self.curve.places(&self.relative_to_fixed(&factors)), &[]);
+        let free = self.curve.refine(&state.places[..factors.len()]);
+        let unknowns = self.curve.directions(&self.curve.free()).ncols();
+        if self.choices.vertical_shift {
+            state = self.vertical_only(&state);
+        }
+        let count = factors.len().saturating_sub(1);
         let unknown = DMatrix::from_diagonal_element(count, count, GIVEN_ERROR * GIVEN_ERROR);
         let (wlf, arrhenius) = match referred {
-            true => self.laws(&state.shifts, &unknown),
+            true => self.laws(&state.places[..self.temperatures_k.len()], &unknown),
             false => (None, None),
         };
         self.assembled(Found {
-            simplicity: Some(self.variance(&free, count).sqrt()),
+            simplicity: Some(self.variance(&free, unknowns).sqrt()),
             covariance: None,
             preferred: preferred(&wlf, &arrhenius, factors.len()),
-            warnings: self.warnings(&free, count),
+            warnings: self.warnings(&free, unknowns),
             state,
             wlf,
             arrhenius,
         })
+    }
+
+    /// The moduli shifted, and the frequencies as they are.
+    fn vertical_only(&self, state: &State) -> State {
+        let start = DVector::from_row_slice(&state.places);
+        let by = self
+            .curve
+            .directions(&DMatrix::zeros(self.temperatures_k.len(), 0));
+        let places = |unknowns: &[f64]| {
+            let moved = &start + &by * DVector::from_row_slice(unknowns);
+            Some(moved.iter().copied().collect())
+        };
+        let none = vec![0.0; by.ncols()];
+        let refined = self.curve.refine_by(&none, places, |_| by.clone());
+        refined.map_or_else(|| state.clone(), |found| found.1)
     }
 
     /// Laws through the factors of all isotherms but the fixed one.
@@ -371,7 +405,7 @@ impl<'a> Work<'a> {
         let points = &self.data.isotherms()[isotherm].points;
         let reduced = points
             .iter()
-            .map(|p| p.angular_frequency_rad_per_s.log10() + state.shifts[isotherm]);
+            .map(|p| p.angular_frequency_rad_per_s.log10() + state.places[isotherm]);
         (
             reduced.clone().fold(f64::INFINITY, f64::min),
             reduced.fold(f64::NEG_INFINITY, f64::max),
@@ -400,7 +434,7 @@ impl<'a> Work<'a> {
                 all[(i, j)] += gap * gap;
             }
         }
-        let by = self.free();
+        let by = self.curve.free();
         by.tr_mul(&(all * &by))
     }
 
@@ -441,7 +475,7 @@ impl<'a> Work<'a> {
         let reference = self.reference_temperature_k;
         let interpolation = Interpolation {
             temperatures_k: &self.temperatures_k,
-            log10_a_t: &found.state.shifts,
+            log10_a_t: &found.state.places[..self.temperatures_k.len()],
             law: fit.map(|fit| move |t: f64| fit.hyperbola.log10_a_t(t)),
         };
         let zero = match self.choices.shift {
@@ -493,11 +527,16 @@ impl<'a> Work<'a> {
     }
 
     fn factors(&self, state: &State, zero: f64, errors: Option<&[f64]>) -> Vec<ShiftFactor> {
-        let logarithms = self
-            .temperatures_k
-            .iter()
-            .zip(&state.vertical)
-            .map(|(&t, b)| (t, b.ln()));
+        let count = self.temperatures_k.len();
+        let vertical = |isotherm: usize| {
+            state
+                .places
+                .get(count + isotherm)
+                .copied()
+                .unwrap_or_default()
+        };
+        let logarithms =
+            (0..count).map(|isotherm| (self.temperatures_k[isotherm], vertical(isotherm)));
         let logarithms: Vec<(f64, f64)> = logarithms.collect();
         let lowest = self.temperatures_k.first().copied().unwrap_or_default();
         let highest = self.temperatures_k.last().copied().unwrap_or_default();
@@ -505,9 +544,9 @@ impl<'a> Work<'a> {
         let one = monotone(&logarithms, within).unwrap_or_default();
         let factor = |isotherm: usize| ShiftFactor {
             temperature_k: self.temperatures_k[isotherm],
-            log10_a_t: state.shifts[isotherm] - zero,
+            log10_a_t: state.places[isotherm] - zero,
             log10_a_t_error: errors.and_then(|errors| errors.get(isotherm).copied()),
-            b_t: (logarithms[isotherm].1 - one).exp(),
+            b_t: 10_f64.powf(logarithms[isotherm].1 - one),
         };
         (0..self.temperatures_k.len()).map(factor).collect()
     }
@@ -549,6 +588,11 @@ impl Found {
             self.warnings.push(MasterCurveWarning::NoLaw { deviation });
         }
     }
+}
+
+fn one_curve(data: &DynamicData, choices: &Choices, noise: &Noise, fixed: usize) -> OneCurve {
+    let isotherms: Vec<_> = data.isotherms().iter().collect();
+    OneCurve::new(&isotherms, noise, fixed, choices.vertical_shift)
 }
 
 /// Given factors are taken to be rounded to this (decades) when a law is fitted to them.

@@ -14,8 +14,12 @@ use super::{DynamicPoint, Isotherm};
 /// Step of the search (decades), less than what one series finds its way from.
 const SEARCH_STEP: f64 = 0.25;
 
-/// What a pair may be worse than its best curve (sum of squares) before its shift is searched for, or a shift be taken for as good.
+/// Sums of squares that are alike: what a shift may be worse than another one and still be as good.
 const ALIKE: f64 = 6.0;
+
+/// How much more one series for both isotherms may leave than one for each, before the shift is searched for: some ten unknowns
+/// less, and four standard deviations of what they take up.
+const ACCEPTED: f64 = 30.0;
 
 /// log10 a_T of each isotherm, neighbour after neighbour from the coldest, which has zero.
 pub(super) fn chain(isotherms: &[Isotherm], noise: &Noise, vertical: bool) -> Vec<f64> {
@@ -36,10 +40,13 @@ fn between(colder: &Isotherm, hotter: &Isotherm, noise: &Noise, vertical: bool) 
             .squares
     };
     let best = alone(colder) + alone(hotter);
+    // Where not even a curve for each comes near the noise, what is accepted grows with what they leave.
+    let values = 2 * (colder.points.len() + hotter.points.len());
+    let accepted = best + ACCEPTED * (2.0 * best / values as f64).max(1.0);
     let closed =
         closed_form(colder, hotter, noise, vertical).map(|shift| curve.refine(&[shift, 0.0]));
-    if let Some(state) = closed.filter(|state| state.squares < best + ALIKE) {
-        return state.shifts[0];
+    if let Some(state) = closed.filter(|state| state.squares < accepted) {
+        return state.places[0];
     }
     searched(&curve, colder, hotter)
 }
@@ -60,7 +67,7 @@ fn searched(curve: &OneCurve, colder: &Isotherm, hotter: &Isotherm) -> f64 {
     let steps = ((most + 1.0) / SEARCH_STEP).ceil().max(1.0) as usize;
     let tried = (0..=steps).map(|i| -1.0 + SEARCH_STEP * i as f64);
     let tried: Vec<(f64, f64)> = tried
-        .map(|shift| (shift, curve.at(&[shift, 0.0], &[]).squares))
+        .map(|shift| (shift, curve.at(&curve.places(&[shift, 0.0]), &[]).squares))
         .collect();
     let least = tried.iter().map(|t| t.1).fold(f64::INFINITY, f64::min);
     let valleys = (0..tried.len()).filter(|&i| {
@@ -78,7 +85,7 @@ fn searched(curve: &OneCurve, colder: &Isotherm, hotter: &Isotherm) -> f64 {
     let alike = refined
         .iter()
         .filter(|s| s.squares < least + ALIKE)
-        .map(|s| s.shifts[0]);
+        .map(|s| s.places[0]);
     alike
         .min_by(|a, b| a.abs().total_cmp(&b.abs()))
         .unwrap_or_default()

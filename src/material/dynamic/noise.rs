@@ -44,26 +44,26 @@ impl Noise {
         }
     }
 
-    /// The scatter about a series for each isotherm, weighted by the noise assumed. Each unknown of a series takes a degree of
-    /// freedom, half of it from either modulus.
+    /// The scatter about a series for each isotherm, weighted by the noise assumed. Which of the moduli a series takes its
+    /// degrees of freedom from, the projection onto its columns tells.
     fn about_series(&self, data: &DynamicData) -> Option<Self> {
         let mut squares = [0.0, 0.0];
-        let mut freedom = 0.0;
+        let mut freedom = [0.0, 0.0];
         for isotherm in data.isotherms() {
             let state = OneCurve::new(&[isotherm], self, 0, false).at(&[0.0], &[]);
             let points = isotherm.points.len() as f64;
-            let left = points - 0.5 * state.linear as f64;
-            if left >= 1.0 {
-                let [storage, loss] = state.relative;
-                squares[0] += points * storage * storage;
-                squares[1] += points * loss * loss;
-                freedom += left;
+            for part in 0..2 {
+                squares[part] += points * state.relative[part].powi(2);
+                freedom[part] += points - state.taken[part];
             }
         }
-        let level = |squares: f64| (squares / freedom).sqrt().max(LEAST);
-        (freedom > 0.0).then(|| Self {
-            storage: level(squares[0]),
-            loss: level(squares[1]),
+        let level = |part: usize| {
+            let variance = squares[part] / freedom[part];
+            (freedom[part] >= 1.0).then(|| variance.sqrt().max(LEAST))
+        };
+        Some(Self {
+            storage: level(0)?,
+            loss: level(1)?,
         })
     }
 

@@ -40,22 +40,26 @@ pub(super) struct OneCurve {
     /// The isotherm that stays where it is.
     fixed: usize,
     vertical: bool,
+    /// What is expected of the places before any data: curvature of the sum of squares, and where it is least.
+    expected: (DMatrix<f64>, DVector<f64>),
 }
 
-/// The curve for given shifts.
+/// The curve for given places.
 #[derive(Debug, Clone)]
 pub(super) struct State {
-    /// log10 a_T of every isotherm.
-    pub(super) shifts: Vec<f64>,
-    /// b_T of every isotherm.
-    pub(super) vertical: Vec<f64>,
+    /// log10 a_T of every isotherm, and log10 b_T where moduli are shifted too.
+    pub(super) places: Vec<f64>,
     /// Sum of squares of the residuals, in standard deviations.
     pub(super) squares: f64,
+    /// The same with what was expected of the places.
+    objective: f64,
     /// Root mean square of the relative residuals of storage and loss modulus.
     pub(super) relative: [f64; 2],
     /// How much more the mean of neighbouring residuals varies than that of independent ones, `(1 + r) / (1 - r)` with the
     /// correlation r of one with the next; one where they are noise.
     pub(super) correlated: f64,
+    /// Degrees of freedom that the curve takes from storage and loss moduli: traces of the projection onto the columns in use.
+    pub(super) taken: [f64; 2],
     /// Linear unknowns in use.
     pub(super) linear: usize,
     /// Steps of the times in use, for the next solution.
@@ -65,7 +69,7 @@ pub(super) struct State {
     curvature: DMatrix<f64>,
 }
 
-/// Columns of the linear problem: the equilibrium modulus, the moduli of the times, the vertical factors.
+/// Columns of the linear problem: the equilibrium modulus, and the moduli of the times.
 struct Columns {
     first_time: i64,
     times: usize,
@@ -96,12 +100,77 @@ impl OneCurve {
                 ],
             }
         });
+        let count = isotherms.len();
+        let places = if vertical { 2 * count } else { count };
+        let vertical_only = |i: usize, j: usize| i == j && i >= count;
+        let expected = DMatrix::from_fn(places, places, |i, j| {
+            if vertical_only(i, j) {
+                VERTICAL.powi(-2)
+            } else {
+                0.0
+            }
+        });
         Self {
             values: values.collect(),
-            isotherms: isotherms.len(),
+            isotherms: count,
             fixed,
             vertical,
+            expected: (expected, DVector::zeros(places)),
         }
+    }
+
+    /// The same, where the shift between neighbours is expected to be about that of `shifts`, with the weight of the data divided by
+    /// `variance`: for data that no one curve describes, which would be described best where they are far apart.
+    pub(super) fn expecting(mut self, shifts: &[f64], variance: f64) -> Self {
+        let weight = variance * NEIGHBOURS.powi(-2);
+        let (curvature, least) = &mut self.expected;
+        for i in 1..self.isotherms {
+            for (j, k) in [(i, i), (i - 1, i - 1)] {
+                curvature[(j, k)] += weight;
+            }
+            for (j, k) in [(i, i - 1), (i - 1, i)] {
+                curvature[(j, k)] -= weight;
+            }
+        }
+        least
+            .iter_mut()
+            .zip(shifts)
+            .for_each(|(least, shift)| *least = *shift);
+        self
+    }
+
+    /// Places of isotherms that are shifted like this, and not along the moduli.
+    pub(super) fn places(&self, shifts: &[f64]) -> Vec<f64> {
+        let mut places = shifts.to_vec();
+        places.resize(self.expected.1.len(), 0.0);
+        places
+    }
+
+    /// How the places depend on those that are free: all but those of the fixed isotherm. `shifts` gives the columns for log10 a_T.
+    pub(super) fn directions(&self, shifts: &DMatrix<f64>) -> DMatrix<f64> {
+        let moved: Vec<usize> = match self.vertical {
+            true => (0..self.isotherms).filter(|i| *i != self.fixed).collect(),
+            false => Vec::new(),
+        };
+        let (rows, columns) = (self.expected.1.len(), shifts.ncols());
+        DMatrix::from_fn(rows, columns + moved.len(), |i, j| {
+            match j.checked_sub(columns) {
+                None if i < self.isotherms => shifts[(i, j)],
+                Some(j) if i >= self.isotherms => {
+                    f64::from(u8::from(i - self.isotherms == moved[j]))
+                }
+                _ => 0.0,
+            }
+        })
+    }
+
+    /// Free shifts: a column for every isotherm but the fixed one.
+    pub(super) fn free(&self) -> DMatrix<f64> {
+        let column = |j: usize| if j < self.fixed { j } else { j + 1 };
+        let columns = self.isotherms.saturating_sub(1);
+        DMatrix::from_fn(self.isotherms, columns, |i, j| {
+            f64::from(u8::from(i == column(j)))
+        })
     }
 
     /// Numbers that are compared.
@@ -109,14 +178,14 @@ impl OneCurve {
         2 * self.values.len()
     }
 
-    /// Numbers less the unknowns of a state whose shifts have so many.
+    /// Numbers less the unknowns of a state whose places have so many.
     pub(super) fn freedom(&self, state: &State, unknowns: usize) -> f64 {
         (self.count() as f64 - (state.linear + unknowns) as f64).max(1.0)
     }
 
-    /// The best curve for these shifts.
-    pub(super) fn at(&self, shifts: &[f64], start: &[i64]) -> State {
-        let columns = self.columns(shifts);
+    /// The best curve for these places.
+    pub(super) fn at(&self, places: &[f64], start: &[i64]) -> State {
+        let columns = self.columns(places);
         let right = self.right();
         let products = columns.matrix.tr_mul(&columns.matrix);
         let projected = columns.matrix.tr_mul(&right);
@@ -124,54 +193,58 @@ impl OneCurve {
             products: &products,
             right: &projected,
         };
-        let solution = equations.solve(&columns.start(start, self.vertical));
+        let solution = equations.solve(&columns.start(start));
         let mut residual = right;
         for (&column, &value) in solution.columns.iter().zip(&solution.values) {
             residual.axpy(-value, &columns.matrix.column(column), 1.0);
         }
-        let (gradient, curvature) =
-            self.derivatives(shifts, &columns, &equations, &solution, &residual);
+        let (gradient, curvature) = self.derivatives(
+            places,
+            &columns,
+            &equations,
+            &solution,
+            &solution.columns,
+            &residual,
+        );
+        let from_expected = DVector::from_row_slice(places) - &self.expected.1;
+        let pull = &self.expected.0 * &from_expected;
         State {
-            shifts: shifts.to_vec(),
-            vertical: self.vertical_factors(&columns, &solution),
+            places: places.to_vec(),
             squares: residual.norm_squared(),
+            objective: residual.norm_squared() + pull.dot(&from_expected),
             relative: self.relative(&residual),
             correlated: self.correlated(&residual),
+            taken: self.taken(&columns, &equations, &solution),
             linear: solution.columns.len(),
             times: columns.times_of(&solution),
-            gradient,
-            curvature,
+            gradient: gradient - pull,
+            curvature: curvature + &self.expected.0,
         }
     }
 
-    /// The curve and the shifts that make the sum of squares least, from these shifts on.
-    pub(super) fn refine(&self, start: &[f64]) -> State {
-        let free: Vec<usize> = (0..self.isotherms).filter(|i| *i != self.fixed).collect();
-        let directions = |_: &[f64]| {
-            DMatrix::from_fn(self.isotherms, free.len(), |i, j| {
-                f64::from(u8::from(i == free[j]))
-            })
+    /// The curve and the places that make the sum of squares least, from these shifts on.
+    pub(super) fn refine(&self, shifts: &[f64]) -> State {
+        let start = DVector::from_vec(self.places(shifts));
+        let by = self.directions(&self.free());
+        let places = |unknowns: &[f64]| {
+            let moved = &start + &by * DVector::from_row_slice(unknowns);
+            Some(moved.iter().copied().collect())
         };
-        let shifts = |unknowns: &[f64]| {
-            let mut shifts = start.to_vec();
-            free.iter().zip(unknowns).for_each(|(&i, &u)| shifts[i] = u);
-            Some(shifts)
-        };
-        let unknowns: Vec<f64> = free.iter().map(|&i| start[i]).collect();
-        self.refine_by(&unknowns, shifts, directions)
-            .map_or_else(|| self.at(start, &[]), |found| found.1)
+        let unknowns = vec![0.0; by.ncols()];
+        self.refine_by(&unknowns, places, |_| by.clone())
+            .map_or_else(|| self.at(start.as_slice(), &[]), |found| found.1)
     }
 
-    /// Unknowns that make the sum of squares least, and the state there; `shifts` gives the shifts of unknowns, where there are
-    /// some, and `directions` their derivatives (a row for each isotherm, a column for each unknown).
+    /// Unknowns that make the sum of squares least, and the state there; `places` gives the places of unknowns, where there are
+    /// some, and `directions` their derivatives (a row for each place, a column for each unknown).
     pub(super) fn refine_by(
         &self,
         start: &[f64],
-        shifts: impl Fn(&[f64]) -> Option<Vec<f64>>,
+        places: impl Fn(&[f64]) -> Option<Vec<f64>>,
         directions: impl Fn(&[f64]) -> DMatrix<f64>,
     ) -> Option<(Vec<f64>, State)> {
         let mut unknowns = start.to_vec();
-        let mut state = self.at(&shifts(&unknowns)?, &[]);
+        let mut state = self.at(&places(&unknowns)?, &[]);
         let mut damping = 1e-3;
         for _ in 0..ITERATIONS {
             let by = directions(&unknowns);
@@ -186,10 +259,10 @@ impl OneCurve {
                 .zip(step.iter())
                 .map(|(u, s)| u + s)
                 .collect();
-            let tried = shifts(&next).map(|shifts| self.at(&shifts, &state.times));
-            match tried.filter(|tried| tried.squares < state.squares) {
+            let tried = places(&next).map(|places| self.at(&places, &state.times));
+            match tried.filter(|tried| tried.objective < state.objective) {
                 Some(tried) => {
-                    let gained = state.squares - tried.squares;
+                    let gained = state.objective - tried.objective;
                     (unknowns, state) = (next, tried);
                     damping = f64::max(damping / 10.0, 1e-9);
                     if largest < CLOSE || gained < GAIN {
@@ -203,23 +276,64 @@ impl OneCurve {
         Some((unknowns, state))
     }
 
-    fn right(&self) -> DVector<f64> {
-        let free = |value: &Value| self.vertical && value.isotherm != self.fixed;
-        let of = |value: &Value| {
-            if free(value) {
-                [0.0, 0.0]
-            } else {
-                value.scaled
-            }
+    /// Covariance of the unknowns (of which the shifts depend by `directions`) where the data have unit variance.
+    ///
+    /// The curve is free to change not by the columns in use alone, but by their neighbours on the grid too: which of them are in
+    /// use is an accident of the noise.
+    pub(super) fn covariance(
+        &self,
+        state: &State,
+        directions: &DMatrix<f64>,
+    ) -> Option<DMatrix<f64>> {
+        let columns = self.columns(&state.places);
+        let products = columns.matrix.tr_mul(&columns.matrix);
+        let projected = columns.matrix.tr_mul(&self.right());
+        let equations = NormalEquations {
+            products: &products,
+            right: &projected,
         };
-        DVector::from_iterator(self.count(), self.values.iter().flat_map(of))
+        let solution = equations.solve(&columns.start(&state.times));
+        let free = columns.with_neighbours(&solution.columns);
+        let (_, curvature) = self.derivatives(
+            &state.places,
+            &columns,
+            &equations,
+            &solution,
+            &free,
+            &self.right(),
+        );
+        let curvature = directions.tr_mul(&((curvature + &self.expected.0) * directions));
+        // A shift that the data say nothing about is unknown to ten decades rather than without bound.
+        let weak = directions.tr_mul(directions) * 1e-2;
+        (curvature + weak).cholesky().map(|factor| factor.inverse())
     }
 
-    fn columns(&self, shifts: &[f64]) -> Columns {
+    fn right(&self) -> DVector<f64> {
+        DVector::from_iterator(
+            self.count(),
+            self.values.iter().flat_map(|value| value.scaled),
+        )
+    }
+
+    /// log10 b_T of an isotherm.
+    fn log10_b_t(&self, places: &[f64], isotherm: usize) -> f64 {
+        places
+            .get(self.isotherms + isotherm)
+            .copied()
+            .unwrap_or_default()
+    }
+
+    /// Weights of a value where the curve is compared with data that are not shifted along the moduli.
+    fn weights(&self, places: &[f64], value: &Value) -> [f64; 2] {
+        let unshifted = 10_f64.powf(-self.log10_b_t(places, value.isotherm));
+        value.weights.map(|weight| weight * unshifted)
+    }
+
+    fn columns(&self, places: &[f64]) -> Columns {
         let reduced: Vec<f64> = self
             .values
             .iter()
-            .map(|v| v.ln_omega + LN_10 * shifts[v.isotherm])
+            .map(|v| v.ln_omega + LN_10 * places[v.isotherm])
             .collect();
         let lowest = reduced.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = reduced.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -227,20 +341,15 @@ impl OneCurve {
         let first_time = ((-highest - BEYOND * LN_10) / step).floor() as i64;
         let last_time = ((-lowest + BEYOND * LN_10) / step).ceil() as i64;
         let times = (last_time - first_time + 1).max(1) as usize;
-        let vertical = if self.vertical { self.isotherms } else { 0 };
-        let mut matrix = DMatrix::zeros(self.count(), 1 + times + vertical);
+        let mut matrix = DMatrix::zeros(self.count(), 1 + times);
         for (index, value) in self.values.iter().enumerate() {
-            let [storage, loss] = value.weights;
+            let [storage, loss] = self.weights(places, value);
             matrix[(2 * index, 0)] = storage;
             for k in 0..times {
                 let x = (reduced[index] + step * (first_time + k as i64) as f64).exp();
                 let share = x / (1.0 + x * x);
                 matrix[(2 * index, 1 + k)] = storage * x * share;
                 matrix[(2 * index + 1, 1 + k)] = loss * share;
-            }
-            if self.vertical && value.isotherm != self.fixed {
-                matrix[(2 * index, 1 + times + value.isotherm)] = -value.scaled[0];
-                matrix[(2 * index + 1, 1 + times + value.isotherm)] = -value.scaled[1];
             }
         }
         let lengths: Vec<f64> = matrix.column_iter().map(|c| c.norm()).collect();
@@ -257,17 +366,6 @@ impl OneCurve {
         }
     }
 
-    fn vertical_factors(&self, columns: &Columns, solution: &Solution) -> Vec<f64> {
-        let factor = |isotherm: usize| {
-            let column = 1 + columns.times + isotherm;
-            let place = solution.columns.binary_search(&column).ok()?;
-            Some(solution.values[place] / columns.lengths[column])
-        };
-        (0..self.isotherms)
-            .map(|isotherm| factor(isotherm).unwrap_or(1.0))
-            .collect()
-    }
-
     fn relative(&self, residual: &DVector<f64>) -> [f64; 2] {
         let mean_square = |which: usize| {
             let squares = self.values.iter().enumerate().map(|(index, value)| {
@@ -277,6 +375,25 @@ impl OneCurve {
             (squares.sum::<f64>() / self.values.len() as f64).sqrt()
         };
         [mean_square(0), mean_square(1)]
+    }
+
+    fn taken(
+        &self,
+        columns: &Columns,
+        equations: &NormalEquations,
+        solution: &Solution,
+    ) -> [f64; 2] {
+        let used = columns.matrix.select_columns(&solution.columns);
+        let Some(factor) = equations.factor(&solution.columns) else {
+            return [0.0, 0.0];
+        };
+        let mut taken = [0.0, 0.0];
+        // A trace of A (A' A)^-1 A' over some rows is that of (A' A)^-1 with the products of these rows.
+        for (part, trace) in taken.iter_mut().enumerate() {
+            let rows = used.rows_with_step(part, self.values.len(), 1).into_owned();
+            *trace = factor.solve(&rows.tr_mul(&rows)).trace();
+        }
+        taken
     }
 
     fn correlated(&self, residual: &DVector<f64>) -> f64 {
@@ -298,63 +415,73 @@ impl OneCurve {
         (1.0 + correlation) / (1.0 - correlation)
     }
 
-    /// Half the gradient, and the curvature after Gauss, Newton and Kaufman, of the sum of squares by the shifts.
+    /// Half the gradient, and the curvature after Gauss, Newton and Kaufman, of the sum of squares by the places, where the curve is
+    /// free to follow by the columns `free`.
     fn derivatives(
         &self,
-        shifts: &[f64],
+        places: &[f64],
         columns: &Columns,
         equations: &NormalEquations,
         solution: &Solution,
+        free: &[usize],
         residual: &DVector<f64>,
     ) -> (DVector<f64>, DMatrix<f64>) {
-        let step = LN_10 / TIMES_PER_DECADE;
-        let used = solution.columns.len();
-        let mut gradient = DVector::zeros(self.isotherms);
-        let mut own = DVector::zeros(self.isotherms);
-        let mut cross = DMatrix::zeros(used, self.isotherms);
+        let mut gradient = DVector::zeros(places.len());
+        let mut own = DMatrix::zeros(places.len(), places.len());
+        let mut cross = DMatrix::zeros(free.len(), places.len());
         for (index, value) in self.values.iter().enumerate() {
-            let reduced = value.ln_omega + LN_10 * shifts[value.isotherm];
-            let mut by = [0.0, 0.0];
-            for (&column, &unit) in solution.columns.iter().zip(&solution.values) {
-                if column == 0 || column > columns.times {
-                    continue;
-                }
-                let modulus = unit / columns.lengths[column];
-                let x = (reduced + step * (columns.first_time + column as i64 - 1) as f64).exp();
-                let share = x / (1.0 + x * x);
-                by[0] += modulus * 2.0 * share * share;
-                by[1] += modulus * share * (1.0 - x * x) / (1.0 + x * x);
-            }
-            for (part, slope) in by.into_iter().enumerate() {
+            let reduced = value.ln_omega + LN_10 * places[value.isotherm];
+            let modulus = columns.modulus(solution, reduced);
+            let weights = self.weights(places, value);
+            for part in 0..2 {
                 let row = 2 * index + part;
-                let slope = LN_10 * value.weights[part] * slope;
-                gradient[value.isotherm] += slope * residual[row];
-                own[value.isotherm] += slope * slope;
-                for (k, &column) in solution.columns.iter().enumerate() {
-                    cross[(k, value.isotherm)] += columns.matrix[(row, column)] * slope;
+                let (level, slope) = modulus[part];
+                let mut by = vec![(value.isotherm, LN_10 * weights[part] * slope)];
+                if self.vertical {
+                    by.push((
+                        self.isotherms + value.isotherm,
+                        -LN_10 * weights[part] * level,
+                    ));
+                }
+                for &(place, change) in &by {
+                    gradient[place] += change * residual[row];
+                    by.iter()
+                        .for_each(|&(other, by)| own[(place, other)] += change * by);
+                    for (k, &column) in free.iter().enumerate() {
+                        cross[(k, place)] += columns.matrix[(row, column)] * change;
+                    }
                 }
             }
         }
-        let projected = match equations.factor(&solution.columns) {
-            Some(factor) => cross.tr_mul(&factor.solve(&cross)),
-            None => DMatrix::zeros(self.isotherms, self.isotherms),
-        };
-        (gradient, DMatrix::from_diagonal(&own) - projected)
-    }
-}
-
-impl State {
-    /// Covariance of the unknowns (of which the shifts depend by `directions`) where the data have unit variance.
-    pub(super) fn covariance(&self, directions: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-        let curvature = directions.tr_mul(&(&self.curvature * directions));
-        // A shift that the data say nothing about is unknown to ten decades rather than without bound.
-        let weak = directions.tr_mul(directions) * 1e-2;
-        (curvature + weak).cholesky().map(|factor| factor.inverse())
+        match equations.factor(free) {
+            Some(factor) => (gradient, own - cross.tr_mul(&factor.solve(&cross))),
+            None => (gradient, own),
+        }
     }
 }
 
 impl Columns {
-    fn start(&self, times: &[i64], vertical: bool) -> Vec<usize> {
+    /// Storage and loss modulus of a solution (Pa) at a reduced angular frequency (natural logarithm), and their derivatives by it.
+    fn modulus(&self, solution: &Solution, reduced: f64) -> [(f64, f64); 2] {
+        let step = LN_10 / TIMES_PER_DECADE;
+        let mut modulus = [(0.0, 0.0); 2];
+        for (&column, &unit) in solution.columns.iter().zip(&solution.values) {
+            let value = unit / self.lengths[column];
+            let Some(k) = column.checked_sub(1) else {
+                modulus[0].0 += value;
+                continue;
+            };
+            let x = (reduced + step * (self.first_time + k as i64) as f64).exp();
+            let share = x / (1.0 + x * x);
+            modulus[0].0 += value * x * share;
+            modulus[0].1 += value * 2.0 * share * share;
+            modulus[1].0 += value * share;
+            modulus[1].1 += value * share * (1.0 - x * x) / (1.0 + x * x);
+        }
+        modulus
+    }
+
+    fn start(&self, times: &[i64]) -> Vec<usize> {
         let known = times.iter().filter_map(|&time| match time {
             EQUILIBRIUM => Some(0),
             _ => {
@@ -362,11 +489,23 @@ impl Columns {
                 (0..self.times as i64).contains(&k).then(|| 1 + k as usize)
             }
         });
-        let mut start: Vec<usize> = known.collect();
-        if vertical && !start.is_empty() {
-            start.extend((1 + self.times..self.lengths.len()).filter(|&j| self.lengths[j] > 0.0));
-        }
-        start
+        known.collect()
+    }
+
+    /// These columns, and those of the times next to theirs.
+    fn with_neighbours(&self, columns: &[usize]) -> Vec<usize> {
+        let is_time = |column: usize| (1..=self.times).contains(&column);
+        let near = |&column: &usize| {
+            let next = [column.saturating_sub(1), column + 1];
+            let next = next
+                .into_iter()
+                .filter(move |&other| is_time(column) && is_time(other));
+            next.chain([column])
+        };
+        let mut all: Vec<usize> = columns.iter().flat_map(near).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
     }
 
     fn times_of(&self, solution: &Solution) -> Vec<i64> {
@@ -382,6 +521,12 @@ impl Columns {
             .collect()
     }
 }
+
+/// Vertical shifts are expected to be within some of these of one (decades): what holds them where nothing else does.
+const VERTICAL: f64 = 0.3;
+
+/// Of data that no one curve describes: shifts between neighbours are expected to be within some of these of what the pair says.
+const NEIGHBOURS: f64 = 0.3;
 
 /// In the place of a time: the equilibrium modulus.
 const EQUILIBRIUM: i64 = i64::MIN;

@@ -3,85 +3,200 @@
 //! `CASES=200 SEED=0 cargo test --release --lib master_curve -- --nocapture` tries as many as asked for and prints what came out.
 
 use super::*;
-use crate::material::dynamic::synthetic::{Measurement, measurement};
+use crate::material::dynamic::shift_law;
+use crate::material::dynamic::synthetic::{Measurement, isotherm, measurement, noise_of, solid};
+use crate::material::{ModulusKind, synthetic};
 
 fn from_environment(name: &str, default: u64) -> u64 {
     let asked = std::env::var(name).ok();
     asked.map_or(default, |text| text.parse().expect("a whole number"))
 }
 
-/// Errors of all factors, and their stated errors.
+/// Errors of all factors (decades), and their stated errors.
 fn errors(made: &Measurement, curve: &MasterCurve) -> Vec<(f64, f64)> {
     let law = |t: f64| made.law.log10_a_t(t).unwrap();
     let zero = law(curve.reference_temperature_k);
     let error = |s: &ShiftFactor| {
         let error = s.log10_a_t - (law(s.temperature_k) - zero);
-        (error, s.log10_a_t_error.unwrap())
+        (error.abs(), s.log10_a_t_error.unwrap())
     };
     curve.shifts.iter().map(error).collect()
 }
 
-#[test]
-fn study() {
-    let noise = from_environment("NOISE", 10) as f64 / 1000.0;
-    let from = from_environment("SEED", 0);
-    let (mut inside, mut all, mut good) = (0, 0, 0);
-    for seed in from..from + from_environment("CASES", 20) {
-        let made = measurement(seed, noise);
-        let begun = std::time::Instant::now();
-        let chain = neighbours::chain(made.data.isotherms(), &Noise::of(&made.data), false);
-        let t1 = begun.elapsed().as_secs_f64();
-        let curve = shift(&made.data, &Choices::default()).unwrap();
-        let t2 = begun.elapsed().as_secs_f64() - t1;
-        let begun = std::time::Instant::now();
-        let _ = refined_from(&made.data, &curve, &Choices::default()).unwrap();
-        let t3 = begun.elapsed().as_secs_f64();
+/// Largest of one of the two.
+fn worst(errors: &[(f64, f64)], which: impl Fn(&(f64, f64)) -> f64) -> f64 {
+    errors.iter().map(which).fold(0.0, f64::max)
+}
+
+fn free(data: &DynamicData) -> MasterCurve {
+    shift(data, &Choices::default()).unwrap()
+}
+
+/// Cases of this noise: how many have every factor within 0.03 decades, and the shares of factors within two stated errors, and of
+/// WLF constants within three.
+fn tried(noise: impl Fn(u64) -> f64) -> (u64, f64, f64) {
+    let (first, cases) = (from_environment("SEED", 0), from_environment("CASES", 6));
+    let (mut close, mut inside, mut factors, mut constants) = (0, 0, 0, 0);
+    for seed in first..first + cases {
+        let made = measurement(seed, noise(seed));
+        let curve = free(&made.data);
         let errors = errors(&made, &curve);
-        let middle = errors.len() / 2;
-        let chain_worst = curve
-            .shifts
-            .iter()
-            .enumerate()
-            .map(|(i, s)| {
-                let law = |t: f64| made.law.log10_a_t(t).unwrap();
-                (chain[i] - chain[middle] - law(s.temperature_k)
-                    + law(curve.reference_temperature_k))
-                .abs()
-            })
-            .fold(0.0, f64::max);
-        let worst = errors.iter().map(|e| e.0.abs()).fold(0.0, f64::max);
-        let ratio = errors
-            .iter()
-            .filter(|e| e.1 > 0.0)
-            .map(|e| e.0.abs() / e.1)
-            .fold(0.0, f64::max);
-        inside += errors
-            .iter()
-            .filter(|e| e.1 > 0.0 && e.0.abs() < 2.0 * e.1)
-            .count();
-        all += errors.len() - 1;
-        good += usize::from(worst < 0.03);
-        let biggest = errors.iter().map(|e| e.1).fold(0.0, f64::max);
-        let wlf = curve.wlf.map(|w| {
-            (
-                (w.c1 - made.law.c1) / w.c1_error,
-                (w.c2_k - made.law.c2_k) / w.c2_error_k,
-            )
-        });
-        let n = Noise::of(&made.data);
-        println!(
-            "{seed:4} {:2} iso {:2} br chain {chain_worst:.3} worst {worst:.3} stated {biggest:.3} ratio {ratio:5.1} simp {:.2} noise {:.4} {:.4} wlf {wlf:.2?} {} {:?} t {t1:.3} {t2:.3} {t3:.3}",
-            errors.len(),
-            made.truth.branches().len(),
-            curve.simplicity.unwrap(),
-            n.storage,
-            n.loss,
+        let wlf = curve.wlf.unwrap();
+        let within =
+            |value: f64, truth: f64, error: f64| usize::from((value - truth).abs() < 3.0 * error);
+        constants += within(wlf.c1, made.law.c1, wlf.c1_error);
+        constants += within(wlf.c2_k, made.law.c2_k, wlf.c2_error_k);
+        assert!(
             matches!(curve.preferred, Some(ShiftLaw::Wlf(_))),
+            "seed {seed}"
+        );
+        let simple = |w: &MasterCurveWarning| !matches!(w, MasterCurveWarning::NotSimple { .. });
+        assert!(
+            curve.warnings.iter().all(simple),
+            "seed {seed}: {:?}",
+            curve.simplicity
+        );
+        let (error, stated) = (worst(&errors, |e| e.0), worst(&errors, |e| e.1));
+        println!(
+            "seed {seed}, noise {}: worst error {error:.4} decades, largest stated {stated:.4}, simplicity {:.2}, {:?}",
+            made.noise,
+            curve.simplicity.unwrap(),
             curve.warnings
         );
+        close += u64::from(error < 0.03);
+        // The reference itself has no error.
+        inside += errors
+            .iter()
+            .filter(|e| e.1 > 0.0 && e.0 < 2.0 * e.1)
+            .count();
+        factors += errors.len() - 1;
     }
-    println!(
-        "within 2 errors {:.3}, cases within 0.03 {good}",
-        inside as f64 / all as f64
+    let share = |part: usize, whole: usize| part as f64 / whole as f64;
+    let shares = (
+        close,
+        share(inside, factors),
+        share(constants, 2 * cases as usize),
     );
+    println!(
+        "of {cases} cases: within 0.03 decades, within two errors, constants within three: {shares:?}"
+    );
+    shares
+}
+
+#[test]
+fn factors_at_one_per_cent_of_noise_are_within_three_hundredths_of_a_decade() {
+    let (close, inside, constants) = tried(|_| 0.01);
+    // Of the seeds 0 to 59, one missed by the fourth digit.
+    assert!(close as f64 >= 0.8 * from_environment("CASES", 6) as f64);
+    // Errors of neighbours hang together: few cases are far fewer independent ones.
+    assert!(inside > 0.85, "{inside}");
+    assert!(constants > 0.9, "{constants}");
+}
+
+#[test]
+fn stated_errors_hold_at_every_noise() {
+    let (_, inside, constants) = tried(noise_of);
+    assert!(inside > 0.85, "{inside}");
+    assert!(constants > 0.9, "{constants}");
+}
+
+#[test]
+fn units_of_the_modulus_and_the_order_of_the_isotherms_do_not_matter() {
+    let made = measurement(3, 0.01);
+    let curve = free(&made.data);
+    let sets = made.data.isotherms().iter().rev().map(|isotherm| {
+        let scaled = isotherm.points.iter().rev().map(|point| DynamicPoint {
+            storage_modulus_pa: 1e-6 * point.storage_modulus_pa,
+            loss_modulus_pa: 1e-6 * point.loss_modulus_pa,
+            ..*point
+        });
+        scaled.collect()
+    });
+    let other = free(&DynamicData::new(ModulusKind::Longitudinal, sets.collect()).unwrap());
+    for (one, other) in curve.shifts.iter().zip(&other.shifts) {
+        assert_eq!(one.temperature_k, other.temperature_k);
+        // What rounding makes of the end of a refinement.
+        assert!((one.log10_a_t - other.log10_a_t).abs() < 1e-5);
+    }
+}
+
+#[test]
+fn another_reference_temperature_adds_a_constant() {
+    let made = measurement(3, 0.01);
+    let curve = free(&made.data);
+    let law = curve.wlf.unwrap();
+    let (coldest, hottest) = (
+        curve.shifts[0].temperature_k,
+        curve.shifts.last().unwrap().temperature_k,
+    );
+    // An isotherm's own, between two, below and above all.
+    for reference in [
+        curve.shifts[4].temperature_k,
+        curve.shifts[4].temperature_k + 1.3,
+        coldest - 2.0,
+        hottest + 10.0,
+    ] {
+        let choices = Choices {
+            reference_temperature_k: Some(reference),
+            ..Choices::default()
+        };
+        let other = shift(&made.data, &choices).unwrap();
+        assert_eq!(other.reference_temperature_k, reference);
+        let constant = curve.log10_a_t(reference).unwrap();
+        for (one, other) in curve.shifts.iter().zip(&other.shifts) {
+            // The same minimum from another isotherm held: far below the errors.
+            assert!((one.log10_a_t - other.log10_a_t - constant).abs() < 1e-3);
+        }
+        assert!(other.log10_a_t(reference).unwrap().abs() < 1e-9);
+        // Constants at that temperature: c1 c2 stays and c2 grows by the difference.
+        let wlf = other.wlf.unwrap();
+        let difference = reference - law.reference_temperature_k;
+        assert!((wlf.c2_k - law.c2_k - difference).abs() < 0.3 * wlf.c2_error_k);
+        assert!((wlf.c1 * wlf.c2_k / (law.c1 * law.c2_k) - 1.0).abs() < 0.01);
+    }
+}
+
+/// Isotherms of a solid whose factors are given by a function.
+fn made_by(seed: u64, temperatures_k: &[f64], log10_a_t: impl Fn(f64) -> f64) -> DynamicData {
+    let mut random = synthetic::Noise(seed);
+    let frequencies = synthetic::log_spaced(0.1, 100.0, 3);
+    let last = temperatures_k[temperatures_k.len() - 1];
+    let window = (
+        0.1 * 10_f64.powf(log10_a_t(last)),
+        100.0 * 10_f64.powf(log10_a_t(temperatures_k[0])),
+    );
+    let truth = solid(&mut random, window);
+    let sets = temperatures_k.iter().map(|&t| {
+        isotherm(
+            &truth,
+            t,
+            10_f64.powf(log10_a_t(t)),
+            &frequencies,
+            0.01,
+            &mut random,
+        )
+    });
+    DynamicData::new(ModulusKind::Shear, sets.collect()).unwrap()
+}
+
+#[test]
+fn data_with_an_activation_energy_prefer_arrhenius() {
+    let energy = 150e3;
+    let law = |t: f64| {
+        energy / shift_law::GAS_CONSTANT * (1.0 / t - 1.0 / 300.0) / std::f64::consts::LN_10
+    };
+    for seed in 0..5 {
+        let temperatures: Vec<f64> = (0..9).map(|i| 270.0 + 8.0 * f64::from(i)).collect();
+        let curve = free(&made_by(seed, &temperatures, law));
+        let found = curve.arrhenius.unwrap();
+        let error =
+            (found.activation_energy_j_per_mol - energy) / found.activation_energy_error_j_per_mol;
+        // Five draws: beyond three and a half errors once in four hundred runs, and the seeds are given.
+        assert!(error.abs() < 3.5, "seed {seed}: {found:?}");
+        assert!(
+            matches!(curve.preferred, Some(ShiftLaw::Arrhenius(_))),
+            "seed {seed}: {:?}",
+            curve.wlf
+        );
+    }
 }
