@@ -18,8 +18,8 @@ use crate::material::random::Noise;
 
 /// Standard deviations of a band. At ten to twenty frequencies that err on their own, about as many as a master curve has decades,
 /// the whole curve lies within three of them in 95 % of cases. A quarter more is for structure of the spectrum that the data do not
-/// resolve, and that is in no replica: of 101 seeded synthetic solids (3 to 30 branches, 8 to 20 isotherms, 0.5 to 3 % of noise) the
-/// whole loss curve of 76 to 80 % lay within three, of 96 % within 3.5, of 99 % within these.
+/// resolve, and that is in no replica: of 200 seeded synthetic solids (3 to 30 branches, 8 to 20 isotherms, 0.5 to 3 % of noise) the
+/// whole loss curve of 84 % lay within three, of 97 % within 3.5, of 98.5 % within these, which were 2.8 times the noise on average.
 const DEVIATIONS: f64 = 3.75;
 
 /// Fewest replicas that a band is made of.
