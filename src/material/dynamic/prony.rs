@@ -89,7 +89,7 @@ pub enum PronyError {
 /// [`PronyError`].
 pub fn fit(points: &[DynamicPoint], branches: Option<usize>) -> Result<PronyFit, PronyError> {
     let (rows, spectrum) = weighed(points)?;
-    let (spectrum, free) = rest(&rows, spectrum)?;
+    let spectrum = rest(&rows, spectrum)?;
     let limits_s = limits(&rows, BEYOND);
     let selection = Selection {
         rows: &rows,
@@ -98,13 +98,9 @@ pub fn fit(points: &[DynamicPoint], branches: Option<usize>) -> Result<PronyFit,
     let series = match branches {
         None => selection.fewest(&spectrum),
         Some(branches) => {
-            let times = Rows::grid(limits_s, 1.0).len();
-            let per_decade = branches.saturating_sub(1) as f64 / (times.max(2) - 1) as f64;
-            let times = match branches {
-                0 => Vec::new(),
-                _ => Rows::grid(limits_s, per_decade),
-            };
-            let even = rows.strengths(&times, free)?;
+            let solid = spectrum.constant > 0.0;
+            let constant = if solid { rows.lowest_storage() } else { 0.0 };
+            let even = rows.guess(branches, limits_s, constant);
             selection.at_most(&spectrum, &even, branches)
         }
     };
@@ -185,30 +181,24 @@ fn limits(rows: &Rows, beyond: f64) -> (f64, f64) {
     (1.0 / (beyond * highest), beyond / lowest)
 }
 
-/// Whether the equilibrium modulus is free, and what is held of it.
-type Equilibrium = (bool, f64);
-
-/// The spectrum of a solid, or of a fluid where the data resolve one, and how it was found.
-fn rest(rows: &Rows, spectrum: Series) -> Result<(Series, Equilibrium), NnlsError> {
+/// The spectrum of a solid, or of a fluid where the data resolve one.
+fn rest(rows: &Rows, spectrum: Series) -> Result<Series, NnlsError> {
     let (lowest, _) = rows.window();
     let at_lowest = rows.omegas.iter().position(|omega| *omega == lowest);
     let Some((storage, loss)) = at_lowest.map(|point| rows.values[point]) else {
-        return Ok((spectrum, (true, 0.0)));
+        return Ok(spectrum);
     };
     if spectrum.constant > NOTHING * storage {
-        return Ok((spectrum, (true, 0.0)));
+        return Ok(spectrum);
     }
-    let within = (limits(rows, BEYOND).0, 1.0 / lowest);
-    let times = Rows::grid(within, SPECTRUM);
+    let times = Rows::grid((limits(rows, BEYOND).0, 1.0 / lowest), SPECTRUM);
     let with = |held: f64| rows.strengths(&times, (false, held));
     let fluid = with(0.0)?;
     let allowed = rows.chi_squared(&fluid) + ALLOWED;
     if loss > storage && rows.chi_squared(&with(LEFT * storage)?) > allowed {
-        return Ok((fluid, (false, 0.0)));
+        return Ok(fluid);
     }
-    let solid = held_solid(rows, storage)?;
-    let held = solid.constant;
-    Ok((solid, (false, held)))
+    held_solid(rows, storage)
 }
 
 /// A solid of half the largest equilibrium modulus that the data allow; `storage` is their modulus at the lowest frequency.
@@ -335,6 +325,148 @@ mod tests {
                 storage < noise && loss < noise,
                 "seed {seed}: {storage} {loss}"
             );
+        }
+    }
+
+    /// Noise-free points of a series.
+    fn exact(truth: &Relaxation, frequencies: &[f64]) -> Vec<DynamicPoint> {
+        isotherm(truth, 300.0, 1.0, frequencies, 0.0, &mut Noise(1))
+    }
+
+    fn of(equilibrium_pa: f64, branches: &[(f64, f64)]) -> Relaxation {
+        let branch = |&(modulus_pa, time_s): &(f64, f64)| RelaxationBranch { modulus_pa, time_s };
+        Relaxation::new(equilibrium_pa, branches.iter().map(branch).collect()).unwrap()
+    }
+
+    #[test]
+    fn clean_data_give_back_their_branches() {
+        let truth = of(1e6, &[(1e9, 1e-3), (2e8, 0.05), (3e7, 20.0)]);
+        let fit = fit(&exact(&truth, &log_spaced(1e-3, 1e4, 10)), None).unwrap();
+        assert_eq!(fit.relaxation.branches().len(), 3, "{fit:?}");
+        // Misfits of 1e-4 count as none.
+        assert!(fit.storage_rms < 1e-4 && fit.loss_rms < 1e-4);
+        for (found, exact) in fit.relaxation.branches().iter().zip(truth.branches()) {
+            assert!((found.modulus_pa / exact.modulus_pa - 1.0).abs() < 1e-3);
+            assert!((found.time_s / exact.time_s - 1.0).abs() < 1e-3);
+        }
+        assert!((fit.relaxation.equilibrium_modulus() / 1e6 - 1.0).abs() < 1e-3);
+        assert_eq!(fit.window_rad_per_s, (1e-3, 1e4));
+    }
+
+    #[test]
+    fn units_make_no_difference() {
+        let (_, points) = measured(3, 0.01);
+        let scaled = |point: &DynamicPoint| DynamicPoint {
+            angular_frequency_rad_per_s: 1e6 * point.angular_frequency_rad_per_s,
+            storage_modulus_pa: 1e-9 * point.storage_modulus_pa,
+            loss_modulus_pa: 1e-9 * point.loss_modulus_pa,
+            ..*point
+        };
+        let others: Vec<DynamicPoint> = points.iter().map(scaled).collect();
+        let (own, other) = (fit(&points, None).unwrap(), fit(&others, None).unwrap());
+        assert_eq!(
+            own.relaxation.branches().len(),
+            other.relaxation.branches().len()
+        );
+        for point in &points {
+            let omega = point.angular_frequency_rad_per_s;
+            let own = own.relaxation.complex_modulus(omega);
+            let other = 1e9 * other.relaxation.complex_modulus(1e6 * omega);
+            // Rounding, as far as ill-conditioned times enlarge it.
+            assert!((other / own - 1.0).norm() < 1e-4, "{omega}");
+        }
+    }
+
+    #[test]
+    fn more_noise_gives_no_more_branches() {
+        let mut sums = [0; 3];
+        for seed in 0..4 {
+            for (sum, noise) in sums.iter_mut().zip([0.003, 0.01, 0.03]) {
+                let (_, points) = measured(seed, noise);
+                *sum += fit(&points, None).unwrap().relaxation.branches().len();
+            }
+        }
+        assert!(sums[0] >= sums[1] && sums[1] >= sums[2], "{sums:?}");
+    }
+
+    #[test]
+    fn a_loss_modulus_that_does_not_belong_to_the_storage_modulus_shows() {
+        for seed in 0..4 {
+            let (_, points) = measured(seed, 0.01);
+            let consistency = |points: &[DynamicPoint]| {
+                let fit = fit(points, None).unwrap();
+                fit.kramers_kronig.unwrap()
+            };
+            // A hundred degrees of freedom or so: 7 % is one standard deviation.
+            assert!((consistency(&points) - 1.0).abs() < 0.25, "seed {seed}");
+            let scaled = |point: &DynamicPoint| DynamicPoint {
+                loss_modulus_pa: 1.5 * point.loss_modulus_pa,
+                ..*point
+            };
+            let wrong: Vec<DynamicPoint> = points.iter().map(scaled).collect();
+            assert!(consistency(&wrong) > 5.0, "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn a_number_of_branches_that_is_asked_for_is_kept() {
+        let (truth, points) = measured(4, 0.01);
+        for branches in [0, 1, 5, 20] {
+            let found = fit(&points, Some(branches)).unwrap();
+            let count = found.relaxation.branches().len();
+            assert!(count <= branches, "{count}");
+            assert!(count >= branches.min(5));
+            assert!(!found.relaxation.is_fluid());
+        }
+        let (storage, loss) = errors(&fit(&points, Some(20)).unwrap(), &truth, &points);
+        assert!(storage < 0.01 && loss < 0.01);
+    }
+
+    #[test]
+    fn a_fluid_is_one_where_the_data_resolve_it_and_a_solid_elsewhere() {
+        let melt = of(0.0, &[(1e5, 1e-2), (2e4, 0.3), (3e3, 5.0)]);
+        let mut random = Noise(5);
+        let mut measured = |frequencies: &[f64]| {
+            let points = isotherm(&melt, 450.0, 1.0, frequencies, 0.01, &mut random);
+            fit(&points, None).unwrap().relaxation
+        };
+        assert!(measured(&log_spaced(1e-2, 1e3, 10)).is_fluid());
+        // The storage modulus is above the loss modulus all over the band.
+        assert!(!measured(&log_spaced(200.0, 2e4, 10)).is_fluid());
+    }
+
+    #[test]
+    fn hardly_any_data_and_odd_ones_give_a_solid_too() {
+        let zener = of(1e6, &[(1e6, 1.0)]);
+        let steep = of(1.0, &[(1e10, 1e-3)]);
+        let wide: Vec<(f64, f64)> = (0..=10)
+            .map(|k| (10_f64.powi(k), 10_f64.powi(-k)))
+            .collect();
+        let elastic = of(1e9, &[(1e3, 1.0)]);
+        let few = [0.5, 1.0, 2.0];
+        let many = log_spaced(1e-3, 1e3, 5);
+        let repeated = [many.clone(), many.clone()].concat();
+        for (name, truth, frequencies) in [
+            ("three points", &zener, few.to_vec()),
+            ("one frequency", &zener, vec![1.0; 3]),
+            ("steep", &steep, log_spaced(1e-2, 1e6, 10)),
+            ("ten decades", &of(1.0, &wide), log_spaced(1e-2, 1e12, 5)),
+            ("elastic", &elastic, many),
+            ("repeated", &zener, repeated),
+        ] {
+            for noise in [0.0, 0.02] {
+                let points = isotherm(truth, 300.0, 1.0, &frequencies, noise, &mut Noise(2));
+                let fit = fit(&points, None).unwrap();
+                assert!(!fit.relaxation.is_fluid(), "{name}");
+                // Two and a half standard deviations where each point is its own fit.
+                let most = 2.5 * noise + 1e-3;
+                assert!(
+                    fit.storage_rms < most && fit.loss_rms < most,
+                    "{name}: {fit:?}"
+                );
+                let (storage, loss) = errors(&fit, truth, &points);
+                assert!(storage < most && loss < most, "{name}: {storage} {loss}");
+            }
         }
     }
 }

@@ -160,20 +160,42 @@ impl Rows {
         let fitted: Vec<Both> = self.omegas.iter().map(|&w| spectrum.moduli(w)).collect();
         rows.noise = (1.0, 1.0);
         rows.set_deviations(&fitted);
-        rows.noise = rows.noise_beside(spectrum);
+        rows.noise = rows.noise_beside(spectrum, self.leverage(spectrum));
         rows.set_deviations(&fitted);
         rows
     }
 
-    fn noise_beside(&self, spectrum: &Series) -> Both {
+    /// Each modulus has the degrees of freedom that the spectrum leaves it: its points less their leverage in the least squares
+    /// problem of the moduli in use, of which the loss modulus takes the most.
+    fn noise_beside(&self, spectrum: &Series, leverage: Both) -> Both {
         let (storage, loss) = self.squares(spectrum);
-        let free = (self.omegas.len() as f64 - 0.5 * spectrum.strengths() as f64).max(1.0);
-        let pooled = (storage + loss) / (2.0 * free);
-        let noise = |squares: f64| {
-            let variance = (squares + LENT * pooled) / (free + LENT);
+        let points = self.omegas.len() as f64;
+        let free = |leverage: f64| (points - leverage).max(1.0);
+        let pooled = (storage + loss) / free(leverage.0 + leverage.1 - points);
+        let noise = |squares: f64, leverage: f64| {
+            let variance = (squares + LENT * pooled) / (free(leverage) + LENT);
             variance.sqrt().max(self.least_noise())
         };
-        (noise(storage), noise(loss))
+        (noise(storage, leverage.0), noise(loss, leverage.1))
+    }
+
+    /// Traces of the parts of the projection on the columns in use that belong to storage and loss modulus.
+    fn leverage(&self, spectrum: &Series) -> Both {
+        let times: Vec<f64> = spectrum
+            .branches
+            .iter()
+            .map(|(_, time_s)| *time_s)
+            .collect();
+        let (matrix, _) = self.equations(&times, (spectrum.constant > 0.0, 0.0));
+        if matrix.ncols() == 0 || matrix.ncols() > matrix.nrows() {
+            return (0.0, 0.0);
+        }
+        let orthonormal = matrix.qr().q();
+        let points = self.omegas.len();
+        (
+            orthonormal.rows(0, points).norm_squared(),
+            orthonormal.rows(points, points).norm_squared(),
+        )
     }
 
     /// The same with the noise that spectra of storage and loss modulus alone leave; `None` where one of them has fewer degrees
@@ -253,24 +275,43 @@ impl Rows {
         }
     }
 
-    /// Times evenly spaced in their logarithm, the limits among them.
-    pub(super) fn grid((shortest, longest): (f64, f64), per_decade: f64) -> Vec<f64> {
-        let steps = ((longest / shortest).log10() * per_decade)
+    /// Times evenly spaced in their logarithm, so many per decade, the limits among them.
+    pub(super) fn grid(limits_s: (f64, f64), per_decade: f64) -> Vec<f64> {
+        let steps = ((limits_s.1 / limits_s.0).log10() * per_decade)
             .ceil()
             .clamp(1.0, MOST_TIMES);
-        let share = |i: usize| i as f64 / steps;
-        (0..=steps as usize)
-            .map(|i| shortest.powf(1.0 - share(i)) * longest.powf(share(i)))
+        Self::times((0..=steps as usize).map(|i| i as f64 / steps), limits_s)
+    }
+
+    /// Times at these shares of the way between the limits, in the logarithm.
+    fn times(shares: impl Iterator<Item = f64>, (shortest, longest): (f64, f64)) -> Vec<f64> {
+        shares
+            .map(|share| shortest.powf(1.0 - share) * longest.powf(share))
             .collect()
     }
 
-    /// The best moduli at these times, none negative; with an equilibrium modulus where one is allowed, and `held` as part of
-    /// it in any case.
-    pub(in crate::material::dynamic) fn strengths(
+    /// A first guess of a series of so many branches, evenly spaced: each has the loss modulus next to one over its time.
+    pub(super) fn guess(&self, branches: usize, limits_s: (f64, f64), constant: f64) -> Series {
+        let shares = (0..branches).map(|i| (i as f64 + 0.5) / branches as f64);
+        let loss = |time_s: f64| {
+            let distance = |omega: f64| (omega * time_s).ln().abs();
+            let both = self.omegas.iter().zip(&self.values);
+            let nearest = both.min_by(|l, r| distance(*l.0).total_cmp(&distance(*r.0)));
+            nearest.map_or(0.0, |(_, values)| values.1)
+        };
+        let times = Self::times(shares, limits_s);
+        Series {
+            constant,
+            branches: times.into_iter().map(|t| (loss(t), t)).collect(),
+        }
+    }
+
+    /// The linear problem of the moduli at these times: columns and right side.
+    fn equations(
         &self,
         times_s: &[f64],
         (free, held): (bool, f64),
-    ) -> Result<Series, NnlsError> {
+    ) -> (DMatrix<f64>, DVector<f64>) {
         let first = usize::from(free);
         let mut matrix = DMatrix::zeros(self.count(), first + times_s.len());
         let mut right = DVector::zeros(self.count());
@@ -298,6 +339,18 @@ impl Rows {
                 }
             }
         }
+        (matrix, right)
+    }
+
+    /// The best moduli at these times, none negative; with an equilibrium modulus where one is allowed, and `held` as part of
+    /// it in any case.
+    pub(in crate::material::dynamic) fn strengths(
+        &self,
+        times_s: &[f64],
+        (free, held): (bool, f64),
+    ) -> Result<Series, NnlsError> {
+        let (matrix, right) = self.equations(times_s, (free, held));
+        let first = usize::from(free);
         let strengths = nnls(&matrix, &right)?;
         let branches = strengths
             .iter()
