@@ -107,13 +107,14 @@ fn arrhenius(law: &Arrhenius) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::dynamic::Characterisation;
     use crate::report::dynamic::tests::{measured, source};
 
     #[test]
     fn the_summary_has_every_number_and_null_where_there_is_none() {
         let (data, mut made) = measured();
         let source = source();
-        let report = |made| {
+        let report = |made: &Characterisation| {
             summary(&DynamicReport {
                 source: &source,
                 data: &data,
