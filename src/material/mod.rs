@@ -258,7 +258,13 @@ impl Material {
     }
 
     /// The same material, known to be one of these but for the noise of the data that it was fitted to.
+    /// The times of the test are those of the material, and not of each replica.
     pub fn with_replicas(self, replicas: Vec<Material>) -> Self {
+        let without_times = |replica| Material {
+            measured_window_s: None,
+            ..replica
+        };
+        let replicas = replicas.into_iter().map(without_times).collect();
         Material { replicas, ..self }
     }
 

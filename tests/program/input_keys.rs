@@ -285,7 +285,13 @@ fn files() -> Vec<(FileKind, String)> {
             "[[material.isotherm]]\nmodulus = \"shear\"\nequilibrium = 1e6\nbranches = [{{ modulus = 1e6, time = 1 }}]\n{rest}\n"
         )
     };
+    let dynamic = |rest: &str| format!("[material.dynamic]\nmodulus = \"shear\"\n{rest}\n");
     for block in [
+        dynamic(
+            "file = \"dma.csv\"\nreference_temperature = 300\nshift = \"free\"\nvertical_shift = false\nbranches = 2\n\
+             replicas = 2\nseed = 1",
+        ),
+        dynamic("files = [\"dma.csv\"]\nformat = \"table\"\nshift = { file = \"shift.csv\" }\nbranches = \"auto\""),
         isotherm(
             "temperature = \"25 °C\"\nmeasured = [1, 2]\nreplicas = [{ equilibrium = 1.1e6, moduli = 9e5, times = 1 }]",
         ),
@@ -338,11 +344,16 @@ fn files() -> Vec<(FileKind, String)> {
 }
 
 /// Keys that cannot be changed alone, or that no file above shows, and why.
-const APART: [&str; 8] = [
+const APART: [&str; 12] = [
     // What the files hold counts, and the hash of it, not what they are called.
     "indenter.file",
     "indenter.sha256",
     "material.table.file",
+    "material.dynamic.file",
+    "material.dynamic.files",
+    "material.dynamic.shift.file",
+    // A file has one format.
+    "material.dynamic.format",
     "drive.segments.file",
     // There is no other material in the library.
     "material.library",
@@ -353,7 +364,29 @@ const APART: [&str; 8] = [
     "material.kelvin_voigt.time",
 ];
 
+/// Two branches at three temperatures, shifted by half a decade and 0.4, with noise of the last digits.
+fn dma() -> String {
+    let mut text =
+        "frequency_rad_per_s,storage_modulus_pa,loss_modulus_pa,temperature_k\n".to_owned();
+    for (temperature, shift) in [(290, 0.5), (300, 0.0), (310, -0.4)] {
+        for k in 0..9 {
+            let omega = 10_f64.powf(-1.0 + 0.25 * f64::from(k));
+            let (mut storage, mut loss) = (1e6, 0.0);
+            for time in [0.3, 3.0] {
+                let x: f64 = omega * time * 10_f64.powf(shift);
+                storage += 2e6 * x * x / (1.0 + x * x);
+                loss += 2e6 * x / (1.0 + x * x);
+            }
+            text.push_str(&format!(
+                "{omega:.4e},{storage:.2e},{loss:.2e},{temperature}\n"
+            ));
+        }
+    }
+    text
+}
+
 fn data() -> TempDir {
+    let dma = dma();
     let folder = TempDir::new().unwrap();
     for (name, text) in [
         ("load.csv", "time_s,load_n\n0,4\n2,5\n"),
@@ -364,6 +397,11 @@ fn data() -> TempDir {
         (
             "profile.csv",
             "r_m,gap_m\n0,0\n1e-4,1e-6\n2e-4,4e-6\n3e-4,9e-6\n",
+        ),
+        ("dma.csv", &dma),
+        (
+            "shift.csv",
+            "temperature_k,log10_a_t\n290,0.5\n300,0\n310,-0.4\n",
         ),
         ("map.csv", "0,1,2,0\n1,9,8,2\n2,7,9,1\n0,2,1,3\n"),
     ] {

@@ -735,7 +735,9 @@ fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
         assert_ne!(identity(&[change]), hash, "{change}");
     }
     write(folder.path(), "moved.csv", &dynamic_csv());
-    assert_eq!(identity(&["material.dynamic.file=moved.csv"]), hash);
+    let moved = folder.path().join("moved.csv");
+    let moved = format!("material.dynamic.file={}", moved.display());
+    assert_eq!(identity(&[&moved]), hash);
     assert_eq!(identity(&["material.dynamic.branches=auto"]), hash);
 }
 
