@@ -71,6 +71,10 @@ struct NodeMonodromy {
     load_by_approach: f64,
 }
 
+/// Steps over retardation time, at most: what is faster follows the pressure within the step all the same. Of spectra that reach
+/// far below the step (a master curve has twenty decades) the exponential of the rates would be lost in rounding of the largest.
+const FASTEST: f64 = 1e3;
+
 /// Constants of one compliance, period and number of steps.
 pub(super) struct Correction {
     /// Root of the compliance per branch: its weight in the least squares.
@@ -103,13 +107,14 @@ impl Correction {
             if remaining.is_held(i) {
                 continue;
             }
-            free[(i, i)] = (-step_s / branch.time_s).exp();
+            let time_s = branch.time_s.max(step_s / FASTEST);
+            free[(i, i)] = (-step_s / time_s).exp();
             for (j, other) in branches.iter().enumerate() {
-                rates[(i, j)] = -other.compliance_per_pa / (instantaneous * branch.time_s);
+                rates[(i, j)] = -other.compliance_per_pa / (instantaneous * time_s);
             }
-            rates[(i, i)] -= branch.time_s.recip();
+            rates[(i, i)] -= time_s.recip();
             // D is counted in units of C_0, which keeps the matrix free of units but for time.
-            rates[(i, approach)] = branch.time_s.recip();
+            rates[(i, approach)] = time_s.recip();
         }
         rates[(load, approach)] = step_s.recip();
         let touching = (rates * step_s).exp();

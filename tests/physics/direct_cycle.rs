@@ -205,6 +205,31 @@ fn on_cells_it_takes_half_as_many_again_at_most() {
 }
 
 #[test]
+fn branches_twenty_decades_faster_than_a_step_do_not_slow_the_search() {
+    // A master curve far above its reference temperature: two branches a decade about the period, and as many far below it.
+    let branches: Vec<_> = (-42..=3)
+        .map(|k| (1e8, 10_f64.powf(0.5 * f64::from(k))))
+        .collect();
+    let compliance = series(2e8, &branches);
+    for decade in [-1, 0, 2, 4] {
+        let case = Case {
+            compliance: &compliance,
+            amplitude_n: 5.0,
+            period_s: std::f64::consts::TAU / 10_f64.powi(decade),
+            steps: STEPS,
+        };
+        let mut engine = springs(&Sphere::new(0.01).unwrap(), MEAN_N + 5.0, &compliance);
+        let found = case.find(&mut case.march(&mut engine), 1e-4);
+        // Seen: 3, as without the fast branches.
+        assert!(
+            found.converged && found.cycles <= 5,
+            "{decade}: {}",
+            found.cycles
+        );
+    }
+}
+
+#[test]
 fn the_cycle_found_directly_is_the_one_that_marching_ends_in() {
     // PMMA at 0.1 rad/s forgets by exp(-0.47) a cycle: 60 cycles leave 1e-12 of the start.
     let [(_, compliance, _), ..] = &materials();

@@ -433,7 +433,9 @@ impl Setup {
         let of_cycle = (distance, others.as_slice());
         let in_nodes = match self.plan.solver.engine {
             EngineKind::Axisymmetric => InNodes::SPRINGS,
-            EngineKind::HalfSpace => InNodes::CELLS,
+            EngineKind::HalfSpace => {
+                InNodes::cells(2.0 * record.domain_half_width_m / record.nodes as f64)
+            }
         };
         let bars = error_bars(
             (result, steps, middle),

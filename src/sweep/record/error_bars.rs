@@ -119,6 +119,8 @@ pub struct InNodes {
     pub order: f64,
     /// By what the estimate for the loss is multiplied, and that for any other quantity.
     pub safety: (f64, f64),
+    /// Width (m) of the cells, where the edge of the contact lies between two of them.
+    pub cell_m: Option<f64>,
 }
 
 impl InNodes {
@@ -126,14 +128,50 @@ impl InNodes {
     pub const SPRINGS: Self = Self {
         order: 2.0,
         safety: (SAFETY, SAFETY),
+        cell_m: None,
     };
-    /// On cells: the place of the edge between two of them, which moves, is felt in all quantities, least in what a whole cycle and
-    /// the whole contact make. Of 120 random solids on 48 cells (`tests/random_solids.rs`), this leaves 99.8 % of the losses
-    /// inside, and 98 % and more of every other quantity.
-    pub const CELLS: Self = Self {
-        order: 1.5,
-        safety: (1.2, 3.0),
-    };
+    /// On cells of this width (m). Every quantity feels where the edge of the contact lies between two of them, least what a whole
+    /// cycle and the whole contact make; for the loss that is foretold ([`InNodes::of_edge`]), and the difference between grids,
+    /// most of which is the coarser one's own edge, tells the rest. Both factors are from random solids on 40 to 100 cells
+    /// (`tests/physics/random_solids.rs`), whose figures are in the guide on validation.
+    pub fn cells(width_m: f64) -> Self {
+        Self {
+            order: 1.5,
+            safety: (0.3, 3.0),
+            cell_m: Some(width_m),
+        }
+    }
+
+    /// What the place of the edge between two cells leaves in a quantity, absolute.
+    ///
+    /// A disc of radius a, put down at random on cells of width h, covers so many cells that their number is off by 0.82 (a/h)^(1/2)
+    /// (root of the mean square: D. G. Kendall, Quart. J. Math. 19 (1948) 1); half of that, relative, is in the radius, and in the
+    /// stiffness at this radius, of which loss and harmonics are made. An edge that moves over m cells in a cycle averages the
+    /// stiffness over 1 + 2 m places. The factor of 2.5 holds the worst places of the edge, which all small amplitudes on the same
+    /// number of cells have in common.
+    fn of_edge(self, quantity: Quantity, result: &CaseResult) -> f64 {
+        let Some(cell_m) = self.cell_m else {
+            return 0.0;
+        };
+        let radius_m = result.contact_radius_m;
+        // A contact of less than a cell has no edge that lies between two.
+        let relative = |radius_m: f64| 2.5 * 0.13 * (radius_m / cell_m).max(1.0).powf(-1.5);
+        let places = 1.0 + 2.0 * (radius_m.maximum - radius_m.minimum) / cell_m;
+        let averaged = relative(0.5 * (radius_m.minimum + radius_m.maximum)) / places;
+        match quantity {
+            Quantity::EnergyLoss => averaged * result.analysis.energy_loss_j.abs(),
+            Quantity::Harmonic2 | Quantity::Harmonic3 => averaged,
+            Quantity::ContactRadiusMin => relative(radius_m.minimum) * radius_m.minimum,
+            Quantity::ContactRadiusMax => relative(radius_m.maximum) * radius_m.maximum,
+            Quantity::PhaseLag
+            | Quantity::StorageModulus
+            | Quantity::LossModulus
+            | Quantity::ApproachMin
+            | Quantity::ApproachMax
+            | Quantity::PeakPressureMin
+            | Quantity::PeakPressureMax => 0.0,
+        }
+    }
 
     fn safety_of(self, quantity: Quantity) -> f64 {
         let (of_loss, of_others) = self.safety;
@@ -220,7 +258,8 @@ impl ErrorBars {
             Some(Bar {
                 steps: SAFETY * error(quantity, steps, quantity.orders_in_steps(order_in_steps))?,
                 nodes: believed.safety_of(quantity)
-                    * error(quantity, nodes, quantity.orders(believed.order))?,
+                    * error(quantity, nodes, quantity.orders(believed.order))?
+                    + believed.of_edge(quantity, result),
                 steady: (steady_distance + ROUNDING) * quantity.scale(result)?,
                 material: of_material(quantity),
             })
