@@ -61,15 +61,18 @@ fn every_example_runs_to_its_end() {
         let text = fs::read_to_string(&path).unwrap();
         let command = command(&text);
         let out = folder.path().join(path.file_stem().unwrap());
-        let coarse: &[&str] = match command {
-            "sweep" => &["--set", "solver.springs=100", "--set", "cycle.steps=40"],
-            _ => &["--set", "solver.springs=100"],
-        };
+        let mut coarse = vec!["--set", "solver.springs=100"];
+        if command == "sweep" {
+            coarse.extend(["--set", "cycle.steps=40"]);
+        }
+        if text.contains("\nreplicas = ") {
+            coarse.extend(["--set", "material.dynamic.replicas=8"]);
+        }
         program()
             .arg(command)
             .arg(&path)
             .args(["--quiet", "--set", "solver.cells=24"])
-            .args(coarse)
+            .args(&coarse)
             .arg("--out")
             .arg(&out)
             .assert()

@@ -719,7 +719,9 @@ fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
     let text = resolved_text(&own);
     let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
     assert_eq!(resolved_text(&again), text);
-    assert_eq!(again.material, own.material);
+    // The law of the shift alone, which exports take along, is no part of a sweep.
+    assert_eq!(again.material.relaxation(), own.material.relaxation());
+    assert_eq!(again.material.replicas(), own.material.replicas());
     // Colder by 40 K, two decades and two thirds: by so much slower, and measured at lower frequencies.
     let cold = plan(&["material.temperature=-20 °C"]).material;
     let (warm_s, cold_s) = (own.material.measured_window_s(), cold.measured_window_s());

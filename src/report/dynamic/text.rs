@@ -132,12 +132,13 @@ impl DynamicReport<'_> {
                 true => format!("{:>14.4}", shift.b_t),
                 false => String::new(),
             };
+            // Adding zero takes the sign off a zero.
+            let log10_a_t = (1e4 * shift.log10_a_t).round() / 1e4 + 0.0;
             // Writing to a String cannot fail.
             let _ = writeln!(
                 text,
-                "{:>11}  {:>11.4}  {error:>11}  {:>7}  {:>8}  {:>8}{b_t}",
+                "{:>11}  {log10_a_t:>11.4}  {error:>11}  {:>7}  {:>8}  {:>8}{b_t}",
                 celsius(shift.temperature_k),
-                shift.log10_a_t,
                 points.len(),
                 omega(points.first()),
                 omega(points.last()),

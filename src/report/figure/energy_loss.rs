@@ -94,8 +94,8 @@ fn band_of(curve: &Curve<'_>, (to_omega, factor): (f64, f64), log: bool) -> Opti
                 record.energy_loss_j()?,
                 record.energy_loss_material_error_j()?,
             );
-            // On a logarithmic axis an edge below zero would have no place.
-            let lowest = if log { 1e-3 * loss } else { f64::NEG_INFINITY };
+            // No passive material gains energy; and on a logarithmic axis zero has no place.
+            let lowest = if log { 1e-3 * loss } else { 0.0 };
             let lower = (loss - error).max(lowest);
             (!log || loss > 0.0).then_some((
                 to_omega * record.angular_frequency_rad_per_s,

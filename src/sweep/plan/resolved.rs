@@ -10,21 +10,37 @@ use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
-use crate::sweep::plan::{SolverPlan, SweepPlan};
+use crate::sweep::plan::{CyclePlan, SolverPlan, SweepPlan};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {
-    let mut text = opening_text(
-        &plan.title,
-        &material_text(&plan.material),
-        plan.indenter.as_ref(),
-    );
+    // By name, so that what is added to a plan and not written here, and so not hashed, does not compile.
+    let SweepPlan {
+        title,
+        material,
+        indenter,
+        drive,
+        axis,
+        angular_frequencies_rad_per_s,
+        refine,
+        cycle,
+        solver,
+        figures,
+    } = plan;
+    let CyclePlan {
+        steps,
+        method,
+        tolerance,
+        max_cycles,
+        error_bars,
+        accuracy,
+    } = cycle;
+    let mut text = opening_text(title, &material_text(material), indenter.as_ref());
     let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
     let mut line = |content: &str| {
         text.push_str(content);
         text.push('\n');
     };
-    let drive = &plan.drive;
     line(&format!(
         "\n[drive]\ncontrol = \"{}\"",
         drive.control().name()
@@ -42,34 +58,34 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         quantity(drive.hold_s(), Dimension::Time)
     ));
     line("\n[sweep]");
-    if let Some(axis) = &plan.axis {
+    if let Some(axis) = axis {
         let values = axis.drives.iter().map(|drive| axis.varied.value(drive));
         let values: Vec<String> = values.map(|value| quantity(value, dimension)).collect();
         let list = values.join(", ");
         line(&format!("drive.{} = [{list}]", axis.varied.name()));
     }
-    if plan.refine {
+    if *refine {
         line("refine = true");
     }
     line("angular_frequency = [");
-    for &omega in &plan.angular_frequencies_rad_per_s {
+    for &omega in angular_frequencies_rad_per_s {
         line(&format!(
             "    {},",
             quantity(omega, Dimension::AngularFrequency)
         ));
     }
     line("]\n\n[cycle]");
-    line(&format!("steps = {}", plan.cycle.steps));
-    line(&format!("method = \"{}\"", plan.cycle.method.name()));
-    line(&format!("tolerance = {:e}", plan.cycle.tolerance));
-    line(&format!("max_cycles = {}", plan.cycle.max_cycles));
-    line(&format!("error_bars = {}", plan.cycle.error_bars));
-    if let Some(accuracy) = plan.cycle.accuracy {
+    line(&format!("steps = {steps}"));
+    line(&format!("method = \"{}\"", method.name()));
+    line(&format!("tolerance = {tolerance:e}"));
+    line(&format!("max_cycles = {max_cycles}"));
+    line(&format!("error_bars = {error_bars}"));
+    if let Some(accuracy) = accuracy {
         line(&format!("accuracy = {accuracy:e}"));
     }
     line("");
-    text.push_str(&solver_text(&plan.solver, plan.indenter.as_ref()));
-    text.push_str(&plan.figures.text());
+    text.push_str(&solver_text(solver, indenter.as_ref()));
+    text.push_str(&figures.text());
     text
 }
 
@@ -94,16 +110,21 @@ pub(in crate::sweep) fn opening_text(
 
 /// The `[solver]` block, at the end of both.
 pub(in crate::sweep) fn solver_text(solver: &SolverPlan, indenter: &dyn Indenter) -> String {
+    let SolverPlan {
+        engine,
+        cells,
+        springs,
+        time_rule,
+        tolerance,
+    } = solver;
     let cells = match indenter.own_cells() {
         Some(_) => String::new(),
-        None => format!("cells = {}\n", solver.cells),
+        None => format!("cells = {cells}\n"),
     };
-    let rule = solver.time_rule.name();
-    let tolerance = solver.tolerance.map(|t| format!("tolerance = {t:e}\n"));
+    let (engine, rule) = (engine.name(), time_rule.name());
+    let tolerance = tolerance.map(|t| format!("tolerance = {t:e}\n"));
     format!(
-        "[solver]\nengine = \"{}\"\n{cells}springs = {}\n{}time_rule = \"{rule}\"\n",
-        solver.engine.name(),
-        solver.springs,
+        "[solver]\nengine = \"{engine}\"\n{cells}springs = {springs}\n{}time_rule = \"{rule}\"\n",
         tolerance.unwrap_or_default(),
     )
 }

@@ -132,12 +132,12 @@ impl InNodes {
     };
     /// On cells of this width (m). Every quantity feels where the edge of the contact lies between two of them, least what a whole
     /// cycle and the whole contact make; for the loss that is foretold ([`InNodes::of_edge`]), and the difference between grids,
-    /// most of which is the coarser one's own edge, tells the rest. Both factors are from random solids on 40 to 100 cells
+    /// most of which is the coarser one's own edge, tells the rest. Both factors are from random solids on 48 cells
     /// (`tests/physics/random_solids.rs`), whose figures are in the guide on validation.
     pub fn cells(width_m: f64) -> Self {
         Self {
             order: 1.5,
-            safety: (0.3, 3.0),
+            safety: (0.2, 3.0),
             cell_m: Some(width_m),
         }
     }
@@ -147,7 +147,7 @@ impl InNodes {
     /// A disc of radius a, put down at random on cells of width h, covers so many cells that their number is off by 0.82 (a/h)^(1/2)
     /// (root of the mean square: D. G. Kendall, Quart. J. Math. 19 (1948) 1); half of that, relative, is in the radius, and in the
     /// stiffness at this radius, of which loss and harmonics are made. An edge that moves over m cells in a cycle averages the
-    /// stiffness over 1 + 2 m places. The factor of 2.5 holds the worst places of the edge, which all small amplitudes on the same
+    /// stiffness over 1 + 2 m places. The factor of 3 holds the worst places of the edge, which all small amplitudes on the same
     /// number of cells have in common.
     fn of_edge(self, quantity: Quantity, result: &CaseResult) -> f64 {
         let Some(cell_m) = self.cell_m else {
@@ -155,7 +155,7 @@ impl InNodes {
         };
         let radius_m = result.contact_radius_m;
         // A contact of less than a cell has no edge that lies between two.
-        let relative = |radius_m: f64| 2.5 * 0.13 * (radius_m / cell_m).max(1.0).powf(-1.5);
+        let relative = |radius_m: f64| 3.0 * 0.13 * (radius_m / cell_m).max(1.0).powf(-1.5);
         let places = 1.0 + 2.0 * (radius_m.maximum - radius_m.minimum) / cell_m;
         let averaged = relative(0.5 * (radius_m.minimum + radius_m.maximum)) / places;
         match quantity {
