@@ -78,6 +78,14 @@ impl FolderLock {
     }
 }
 
+/// The lock goes with the open file, of which a program started meanwhile by another thread has a copy until it runs: closing
+/// ours would leave the folder locked until then.
+impl Drop for FolderLock {
+    fn drop(&mut self) {
+        self.release();
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,6 +103,16 @@ mod tests {
         assert_eq!(three.try_exclusive(), Others::AtWork);
         drop(two);
         assert_eq!(three.try_exclusive(), Others::Absent);
+    }
+
+    #[test]
+    fn a_lock_is_released_though_a_program_that_is_being_started_has_a_copy_of_its_file() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let [one, two] = [(); 2].map(|()| FolderLock::of(folder.path()));
+        one.share();
+        let _copy = one.file.as_ref().unwrap().try_clone().unwrap();
+        drop(one);
+        assert_eq!(two.try_exclusive(), Others::Absent);
     }
 
     #[test]
