@@ -38,6 +38,7 @@ pub mod nnls;
 pub mod sampled;
 pub mod tabulated;
 
+mod branches;
 mod conversion;
 mod creep;
 mod error;

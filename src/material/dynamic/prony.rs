@@ -24,11 +24,11 @@ mod rows;
 mod selection;
 
 use super::DynamicPoint;
+use crate::material::branches::Branch;
 use crate::material::nnls::NnlsError;
 use crate::material::{MaterialError, Relaxation, RelaxationBranch};
 pub(super) use rows::errors_known;
-use rows::{Part, SPECTRUM};
-use rows::{Rows, Series};
+use rows::{Part, Rows, SPECTRUM, Series};
 use selection::Selection;
 
 /// By how much chi squared may be higher for a series that fits about as well (two standard deviations).
@@ -248,9 +248,9 @@ fn residuals(points: &[DynamicPoint], relaxation: &Relaxation) -> Vec<(f64, f64)
 impl Rows {
     /// A series in SI units.
     pub(super) fn relaxation(&self, series: &Series) -> Result<Relaxation, MaterialError> {
-        let branch = |(modulus, time_s): &(f64, f64)| RelaxationBranch {
-            modulus_pa: modulus * self.reference_pa,
-            time_s: *time_s,
+        let branch = |branch: &Branch| RelaxationBranch {
+            modulus_pa: branch.strength * self.reference_pa,
+            time_s: branch.time_s,
         };
         let branches = series.branches.iter().map(branch);
         let branches = branches.filter(|branch| branch.modulus_pa > 0.0).collect();

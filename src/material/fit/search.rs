@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{NOTICEABLE, PRICE};
 use crate::material::MaterialFunction;
+use crate::material::branches::{Branch, MANY, TRIED, fewer, halved, merge_runs};
 use crate::material::nnls::{NnlsError, least_squares, nnls};
 
 /// Times per decade of the grid on which two times next to one another mean one between them, and of the grids that are
@@ -30,12 +31,6 @@ const ABOUT_EQUAL: f64 = 2.0;
 /// counted, and at the end.
 const ROUGHLY: (usize, f64) = (30, 1e-3);
 const CLOSELY: (usize, f64) = (200, 1e-10);
-
-/// Number of branches from which on it is worth merging pair by pair, all at once.
-const MANY: usize = 8;
-
-/// Branches are taken away one by one; this many ways are tried to the end, the likeliest first.
-const TRIED: usize = 3;
 
 /// What is fitted, and within which limits.
 pub(super) struct Search<'a> {
@@ -70,13 +65,6 @@ enum Column {
     Constant,
     Branch(f64),
     Flow,
-}
-
-/// A branch: strength and time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Branch {
-    pub(super) strength: f64,
-    pub(super) time_s: f64,
 }
 
 /// `constant + sum of strength * basis(t / time) + flow_per_s * t`.
@@ -122,6 +110,11 @@ impl Series {
         self.constant * open.weight(face, Column::Constant) + delayed
     }
 
+    /// The same with other branches.
+    fn with(&self, branches: Vec<Branch>) -> Self {
+        Self { branches, ..*self }
+    }
+
     pub(super) fn times_s(&self) -> Vec<f64> {
         self.branches.iter().map(|b| b.time_s).collect()
     }
@@ -149,7 +142,7 @@ impl Search<'_> {
     pub(super) fn run(&self, other: &[f64]) -> Result<Series, NnlsError> {
         let gridded = self.strengths(&self.grid(FINE_GRID))?;
         let mut found = vec![
-            self.fewest(&merge_runs(&gridded))?,
+            self.fewest(&gridded.with(merge_runs(&gridded.branches, FINE_GRID)))?,
             self.fewest(&self.strengths(&self.within_limits(other))?)?,
         ];
         for per_decade in COARSE_GRIDS {
@@ -177,7 +170,7 @@ impl Search<'_> {
         let mut best = self.refined(start, ROUGHLY)?;
         // By halves while that costs nothing, then one by one.
         while best.branches.len() >= MANY {
-            let half = self.refined(&halved(&best), ROUGHLY)?;
+            let half = self.refined(&best.with(halved(&best.branches)), ROUGHLY)?;
             if self.score(&half) > self.score(&best) {
                 break;
             }
@@ -288,8 +281,8 @@ impl Search<'_> {
 
     /// A series with a branch less that scores no more than this, if there is one.
     fn simpler(&self, series: &Series, limit: f64) -> Result<Option<Series>, NnlsError> {
-        let mut candidates: Vec<(f64, Series)> = fewer(series)
-            .into_iter()
+        let mut candidates: Vec<(f64, Series)> = fewer(&series.branches)
+            .map(|branches| series.with(branches))
             .map(|candidate| (self.quick_squares(&candidate), candidate))
             .collect();
         candidates.sort_by(|left, right| left.0.total_cmp(&right.0));
@@ -495,64 +488,4 @@ fn parameters(series: &Series) -> usize {
     usize::from(series.constant > 0.0)
         + 2 * series.branches.len()
         + usize::from(series.flow_per_s > 0.0)
-}
-
-/// Two branches as one: strengths added, times averaged as logarithms with the strengths as weights.
-fn merged(left: Branch, right: Branch) -> Branch {
-    let strength = left.strength + right.strength;
-    let share = right.strength / strength;
-    Branch {
-        strength,
-        time_s: left.time_s * (right.time_s / left.time_s).powf(share),
-    }
-}
-
-/// Branches on neighbouring times of the grid as one: a time between two grid times shows as both.
-fn merge_runs(series: &Series) -> Series {
-    let adjacent = 10_f64.powf(1.01 / FINE_GRID);
-    let mut branches: Vec<Branch> = Vec::new();
-    let mut last_s = 0.0;
-    for &branch in &series.branches {
-        match branches.last_mut() {
-            Some(run) if branch.time_s <= last_s * adjacent => *run = merged(*run, branch),
-            _ => branches.push(branch),
-        }
-        last_s = branch.time_s;
-    }
-    Series {
-        branches,
-        ..series.clone()
-    }
-}
-
-/// Every two neighbours as one.
-fn halved(series: &Series) -> Series {
-    let pairs = series.branches.chunks(2);
-    Series {
-        branches: pairs
-            .filter_map(|pair| pair.iter().copied().reduce(merged))
-            .collect(),
-        ..series.clone()
-    }
-}
-
-/// Every series with one branch less: two neighbours merged, or one left out.
-fn fewer(series: &Series) -> Vec<Series> {
-    let branches = &series.branches;
-    let with = |branches: Vec<Branch>| Series {
-        branches,
-        ..series.clone()
-    };
-    let joined = (1..branches.len()).map(|right| {
-        let mut rest = branches.clone();
-        let branch = rest.remove(right);
-        rest[right - 1] = merged(rest[right - 1], branch);
-        with(rest)
-    });
-    let without = (0..branches.len()).map(|left_out| {
-        let mut rest = branches.clone();
-        rest.remove(left_out);
-        with(rest)
-    });
-    joined.chain(without).collect()
 }

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::PronyFit;
+use crate::material::branches::Branch;
 use crate::material::dynamic::DynamicPoint;
 use crate::material::harmonic::Debye;
 use crate::material::nnls::{NnlsError, nnls};
@@ -25,11 +26,16 @@ const CORRECTION: f64 = 3.0;
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::material::dynamic) struct Series {
     pub(in crate::material::dynamic) constant: f64,
-    /// Moduli and times (s), ascending in time.
-    pub(in crate::material::dynamic) branches: Vec<(f64, f64)>,
+    /// Ascending in time.
+    pub(in crate::material::dynamic) branches: Vec<Branch>,
 }
 
 impl Series {
+    /// The same with other branches.
+    pub(super) fn with(&self, branches: Vec<Branch>) -> Self {
+        Self { branches, ..*self }
+    }
+
     /// Values chosen to fit: strengths and times.
     pub(super) fn parameters(&self) -> usize {
         usize::from(self.constant > 0.0) + 2 * self.branches.len()
@@ -43,8 +49,8 @@ impl Series {
     /// Storage and loss modulus.
     pub(super) fn moduli(&self, omega: f64) -> (f64, f64) {
         let start = (self.constant, 0.0);
-        self.branches.iter().fold(start, |sum, (modulus, time_s)| {
-            let debye = Debye::at(omega * time_s);
+        self.branches.iter().fold(start, |sum, branch| {
+            let (modulus, debye) = (branch.strength, Debye::at(omega * branch.time_s));
             (sum.0 + modulus * debye.frozen, sum.1 + modulus * debye.loss)
         })
     }
@@ -181,11 +187,7 @@ impl Rows {
 
     /// Traces of the parts of the projection on the columns in use that belong to storage and loss modulus.
     fn leverage(&self, spectrum: &Series) -> Both {
-        let times: Vec<f64> = spectrum
-            .branches
-            .iter()
-            .map(|(_, time_s)| *time_s)
-            .collect();
+        let times: Vec<f64> = spectrum.branches.iter().map(|b| b.time_s).collect();
         let (matrix, _) = self.equations(&times, (spectrum.constant > 0.0, 0.0));
         if matrix.ncols() == 0 || matrix.ncols() > matrix.nrows() {
             return (0.0, 0.0);
@@ -299,10 +301,14 @@ impl Rows {
             let nearest = both.min_by(|l, r| distance(*l.0).total_cmp(&distance(*r.0)));
             nearest.map_or(0.0, |(_, values)| values.1)
         };
-        let times = Self::times(shares, limits_s);
+        let times = Self::times(shares, limits_s).into_iter();
+        let branch = |time_s| Branch {
+            strength: loss(time_s),
+            time_s,
+        };
         Series {
             constant,
-            branches: times.into_iter().map(|t| (loss(t), t)).collect(),
+            branches: times.map(branch).collect(),
         }
     }
 
@@ -352,14 +358,11 @@ impl Rows {
         let (matrix, right) = self.equations(times_s, (free, held));
         let first = usize::from(free);
         let strengths = nnls(&matrix, &right)?;
-        let branches = strengths
-            .iter()
-            .skip(first)
-            .copied()
-            .zip(times_s.iter().copied());
+        let branches = strengths.iter().skip(first).zip(times_s);
+        let branches = branches.map(|(&strength, &time_s)| Branch { strength, time_s });
         Ok(Series {
             constant: held + if free { strengths[0] } else { 0.0 },
-            branches: branches.filter(|(modulus, _)| *modulus > 0.0).collect(),
+            branches: branches.filter(|branch| branch.strength > 0.0).collect(),
         })
     }
 }

@@ -4,17 +4,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::rows::{Rows, SPECTRUM, Series};
+use crate::material::branches::{MANY, TRIED, fewer, halved, merge_runs};
 use crate::material::harmonic::Debye;
 
 /// Iterations of a refinement, and the decrease of chi squared at which it ends: while branches are counted, and at the end.
 const ROUGHLY: (usize, f64) = (15, 0.05);
 const CLOSELY: (usize, f64) = (100, 1e-6);
-
-/// Branches are taken away one by one; this many ways are tried to the end, the likeliest first.
-const TRIED: usize = 3;
-
-/// Number of branches from which on it is worth merging pair by pair, all at once.
-const MANY: usize = 8;
 
 /// Ridge of the quick comparison of candidates, beside columns of unit length.
 const RIDGE: f64 = 1e-12;
@@ -28,9 +23,9 @@ pub(super) struct Selection<'a> {
 impl Selection<'_> {
     /// From a spectrum to the series of the lowest score that is met while branches are taken away.
     pub(super) fn fewest(&self, spectrum: &Series) -> Series {
-        let mut best = self.refined(&merge_runs(spectrum), ROUGHLY);
+        let mut best = self.refined(&runs_merged(spectrum), ROUGHLY);
         while best.branches.len() >= MANY {
-            let half = self.refined(&halved(&best), ROUGHLY);
+            let half = self.refined(&best.with(halved(&best.branches)), ROUGHLY);
             if self.score(&half) > self.score(&best) {
                 break;
             }
@@ -48,7 +43,7 @@ impl Selection<'_> {
     /// A series of at most so many branches: those of the spectrum taken away one by one, or evenly spaced times, whichever
     /// fits better.
     pub(super) fn at_most(&self, spectrum: &Series, even: &Series, branches: usize) -> Series {
-        let mut reduced = self.refined(&merge_runs(spectrum), ROUGHLY);
+        let mut reduced = self.refined(&runs_merged(spectrum), ROUGHLY);
         while reduced.branches.len() > branches {
             match self.simpler(&reduced) {
                 Some(simpler) => reduced = simpler,
@@ -76,8 +71,9 @@ impl Selection<'_> {
 
     /// The best series with a branch less.
     fn simpler(&self, series: &Series) -> Option<Series> {
-        let mut candidates: Vec<(f64, Series)> = fewer(series)
-            .into_iter()
+        let mut candidates: Vec<(f64, Series)> = fewer(&series.branches)
+            .map(|branches| series.with(branches))
+            .filter(|candidate| candidate.strengths() > 0)
             .map(|candidate| (self.quick_squares(&candidate), candidate))
             .collect();
         candidates.sort_by(|left, right| left.0.total_cmp(&right.0));
@@ -131,7 +127,7 @@ impl Selection<'_> {
             }
         }
         best.branches
-            .sort_by(|left, right| left.1.total_cmp(&right.1));
+            .sort_by(|left, right| left.time_s.total_cmp(&right.time_s));
         best
     }
 
@@ -145,9 +141,9 @@ impl Selection<'_> {
         }
         let count = series.branches.len();
         for (number, branch) in moved.branches.iter_mut().enumerate() {
-            branch.0 *= factor(step[first + number]);
-            let time_s = branch.1 * factor(step[first + count + number]);
-            branch.1 = time_s.clamp(self.limits_s.0, self.limits_s.1);
+            branch.strength *= factor(step[first + number]);
+            let time_s = branch.time_s * factor(step[first + count + number]);
+            branch.time_s = time_s.clamp(self.limits_s.0, self.limits_s.1);
         }
         moved
     }
@@ -183,7 +179,8 @@ impl Linear {
             if first == 1 {
                 matrix[(point, 0)] = series.constant / deviations.0;
             }
-            for (number, (modulus, time_s)) in series.branches.iter().enumerate() {
+            for (number, branch) in series.branches.iter().enumerate() {
+                let (modulus, time_s) = (branch.strength, branch.time_s);
                 let debye = Debye::at(omega * time_s);
                 let place = first + number;
                 matrix[(point, place)] = modulus * debye.frozen / deviations.0;
@@ -210,63 +207,7 @@ impl Linear {
     }
 }
 
-/// Two branches as one: moduli added, times averaged as logarithms with the moduli as weights.
-fn merged(left: (f64, f64), right: (f64, f64)) -> (f64, f64) {
-    let modulus = left.0 + right.0;
-    let share = right.0 / modulus;
-    (modulus, left.1 * (right.1 / left.1).powf(share))
-}
-
-/// Branches on neighbouring times of the grid as one: a time between two grid times shows as both.
-fn merge_runs(series: &Series) -> Series {
-    let adjacent = 10_f64.powf(1.01 / SPECTRUM);
-    let mut branches: Vec<(f64, f64)> = Vec::new();
-    let mut last_s = 0.0;
-    for &branch in &series.branches {
-        match branches.last_mut() {
-            Some(run) if branch.1 <= last_s * adjacent => *run = merged(*run, branch),
-            _ => branches.push(branch),
-        }
-        last_s = branch.1;
-    }
-    Series {
-        branches,
-        ..series.clone()
-    }
-}
-
-/// Every two neighbours as one.
-fn halved(series: &Series) -> Series {
-    let pairs = series.branches.chunks(2);
-    Series {
-        branches: pairs
-            .filter_map(|pair| pair.iter().copied().reduce(merged))
-            .collect(),
-        ..series.clone()
-    }
-}
-
-/// Every series with one branch less: two neighbours merged, or one left out.
-fn fewer(series: &Series) -> Vec<Series> {
-    let branches = &series.branches;
-    let with = |branches: Vec<(f64, f64)>| Series {
-        branches,
-        ..series.clone()
-    };
-    let joined = (1..branches.len()).map(|right| {
-        let mut rest = branches.clone();
-        let branch = rest.remove(right);
-        rest[right - 1] = merged(rest[right - 1], branch);
-        with(rest)
-    });
-    let without = (0..branches.len()).map(|left_out| {
-        let mut rest = branches.clone();
-        rest.remove(left_out);
-        with(rest)
-    });
-    let nothing = |series: &Series| series.constant == 0.0 && series.branches.is_empty();
-    joined
-        .chain(without)
-        .filter(|series| !nothing(series))
-        .collect()
+/// The spectrum with its runs of neighbouring times as one branch each.
+fn runs_merged(spectrum: &Series) -> Series {
+    spectrum.with(merge_runs(&spectrum.branches, SPECTRUM))
 }
