@@ -87,7 +87,7 @@ fn case_s(cells: usize) -> f64 {
     let entry = library::find("pmma").expect("in the library");
     let plan = SweepPlan {
         title: "bench".into(),
-        material: entry.material().expect("a tested entry"),
+        material: Arc::new(entry.material().expect("a tested entry")),
         indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
         drive: HarmonicDrive::load(LOAD_N, 0.5 * LOAD_N).expect("a valid drive"),
         axis: None,
@@ -105,10 +105,10 @@ fn case_s(cells: usize) -> f64 {
         figures: FigurePlan::default(),
     };
     let setup = Setup::new(plan).expect("a valid plan");
-    let [case] = setup.plan().cases()[..] else {
+    let [case] = &setup.plan().cases()[..] else {
         panic!("one frequency")
     };
-    let (seconds, record) = timed(|| setup.run(&case, &AtomicBool::new(false)));
+    let (seconds, record) = timed(|| setup.run(case, &AtomicBool::new(false)));
     record.expect("not interrupted");
     seconds
 }

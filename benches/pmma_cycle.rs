@@ -27,7 +27,7 @@ fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
     let entry = library::find("pmma").expect("in the library");
     SweepPlan {
         title: String::new(),
-        material: entry.material().expect("a tested entry"),
+        material: Arc::new(entry.material().expect("a tested entry")),
         indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
         drive: HarmonicDrive::new(Control::Load, LOAD_N, 0.5 * LOAD_N, 0.0, 0.0)
             .expect("a valid drive"),
@@ -62,9 +62,9 @@ fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
 
 fn solved(plan: SweepPlan) -> CaseRecord {
     let setup = Setup::new(plan).expect("a valid plan");
-    let case = setup.plan().cases()[0];
+    let case = &setup.plan().cases()[0];
     let interrupt = AtomicBool::new(false);
-    setup.run(&case, &interrupt).expect("not interrupted")
+    setup.run(case, &interrupt).expect("not interrupted")
 }
 
 fn main() {

@@ -65,8 +65,9 @@ pub(super) fn plan(setup: &Setup, cost: &Cost) -> Value {
         json!({
             "index": case.case.index,
             "angular_frequency_rad_per_s": case.case.angular_frequency_rad_per_s,
-            "drive_mean": case.case.drive.mean(),
-            "drive_amplitude": case.case.drive.amplitude(),
+            "varied": case.case.condition.value,
+            "drive_mean": case.case.condition.drive.mean(),
+            "drive_amplitude": case.case.condition.drive.amplitude(),
             "cycles": case.cycles,
             "time_s": case.time_s,
         })

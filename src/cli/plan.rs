@@ -50,8 +50,8 @@ fn text(setup: &Setup, cost: &Cost) -> String {
             "{:>5}   {:>10}   {:>10}   {:>9}   {:>6.0}   {:>7}   {memory}",
             case.case.index,
             four_digits(unit.of(case.case.angular_frequency_rad_per_s)),
-            short(case.case.drive.mean()),
-            short(case.case.drive.amplitude()),
+            short(case.case.condition.drive.mean()),
+            short(case.case.condition.drive.amplitude()),
             case.cycles.ceil(),
             spoken(case.time_s),
         );

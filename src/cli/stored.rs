@@ -10,8 +10,8 @@ use super::{Ended, Failure};
 use crate::input::document::Document;
 use crate::input::sweep_file;
 use crate::sweep::case::Setup;
-use crate::sweep::plan::Case;
 use crate::sweep::plan::resolved::{self, identity};
+use crate::sweep::plan::{Case, Condition};
 use crate::sweep::search::run::{self, Options, Progress, RunError};
 use crate::sweep::store::difference;
 use crate::sweep::store::merge;
@@ -157,12 +157,14 @@ fn lacking(missing: &[Case], of: usize, out: &Store) -> String {
         missing.len()
     );
     for case in missing.iter().take(NAMED) {
+        let Condition { value, drive, .. } = &case.condition;
+        let value = value.map_or(String::new(), |value| format!("axis {value}, "));
         text.push_str(&format!(
-            "  case {}: ω = {:e} rad/s (mean {}, amplitude {})\n",
+            "  case {}: ω = {:e} rad/s ({value}mean {}, amplitude {})\n",
             case.index,
             case.angular_frequency_rad_per_s,
-            case.drive.mean(),
-            case.drive.amplitude()
+            drive.mean(),
+            drive.amplitude()
         ));
     }
     if missing.len() > NAMED {

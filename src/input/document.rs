@@ -13,7 +13,7 @@ pub(crate) mod kind;
 pub(crate) mod limits;
 pub(crate) mod reader;
 pub(crate) mod row;
-mod similar;
+pub(super) mod similar;
 pub(super) mod syntax;
 pub(crate) mod tree;
 
@@ -22,6 +22,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::axis;
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use tree::Table;
 
@@ -150,13 +151,15 @@ impl Document {
         let source = Source::file(name, text.trim_start_matches('\u{feff}'));
         let (table, errors) = toml::de::DeTable::parse_recoverable(source.text());
         if errors.is_empty() {
-            let root = Table::from_toml(table.into_inner(), &source, 0);
-            Ok(Self {
+            let mut root = Table::from_toml(table.into_inner(), &source, 0);
+            let problems = Problems::new();
+            axis::unquote(&mut root, &problems);
+            problems.into_result(Some(Self {
                 source,
                 root,
                 folder: PathBuf::new(),
                 flags: 0,
-            })
+            }))
         } else {
             Err(syntax::explain_all(&source, &errors))
         }

@@ -2,9 +2,21 @@
 
 use super::diagnostic::Problems;
 use super::document::reader::TableReader;
+use super::keys::DRIVE;
 use super::keys::drive::{AMPLITUDE, CONTROL, HOLD, MEAN, PHASE};
-use crate::drive::{DriveError, HarmonicDrive};
+use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::sweep::plan::resolved::drive_dimension;
+
+/// What the block controls, where it says so; what is wrong with it is told when it is read.
+pub(super) fn control(root: &mut TableReader<'_>) -> Control {
+    let unheard = Problems::new();
+    let table = root.parsed(&DRIVE);
+    let control = table.and_then(|table| {
+        let place = root.as_ref().clone();
+        TableReader::new(table, place, String::new(), &unheard).value(&CONTROL)
+    });
+    control.unwrap_or(Control::Load)
+}
 
 /// Reads the block; `None` where a problem was reported.
 pub(crate) fn read(mut table: TableReader<'_>, problems: &Problems) -> Option<HarmonicDrive> {

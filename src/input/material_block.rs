@@ -74,18 +74,18 @@ pub(crate) fn read_body(
     direct_sum: DirectSum,
     problems: &Problems,
 ) -> Option<Located<BodyMaterial>> {
-    read_over(root, folder, direct_sum, None, problems).map(|(body, _)| body)
+    let block = root.table(&keys::MATERIAL)?;
+    read_over(block, folder, direct_sum, None, problems).map(|(body, _)| body)
 }
 
-/// The same, with the material at each temperature (K) of an axis, where there is one.
-pub(crate) fn read_over(
-    root: &mut TableReader<'_>,
+/// The same of the block alone, with the material at each temperature (K) of an axis, where there is one.
+pub(super) fn read_over(
+    mut block: TableReader<'_>,
     folder: &Path,
     direct_sum: DirectSum,
     axis: Option<&Located<Vec<f64>>>,
     problems: &Problems,
 ) -> Option<(Located<BodyMaterial>, Vec<Material>)> {
-    let mut block = root.table(&keys::MATERIAL)?;
     let name = block.value(&NAME);
     let Some(form) = block.one_of(&FORMS) else {
         // What else belongs to the table is open, but for this.

@@ -30,6 +30,7 @@
 //! ```
 
 mod assignment;
+pub(crate) mod axis;
 pub(crate) mod data_file;
 pub mod diagnostic;
 pub mod document;

@@ -10,10 +10,14 @@ pub fn text(kind: FileKind) -> String {
     let mut schema = kind.rows().schema();
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!(kind.rows().means.trim());
-    let referring = schema.to_string();
+    let mut parts = Map::new();
+    kind.rows()
+        .visit("", &mut |_, row| parts.extend(row.kind().definitions()));
+    let referring = format!("{schema}{}", Json::Object(parts.clone()));
     let is_used = |name: &str| referring.contains(&format!("#/$defs/{name}\""));
     let definitions = text_definitions().into_iter();
-    let used: Map<String, Json> = definitions.filter(|(name, _)| is_used(name)).collect();
-    schema["$defs"] = Json::Object(used);
+    let used = definitions.filter(|(name, _)| is_used(name));
+    parts.extend(used);
+    schema["$defs"] = Json::Object(parts);
     format!("{schema:#}\n")
 }

@@ -1,11 +1,20 @@
 //! Sweep files: from a document to a finished plan, every default filled in, every problem reported where it stands.
 
+use std::path::Path;
+use std::sync::Arc;
+
+use super::axis::Swept;
 use super::diagnostic::{Diagnostics, Problems};
+use super::document::kind::Table;
 use super::document::reader::TableReader;
+use super::document::row::{Required, Row};
 use super::document::{Document, Located};
 use super::figures_block::{self, Figures};
 use super::keys;
-use super::keys::drive::{ANGULAR_FREQUENCY, AXIS, AXIS_AMPLITUDE, AXIS_MEAN, FREQUENCY, REFINE};
+use super::keys::drive::{
+    ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, MATERIAL_AXIS, REFINE,
+};
+use super::keys::material::TEMPERATURE;
 use super::keys::settings::{
     CYCLE_ACCURACY, CYCLE_ERROR_BARS, CYCLE_STEPS, CYCLE_TOLERANCE, ENGINE, MAX_CYCLES, METHOD,
     SOLVER_CELLS, SOLVER_SPRINGS, SOLVER_TOLERANCE, TIME_RULE,
@@ -15,10 +24,11 @@ use super::{harmonic_block, indenter_block, material_block};
 use crate::drive::HarmonicDrive;
 use crate::indenter::Indenter;
 use crate::material::Material;
-use crate::quantity::FrequencyUnit;
+use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::resolved::drive_dimension;
-use crate::sweep::plan::{CyclePlan, DriveAxis, SolverPlan, SweepPlan, Varied};
+use crate::sweep::plan::{Block, Condition, CyclePlan, SecondAxis, SolverPlan, SweepPlan, Varied};
 use crate::sweep::scales::elastic::ElasticScale;
 
 const MAX_CASES: usize = SweepPlan::MAX_CASES;
@@ -31,20 +41,25 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let title = root.value(&keys::TITLE);
-    let material =
-        material_block::read(&mut root, document.folder(), DirectSum::Refused, &problems)
-            .and_then(|m| for_contact(&problems, m));
-    let indenter = root
-        .table(&keys::INDENTER)
-        .and_then(|t| indenter_block::read(t, document.folder(), &problems));
-    let drive = root
-        .table(&keys::DRIVE)
-        .and_then(|t| harmonic_block::read(t, &problems));
+    let controlled = drive_dimension(harmonic_block::control(&mut root));
     let sweep = root
         .table(&keys::SWEEP)
-        .and_then(|t| axes(t, drive.as_ref(), &problems));
+        .and_then(|t| axes(t, controlled, &problems));
+    let swept = sweep.as_ref().and_then(|sweep| sweep.swept.as_ref());
+    let file = File {
+        folder: document.folder(),
+        swept,
+        problems: &problems,
+    };
+    let material = file.material(&mut root);
+    let indenter = file.block(&mut root, &keys::INDENTER, Block::Indenter, |t| {
+        indenter_block::read(t, document.folder(), &problems)
+    });
+    let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
+        harmonic_block::read(t, &problems)
+    });
     let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), cycle);
-    let default = default_solver(indenter.as_deref());
+    let default = default_solver(indenter.as_ref().map(|(own, _)| own.as_ref()));
     let solver = root.table_or(&keys::SOLVER, default, |t| solver(t, default));
     let frequencies = sweep.as_ref();
     let frequencies = frequencies.map(|axes| axes.angular_frequencies_rad_per_s.as_slice());
@@ -55,18 +70,20 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     });
     root.finish();
     let plan = (|| {
-        let axes = sweep?;
-        let figures = figures?;
+        let (figures, cycle, solver) = (figures?, cycle?, solver?);
+        let (material, indenter, drive) = (material?, indenter?, drive?);
+        let axis = file.axis((&material, &indenter, &drive))?;
+        let sweep = sweep.as_ref()?;
         let mut plan = SweepPlan {
             title: title?,
-            material: material?,
-            indenter: indenter?,
-            drive: drive?,
-            angular_frequencies_rad_per_s: axes.angular_frequencies_rad_per_s,
-            axis: axes.drives,
-            refine: axes.refine,
-            cycle: cycle?,
-            solver: solver?,
+            material: material.0,
+            indenter: indenter.0,
+            drive: drive.0,
+            angular_frequencies_rad_per_s: sweep.angular_frequencies_rad_per_s.clone(),
+            axis,
+            refine: sweep.refine,
+            cycle,
+            solver,
             figures: FigurePlan::default(),
         };
         let scale = || ElasticScale::of_sweep(&plan).map(drop);
@@ -74,6 +91,110 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
         Some(plan)
     })();
     problems.into_result(plan)
+}
+
+/// What a block says, and what it says with each value of an axis in place of its own; none where the axis is not of this block.
+type Over<T> = (T, Vec<T>);
+
+/// Material, indenter and drive.
+type Blocks<'a> = (
+    &'a Over<Arc<Material>>,
+    &'a Over<Arc<dyn Indenter>>,
+    &'a Over<HarmonicDrive>,
+);
+
+/// What the blocks of a file have in common.
+struct File<'a> {
+    folder: &'a Path,
+    swept: Option<&'a (Block, Swept)>,
+    problems: &'a Problems,
+}
+
+impl File<'_> {
+    /// The axis, where it is of this block.
+    fn swept(&self, block: Block) -> Option<&Swept> {
+        let (of, swept) = self.swept?;
+        (*of == block).then_some(swept)
+    }
+
+    /// Reads a block: once, and once more for each value of the axis. Where the block leaves out what the axis varies, the first
+    /// value counts.
+    fn block<T: Clone>(
+        &self,
+        root: &mut TableReader<'_>,
+        row: &Row<Table, Required>,
+        block: Block,
+        read: impl Fn(TableReader<'_>) -> Option<T>,
+    ) -> Option<Over<T>> {
+        let parsed = root.parsed(row);
+        let own = root.table(row)?;
+        let (Some(swept), Some(parsed)) = (self.swept(block), parsed) else {
+            return Some((read(own)?, Vec::new()));
+        };
+        let place = own.as_ref().clone();
+        let with = |value: &f64| {
+            let table = swept.put_into(parsed, *value);
+            let name = block.name().to_owned();
+            read(TableReader::new(&table, place.clone(), name, self.problems))
+        };
+        let is_given = parsed.entries.contains_key(swept.key);
+        let given = if is_given { Some(read(own)?) } else { None };
+        let each: Option<Vec<T>> = swept.values.value.iter().map(with).collect();
+        let each = each?;
+        Some((given.or_else(|| each.first().cloned())?, each))
+    }
+
+    fn material(&self, root: &mut TableReader<'_>) -> Option<Over<Arc<Material>>> {
+        let for_contact = |material| for_contact(self.problems, material).map(Arc::new);
+        let over = |t: TableReader<'_>, axis| {
+            material_block::read_over(t, self.folder, DirectSum::Refused, axis, self.problems)
+        };
+        let of_series = |body: Located<BodyMaterial>| {
+            let series = body.value.series().cloned()?;
+            Some(body.map(|_| series))
+        };
+        match self.swept(Block::Material) {
+            // One fit gives the material at every temperature.
+            Some(swept) if swept.key == TEMPERATURE.name => {
+                let (body, each) = over(root.table(&keys::MATERIAL)?, Some(&swept.values))?;
+                let place = body.location.clone();
+                let at = |material: Material| {
+                    for_contact(Located {
+                        value: material,
+                        path: "material".to_owned(),
+                        location: place.clone(),
+                    })
+                };
+                let each: Vec<_> = each.into_iter().map(at).collect::<Option<_>>()?;
+                Some((each.first()?.clone(), each))
+            }
+            _ => self.block(root, &keys::MATERIAL, Block::Material, |t| {
+                for_contact(of_series(over(t, None)?.0)?)
+            }),
+        }
+    }
+
+    /// The second axis, where there is one; `None` where there is one and it is too long, which is reported.
+    fn axis(&self, (material, indenter, drive): Blocks<'_>) -> Option<Option<SecondAxis>> {
+        let Some((block, swept)) = self.swept else {
+            return Some(None);
+        };
+        let values = swept.values.value.iter().enumerate();
+        let conditions = values.map(|(k, value)| Condition {
+            value: Some(*value),
+            material: Arc::clone(material.1.get(k).unwrap_or(&material.0)),
+            indenter: Arc::clone(indenter.1.get(k).unwrap_or(&indenter.0)),
+            drive: *drive.1.get(k).unwrap_or(&drive.0),
+        });
+        Some(Some(SecondAxis {
+            varied: Varied {
+                block: *block,
+                key: swept.key,
+                dimension: swept.dimension,
+            },
+            conditions: conditions.collect(),
+        }))
+    }
 }
 
 /// The solver where the file asks for none: springs where the indenter allows them, cells elsewhere.
@@ -116,67 +237,51 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
 struct Axes {
     angular_frequencies_rad_per_s: Vec<f64>,
     given_in: FrequencyUnit,
-    drives: Option<DriveAxis>,
+    swept: Option<(Block, Swept)>,
     refine: bool,
 }
 
-fn axes(
-    mut table: TableReader<'_>,
-    drive: Option<&HarmonicDrive>,
-    problems: &Problems,
-) -> Option<Axes> {
+fn axes(mut table: TableReader<'_>, controlled: Dimension, problems: &Problems) -> Option<Axes> {
     let frequencies = frequencies(&mut table);
-    let place = table.key_location(&AXIS);
     let refine = table.value(&REFINE);
-    let drives = table.table_or(&AXIS, None, |t| varied(t, drive?, problems).map(Some));
+    let mut all = Vec::new();
+    let mut is_whole = true;
+    for row in [&MATERIAL_AXIS, &INDENTER_AXIS, &DRIVE_AXIS] {
+        match table.value(&row.of(controlled)) {
+            Some(swept) => all.extend(swept.map(|swept| (row.kind.block, swept))),
+            None => is_whole = false,
+        }
+    }
     table.finish();
-    let ((frequencies, given_in), drives) = (frequencies?, drives?);
-    let cases = drives.as_ref().map_or(1, |axis| axis.drives.len()) * frequencies.len();
-    if cases > MAX_CASES
-        && let Some(place) = place
-    {
+    if let [(_, one), (_, other), ..] = all.as_slice() {
         problems
-            .at(
-                &place,
-                format!("{cases} cases are more than a sweep may have, {MAX_CASES}"),
-            )
-            .help("make several sweeps of it");
+            .at(&one.key_location, "a sweep has one second axis")
+            .because("one axis")
+            .label(&other.key_location, "another")
+            .help("remove all but one, or make several sweeps of it");
         return None;
     }
+    let (frequencies, given_in) = frequencies?;
+    let swept = all.pop();
+    if let Some((_, swept)) = &swept {
+        let cases = swept.values.value.len() * frequencies.len();
+        if cases > MAX_CASES {
+            problems
+                .at(
+                    &swept.key_location,
+                    format!("{cases} cases are more than a sweep may have, {MAX_CASES}"),
+                )
+                .help("make several sweeps of it");
+            return None;
+        }
+    }
+    is_whole.then_some(())?;
     Some(Axes {
         angular_frequencies_rad_per_s: frequencies,
         given_in,
-        drives,
+        swept,
         refine: refine?,
     })
-}
-
-/// The drives of a second axis: `drive.amplitude` or `drive.mean`, as a list or a range.
-fn varied(
-    mut table: TableReader<'_>,
-    drive: &HarmonicDrive,
-    problems: &Problems,
-) -> Option<DriveAxis> {
-    let axes = [
-        (&AXIS_AMPLITUDE as _, (&AXIS_AMPLITUDE, Varied::Amplitude)),
-        (&AXIS_MEAN as _, (&AXIS_MEAN, Varied::Mean)),
-    ];
-    let (row, varied) = table.one_of(&axes)?;
-    let location = table.key_location(row);
-    let values = table.value(&row.of(drive_dimension(drive.control())));
-    table.finish();
-    let (values, location) = (values?, location?);
-    let mut drives = Vec::with_capacity(values.len());
-    for value in values {
-        match varied.drive(drive, value) {
-            Ok(drive) => drives.push(drive),
-            Err(error) => {
-                problems.at(&location, error.to_string());
-                return None;
-            }
-        }
-    }
-    Some(DriveAxis { varied, drives })
 }
 
 /// Angular frequencies in rad/s, ascending, and the unit they are given in.

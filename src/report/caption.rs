@@ -1,7 +1,7 @@
 //! Captions: what a figure shows, of what, with which numbers, and how it was computed, as one paragraph to paste into a paper.
 
 use super::number::plain;
-use super::words::{drive_line, range, row};
+use super::words::{drive_line, range, row, varied_line};
 use crate::indenter::{Indenter, Value};
 use crate::material::Material;
 use crate::quantity::Dimension;
@@ -79,8 +79,9 @@ impl Setting {
             }
             _ => String::new(),
         };
+        let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
-            "{} on {}, {} (mean ± amplitude){rest}",
+            "{} on {}, {} (mean ± amplitude){rest}{varied}",
             indenter(plan.indenter.as_ref()),
             material(&plan.material),
             drive_line(&plan.drive, plan)

@@ -39,9 +39,11 @@ impl Default for Tolerances {
     }
 }
 
-/// Which case: mean and amplitude of the drive, angular frequency (rad/s).
+/// Which case: what else a second axis varies, mean and amplitude of the drive, angular frequency (rad/s).
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Place {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub varied: Option<f64>,
     pub drive_mean: f64,
     pub drive_amplitude: f64,
     pub angular_frequency_rad_per_s: f64,
@@ -269,7 +271,7 @@ fn peaks(baseline: &SweepTable, new: &SweepTable, tolerances: &Tolerances) -> Ve
     };
     let mut found = Vec::new();
     for peak in old {
-        let drive = |p: &Peak| (p.drive_mean, p.drive_amplitude);
+        let drive = |p: &Peak| (p.varied, p.drive_mean, p.drive_amplitude);
         let nearest = (0..left.len())
             .filter(|&i| drive(&left[i]) == drive(peak))
             .filter(|&i| distance(&left[i], peak) < SAME_PEAK.ln())

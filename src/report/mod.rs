@@ -112,11 +112,11 @@ pub fn write_tables_of_sweep(
 }
 
 fn tables_of_sweep(store: &Store, plan: &SweepPlan, outcome: &Outcome) -> Result<(), ReportError> {
-    let branches = outcome.retardation_times_s().len();
+    let branches = outcome.branches();
     let unit = plan.figures.frequency_unit;
     store.write(
         "sweep.csv",
-        &quantities::sweep(&outcome.records, branches, unit),
+        &quantities::sweep(&outcome.records, branches, unit, plan.axis.as_ref()),
     )?;
     for record in &outcome.records {
         if let Some(result) = &record.result {

@@ -1,9 +1,9 @@
 //! The peaks of a sweep in words, for terminal, page and captions.
 
+use super::figure::units::Units;
 use super::number::plain;
 use crate::quantity::Dimension;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::record::Status;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
@@ -21,7 +21,7 @@ pub struct PeakWords {
     pub frequency: String,
     /// What the noise of the data behind the material makes of both: `; from the material ± 0.2 µJ, ± 3 × 10⁻⁴ rad/s`.
     pub material: String,
-    /// Of several drives under which: `, amplitude 5 N`.
+    /// Of several curves which: `, amplitude 5 N`.
     pub under: String,
 }
 
@@ -72,12 +72,11 @@ fn of_material(plan: &SweepPlan, peak: &Peak) -> Option<String> {
 
 fn under(plan: &SweepPlan, peak: &Peak) -> Option<String> {
     let varied = plan.axis.as_ref()?.varied;
-    let dimension = drive_dimension(plan.drive.control());
-    let value = plain(peak.drive(varied)?, dimension, 4);
+    let value = Units::default().varied_value(&varied, peak.varied?);
     Some(format!(", {} {value}", varied.name()))
 }
 
-/// The same; of a sweep of two axes the largest alone: each drive has its own.
+/// The same; of a sweep of two axes the largest alone: each curve has its own.
 pub fn shown(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<PeakWords> {
     let mut peaks = all(plan, outcome, with_error);
     if plan.axis.is_some() {
@@ -90,7 +89,7 @@ pub fn shown(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<
 pub fn none(plan: &SweepPlan, outcome: &Outcome) -> &'static str {
     if outcome.count(Status::Converged) == 0 {
         "No peak: no case converged."
-    } else if outcome.retardation_times_s().is_empty() {
+    } else if outcome.branches() == 0 {
         "No peak: the material has no branches; an elastic body loses nothing."
     } else if plan.angular_frequencies_rad_per_s.len() < 3 {
         "No peak: it takes at least three frequencies to enclose one."

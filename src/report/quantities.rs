@@ -6,6 +6,7 @@ use super::table::{Cell, csv};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::history::errors::RowErrors;
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
+use crate::sweep::plan::SecondAxis;
 use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::record::{CaseRecord, CaseResult};
 
@@ -148,14 +149,27 @@ pub struct Named<R: 'static> {
     pub cell: Box<dyn Fn(&R) -> Cell>,
 }
 
-/// The columns of `sweep.csv`, errors beside their values; frequencies in the unit asked for come first.
-pub fn of_cases(branches: usize, unit: FrequencyUnit) -> Vec<Named<CaseRecord>> {
+/// The columns of `sweep.csv`, errors beside their values; frequencies in the unit asked for come first, and before the drive
+/// stands what a second axis varies of something else.
+pub fn of_cases(
+    branches: usize,
+    unit: FrequencyUnit,
+    axis: Option<&SecondAxis>,
+) -> Vec<Named<CaseRecord>> {
     let columns = SWEEP.iter();
     let mut named: Vec<_> = columns
         .flat_map(|c| c.named(branches).into_iter().chain(c.named_error()))
         .collect();
     if let Some(leading) = named.iter().position(|c| c.name == unit.column()) {
         named[..=leading].rotate_right(1);
+    }
+    let varied = axis.filter(|axis| axis.has_own_column()).map(|axis| Named {
+        name: axis.varied.column(),
+        cell: Box::new(|record: &CaseRecord| record.varied.into()),
+    });
+    if let (Some(column), Some(place)) = (varied, named.iter().position(|c| c.name == "drive_mean"))
+    {
+        named.insert(place, column);
     }
     named
 }
@@ -360,8 +374,13 @@ fn named<R>(columns: &[Named<R>], rows: &[R]) -> Vec<u8> {
 
 /// `sweep.csv`: one row per case, in the order given. `branches` is how many the material's creep compliance has, `unit` the one
 /// in which frequencies come first.
-pub fn sweep(records: &[CaseRecord], branches: usize, unit: FrequencyUnit) -> Vec<u8> {
-    named(&of_cases(branches, unit), records)
+pub fn sweep(
+    records: &[CaseRecord],
+    branches: usize,
+    unit: FrequencyUnit,
+    axis: Option<&SecondAxis>,
+) -> Vec<u8> {
+    named(&of_cases(branches, unit, axis), records)
 }
 
 /// `history.csv`: one row per time step, two with the same time at a jump. Errors are absolute.
@@ -402,7 +421,7 @@ mod tests {
         );
         assert!(of_name("branch_x_loss_j").is_none());
         let names = |unit| {
-            let named = of_cases(2, unit).into_iter();
+            let named = of_cases(2, unit, None).into_iter();
             named.map(|column| column.name).collect::<Vec<_>>()
         };
         let columns = names(FrequencyUnit::RadPerS);

@@ -106,17 +106,18 @@ pub fn csv<C: AsRef<[u8]>, R: AsRef<[Cell]>>(
 }
 
 /// The same with frequencies in the unit asked for before those in rad/s.
-pub fn csv_leading<R: AsRef<[Cell]>>(
+pub fn csv_leading<C: AsRef<str>, R: AsRef<[Cell]>>(
     unit: FrequencyUnit,
-    columns: &[&str],
+    columns: &[C],
     rows: impl IntoIterator<Item = R>,
 ) -> Vec<u8> {
     let angular = FrequencyUnit::RadPerS.column();
+    let columns: Vec<&str> = columns.iter().map(AsRef::as_ref).collect();
     let place = columns.iter().position(|column| *column == angular);
     let Some(place) = place.filter(|_| unit != FrequencyUnit::RadPerS) else {
-        return csv(columns, rows);
+        return csv(&columns, rows);
     };
-    let mut columns = columns.to_vec();
+    let mut columns = columns;
     columns.insert(place, unit.column());
     let rows = rows.into_iter().map(|row| {
         let mut row = row.as_ref().to_vec();

@@ -9,17 +9,16 @@ use super::peaks;
 use super::words::{without_result, wrapped};
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
-use crate::sweep::plan::{DriveAxis, SweepPlan};
+use crate::sweep::plan::{SecondAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::record::warning;
-use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
 
 /// One line per case: frequency, loss with its error, phase, cycles, status; an absent value is a dash. A sweep of two axes
-/// has one line per drive instead: its cases are too many to be read.
+/// has one line per value of the second instead: its cases are too many to be read.
 pub fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
     match &plan.axis {
-        Some(axis) => drives(plan, axis, outcome),
+        Some(axis) => conditions(plan, axis, outcome),
         None => cases(plan.figures.frequency_unit, &outcome.records),
     }
 }
@@ -78,8 +77,8 @@ fn material_error(record: &CaseRecord) -> Option<String> {
     (loss_j != 0.0).then(|| format!("± {:.1} %", 100.0 * (error_j / loss_j).abs()))
 }
 
-/// Each drive with its highest peak.
-fn drives(plan: &SweepPlan, axis: &DriveAxis, outcome: &Outcome) -> String {
+/// Each value of the second axis with its highest peak.
+fn conditions(plan: &SweepPlan, axis: &SecondAxis, outcome: &Outcome) -> String {
     let name = axis.varied.name();
     let unit = plan.figures.frequency_unit;
     let mut text = format!(
@@ -88,14 +87,10 @@ fn drives(plan: &SweepPlan, axis: &DriveAxis, outcome: &Outcome) -> String {
     );
     let units = Units::default();
     for curve in figure::curve::curves(plan, outcome, &units) {
-        let value = axis.varied.value(&curve.drive);
-        let value = units.drive_value(curve.drive.control(), value);
-        let of_curve = |peak: &&Peak| {
-            peak.drive_mean == Some(curve.drive.mean())
-                && peak.drive_amplitude == Some(curve.drive.amplitude())
-        };
-        // The peaks are in order, the largest first.
-        let peak = outcome.peaks.iter().find(of_curve);
+        let value = curve.condition.value;
+        let value = value.map(|value| units.varied_value(&axis.varied, value));
+        let value = value.unwrap_or_default();
+        let peak = outcome.highest_peak(&curve.condition);
         let loss = loss(
             peak.map(|p| p.energy_loss_j),
             peak.and_then(|p| p.energy_loss_error_j),
@@ -126,7 +121,7 @@ fn loss(loss_j: Option<f64>, error_j: Option<f64>) -> String {
     }
 }
 
-/// Peaks, largest first; where there are none, why. Of a sweep of two axes the largest alone: each drive has its own.
+/// Peaks, largest first; where there are none, why. Of a sweep of two axes the largest alone: each curve has its own.
 pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
     let mut text = String::new();
     for peak in peaks::shown(plan, outcome, with_error_on_terminal) {

@@ -1,5 +1,6 @@
 //! What terminal, pages and captions say alike of cases, drives and settings, as plain text.
 
+use super::figure::units::Units;
 use super::number::{self, four_digits, plain, scientific};
 use crate::drive::HarmonicDrive;
 use crate::indenter::{Parameter, Value};
@@ -31,22 +32,23 @@ pub fn without_result(unit: FrequencyUnit, outcome: &Outcome) -> impl Iterator<I
 pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
     let dimension = drive_dimension(drive.control());
     let value = |value| plain(value, dimension, 4);
-    let varied = plan.axis.as_ref().map(|axis| axis.varied);
-    let range = || {
-        let ends = plan.drives().first().zip(plan.drives().last());
-        ends.zip(varied).map_or(String::new(), |((a, b), varied)| {
-            format!("{} to {}", value(varied.value(a)), value(varied.value(b)))
-        })
+    let range = |is_varied: fn(&Varied) -> bool| {
+        let axis = plan.axis.as_ref().filter(|axis| is_varied(&axis.varied))?;
+        let (first, last) = (axis.values().next()?, axis.values().next_back()?);
+        Some(format!("{} to {}", value(first), value(last)))
     };
-    let mean = match varied {
-        Some(Varied::Mean) => range(),
-        _ => value(drive.mean()),
-    };
-    let amplitude = match varied {
-        Some(Varied::Amplitude) => range(),
-        _ => value(drive.amplitude()),
-    };
+    let mean = range(Varied::is_mean).unwrap_or_else(|| value(drive.mean()));
+    let amplitude = range(Varied::is_amplitude).unwrap_or_else(|| value(drive.amplitude()));
     format!("{} {mean} ± {amplitude}", drive.control().name())
+}
+
+/// What else a second axis varies than mean and amplitude, and from where to where: `radius of the indenter 1 mm to 10 mm`.
+pub fn varied_line(plan: &SweepPlan) -> Option<String> {
+    let axis = plan.axis.as_ref().filter(|axis| axis.has_own_column())?;
+    let value = |value| Units::default().varied_value(&axis.varied, value);
+    let (first, last) = (axis.values().next()?, axis.values().next_back()?);
+    let words = axis.varied.words();
+    Some(format!("{words} {} to {}", value(first), value(last)))
 }
 
 /// A key as words.

@@ -45,7 +45,7 @@ pub(super) fn by_sweep(
     let case = Case {
         index: 0,
         angular_frequency_rad_per_s: omega,
-        drive: plan.drive,
+        condition: plan.condition(),
     };
     let record = Setup::new(plan)?.run(&case, interrupt);
     let record = record.ok_or(ReproductionError::Interrupted)?;
@@ -70,13 +70,14 @@ pub(super) fn stabilised(
         steps,
         interrupt,
     };
-    let SweepPlan { drive, solver, .. } = cycle.setup.plan();
-    let engines = cycle.setup.engines(drive, solver.nodes())?;
+    let SweepPlan { solver, .. } = cycle.setup.plan();
+    let condition = cycle.setup.plan().condition();
+    let engines = cycle.setup.engines(&condition, solver.nodes())?;
     let mut fine = engines.engine(0)?;
     let (start, width_m) = match engine {
         EngineKind::Axisymmetric => (cycle.search(fine.as_mut())?, engines.half_width_m()),
         EngineKind::HalfSpace => {
-            let half = cycle.setup.engines(drive, solver.nodes() / 2)?;
+            let half = cycle.setup.engines(&condition, solver.nodes() / 2)?;
             let mut coarse = half.engine(0)?;
             let memory = cycle.search(coarse.as_mut())?;
             // Full grid or one symmetry quadrant: both have as many cells either way.
@@ -107,9 +108,10 @@ impl Cycle<'_> {
         prescribed(drive.control(), drive.value(fraction))
     }
 
-    fn march<'e>(&self, engine: &'e mut dyn Engine) -> March<'e> {
-        let rule = self.setup.plan().solver.time_rule;
-        March::new(engine, self.setup.compliance().clone(), rule)
+    fn march<'e>(&self, engine: &'e mut dyn Engine) -> Result<March<'e>> {
+        let plan = self.setup.plan();
+        let compliance = plan.material.contact_compliance()?;
+        Ok(March::new(engine, compliance, plan.solver.time_rule))
     }
 
     fn is_interrupted(&self) -> bool {
@@ -122,7 +124,7 @@ impl Cycle<'_> {
             tolerance: 3e-5,
             max_cycles: 40,
         };
-        let mut march = self.march(engine);
+        let mut march = self.march(engine)?;
         let drive = &self.setup.plan().drive;
         let cycle = steady::Cycle {
             drive: &|fraction| self.prescribed(fraction),
@@ -146,7 +148,7 @@ impl Cycle<'_> {
 
     /// One cycle from this memory: its loop, and the surfaces at its quarters.
     fn recorded(&self, engine: &mut dyn Engine, memory: &[f64]) -> Result<(Loop, Vec<Surface>)> {
-        let mut march = self.march(engine);
+        let mut march = self.march(engine)?;
         march.recall(memory);
         let stages = march.stages(TAU / self.omega / self.steps as f64);
         let (mut samples, mut surfaces) = (Loop::default(), Vec::new());

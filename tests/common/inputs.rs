@@ -50,7 +50,7 @@ pub fn sweep_file(bytes: &[u8]) -> bool {
     let again = sweep_file::plan(&again).ok().unwrap();
     assert_eq!(resolved_text(&again), text);
     // Physics that cannot be is refused before anything is solved. Large grids would only take time.
-    if plan.solver.engine == EngineKind::Axisymmetric && plan.drives().len() < 50 {
+    if plan.solver.engine == EngineKind::Axisymmetric && plan.conditions().len() < 50 {
         let _ = Setup::new(plan).inspect_err(|why| assert!(!why.to_string().is_empty()));
     }
     true
@@ -303,7 +303,7 @@ impl Folder {
         let setup = Setup::new(plan).unwrap();
         let resolved = resolved_text(setup.plan());
         let store = Store::open(folder.path(), &resolved, false).unwrap();
-        let case = setup.plan().cases()[0];
+        let case = setup.plan().cases()[0].clone();
         Self {
             folder,
             setup,
@@ -380,7 +380,12 @@ impl Records {
         };
         let (plan, hash) = (self.folder.setup.plan(), self.folder.store.sweep_hash());
         let branches = outcome.retardation_times_s().len();
-        let _ = quantities::sweep(&outcome.records, branches, plan.figures.frequency_unit);
+        let _ = quantities::sweep(
+            &outcome.records,
+            branches,
+            plan.figures.frequency_unit,
+            plan.axis.as_ref(),
+        );
         for result in outcome.records.iter().filter_map(|r| r.result.as_ref()) {
             let _ = table::samples(&result.samples);
             let _ = table::pressures(&result.pressures, plan.drive.control());

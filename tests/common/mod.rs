@@ -138,7 +138,7 @@ pub fn sweep_plan(
 ) -> SweepPlan {
     SweepPlan {
         title: "integration test".into(),
-        material,
+        material: Arc::new(material),
         indenter,
         drive: HarmonicDrive::load(mean_n, amplitude_n).unwrap(),
         axis: None,
@@ -161,7 +161,7 @@ pub fn run_case(plan: &SweepPlan, angular_frequency_rad_per_s: f64) -> CaseRecor
     let case = Case {
         index: 0,
         angular_frequency_rad_per_s,
-        drive: plan.drive,
+        condition: plan.condition(),
     };
     setup.run(&case, &interrupt).unwrap()
 }

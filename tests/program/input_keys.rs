@@ -340,7 +340,38 @@ fn files() -> Vec<(FileKind, String)> {
             "",
         ));
     }
+    let over: Vec<_> = files.iter().flat_map(over_every_number).collect();
+    files.extend(over);
+    files.push(sweep(
+        [
+            &material(&dynamic("file = \"dma.csv\"")),
+            SPHERE,
+            HARMONIC,
+            "[sweep]\nangular_frequency = 1\n\"material.temperature\" = [295, 305]\n",
+        ],
+        "",
+    ));
     files
+}
+
+/// A sweep with the block of a file, over each of its numbers that may be a second axis.
+fn over_every_number((of, text): &(FileKind, String)) -> Vec<(FileKind, String)> {
+    let (kind, base) = sweep([LIBRARY, SPHERE, HARMONIC, ONE], "");
+    let (base, table): (toml::Table, toml::Table) = (base.parse().unwrap(), text.parse().unwrap());
+    let all = keys::paths(kind);
+    let paths = all.iter().filter_map(|path| {
+        let (block, key) = path.strip_prefix("sweep.")?.split_once('.')?;
+        // A history may be on a fluid.
+        let is_right = block == "indenter" || *of == FileKind::Sweep;
+        let whole = table.get(block).filter(|_| is_right)?.as_table()?;
+        let axis = [(key.to_owned(), Value::Array(vec![whole.get(key)?.clone()]))];
+        let mut over = base.clone();
+        over.insert(block.to_owned(), whole.clone().into());
+        let sweep = over.get_mut("sweep")?.as_table_mut()?;
+        sweep.insert(block.to_owned(), toml::Table::from_iter(axis).into());
+        Some((kind, toml::to_string(&over).unwrap()))
+    });
+    paths.collect()
 }
 
 /// Keys that cannot be changed alone, or that no file above shows, and why.

@@ -122,7 +122,7 @@ fn values_that_cannot_be_are_refused_where_they_are_given() {
     let case = contact_dma::sweep::plan::Case {
         index: 0,
         angular_frequency_rad_per_s: -1.0,
-        drive: plan.drive,
+        condition: plan.condition(),
     };
     let setup = Setup::new(plan).unwrap();
     let record = setup.run(&case, &AtomicBool::new(false)).unwrap();

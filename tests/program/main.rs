@@ -26,6 +26,7 @@ mod page;
 mod paths;
 mod refined_sweep;
 mod reproduce;
+mod second_axis;
 mod simulate;
 mod sweep_figures;
 mod tabulated_material;

@@ -14,7 +14,7 @@ use contact_dma::indenter::{FlatPunch, HeightMap, MapEdge, MapQuantity, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation};
 use contact_dma::report;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{DriveAxis, EngineKind, SweepPlan, Varied};
+use contact_dma::sweep::plan::{EngineKind, SecondAxis, SweepPlan, Varied};
 use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::search::run::{self, Outcome, Progress};
 use contact_dma::sweep::store::Store;
@@ -95,13 +95,9 @@ fn pmma(angular_frequencies_rad_per_s: &[f64]) -> SweepPlan {
 }
 
 fn with_amplitudes(mut plan: SweepPlan, amplitudes: &[f64]) -> SweepPlan {
-    let drive = |&amplitude: &f64| {
-        HarmonicDrive::new(plan.drive.control(), plan.drive.mean(), amplitude, 0.0, 0.0).unwrap()
-    };
-    plan.axis = Some(DriveAxis {
-        varied: Varied::Amplitude,
-        drives: amplitudes.iter().map(drive).collect(),
-    });
+    let varied = Varied::amplitude(plan.drive.control());
+    let axis = SecondAxis::of_drive(&plan, varied, amplitudes.iter().copied());
+    plan.axis = Some(axis.unwrap());
     plan
 }
 
@@ -234,7 +230,7 @@ fn figures_that_do_not_apply_are_left_out_and_said() {
     let mut elastic = pmma(&[0.004, 0.008, 0.02]);
     let relaxation = Relaxation::new(2e9, Vec::new()).unwrap();
     elastic.material =
-        Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap();
+        Arc::new(Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap());
     let elastic = swept(elastic);
     assert!(elastic.left_out.iter().any(|why| why.contains("branches")));
     assert!(!elastic.figures().contains("dissipation"));
@@ -298,7 +294,7 @@ fn an_elastic_body_loses_nothing_and_is_not_asked_for_a_wider_sweep() {
         let relaxation = Relaxation::new(1e9, Vec::new()).unwrap();
         let body = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap();
         let mut plan = pmma(&[0.01, 0.1, 1.0]);
-        plan.material = body;
+        plan.material = Arc::new(body);
         plan.cycle.steps = 32;
         plan.solver.engine = engine;
         plan.solver.cells = 32;

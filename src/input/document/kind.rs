@@ -66,6 +66,26 @@ pub(crate) trait Describe: Sync {
     fn rows(&self) -> Option<&'static Rows> {
         None
     }
+
+    /// What the number is, where the value is one; `controlled` is the dimension of what the drive controls.
+    fn scalar(&self, _controlled: Dimension) -> Option<Scalar> {
+        None
+    }
+
+    /// Whether it is a table of which one key alone is given.
+    fn takes_one_key(&self) -> bool {
+        false
+    }
+
+    /// Parts of its JSON Schema that are referred to by these names.
+    fn definitions(&self) -> serde_json::Map<String, Json> {
+        serde_json::Map::new()
+    }
+
+    /// Keys with dots that may be written, in quotes, in place of a table below, and what a JSON Schema says of each.
+    fn dotted(&self) -> serde_json::Map<String, Json> {
+        serde_json::Map::new()
+    }
 }
 
 /// A kind of value.
@@ -152,6 +172,11 @@ impl Scalar {
         }
     }
 
+    /// `None` for a bare number.
+    pub(crate) fn dimension(&self) -> Option<Dimension> {
+        self.dimension
+    }
+
     fn help(&self, node: &Node, spot: &Spot<'_>) -> String {
         if self.dimension.is_none() {
             return such_as(self, node, spot);
@@ -198,6 +223,10 @@ fn parse(text: &str, dimension: Dimension) -> Result<f64, QuantityError> {
 }
 
 impl Describe for Scalar {
+    fn scalar(&self, _controlled: Dimension) -> Option<Scalar> {
+        Some(*self)
+    }
+
     fn expected(&self) -> String {
         let limits = self.limits.qualify(self.dimension);
         match self.dimension {
@@ -313,6 +342,10 @@ impl Decided for Dependent {
 }
 
 impl Describe for Dependent {
+    fn scalar(&self, controlled: Dimension) -> Option<Scalar> {
+        Some(self.of(controlled))
+    }
+
     fn expected(&self) -> String {
         let [one, other] = self.dimensions;
         format!("{one} or {other}{}", self.limits.qualify(None))

@@ -174,6 +174,14 @@ impl<'a> TableReader<'a> {
         None
     }
 
+    /// The table under a key as it was parsed, where there is one. Counts as asking for it.
+    pub(crate) fn parsed(&mut self, row: &Row<kind::Table, Required>) -> Option<&'a Table> {
+        match &self.find(row.name)?.node.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
     /// What a table that may be left out holds, or what counts without it.
     pub(crate) fn table_or<T>(
         &mut self,

@@ -322,6 +322,7 @@ fn object(keys: &[&dyn AnyRow], decided_by: &[(&str, Option<&str>)]) -> Json {
             required.push(row.name());
         }
         properties.insert(row.name().to_owned(), schema);
+        properties.extend(row.kind().dotted());
     }
     for (key, word) in decided_by {
         if let Some(word) = word {

@@ -11,7 +11,7 @@ const ABBREVIATION: f64 = 0.88;
 /// In this order: the same but for case, hyphens and underscores; the same words in another order; the
 /// smallest Damerau-Levenshtein distance but for case, up to a third of the length (as rustc does); an
 /// abbreviation.
-pub(super) fn similar<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
+pub(in crate::input) fn similar<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str> {
     if name.chars().count() > MAX_CHARACTERS {
         return None;
     }

@@ -1,15 +1,19 @@
 //! Keys of `[drive]` and `[sweep]`: an oscillation and its axes, or a history of segments.
 
+use super::indenter::INDENTER;
+use super::material::MATERIAL;
 use super::rows;
 use crate::drive::Control;
+use crate::input::axis::AxisOf;
 use crate::input::document::kind::Boolean;
 use crate::input::document::kind::{
-    Array, Choice, Dependent, Integer, Scalar, Table, Tables, Text, list, number, quantity,
+    Array, Choice, Dependent, Integer, Scalar, Tables, Text, list, number, quantity,
 };
 use crate::input::document::limits::Limits;
 use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
 use crate::input::points::{MOST_POINTS, Points, SPACINGS, Spacing};
 use crate::quantity::Dimension::{Angle, AngularFrequency, Force, Frequency, Length, Time};
+use crate::sweep::plan::Block;
 
 const CONTROLS: [(&str, Control); 2] = [
     (Control::Load.name(), Control::Load),
@@ -51,8 +55,14 @@ rows! { _:
 }
 
 rows! { SWEEP_KEYS:
-    /// A second axis: every frequency under each amplitude or mean.
-    AXIS: Row<Table, Optional> = "drive", Table(&DRIVE_AXIS), Optional;
+    /// A second axis: every frequency under each value of one key of `[drive]`: `drive.amplitude = ["1 N", "2 N"]`.
+    DRIVE_AXIS: Row<AxisOf, Optional> = "drive", AxisOf { block: Block::Drive, rows: &HARMONIC }, Optional;
+    /// The same over one number of the indenter: `indenter.radius = ["1 mm", "2 mm"]`.
+    INDENTER_AXIS: Row<AxisOf, Optional> =
+        "indenter", AxisOf { block: Block::Indenter, rows: &INDENTER }, Optional;
+    /// The same over one number of the material: `material.temperature = ["0 °C", "25 °C"]`.
+    MATERIAL_AXIS: Row<AxisOf, Optional> =
+        "material", AxisOf { block: Block::Material, rows: &MATERIAL }, Optional;
     /// Whether frequencies are added where the given ones do not resolve the curve of the loss.
     REFINE: Row<Boolean, Or<bool>> = "refine", Boolean, Or(false);
 }
@@ -61,19 +71,6 @@ pub(super) static SWEEP: Rows = Rows {
     means: " The cases: exactly one of `angular_frequency` and `frequency`, and perhaps a second axis.",
     keys: SWEEP_KEYS,
     others: Others::OneList(&[&[&ANGULAR_FREQUENCY], &[&FREQUENCY]]),
-};
-
-rows! { _:
-    /// Amplitudes: a list, or a range.
-    AXIS_AMPLITUDE: Row<Points<Dependent>, Required> = "amplitude", Points(of_control(Limits::ABOVE_ZERO)), Required;
-    /// Means: a list, or a range.
-    AXIS_MEAN: Row<Points<Dependent>, Required> = "mean", Points(of_control(Limits::ABOVE_ZERO)), Required;
-}
-
-static DRIVE_AXIS: Rows = Rows {
-    means: " The second axis: exactly one of `amplitude` and `mean`, in place of that of `[drive]`.",
-    keys: &[],
-    others: Others::OneList(&[&[&AXIS_AMPLITUDE], &[&AXIS_MEAN]]),
 };
 
 rows! { RANGE_KEYS:

@@ -137,8 +137,14 @@ pub fn words() -> Vec<&'static str> {
 pub fn paths(kind: FileKind) -> Vec<String> {
     let mut paths = Vec::new();
     kind.rows().visit("", &mut |path, row| {
-        if row.kind().rows().is_none() {
-            paths.push(path.to_owned());
+        let kind = row.kind();
+        match kind.takes_one_key() {
+            true => paths.extend(kind.dotted().keys().map(|key| {
+                let key = key.rsplit('.').next().unwrap_or(key);
+                format!("{path}.{key}")
+            })),
+            false if kind.rows().is_none() => paths.push(path.to_owned()),
+            false => {}
         }
     });
     paths.sort_unstable();

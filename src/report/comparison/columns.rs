@@ -61,6 +61,7 @@ fn cases<'a>(baseline: &'a SweepTable, new: &'a SweepTable) -> Vec<Case<'a>> {
         .collect();
     let key = |place: &Place| {
         [
+            place.varied.unwrap_or(0.0),
             place.drive_mean,
             place.drive_amplitude,
             place.angular_frequency_rad_per_s,

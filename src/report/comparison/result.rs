@@ -6,6 +6,8 @@ use serde::Deserialize;
 
 use super::Place;
 use crate::quantity::FrequencyUnit;
+use crate::report::quantities;
+use crate::sweep::plan::Block;
 use crate::sweep::search::peak::Peak;
 
 /// Why a result cannot be compared.
@@ -53,6 +55,16 @@ struct Summary {
 const FREQUENCY: &str = "angular_frequency_rad_per_s";
 /// Frequencies and drives closer than this, relatively, are the same: what is left of a number written and read elsewhere.
 const SAME: f64 = 1e-9;
+
+/// Whether a column is what a second axis varies of something else than mean and amplitude.
+fn is_of_axis(column: &str) -> bool {
+    let blocks = [Block::Material, Block::Indenter, Block::Drive];
+    let is_of = |block: &Block| {
+        let key = column.strip_prefix(block.name());
+        key.is_some_and(|key| key.starts_with('_'))
+    };
+    blocks.iter().any(is_of) && quantities::of_name(column).is_none()
+}
 
 impl SweepTable {
     /// Reads a `sweep.csv` that messages call `name`, and a `summary.json` where there is one.
@@ -107,6 +119,7 @@ impl SweepTable {
             line,
             cells,
             place: Place {
+                varied: None,
                 drive_mean: 0.0,
                 drive_amplitude: 0.0,
                 angular_frequency_rad_per_s: 0.0,
@@ -116,7 +129,9 @@ impl SweepTable {
         };
         let number = |column| Ok(self.number(&row, column)?.unwrap_or(0.0));
         let text = |column| self.cell(&row, column).unwrap_or_default().to_owned();
+        let varied = self.columns.iter().find(|name| is_of_axis(name));
         let place = Place {
+            varied: varied.map_or(Ok(None), |name| self.number(&row, name))?,
             drive_mean: number("drive_mean")?,
             drive_amplitude: number("drive_amplitude")?,
             angular_frequency_rad_per_s: number(FREQUENCY)?,
@@ -167,7 +182,8 @@ impl SweepTable {
             near(
                 other.angular_frequency_rad_per_s,
                 place.angular_frequency_rad_per_s,
-            ) && near(other.drive_mean, place.drive_mean)
+            ) && near(other.varied.unwrap_or(0.0), place.varied.unwrap_or(0.0))
+                && near(other.drive_mean, place.drive_mean)
                 && near(other.drive_amplitude, place.drive_amplitude)
         })
     }

@@ -64,6 +64,7 @@ impl Comparison {
     /// `comparison.csv`: the curves of the energy loss and their difference.
     pub fn table(&self) -> Vec<u8> {
         let columns = [
+            "varied",
             "drive_mean",
             "drive_amplitude",
             "angular_frequency_rad_per_s",
@@ -74,6 +75,7 @@ impl Comparison {
         ];
         let rows = self.curve.iter().map(|point| {
             cells![
+                point.place.varied,
                 point.place.drive_mean,
                 point.place.drive_amplitude,
                 point.place.angular_frequency_rad_per_s,
@@ -83,7 +85,11 @@ impl Comparison {
                 point.error_j,
             ]
         });
-        csv_leading(self.unit, &columns, rows)
+        // Most sweeps vary nothing but the drive.
+        let has_axis = self.curve.iter().any(|point| point.place.varied.is_some());
+        let first = usize::from(!has_axis);
+        let rows = rows.map(|row| row[first..].to_vec());
+        csv_leading(self.unit, &columns[first..], rows)
     }
 }
 
@@ -97,8 +103,11 @@ impl super::CurvePoint {
 
 /// A case in words.
 pub(in crate::report) fn words(unit: FrequencyUnit, place: &Place) -> String {
+    let varied = place
+        .varied
+        .map_or(String::new(), |value| format!("axis {value}, "));
     format!(
-        "{} (mean {}, amplitude {})",
+        "{} ({varied}mean {}, amplitude {})",
         case(unit, place.angular_frequency_rad_per_s),
         place.drive_mean,
         place.drive_amplitude

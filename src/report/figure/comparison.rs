@@ -57,11 +57,11 @@ fn caption(comparison: &Comparison) -> Caption {
         .say_all(largest)
 }
 
-fn drive(place: &Place) -> (f64, f64) {
-    (place.drive_mean, place.drive_amplitude)
+fn condition(place: &Place) -> (Option<f64>, f64, f64) {
+    (place.varied, place.drive_mean, place.drive_amplitude)
 }
 
-/// Points, broken where the drive changes.
+/// Points, broken where the condition changes.
 fn points(
     (curve, unit): (&[CurvePoint], FrequencyUnit),
     value: impl Fn(&CurvePoint) -> Option<f64>,
@@ -69,10 +69,10 @@ fn points(
     let mut points = Vec::with_capacity(curve.len());
     let mut last = None;
     for point in curve {
-        if last.is_some_and(|last| last != drive(&point.place)) {
+        if last.is_some_and(|last| last != condition(&point.place)) {
             points.push(None);
         }
-        last = Some(drive(&point.place));
+        last = Some(condition(&point.place));
         let x = unit.of(point.place.angular_frequency_rad_per_s);
         points.push(value(point).map(|v| (x, v)));
     }

@@ -1,36 +1,72 @@
-//! The cases of a sweep as curves over frequency: one, or one per drive of a second axis; and which of many are shown.
+//! The cases of a sweep as curves over frequency: one, or one per value of a second axis; and which of many are shown.
 
 use super::units::Units;
-use crate::drive::HarmonicDrive;
-use crate::sweep::plan::SweepPlan;
+use crate::report::table::Cell;
+use crate::sweep::plan::{Block, Condition, SecondAxis, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::search::run::Outcome;
 
-/// The cases under one drive, in ascending frequency.
+/// The cases under one condition, in ascending frequency.
 pub struct Curve<'a> {
-    pub drive: HarmonicDrive,
+    pub condition: Condition,
     /// What tells it from other curves; `None` where it is the only one.
     pub label: Option<String>,
+    /// The same for a caption.
+    pub sentence: Option<String>,
     pub records: Vec<&'a CaseRecord>,
 }
 
-/// The curves of a sweep, in the order of its drives, labelled in these units; those without any case are left out.
+/// The curves of a sweep, in the order of its conditions, labelled in these units; those without any case are left out.
 pub fn curves<'a>(plan: &SweepPlan, outcome: &'a Outcome, units: &Units) -> Vec<Curve<'a>> {
-    let curve = |drive: &HarmonicDrive| Curve {
-        drive: *drive,
-        label: plan.axis.as_ref().map(|axis| {
-            let value = axis.varied.value(drive);
-            let value = units.drive_value(drive.control(), value);
-            format!("{} {value}", axis.varied.name())
-        }),
-        records: outcome
-            .records
-            .iter()
-            .filter(|record| record.is_under(drive))
-            .collect(),
+    let curve = |condition: &Condition| {
+        let varied = plan.axis.as_ref().map(|axis| axis.varied);
+        let label = varied.zip(condition.value).map(|(varied, value)| {
+            let value = units.varied_value(&varied, value);
+            format!("{} {value}", varied.name())
+        });
+        let sentence = varied.zip(label.as_ref()).map(|(varied, label)| {
+            let of = match varied.block {
+                Block::Drive => "Drive",
+                Block::Indenter => "Indenter",
+                Block::Material => "Material",
+            };
+            format!("{of}: {label}.")
+        });
+        Curve {
+            condition: condition.clone(),
+            label,
+            sentence,
+            records: outcome
+                .records
+                .iter()
+                .filter(|record| record.is_of(condition))
+                .collect(),
+        }
     };
-    let curves = plan.drives().iter().map(curve);
+    let conditions = plan.conditions();
+    let curves = conditions.iter().map(curve);
     curves.filter(|curve| !curve.records.is_empty()).collect()
+}
+
+/// Columns that tell the cases of a sweep apart but for their frequency.
+pub fn place_columns(axis: Option<&SecondAxis>) -> Vec<String> {
+    let own = axis.filter(|axis| axis.has_own_column());
+    let own = own.map(|axis| axis.varied.column());
+    let drive = ["drive_mean", "drive_amplitude"].map(str::to_owned);
+    own.into_iter().chain(drive).collect()
+}
+
+/// Their cells: the varied number, mean and amplitude.
+pub fn place_cells(axis: Option<&SecondAxis>, varied: Option<f64>, drive: [f64; 2]) -> Vec<Cell> {
+    let own = axis.filter(|axis| axis.has_own_column());
+    let own = own.map(|_| varied.into());
+    own.into_iter().chain(drive.map(Cell::from)).collect()
+}
+
+/// The same of a case.
+pub fn place_of(axis: Option<&SecondAxis>, record: &CaseRecord) -> Vec<Cell> {
+    let drive = [record.drive_mean, record.drive_amplitude];
+    place_cells(axis, record.varied, drive)
 }
 
 /// The curve with the largest loss: what a figure that has room for one curve shows.
@@ -45,12 +81,6 @@ pub fn largest<'a, 'b>(curves: &'b [Curve<'a>]) -> Option<&'b Curve<'a>> {
 }
 
 impl<'a> Curve<'a> {
-    /// Which of several drives this is, for a caption.
-    pub fn sentence(&self) -> Option<String> {
-        let label = self.label.as_ref()?;
-        Some(format!("Drive: {label}."))
-    }
-
     /// The cases that have a result.
     pub fn results(&self) -> Vec<(&'a CaseRecord, &'a CaseResult)> {
         let results = self.records.iter();

@@ -99,7 +99,7 @@ fn caption(
         units.frequency_words()
     ))
         .say("Areas: dissipated by the branches, from their memory alone; line: area of the hysteresis loop.")
-        .say_all(curve.sentence().into_iter().chain(shares))
+        .say_all(curve.sentence.clone().into_iter().chain(shares))
 }
 
 /// One band of the stack.

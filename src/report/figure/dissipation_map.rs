@@ -52,7 +52,7 @@ fn caption(curve: &Curve<'_>, record: &CaseRecord, units: &Units) -> Caption {
         "Work that the indenter does on the surface per cycle and area, at {at}, of the computed frequencies that of the \
          largest loss"
     ))
-    .say_all(curve.sentence().into_iter().chain(loss))
+    .say_all(curve.sentence.clone().into_iter().chain(loss))
 }
 
 /// Densities (J/m2) on a grid of cells, or along the radius of what is turned.

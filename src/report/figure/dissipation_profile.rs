@@ -82,7 +82,7 @@ fn caption(
         "Work that the indenter does on the surface per cycle and area, {}",
         along.words()
     ))
-    .say_all(curve.sentence())
+    .say_all(curve.sentence.clone())
     .say(format!(
         "Curves: {} = {}.",
         units.frequency_unit().symbol(),

@@ -1,12 +1,12 @@
-//! A quantity over both axes of a sweep, frequency and drive, as a map: coloured between the cases, which are dots.
+//! A quantity over both axes of a sweep, frequency and the second one, as a map: coloured between the cases, which are dots.
 
-use super::curve::Curve;
+use super::curve::{Curve, place_columns, place_of};
 use super::moduli_error::WIDE;
 use super::units::Units;
 use crate::report::chart::{HeatMap, MapShape, Scale};
 use crate::report::number::range;
-use crate::report::table::{cells, csv_leading};
-use crate::sweep::plan::{DriveAxis, SweepPlan};
+use crate::report::table::csv_leading;
+use crate::sweep::plan::{SecondAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 
 const WIDTH_PX: u32 = 800;
@@ -21,14 +21,14 @@ const WIDE_COLOURS: f64 = 30.0;
 pub struct Mapped<'a> {
     pub value: &'a dyn Fn(&CaseRecord) -> Option<f64>,
     pub label: String,
-    /// (angular frequency, value of the drive) of what is pointed out.
+    /// (angular frequency, varied number) of what is pointed out.
     pub rings: Vec<(f64, f64)>,
 }
 
-/// The map; `None` where there are not two frequencies under each of two drives to colour between.
+/// The map; `None` where there are not two frequencies under each of two conditions to colour between.
 pub fn map(
     plan: &SweepPlan,
-    axis: &DriveAxis,
+    axis: &SecondAxis,
     (curves, units): (&[Curve<'_>], &Units),
     mapped: Mapped<'_>,
 ) -> Option<HeatMap> {
@@ -37,9 +37,9 @@ pub fn map(
     let records = || curves.iter().flat_map(|curve| &curve.records);
     let values = records().filter_map(|record| (mapped.value)(record));
     let value_scale = scale(range(values), WIDE_COLOURS);
-    let drives = || curves.iter().map(|curve| axis.varied.value(&curve.drive));
-    let (low, high) = (drives().next()?, drives().next_back()?);
-    let (to_unit, unit) = units.drive(control, low.abs().max(high.abs()));
+    let values = || curves.iter().filter_map(|curve| curve.condition.value);
+    let (low, high) = (values().next()?, values().next_back()?);
+    let unit = units.varied(&axis.varied, low.abs().max(high.abs()));
     let y_scale = scale((low, high), WIDE);
     let x_range = range(records().map(|record| record.angular_frequency_rad_per_s));
     if x_range.0 >= x_range.1 || low >= high {
@@ -48,7 +48,7 @@ pub fn map(
     let grid = Grid {
         rows: curves
             .iter()
-            .map(|curve| row(curve, axis, y_scale, value_scale, mapped.value))
+            .filter_map(|curve| row(curve, y_scale, value_scale, mapped.value))
             .collect(),
     };
     let centre = |(from, to): (f64, f64), k: usize, count: usize| {
@@ -71,17 +71,16 @@ pub fn map(
     let coloured: Vec<Option<f64>> = (0..COLUMNS * ROWS).map(cell).collect();
     coloured.iter().any(Option::is_some).then_some(())?;
     let points = curves.iter().flat_map(|curve| {
-        let value = to_unit * axis.varied.value(&curve.drive);
+        let value = curve.condition.value.map(|value| unit.of(value));
         let there = curve.records.iter().filter(|r| (mapped.value)(r).is_some());
-        there.map(move |record| (to_omega * record.angular_frequency_rad_per_s, value))
+        there.filter_map(move |r| Some((to_omega * r.angular_frequency_rad_per_s, value?)))
     });
-    let name = axis.varied.name();
     Some(HeatMap {
         title: None,
         x_label: units.frequency_title(),
-        y_label: format!("{} {name} / {unit}", control.name()),
+        y_label: unit.title(&axis.varied, control),
         x_range: (to_omega * x_range.0, to_omega * x_range.1),
-        y_range: (to_unit * low, to_unit * high),
+        y_range: (unit.of(low), unit.of(high)),
         x_scale: Scale::Log,
         y_scale,
         columns: COLUMNS,
@@ -95,7 +94,7 @@ pub fn map(
         rings: mapped
             .rings
             .iter()
-            .map(|(x, y)| (to_omega * x, to_unit * y))
+            .map(|(x, y)| (to_omega * x, unit.of(*y)))
             .collect(),
         width_px: WIDTH_PX,
         shape: MapShape::HeightPx(HEIGHT_PX),
@@ -118,40 +117,39 @@ fn on(scale: Scale, value: f64) -> f64 {
     }
 }
 
-/// Values on their scale, drive by drive, each along its own frequencies.
+/// Values on their scale, row by row, each along its own frequencies.
 struct Grid {
     rows: Vec<Row>,
 }
 
-/// One drive: its value, and (logarithm of the frequency, value or `None`), ascending.
+/// One value of the second axis, and (logarithm of the frequency, value or `None`), ascending.
 struct Row {
-    drive: f64,
+    place: f64,
     cases: Vec<(f64, Option<f64>)>,
 }
 
 fn row(
     curve: &Curve<'_>,
-    axis: &DriveAxis,
     y_scale: Scale,
     value_scale: Scale,
     value: &dyn Fn(&CaseRecord) -> Option<f64>,
-) -> Row {
+) -> Option<Row> {
     let case = |record: &&CaseRecord| {
         let value = value(record).map(|value| on(value_scale, value));
         (record.angular_frequency_rad_per_s.log10(), value)
     };
-    Row {
-        drive: on(y_scale, axis.varied.value(&curve.drive)),
+    Some(Row {
+        place: on(y_scale, curve.condition.value?),
         cases: curve.records.iter().map(case).collect(),
-    }
+    })
 }
 
 impl Grid {
     /// Linear between the neighbours; `None` beside a case without a value.
     fn at(&self, x: f64, y: f64) -> Option<f64> {
-        let above = self.rows.partition_point(|row| row.drive < y).max(1);
+        let above = self.rows.partition_point(|row| row.place < y).max(1);
         let (low, high) = (self.rows.get(above - 1)?, self.rows.get(above)?);
-        let part = (y - low.drive) / (high.drive - low.drive);
+        let part = (y - low.place) / (high.place - low.place);
         let (from, to) = (low.at(x)?, high.at(x)?);
         Some(from + part * (to - from))
     }
@@ -172,26 +170,20 @@ pub type Column<'a> = (&'a str, &'a dyn Fn(&CaseRecord) -> Option<f64>);
 
 /// The table behind a map: the cases.
 pub fn data<const N: usize>(
+    axis: &SecondAxis,
     (curves, units): (&[Curve<'_>], &Units),
     columns: [Column<'_>; N],
 ) -> Vec<u8> {
     let unit = units.frequency_unit();
-    let mut names = vec![
-        "drive_mean",
-        "drive_amplitude",
-        "angular_frequency_rad_per_s",
-    ];
-    names.extend(columns.iter().map(|(name, _)| *name));
+    let mut names = place_columns(Some(axis));
+    names.push("angular_frequency_rad_per_s".to_owned());
+    names.extend(columns.iter().map(|(name, _)| (*name).to_owned()));
     let rows = curves
         .iter()
         .flat_map(|curve| &curve.records)
         .map(|record| {
-            let mut row = cells![
-                record.drive_mean,
-                record.drive_amplitude,
-                record.angular_frequency_rad_per_s,
-            ]
-            .to_vec();
+            let mut row = place_of(Some(axis), record);
+            row.push(record.angular_frequency_rad_per_s.into());
             row.extend(columns.iter().map(|(_, value)| value(record).into()));
             row
         });
@@ -206,11 +198,11 @@ mod tests {
     fn between_the_cases_a_bilinear_function_is_reproduced_and_beside_a_gap_is_nothing() {
         let f = |x: f64, y: f64| 1.0 + 2.0 * x - 3.0 * y + 0.5 * x * y;
         let row = |y: f64, xs: &[f64]| Row {
-            drive: y,
+            place: y,
             cases: xs.iter().map(|&x| (x, Some(f(x, y)))).collect(),
         };
         let mut grid = Grid {
-            // Each drive has frequencies of its own.
+            // Each row has frequencies of its own.
             rows: vec![row(0.0, &[0.0, 1.0, 4.0]), row(2.0, &[0.0, 2.0, 4.0])],
         };
         for (x, y) in [(0.3, 0.1), (1.7, 1.9), (3.9, 1.0), (0.0, 0.0), (4.0, 2.0)] {

@@ -1,13 +1,13 @@
-//! Energy loss per cycle against angular frequency, with error bars, its peaks marked; one curve per drive.
+//! Energy loss per cycle against angular frequency, with error bars, its peaks marked; one curve per value of a second axis.
 
 use super::Figure;
-use super::curve::{Curve, evenly};
+use super::curve::{Curve, evenly, place_cells, place_columns, place_of};
 use super::units::Units;
 use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, Color, Mark, Marker, Series};
 use crate::report::number::{largest, range, with_error};
 use crate::report::peaks;
-use crate::report::table::{cells, csv_leading};
+use crate::report::table::{Cell, cells, csv_leading};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
@@ -26,7 +26,7 @@ pub fn figure(plan: &SweepPlan, outcome: &Outcome, all: &[Curve<'_>], units: &Un
     let of_curve_j =
         |curve: &&Curve<'_>| largest(curve.records.iter().filter_map(|r| r.energy_loss_j()));
     let peaks = || {
-        let of_shown = |peak: &&Peak| shown.iter().any(|curve| is_of(peak, curve));
+        let of_shown = |peak: &&Peak| shown.iter().any(|curve| peak.is_of(&curve.condition));
         outcome.peaks.iter().filter(of_shown)
     };
     let heights = || {
@@ -127,15 +127,6 @@ fn of_curve(curve: &Curve<'_>, (to_omega, factor): (f64, f64), log: bool) -> Ser
     series.error_bars(errors)
 }
 
-/// Whether a peak is one of this curve: those of the only curve do not say which it is.
-fn is_of(peak: &Peak, curve: &Curve<'_>) -> bool {
-    peak.drive_mean
-        .is_none_or(|mean| mean == curve.drive.mean())
-        && peak
-            .drive_amplitude
-            .is_none_or(|amplitude| amplitude == curve.drive.amplitude())
-}
-
 fn mark(peak: &Peak, (units, factor): (&Units, f64), labelled: bool) -> Mark {
     let omega = peak.angular_frequency_rad_per_s;
     let place = units.frequency().0 * omega;
@@ -155,9 +146,9 @@ fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>], units: &Un
     let over = units.frequency_words();
     let mut caption = Caption::new(format!("Energy loss per cycle over {over}"));
     if let Some(axis) = &plan.axis {
-        let varied = axis.varied.name();
+        let varied = axis.varied.words();
         let curves = shown.len();
-        caption = caption.say(format!("{curves} curves, one per {varied} of the drive."));
+        caption = caption.say(format!("{curves} curves, one per {varied}."));
     }
     for peak in peaks::shown(plan, outcome, with_error) {
         let what = match peak.is_largest {
@@ -178,36 +169,42 @@ fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>], units: &Un
 }
 
 fn data(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
-    let columns = [
-        "kind",
-        "drive_mean",
-        "drive_amplitude",
+    let axis = plan.axis.as_ref();
+    let mut columns = vec!["kind".to_owned()];
+    columns.extend(place_columns(axis));
+    let numbers = [
         "angular_frequency_rad_per_s",
         "energy_loss_j",
         "energy_loss_error_j",
         "energy_loss_material_error_j",
     ];
+    columns.extend(numbers.map(str::to_owned));
+    let row = |kind: &str, place: Vec<Cell>, numbers: [Cell; 4]| {
+        let kind = Cell::from(kind.to_owned());
+        let cells = [kind].into_iter().chain(place).chain(numbers);
+        cells.collect::<Vec<Cell>>()
+    };
     let cases = outcome.records.iter().map(|record| {
-        cells![
-            "case",
-            record.drive_mean,
-            record.drive_amplitude,
+        let numbers = cells![
             record.angular_frequency_rad_per_s,
             record.energy_loss_j(),
             record.energy_loss_error_j(),
             record.energy_loss_material_error_j(),
-        ]
+        ];
+        row("case", place_of(axis, record), numbers)
     });
     let peaks = outcome.peaks.iter().map(|peak| {
-        cells![
-            "peak",
+        let drive = [
             peak.drive_mean.unwrap_or(plan.drive.mean()),
             peak.drive_amplitude.unwrap_or(plan.drive.amplitude()),
+        ];
+        let numbers = cells![
             peak.angular_frequency_rad_per_s,
             peak.energy_loss_j,
             peak.energy_loss_error_j,
             peak.energy_loss_material_error_j,
-        ]
+        ];
+        row("peak", place_cells(axis, peak.varied, drive), numbers)
     });
     csv_leading(units.frequency_unit(), &columns, cases.chain(peaks))
 }

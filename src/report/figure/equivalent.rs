@@ -2,7 +2,7 @@
 
 use num_complex::Complex;
 
-use super::curve::{Curve, curves};
+use super::curve::{Curve, curves, place_columns, place_of};
 use super::units::Units;
 use crate::material::Material;
 use crate::report::caption::Caption;
@@ -35,18 +35,22 @@ pub struct Equivalent<'a> {
     /// Two decades further on both sides.
     pub own_beyond: Line,
     pub title: Option<String>,
+    /// The same as a sentence.
+    pub under: Option<String>,
 }
 
 impl<'a> Equivalent<'a> {
     /// `None` where fewer than two loops have moduli.
-    pub fn of(material: &Material, curve: &Curve<'a>) -> Option<Self> {
-        let loops = of_loops(material, curve);
+    pub fn of(curve: &Curve<'a>) -> Option<Self> {
+        let material = &curve.condition.material;
+        let loops = of_loops(curve);
         let first = loops.first()?.record.angular_frequency_rad_per_s;
         let last = loops.last()?.record.angular_frequency_rad_per_s;
         (loops.len() > 1 && last > first).then(|| Self {
             own: line(material, first, last),
             own_beyond: line(material, 1e-2 * first, 1e2 * last),
             title: curve.label.clone(),
+            under: curve.sentence.clone(),
             loops,
         })
     }
@@ -58,7 +62,8 @@ pub fn symbols<P: Into<Option<(f64, f64)>>>(points: impl IntoIterator<Item = P>)
 }
 
 /// The moduli of the loops of a curve, as far as they have any.
-pub fn of_loops<'a>(material: &Material, curve: &Curve<'a>) -> Vec<LoopModulus<'a>> {
+pub fn of_loops<'a>(curve: &Curve<'a>) -> Vec<LoopModulus<'a>> {
+    let material = &curve.condition.material;
     let records = curve.records.iter();
     records
         .filter_map(|&record| {
@@ -85,10 +90,9 @@ fn line(material: &Material, first: f64, last: f64) -> Line {
 impl Equivalent<'_> {
     /// A caption of a figure that draws loops beside the material: how the symbols come about, and how far they are off.
     pub fn caption(&self, shows: &str) -> Caption {
-        let drive = self.title.as_ref().map(|title| format!("Drive: {title}."));
         let [storage, loss] = largest_differences(|| self.loops.iter());
         Caption::new(shows)
-            .say_all(drive)
+            .say_all(self.under.clone())
             .say(
                 "Lines: the material's longitudinal modulus. Symbols: what indentation reads from the hysteresis loops, \
                  E′ = (1 − ν²)W₁cosφ/(2aδ₁) and E″ with sinφ, W₁ and δ₁ being the first harmonics of load and approach, φ the \
@@ -134,11 +138,10 @@ impl LoopModulus<'_> {
     }
 }
 
-/// The table behind the moduli: all loops of a sweep, under all drives.
+/// The table behind the moduli: all loops of a sweep, under all conditions.
 pub fn table(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
-    let columns = [
-        "drive_mean",
-        "drive_amplitude",
+    let mut columns = place_columns(plan.axis.as_ref());
+    let numbers = [
         "angular_frequency_rad_per_s",
         "storage_modulus_pa",
         "storage_modulus_error_pa",
@@ -149,25 +152,24 @@ pub fn table(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
         "storage_relative_difference",
         "loss_relative_difference",
     ];
+    columns.extend(numbers.map(str::to_owned));
     let curves = curves(plan, outcome, units);
     let loops = curves.iter();
-    let rows = loops
-        .flat_map(|curve| of_loops(&plan.material, curve))
-        .map(|at| {
-            cells![
-                at.record.drive_mean,
-                at.record.drive_amplitude,
-                at.omega(),
-                at.storage_pa,
-                at.error_pa(Quantity::StorageModulus),
-                at.loss_pa,
-                at.error_pa(Quantity::LossModulus),
-                at.own_pa.re,
-                at.own_pa.im,
-                at.storage_difference(),
-                at.loss_difference(),
-            ]
-        });
+    let rows = loops.flat_map(|curve| of_loops(curve)).map(|at| {
+        let mut row = place_of(plan.axis.as_ref(), at.record);
+        row.extend(cells![
+            at.omega(),
+            at.storage_pa,
+            at.error_pa(Quantity::StorageModulus),
+            at.loss_pa,
+            at.error_pa(Quantity::LossModulus),
+            at.own_pa.re,
+            at.own_pa.im,
+            at.storage_difference(),
+            at.loss_difference(),
+        ]);
+        row
+    });
     csv_leading(units.frequency_unit(), &columns, rows)
 }
 

@@ -1,4 +1,4 @@
-//! Second harmonic of the approach over frequency and drive: how far the contact is from a linear one.
+//! Second harmonic of the approach over frequency and second axis: how far the contact is from a linear one.
 
 use super::curve::Curve;
 use super::drive_map::{self, Mapped};
@@ -7,11 +7,11 @@ use super::{Drawn, Figure};
 use crate::drive::Control;
 use crate::report::caption::Caption;
 use crate::report::number::{largest, scientific};
-use crate::sweep::plan::{DriveAxis, SweepPlan};
+use crate::sweep::plan::{SecondAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 
 /// The figure.
-pub fn figure(plan: &SweepPlan, axis: &DriveAxis, curves: &[Curve<'_>], units: &Units) -> Drawn {
+pub fn figure(plan: &SweepPlan, axis: &SecondAxis, curves: &[Curve<'_>], units: &Units) -> Drawn {
     if plan.drive.control() == Control::Approach {
         return Drawn::left_out("no harmonic-2 map: the approach is prescribed and has none");
     }
@@ -22,14 +22,14 @@ pub fn figure(plan: &SweepPlan, axis: &DriveAxis, curves: &[Curve<'_>], units: &
     };
     let Some(map) = drive_map::map(plan, axis, (curves, units), mapped) else {
         return Drawn::left_out(
-            "no harmonic-2 map: it takes two frequencies and two drives with results",
+            "no harmonic-2 map: it takes two frequencies with results under each of two values of the second axis",
         );
     };
     Drawn::Figure(Figure {
         name: "harmonic-2-map",
         picture: map.into(),
         caption: caption(axis, curves, units),
-        data: drive_map::data((curves, units), [("harmonic_2", &second)]),
+        data: drive_map::data(axis, (curves, units), [("harmonic_2", &second)]),
     })
 }
 
@@ -37,11 +37,10 @@ fn second(record: &CaseRecord) -> Option<f64> {
     record.result.as_ref()?.analysis.approach_harmonic(2)
 }
 
-fn caption(axis: &DriveAxis, curves: &[Curve<'_>], units: &Units) -> Caption {
-    let (over, varied) = (units.frequency_words(), axis.varied.name());
-    let title = format!(
-        "Second harmonic of the approach relative to its first, over {over} and {varied} of the drive"
-    );
+fn caption(axis: &SecondAxis, curves: &[Curve<'_>], units: &Units) -> Caption {
+    let (over, varied) = (units.frequency_words(), axis.varied.words());
+    let title =
+        format!("Second harmonic of the approach relative to its first, over {over} and {varied}");
     let values = curves.iter().flat_map(|curve| &curve.records);
     let values = values.filter_map(|record| second(record));
     let largest = scientific(100.0 * largest(values), 3);

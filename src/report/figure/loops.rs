@@ -58,7 +58,7 @@ fn caption(curve: &Curve<'_>, chosen: &[(&CaseRecord, &CaseResult)], units: &Uni
         })
         .collect();
     Caption::new("Hysteresis loops: load W over approach δ in the stabilised cycle")
-        .say_all(curve.sentence())
+        .say_all(curve.sentence.clone())
         .say(format!(
             "Their areas are the energy losses per cycle: {}.",
             listed(&loops)

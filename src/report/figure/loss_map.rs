@@ -1,4 +1,4 @@
-//! Energy loss over frequency and drive: the map of a sweep of two axes, its peaks as rings.
+//! Energy loss over frequency and second axis: the map of a sweep of two axes, its peaks as rings.
 
 use super::curve::Curve;
 use super::drive_map::{self, Mapped};
@@ -7,7 +7,7 @@ use super::{Drawn, Figure};
 use crate::quantity::Dimension;
 use crate::report::caption::{self, Caption};
 use crate::report::number::{largest, with_error};
-use crate::sweep::plan::{DriveAxis, SweepPlan};
+use crate::sweep::plan::{SecondAxis, SweepPlan};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Outcome;
 
@@ -15,16 +15,16 @@ use crate::sweep::search::run::Outcome;
 pub fn figure(
     plan: &SweepPlan,
     outcome: &Outcome,
-    axis: &DriveAxis,
+    axis: &SecondAxis,
     curves: &[Curve<'_>],
     units: &Units,
 ) -> Drawn {
     let losses = outcome.records.iter().filter_map(|r| r.energy_loss_j());
     let (factor, unit) = units.energy(largest(losses));
-    let rings = outcome.peaks.iter().filter_map(|peak| {
-        let value = peak.drive(axis.varied)?;
-        Some((peak.angular_frequency_rad_per_s, value))
-    });
+    let rings = outcome
+        .peaks
+        .iter()
+        .filter_map(|peak| Some((peak.angular_frequency_rad_per_s, peak.varied?)));
     let mapped = Mapped {
         value: &|record| Some(factor * record.energy_loss_j()?),
         label: format!("energy loss per cycle / {unit}"),
@@ -32,10 +32,11 @@ pub fn figure(
     };
     let Some(map) = drive_map::map(plan, axis, (curves, units), mapped) else {
         return Drawn::left_out(
-            "no loss map: it takes two frequencies and two drives with results",
+            "no loss map: it takes two frequencies with results under each of two values of the second axis",
         );
     };
     let data = drive_map::data(
+        axis,
         (curves, units),
         [
             ("energy_loss_j", &CaseRecord::energy_loss_j),
@@ -50,9 +51,9 @@ pub fn figure(
     })
 }
 
-fn caption(outcome: &Outcome, axis: &DriveAxis, units: &Units) -> Caption {
-    let (over, varied) = (units.frequency_words(), axis.varied.name());
-    let title = format!("Energy loss per cycle over {over} and {varied} of the drive");
+fn caption(outcome: &Outcome, axis: &SecondAxis, units: &Units) -> Caption {
+    let (over, varied) = (units.frequency_words(), axis.varied.words());
+    let title = format!("Energy loss per cycle over {over} and {varied}");
     let losses = outcome.records.iter().filter_map(|record| {
         let loss_j = record.energy_loss_j()?;
         Some((loss_j, record.energy_loss_error_j()))

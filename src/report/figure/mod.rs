@@ -19,6 +19,7 @@ pub mod loss_tangent;
 pub mod moduli;
 pub mod moduli_error;
 pub mod of_sweep;
+pub mod peaks_over_axis;
 pub mod press;
 pub mod pressure_map;
 pub mod profiles;

@@ -1,5 +1,5 @@
 //! What the indentation formula gets wrong: the relative difference of the equivalent moduli from the material's own, over the
-//! amplitude or the mean of the drive.
+//! second axis of a sweep.
 
 use super::curve::{Curve, evenly};
 use super::equivalent::{self, LoopModulus, of_loops};
@@ -8,42 +8,41 @@ use super::{Drawn, Figure, Picture, axis};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Marker, Series};
 use crate::report::number::{largest, range};
-use crate::sweep::plan::{DriveAxis, SweepPlan};
+use crate::sweep::plan::{SecondAxis, SweepPlan};
 use crate::sweep::search::run::Outcome;
 
 /// Frequencies in one figure; more cannot be told apart.
 const FREQUENCIES: usize = 5;
-/// Values of the drive that vary by more than this have a logarithmic axis.
+/// Values that vary by more than this have a logarithmic axis.
 pub(super) const WIDE: f64 = 5.0;
 
-/// One frequency: (value of the drive, what the loop there gives), where it gives anything.
+/// One frequency: (varied number, what the loop there gives), where it gives anything.
 type Row<'a> = Vec<(f64, Option<LoopModulus<'a>>)>;
 
 /// The figure: storage modulus above, loss modulus below, one curve per frequency.
 pub fn figure(
     plan: &SweepPlan,
     outcome: &Outcome,
-    drives: &DriveAxis,
+    over: &SecondAxis,
     curves: &[Curve<'_>],
     units: &Units,
 ) -> Drawn {
-    let rows = rows(plan, drives, curves);
+    let rows = rows(plan, curves);
     let loops = rows.iter().flat_map(|(_, row)| row);
     if loops.filter_map(|(_, at)| *at).count() < 2 {
         return Drawn::left_out("no figure of the error of the moduli: too few loops have moduli");
     }
     let control = plan.drive.control();
-    let values = || curves.iter().map(|curve| drives.varied.value(&curve.drive));
-    let (factor, unit) = units.drive(control, largest(values().map(f64::abs)));
-    let name = format!("{} {}", control.name(), drives.varied.name());
-    let label = format!("{name} / {unit}");
+    let values = || curves.iter().filter_map(|curve| curve.condition.value);
+    let unit = &units.varied(&over.varied, largest(values().map(f64::abs)));
+    let label = unit.title(&over.varied, control);
     let x_axis = |label: String| axis(range(values()), WIDE, label);
     let series = |difference: fn(&LoopModulus<'_>) -> Option<f64>| {
         let of = rows.len();
         let series = rows.iter().enumerate().map(move |(step, (omega, row))| {
             let points = row.iter().map(|(value, at)| {
                 let percent = 100.0 * difference(at.as_ref()?)?;
-                Some((factor * value, percent))
+                Some((unit.of(*value), percent))
             });
             Series::line(points)
                 .marker(Marker::nth(step))
@@ -66,13 +65,13 @@ pub fn figure(
     Drawn::Figure(Figure {
         name: "moduli-error",
         picture: Picture::Stack(vec![storage, loss]),
-        caption: caption(drives, &rows),
+        caption: caption(over, &rows),
         data: equivalent::table(plan, outcome, units),
     })
 }
 
-fn caption(axis: &DriveAxis, rows: &[(f64, Row<'_>)]) -> Caption {
-    let varied = axis.varied.name();
+fn caption(axis: &SecondAxis, rows: &[(f64, Row<'_>)]) -> Caption {
+    let varied = axis.varied.words();
     let loops = || {
         rows.iter()
             .flat_map(|(_, row)| row)
@@ -81,21 +80,16 @@ fn caption(axis: &DriveAxis, rows: &[(f64, Row<'_>)]) -> Caption {
     let [storage, loss] = equivalent::largest_differences(loops);
     Caption::new(format!(
         "Relative difference of the moduli that indentation reads from the hysteresis loops from those of the material, storage \
-         modulus E′ above and loss modulus E″ below, over the {varied} of the drive"
+         modulus E′ above and loss modulus E″ below, over the {varied}"
     ))
     .say(format!("Largest: {storage} % in E′, {loss} % in E″."))
 }
 
-/// Some of the planned frequencies, each over the drives.
-fn rows<'a>(plan: &SweepPlan, axis: &DriveAxis, curves: &[Curve<'a>]) -> Vec<(f64, Row<'a>)> {
+/// Some of the planned frequencies, each over the second axis.
+fn rows<'a>(plan: &SweepPlan, curves: &[Curve<'a>]) -> Vec<(f64, Row<'a>)> {
     let loops: Vec<(f64, Vec<LoopModulus<'a>>)> = curves
         .iter()
-        .map(|curve| {
-            (
-                axis.varied.value(&curve.drive),
-                of_loops(&plan.material, curve),
-            )
-        })
+        .filter_map(|curve| Some((curve.condition.value?, of_loops(curve))))
         .collect();
     let planned = &plan.angular_frequencies_rad_per_s;
     evenly(planned.len(), FREQUENCIES)

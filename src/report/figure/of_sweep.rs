@@ -5,7 +5,8 @@ use super::equivalent::Equivalent;
 use super::units::Units;
 use super::{
     Drawn, Figure, cole_cole, dissipation, dissipation_map, dissipation_profile, energy_loss,
-    harmonic_map, loops, loss_map, loss_tangent, moduli, moduli_error, van_gurp_palmen,
+    harmonic_map, loops, loss_map, loss_tangent, moduli, moduli_error, peaks_over_axis,
+    van_gurp_palmen,
 };
 use crate::report::ReportError;
 use crate::sweep::plan::SweepPlan;
@@ -33,7 +34,7 @@ pub fn figures(
         dissipation_profile::figure(curve, plan.indenter.as_ref(), asked, units),
         dissipation_map::figure(curve, units),
     ];
-    match Equivalent::of(&plan.material, curve) {
+    match Equivalent::of(curve) {
         Some(equivalent) => drawn.extend(
             [
                 moduli::with_loops(&equivalent, plan, outcome, units),
@@ -52,6 +53,7 @@ pub fn figures(
             loss_map::figure(plan, outcome, axis, &curves, units),
             harmonic_map::figure(plan, axis, &curves, units),
             moduli_error::figure(plan, outcome, axis, &curves, units),
+            peaks_over_axis::figure(plan, outcome, axis, units),
         ]);
     }
     let (mut figures, mut left_out) = (Vec::new(), Vec::new());

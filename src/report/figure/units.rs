@@ -2,12 +2,12 @@
 //! quantity over its unit, so that both are told apart there: `load W / N` and `load W / W₀`.
 
 use crate::drive::Control;
-use crate::quantity::{Dimension, FrequencyUnit, format_human};
+use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K, format_human};
 use crate::report::ReportError;
 use crate::report::number::{at_frequency, plain, prefix, scientific};
 use crate::sweep::figures::figure_plan::AxisUnits;
-use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::plan::{SweepPlan, Varied};
 use crate::sweep::scales::elastic::ElasticScale;
 
 /// The units of a result's figures.
@@ -24,6 +24,33 @@ struct Scale {
     elastic: ElasticScale,
     /// Under which load or approach: `mean load`.
     under: String,
+}
+
+/// How what a second axis varies is drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VariedUnit {
+    factor: f64,
+    offset: f64,
+    unit: String,
+}
+
+impl VariedUnit {
+    /// A value (SI units) in this unit.
+    pub fn of(&self, value: f64) -> f64 {
+        self.factor * value + self.offset
+    }
+
+    /// The title of an axis: `load amplitude / N`, `temperature of the material / °C`.
+    pub fn title(&self, varied: &Varied, control: Control) -> String {
+        let words = match varied.is_mean() || varied.is_amplitude() {
+            true => format!("{} {}", control.name(), varied.name()),
+            false => varied.words(),
+        };
+        match self.unit.as_str() {
+            "" => words,
+            unit => format!("{words} / {unit}"),
+        }
+    }
 }
 
 /// What a number is multiplied by to be drawn, and the unit it is then in.
@@ -131,6 +158,43 @@ impl Units {
         }
     }
 
+    /// What a second axis varies, up to `largest` (SI) in size.
+    pub fn varied(&self, varied: &Varied, largest: f64) -> VariedUnit {
+        let si = |dimension: Dimension| {
+            let (factor, prefix) = prefix(largest);
+            (factor, format!("{prefix}{}", dimension.si_unit()))
+        };
+        let of_drive = varied.is_mean() || varied.is_amplitude();
+        let (factor, unit) = match varied.dimension {
+            Some(Dimension::Force) if of_drive => self.load(largest),
+            Some(Dimension::Length) if of_drive => self.approach(largest),
+            Some(Dimension::Temperature) => (1.0, "°C".to_owned()),
+            Some(Dimension::Angle) => (180.0 / std::f64::consts::PI, "°".to_owned()),
+            Some(dimension) => si(dimension),
+            None => (1.0, String::new()),
+        };
+        let offset = match varied.dimension {
+            Some(Dimension::Temperature) => -ZERO_CELSIUS_K,
+            _ => 0.0,
+        };
+        VariedUnit {
+            factor,
+            offset,
+            unit,
+        }
+    }
+
+    /// A value of what a second axis varies, to be read: `5 N`, `25 °C`.
+    pub fn varied_value(&self, varied: &Varied, value: f64) -> String {
+        let unit = self.varied(varied, value.abs());
+        let number = match varied.dimension {
+            // Kelvin to degrees leaves rounding.
+            Some(Dimension::Temperature) => format!("{}", (1e6 * unit.of(value)).round() / 1e6),
+            _ => scientific(unit.of(value), 3),
+        };
+        format!("{number} {}", unit.unit).trim_end().to_owned()
+    }
+
     fn time_s(&self) -> Option<f64> {
         self.scale.as_ref()?.elastic.time_s
     }
@@ -202,12 +266,6 @@ impl Units {
         at_frequency(self.frequency_unit, angular_frequency_rad_per_s, 4)
     }
 
-    /// A value of the drive to be read: `5 N`, `1.5 µm`, `0.5 W₀`.
-    pub fn drive_value(&self, control: Control, value: f64) -> String {
-        let (factor, unit) = self.drive(control, value.abs());
-        format!("{} {unit}", scientific(factor * value, 3))
-    }
-
     /// What the units are, for a caption; nothing for SI units.
     pub fn sentence(&self) -> Option<String> {
         let Scale { elastic, under } = self.scale.as_ref()?;
@@ -234,6 +292,7 @@ impl Units {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::sweep::plan::Block;
 
     fn normalised() -> Units {
         Units {
@@ -264,11 +323,28 @@ mod tests {
         assert_eq!(hz.frequency_label(omega), "f = 0.2 Hz");
         assert_eq!(hz.at(omega / 1e3), "f = 2 × 10⁻⁴ Hz");
         assert_eq!(hz.frequency_title(), "frequency f / Hz");
-        assert_eq!(si.drive_value(Control::Load, 5.0), "5 N");
-        assert_eq!(si.drive_value(Control::Load, 0.25), "250 mN");
-        assert_eq!(si.drive_value(Control::Approach, 1.5e-6), "1.5 µm");
-        assert_eq!(si.drive_value(Control::Approach, 0.0), "0 m");
-        assert_eq!(normalised.drive_value(Control::Load, 5.0), "0.5 W₀");
+        let [load, approach] = [Control::Load, Control::Approach].map(Varied::amplitude);
+        assert_eq!(si.varied_value(&load, 5.0), "5 N");
+        assert_eq!(si.varied_value(&load, 0.25), "250 mN");
+        assert_eq!(si.varied_value(&approach, 1.5e-6), "1.5 µm");
+        assert_eq!(si.varied_value(&approach, 0.0), "0 m");
+        assert_eq!(normalised.varied_value(&load, 5.0), "0.5 W₀");
+        let of = |block, key, dimension| Varied {
+            block,
+            key,
+            dimension,
+        };
+        let temperature = of(Block::Material, "temperature", Some(Dimension::Temperature));
+        assert_eq!(normalised.varied_value(&temperature, 298.15), "25 °C");
+        let unit = si.varied(&temperature, 300.0);
+        let title = unit.title(&temperature, Control::Load);
+        assert_eq!(title, "temperature of the material / °C");
+        let angle = of(Block::Indenter, "half_angle", Some(Dimension::Angle));
+        assert_eq!(si.varied_value(&angle, 0.5 * std::f64::consts::PI), "90 °");
+        assert_eq!(angle.column(), "indenter_half_angle_rad");
+        let ratio = of(Block::Material, "poisson_ratio", None);
+        assert_eq!(si.varied_value(&ratio, 0.4), "0.4");
+        assert_eq!(ratio.words(), "poisson ratio of the material");
         assert_eq!(si.frequency_title(), "angular frequency ω / rad·s⁻¹");
         assert_eq!(normalised.frequency_title(), "angular frequency ω / τ⁻¹");
         assert_eq!(si.time(500.0).1, "s");

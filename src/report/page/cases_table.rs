@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use crate::quantity::Dimension;
 use crate::report::number::{cell, digits, largest, prefix};
-use crate::report::quantities::{self, SWEEP};
+use crate::report::quantities::SWEEP;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Outcome;
@@ -79,11 +79,9 @@ fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
         values: numbers(&|r| Some(unit.of(r.angular_frequency_rad_per_s))),
     }];
     if let Some(axis) = &plan.axis {
-        let varied = axis.varied.name();
-        let name = format!("drive_{varied}");
-        let values = quantities::of_name(&name).map(|known| numbers(&|r| known.number(r)));
-        let si = plan.drive.control().unit();
-        columns.push(column(&name, varied, si, None, values.unwrap_or_default()));
+        let si = axis.varied.dimension.map_or("", Dimension::si_unit);
+        let (name, heading) = (axis.varied.column(), axis.varied.name());
+        columns.push(column(&name, &heading, si, None, numbers(&|r| r.varied)));
     }
     let shown = SWEEP.iter().filter_map(|c| Some((c, c.in_cases?)));
     for (known, heading) in shown {

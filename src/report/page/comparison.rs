@@ -172,7 +172,12 @@ fn curves(unit: FrequencyUnit, pictures: &Pictures) -> Markup {
 fn data<'a>(compared: &Compared<'a>, csv: &'a str) -> Data<'a> {
     let unit = compared.comparison.unit;
     let places = || compared.comparison.curve.iter().map(|point| point.place);
-    let drive = |place: Place| format!("{} ± {}", place.drive_mean, place.drive_amplitude);
+    let drive = |place: Place| {
+        let varied = place
+            .varied
+            .map_or(String::new(), |value| format!("{value}, "));
+        format!("{varied}{} ± {}", place.drive_mean, place.drive_amplitude)
+    };
     Data {
         kind: "comparison",
         csv,

@@ -46,9 +46,9 @@ pub fn sweep(
     pictures: &Pictures,
     hash: &str,
 ) -> Result<String, ReportError> {
-    let branches = outcome.retardation_times_s().len();
+    let branches = outcome.branches();
     let unit = plan.figures.frequency_unit;
-    let csv = quantities::sweep(&outcome.records, branches, unit);
+    let csv = quantities::sweep(&outcome.records, branches, unit, plan.axis.as_ref());
     let csv = String::from_utf8_lossy(&csv);
     let data = sweep_data::SweepData::new(plan, outcome, &csv);
     let text = resolved::resolved_text(plan);

@@ -61,7 +61,7 @@ pub(super) fn line(plan: &SweepPlan) -> String {
         plan.material.name().unwrap_or("A material of its own"),
         plan.indenter.shape(),
         words::drive_line(&plan.drive, plan)
-    )
+    ) + &words::varied_line(plan).map_or(String::new(), |line| format!("; {line}"))
 }
 
 /// The section of a sweep.
@@ -74,6 +74,9 @@ pub(super) fn sweep(plan: &SweepPlan) -> Markup {
         "rest before the oscillation",
         &plain(plan.drive.hold_s(), Dimension::Time, 4),
     );
+    if let Some(line) = words::varied_line(plan) {
+        drive.add("second axis", &line);
+    }
     parts(
         material(&plan.material),
         indenter(plan.indenter.as_ref()),

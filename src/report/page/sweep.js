@@ -6,9 +6,17 @@ function start(data) {
   const { columns, rows } = parseCsv(data.csv);
   const results = new Map(data.cases.map((c) => [c.index, c]));
   const omegaText = (row) => `${trimmed(significant(row[frequency.column]))} ${frequency.unit}`;
-  const key = (row) => `${row.drive_mean} ${row.drive_amplitude}`;
+  const { varied } = data;
+  const key = (row) => (varied ? `${row[varied.column]}` : "");
   const drives = [...new Map(rows.map((row) => [key(row), row])).values()];
-  const driveText = (row) => trimmed(withUnit(row[`drive_${data.varied}`], data.drive_unit));
+  const driveText = (row) => {
+    const value = row[varied.column];
+    return varied.zero ? `${trimmed(significant(value - varied.zero))} ${varied.unit}` : trimmed(withUnit(value, varied.unit));
+  };
+  const branchNames = Array.from({ length: data.branches }, (_, k) => {
+    const time = data.retardation_times_s[k];
+    return time === undefined ? `branch ${k + 1}` : `branch of ${withUnit(time, "s")}`;
+  });
   const rowName = (row) => omegaText(row) + (drives.length > 1 ? `, ${driveText(row)}` : "");
   const done = rows.filter((row) => results.has(row.index));
   const loss = (row) => row.energy_loss_j;
@@ -176,9 +184,9 @@ function start(data) {
     const line = (name, value, error) => `<tr><th scope="row">${esc(name)}</th><td>${esc(value)}</td><td>${esc(error || "")}</td></tr>`;
     const lines = quantities.map(([value, error, name, unit, factor]) =>
       row[value] === null ? line(name, "undefined") : line(name, ...measured(row[value] * factor, row[error] * factor, unit)));
-    data.retardation_times_s.forEach((time, k) => {
+    branchNames.forEach((name, k) => {
       const part = row[`branch_${k + 1}_loss_j`];
-      lines.push(line(`dissipated by the branch of ${withUnit(time, "s")}`, `${withUnit(part, "J", 6)} (${significant((100 * part) / row.dissipated_j, 3)} %)`));
+      lines.push(line(`dissipated by the ${name}`, `${withUnit(part, "J", 6)} (${significant((100 * part) / row.dissipated_j, 3)} %)`));
     });
     const plain = [["energy balance: branches over loop, less one", "energy_imbalance"], ["distance to the stabilised cycle", "steady_distance"]];
     for (const [name, column] of plain) lines.push(line(name, row[column] === null ? "undefined" : significant(row[column], 3)));
@@ -213,7 +221,7 @@ function start(data) {
 
   function drawBranches() {
     const list = rows.filter((row) => key(row) === state.drive);
-    const count = data.retardation_times_s.length;
+    const count = data.branches;
     $("branches-section").hidden = !count || !done.length;
     if (!count) return;
     const x = list.map((row) => row[frequency.column]);
@@ -221,7 +229,7 @@ function start(data) {
       label: `Energy dissipated per cycle by each branch over ${frequency.quantity}`, legend: true,
       x: { ...frequency, log: $("log-x").checked }, y: { label: "dissipated per cycle", unit: "J", zero: true, log: $("log-y").checked },
       series: [
-        ...data.retardation_times_s.map((time, k) => ({ name: `branch of ${withUnit(time, "s")}`, x, y: list.map((row) => row[`branch_${k + 1}_loss_j`]), marker: 2 })),
+        ...branchNames.map((name, k) => ({ name, x, y: list.map((row) => row[`branch_${k + 1}_loss_j`]), marker: 2 })),
         ...(count > 1 ? [{ name: "all", x, y: list.map((row) => row.dissipated_j), colour: 6, dash: 1 }] : []),
       ],
     });

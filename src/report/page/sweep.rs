@@ -37,7 +37,8 @@ pub(super) fn sections(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures)
 }
 
 fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
-    let varied = plan.axis.as_ref().map_or("", |axis| axis.varied.name());
+    let varied = plan.axis.as_ref();
+    let varied = varied.map_or(String::new(), |axis| axis.varied.name());
     html! {
         section aria-labelledby="answer" class="answer" {
             h2 id="answer" { "Energy loss per cycle" }

@@ -5,13 +5,13 @@ use serde::Serialize;
 use super::compact::{all_rounded, picked, picked_optional, rounded, spread};
 use super::surface_data::{Fineness, PressureData, WorkData, share};
 use crate::material::{Material, ModulusKind};
-use crate::quantity::FrequencyUnit;
+use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K};
 use crate::report::figure::moduli::ModulusPoint;
 use crate::report::material::MaterialReport;
 use crate::report::quantities::{Column, SWEEP};
 use crate::report::words::nodes_name;
 use crate::report::work_line::WorkLine;
-use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::{SweepPlan, Varied};
 use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
@@ -26,13 +26,38 @@ pub(super) struct SweepData<'a> {
     quantities: Vec<QuantityData>,
     frequency: FrequencyData,
     peaks: &'a [Peak],
+    branches: usize,
+    /// Of every curve; empty where they have different ones.
     retardation_times_s: Vec<f64>,
     /// What the second axis varies, where there is one.
-    varied: Option<&'static str>,
+    varied: Option<VariedData>,
     drive_unit: &'static str,
     node_name: &'static str,
     material: MaterialData,
     cases: Vec<CaseData>,
+}
+
+/// The column of what a second axis varies, and the unit in which it is told, of which zero lies at so many SI units.
+#[derive(Serialize)]
+struct VariedData {
+    column: String,
+    unit: &'static str,
+    zero: f64,
+}
+
+impl VariedData {
+    fn of(varied: &Varied) -> Self {
+        let (unit, zero) = match varied.dimension {
+            Some(Dimension::Temperature) => ("°C", ZERO_CELSIUS_K),
+            Some(dimension) => (dimension.si_unit(), 0.0),
+            None => ("", 0.0),
+        };
+        Self {
+            column: varied.column(),
+            unit,
+            zero,
+        }
+    }
 }
 
 /// What the axis of frequencies is called, its column in `sweep.csv`, and the factor to it from rad/s.
@@ -96,8 +121,9 @@ impl<'a> SweepData<'a> {
             quantities: SWEEP.iter().filter_map(quantity).collect(),
             frequency: FrequencyData::of(plan.figures.frequency_unit),
             peaks: &outcome.peaks,
+            branches: outcome.branches(),
             retardation_times_s: all_rounded(&outcome.retardation_times_s()),
-            varied: plan.axis.as_ref().map(|axis| axis.varied.name()),
+            varied: plan.axis.as_ref().map(|axis| VariedData::of(&axis.varied)),
             drive_unit: plan.drive.control().unit(),
             node_name: match plan.indenter.own_cells() {
                 Some(_) => "cells along the longer side of the map",

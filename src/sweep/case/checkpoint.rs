@@ -179,7 +179,6 @@ impl Checkpoints {
 mod tests {
     use super::*;
     use crate::contact::Solution;
-    use crate::drive::{Control, HarmonicDrive};
     use crate::history::Work;
 
     fn march() -> MarchState {
@@ -208,7 +207,7 @@ mod tests {
         let case = Case {
             index: 3,
             angular_frequency_rad_per_s: 0.1,
-            drive: HarmonicDrive::new(Control::Load, 10.0, 5.0, 0.0, 0.0).unwrap(),
+            condition: crate::sweep::plan::tests::condition(),
         };
         let checkpoints = || Checkpoints::of(&store, Purpose::Sweep, &case, Duration::ZERO);
         let searching = LevelState::Searching(Box::new(SearchState {

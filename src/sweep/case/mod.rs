@@ -11,12 +11,12 @@ mod tangent_radius;
 
 use std::collections::HashMap;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::contact::{ContactError, Engine};
 use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::history::{Work, order_of_steps};
-use crate::material::{Creep, MaterialError};
+use crate::material::{Creep, Material, MaterialError};
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::edge_layer::EdgeLayer;
 use crate::sweep::case::solid::Solid;
@@ -26,13 +26,13 @@ use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
 use crate::sweep::engine::{EngineBuilder, EngineError, LargestContact};
 use crate::sweep::plan::check::{PlanError, check_frequency};
 use crate::sweep::plan::instant_tolerance;
-use crate::sweep::plan::{Case, EngineKind, SweepPlan};
+use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
 use crate::sweep::record::error_bars::{Bar, ErrorBars, InNodes, Ladder, Pair, Quantity};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 use crate::sweep::store::archive::Purpose;
 
 /// Why a sweep cannot be set up.
-#[derive(Debug, Clone, thiserror::Error)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SetupError {
     #[error(transparent)]
@@ -53,14 +53,18 @@ pub enum SetupError {
 /// What all cases of a sweep share.
 pub struct Setup {
     plan: SweepPlan,
-    solid: Solid,
+    solids: Mutex<Solids>,
     engines: Mutex<HashMap<EngineKey, Arc<EngineBuilder>>>,
     /// Ends an instant under way, where the engine's instants are long.
     interrupt: Option<Arc<AtomicBool>>,
 }
 
-/// What engines differ in: the largest value of the drive, bit for bit, and the number of springs or cells.
-type EngineKey = (u64, usize);
+/// Solids by the address of their material, which is kept so that no other takes its place.
+type Solids = HashMap<usize, (Arc<Material>, Arc<Solid>)>;
+
+/// What engines differ in: the indenter by its address, the largest value of the drive and the relaxed compliance bit for bit,
+/// and the number of springs or cells.
+type EngineKey = (usize, [u64; 2], usize);
 
 /// Steps per cycle, and springs or cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,13 +119,13 @@ impl Setup {
         plan.check()?;
         plan.solver = plan.solver.on_own_cells(plan.indenter.as_ref());
         let setup = Self {
-            solid: Solid::new(&plan.material)?,
+            solids: Mutex::default(),
             engines: Mutex::default(),
             interrupt: None,
             plan,
         };
-        for drive in setup.plan.drives() {
-            setup.engines(drive, setup.plan.solver.nodes())?;
+        for condition in setup.plan.conditions().iter() {
+            setup.engines(condition, setup.plan.solver.nodes())?;
         }
         Ok(setup)
     }
@@ -138,30 +142,40 @@ impl Setup {
         &self.plan
     }
 
-    /// The contact compliance C(t).
-    pub fn compliance(&self) -> &Creep {
-        &self.solid.compliance
-    }
-
-    /// Engines for a drive with so many springs or cells, built once.
+    /// The solid that the material of a condition is, made once.
     ///
     /// # Errors
-    /// As [`EngineBuilder::new`].
+    /// As [`Setup::new`], of a condition that is none of the plan.
+    pub(in crate::sweep) fn solid(&self, condition: &Condition) -> Result<Arc<Solid>, SetupError> {
+        let key = Arc::as_ptr(&condition.material).addr();
+        let mut solids = whole(&self.solids);
+        if let Some((_, solid)) = solids.get(&key) {
+            return Ok(Arc::clone(solid));
+        }
+        let solid = Arc::new(Solid::new(&condition.material)?);
+        let kept = (Arc::clone(&condition.material), Arc::clone(&solid));
+        solids.insert(key, kept);
+        Ok(solid)
+    }
+
+    /// Engines for a condition with so many springs or cells, built once.
+    ///
+    /// # Errors
+    /// As [`Setup::new`].
     pub fn engines(
         &self,
-        drive: &HarmonicDrive,
+        condition: &Condition,
         nodes: usize,
-    ) -> Result<Arc<EngineBuilder>, EngineError> {
-        let key = (drive.maximum().to_bits(), nodes);
-        // A builder is whole or absent, whatever became of the thread that built it.
-        let mut engines = match self.engines.lock() {
-            Ok(engines) => engines,
-            Err(poisoned) => poisoned.into_inner(),
-        };
+    ) -> Result<Arc<EngineBuilder>, SetupError> {
+        let relaxed_per_pa = self.solid(condition)?.relaxed_per_pa;
+        let indenter = Arc::as_ptr(&condition.indenter).addr();
+        let numbers = [condition.drive.maximum(), relaxed_per_pa].map(f64::to_bits);
+        let key = (indenter, numbers, nodes);
+        let mut engines = whole(&self.engines);
         if let Some(builder) = engines.get(&key) {
             return Ok(Arc::clone(builder));
         }
-        let builder = Arc::new(self.new_engines(drive, nodes)?);
+        let builder = Arc::new(self.new_engines(condition, relaxed_per_pa, nodes)?);
         engines.insert(key, Arc::clone(&builder));
         Ok(builder)
     }
@@ -169,29 +183,30 @@ impl Setup {
     /// Tolerance of an instant of a cycle.
     pub(in crate::sweep) fn instant_tolerance(
         &self,
+        compliance: &Creep,
         drive: &HarmonicDrive,
         angular_frequency_rad_per_s: f64,
         cycle_tolerance: f64,
     ) -> f64 {
         let omega = angular_frequency_rad_per_s;
-        let needed =
-            || instant_tolerance::of_a_cycle(&self.solid.compliance, drive, omega, cycle_tolerance);
+        let needed = || instant_tolerance::of_a_cycle(compliance, drive, omega, cycle_tolerance);
         self.plan.solver.tolerance.unwrap_or_else(needed)
     }
 
     fn new_engines(
         &self,
-        drive: &HarmonicDrive,
+        condition: &Condition,
+        relaxed_per_pa: f64,
         nodes: usize,
     ) -> Result<EngineBuilder, EngineError> {
         // No history within the drive's range makes a larger contact than its maximum held for ever.
         let largest = LargestContact {
-            control: drive.control(),
-            maximum: drive.maximum(),
-            compliance_per_pa: self.solid.relaxed_per_pa,
+            control: condition.drive.control(),
+            maximum: condition.drive.maximum(),
+            compliance_per_pa: relaxed_per_pa,
         };
         let solver = self.plan.solver.with_nodes(nodes);
-        EngineBuilder::new(self.plan.indenter.clone(), solver, largest)
+        EngineBuilder::new(Arc::clone(&condition.indenter), solver, largest)
     }
 
     /// Engines for a case: those of its drive, with springs laid out for its cycle.
@@ -199,10 +214,10 @@ impl Setup {
         &self,
         contact: &Contact<'_>,
         nodes: usize,
-    ) -> Result<Arc<EngineBuilder>, EngineError> {
-        let drive = &contact.drive;
+    ) -> Result<Arc<EngineBuilder>, SetupError> {
+        let drive = &contact.condition.drive;
         if self.plan.solver.engine == EngineKind::HalfSpace {
-            return self.engines(drive, nodes);
+            return self.engines(contact.condition, nodes);
         }
         let of_drive = |maximum, compliance_per_pa| LargestContact {
             control: drive.control(),
@@ -235,17 +250,17 @@ impl Setup {
                 of_drive(drive.maximum(), relaxed),
             ),
         };
-        let builder = self.new_engines(drive, nodes)?;
+        let builder = self.new_engines(contact.condition, relaxed, nodes)?;
         Ok(Arc::new(builder.over_cycle([always, mean, largest])))
     }
 
-    /// An engine of its own for a drive with so many springs or cells, on the domain before it is enlarged.
+    /// An engine of its own for a condition with so many springs or cells, on the domain before it is enlarged.
     pub(in crate::sweep) fn engine(
         &self,
-        drive: &HarmonicDrive,
+        condition: &Condition,
         nodes: usize,
-    ) -> Result<Box<dyn Engine>, EngineError> {
-        self.engines(drive, nodes)?.engine(0)
+    ) -> Result<Box<dyn Engine>, SetupError> {
+        Ok(self.engines(condition, nodes)?.engine(0)?)
     }
 
     /// Runs one case to its record; `None` where it was interrupted.
@@ -284,8 +299,9 @@ impl Setup {
         let mut record = CaseRecord {
             index: case.index,
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
-            drive_mean: case.drive.mean(),
-            drive_amplitude: case.drive.amplitude(),
+            varied: case.condition.value,
+            drive_mean: case.condition.drive.mean(),
+            drive_amplitude: case.condition.drive.amplitude(),
             status: Status::Failed,
             message: None,
             warnings: Vec::new(),
@@ -299,27 +315,7 @@ impl Setup {
             work: Work::default(),
             result: None,
         };
-        let contact = Contact {
-            solid: &self.solid,
-            compliance: &self.solid.compliance,
-            poisson_ratio: self.plan.material.poisson_ratio(),
-            drive: case.drive,
-            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
-            time_rule: self.plan.solver.time_rule,
-            cycle,
-            interrupt,
-            checkpoints,
-            marches_at_last: true,
-        };
-        let ended = check_frequency(case.angular_frequency_rad_per_s).map_err(CaseError::from);
-        let ended = ended.and_then(|()| match cycle.accuracy {
-            Some(accuracy) => self.to_accuracy(&contact, accuracy, &mut record),
-            None => self.at_resolution(&contact, &mut record),
-        });
-        let ended = ended.and_then(|()| match aim {
-            Aim::Plan => self.add_replicas(&contact, &mut record),
-            Aim::Loss(_) => Ok(()),
-        });
+        let ended = self.solve_case(aim, (case, cycle), (checkpoints, interrupt), &mut record);
         match ended {
             Ok(()) => {}
             Err(CaseError::Interrupted) => {
@@ -332,8 +328,41 @@ impl Setup {
                 record.message = Some(error.to_string());
             }
         }
-        record.warnings = outside_model::warnings(&self.plan, &record, cycle.error_bars);
+        let solver = &self.plan.solver;
+        record.warnings =
+            outside_model::warnings(solver, &case.condition, &record, cycle.error_bars);
         Some(record)
+    }
+
+    fn solve_case(
+        &self,
+        aim: Aim,
+        (case, cycle): (&Case, CyclePlan),
+        (checkpoints, interrupt): (&Checkpoints, &AtomicBool),
+        record: &mut CaseRecord,
+    ) -> Result<(), CaseError> {
+        check_frequency(case.angular_frequency_rad_per_s)?;
+        let condition = &case.condition;
+        let solid = self.solid(condition)?;
+        let contact = Contact {
+            solid: &solid,
+            compliance: &solid.compliance,
+            condition,
+            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
+            time_rule: self.plan.solver.time_rule,
+            cycle,
+            interrupt,
+            checkpoints,
+            marches_at_last: true,
+        };
+        match cycle.accuracy {
+            Some(accuracy) => self.to_accuracy(&contact, accuracy, record)?,
+            None => self.at_resolution(&contact, record)?,
+        }
+        match aim {
+            Aim::Plan => self.add_replicas(&contact, record),
+            Aim::Loss(_) => Ok(()),
+        }
     }
 
     /// Solves at the record's own resolution, and at coarser ones where error bars are wanted.
@@ -516,8 +545,8 @@ impl Setup {
         &self,
         contact: &Contact<'_>,
         fine: Resolution,
-    ) -> Result<bool, EngineError> {
-        let engines = self.engines(&contact.drive, fine.nodes)?;
+    ) -> Result<bool, SetupError> {
+        let engines = self.engines(contact.condition, fine.nodes)?;
         Ok(fine.steps / 4 >= FEWEST_STEPS
             && fine.nodes / 2 >= FEWEST_NODES
             && !engines.has_cells_of_its_own())
@@ -637,8 +666,12 @@ impl Setup {
                 if let Some(flag) = &self.interrupt {
                     engine.interrupted_by(Arc::clone(flag));
                 }
-                let (drive, omega) = (&contact.drive, contact.angular_frequency_rad_per_s);
-                let needed = self.instant_tolerance(drive, omega, contact.cycle.tolerance);
+                let needed = self.instant_tolerance(
+                    &contact.solid.compliance,
+                    &contact.condition.drive,
+                    contact.angular_frequency_rad_per_s,
+                    contact.cycle.tolerance,
+                );
                 engine.tolerate(needed);
                 if self.plan.solver.engine == EngineKind::HalfSpace
                     && self.plan.solver.tolerance.is_none()
@@ -718,6 +751,11 @@ fn finer(now: usize, error: f64, allowed: f64) -> usize {
     const LARGEST: f64 = 8.0;
     let wanted = now as f64 * factor.min(LARGEST);
     4 * (wanted / 4.0).ceil() as usize
+}
+
+/// What a lock protects: whole, whatever became of the thread that held it, since entries are made before they are put in.
+fn whole<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Error bars of the finest result, from what is coarser in steps on the same nodes and coarser in nodes at the same steps, from

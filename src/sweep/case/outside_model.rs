@@ -1,29 +1,33 @@
 //! What of a case lies outside the model, or was not estimated.
 
 use crate::sweep::engine::slope::{ROUNDING, of_slope, slope_of_case};
-use crate::sweep::plan::{EngineKind, SweepPlan};
+use crate::sweep::plan::{Condition, EngineKind, SolverPlan};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::record::warning::{NoErrorBars, Warning};
 
 /// What is to be said of a case, once it is solved.
 pub(in crate::sweep) fn warnings(
-    plan: &SweepPlan,
+    solver: &SolverPlan,
+    condition: &Condition,
     record: &CaseRecord,
     error_bars_wanted: bool,
 ) -> Vec<Warning> {
     let omega = record.angular_frequency_rad_per_s;
-    let window = plan.material.measured_window_s();
+    let window = condition.material.measured_window_s();
     let mut warnings: Vec<Warning> = of_frequency(window, omega).into_iter().collect();
     let Some(result) = &record.result else {
         return warnings;
     };
-    let slope = slope_of_case(plan.indenter.as_ref(), result);
-    let modulus_pa = plan.material.longitudinal_complex_modulus(omega).norm();
+    let slope = slope_of_case(condition.indenter.as_ref(), result);
+    let modulus_pa = condition
+        .material
+        .longitudinal_complex_modulus(omega)
+        .norm();
     let radius_m = result.contact_radius_m.maximum;
     warnings.extend(of_slope(slope, radius_m, modulus_pa));
     if error_bars_wanted && result.errors.is_none() {
         let own =
-            plan.solver.engine == EngineKind::HalfSpace && plan.indenter.own_cells().is_some();
+            solver.engine == EngineKind::HalfSpace && condition.indenter.own_cells().is_some();
         warnings.push(Warning::NoErrorBars {
             because: match own {
                 true => NoErrorBars::OwnCells,

@@ -7,17 +7,18 @@ use serde::{Deserialize, Serialize};
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::{self, Extrema, Loop, LoopError};
-use crate::drive::{Control, HarmonicDrive};
+use crate::drive::Control;
 use crate::history::{Dissipation, March, Stage, StepWeights, TimeRule, Work};
 use crate::material::Creep;
 use crate::steady::{self, Begin, MeanPressure, Remaining, SteadySettings};
+use crate::sweep::case::SetupError;
 use crate::sweep::case::checkpoint::{Checkpoints, Level, LevelState};
 use crate::sweep::case::pressure::Pressures;
 use crate::sweep::case::solid::Solid;
 use crate::sweep::case::tangent_radius::TangentRadius;
 use crate::sweep::engine::{AsContactError, EngineError, missed_contact, prescribed};
 use crate::sweep::plan::check::PlanError;
-use crate::sweep::plan::{CyclePlan, Method};
+use crate::sweep::plan::{Condition, CyclePlan, Method};
 use crate::sweep::record::{BranchLoss, CaseResult, CellLoss, SurfaceLoss};
 
 /// Cycles after which a direct search is given up for marching, which takes many more where a search takes long: cells that
@@ -35,8 +36,8 @@ pub(in crate::sweep) struct Contact<'a> {
     pub solid: &'a Solid,
     /// What is solved with: that of the body, or of another in its place.
     pub compliance: &'a Creep,
-    pub poisson_ratio: f64,
-    pub drive: HarmonicDrive,
+    /// Under which the cycle is sought.
+    pub condition: &'a Condition,
     pub angular_frequency_rad_per_s: f64,
     pub time_rule: TimeRule,
     pub cycle: CyclePlan,
@@ -71,6 +72,8 @@ pub(in crate::sweep) enum CaseError {
     Loop(#[from] LoopError),
     #[error(transparent)]
     Engine(#[from] EngineError),
+    #[error(transparent)]
+    Setup(#[from] SetupError),
     #[error(transparent)]
     Plan(#[from] PlanError),
     #[error("interrupted")]
@@ -112,11 +115,14 @@ impl Contact<'_> {
 
     /// What the drive asks for at this fraction of a cycle.
     fn prescribed(&self, cycle_fraction: f64) -> Prescribed {
-        prescribed(self.drive.control(), self.drive.value(cycle_fraction))
+        prescribed(
+            self.condition.drive.control(),
+            self.condition.drive.value(cycle_fraction),
+        )
     }
 
     fn mean(&self) -> Prescribed {
-        prescribed(self.drive.control(), self.drive.mean())
+        prescribed(self.condition.drive.control(), self.condition.drive.mean())
     }
 
     fn interrupted(&self) -> bool {
@@ -283,7 +289,7 @@ impl Contact<'_> {
         };
         if cycles.count == 0 {
             march.jump(self.mean())?;
-            march.hold(self.drive.hold_s(), self.mean())?;
+            march.hold(self.condition.drive.hold_s(), self.mean())?;
             march.jump(self.prescribed(0.0))?;
         }
         let mut result = None;
@@ -430,7 +436,7 @@ impl<'a> Cycles<'a> {
         let mut recording = Recording {
             samples: Loop::default(),
             dissipation: Dissipation::new(contact.compliance, nodes, step_s, contact.time_rule),
-            pressures: Pressures::new(&contact.drive, self.steps),
+            pressures: Pressures::new(&contact.condition.drive, self.steps),
             tangent_radius: TangentRadius::new(self.steps),
         };
         self.run(march, Some(&mut recording))?;
@@ -442,7 +448,7 @@ impl<'a> Cycles<'a> {
 
     /// Why there was no contact.
     fn without_pressure(&self) -> String {
-        let drive = &self.contact.drive;
+        let drive = &self.contact.condition.drive;
         match drive.control() == Control::Approach && drive.maximum() > 0.0 {
             true => missed_contact(drive.maximum()),
             false => format!("no pressure arose in {} cycles", self.count),
@@ -491,9 +497,9 @@ impl Contact<'_> {
         // The mean over the period counts the seam once.
         let mean_radius_m =
             radii.iter().skip(1).sum::<f64>() / radii.len().saturating_sub(1).max(1) as f64;
-        let moduli = tangent_radius
-            .mean_m(mean_radius_m)
-            .and_then(|radius_m| analysis.equivalent_moduli_pa(radius_m, self.poisson_ratio));
+        let moduli = tangent_radius.mean_m(mean_radius_m).and_then(|radius_m| {
+            analysis.equivalent_moduli_pa(radius_m, self.condition.material.poisson_ratio())
+        });
         let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
         let extrema = |signal: &[f64]| {
             Extrema::of(signal).ok_or(LoopError::TooFewSamples {

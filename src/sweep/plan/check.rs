@@ -4,7 +4,7 @@
 use std::ops::{Range, RangeInclusive};
 
 use crate::sweep::plan::scenario::ScenarioPlan;
-use crate::sweep::plan::{CyclePlan, DriveAxis, EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
 
 /// Why a plan is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -24,8 +24,10 @@ pub enum PlanError {
         before: f64,
         value: f64,
     },
-    #[error("the second axis of the sweep has no drive; give at least one")]
-    NoDrive,
+    #[error(
+        "the second axis of the sweep has no value, or a condition without one; give at least one, and each its own"
+    )]
+    NoCondition,
     #[error(
         "{cases} cases are more than a sweep may have, {}",
         SweepPlan::MAX_CASES
@@ -70,14 +72,14 @@ impl SweepPlan {
             .iter()
             .try_for_each(|omega| check_frequency(*omega))?;
         check_order("angular frequency (rad/s)", omegas)?;
-        if let Some(DriveAxis { varied, drives }) = &self.axis {
-            let values: Vec<f64> = drives.iter().map(|drive| varied.value(drive)).collect();
-            if values.is_empty() {
-                return Err(PlanError::NoDrive);
+        if let Some(axis) = &self.axis {
+            let values: Vec<f64> = axis.values().collect();
+            if values.is_empty() || values.len() < axis.conditions.len() {
+                return Err(PlanError::NoCondition);
             }
-            check_order(varied.name(), &values)?;
+            check_order(axis.varied.key, &values)?;
         }
-        let cases = self.drives().len().saturating_mul(omegas.len());
+        let cases = self.conditions().len().saturating_mul(omegas.len());
         if cases > Self::MAX_CASES {
             return Err(PlanError::Cases { cases });
         }
@@ -190,7 +192,7 @@ mod tests {
     use crate::drive::{Control, HarmonicDrive};
     use crate::indenter::Sphere;
     use crate::material::library;
-    use crate::sweep::plan::Varied;
+    use crate::sweep::plan::{SecondAxis, Varied};
 
     /// What is said of a plan with this change.
     fn refused(change: impl FnOnce(&mut SweepPlan)) -> Option<String> {
@@ -224,13 +226,15 @@ mod tests {
         assert!(refused(|plan| plan.solver.tolerance = Some(0.0)).is_some());
         // Cells of an engine that has none say nothing.
         assert_eq!(refused(|plan| plan.solver.cells = 0), None);
-        let axis = |drives| {
-            let varied = Varied::Amplitude;
-            refused(|plan| plan.axis = Some(DriveAxis { varied, drives }))
+        let axis = |amplitudes: &[f64]| {
+            let varied = Varied::amplitude(Control::Load);
+            refused(|plan| {
+                let axis = SecondAxis::of_drive(plan, varied, amplitudes.iter().copied());
+                plan.axis = Some(axis.unwrap());
+            })
         };
-        let drive = |amplitude| HarmonicDrive::new(Control::Load, 10.0, amplitude, 0.0, 0.0);
-        assert!(axis(Vec::new()).unwrap().contains("no drive"));
-        assert!(axis([4.0, 2.0].map(|a| drive(a).unwrap()).into()).is_some());
-        assert_eq!(axis([2.0, 4.0].map(|a| drive(a).unwrap()).into()), None);
+        assert!(axis(&[]).unwrap().contains("no value"));
+        assert!(axis(&[4.0, 2.0]).is_some());
+        assert_eq!(axis(&[2.0, 4.0]), None);
     }
 }

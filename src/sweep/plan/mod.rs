@@ -6,23 +6,26 @@ pub mod instant_tolerance;
 pub mod resolved;
 pub mod scenario;
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::drive::{DriveError, HarmonicDrive};
+use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
+use crate::quantity::Dimension;
 use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::resolved::drive_dimension;
 
 /// Everything a sweep needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
 pub struct SweepPlan {
     pub title: String,
-    pub material: Material,
+    pub material: Arc<Material>,
     pub indenter: Arc<dyn Indenter>,
     pub drive: HarmonicDrive,
-    /// The second axis of the sweep, where there is one: every frequency is then solved under each of these drives.
-    pub axis: Option<DriveAxis>,
+    /// The second axis of the sweep, where there is one: every frequency is then solved under each of its conditions.
+    pub axis: Option<SecondAxis>,
     /// Ascending, in rad/s.
     pub angular_frequencies_rad_per_s: Vec<f64>,
     /// Whether frequencies are added where these do not resolve the curve of the loss.
@@ -33,60 +36,166 @@ pub struct SweepPlan {
     pub figures: FigurePlan,
 }
 
-/// Drives that differ in one of their numbers.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DriveAxis {
+/// Conditions that differ in one number.
+#[derive(Debug, Clone)]
+pub struct SecondAxis {
     pub varied: Varied,
     /// In the order of the varied number, ascending; the first, with the frequencies, makes the first cases.
-    pub drives: Vec<HarmonicDrive>,
+    pub conditions: Vec<Condition>,
 }
 
-/// What differs between the drives of a [`DriveAxis`].
+/// What all cases of a curve over frequency have in common.
+#[derive(Debug, Clone)]
+pub struct Condition {
+    /// The varied number in SI units; `None` in a sweep without a second axis.
+    pub value: Option<f64>,
+    pub material: Arc<Material>,
+    pub indenter: Arc<dyn Indenter>,
+    pub drive: HarmonicDrive,
+}
+
+/// The key whose number differs between the conditions of an [`SecondAxis`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Varied {
-    Amplitude,
-    Mean,
+pub struct Varied {
+    pub block: Block,
+    /// In the block: `amplitude`.
+    pub key: &'static str,
+    /// `None` for a bare number.
+    pub dimension: Option<Dimension>,
+}
+
+/// The block of a sweep file that a varied key belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Block {
+    Material,
+    Indenter,
+    Drive,
+}
+
+impl Block {
+    /// The name as written in a sweep file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Material => "material",
+            Self::Indenter => "indenter",
+            Self::Drive => "drive",
+        }
+    }
 }
 
 impl Varied {
-    /// The key of `[drive]`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Amplitude => "amplitude",
-            Self::Mean => "mean",
+    /// The amplitude of a drive.
+    pub fn amplitude(control: Control) -> Self {
+        Self::of_drive("amplitude", control)
+    }
+
+    /// The mean of a drive.
+    pub fn mean(control: Control) -> Self {
+        Self::of_drive("mean", control)
+    }
+
+    fn of_drive(key: &'static str, control: Control) -> Self {
+        Self {
+            block: Block::Drive,
+            key,
+            dimension: Some(drive_dimension(control)),
         }
     }
 
-    /// The drive with another varied number (N or m).
+    /// The key as words: `half angle`.
+    pub fn name(&self) -> String {
+        self.key.replace('_', " ")
+    }
+
+    /// The same and what it belongs to: `half angle of the indenter`.
+    pub fn words(&self) -> String {
+        format!("{} of the {}", self.name(), self.block.name())
+    }
+
+    /// The dotted key: `indenter.half_angle`.
+    pub fn path(&self) -> String {
+        format!("{}.{}", self.block.name(), self.key)
+    }
+
+    /// The column of tables that holds it: `indenter_half_angle_rad`.
+    pub fn column(&self) -> String {
+        let name = format!("{}_{}", self.block.name(), self.key);
+        match self.dimension {
+            // Columns that every table has, in the unit of the control.
+            _ if self.is_mean() || self.is_amplitude() => name,
+            Some(dimension) => format!("{name}_{}", dimension.si_unit().to_lowercase()),
+            None => name,
+        }
+    }
+
+    pub fn is_mean(&self) -> bool {
+        (self.block, self.key) == (Block::Drive, "mean")
+    }
+
+    pub fn is_amplitude(&self) -> bool {
+        (self.block, self.key) == (Block::Drive, "amplitude")
+    }
+
+    pub fn is_temperature(&self) -> bool {
+        (self.block, self.key) == (Block::Material, "temperature")
+    }
+
+    /// The drive with another varied number (SI units); the same where no number of it varies.
     ///
     /// # Errors
     /// As [`HarmonicDrive::new`].
-    pub fn drive(self, drive: &HarmonicDrive, value: f64) -> Result<HarmonicDrive, DriveError> {
-        let (mean, amplitude) = match self {
-            Self::Amplitude => (drive.mean(), value),
-            Self::Mean => (value, drive.amplitude()),
-        };
-        let (phase_rad, hold_s) = (drive.phase_rad(), drive.hold_s());
-        HarmonicDrive::new(drive.control(), mean, amplitude, phase_rad, hold_s)
-    }
-
-    /// The varied number of a drive, in the unit of its control.
-    pub fn value(self, drive: &HarmonicDrive) -> f64 {
-        match self {
-            Self::Amplitude => drive.amplitude(),
-            Self::Mean => drive.mean(),
-        }
+    pub fn drive(&self, drive: &HarmonicDrive, value: f64) -> Result<HarmonicDrive, DriveError> {
+        let is = |key| (self.block, self.key) == (Block::Drive, key);
+        let or = |key, own| if is(key) { value } else { own };
+        HarmonicDrive::new(
+            drive.control(),
+            or("mean", drive.mean()),
+            or("amplitude", drive.amplitude()),
+            or("phase", drive.phase_rad()),
+            or("hold", drive.hold_s()),
+        )
     }
 }
 
-/// One frequency under one drive.
-#[derive(Debug, Clone, Copy, PartialEq)]
+impl SecondAxis {
+    /// The conditions of a plan with each of these values (SI units, ascending) as a number of its drive.
+    ///
+    /// # Errors
+    /// As [`HarmonicDrive::new`].
+    pub fn of_drive(
+        plan: &SweepPlan,
+        varied: Varied,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Result<Self, DriveError> {
+        let under = |value| {
+            Ok(Condition {
+                value: Some(value),
+                drive: varied.drive(&plan.drive, value)?,
+                ..plan.condition()
+            })
+        };
+        let conditions = values.into_iter().map(under).collect::<Result<_, _>>()?;
+        Ok(Self { varied, conditions })
+    }
+
+    /// Whether tables take a column more for it: mean and amplitude of the drive stand in every table.
+    pub fn has_own_column(&self) -> bool {
+        !self.varied.is_mean() && !self.varied.is_amplitude()
+    }
+
+    /// The values of the varied number, in SI units.
+    pub fn values(&self) -> impl DoubleEndedIterator<Item = f64> + '_ {
+        self.conditions.iter().filter_map(|c| c.value)
+    }
+}
+
+/// One frequency under one condition.
+#[derive(Debug, Clone)]
 pub struct Case {
-    /// Position in the sweep, from 0: drive after drive, and ascending frequency within each.
+    /// Position in the sweep, from 0: condition after condition, and ascending frequency within each.
     pub index: usize,
     pub angular_frequency_rad_per_s: f64,
-    pub drive: HarmonicDrive,
+    pub condition: Condition,
 }
 
 impl SweepPlan {
@@ -94,7 +203,7 @@ impl SweepPlan {
     pub fn new(material: Material, indenter: Arc<dyn Indenter>, drive: HarmonicDrive) -> Self {
         Self {
             title: String::new(),
-            material,
+            material: Arc::new(material),
             solver: SolverPlan::of_indenter(indenter.as_ref()),
             indenter,
             drive,
@@ -106,27 +215,37 @@ impl SweepPlan {
         }
     }
 
-    /// The drives: one, but for a sweep of two axes.
-    pub fn drives(&self) -> &[HarmonicDrive] {
+    /// The only condition of a sweep without a second axis.
+    pub fn condition(&self) -> Condition {
+        Condition {
+            value: None,
+            material: Arc::clone(&self.material),
+            indenter: Arc::clone(&self.indenter),
+            drive: self.drive,
+        }
+    }
+
+    /// The conditions: one, but for a sweep of two axes.
+    pub fn conditions(&self) -> Cow<'_, [Condition]> {
         match &self.axis {
-            Some(axis) => &axis.drives,
-            None => std::slice::from_ref(&self.drive),
+            Some(axis) => Cow::Borrowed(&axis.conditions),
+            None => Cow::Owned(vec![self.condition()]),
         }
     }
 
     /// Every case, in order.
     pub fn cases(&self) -> Vec<Case> {
         let omegas = &self.angular_frequencies_rad_per_s;
-        let pairs = self
-            .drives()
+        let conditions = self.conditions();
+        let pairs = conditions
             .iter()
-            .flat_map(|drive| omegas.iter().map(move |omega| (*drive, *omega)));
+            .flat_map(|condition| omegas.iter().map(move |omega| (condition, *omega)));
         pairs
             .enumerate()
-            .map(|(index, (drive, angular_frequency_rad_per_s))| Case {
+            .map(|(index, (condition, angular_frequency_rad_per_s))| Case {
                 index,
                 angular_frequency_rad_per_s,
-                drive,
+                condition: condition.clone(),
             })
             .collect()
     }
@@ -288,9 +407,17 @@ impl Default for SolverPlan {
 }
 
 #[cfg(test)]
-mod tests {
+pub(in crate::sweep) mod tests {
     use super::*;
     use crate::indenter::{HeightMap, MapEdge, MapQuantity, Shifted, Sphere};
+    use crate::material::library;
+
+    /// A sphere on PMMA under a load, of which no number varies.
+    pub(in crate::sweep) fn condition() -> Condition {
+        let pmma = library::find("pmma").unwrap().material().unwrap();
+        let drive = HarmonicDrive::new(Control::Load, 10.0, 5.0, 0.0, 0.0).unwrap();
+        SweepPlan::new(pmma, Arc::new(Sphere::new(0.01).unwrap()), drive).condition()
+    }
 
     #[test]
     fn the_cells_of_a_map_are_those_of_the_plan_whatever_was_asked_for() {

@@ -10,7 +10,7 @@ use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
-use crate::sweep::plan::{CyclePlan, SolverPlan, SweepPlan};
+use crate::sweep::plan::{CyclePlan, SecondAxis, SolverPlan, SweepPlan};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {
@@ -35,7 +35,11 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         error_bars,
         accuracy,
     } = cycle;
-    let mut text = opening_text(title, &material_text(material), indenter.as_ref());
+    let material = match axis {
+        Some(axis) if axis.varied.is_temperature() => material_text_over(axis),
+        _ => material_text(material),
+    };
+    let mut text = opening_text(title, &material, indenter.as_ref());
     let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
     let mut line = |content: &str| {
         text.push_str(content);
@@ -59,10 +63,12 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     ));
     line("\n[sweep]");
     if let Some(axis) = axis {
-        let values = axis.drives.iter().map(|drive| axis.varied.value(drive));
-        let values: Vec<String> = values.map(|value| quantity(value, dimension)).collect();
-        let list = values.join(", ");
-        line(&format!("drive.{} = [{list}]", axis.varied.name()));
+        let number = |value: f64| match axis.varied.dimension {
+            Some(dimension) => quantity(value, dimension),
+            None => format!("{value:?}"),
+        };
+        let values: Vec<String> = axis.values().map(number).collect();
+        line(&format!("{} = [{}]", axis.varied.path(), values.join(", ")));
     }
     if *refine {
         line("refine = true");
@@ -195,8 +201,25 @@ pub fn hash_of_bytes(bytes: &[u8]) -> String {
 
 /// The material as the block of a sweep file that gives the same material again.
 pub fn material_text(material: &Material) -> String {
+    text_of(|line| material_lines(material, line))
+}
+
+/// The same of a material at every temperature of an axis, the first of which counts where none is asked for.
+fn material_text_over(axis: &SecondAxis) -> String {
+    let materials = || axis.conditions.iter().map(|condition| &condition.material);
+    text_of(|line| {
+        if let Some(first) = materials().next() {
+            head_lines(first, line);
+        }
+        for material in materials() {
+            isotherm_lines(material, line);
+        }
+    })
+}
+
+fn text_of(write: impl FnOnce(&mut dyn FnMut(&str))) -> String {
     let mut text = String::new();
-    material_lines(material, &mut |line| {
+    write(&mut |line| {
         text.push_str(line);
         text.push('\n');
     });
@@ -213,23 +236,37 @@ pub fn material_text_without_poisson_ratio(material: &Material) -> String {
     lines.collect()
 }
 
-fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    let kind = material.kind().name();
+/// What stands above the numbers: name, Poisson ratio and temperature.
+fn head_lines(material: &Material, line: &mut dyn FnMut(&str)) {
     line("[material]");
     if let Some(name) = material.name() {
         line(&format!("name = {}", toml_string(name)));
     }
     line(&format!("poisson_ratio = {:?}", material.poisson_ratio()));
+    temperature_line(material, line);
+}
+
+fn temperature_line(material: &Material, line: &mut dyn FnMut(&str)) {
     if let Some(temperature_k) = material.temperature_k() {
         let temperature = format_si(temperature_k, Dimension::Temperature);
-        line(&format!(
-            "temperature = \"{temperature}\"\n\n[[material.isotherm]]"
-        ));
         line(&format!("temperature = \"{temperature}\""));
-        measured_line(material, line);
-        line(&format!("modulus = \"{kind}\""));
-        series_lines(material, line);
-        replica_lines(material, line);
+    }
+}
+
+fn isotherm_lines(material: &Material, line: &mut dyn FnMut(&str)) {
+    line("\n[[material.isotherm]]");
+    temperature_line(material, line);
+    measured_line(material, line);
+    line(&format!("modulus = \"{}\"", material.kind().name()));
+    series_lines(material, line);
+    replica_lines(material, line);
+}
+
+fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
+    let kind = material.kind().name();
+    head_lines(material, line);
+    if material.temperature_k().is_some() {
+        isotherm_lines(material, line);
         return;
     }
     measured_line(material, line);

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::surface::PressureLine;
 use crate::cycle::{Extrema, Loop, LoopAnalysis};
-use crate::drive::{Control, HarmonicDrive};
+use crate::drive::Control;
 use crate::history::Work;
-use crate::sweep::plan::Method;
+use crate::sweep::plan::{Condition, Method};
 use crate::sweep::record::error_bars::ErrorBars;
 use crate::sweep::record::warning::Warning;
 
@@ -43,6 +43,9 @@ pub struct CaseRecord {
     /// Position in the sweep, from 0, in ascending frequency.
     pub index: usize,
     pub angular_frequency_rad_per_s: f64,
+    /// The number (SI units) that the second axis of the sweep varies, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub varied: Option<f64>,
     /// Mean and amplitude of the drive (N or m).
     pub drive_mean: f64,
     pub drive_amplitude: f64,
@@ -193,9 +196,12 @@ impl CaseRecord {
         material_error::of(result.analysis.energy_loss_j, &result.replica_losses_j)
     }
 
-    /// Whether the case ran under this drive.
-    pub fn is_under(&self, drive: &HarmonicDrive) -> bool {
-        self.drive_mean == drive.mean() && self.drive_amplitude == drive.amplitude()
+    /// Whether the case ran under this condition.
+    pub fn is_of(&self, condition: &Condition) -> bool {
+        let drive = &condition.drive;
+        self.varied == condition.value
+            && self.drive_mean == drive.mean()
+            && self.drive_amplitude == drive.amplitude()
     }
 
     /// Load frequency (Hz).

@@ -9,7 +9,7 @@ use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::plan::check::PlanError;
-use crate::sweep::plan::{Case, DriveAxis, EngineKind, SweepPlan, Varied};
+use crate::sweep::plan::{Case, EngineKind, SecondAxis, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::{self, Options, Outcome, Progress, RunError};
 use crate::sweep::store::archive::MemoryArchive;
@@ -99,7 +99,8 @@ impl Sweep {
     /// # Errors
     /// [`SetupError`]: an amplitude that the drive cannot have, none, or amplitudes that do not ascend.
     pub fn amplitudes(self, amplitudes: impl IntoIterator<Item = f64>) -> Result<Self, SetupError> {
-        self.varied(Varied::Amplitude, amplitudes)
+        let varied = Varied::amplitude(self.plan.drive.control());
+        self.varied(varied, amplitudes)
     }
 
     /// The same for means (N or m) with the amplitude of the drive.
@@ -107,7 +108,8 @@ impl Sweep {
     /// # Errors
     /// As [`Self::amplitudes`].
     pub fn means(self, means: impl IntoIterator<Item = f64>) -> Result<Self, SetupError> {
-        self.varied(Varied::Mean, means)
+        let varied = Varied::mean(self.plan.drive.control());
+        self.varied(varied, means)
     }
 
     fn varied(
@@ -115,11 +117,7 @@ impl Sweep {
         varied: Varied,
         values: impl IntoIterator<Item = f64>,
     ) -> Result<Self, SetupError> {
-        let drives = values
-            .into_iter()
-            .map(|v| varied.drive(&self.plan.drive, v));
-        let drives = drives.collect::<Result<Vec<_>, _>>()?;
-        self.plan.axis = Some(DriveAxis { varied, drives });
+        self.plan.axis = Some(SecondAxis::of_drive(&self.plan, varied, values)?);
         Ok(self.checked()?)
     }
 
@@ -227,7 +225,7 @@ impl Sweep {
         let case = Case {
             index: 0,
             angular_frequency_rad_per_s: std::f64::consts::TAU * frequency_hz,
-            drive: setup.plan().drive,
+            condition: setup.plan().condition(),
         };
         setup.run(&case, &interrupt).ok_or(SweepError::Interrupted)
     }

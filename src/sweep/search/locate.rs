@@ -1,8 +1,7 @@
 //! Peaks of the curves that a sweep has sampled: bracketed by its cases, then located by solving between them.
 
-use crate::drive::HarmonicDrive;
 use crate::sweep::case::{Aim, Resolution};
-use crate::sweep::plan::Case;
+use crate::sweep::plan::{Case, Condition};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::peak::{self, Loss, PeakError, Point};
 use crate::sweep::search::replica_peaks;
@@ -34,8 +33,8 @@ impl Search<'_> {
     /// records is a peak that was not located.
     pub fn locate_peaks(&self, outcome: &mut Outcome) -> Result<bool, StoreError> {
         let plan = self.setup.plan();
-        let brackets: Vec<Bracket> = (plan.drives().iter())
-            .flat_map(|drive| Bracket::of_curve(&outcome.records, drive))
+        let brackets: Vec<Bracket> = (plan.conditions().iter())
+            .flat_map(|condition| Bracket::of_curve(&outcome.records, condition))
             .collect();
         self.progress.locating_peaks(brackets.len());
         let mut whole = true;
@@ -43,11 +42,13 @@ impl Search<'_> {
             let losses = |omegas: &[f64]| self.losses_at(bracket, omegas);
             match peak::refine(&bracket.points, &losses) {
                 Ok(mut found) => {
+                    let condition = &bracket.condition;
                     if plan.axis.is_some() {
-                        found.drive_mean = Some(bracket.drive.mean());
-                        found.drive_amplitude = Some(bracket.drive.amplitude());
+                        found.varied = condition.value;
+                        found.drive_mean = Some(condition.drive.mean());
+                        found.drive_amplitude = Some(condition.drive.amplitude());
                     }
-                    replica_peaks::add_errors(&mut found, &outcome.records, &bracket.drive);
+                    replica_peaks::add_errors(&mut found, &outcome.records, condition);
                     outcome.peaks.push(found);
                 }
                 Err(LocateError::Store(error)) => return Err(error),
@@ -66,7 +67,7 @@ impl Search<'_> {
         let case = |(index, omega): (usize, &f64)| Case {
             index,
             angular_frequency_rad_per_s: *omega,
-            drive: bracket.drive,
+            condition: bracket.condition.clone(),
         };
         let cases: Vec<Case> = omegas.iter().enumerate().map(case).collect();
         let records = self.records_of(Aim::Loss(bracket.resolution), &cases)?;
@@ -97,7 +98,7 @@ impl Search<'_> {
 /// All losses inside are computed at the resolution of the middle case, so that they have one and the same error of
 /// discretisation, which then hardly moves their maximum; that error is read between the three.
 struct Bracket {
-    drive: HarmonicDrive,
+    condition: Condition,
     points: [Point; 3],
     resolution: Resolution,
     /// Relative errors of the three losses, where all have one.
@@ -105,21 +106,21 @@ struct Bracket {
 }
 
 impl Bracket {
-    fn of_curve(records: &[CaseRecord], drive: &HarmonicDrive) -> Vec<Self> {
+    fn of_curve(records: &[CaseRecord], condition: &Condition) -> Vec<Self> {
         let at = |omega: f64| {
-            (records.iter()).find(|r| r.is_under(drive) && r.angular_frequency_rad_per_s == omega)
+            (records.iter()).find(|r| r.is_of(condition) && r.angular_frequency_rad_per_s == omega)
         };
         let relative = |point: &Point| {
             let error_j = at(point.0)?.energy_loss_error_j()?;
             (point.1 != 0.0).then(|| (error_j / point.1).abs())
         };
-        peak::brackets(&curve_of(records, drive))
+        peak::brackets(&curve_of(records, condition))
             .into_iter()
             .filter_map(|points| {
                 let [a, b, c] = points.each_ref().map(relative);
                 let middle = at(points[1].0)?;
                 Some(Self {
-                    drive: *drive,
+                    condition: condition.clone(),
                     points,
                     resolution: Resolution {
                         steps: middle.steps,
@@ -144,11 +145,11 @@ impl Bracket {
     }
 }
 
-/// Loss over frequency under one drive, ascending.
-pub(in crate::sweep) fn curve_of(records: &[CaseRecord], drive: &HarmonicDrive) -> Vec<Point> {
+/// Loss over frequency under one condition, ascending.
+pub(in crate::sweep) fn curve_of(records: &[CaseRecord], condition: &Condition) -> Vec<Point> {
     let mut curve: Vec<Point> = records
         .iter()
-        .filter(|r| r.is_under(drive))
+        .filter(|r| r.is_of(condition))
         .filter_map(|r| Some((r.angular_frequency_rad_per_s, r.energy_loss_j()?)))
         .collect();
     curve.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -89,11 +89,11 @@ impl<'a> Search<'a> {
         if plan.refine && !interrupted {
             interrupted = self.refine(&mut records)?;
         }
-        let drives = plan.drives();
-        let drive = |r: &CaseRecord| drives.iter().position(|drive| r.is_under(drive));
+        let conditions = plan.conditions();
+        let curve = |r: &CaseRecord| conditions.iter().position(|c| r.is_of(c));
         records.sort_by(|a, b| {
             let omegas = [a, b].map(|r| r.angular_frequency_rad_per_s);
-            (drive(a).cmp(&drive(b))).then(omegas[0].total_cmp(&omegas[1]))
+            (curve(a).cmp(&curve(b))).then(omegas[0].total_cmp(&omegas[1]))
         });
         let mut outcome = Outcome {
             interrupted,
@@ -118,12 +118,12 @@ impl<'a> Search<'a> {
     fn refine(&self, records: &mut Vec<CaseRecord>) -> Result<bool, StoreError> {
         for _ in 0..REFINEMENTS {
             let mut added = Vec::new();
-            for drive in self.setup.plan().drives() {
-                for omega in refine::candidates(&curve_of(records, drive)) {
+            for condition in self.setup.plan().conditions().iter() {
+                for omega in refine::candidates(&curve_of(records, condition)) {
                     added.push(Case {
                         index: records.len() + added.len(),
                         angular_frequency_rad_per_s: omega,
-                        drive: *drive,
+                        condition: condition.clone(),
                     });
                 }
             }
@@ -158,7 +158,7 @@ impl<'a> Search<'a> {
         for case in cases {
             match self.archive.load_case(purpose, case)? {
                 Kept::Intact(record) => records.push(*record),
-                Kept::Absent => lacking.push(*case),
+                Kept::Absent => lacking.push(case.clone()),
                 Kept::OfAnotherBuild { path, record } if self.missing == Missing::LeftOut => {
                     if !self.told_of_builds.swap(true, Ordering::Relaxed) {
                         let path = path.display();
@@ -170,11 +170,11 @@ impl<'a> Search<'a> {
                 }
                 Kept::OfAnotherBuild { path, .. } => {
                     self.lacks(&path, OF_ANOTHER_BUILD);
-                    lacking.push(*case);
+                    lacking.push(case.clone());
                 }
                 Kept::Unusable { path, reason } => {
                     self.lacks(&path, &reason);
-                    lacking.push(*case);
+                    lacking.push(case.clone());
                 }
             }
         }

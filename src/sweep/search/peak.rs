@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::sweep::plan::Varied;
+use crate::sweep::plan::Condition;
 
 /// A local maximum of the energy loss.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -20,7 +20,10 @@ pub struct Peak {
     pub angular_frequency_material_error_rad_per_s: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy_loss_material_error_j: Option<f64>,
-    /// Mean and amplitude of the drive (N or m), where the sweep varies one of them.
+    /// The number (SI units) that the second axis of the sweep varies, where there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub varied: Option<f64>,
+    /// Mean and amplitude of the drive (N or m) there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drive_mean: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -28,12 +31,9 @@ pub struct Peak {
 }
 
 impl Peak {
-    /// The number of the drive (N or m) that a sweep varies, where it does.
-    pub fn drive(&self, varied: Varied) -> Option<f64> {
-        match varied {
-            Varied::Amplitude => self.drive_amplitude,
-            Varied::Mean => self.drive_mean,
-        }
+    /// Whether it is one of the curve under this condition: those of the only curve do not say which it is.
+    pub fn is_of(&self, condition: &Condition) -> bool {
+        self.varied == condition.value
     }
 }
 
@@ -118,6 +118,7 @@ pub fn refine<E: From<PeakError>>(bracket: &[Point; 3], losses: &Losses<'_, E>) 
                 energy_loss_error_j: error,
                 angular_frequency_material_error_rad_per_s: None,
                 energy_loss_material_error_j: None,
+                varied: None,
                 drive_mean: None,
                 drive_amplitude: None,
             });

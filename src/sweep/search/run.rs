@@ -10,7 +10,8 @@ use std::time::Duration;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::sweep::case::Setup;
-use crate::sweep::record::{CaseRecord, Status};
+use crate::sweep::plan::Condition;
+use crate::sweep::record::{BranchLoss, CaseRecord, Status};
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::{Missing, Search};
 use crate::sweep::share::shard::{self, Shard};
@@ -203,9 +204,42 @@ pub fn pool(threads: usize) -> Result<ThreadPool, RunError> {
 impl Outcome {
     /// Retardation times (s) of the material's creep compliance, as the results list its branches; none without a result.
     pub fn retardation_times_s(&self) -> Vec<f64> {
-        let result = self.records.iter().find_map(|r| r.result.as_ref());
-        let branches = result.map_or(&[][..], |r| &r.branches);
-        branches.iter().map(|b| b.retardation_time_s).collect()
+        let mut results = self.branches_of_results();
+        let Some(first) = results.next() else {
+            return Vec::new();
+        };
+        let times = |branches: &[BranchLoss]| -> Vec<f64> {
+            branches.iter().map(|b| b.retardation_time_s).collect()
+        };
+        let times_s = times(first);
+        match results.all(|other| times(other) == times_s) {
+            true => times_s,
+            false => Vec::new(),
+        }
+    }
+
+    /// The peak that is the largest loss of its curve; `None` where the loss is larger at an end of the sweep.
+    pub fn highest_peak(&self, condition: &Condition) -> Option<&Peak> {
+        // The peaks are in order, the largest first.
+        let peak = self.peaks.iter().find(|peak| peak.is_of(condition))?;
+        let of_curve = self.records.iter().filter(|r| r.is_of(condition));
+        let mut losses = of_curve.filter_map(CaseRecord::energy_loss_j);
+        losses
+            .all(|loss_j| loss_j <= peak.energy_loss_j)
+            .then_some(peak)
+    }
+
+    /// The most branches that the creep compliance of a case has.
+    pub fn branches(&self) -> usize {
+        self.branches_of_results()
+            .map(<[_]>::len)
+            .max()
+            .unwrap_or(0)
+    }
+
+    fn branches_of_results(&self) -> impl Iterator<Item = &[BranchLoss]> {
+        let results = self.records.iter().filter_map(|r| r.result.as_ref());
+        results.map(|result| result.branches.as_slice())
     }
 
     /// Number of cases with this status.

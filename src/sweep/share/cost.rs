@@ -8,7 +8,7 @@ use crate::sweep::engine::prescribed;
 use crate::sweep::plan::{Case, EngineKind, Method, SweepPlan};
 
 /// What a sweep costs; good to a factor of two or so, as the number of cycles and of contact iterations is not known before.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Cost {
     /// Per case, in the order of the sweep.
     pub cases: Vec<CaseCost>,
@@ -19,7 +19,7 @@ pub struct Cost {
 }
 
 /// What a case costs on one thread.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct CaseCost {
     pub case: Case,
     /// Cycles of the full number of steps and nodes.
@@ -79,12 +79,11 @@ impl Cost {
 impl Setup {
     /// Predicted cost of a case, in cycles: marching at a high frequency needs many to forget the start.
     pub fn predicted_cycles(&self, case: &Case) -> f64 {
-        let slowest_s = self
-            .compliance()
-            .branches()
-            .iter()
-            .map(|b| b.time_s)
-            .fold(0.0, f64::max);
+        // A condition of no plan, whose material makes no contact, ends at once.
+        let slowest_s = self.solid(&case.condition).map_or(0.0, |solid| {
+            let times = solid.compliance.branches().iter().map(|b| b.time_s);
+            times.fold(0.0, f64::max)
+        });
         let cycles_to_forget = slowest_s * case.angular_frequency_rad_per_s / std::f64::consts::TAU;
         let to_tolerance = -self.plan().cycle.tolerance.ln();
         match self.plan().cycle.method {
@@ -146,12 +145,15 @@ fn step_s(setup: &Setup) -> Result<f64, SetupError> {
         EngineKind::HalfSpace if plan.indenter.own_cells().is_some() => plan.solver.nodes(),
         EngineKind::HalfSpace => plan.solver.nodes().min(CELLS_MEASURED),
     };
-    let drive = plan.drives().first().unwrap_or(&plan.drive);
+    let conditions = plan.conditions();
+    let base = plan.condition();
+    let condition = conditions.first().unwrap_or(&base);
+    let (drive, solid) = (&condition.drive, setup.solid(condition)?);
     let omegas = &plan.angular_frequencies_rad_per_s;
     let omega = omegas.get(omegas.len() / 2).copied().unwrap_or(1.0);
-    let mut engine = setup.engine(drive, nodes)?;
-    engine.tolerate(setup.instant_tolerance(drive, omega, plan.cycle.tolerance));
-    let compliance = setup.compliance().clone();
+    let mut engine = setup.engine(condition, nodes)?;
+    let compliance = solid.compliance.clone();
+    engine.tolerate(setup.instant_tolerance(&compliance, drive, omega, plan.cycle.tolerance));
     let mut march = March::new(engine.as_mut(), compliance, plan.solver.time_rule);
     let steps = plan.cycle.steps as f64;
     let stages = march.stages(std::f64::consts::TAU / omega / steps);
@@ -184,15 +186,16 @@ impl Setup {
         /// A value per cell of the surface in the record, as a number and as text, and in the picture made of it.
         const TOLD_BYTES: usize = 40;
         let plan = self.plan();
-        let branches = self.compliance().branches().len();
-        let drives = plan.drives().iter();
-        let of_engine = |drive| {
-            let engines = self.engines(drive, plan.solver.nodes()).ok()?;
+        let conditions = plan.conditions();
+        let of_engine = |condition| {
+            let branches = self.solid(condition).ok()?.compliance.branches().len();
+            let engines = self.engines(condition, plan.solver.nodes()).ok()?;
             let told = TOLD_BYTES * engines.surface_cells();
             let engine = engines.predicted_memory_bytes(branches) + told as u64;
-            Some((engine, engines.nodes()))
+            Some((engine, engines.nodes(), branches))
         };
-        let (engine, nodes) = drives.filter_map(of_engine).max().unwrap_or_default();
+        let largest = conditions.iter().filter_map(of_engine).max();
+        let (engine, nodes, branches) = largest.unwrap_or_default();
         let searched = match plan.cycle.method {
             Method::Direct => nodes * plan.cycle.steps,
             Method::March => 0,

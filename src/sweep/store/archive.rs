@@ -24,8 +24,8 @@ pub enum Archive<'a> {
 /// The records of one sweep, in memory alone.
 #[derive(Debug, Default)]
 pub struct MemoryArchive {
-    /// By purpose and the bits of mean, amplitude and frequency.
-    records: Mutex<HashMap<(Purpose, [u64; 3]), CaseRecord>>,
+    /// By purpose and the bits of mean, amplitude, frequency and varied number.
+    records: Mutex<HashMap<(Purpose, Vec<u64>), CaseRecord>>,
 }
 
 impl<'a> From<&'a Store> for Archive<'a> {
@@ -89,16 +89,18 @@ impl<'a> Archive<'a> {
 }
 
 impl MemoryArchive {
-    fn records(&self) -> MutexGuard<'_, HashMap<(Purpose, [u64; 3]), CaseRecord>> {
+    fn records(&self) -> MutexGuard<'_, HashMap<(Purpose, Vec<u64>), CaseRecord>> {
         // A record is in it whole or not at all, whatever became of the thread that put it there.
         self.records.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Mean, amplitude and frequency of a case, bit for bit.
-fn bits(case: &Case) -> [u64; 3] {
-    let (drive, omega) = (&case.drive, case.angular_frequency_rad_per_s);
-    [drive.mean(), drive.amplitude(), omega].map(f64::to_bits)
+/// Mean, amplitude and frequency of a case, and the varied number where there is one, bit for bit.
+fn bits(case: &Case) -> Vec<u64> {
+    let (drive, omega) = (&case.condition.drive, case.angular_frequency_rad_per_s);
+    let numbers = [drive.mean(), drive.amplitude(), omega].into_iter();
+    let numbers = numbers.chain(case.condition.value);
+    numbers.map(f64::to_bits).collect()
 }
 
 /// What a case was solved for, which decides where its record lies.
@@ -106,7 +108,7 @@ fn bits(case: &Case) -> [u64; 3] {
 pub enum Purpose {
     /// A case of the sweep: `records/<index>.json`.
     Sweep,
-    /// A frequency between those of the sweep, to locate a peak: `peaks/<bits of mean, amplitude, frequency>.json`.
+    /// A frequency between those of the sweep, to locate a peak: `peaks/<bits of mean, amplitude, frequency, varied number>.json`.
     Peak,
 }
 
@@ -163,7 +165,11 @@ pub const OF_ANOTHER_BUILD: &str = concat!(
 pub(in crate::sweep) fn case_name(purpose: Purpose, case: &Case) -> String {
     match purpose {
         Purpose::Sweep => format!("{:04}", case.index),
-        Purpose::Peak => bits(case).map(|bits| format!("{bits:016x}")).join("-"),
+        Purpose::Peak => {
+            let numbers = bits(case).into_iter();
+            let names: Vec<String> = numbers.map(|bits| format!("{bits:016x}")).collect();
+            names.join("-")
+        }
     }
 }
 
@@ -245,7 +251,7 @@ impl Store {
             serde_json::from_slice(content).map_err(|_| Unusable::Damaged)?;
         let same_frequency = record.angular_frequency_rad_per_s.to_bits()
             == case.angular_frequency_rad_per_s.to_bits();
-        if !same_frequency || !record.is_under(&case.drive) {
+        if !same_frequency || !record.is_of(&case.condition) {
             return Err(Unusable::Foreign);
         }
         let record = CaseRecord {
@@ -281,7 +287,6 @@ fn numbers(version: &str) -> Vec<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drive::{Control, HarmonicDrive};
     use crate::sweep::plan::Method;
     use crate::sweep::record::Status;
 
@@ -289,7 +294,7 @@ mod tests {
         Case {
             index: 7,
             angular_frequency_rad_per_s: 0.1 + 0.2,
-            drive: HarmonicDrive::new(Control::Load, 10.0, 5.0, 0.0, 0.0).unwrap(),
+            condition: crate::sweep::plan::tests::condition(),
         }
     }
 
@@ -297,8 +302,9 @@ mod tests {
         CaseRecord {
             index: case.index,
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
-            drive_mean: case.drive.mean(),
-            drive_amplitude: case.drive.amplitude(),
+            varied: case.condition.value,
+            drive_mean: case.condition.drive.mean(),
+            drive_amplitude: case.condition.drive.amplitude(),
             status: Status::NotConverged,
             message: Some("reached \"nothing\"".to_owned()),
             warnings: vec![

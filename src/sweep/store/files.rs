@@ -1,7 +1,7 @@
 //! What a sweep leaves at the top of its folder: known here, so that another sweep that takes the folder can clear it.
 
 /// Every figure a sweep may have; which of them it has depends on its axes, its material and its results.
-pub const FIGURES: [&str; 12] = [
+pub const FIGURES: [&str; 13] = [
     "energy-loss",
     "loops",
     "dissipation",
@@ -14,6 +14,7 @@ pub const FIGURES: [&str; 12] = [
     "loss-map",
     "harmonic-2-map",
     "moduli-error",
+    "peaks",
 ];
 
 /// Where it comes from, table, summary and page.

@@ -45,7 +45,7 @@ pub fn gather(
             }
         }
         if found.is_none() {
-            missing.push(*case);
+            missing.push(case.clone());
         }
     }
     for part in parts {

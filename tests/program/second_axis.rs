@@ -1,0 +1,190 @@
+//! A second axis over any number of material, indenter or drive: the cases are those of separate sweeps, to the last bit.
+
+use std::sync::atomic::AtomicBool;
+
+use contact_dma::input::diagnostic::Styling;
+use contact_dma::input::document::Document;
+use contact_dma::input::sweep_file;
+use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::plan::SweepPlan;
+use contact_dma::sweep::plan::resolved::resolved_text;
+
+/// Two isotherms that no shift brings onto one another, and a sphere.
+const FILE: &str = r#"
+title = "two axes"
+
+[material]
+poisson_ratio = 0.4
+temperature = "20 °C"
+
+[[material.isotherm]]
+temperature = "20 °C"
+modulus = "shear"
+equilibrium = "1 MPa"
+branches = [{ modulus = "9 MPa", time = "1 s" }]
+
+[[material.isotherm]]
+temperature = "60 °C"
+modulus = "shear"
+equilibrium = "0.9 MPa"
+branches = [{ modulus = "5 MPa", time = "10 ms" }, { modulus = "1 MPa", time = "0.1 s" }]
+
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+
+[drive]
+mean = "1 N"
+amplitude = "0.5 N"
+
+[cycle]
+steps = 16
+error_bars = false
+
+[solver]
+springs = 24
+
+[sweep]
+angular_frequency = ["0.3 rad/s", "3 rad/s"]
+"#;
+
+fn read(rest: &str) -> Result<SweepPlan, String> {
+    let document = Document::parse("axes.toml", &format!("{FILE}{rest}"));
+    let plan = document.and_then(|document| sweep_file::plan(&document));
+    plan.map_err(|why| why.render(Styling::Plain))
+}
+
+fn with_flag(flag: &str) -> SweepPlan {
+    let mut document = Document::parse("axes.toml", FILE).unwrap();
+    document.set(flag).unwrap();
+    sweep_file::plan(&document).unwrap()
+}
+
+/// Losses of every case, bit for bit, with what the axis varies.
+fn losses(plan: SweepPlan) -> Vec<(Option<f64>, u64)> {
+    let setup = Setup::new(plan).unwrap();
+    let cases = setup.plan().cases().into_iter();
+    let loss = |case| {
+        let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
+        (record.varied, record.energy_loss_j().unwrap().to_bits())
+    };
+    cases.map(loss).collect()
+}
+
+#[test]
+fn the_cases_over_any_number_are_those_of_separate_sweeps() {
+    for (axis, values, flags) in [
+        (
+            "material.temperature = [\"60 °C\", \"20 °C\"]",
+            [293.15, 333.15],
+            ["material.temperature=20 °C", "material.temperature=60 °C"],
+        ),
+        (
+            "\"indenter.radius\" = [\"5 mm\", \"20 mm\"]",
+            [5e-3, 20e-3],
+            ["indenter.radius=5 mm", "indenter.radius=20 mm"],
+        ),
+        (
+            "material.poisson_ratio = { from = 0.3, to = 0.5, points = 2 }",
+            [0.3, 0.5],
+            ["material.poisson_ratio=0.3", "material.poisson_ratio=0.5"],
+        ),
+        (
+            "drive.mean = [0.7, 2]",
+            [0.7, 2.0],
+            ["drive.mean=0.7", "drive.mean=2"],
+        ),
+    ] {
+        let plan = read(axis).unwrap();
+        let separate = values.iter().zip(flags).flat_map(|(value, flag)| {
+            let losses = losses(with_flag(flag));
+            losses.into_iter().map(|(_, bits)| (Some(*value), bits))
+        });
+        let separate: Vec<_> = separate.collect();
+        let text = resolved_text(&plan);
+        assert_eq!(losses(plan), separate, "{axis}");
+        // What is resolved is the same sweep.
+        let again = Document::parse("resolved.toml", &text).unwrap();
+        let again = sweep_file::plan(&again).unwrap();
+        assert_eq!(resolved_text(&again), text);
+        assert_eq!(losses(again), separate, "{axis}");
+    }
+}
+
+#[test]
+fn a_number_that_an_axis_varies_need_not_stand_in_its_block() {
+    let given = read("indenter.radius = [\"5 mm\", \"20 mm\"]").unwrap();
+    let text = FILE.replace("radius = \"10 mm\"\n", "");
+    let text = format!("{text}indenter.radius = [\"5 mm\", \"20 mm\"]\n");
+    let left_out = Document::parse("axes.toml", &text).unwrap();
+    let left_out = sweep_file::plan(&left_out).unwrap();
+    assert_eq!(losses(given), losses(left_out));
+}
+
+#[test]
+fn what_cannot_be_an_axis_is_shown_where_it_stands() {
+    let refused = |rest: &str| read(rest).unwrap_err();
+    for (axis, message, help) in [
+        (
+            "indenter.shape = [\"cone\"]",
+            "`sweep.indenter.shape` cannot be an axis",
+            "keys of [indenter] that can: `radius`",
+        ),
+        (
+            "indenter.raduis = [1]",
+            "`sweep.indenter.raduis` cannot be an axis",
+            "write `radius` instead of `raduis`",
+        ),
+        (
+            "indenter.half_angle = [\"70 deg\"]",
+            "unknown key `indenter.half_angle`",
+            "keys allowed here",
+        ),
+        (
+            "indenter.radius = [\"5 N\"]",
+            "`sweep.indenter.radius[0]` must be a length",
+            "such as",
+        ),
+        (
+            "material.temperature = [\"20 °C\", \"30 °C\"]",
+            "no isotherm at 30 °C",
+            "axes.toml:",
+        ),
+        ("drive.mean = [0.1]", "pull", "axes.toml:"),
+        (
+            "drive.mean = [1, 2]\nindenter.radius = [1e-3]",
+            "a sweep has one second axis",
+            "remove all but one",
+        ),
+        (
+            "drive.mean = [1, 2]\ndrive.amplitude = [0.1]",
+            "a sweep has one second axis",
+            "remove all but one",
+        ),
+        (
+            "drive.mean = [1, 2]\n\"drive.mean\" = [1]",
+            "`sweep.drive.mean` is given twice",
+            "keep one of them",
+        ),
+        ("indenter = 3", "`sweep.indenter` must be a table", "KEY"),
+        (
+            "indenter = {}",
+            "`sweep.indenter` is empty",
+            "write the key",
+        ),
+    ] {
+        let told = refused(axis);
+        assert!(told.contains(message), "{axis}: {told}");
+        assert!(told.contains(help), "{axis}: {told}");
+    }
+}
+
+#[test]
+fn a_flag_takes_the_place_of_another_axis_of_the_same_block() {
+    let text = format!("{FILE}drive.amplitude = [0.1, 0.2]\n");
+    let mut document = Document::parse("axes.toml", &text).unwrap();
+    document.set("sweep.drive.mean=[1, 2, 3]").unwrap();
+    let axis = sweep_file::plan(&document).unwrap().axis.unwrap();
+    assert!(axis.varied.is_mean());
+    assert_eq!(axis.values().collect::<Vec<_>>(), [1.0, 2.0, 3.0]);
+}
