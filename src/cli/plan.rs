@@ -7,9 +7,9 @@ use super::{Ended, Failure, json, meant_for, open_document, print};
 use crate::indenter::Indenter;
 use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
-use crate::report::number::four_digits;
+use crate::report::number::{four_digits, varied};
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{EngineKind, SolverPlan};
+use crate::sweep::plan::{Condition, EngineKind, SolverPlan};
 use crate::sweep::share::cost::Cost;
 
 /// Cases listed before the rest is counted.
@@ -38,20 +38,31 @@ fn text(setup: &Setup, cost: &Cost) -> String {
     let free = super::memory::free_here();
     let mut text = format!("{}\n\n", plan.title);
     let unit = plan.figures.frequency_unit;
+    // What an axis varies of something else than the drive takes the place of the drive, which is then the same for all.
+    let axis = plan.axis.as_ref().filter(|axis| axis.has_own_column());
+    let head = axis.map(|axis| axis.varied.name());
+    let head = head.unwrap_or_else(|| "drive mean   amplitude".to_owned());
+    let of_case = |Condition { value, drive, .. }: &Condition| match axis.zip(*value) {
+        Some((axis, value)) => varied(&axis.varied, value),
+        None => format!(
+            "{:>10}   {:>9}",
+            short(drive.mean()),
+            short(drive.amplitude())
+        ),
+    };
     // Writing to a String cannot fail.
     let _ = writeln!(
         text,
-        " case   {:>10}   drive mean   amplitude   cycles     about   memory",
+        " case   {:>10}   {head:>22}   cycles     about   memory",
         format!("{} / {}", unit.symbol(), unit.name())
     );
     for case in cost.cases.iter().take(LISTED) {
         let _ = writeln!(
             text,
-            "{:>5}   {:>10}   {:>10}   {:>9}   {:>6.0}   {:>7}   {memory}",
+            "{:>5}   {:>10}   {:>22}   {:>6.0}   {:>7}   {memory}",
             case.case.index,
             four_digits(unit.of(case.case.angular_frequency_rad_per_s)),
-            short(case.case.condition.drive.mean()),
-            short(case.case.condition.drive.amplitude()),
+            of_case(&case.case.condition),
             case.cycles.ceil(),
             spoken(case.time_s),
         );

@@ -72,7 +72,7 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let plan = (|| {
         let (figures, cycle, solver) = (figures?, cycle?, solver?);
         let (material, indenter, drive) = (material?, indenter?, drive?);
-        let axis = file.axis((&material, &indenter, &drive))?;
+        let axis = file.axis((&material, &indenter, &drive));
         let sweep = sweep.as_ref()?;
         let mut plan = SweepPlan {
             title: title?,
@@ -174,11 +174,9 @@ impl File<'_> {
         }
     }
 
-    /// The second axis, where there is one; `None` where there is one and it is too long, which is reported.
-    fn axis(&self, (material, indenter, drive): Blocks<'_>) -> Option<Option<SecondAxis>> {
-        let Some((block, swept)) = self.swept else {
-            return Some(None);
-        };
+    /// The second axis, where there is one.
+    fn axis(&self, (material, indenter, drive): Blocks<'_>) -> Option<SecondAxis> {
+        let (block, swept) = self.swept?;
         let values = swept.values.value.iter().enumerate();
         let conditions = values.map(|(k, value)| Condition {
             value: Some(*value),
@@ -186,14 +184,14 @@ impl File<'_> {
             indenter: Arc::clone(indenter.1.get(k).unwrap_or(&indenter.0)),
             drive: *drive.1.get(k).unwrap_or(&drive.0),
         });
-        Some(Some(SecondAxis {
+        Some(SecondAxis {
             varied: Varied {
                 block: *block,
                 key: swept.key,
                 dimension: swept.dimension,
             },
             conditions: conditions.collect(),
-        }))
+        })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Numbers with their errors and units, to be read.
 
-use crate::quantity::{Dimension, FrequencyUnit, format_human};
+use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K, format_human};
+use crate::sweep::plan::Varied;
 
 /// The power of ten and its prefix in which values up to `largest` read well: (factor to multiply by, prefix).
 pub fn prefix(largest: f64) -> (f64, &'static str) {
@@ -228,6 +229,18 @@ pub(super) fn plain(value: f64, dimension: Dimension, significant: usize) -> Str
     let (number, unit) = human.split_once(' ').unwrap_or((&human, ""));
     let number: f64 = number.parse().unwrap_or(value);
     format!("{} {unit}", scientific(number, significant))
+}
+
+/// A value (SI units) of what a second axis varies, to be read: `5 N`, `25 °C`.
+pub fn varied(varied: &Varied, value: f64) -> String {
+    match varied.dimension {
+        // Kelvin to degrees leaves rounding.
+        Some(Dimension::Temperature) => {
+            format!("{} °C", (1e6 * (value - ZERO_CELSIUS_K)).round() / 1e6)
+        }
+        Some(dimension) => plain(value, dimension, 4),
+        None => scientific(value, 4),
+    }
 }
 
 /// At most five significant digits without a unit: a dash for what is absent.

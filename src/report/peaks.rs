@@ -1,7 +1,6 @@
 //! The peaks of a sweep in words, for terminal, page and captions.
 
-use super::figure::units::Units;
-use super::number::plain;
+use super::number::{self, plain};
 use crate::quantity::Dimension;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::Status;
@@ -72,7 +71,7 @@ fn of_material(plan: &SweepPlan, peak: &Peak) -> Option<String> {
 
 fn under(plan: &SweepPlan, peak: &Peak) -> Option<String> {
     let varied = plan.axis.as_ref()?.varied;
-    let value = Units::default().varied_value(&varied, peak.varied?);
+    let value = number::varied(&varied, peak.varied?);
     Some(format!(", {} {value}", varied.name()))
 }
 

@@ -1,6 +1,5 @@
 //! What terminal, pages and captions say alike of cases, drives and settings, as plain text.
 
-use super::figure::units::Units;
 use super::number::{self, four_digits, plain, scientific};
 use crate::drive::HarmonicDrive;
 use crate::indenter::{Parameter, Value};
@@ -45,7 +44,7 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
 /// What else a second axis varies than mean and amplitude, and from where to where: `radius of the indenter 1 mm to 10 mm`.
 pub fn varied_line(plan: &SweepPlan) -> Option<String> {
     let axis = plan.axis.as_ref().filter(|axis| axis.has_own_column())?;
-    let value = |value| Units::default().varied_value(&axis.varied, value);
+    let value = |value| number::varied(&axis.varied, value);
     let (first, last) = (axis.values().next()?, axis.values().next_back()?);
     let words = axis.varied.words();
     Some(format!("{words} {} to {}", value(first), value(last)))

@@ -112,6 +112,24 @@ fn the_cases_over_any_number_are_those_of_separate_sweeps() {
 }
 
 #[test]
+fn the_cases_outside_what_was_measured_at_their_own_temperature_are_warned_of() {
+    let text = FILE.replace(
+        "temperature = \"60 °C\"\n",
+        "temperature = \"60 °C\"\nmeasured = [\"0.1 s\", \"1 s\"]\n",
+    );
+    let text = format!("{text}material.temperature = [\"20 °C\", \"60 °C\"]\n");
+    let plan = sweep_file::plan(&Document::parse("axes.toml", &text).unwrap()).unwrap();
+    let setup = Setup::new(plan).unwrap();
+    let codes = setup.plan().cases().into_iter().map(|case| {
+        let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
+        let codes = record.warnings.iter().map(|warning| warning.code());
+        codes.collect::<Vec<_>>().join(" ")
+    });
+    // 1/ω is longer than the test at 60 °C at the first frequency alone; at 20 °C nothing is said of a test.
+    assert_eq!(codes.collect::<Vec<_>>(), ["", "", "below-measured", ""]);
+}
+
+#[test]
 fn a_number_that_an_axis_varies_need_not_stand_in_its_block() {
     let given = read("indenter.radius = [\"5 mm\", \"20 mm\"]").unwrap();
     let text = FILE.replace("radius = \"10 mm\"\n", "");

@@ -4,7 +4,7 @@
 use crate::drive::Control;
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K, format_human};
 use crate::report::ReportError;
-use crate::report::number::{at_frequency, plain, prefix, scientific};
+use crate::report::number::{self, at_frequency, plain, prefix, scientific};
 use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{SweepPlan, Varied};
@@ -186,12 +186,11 @@ impl Units {
 
     /// A value of what a second axis varies, to be read: `5 N`, `25 °C`.
     pub fn varied_value(&self, varied: &Varied, value: f64) -> String {
+        if varied.dimension == Some(Dimension::Temperature) {
+            return number::varied(varied, value);
+        }
         let unit = self.varied(varied, value.abs());
-        let number = match varied.dimension {
-            // Kelvin to degrees leaves rounding.
-            Some(Dimension::Temperature) => format!("{}", (1e6 * unit.of(value)).round() / 1e6),
-            _ => scientific(unit.of(value), 3),
-        };
+        let number = scientific(unit.of(value), 3);
         format!("{number} {}", unit.unit).trim_end().to_owned()
     }
 
