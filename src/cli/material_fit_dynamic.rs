@@ -87,24 +87,10 @@ fn data_format(
 
 fn choices(flags: &FitFlags) -> Result<Choices, Failure> {
     let dynamic = &flags.dynamic;
-    let shift = match dynamic.shift.as_deref() {
-        None => ShiftChoice::Free,
-        Some(word) if word == Path::new("free") => ShiftChoice::Free,
-        Some(word) if word == Path::new("wlf") => ShiftChoice::Wlf,
-        Some(word) if word == Path::new("arrhenius") => ShiftChoice::Arrhenius,
-        Some(word) if word == Path::new("none") => ShiftChoice::None,
-        Some(file) if !file.exists() => {
-            return Err(Failure::input(format!(
-                "--shift {}: there is no such file; write free, wlf, arrhenius, none, or the path of a table with the columns \
-                 temperature_c,log10_a_t",
-                file.display()
-            )));
-        }
-        Some(file) => ShiftChoice::Given(dynamic::read_shift_factors(file)?),
-    };
+    let shift = dynamic.shift.as_deref().map(shift).transpose()?;
     Ok(Choices {
         reference_temperature_k: dynamic.reference_temperature,
-        shift,
+        shift: shift.unwrap_or(ShiftChoice::Free),
         vertical_shift: dynamic.vertical_shift,
         branches: dynamic.branches.and_then(|branches| match branches {
             Branches::Auto => None,
@@ -113,6 +99,23 @@ fn choices(flags: &FitFlags) -> Result<Choices, Failure> {
         replicas: dynamic.replicas.unwrap_or(0),
         ..Choices::default()
     })
+}
+
+/// What a word chooses, or the factors of a file.
+fn shift(given: &Path) -> Result<ShiftChoice, Failure> {
+    let mut words = ShiftChoice::WORDS.iter();
+    if let Some((_, choice)) = words.find(|(word, _)| given == Path::new(word)) {
+        return Ok(choice.clone());
+    }
+    if !given.exists() {
+        let words: Vec<&str> = ShiftChoice::WORDS.iter().map(|(word, _)| *word).collect();
+        return Err(Failure::input(format!(
+            "--shift {}: there is no such file; write {}, or the path of a table with the columns temperature_c,log10_a_t",
+            given.display(),
+            words.join(", ")
+        )));
+    }
+    Ok(ShiftChoice::Given(dynamic::read_shift_factors(given)?))
 }
 
 fn refused(flags: &FitFlags, error: impl std::fmt::Display) -> Failure {

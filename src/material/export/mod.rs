@@ -250,10 +250,7 @@ impl<'a> Series<'a> {
 
     /// What is true of every text.
     fn remarks(&self) -> Vec<String> {
-        let kind = match self.material.kind() {
-            ModulusKind::Shear => "shear",
-            ModulusKind::Longitudinal => "longitudinal",
-        };
+        let kind = self.material.kind().name();
         let mut remarks = vec![
             format!(
                 "{}: {kind} relaxation series of {} branches, written by contact-dma for {}.",
