@@ -5,16 +5,14 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::arguments::{Branches, FitFlags, OutputFormat};
+use super::material::{print_place, write_figures};
 use super::{Ended, Failure, json, print};
 use crate::input::dynamic::{self, DynamicFormat};
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Choices, characterise};
 use crate::report::caption::Setting;
 use crate::report::dynamic::{DynamicReport, Source, summary, tables};
-use crate::report::figure;
-use crate::report::figure::press::Press;
-use crate::report::page::{self, Pictures};
-use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::report::{figure, page};
 use crate::sweep::plan::resolved;
 use crate::sweep::store::write_atomically;
 
@@ -64,10 +62,7 @@ pub(super) fn run(
         return Ok(Ended::Done);
     };
     write(folder, &report, &block)?;
-    match format {
-        OutputFormat::Json => Ok(Ended::Done),
-        OutputFormat::Text => print(&format!("\nMaterial and figures in {}\n", folder.display())),
-    }
+    print_place("Material and figures", folder, format)
 }
 
 /// The format by `--data-format` or by `--format`, which may say the same.
@@ -163,8 +158,9 @@ fn printed_json(report: &DynamicReport<'_>, block: &str) -> Result<Value, Failur
 
 /// Every file of the folder.
 fn write(folder: &Path, report: &DynamicReport<'_>, block: &str) -> Result<(), Failure> {
-    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
-    let put = |name: &str, bytes: &[u8]| write(name, bytes).map_err(Failure::run);
+    let put = |name: &str, bytes: &[u8]| {
+        write_atomically(&folder.join(name), bytes).map_err(Failure::run)
+    };
     put("material.toml", block.as_bytes())?;
     put("prony.csv", &tables::prony(report.relaxation()))?;
     if let Some(master) = &report.made.master {
@@ -174,15 +170,8 @@ fn write(folder: &Path, report: &DynamicReport<'_>, block: &str) -> Result<(), F
     let summary = summary::summary(report).map_err(Failure::run)?;
     let summary = serde_json::to_string_pretty(&summary).map_err(Failure::run)?;
     put("summary.json", format!("{summary}\n").as_bytes())?;
-    let pictures = Pictures::default();
     let figures = figure::dynamic::figures(report);
-    let press = Press {
-        plan: &FigurePlan::default(),
-        write: &write,
-        pictures: &pictures,
-    };
-    let drawn = press.figures(&figures, &Setting::default());
-    drawn.map_err(Failure::run)?;
-    let page = page::dynamic::page(report, &figures, block, &pictures).map_err(Failure::run)?;
-    put("index.html", page.as_bytes())
+    write_figures(folder, &figures, &Setting::default(), |pictures, _| {
+        page::dynamic::page(report, &figures, block, pictures)
+    })
 }
