@@ -131,7 +131,7 @@ pub fn export(
         Program::Ansys => ansys::draft(&series)?,
         Program::LsDyna => ls_dyna::draft(&series)?,
         Program::Comsol => comsol::draft(&series)?,
-        Program::Csv => csv::draft(&series)?,
+        Program::Csv => csv::draft(&series),
     };
     let band_rad_per_s = band(&series.longitudinal);
     let conversion_error = largest_difference(&draft.written, &series.longitudinal, band_rad_per_s);
