@@ -2,10 +2,10 @@
 
 #![cfg(feature = "cli")]
 
+use crate::program::{program, write};
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::Command;
 use contact_dma::contact::Prescribed;
 use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
 use contact_dma::drive::HarmonicDrive;
@@ -55,16 +55,6 @@ fn csv(face: MaterialFunction) -> String {
         .map(|&t| format!("{t},{}\n", value(t)))
         .collect();
     format!("time_s,{column}\n{rows}")
-}
-
-fn program() -> Command {
-    Command::cargo_bin("contact-dma").unwrap()
-}
-
-fn write(folder: &Path, name: &str, text: &str) {
-    let path = folder.join(name);
-    fs::create_dir_all(path.parent().unwrap()).unwrap();
-    fs::write(path, text).unwrap();
 }
 
 const REST: &str = r#"
