@@ -54,7 +54,7 @@ fn fit_table(
     (data, function, poisson_ratio): (&Path, MaterialFunction, f64),
     format: OutputFormat,
 ) -> Result<Ended, Failure> {
-    let table = table_file::read(data, function, flags.modulus.into())?;
+    let table = table_file::read(data, function, flags.modulus)?;
     let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
     let material = fit.material(poisson_ratio).map_err(Failure::input)?;
     let block = block(data, &material);

@@ -29,7 +29,7 @@ pub(super) fn run(
     }
     let asked = data_format(flags.dynamic.data_format, named)?;
     let choices = choices(flags)?;
-    let file = dynamic::read(&flags.data, asked, flags.modulus.into())?;
+    let file = dynamic::read(&flags.data, asked, flags.modulus)?;
     let made = characterise(&file.data, &choices).map_err(|error| refused(flags, error))?;
     let names = flags.data.iter().map(|path| {
         let name = path.file_name().unwrap_or(path.as_os_str());
