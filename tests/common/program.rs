@@ -16,6 +16,9 @@ pub fn program() -> Command {
     command
 }
 
+/// For tests that look at no PNG, which takes longer to make than everything else of a small run.
+pub const SVG_ALONE: [&str; 2] = ["--set", "figures.formats=['svg']"];
+
 /// Writes a file into a folder, or a folder of that; its path.
 pub fn write(folder: impl AsRef<Path>, name: &str, text: &str) -> String {
     let path = folder.as_ref().join(name);

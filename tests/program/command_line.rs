@@ -152,8 +152,7 @@ fn the_resolved_sweep_is_a_sweep_file_with_the_same_results() {
         command
             .arg("sweep")
             .arg(file)
-            .arg("--quiet")
-            .arg("--out")
+            .args(["--quiet", "--no-figures", "--out"])
             .arg(out);
         command.assert().success();
     };
@@ -442,7 +441,7 @@ fn results_of_another_sweep_are_replaced_only_when_asked() {
         let mut command = program();
         command
             .current_dir(folder.path())
-            .args(["sweep", &file, "--quiet"]);
+            .args(["sweep", &file, "--quiet", "--no-figures"]);
         command.args(flags).assert()
     };
     sweep(&[]).success();

@@ -171,7 +171,8 @@ fn a_sweep_takes_its_material_from_a_table_beside_its_file_and_shows_the_misfit(
     for name in ["sweep", "pmma"] {
         let assert = program()
             .current_dir(folder.path())
-            .args(["sweep", &format!("project/{name}.toml"), "--out", name])
+            .args(["sweep", &format!("project/{name}.toml")])
+            .args(["--no-figures", "--out", name])
             .assert()
             .success();
         if name == "sweep" {
@@ -202,6 +203,7 @@ fn a_sweep_takes_its_material_from_a_table_beside_its_file_and_shows_the_misfit(
         .args([
             "sweep",
             "project/sweep.toml",
+            "--no-figures",
             "--out",
             "flag",
             "--set",
