@@ -411,35 +411,26 @@ pub(super) struct ExportFlags {
     pub(super) material: String,
     /// The program
     #[arg(long = "to", value_name = "PROGRAM")]
-    pub(super) program: ExportProgram,
+    pub(super) program: Program,
     /// The file to write [default: standard output]
     #[arg(long, value_name = "FILE")]
     pub(super) out: Option<PathBuf>,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum ExportProgram {
-    /// *ELASTIC, *VISCOELASTIC, TIME=PRONY, *TRS
-    Abaqus,
-    /// TB,PRONY in shear and bulk, TB,SHIFT
-    Ansys,
-    /// *MAT_GENERAL_VISCOELASTIC (076)
-    LsDyna,
-    /// Table of branches of the Viscoelasticity node
-    Comsol,
-    /// Columns modulus_pa, time_s; the equilibrium modulus first
-    Csv,
-}
+impl ValueEnum for Program {
+    fn value_variants<'a>() -> &'a [Self] {
+        &Self::ALL
+    }
 
-impl From<ExportProgram> for Program {
-    fn from(program: ExportProgram) -> Self {
-        match program {
-            ExportProgram::Abaqus => Self::Abaqus,
-            ExportProgram::Ansys => Self::Ansys,
-            ExportProgram::LsDyna => Self::LsDyna,
-            ExportProgram::Comsol => Self::Comsol,
-            ExportProgram::Csv => Self::Csv,
-        }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            Self::Abaqus => "*ELASTIC, *VISCOELASTIC, TIME=PRONY, *TRS",
+            Self::Ansys => "TB,PRONY in shear and bulk, TB,SHIFT",
+            Self::LsDyna => "*MAT_GENERAL_VISCOELASTIC (076)",
+            Self::Comsol => "Table of branches of the Viscoelasticity node",
+            Self::Csv => "Columns modulus_pa, time_s; the equilibrium modulus first",
+        };
+        Some(PossibleValue::new(self.name()).help(help))
     }
 }
 
@@ -453,7 +444,7 @@ pub(super) struct FitFlags {
     pub(super) quantity: FitQuantity,
     /// Which modulus, or which modulus the compliance belongs to
     #[arg(long, value_name = "KIND")]
-    pub(super) modulus: TableModulus,
+    pub(super) modulus: ModulusKind,
     /// Poisson ratio of the material; dynamic data are fitted without one too, and the block then says where it is to be written
     #[arg(
         long, value_name = "NU", allow_negative_numbers = true,
@@ -556,20 +547,17 @@ pub(super) enum FitQuantity {
     Dynamic,
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum TableModulus {
-    /// Uniaxial: E, D
-    Longitudinal,
-    /// Shear: G, J
-    Shear,
-}
+impl ValueEnum for ModulusKind {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self::Longitudinal, Self::Shear]
+    }
 
-impl From<TableModulus> for ModulusKind {
-    fn from(modulus: TableModulus) -> Self {
-        match modulus {
-            TableModulus::Longitudinal => Self::Longitudinal,
-            TableModulus::Shear => Self::Shear,
-        }
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let help = match self {
+            Self::Longitudinal => "Uniaxial: E, D",
+            Self::Shear => "Shear: G, J",
+        };
+        Some(PossibleValue::new(self.name()).help(help))
     }
 }
 

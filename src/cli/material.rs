@@ -12,10 +12,10 @@ use crate::input::material_block;
 use crate::input::material_table::DirectSum;
 use crate::material::{Material, library};
 use crate::report::caption::Setting;
-use crate::report::figure::press::Press;
+use crate::report::figure::{Figure, press::Press};
 use crate::report::page::{self, Pictures, material::About};
 use crate::report::words::wrapped;
-use crate::report::{self, material::MaterialReport};
+use crate::report::{self, ReportError, material::MaterialReport};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::resolved;
 use crate::sweep::store::write_atomically;
@@ -61,6 +61,29 @@ fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
         return Ok(Ended::Done);
     };
     let figures = report.figures();
+    let setting = Setting::of_material(&material);
+    write_figures(folder, &figures, &setting, |pictures, figure| {
+        let about = About {
+            title: material.name().unwrap_or("Material"),
+            // The first line is the title, which stands above.
+            text: head.split_once('\n').map_or("", |(_, rest)| rest),
+            block: &resolved::material_text(&material),
+            pictures,
+            figure,
+            fit: None,
+        };
+        page::material::page(&material, &about)
+    })?;
+    print_place("Figures", folder, format)
+}
+
+/// Writes figures into a folder, and the page that shows them, made of the pictures and the name of the first one.
+pub(super) fn write_figures(
+    folder: &Path,
+    figures: &[Figure],
+    setting: &Setting,
+    page: impl FnOnce(&Pictures, &str) -> Result<String, ReportError>,
+) -> Result<(), Failure> {
     let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     let press = Press {
@@ -68,24 +91,23 @@ fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
         write: &write,
         pictures: &pictures,
     };
-    let drawn = press.figures(&figures, &Setting::of_material(&material));
-    drawn.map_err(Failure::run)?;
-    if let Some(figure) = figures.first() {
-        let about = About {
-            title: material.name().unwrap_or("Material"),
-            // The first line is the title, which stands above.
-            text: head.split_once('\n').map_or("", |(_, rest)| rest),
-            block: &resolved::material_text(&material),
-            pictures: &pictures,
-            figure: figure.name,
-            fit: None,
-        };
-        let page = page::material::page(&material, &about).map_err(Failure::run)?;
-        write("index.html", page.as_bytes()).map_err(Failure::run)?;
-    }
+    press.figures(figures, setting).map_err(Failure::run)?;
+    let Some(first) = figures.first() else {
+        return Ok(());
+    };
+    let page = page(&pictures, first.name).map_err(Failure::run)?;
+    write("index.html", page.as_bytes()).map_err(Failure::run)
+}
+
+/// Tells people where the files are.
+pub(super) fn print_place(
+    what: &str,
+    folder: &Path,
+    format: OutputFormat,
+) -> Result<Ended, Failure> {
     match format {
         OutputFormat::Json => Ok(Ended::Done),
-        OutputFormat::Text => print(&format!("\nFigures in {}\n", folder.display())),
+        OutputFormat::Text => print(&format!("\n{what} in {}\n", folder.display())),
     }
 }
 

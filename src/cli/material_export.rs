@@ -13,7 +13,7 @@ use crate::sweep::store::write_atomically;
 /// Runs the command.
 pub(super) fn run(flags: &ExportFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let (material, _) = material::load(&flags.material)?;
-    let program = flags.program.into();
+    let program = flags.program;
     let export = export::export(&material, material.shift(), program).map_err(Failure::input)?;
     if let Some(file) = &flags.out {
         write_atomically(file, export.text.as_bytes()).map_err(Failure::run)?;

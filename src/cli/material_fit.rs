@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::arguments::{DynamicFlags, FitFlags, FitQuantity, OutputFormat};
+use super::material::{print_place, write_figures};
 use super::{Ended, Failure, json, material_fit_dynamic, print};
 use crate::input::dynamic::DynamicFormat;
 use crate::input::table_file;
@@ -10,10 +11,8 @@ use crate::material::fit;
 use crate::material::{Material, MaterialFunction};
 use crate::report::caption::Setting;
 use crate::report::dynamic::tables;
-use crate::report::figure::press::Press;
-use crate::report::page::{self, Pictures, material::About};
+use crate::report::page::{self, material::About};
 use crate::report::{self, figure};
-use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::resolved;
 use crate::sweep::store::write_atomically;
 
@@ -55,7 +54,7 @@ fn fit_table(
     (data, function, poisson_ratio): (&Path, MaterialFunction, f64),
     format: OutputFormat,
 ) -> Result<Ended, Failure> {
-    let table = table_file::read(data, function, flags.modulus.into())?;
+    let table = table_file::read(data, function, flags.modulus)?;
     let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
     let material = fit.material(poisson_ratio).map_err(Failure::input)?;
     let block = block(data, &material);
@@ -70,37 +69,26 @@ fn fit_table(
     let Some(folder) = &flags.out else {
         return Ok(Ended::Done);
     };
-    let figures = figure::fit::figures(&table, &fit);
-    let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
     write("material.toml", block.as_bytes()).map_err(Failure::run)?;
     if let Some(relaxation) = material.relaxation() {
         write("prony.csv", &tables::prony(relaxation)).map_err(Failure::run)?;
     }
-    let press = Press {
-        plan: &FigurePlan::default(),
-        write: &write,
-        pictures: &pictures,
-    };
-    let drawn = press.figures(&figures, &Setting::of_material(&material));
-    drawn.map_err(Failure::run)?;
-    if let Some(figure) = figures.first() {
+    let figures = figure::fit::figures(&table, &fit);
+    let setting = Setting::of_material(&material);
+    write_figures(folder, &figures, &setting, |pictures, figure| {
         let name = data.file_name().unwrap_or_default();
         let about = About {
             title: &format!("Fit to {}", name.display()),
             text: &report::fit::text(fit.report()),
             block: &block,
-            pictures: &pictures,
-            figure: figure.name,
+            pictures,
+            figure,
             fit: Some((&table, &fit)),
         };
-        let page = page::material::page(&material, &about).map_err(Failure::run)?;
-        write("index.html", page.as_bytes()).map_err(Failure::run)?;
-    }
-    match format {
-        OutputFormat::Json => Ok(Ended::Done),
-        OutputFormat::Text => print(&format!("\nMaterial and figures in {}\n", folder.display())),
-    }
+        page::material::page(&material, &about)
+    })?;
+    print_place("Material and figures", folder, format)
 }
 
 /// The material block of a sweep file, ready to paste, every number exact.

@@ -5,16 +5,14 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::arguments::{Branches, FitFlags, OutputFormat};
+use super::material::{print_place, write_figures};
 use super::{Ended, Failure, json, print};
 use crate::input::dynamic::{self, DynamicFormat};
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Choices, characterise};
 use crate::report::caption::Setting;
 use crate::report::dynamic::{DynamicReport, Source, summary, tables};
-use crate::report::figure;
-use crate::report::figure::press::Press;
-use crate::report::page::{self, Pictures};
-use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::report::{figure, page};
 use crate::sweep::plan::resolved;
 use crate::sweep::store::write_atomically;
 
@@ -31,7 +29,7 @@ pub(super) fn run(
     }
     let asked = data_format(flags.dynamic.data_format, named)?;
     let choices = choices(flags)?;
-    let file = dynamic::read(&flags.data, asked, flags.modulus.into())?;
+    let file = dynamic::read(&flags.data, asked, flags.modulus)?;
     let made = characterise(&file.data, &choices).map_err(|error| refused(flags, error))?;
     let names = flags.data.iter().map(|path| {
         let name = path.file_name().unwrap_or(path.as_os_str());
@@ -64,10 +62,7 @@ pub(super) fn run(
         return Ok(Ended::Done);
     };
     write(folder, &report, &block)?;
-    match format {
-        OutputFormat::Json => Ok(Ended::Done),
-        OutputFormat::Text => print(&format!("\nMaterial and figures in {}\n", folder.display())),
-    }
+    print_place("Material and figures", folder, format)
 }
 
 /// The format by `--data-format` or by `--format`, which may say the same.
@@ -87,24 +82,10 @@ fn data_format(
 
 fn choices(flags: &FitFlags) -> Result<Choices, Failure> {
     let dynamic = &flags.dynamic;
-    let shift = match dynamic.shift.as_deref() {
-        None => ShiftChoice::Free,
-        Some(word) if word == Path::new("free") => ShiftChoice::Free,
-        Some(word) if word == Path::new("wlf") => ShiftChoice::Wlf,
-        Some(word) if word == Path::new("arrhenius") => ShiftChoice::Arrhenius,
-        Some(word) if word == Path::new("none") => ShiftChoice::None,
-        Some(file) if !file.exists() => {
-            return Err(Failure::input(format!(
-                "--shift {}: there is no such file; write free, wlf, arrhenius, none, or the path of a table with the columns \
-                 temperature_c,log10_a_t",
-                file.display()
-            )));
-        }
-        Some(file) => ShiftChoice::Given(dynamic::read_shift_factors(file)?),
-    };
+    let shift = dynamic.shift.as_deref().map(shift).transpose()?;
     Ok(Choices {
         reference_temperature_k: dynamic.reference_temperature,
-        shift,
+        shift: shift.unwrap_or(ShiftChoice::Free),
         vertical_shift: dynamic.vertical_shift,
         branches: dynamic.branches.and_then(|branches| match branches {
             Branches::Auto => None,
@@ -113,6 +94,23 @@ fn choices(flags: &FitFlags) -> Result<Choices, Failure> {
         replicas: dynamic.replicas.unwrap_or(0),
         ..Choices::default()
     })
+}
+
+/// What a word chooses, or the factors of a file.
+fn shift(given: &Path) -> Result<ShiftChoice, Failure> {
+    let mut words = ShiftChoice::WORDS.iter();
+    if let Some((_, choice)) = words.find(|(word, _)| given == Path::new(word)) {
+        return Ok(choice.clone());
+    }
+    if !given.exists() {
+        let words: Vec<&str> = ShiftChoice::WORDS.iter().map(|(word, _)| *word).collect();
+        return Err(Failure::input(format!(
+            "--shift {}: there is no such file; write {}, or the path of a table with the columns temperature_c,log10_a_t",
+            given.display(),
+            words.join(", ")
+        )));
+    }
+    Ok(ShiftChoice::Given(dynamic::read_shift_factors(given)?))
 }
 
 fn refused(flags: &FitFlags, error: impl std::fmt::Display) -> Failure {
@@ -160,8 +158,9 @@ fn printed_json(report: &DynamicReport<'_>, block: &str) -> Result<Value, Failur
 
 /// Every file of the folder.
 fn write(folder: &Path, report: &DynamicReport<'_>, block: &str) -> Result<(), Failure> {
-    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
-    let put = |name: &str, bytes: &[u8]| write(name, bytes).map_err(Failure::run);
+    let put = |name: &str, bytes: &[u8]| {
+        write_atomically(&folder.join(name), bytes).map_err(Failure::run)
+    };
     put("material.toml", block.as_bytes())?;
     put("prony.csv", &tables::prony(report.relaxation()))?;
     if let Some(master) = &report.made.master {
@@ -171,15 +170,8 @@ fn write(folder: &Path, report: &DynamicReport<'_>, block: &str) -> Result<(), F
     let summary = summary::summary(report).map_err(Failure::run)?;
     let summary = serde_json::to_string_pretty(&summary).map_err(Failure::run)?;
     put("summary.json", format!("{summary}\n").as_bytes())?;
-    let pictures = Pictures::default();
     let figures = figure::dynamic::figures(report);
-    let press = Press {
-        plan: &FigurePlan::default(),
-        write: &write,
-        pictures: &pictures,
-    };
-    let drawn = press.figures(&figures, &Setting::default());
-    drawn.map_err(Failure::run)?;
-    let page = page::dynamic::page(report, &figures, block, &pictures).map_err(Failure::run)?;
-    put("index.html", page.as_bytes())
+    write_figures(folder, &figures, &Setting::default(), |pictures, _| {
+        page::dynamic::page(report, &figures, block, pictures)
+    })
 }

@@ -224,7 +224,7 @@ impl DataFile {
             .map(|column| header.find(column))
             .collect::<Result<_, _>>()?;
         let mut lines = header.after.clone();
-        let units = header.units_row(&mut lines, &found)?;
+        let units = header.units_row(&mut lines, &found);
         let mut rows = Rows::new(&header, found.iter().map(|found| found.place).collect());
         rows.read(lines, without_number)?;
         let mut table = rows.table;
@@ -391,11 +391,7 @@ impl<'a> Header<'a> {
     }
 
     /// The units of the columns in the line below, where that is a row of units; `lines` then stands behind it.
-    fn units_row(
-        &self,
-        lines: &mut Lines<'_>,
-        found: &[Found],
-    ) -> Result<Vec<Option<(String, Location)>>, Diagnostic> {
+    fn units_row(&self, lines: &mut Lines<'_>, found: &[Found]) -> Vec<Option<(String, Location)>> {
         let (text, mut ahead, mut cells) = (self.source.text(), lines.clone(), Vec::new());
         ahead.cells(self.delimiter, &mut cells);
         let unit = |found: &Found| {
@@ -411,14 +407,14 @@ impl<'a> Header<'a> {
         let some = || units.iter().flatten().map(|(unit, _)| unit.as_str());
         let is_row = some().any(is_unit) && !some().any(|unit| unit.parse::<f64>().is_ok());
         if !is_row || cells.len() != self.cells.len() {
-            return Ok(found.iter().map(|_| None).collect());
+            return found.iter().map(|_| None).collect();
         }
         *lines = ahead;
         let is_given = |unit: &(String, Location)| !["", "-"].contains(&unit.0.as_str());
-        Ok(units
+        units
             .into_iter()
             .map(|unit| unit.filter(is_given))
-            .collect())
+            .collect()
     }
 
     /// What the numbers of a column are multiplied by.

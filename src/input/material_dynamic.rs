@@ -77,7 +77,7 @@ fn choices(table: &mut TableReader<'_>, folder: &Path, problems: &Problems) -> O
     let reference = table.value(&REFERENCE_TEMPERATURE);
     let shift = table.value(&SHIFT).and_then(|shift| match shift {
         None => Some(ShiftChoice::Free),
-        Some(ShiftValue::Word(word)) => Some(word.choice()),
+        Some(ShiftValue::Word(choice)) => Some(choice),
         Some(ShiftValue::File(file)) => {
             let (name, bytes) = data_file::named(&file, folder, problems)?;
             let factors = shift_factors_from_bytes(&name, &bytes);
@@ -116,32 +116,7 @@ impl AtTemperature for Characterisation {
     }
 }
 
-/// How isotherms are shifted, as a word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum ShiftWord {
-    Free,
-    Wlf,
-    Arrhenius,
-    None,
-}
-
-impl ShiftWord {
-    fn choice(self) -> ShiftChoice {
-        match self {
-            Self::Free => ShiftChoice::Free,
-            Self::Wlf => ShiftChoice::Wlf,
-            Self::Arrhenius => ShiftChoice::Arrhenius,
-            Self::None => ShiftChoice::None,
-        }
-    }
-}
-
-const SHIFT_WORDS: Choice<ShiftWord> = Choice(&[
-    ("free", ShiftWord::Free),
-    ("wlf", ShiftWord::Wlf),
-    ("arrhenius", ShiftWord::Arrhenius),
-    ("none", ShiftWord::None),
-]);
+const SHIFT_WORDS: Choice<ShiftChoice> = Choice(ShiftChoice::WORDS);
 
 static SHIFT_TABLE: Rows = table(" Shift factors of a file.", SHIFT_KEYS);
 
@@ -151,7 +126,7 @@ pub(crate) struct Shift;
 /// What stands under `shift`.
 #[derive(Debug, Clone)]
 pub(crate) enum ShiftValue {
-    Word(ShiftWord),
+    Word(ShiftChoice),
     File(Located<String>),
 }
 

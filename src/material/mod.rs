@@ -93,6 +93,16 @@ impl MaterialFunction {
             Self::Creep => "creep",
         }
     }
+
+    /// The letter of the function of this kind.
+    pub const fn symbol(self, kind: ModulusKind) -> char {
+        match (self, kind) {
+            (Self::Relaxation, ModulusKind::Longitudinal) => 'E',
+            (Self::Relaxation, ModulusKind::Shear) => 'G',
+            (Self::Creep, ModulusKind::Longitudinal) => 'D',
+            (Self::Creep, ModulusKind::Shear) => 'J',
+        }
+    }
 }
 
 /// An isotropic linear viscoelastic material of constant Poisson ratio.

@@ -11,7 +11,7 @@ use std::borrow::Cow;
 
 use super::number::scientific;
 use crate::material::dynamic::{Characterisation, DynamicData, DynamicPoint, replicas};
-use crate::material::{ModulusKind, Relaxation};
+use crate::material::{MaterialFunction, Relaxation};
 
 /// Where dynamic data come from.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -53,10 +53,7 @@ impl<'a> DynamicReport<'a> {
 
     /// The letter of the modulus.
     pub fn symbol(&self) -> char {
-        match self.made.kind {
-            ModulusKind::Longitudinal => 'E',
-            ModulusKind::Shear => 'G',
-        }
+        MaterialFunction::Relaxation.symbol(self.made.kind)
     }
 
     /// The temperature (K) that the series belongs to, where the data name one.
@@ -126,11 +123,11 @@ impl Band {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::material::RelaxationBranch;
     use crate::material::dynamic::master_curve::{MasterCurve, MasterCurveWarning, ShiftFactor};
     use crate::material::dynamic::prony::PronyFit;
     use crate::material::dynamic::replicas::Replica;
     use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
+    use crate::material::{ModulusKind, RelaxationBranch};
 
     /// A solid of two branches at 25 °C.
     pub(crate) fn solid() -> Relaxation {

@@ -6,7 +6,7 @@ use super::figure;
 use super::figure::Figure;
 use super::figure::moduli::ModulusPoint;
 use super::number::{four_digits, six_digits};
-use crate::material::{Creep, LossPeak, Material, MaterialError, ModulusKind, Relaxation};
+use crate::material::{Creep, LossPeak, Material, MaterialError, MaterialFunction, Relaxation};
 use crate::quantity::{Dimension, format_human};
 
 /// A material with its functions as moduli of the kind it was given in.
@@ -18,10 +18,7 @@ pub struct MaterialReport<'a> {
 impl<'a> MaterialReport<'a> {
     /// A report on this material.
     pub fn new(material: &'a Material) -> Self {
-        let symbol = match material.kind() {
-            ModulusKind::Longitudinal => 'E',
-            ModulusKind::Shear => 'G',
-        };
+        let symbol = MaterialFunction::Relaxation.symbol(material.kind());
         Self { material, symbol }
     }
 
@@ -105,10 +102,7 @@ impl<'a> MaterialReport<'a> {
         let mut text = String::new();
         let symbol = self.symbol;
         let kind = self.material.kind();
-        let compliance = match kind {
-            ModulusKind::Longitudinal => 'D',
-            ModulusKind::Shear => 'J',
-        };
+        let compliance = MaterialFunction::Creep.symbol(kind);
         let kind = kind.name();
         // Writing to a String cannot fail.
         let _ = writeln!(text, "Poisson ratio {}", self.material.poisson_ratio());

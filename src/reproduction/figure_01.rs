@@ -51,7 +51,7 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
     .legend(LegendPlace::TopRight);
     let caption = "Relaxation modulus of PMMA. Line: the Prony series. Symbols: read from the load under a flat punch that is \
                    pressed in at once and held still.";
-    Ok(vec![Figure::new(1, caption, vec![chart], data, claims)?])
+    Ok(vec![Figure::new(1, caption, vec![chart], data, claims)])
 }
 
 /// The modulus (MPa) at 0 and 1000 s, what both engines read of the latter, and the constants of the creep function.

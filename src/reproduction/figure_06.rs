@@ -137,7 +137,7 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
          (case 2). Symbols: computed, {side} × {side} cells. Case 2 is followed beyond the paper's range, to the end of \
          its load."
     );
-    Ok(vec![Figure::new(6, caption, vec![chart], data, claims)?])
+    Ok(vec![Figure::new(6, caption, vec![chart], data, claims)])
 }
 
 fn compute(case: &Case, plans: &Plans, interrupt: &AtomicBool) -> Result<Computed> {

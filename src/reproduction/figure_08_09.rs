@@ -81,7 +81,7 @@ fn figure_8(slow: &History, fast: &History, cycles: &Cycles<'_>) -> Result<Figur
         );
     }
     let caption = "Load against approach on a Zener half-space from rest; (a) f = 0.1, four cycles, (b) f = 1, eight cycles.";
-    Figure::new(8, caption, panels, data, claims_8(cycles))
+    Ok(Figure::new(8, caption, panels, data, claims_8(cycles)))
 }
 
 fn claims_8(cycles: &Cycles<'_>) -> Vec<Claim> {
@@ -167,7 +167,7 @@ fn figure_9(history: &History, cycles: &Cycles<'_>) -> Result<Figure> {
         history.side
     );
     let claims = claims_9(history, cycles)?;
-    Figure::new(9, caption, vec![chart], data, claims)
+    Ok(Figure::new(9, caption, vec![chart], data, claims))
 }
 
 fn claims_9(history: &History, cycles: &Cycles<'_>) -> Result<Vec<Claim>> {

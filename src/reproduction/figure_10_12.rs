@@ -65,7 +65,8 @@ fn figure_10(cycles: &Cycles<'_>) -> Result<Figure> {
     ])
     .legend(LegendPlace::Above);
     let caption = "Largest contact radius and pressure of a stabilised cycle over frequency, Zener half-space.";
-    Figure::new(10, caption, vec![chart], data, claims_10(cycles)?)
+    let claims = claims_10(cycles)?;
+    Ok(Figure::new(10, caption, vec![chart], data, claims))
 }
 
 fn claims_10(cycles: &Cycles<'_>) -> Result<Vec<Claim>> {
@@ -139,7 +140,8 @@ fn figure_11(cycles: &Cycles<'_>) -> Result<Figure> {
     }
     let caption = "Pressure under half and under the full load in a stabilised cycle, Zener half-space, f = 0.6. Lines: \
                    axisymmetric engine. Symbols: half-space engine. The data hold f = 0.4 and 0.8 as well.";
-    Figure::new(11, caption, vec![chart], data, claims_11(cycles)?)
+    let claims = claims_11(cycles)?;
+    Ok(Figure::new(11, caption, vec![chart], data, claims))
 }
 
 fn claims_11(cycles: &Cycles<'_>) -> Result<Vec<Claim>> {
@@ -213,7 +215,8 @@ fn figure_12(cycles: &Cycles<'_>) -> Result<Figure> {
     ];
     let caption = "Zener half-space: hysteresis loops, as in the paper, and below them the energy loss over a wider range of \
                    frequencies.";
-    Figure::new(12, caption, panels, data, claims_12(cycles)?)
+    let claims = claims_12(cycles)?;
+    Ok(Figure::new(12, caption, panels, data, claims))
 }
 
 fn loops_panel(cycles: &Cycles<'_>, data: &mut Data) -> Result<Chart> {

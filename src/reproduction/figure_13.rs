@@ -74,7 +74,7 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
     }
     let panels = panels(&closed, &touched, plan.solver.cells, scenario.solver.cells);
     let claims = [claims_of_loops(&loops), claims_of_work(&work)].concat();
-    Ok(vec![Figure::new(13, CAPTION, panels, data, claims)?])
+    Ok(vec![Figure::new(13, CAPTION, panels, data, claims)])
 }
 
 const CAPTION: &str = "PMMA under a sphere, W = W₀ + W_A sin ωt with W₀ = 2 W_A after 500 s at W₀; each curve relative to its \

@@ -161,15 +161,15 @@ impl Figure {
         panels: Vec<Chart>,
         data: Data,
         claims: Vec<Claim>,
-    ) -> Result<Self> {
-        Ok(Self {
+    ) -> Self {
+        Self {
             number,
             caption: caption.into(),
             panels,
             data: data.finish(),
             claims,
             statements: Vec::new(),
-        })
+        }
     }
 
     /// The name of its files, without ending.

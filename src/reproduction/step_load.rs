@@ -102,7 +102,7 @@ impl<'a> Held<'a> {
         data: &mut Data,
         before: &[&dyn Cell],
         curves: ByEngine<Vec<(f64, Y)>>,
-    ) -> Result<[Series; 3]> {
+    ) -> [Series; 3] {
         let of = self.times.len();
         let member = Member { step: k, of };
         data.points(&[before, &[&"closed form"]].concat(), &curves.exact);
@@ -116,7 +116,7 @@ impl<'a> Held<'a> {
         let line = member.line(drawn.exact).label(label);
         let [springs, cells] =
             member.engines(drawn.axisymmetric, drawn.half_space, self.plan.solver.cells);
-        Ok([line, springs, cells])
+        [line, springs, cells]
     }
 }
 
@@ -125,9 +125,9 @@ pub(super) fn figure_4(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figu
     let held = Held::new(plans.scenario("figure-04")?, f64::INFINITY, interrupt)?;
     let caption = "Pressure under a step load on a Maxwell half-space. Lines: closed form. Symbols: computed; for the \
                    half-space engine every sixth cell of the row beside the middle.";
-    let (chart, data) = pressures(&held)?;
+    let (chart, data) = pressures(&held);
     let claims = pressure_claims(&held, true);
-    Ok(vec![Figure::new(4, caption, vec![chart], data, claims)?])
+    Ok(vec![Figure::new(4, caption, vec![chart], data, claims)])
 }
 
 /// Figure 5.
@@ -149,10 +149,10 @@ pub(super) fn figure_5(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figu
     );
     let caption = "Pressure under a step load on a Zener half-space of two equal springs. Lines: closed form. Symbols: \
                    computed; for the half-space engine every sixth cell of the row beside the middle.";
-    let (chart, data) = pressures(&held)?;
+    let (chart, data) = pressures(&held);
     let mut claims = pressure_claims(&held, false);
     claims.push(back);
-    Ok(vec![Figure::new(5, caption, vec![chart], data, claims)?])
+    Ok(vec![Figure::new(5, caption, vec![chart], data, claims)])
 }
 
 /// The largest difference of the pressure at any node, as a part of the peak, when the approach of an outcome is imposed at its
@@ -210,7 +210,7 @@ fn difference(a: &Surface, b: &Surface) -> Option<f64> {
     (a.len() == b.len()).then(|| differences.fold(0.0, f64::max) / peak)
 }
 
-fn pressures(held: &Held<'_>) -> Result<(Chart, Data)> {
+fn pressures(held: &Held<'_>) -> (Chart, Data) {
     let mut data = Data::new(&["time_tau", "source", "radius_a_h", "pressure_p_h"]);
     let mut chart = Chart::new(
         Axis::linear("radial coordinate r / Hertz radius"),
@@ -233,9 +233,9 @@ fn pressures(held: &Held<'_>) -> Result<(Chart, Data)> {
             1.0 => "t = τ".to_owned(),
             _ => format!("t = {time} τ"),
         };
-        chart = chart.all_series(held.curves((k, label), &mut data, &[&time], curves)?);
+        chart = chart.all_series(held.curves((k, label), &mut data, &[&time], curves));
     }
-    Ok((chart, data))
+    (chart, data)
 }
 
 fn pressure_claims(held: &Held<'_>, at_first_edge: bool) -> Vec<Claim> {
@@ -301,16 +301,16 @@ pub(super) fn figure_7(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figu
         ("figure-07-zener", "Zener", 'b', 1.35),
     ] {
         let held = Held::new(plans.scenario(file)?, 1.5, interrupt)?;
-        panels.push(displacements(&held, (name, part), &mut data)?);
+        panels.push(displacements(&held, (name, part), &mut data));
         claims.extend(displacement_claims(&held, name, outside));
         claims.extend(what_is_left(&held, name));
     }
     let caption = "Surface displacement under a step load that is taken off at 2 τ; (a) Maxwell, (b) Zener half-space. Lines: \
                    closed form. Symbols: computed.";
-    Ok(vec![Figure::new(7, caption, panels, data, claims)?])
+    Ok(vec![Figure::new(7, caption, panels, data, claims)])
 }
 
-fn displacements(held: &Held<'_>, (name, part): (&str, char), data: &mut Data) -> Result<Chart> {
+fn displacements(held: &Held<'_>, (name, part): (&str, char), data: &mut Data) -> Chart {
     let mut chart = Chart::new(
         Axis::linear("radial coordinate r / Hertz radius").range(0.0, held.reach),
         Axis::linear(format!("({part}) displacement u / Hertz approach")),
@@ -329,9 +329,9 @@ fn displacements(held: &Held<'_>, (name, part): (&str, char), data: &mut Data) -
         };
         let curves = ByEngine::of(line, points);
         let before: [&dyn Cell; 3] = [&name, &time, &state];
-        chart = chart.all_series(held.curves((k, label(time)), data, &before, curves)?);
+        chart = chart.all_series(held.curves((k, label(time)), data, &before, curves));
     }
-    Ok(chart)
+    chart
 }
 
 fn displacement_claims(held: &Held<'_>, name: &str, outside: f64) -> Vec<Claim> {

@@ -3,6 +3,7 @@
 #![allow(dead_code)] // Each test file uses its own part.
 
 use std::fs;
+use std::path::Path;
 
 use assert_cmd::Command;
 use tempfile::TempDir;
@@ -15,9 +16,13 @@ pub fn program() -> Command {
     command
 }
 
-/// Writes a file into a folder; its path.
-pub fn write(folder: &TempDir, name: &str, text: &str) -> String {
-    let path = folder.path().join(name);
+/// For tests that look at no PNG, which takes longer to make than everything else of a small run.
+pub const SVG_ALONE: [&str; 2] = ["--set", "figures.formats=['svg']"];
+
+/// Writes a file into a folder, or a folder of that; its path.
+pub fn write(folder: impl AsRef<Path>, name: &str, text: &str) -> String {
+    let path = folder.as_ref().join(name);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
     fs::write(&path, text).unwrap();
     path.to_str().unwrap().to_owned()
 }
@@ -35,4 +40,21 @@ mean = "10 N"
 amplitude = "5 N"
 "#;
     format!("{question}{rest}")
+}
+
+/// Runs this text as a file of `sweep` or `simulate` and expects it to be refused as bad input, with nothing written.
+pub fn refused(folder: &TempDir, command: &str, text: &str, expected: &[&str]) {
+    let file = write(folder, "bad.toml", text);
+    let out = folder.path().join("out");
+    let assert = program()
+        .args([command, &file, "--out"])
+        .arg(&out)
+        .assert()
+        .code(2)
+        .stdout("");
+    let stderr = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
+    for text in expected {
+        assert!(stderr.contains(text), "{text:?} is missing in:\n{stderr}");
+    }
+    assert!(!out.exists(), "what is refused has left a folder");
 }

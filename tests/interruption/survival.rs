@@ -5,6 +5,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, Stdio};
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use crate::kills::{
@@ -56,6 +57,39 @@ error_bars = false
 springs = 100
 "#;
 
+/// A sweep that nothing disturbs.
+fn undisturbed(text: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "whole.toml", text);
+    sweep(&file, &folder.path().join("whole"), &["--quiet"])
+        .success()
+        .stderr("");
+    folder
+}
+
+/// [`CHEAP`] and [`LONG`] undisturbed, computed once for all tests.
+static WHOLE: [LazyLock<TempDir>; 2] = [
+    LazyLock::new(|| undisturbed(CHEAP)),
+    LazyLock::new(|| undisturbed(LONG)),
+];
+
+fn whole_cheap() -> PathBuf {
+    WHOLE[0].path().join("whole")
+}
+
+fn whole_long() -> PathBuf {
+    WHOLE[1].path().join("whole")
+}
+
+/// A copy of [`whole_cheap`] in a folder, to be damaged.
+fn copy_of_cheap(folder: &TempDir) -> PathBuf {
+    let out = folder.path().join("out");
+    let mut copying = Process::new("cp");
+    copying.arg("-r").arg(whole_cheap()).arg(&out);
+    assert!(copying.status().unwrap().success());
+    out
+}
+
 fn start(file: &str, out: &Path, more: &[&str]) -> Child {
     crate::kills::start(&[&["sweep", file], more].concat(), out)
 }
@@ -70,9 +104,7 @@ fn sweep(file: &str, out: &Path, more: &[&str]) -> assert_cmd::assert::Assert {
 fn finished_cases_are_read_and_damaged_ones_named_and_computed_again() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    sweep(&file, &whole, &["--quiet"]).success().stderr("");
-    sweep(&file, &out, &["--quiet"]).success();
+    let (whole, out) = (whole_cheap(), copy_of_cheap(&folder));
     let record = |k: usize| out.join(format!("records/{k:04}.json"));
     for k in 10..20 {
         fs::remove_file(record(k)).unwrap();
@@ -159,10 +191,7 @@ fn of_another_build(path: &Path) {
 fn records_of_another_build_are_computed_again_by_a_sweep_and_shown_by_a_report() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    for folder in [&whole, &out] {
-        sweep(&file, folder, &["--quiet"]).success();
-    }
+    let (whole, out) = (whole_cheap(), copy_of_cheap(&folder));
     let other = out.join("records/0005.json");
     of_another_build(&other);
     let altered = fs::read(&other).unwrap();
@@ -247,8 +276,14 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
     let ways = [("march", LONG), ("search", &searched), ("cells", &cells)];
     for (name, text) in ways {
         let file = write(&folder, "long.toml", text);
-        let whole = folder.path().join(format!("{name}-whole"));
-        sweep(&file, &whole, &["--quiet"]).success();
+        let whole = match name {
+            "march" => whole_long(),
+            _ => {
+                let whole = folder.path().join(format!("{name}-whole"));
+                sweep(&file, &whole, &["--quiet"]).success();
+                whole
+            }
+        };
         let out = folder.path().join(format!("{name}-out"));
         let often = ["--checkpoint-every", "0"];
         let case = out.join("checkpoints/0000");
@@ -276,13 +311,11 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
 #[test]
 fn a_clock_that_jumps_between_interruption_and_resumption_changes_nothing() {
     let folder = TempDir::new().unwrap();
-    for (name, text, what) in [
-        ("cheap", CHEAP, "records"),
-        ("long", LONG, "checkpoints/0000"),
+    for (name, text, whole, what) in [
+        ("cheap", CHEAP, whole_cheap(), "records"),
+        ("long", LONG, whole_long(), "checkpoints/0000"),
     ] {
         let file = write(&folder, "clock.toml", text);
-        let whole = folder.path().join(format!("{name}-whole"));
-        sweep(&file, &whole, &["--quiet"]).success();
         let out = folder.path().join(format!("{name}-out"));
         let mut child = start(&file, &out, &["--checkpoint-every", "0", "--threads", "1"]);
         wait_for("nothing was written", || newest(&out.join(what)).is_some());
@@ -337,9 +370,7 @@ fn the_time_of_day_is_asked_for_stamps_alone() {
 fn a_damaged_checkpoint_is_passed_over() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "long.toml", LONG);
-    let whole = folder.path().join("whole");
-    sweep(&file, &whole, &["--quiet"]).success();
-    let out = folder.path().join("out");
+    let (whole, out) = (whole_long(), folder.path().join("out"));
     let mut child = start(&file, &out, &["--checkpoint-every", "0"]);
     let path = out.join("checkpoints/0000/00.cycle");
     wait_for("no checkpoint was written", || path.exists());
@@ -379,8 +410,7 @@ fn a_termination_is_heard_within_an_instant_of_the_finest_grid() {
 fn a_second_interrupt_ends_the_program_at_once_and_the_next_run_goes_on() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    sweep(&file, &whole, &["--quiet"]).success();
+    let (whole, out) = (whole_cheap(), folder.path().join("out"));
     let mut child = start(&file, &out, &["--threads", "1"]);
     let records = out.join("records");
     wait_for("no case was finished", || {
@@ -397,8 +427,7 @@ fn a_second_interrupt_ends_the_program_at_once_and_the_next_run_goes_on() {
 fn two_processes_in_one_folder_do_each_other_no_harm() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    sweep(&file, &whole, &["--quiet"]).success();
+    let (whole, out) = (whole_cheap(), folder.path().join("out"));
     let children: Vec<Child> = (0..3)
         .map(|_| start(&file, &out, &["--threads", "1"]))
         .collect();
@@ -534,8 +563,7 @@ fn shards_in_folders_of_their_own_merge_to_the_result_of_one_process() {
 fn shards_in_one_folder_end_with_the_result_of_one_process() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    sweep(&file, &whole, &["--quiet"]).success();
+    let (whole, out) = (whole_cheap(), folder.path().join("out"));
     sweep(&file, &out, &["--quiet", "--shard", "2/3"]).success();
     // The same shard twice, and the two others, all at once.
     let shards = ["1/3", "2/3", "3/3", "3/3"];
@@ -555,11 +583,7 @@ fn shards_in_one_folder_end_with_the_result_of_one_process() {
 #[test]
 fn tables_and_figures_are_drawn_again_from_records_alone() {
     let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
-    for folder in [&whole, &out] {
-        sweep(&file, folder, &["--quiet"]).success();
-    }
+    let (whole, out) = (whole_cheap(), copy_of_cheap(&folder));
     for name in [
         "sweep.csv",
         "summary.json",
@@ -676,9 +700,7 @@ fn a_plan_tells_cases_and_cost_and_computes_nothing() {
 #[test]
 fn a_comparison_finds_a_shifted_peak_and_a_missing_case() {
     let folder = TempDir::new().unwrap();
-    let file = write(&folder, "cheap.toml", CHEAP);
-    let baseline = folder.path().join("baseline");
-    sweep(&file, &baseline, &["--quiet"]).success();
+    let baseline = whole_cheap();
     let compare = |new: &Path, more: &[&str]| {
         let mut command = program();
         command.arg("compare").arg(&baseline).arg(new).args(more);

@@ -173,7 +173,8 @@ fn single_branches_of_any_strength_give_a_curve_without_gaps_and_a_punch_its_clo
     let mut cases = Vec::new();
     for ratio in [3.0, 10.0, 30.0, 100.0, 300.0, 1e3, 1e4] {
         for (shape, amplitude_n) in shapes.iter().flat_map(|s| [0.01, 0.5, 1.0].map(|a| (s, a))) {
-            let plan = sweep_plan(zener(ratio), Arc::clone(shape), 1.0, amplitude_n);
+            let mut plan = sweep_plan(zener(ratio), Arc::clone(shape), 1.0, amplitude_n);
+            plan.solver.springs = 100;
             for k in 0..25 {
                 // Six decades about the peaks of loss modulus and loss compliance.
                 let omega = ratio.sqrt() * 10_f64.powf(0.25 * f64::from(k) - 3.0);

@@ -2,7 +2,7 @@
 
 #![cfg(feature = "cli")]
 
-use crate::program::{program, write};
+use crate::program::{self, program, write};
 use std::fs;
 use std::path::Path;
 use std::process::{Command as Process, Stdio};
@@ -40,19 +40,7 @@ springs = 100
 fn refused(from: &str, to: &str, expected: &[&str]) {
     let folder = TempDir::new().unwrap();
     assert!(SMALL.contains(from), "{from}");
-    let file = write(&folder, "bad.toml", &SMALL.replace(from, to));
-    let out = folder.path().join("out");
-    let assert = program()
-        .args(["sweep", &file, "--out"])
-        .arg(&out)
-        .assert()
-        .code(2)
-        .stdout("");
-    let stderr = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
-    for text in expected {
-        assert!(stderr.contains(text), "{text:?} is missing in:\n{stderr}");
-    }
-    assert!(!out.exists(), "a refused sweep has left a folder");
+    program::refused(&folder, "sweep", &SMALL.replace(from, to), expected);
 }
 
 #[test]
@@ -164,8 +152,7 @@ fn the_resolved_sweep_is_a_sweep_file_with_the_same_results() {
         command
             .arg("sweep")
             .arg(file)
-            .arg("--quiet")
-            .arg("--out")
+            .args(["--quiet", "--no-figures", "--out"])
             .arg(out);
         command.assert().success();
     };
@@ -454,7 +441,7 @@ fn results_of_another_sweep_are_replaced_only_when_asked() {
         let mut command = program();
         command
             .current_dir(folder.path())
-            .args(["sweep", &file, "--quiet"]);
+            .args(["sweep", &file, "--quiet", "--no-figures"]);
         command.args(flags).assert()
     };
     sweep(&[]).success();

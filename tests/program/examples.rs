@@ -66,7 +66,7 @@ fn every_example_runs_to_its_end() {
             coarse.extend(["--set", "cycle.steps=40"]);
         }
         if text.contains("\nreplicas = ") {
-            coarse.extend(["--set", "material.dynamic.replicas=8"]);
+            coarse.extend(["--set", "material.dynamic.replicas=2"]);
         }
         program()
             .arg(command)

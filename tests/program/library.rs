@@ -7,6 +7,7 @@ mod one_history;
 #[path = "../../examples/sweep_with_peaks.rs"]
 mod sweep_with_peaks;
 
+use crate::program::pmma_sweep;
 use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -21,16 +22,8 @@ use contact_dma::sweep::search::run::{self, Progress};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::archive::MemoryArchive;
 
-const FILE: &str = r#"title = "from a file"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-mean = "10 N"
-amplitude = "5 N"
-[sweep]
+/// Of a sweep file, behind its question.
+const REST: &str = r#"[sweep]
 angular_frequency = [1e-3, 5e-3, 2e-2, 1e-1]
 refine = true
 drive.amplitude = [2, 8]
@@ -60,7 +53,8 @@ fn sweep() -> Sweep {
 #[test]
 fn a_sweep_from_values_in_memory_is_that_of_a_file_in_a_folder_to_the_last_bit() {
     let folder = tempfile::TempDir::new().unwrap();
-    let plan = sweep_file::plan(&Document::parse("sweep.toml", FILE).unwrap()).unwrap();
+    let plan =
+        sweep_file::plan(&Document::parse("sweep.toml", &pmma_sweep(REST)).unwrap()).unwrap();
     let store = Store::open(folder.path(), &resolved_text(&plan), false).unwrap();
     let setup = Setup::new(plan).unwrap();
     let never = AtomicBool::new(false);
@@ -68,7 +62,7 @@ fn a_sweep_from_values_in_memory_is_that_of_a_file_in_a_folder_to_the_last_bit()
     assert!(of_file.records.len() > 8, "nothing was refined");
     assert!(!of_file.peaks.is_empty());
 
-    let built = sweep().refined().title("from a file");
+    let built = sweep().refined().title("PMMA under a sphere");
     let built = built.angular_frequencies_rad_per_s([0.1, 1e-3, 2e-2, 5e-3]);
     let built = built.unwrap().amplitudes([2.0, 8.0]).unwrap();
     let text = resolved_text(&built.clone().into_plan());

@@ -2,7 +2,7 @@
 
 #![cfg(feature = "cli")]
 
-use crate::program::{pmma_sweep, program, write};
+use crate::program::{SVG_ALONE, pmma_sweep, program, write};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -446,7 +446,8 @@ fn swept(folder: &TempDir, name: &str, frequencies: &str) -> (std::path::PathBuf
     let out = folder.path().join(name);
     let mut command = program();
     let run = command.args(["sweep", &file, "--quiet", "--out"]).arg(&out);
-    let run = run.env("COLUMNS", "200").assert().success();
+    let run = run.args(SVG_ALONE).env("COLUMNS", "200");
+    let run = run.assert().success();
     let printed = String::from_utf8(run.get_output().stdout.clone()).unwrap();
     (out, printed)
 }
@@ -517,7 +518,7 @@ fn nothing_that_is_piped_or_asked_to_be_plain_is_coloured() {
         for no_color in [None, Some("1")] {
             let mut command = program();
             command
-                .args(["sweep", &file, "--out"])
+                .args(["sweep", &file, "--no-figures", "--out"])
                 .arg(folder.path().join("out"));
             command.env_remove("NO_COLOR").env_remove("CLICOLOR_FORCE");
             command.envs(no_color.map(|value| ("NO_COLOR", value)));

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::html::{assert_stands_alone, between, data, nesting_problems, unescaped};
-use crate::program::{program, write};
+use crate::program::{SVG_ALONE, program, write};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -30,7 +30,7 @@ fn page(folder: &TempDir, text: &str, code: i32) -> String {
     let out = folder.path().join("out");
     let mut run = program();
     run.args([command, &file, "--quiet", "--out"]).arg(&out);
-    run.assert().code(code);
+    run.args(SVG_ALONE).assert().code(code);
     read(folder.path(), "index.html")
 }
 
@@ -308,7 +308,7 @@ fn compared(folder: &TempDir, sweeps: [(&str, usize); 2], more: &[&str]) -> (Str
         let file = write(folder, &format!("{k}.toml"), &text);
         let out = folder.path().join(k.to_string());
         program()
-            .args(["sweep", &file, "--quiet", "--out"])
+            .args(["sweep", &file, "--quiet", "--no-figures", "--out"])
             .arg(&out)
             .assert()
             .success();

@@ -73,7 +73,7 @@ fn simulate(folder: &TempDir, flags: &[&str]) -> assert_cmd::assert::Assert {
     command
         .current_dir(folder.path())
         .args(["simulate", "project/scenario.toml", "--quiet", "--force"])
-        .args(["--out", "out"]);
+        .args(["--no-figures", "--out", "out"]);
     for flag in flags {
         command.args(["--set", flag]);
     }
@@ -137,6 +137,7 @@ fn sweeps_and_the_material_command_have_the_same_rule() {
         "sweep",
         "project/sweep.toml",
         "--quiet",
+        "--no-figures",
         "--force",
         "--out",
         "out",

@@ -21,7 +21,7 @@ fn rows(set: &[&str]) -> Vec<HashMap<String, String>> {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "few.toml", &pmma_sweep(FEW));
     let mut command = program();
-    command.args(["sweep", &file, "--quiet", "--out"]);
+    command.args(["sweep", &file, "--quiet", "--no-figures", "--out"]);
     command.arg(folder.path().join("out"));
     for key in set {
         command.args(["--set", key]);

@@ -2,7 +2,7 @@
 
 #![cfg(feature = "cli")]
 
-use crate::program::{program, write};
+use crate::program::{self, program, write};
 use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
@@ -551,19 +551,8 @@ fn refused(from: &str, to: &str, expected: &[&str]) {
     assert!(SMALL.contains(from), "{from}");
     write(&folder, "load.csv", "time_s,load_n\n0,1\n2,2\n1,3\n");
     write(&folder, "empty.csv", "time_s,load_n\n0,1\n1,\n");
-    let file = write(&folder, "bad.toml", &SMALL.replacen(from, to, 1));
-    let out = folder.path().join("out");
-    let assert = program()
-        .args(["simulate", &file, "--out"])
-        .arg(&out)
-        .assert()
-        .code(2)
-        .stdout("");
-    let stderr = String::from_utf8_lossy(&assert.get_output().stderr).into_owned();
-    for text in expected {
-        assert!(stderr.contains(text), "{text:?} is missing in:\n{stderr}");
-    }
-    assert!(!out.exists(), "a refused scenario has left a folder");
+    let text = SMALL.replacen(from, to, 1);
+    program::refused(&folder, "simulate", &text, expected);
 }
 
 #[test]

@@ -5,7 +5,7 @@
 use std::fs;
 
 use crate::html::{between, unescaped};
-use crate::program::{pmma_sweep, program, write};
+use crate::program::{SVG_ALONE, pmma_sweep, program, write};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -28,8 +28,9 @@ fn run(command: &str, text: &str, files: &[(&str, &str)]) -> Left {
     }
     let file = write(&folder, "input.toml", text);
     let out = folder.path().join("out");
-    let assert = program().args([command, &file, "--out"]).arg(&out).assert();
-    let assert = assert.success();
+    let mut program = program();
+    program.args([command, &file, "--out"]).arg(&out);
+    let assert = program.args(SVG_ALONE).assert().success();
     let printed = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
     assert!(
         printed

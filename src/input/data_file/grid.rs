@@ -165,11 +165,11 @@ impl Grid {
 
     /// Reads the numbers of these lines. Where one of them has both a point and a comma, `1,234.5` or `1.234,5`, or one of them twice,
     /// the other groups thousands in all; else commas that may separate decimals or thousands are refused.
-    pub(crate) fn numbers(&self, lines: Range<usize>) -> Numbers<'_> {
+    pub(crate) fn numbers(&self, mut lines: Range<usize>) -> Numbers<'_> {
         let grouped = |line: usize| self.line(line).texts().find_map(grouping_sign);
         Numbers {
             grid: self,
-            grouping: lines.clone().find_map(grouped),
+            grouping: lines.find_map(grouped),
             signs: DecimalSigns::default(),
         }
     }

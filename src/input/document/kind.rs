@@ -555,7 +555,7 @@ impl Kind for Text {
 /// One of a few words, each standing for a value.
 pub(crate) struct Choice<T: 'static>(pub(crate) &'static [(&'static str, T)]);
 
-impl<T: Copy + PartialEq + Sync> Describe for Choice<T> {
+impl<T: Clone + PartialEq + Sync> Describe for Choice<T> {
     fn expected(&self) -> String {
         let words: Vec<String> = self
             .0
@@ -583,7 +583,7 @@ impl<T: Copy + PartialEq + Sync> Describe for Choice<T> {
     }
 }
 
-impl<T: Copy + PartialEq + Sync> Kind for Choice<T> {
+impl<T: Clone + PartialEq + Sync> Kind for Choice<T> {
     type Value = T;
 
     fn written(&self, value: &T) -> Json {
@@ -597,7 +597,7 @@ impl<T: Copy + PartialEq + Sync> Kind for Choice<T> {
             return Err(self.wrong_type(node, spot).help(help).into());
         };
         if let Some((_, value)) = self.0.iter().find(|(word, _)| word == text) {
-            return Ok(*value);
+            return Ok(value.clone());
         }
         let diagnostic = must_be(spot, &self.expected(), node);
         let diagnostic = match similar(text, &self.words()) {

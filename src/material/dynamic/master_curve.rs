@@ -32,6 +32,16 @@ pub enum ShiftChoice {
     Given(Vec<(f64, f64)>),
 }
 
+impl ShiftChoice {
+    /// What a word chooses, as files and flags write it.
+    pub const WORDS: &[(&str, Self)] = &[
+        ("free", Self::Free),
+        (Wlf::NAME, Self::Wlf),
+        (Arrhenius::NAME, Self::Arrhenius),
+        ("none", Self::None),
+    ];
+}
+
 /// How far outside of the given factors a temperature may be (K).
 pub const GIVEN_TOLERANCE_K: f64 = 0.5;
 

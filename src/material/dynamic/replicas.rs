@@ -1,12 +1,13 @@
 //! Replicas of a fitted series: what the noise of the data leaves open, as materials drawn at random, and the band they make.
 //!
 //! A parametric bootstrap (B. Efron and R. J. Tibshirani, *An Introduction to the Bootstrap*, Chapman and Hall 1993, section 6.5):
-//! the best spectrum of any number of branches is measured again at the frequencies and temperatures of the data, with their noise; the isotherms are shifted again, and
-//! a series is fitted again. The noise is what the best spectrum leaves of the data, or the errors of the file where these are
-//! larger. The spectrum has as much structure as the data
-//! allow, and the series of few branches has lost it again. Where isotherms lie beside the curve as a whole, by more than the noise of their points explains (the material is not
-//! thermorheologically simple, or its temperature or clamping is not what it should be), their levels and tilts are drawn again as
-//! well. The times of a replica lie on a grid of their own, so that what a series of few branches smooths away shows as a difference.
+//! the best spectrum of any number of branches is measured again at the frequencies and temperatures of the data, with their noise;
+//! the isotherms are shifted again, and a series is fitted again. The noise is what the best spectrum leaves of the data, or the
+//! errors of the file where these are larger. The spectrum has as much structure as the data allow, and the series of few branches
+//! has lost it again. Where isotherms lie beside the curve as a whole, by more than the noise of their points explains (the material
+//! is not thermorheologically simple, or its temperature or clamping is not what it should be), their levels and tilts are drawn
+//! again as well. The times of a replica lie on a grid of their own, so that what a series of few branches smooths away shows as a
+//! difference.
 
 use rayon::prelude::*;
 

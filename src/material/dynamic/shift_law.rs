@@ -34,6 +34,9 @@ pub enum ShiftLaw {
 pub const GAS_CONSTANT: f64 = 8.314_462_618;
 
 impl Wlf {
+    /// As files and flags call it.
+    pub const NAME: &str = "wlf";
+
     /// Shift factor, where the law has one: above `Tr - c2`.
     pub fn log10_a_t(&self, temperature_k: f64) -> Option<f64> {
         let above = temperature_k - self.reference_temperature_k;
@@ -83,6 +86,9 @@ impl From<ShiftLaw> for Wlf {
 }
 
 impl Arrhenius {
+    /// As files and flags call it.
+    pub const NAME: &str = "arrhenius";
+
     /// Shift factor.
     pub fn log10_a_t(&self, temperature_k: f64) -> f64 {
         let difference = 1.0 / temperature_k - 1.0 / self.reference_temperature_k;

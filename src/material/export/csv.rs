@@ -1,9 +1,9 @@
 //! CSV: columns `modulus_pa`, `time_s`, the equilibrium modulus first, with an empty time. Moduli are of the material's own kind, and every
 //! digit is kept.
 
-use super::{Draft, ExportError, Series};
+use super::{Draft, Series};
 
-pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
+pub(super) fn draft(series: &Series<'_>) -> Draft {
     let mut text = format!(
         "modulus_pa,time_s\n{:?},\n",
         series.own.equilibrium_modulus()
@@ -11,7 +11,7 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
     for branch in series.own.branches() {
         text.push_str(&format!("{:?},{:?}\n", branch.modulus_pa, branch.time_s));
     }
-    Ok(Draft {
+    Draft {
         text,
         // The shortest text that reads as the same double.
         written: series.longitudinal.clone(),
@@ -20,5 +20,5 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
             series.nu()
         )],
         comment: None,
-    })
+    }
 }

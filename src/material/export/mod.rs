@@ -131,7 +131,7 @@ pub fn export(
         Program::Ansys => ansys::draft(&series)?,
         Program::LsDyna => ls_dyna::draft(&series)?,
         Program::Comsol => comsol::draft(&series)?,
-        Program::Csv => csv::draft(&series)?,
+        Program::Csv => csv::draft(&series),
     };
     let band_rad_per_s = band(&series.longitudinal);
     let conversion_error = largest_difference(&draft.written, &series.longitudinal, band_rad_per_s);
@@ -250,10 +250,7 @@ impl<'a> Series<'a> {
 
     /// What is true of every text.
     fn remarks(&self) -> Vec<String> {
-        let kind = match self.material.kind() {
-            ModulusKind::Shear => "shear",
-            ModulusKind::Longitudinal => "longitudinal",
-        };
+        let kind = self.material.kind().name();
         let mut remarks = vec![
             format!(
                 "{}: {kind} relaxation series of {} branches, written by contact-dma for {}.",

@@ -5,7 +5,6 @@ use serde_json::{Value, json};
 
 use super::DynamicReport;
 use super::tables::celsius;
-use crate::material::ModulusKind;
 use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
 use crate::report::ReportError;
 
@@ -53,18 +52,15 @@ pub fn summary(report: &DynamicReport<'_>) -> Result<Value, ReportError> {
         format: &source.format,
         format_found_by: &source.how,
         notes: &source.notes,
-        modulus: match made.kind {
-            ModulusKind::Longitudinal => "longitudinal",
-            ModulusKind::Shear => "shear",
-        },
+        modulus: made.kind.name(),
         points: data.points().count(),
         isotherms: data.isotherms().len(),
         reference_temperature_c: report.reference_temperature_k().map(celsius),
         wlf: master.and_then(|m| m.wlf).as_ref().map(wlf),
         arrhenius: master.and_then(|m| m.arrhenius).as_ref().map(arrhenius),
         preferred_law: master.and_then(|m| m.preferred).map(|law| match law {
-            ShiftLaw::Wlf(_) => "wlf",
-            ShiftLaw::Arrhenius(_) => "arrhenius",
+            ShiftLaw::Wlf(_) => Wlf::NAME,
+            ShiftLaw::Arrhenius(_) => Arrhenius::NAME,
         }),
         simplicity: master.and_then(|m| m.simplicity),
         kramers_kronig: made.fit.kramers_kronig,

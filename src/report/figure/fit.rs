@@ -1,9 +1,9 @@
 //! Data against the series fitted to them, and the relative difference between the two.
 
 use super::{Figure, axis};
+use crate::material::MaterialFunction;
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
-use crate::material::{MaterialFunction, ModulusKind};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Marker, Series};
 use crate::report::number::{prefix, range};
@@ -45,12 +45,7 @@ fn shown(table: &Tabulated, most: usize) -> Vec<(f64, f64)> {
 }
 
 fn curves(table: &Tabulated, fit: &Fit) -> Figure {
-    let symbol = match (table.face(), table.kind()) {
-        (MaterialFunction::Creep, ModulusKind::Longitudinal) => 'D',
-        (MaterialFunction::Creep, ModulusKind::Shear) => 'J',
-        (MaterialFunction::Relaxation, ModulusKind::Longitudinal) => 'E',
-        (MaterialFunction::Relaxation, ModulusKind::Shear) => 'G',
-    };
+    let symbol = table.face().symbol(table.kind());
     let values = range(table.values().iter().copied());
     let highest = values.1;
     let (factor, label) = match table.face() {
@@ -161,6 +156,7 @@ fn data_table(table: &Tabulated, fit: &Fit) -> Vec<u8> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::ModulusKind;
     use crate::material::fit::fit;
     use crate::report::figure::Picture;
 

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::compact::{all_rounded, picked, picked_optional, rounded, spread};
 use super::surface_data::{Fineness, PressureData, WorkData, share};
-use crate::material::{Material, ModulusKind};
+use crate::material::{Material, MaterialFunction};
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K};
 use crate::report::figure::moduli::ModulusPoint;
 use crate::report::material::MaterialReport;
@@ -163,10 +163,7 @@ impl MaterialData {
         let numbers =
             |value: fn(&ModulusPoint) -> f64| points.iter().map(value).map(rounded).collect();
         Self {
-            symbol: match material.kind() {
-                ModulusKind::Longitudinal => 'E',
-                ModulusKind::Shear => 'G',
-            },
+            symbol: MaterialFunction::Relaxation.symbol(material.kind()),
             frequency: FrequencyData::of(unit),
             frequencies: points
                 .iter()
