@@ -351,9 +351,7 @@ impl Engine for Axisymmetric {
     }
 
     fn surface_density(&mut self, nodal: &[f64], radius_m: f64) -> Result<Surface, ContactError> {
-        let undisturbed = vec![0.0; nodal.len()];
-        let response = Response::of_density(nodal, &undisturbed, radius_m);
-        Ok(Surface::Radial(self.radial_surface(&response)))
+        Ok(Surface::Radial(self.radial_density(nodal, radius_m)))
     }
 
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
