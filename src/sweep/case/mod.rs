@@ -22,7 +22,7 @@ use crate::sweep::case::edge_layer::EdgeLayer;
 use crate::sweep::case::solid::Solid;
 #[cfg(feature = "report")]
 pub(crate) use crate::sweep::case::stabilise::sample;
-use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
+use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
 use crate::sweep::engine::{EngineBuilder, EngineError, LargestContact};
 use crate::sweep::plan::check::{PlanError, check_frequency};
 use crate::sweep::plan::instant_tolerance;
@@ -310,6 +310,10 @@ impl Setup {
             interrupt,
             checkpoints,
             marches_at_last: true,
+            wanted: match aim {
+                Aim::Plan => Wanted::Everything,
+                Aim::Loss(_) => Wanted::Loss,
+            },
         };
         let ended = check_frequency(case.angular_frequency_rad_per_s).map_err(CaseError::from);
         let ended = ended.and_then(|()| match cycle.accuracy {
@@ -481,7 +485,11 @@ impl Setup {
         steps: &[usize],
         record: &mut CaseRecord,
     ) -> Result<Solved, CaseError> {
-        let solved = match self.solve(contact, nodes, steps, &mut Domain::default()) {
+        let contact = Contact {
+            wanted: contact.wanted.min(Wanted::Numbers),
+            ..*contact
+        };
+        let solved = match self.solve(&contact, nodes, steps, &mut Domain::default()) {
             Err(CaseError::Interrupted) => return Err(CaseError::Interrupted),
             Err(_) => Solved {
                 nodes,
