@@ -224,7 +224,7 @@ impl Correction {
             }
         }
         let mut pressure = RowDVector::zeros(count + 2);
-        if runs.len() % 2 == 0 {
+        if runs.len().is_multiple_of(2) {
             pressure[approach] = 1.0;
             for (row, unknown) in cycle.row_iter().zip(&self.unknowns) {
                 pressure -= unknown.compliance * row;

@@ -356,10 +356,8 @@ impl Recording {
 
     /// Appends the present instant to the loop.
     fn sample(&mut self, march: &mut March<'_>, time_s: f64) -> Result<(), ContactError> {
-        match self.tangent_radius {
-            Some(_) => sample(march, &mut self.samples, time_s),
-            None => append(march, &mut self.samples, time_s, &mut |_, _, _| Ok(None)),
-        }
+        let with_numbers = self.tangent_radius.is_some();
+        sample(march, &mut self.samples, time_s, with_numbers)
     }
 }
 
@@ -622,35 +620,22 @@ fn surface_loss(surface: Surface) -> SurfaceLoss {
     }
 }
 
-/// Appends the present instant to a loop.
+/// Appends the present instant to a loop, with its peak pressure or without.
 pub(crate) fn sample(
     march: &mut March<'_>,
     samples: &mut Loop,
     time_s: f64,
-) -> Result<(), ContactError> {
-    append(march, samples, time_s, &mut |engine, pressure, solution| {
-        engine.peak_pressure_pa(pressure, solution)
-    })
-}
-
-/// The same, with the peak pressure (Pa) that is found so.
-fn append(
-    march: &mut March<'_>,
-    samples: &mut Loop,
-    time_s: f64,
-    peak_pressure_pa: &mut dyn FnMut(
-        &mut dyn Engine,
-        &[f64],
-        &Solution,
-    ) -> Result<Option<f64>, ContactError>,
+    with_peak: bool,
 ) -> Result<(), ContactError> {
     march.observe(&mut |engine, pressure, solution| {
         samples.time_s.push(time_s);
         samples.load_n.push(solution.load_n);
         samples.approach_m.push(solution.approach_m);
         samples.contact_radius_m.push(solution.contact_radius_m);
-        let peak_pa = peak_pressure_pa(engine, pressure, solution)?;
-        samples.peak_pressure_pa.push(peak_pa);
+        samples.peak_pressure_pa.push(match with_peak {
+            true => engine.peak_pressure_pa(pressure, solution)?,
+            false => None,
+        });
         Ok(())
     })
 }
