@@ -14,12 +14,16 @@
 //! 400 springs. Widths may differ along the row: finer where the edge moves.
 
 mod monotone;
+mod peak;
 mod profile;
+mod roots;
 
 use super::half_space::grid::Grid;
 use super::surface::{PressureLine, Response, Surface};
-use super::{ContactError, Engine, Instant, Prescribed, Solution};
+use super::{ContactError, Engine, Instant, Prescribed, Solution, sums};
 use monotone::Monotone;
+use peak::Slopes;
+use roots::Roots;
 
 /// The row of springs of one indenter.
 #[derive(Debug, Clone)]
@@ -34,10 +38,9 @@ pub struct Axisymmetric {
     singular_radii_m: Vec<f64>,
     /// G + H per spring.
     offset_m: Vec<f64>,
-    /// Active force differences per x^2, for the inverse Abel transform.
-    slope: Vec<f64>,
-    /// sqrt(x_i^2 - r^2): see [`root_table`].
-    roots_m: Vec<f64>,
+    /// For the inverse Abel transform.
+    slopes: Slopes,
+    roots: Roots,
     reported: Monotone,
     approach_m: f64,
 }
@@ -95,11 +98,8 @@ impl Axisymmetric {
                 false => vec![0.0],
             },
             offset_m: vec![0.0; springs],
-            slope: vec![0.0; springs + 1],
-            roots_m: match bounded_pressure {
-                true => root_table(&position_m),
-                false => Vec::new(),
-            },
+            slopes: Slopes::new(&position_m),
+            roots: Roots::new(&position_m),
             reported: Monotone::default(),
             approach_m: 0.0,
             position_m,
@@ -126,102 +126,72 @@ impl Axisymmetric {
         last.map_or(0.0, |(x_m, width_m)| x_m + 0.5 * width_m)
     }
 
-    /// Pressure (Pa) at the axis, then at every spring inside the contact, from the line forces (N/m).
-    ///
-    /// The force is taken linear in x^2 between springs, which makes the Hertz pressure of a paraboloid exact.
-    /// Returns the number of springs in contact; `pressure` needs room for one value more than there are springs.
-    pub fn pressure_profile_pa(
-        &mut self,
-        force: &[f64],
-        contact_radius_m: f64,
-        pressure: &mut [f64],
-    ) -> usize {
-        let contact = in_contact(force);
-        if contact == 0 || self.roots_m.is_empty() {
-            return 0;
-        }
-        self.fill_slopes(force, contact, contact_radius_m);
-        for (row, value) in pressure.iter_mut().enumerate().take(contact + 1) {
-            *value = self.pressure_of_row(row, contact, contact_radius_m);
-        }
-        contact
-    }
-
-    /// Pressure (Pa) at the axis for row 0, at spring k for row k + 1, from slopes filled in before.
-    fn pressure_of_row(&self, row: usize, contact: usize, contact_radius_m: f64) -> f64 {
-        let last = contact - 1;
-        let first = row.saturating_sub(1);
-        let radius_m = if row == 0 {
-            0.0
-        } else {
-            self.position_m[first]
-        };
-        // roots(row, i) = sqrt(x_i^2 - r^2).
-        let roots_m = &self.roots_m[row_start(row, self.gap_m.len())..];
-        let mut sum = 0.0;
-        let mut inner = if row == 0 { 0.0 } else { roots_m[0] };
-        let slopes = &self.slope[if row == 0 { 0 } else { first + 1 }..=last];
-        let outer = &roots_m[if row == 0 { 0 } else { 1 }..];
-        for (slope, &root) in slopes.iter().zip(outer) {
-            sum += slope * (root - inner);
-            inner = root;
-        }
-        let beyond = (contact_radius_m - radius_m).max(0.0) * (contact_radius_m + radius_m);
-        sum += self.slope[last + 1] * (beyond.sqrt() - inner).max(0.0);
-        -std::f64::consts::FRAC_2_PI * sum
-    }
-
-    /// The largest pressure (Pa) and the row where it is: sought among every eighth row, then around the best of them. A
-    /// pressure that a whole row of eight springs hides would be finer than the row of springs resolves.
-    fn largest_pressure(&self, contact: usize, contact_radius_m: f64) -> f64 {
-        const STRIDE: usize = 8;
-        let at = |row: usize| self.pressure_of_row(row, contact, contact_radius_m);
-        let larger = |best: (usize, f64), row: usize| {
-            let value = at(row);
-            if value > best.1 { (row, value) } else { best }
-        };
-        let coarse = (0..=contact).step_by(STRIDE);
-        let best = coarse.fold((0, f64::NEG_INFINITY), larger);
-        let around = best.0.saturating_sub(STRIDE - 1)..=(best.0 + STRIDE - 1).min(contact);
-        around.fold(best, larger).1
-    }
-
-    /// Slopes df/d(x^2): entry i lies between spring i - 1 and spring i, the last one ends at the edge.
-    fn fill_slopes(&mut self, force: &[f64], contact: usize, contact_radius_m: f64) {
-        let force = self.reported.of(&force[..contact], &self.width_m);
-        let between = |inner_m: f64, outer_m: f64| (outer_m - inner_m) * (outer_m + inner_m);
-        for i in 1..contact {
-            let (inner_m, outer_m) = (self.position_m[i - 1], self.position_m[i]);
-            self.slope[i] = (force[i] - force[i - 1]) / between(inner_m, outer_m);
-        }
-        let last = contact - 1;
-        let span = between(self.position_m[last], contact_radius_m);
-        self.slope[contact] = if span > 0.0 { -force[last] / span } else { 0.0 };
-        // Inside the first spring the force goes on as the parabola of its neighbours.
-        self.slope[0] = self.slope[1];
-    }
-
-    /// Approach under a load: the root of W(delta) = (2/A) * sum of dx max(0, delta - offset), which is convex and
-    /// piecewise linear, so that Newton's method ends exactly after finitely many passes from any start.
-    fn approach_under_load(&self, load_n: f64, compliance_per_pa: f64) -> (f64, usize) {
-        let lowest_m = self.offset_m.iter().copied().fold(f64::INFINITY, f64::min);
+    /// Approach under a load, the load that the forces then carry, and the passes that took: the root of
+    /// W(delta) = (2/A) * sum of dx max(0, delta - offset), which is convex and piecewise linear, so that Newton's method ends
+    /// exactly after finitely many passes from any start: where the springs in contact stay the same.
+    fn press_by(
+        &self,
+        load_n: f64,
+        compliance_per_pa: f64,
+        force: &mut [f64],
+    ) -> (f64, f64, usize) {
         let target = 0.5 * load_n * compliance_per_pa;
         if target <= 0.0 {
-            return (lowest_m, 0);
+            let lowest_m = sums::least(&self.offset_m);
+            return (
+                lowest_m,
+                self.press_to(lowest_m, compliance_per_pa, force).0,
+                0,
+            );
         }
-        let mut approach_m = self.approach_m.max(lowest_m);
-        for pass in 1..=self.offset_m.len() + 2 {
-            let (sum, width_m) = sum_below(&self.offset_m, &self.width_m, approach_m);
-            let next = match width_m > 0.0 {
+        let most = self.offset_m.len() + 2;
+        let mut approach_m = self.approach_m;
+        let mut pass = 1;
+        loop {
+            let width_m = self.width_below(approach_m);
+            let sum = self.sum_below(approach_m, |offset_m, width_m| width_m * offset_m);
+            let next_m = match width_m > 0.0 {
                 true => (target + sum) / width_m,
-                false => lowest_m + target / self.end_m(),
+                false => sums::least(&self.offset_m) + target / self.end_m(),
             };
-            if next == approach_m {
-                return (approach_m, pass);
+            let is_same = next_m == approach_m;
+            // The first pass mostly finds that other springs are in contact than an instant ago.
+            if is_same || pass > 1 {
+                let (load_n, pressed_m) = self.press_to(next_m, compliance_per_pa, force);
+                if pressed_m == width_m || pass >= most {
+                    return (next_m, load_n, pass + usize::from(!is_same));
+                }
             }
-            approach_m = next;
+            approach_m = next_m;
+            pass += 1;
         }
-        (approach_m, self.offset_m.len() + 2)
+    }
+
+    /// Writes the forces at an approach; the load they carry, and the width of the springs in contact.
+    fn press_to(&self, approach_m: f64, compliance_per_pa: f64, force: &mut [f64]) -> (f64, f64) {
+        let stiffness_pa = compliance_per_pa.recip();
+        for (force, offset) in force.iter_mut().zip(&self.offset_m) {
+            let elastic = (approach_m - offset) * stiffness_pa;
+            *force = if *offset < approach_m { elastic } else { 0.0 };
+        }
+        let load_n = 2.0 * sums::dot(force, &self.width_m);
+        (load_n, self.width_below(approach_m))
+    }
+
+    /// Width (m) of the springs in contact at an approach.
+    fn width_below(&self, approach_m: f64) -> f64 {
+        self.sum_below(approach_m, |_, width_m| width_m)
+    }
+
+    /// The sum of a term, of offset and width, over the springs in contact at an approach. One term at a time: then the engine's
+    /// innermost loop has no branches.
+    #[inline(always)]
+    fn sum_below(&self, approach_m: f64, term: impl Fn(f64, f64) -> f64) -> f64 {
+        let [sum] = sums::sums(&self.offset_m, &self.width_m, |offset_m, width_m| {
+            let term = term(offset_m, width_m);
+            [if offset_m < approach_m { term } else { 0.0 }]
+        });
+        sum
     }
 
     /// Contact radius: where delta - G - H, linear between springs, passes through zero.
@@ -284,19 +254,16 @@ impl Engine for Axisymmetric {
             *offset = gap + history;
         }
         let compliance = instant.compliance_per_pa;
-        let (approach_m, iterations) = match instant.prescribed.check()? {
-            Prescribed::LoadN(load_n) => self.approach_under_load(load_n, compliance),
-            Prescribed::ApproachM(approach_m) => (approach_m, 1),
+        let (approach_m, load_n, iterations) = match instant.prescribed.check()? {
+            Prescribed::LoadN(load_n) => self.press_by(load_n, compliance, force),
+            Prescribed::ApproachM(approach_m) => {
+                let (load_n, _) = self.press_to(approach_m, compliance, force);
+                (approach_m, load_n, 1)
+            }
         };
-        let mut sum = 0.0;
-        let springs = self.offset_m.iter().zip(&self.width_m);
-        for (force, (offset, width_m)) in force.iter_mut().zip(springs) {
-            *force = ((approach_m - offset) / compliance).max(0.0);
-            sum += *force * width_m;
-        }
         self.approach_m = approach_m;
         Ok(Solution {
-            load_n: 2.0 * sum,
+            load_n,
             approach_m,
             contact_radius_m: self.contact_radius(approach_m)?,
             iterations,
@@ -316,10 +283,8 @@ impl Engine for Axisymmetric {
         if contact == 0 {
             return Ok(Some(0.0));
         }
-        self.fill_slopes(force, contact, solution.contact_radius_m);
-        Ok(Some(
-            self.largest_pressure(contact, solution.contact_radius_m),
-        ))
+        let largest_pa = self.largest_pressure_pa(&force[..contact], solution.contact_radius_m);
+        Ok(Some(largest_pa))
     }
 
     fn pressure_lines(&self, force: &[f64], solution: &Solution) -> Vec<PressureLine> {
@@ -350,10 +315,14 @@ impl Engine for Axisymmetric {
         2.0 * self.width_m[node]
     }
 
+    fn work(&self, force: &[f64], displacement: &[f64]) -> f64 {
+        2.0 * sums::sum_over_triples(&self.width_m, force, displacement, |width, f, u| {
+            width * f * u
+        })
+    }
+
     fn surface_density(&mut self, nodal: &[f64], radius_m: f64) -> Result<Surface, ContactError> {
-        let undisturbed = vec![0.0; nodal.len()];
-        let response = Response::of_density(nodal, &undisturbed, radius_m);
-        Ok(Surface::Radial(self.radial_surface(&response)))
+        Ok(Surface::Radial(self.radial_density(nodal, radius_m)))
     }
 
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
@@ -378,59 +347,6 @@ impl Engine for Axisymmetric {
 /// Number of springs up to the last in contact.
 fn in_contact(force: &[f64]) -> usize {
     force.iter().rposition(|&f| f > 0.0).map_or(0, |i| i + 1)
-}
-
-/// Over the values below a bound, the sum of value times weight, and that of the weights. In lanes, without branches: this is
-/// the engine's innermost loop.
-fn sum_below(values: &[f64], weights: &[f64], bound: f64) -> (f64, f64) {
-    const LANES: usize = 8;
-    let (mut sums, mut totals) = ([0.0; LANES], [0.0; LANES]);
-    let (values, values_left) = values.as_chunks::<LANES>();
-    let (weights, weights_left) = weights.as_chunks::<LANES>();
-    for (values, weights) in values.iter().zip(weights) {
-        for lane in 0..LANES {
-            let weight = if values[lane] < bound {
-                weights[lane]
-            } else {
-                0.0
-            };
-            sums[lane] += weight * values[lane];
-            totals[lane] += weight;
-        }
-    }
-    let left = values_left.iter().zip(weights_left);
-    let below = left.filter(|(value, _)| **value < bound);
-    let start = (sums.iter().sum::<f64>(), totals.iter().sum::<f64>());
-    below.fold(start, |(sum, total), (value, weight)| {
-        (sum + weight * value, total + weight)
-    })
-}
-
-/// Where row `row` of the root table starts: row 0 (the axis) holds `springs` entries, row k + 1 those from spring k on.
-fn row_start(row: usize, springs: usize) -> usize {
-    match row {
-        0 => 0,
-        _ => {
-            let k = row - 1;
-            springs + k * springs - k * k.saturating_sub(1) / 2
-        }
-    }
-}
-
-/// sqrt(x_i^2 - r^2) for r = 0, x_0, x_1, ... and i from the spring at r on.
-fn root_table(position_m: &[f64]) -> Vec<f64> {
-    let springs = position_m.len();
-    let mut table = Vec::with_capacity(springs + springs * (springs + 1) / 2);
-    table.extend(position_m);
-    for (k, r_m) in position_m.iter().enumerate() {
-        // No digits lost.
-        table.extend(
-            position_m[k..]
-                .iter()
-                .map(|x_m| ((x_m - r_m) * (x_m + r_m)).sqrt()),
-        );
-    }
-    table
 }
 
 #[cfg(test)]

@@ -39,6 +39,7 @@
 
 pub mod axisymmetric;
 pub mod half_space;
+pub(crate) mod sums;
 pub mod surface;
 
 use std::sync::Arc;

@@ -161,7 +161,8 @@ impl Cycle<'_> {
                 0 => march.jump(self.prescribed(0.0)).map(drop)?,
                 _ => march.step_in_stages(&stages, |end| self.prescribed(fraction(end)))?,
             }
-            sample(&mut march, &mut samples, fraction(1.0) * TAU / self.omega)?;
+            let time_s = fraction(1.0) * TAU / self.omega;
+            sample(&mut march, &mut samples, time_s, true)?;
             let is_quarter = [1, 2, 3]
                 .map(|quarter| quarter * self.steps)
                 .contains(&(4 * step));

@@ -52,8 +52,8 @@ impl Anderson {
         self.changes.clear();
     }
 
-    /// Moves `x` by the accelerated step, given its plain update `f`. `weight` is that of an entry in the least squares.
-    pub(super) fn advance(&mut self, x: &mut [f64], f: &[f64], weight: &dyn Fn(usize) -> f64) {
+    /// Moves `x` by the accelerated step, given its plain update `f`; `weights` are those of the entries in the least squares.
+    pub(super) fn advance(&mut self, x: &mut [f64], f: &[f64], weights: &[f64]) {
         if !self.iterate.is_empty() {
             let moved = difference(x, &self.iterate);
             let changed = difference(f, &self.update);
@@ -66,7 +66,7 @@ impl Anderson {
         self.iterate.extend_from_slice(x);
         self.update.clear();
         self.update.extend_from_slice(f);
-        let gamma = self.coefficients(f, weight);
+        let gamma = self.coefficients(f, weights);
         for (x, f) in x.iter_mut().zip(f) {
             *x += f;
         }
@@ -79,19 +79,16 @@ impl Anderson {
 
     /// Least squares: min |W (f - F gamma)| over normalised columns by singular values, the smallest of which are left out:
     /// nearly dependent columns would send the step far away.
-    fn coefficients(&self, f: &[f64], weight: &dyn Fn(usize) -> f64) -> Vec<f64> {
+    fn coefficients(&self, f: &[f64], weights: &[f64]) -> Vec<f64> {
         let count = self.changes.len();
         if count == 0 {
             return Vec::new();
         }
         let rows = f.len();
-        let mut matrix = DMatrix::zeros(rows, count);
-        for (column, (_, changed)) in self.changes.iter().enumerate() {
-            for (row, value) in changed.iter().enumerate() {
-                matrix[(row, column)] = weight(row) * value;
-            }
-        }
-        let right = DVector::from_iterator(rows, f.iter().enumerate().map(|(i, v)| weight(i) * v));
+        let changes = self.changes.iter();
+        let weighted = changes.flat_map(|(_, changed)| changed.iter().zip(weights));
+        let mut matrix = DMatrix::from_iterator(rows, count, weighted.map(|(f, w)| w * f));
+        let mut right = DVector::from_iterator(rows, f.iter().zip(weights).map(|(f, w)| w * f));
         let norms: Vec<f64> = matrix.column_iter().map(|c| c.norm()).collect();
         if norms.iter().any(|n| *n <= 0.0 || !n.is_finite()) {
             return vec![0.0; count];
@@ -99,7 +96,11 @@ impl Anderson {
         for (mut column, norm) in matrix.column_iter_mut().zip(&norms) {
             column /= *norm;
         }
-        let svd = matrix.svd(true, true);
+        // Few columns: their triangle has the same singular values, at far less cost.
+        let qr = matrix.qr();
+        qr.q_tr_mul(&mut right);
+        let right = right.rows(0, rows.min(count));
+        let svd = qr.unpack_r().svd(true, true);
         match svd.solve(&right, SMALLEST_SINGULAR_VALUE * svd.singular_values.max()) {
             Ok(solution) => solution.iter().zip(&norms).map(|(g, n)| g / n).collect(),
             Err(_) => vec![0.0; count],
@@ -134,7 +135,7 @@ mod tests {
         let mut x = vec![0.0; 3];
         for _ in 0..5 {
             let f = update(&x);
-            anderson.advance(&mut x, &f, &|_| 1.0);
+            anderson.advance(&mut x, &f, &[1.0; 3]);
         }
         // Like GMRES it ends after as many differences as there are dimensions; the rest is rounding, amplified by 3 a step.
         assert!(largest(&update(&x)) < 1e-10);
@@ -146,11 +147,11 @@ mod tests {
         let mut x = vec![1.0, 2.0, 3.0];
         for _ in 0..3 {
             let f = update(&x);
-            anderson.advance(&mut x, &f, &|_| 1.0);
+            anderson.advance(&mut x, &f, &[1.0; 3]);
         }
         anderson.reset();
         let (before, f) = (x.clone(), update(&x));
-        anderson.advance(&mut x, &f, &|_| 1.0);
+        anderson.advance(&mut x, &f, &[1.0; 3]);
         for ((x, before), f) in x.iter().zip(&before).zip(&f) {
             assert_eq!(*x, before + f);
         }
@@ -161,7 +162,7 @@ mod tests {
         let mut anderson = Anderson::new(4);
         let mut x = vec![0.0; 3];
         for _ in 0..4 {
-            anderson.advance(&mut x, &[1.0, 0.0, 0.0], &|_| 1.0);
+            anderson.advance(&mut x, &[1.0, 0.0, 0.0], &[1.0; 3]);
         }
         assert!(x.iter().all(|v| v.is_finite()));
     }

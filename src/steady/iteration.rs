@@ -3,7 +3,7 @@
 use super::anderson::Anderson;
 use super::correction::{ContactHistory, Correction};
 use super::remaining::{MeanPressure, Remaining};
-use crate::contact::{ContactError, Prescribed, Solution};
+use crate::contact::{ContactError, Prescribed, Solution, sums};
 use crate::cycle;
 use crate::history::{March, MarchState, Stage, StepWeights};
 
@@ -134,13 +134,14 @@ pub fn find_from(
     let correction = Correction::new(
         compliance,
         (cycle.period_s, cycle.steps),
-        remaining.clone(),
+        &remaining,
         march.loads_per_nodal_pressure(),
     );
     let mut search = Search::begin(march, cycle, begin)?;
     let nodes = march.pressure().len();
     let mut run = Run::new(march, cycle, &remaining);
     let mut update = vec![0.0; search.start.len()];
+    let weights = correction.weights(nodes);
     let keep_mean_load = matches!(cycle.mean, Prescribed::LoadN(_));
     while search.steady.cycles < settings.max_cycles {
         if search.steady.cycles > 0 {
@@ -164,7 +165,7 @@ pub fn find_from(
             break;
         }
         correction.apply(&run.contact, keep_mean_load, &mut update);
-        search.advance(memory, &update, &|i| correction.weight(i / nodes));
+        search.advance(memory, &update, &weights);
     }
     Ok(search.steady)
 }
@@ -239,7 +240,7 @@ impl Search {
     }
 
     /// The memory to start the next cycle from, after one at distance `memory` that suggests `update`.
-    fn advance(&mut self, memory: f64, update: &[f64], weight: &dyn Fn(usize) -> f64) {
+    fn advance(&mut self, memory: f64, update: &[f64], weights: &[f64]) {
         let (since_best, setbacks) = self.since_best;
         if memory < self.best.0 {
             self.since_best = (0, 0);
@@ -259,7 +260,7 @@ impl Search {
         } else {
             self.since_best.0 += 1;
         }
-        self.anderson.advance(&mut self.start, update, weight);
+        self.anderson.advance(&mut self.start, update, weights);
     }
 }
 
@@ -313,7 +314,7 @@ impl Run {
             }
             self.contact.push(march.pressure());
             self.mean.add(step, march.pressure());
-            let squares: f64 = march.pressure().iter().map(|p| p * p).sum();
+            let squares = sums::dot(march.pressure(), march.pressure());
             self.scale = self.scale.max(squares.sqrt());
         }
         Ok(true)

@@ -10,6 +10,7 @@
 //! exp(-T/lambda)), which is the plain mean and T/lambda times the first moment of p about the middle of the cycle, but for terms of
 //! order (T/lambda)^2; what is missing is the difference from that.
 
+use crate::contact::sums;
 use crate::material::Creep;
 
 /// A branch is held in periods shorter than this part of its retardation time: terms of second order are then 1e-10, and
@@ -94,9 +95,7 @@ impl Remaining {
     pub fn distance(&self, change: &[f64], nodes: usize) -> f64 {
         let norms = change.chunks_exact(nodes).zip(&self.0);
         norms
-            .map(|(change, branch)| {
-                change.iter().map(|c| c * c).sum::<f64>().sqrt() / branch.forgotten
-            })
+            .map(|(change, branch)| sums::dot(change, change).sqrt() / branch.forgotten)
             .fold(0.0, f64::max)
     }
 }

@@ -92,13 +92,7 @@ impl Meridian {
 impl Axisymmetric {
     /// Pressure and displacement at the axis, at every spring, and as far again beyond the row.
     pub(super) fn radial_surface(&self, response: &Response<'_>) -> RadialSurface {
-        let (springs, end_m) = (self.gap_m.len(), self.end_m());
-        let beyond =
-            (0..(REACH - 1) * springs).map(|i| end_m * (1.0 + (i as f64 + 0.5) / springs as f64));
-        let radius_m: Vec<f64> = std::iter::once(0.0)
-            .chain(self.position_m.iter().copied())
-            .chain(beyond)
-            .collect();
+        let radius_m = self.radii_m();
         let meridian = self.meridian(response);
         RadialSurface {
             pressure_pa: radius_m.iter().map(|&r| meridian.pressure_pa(r)).collect(),
@@ -110,19 +104,34 @@ impl Axisymmetric {
         }
     }
 
+    /// What adds up over the springs like a line force (per metre), as it lies on the same radii: a pressure that moves nothing.
+    pub(super) fn radial_density(&self, nodal: &[f64], radius_m: f64) -> RadialSurface {
+        let radii_m = self.radii_m();
+        let meridian = self.meridian_of_force(nodal, radius_m);
+        RadialSurface {
+            pressure_pa: radii_m.iter().map(|&r| meridian.pressure_pa(r)).collect(),
+            displacement_m: vec![0.0; radii_m.len()],
+            radius_m: radii_m,
+        }
+    }
+
+    /// The axis, every spring, and as far again beyond the row (m).
+    fn radii_m(&self) -> Vec<f64> {
+        let (springs, end_m) = (self.gap_m.len(), self.end_m());
+        let beyond =
+            (0..(REACH - 1) * springs).map(|i| end_m * (1.0 + (i as f64 + 0.5) / springs as f64));
+        std::iter::once(0.0)
+            .chain(self.position_m.iter().copied())
+            .chain(beyond)
+            .collect()
+    }
+
     /// The pressure from the axis to the edge of the contact, the axis alone out of contact. Places a sin(pi k / 2n), which are
     /// evenly spread along a pressure that falls to the edge as that of Hertz does; even ones where a rim bounds the contact, at
     /// which the pressure grows beyond all bounds.
     pub(super) fn pressure_line(&self, force: &[f64], contact_radius_m: f64) -> PressureLine {
         let ends_at_a_rim = self.edge == Edge::Rim && force.last().is_some_and(|&f| f > 0.0);
-        let force = self.force_stretches(force, contact_radius_m);
-        let meridian = Meridian {
-            rim_force: self.rim_force(&force, contact_radius_m),
-            force,
-            shortening: Vec::new(),
-            contact_radius_m,
-            singular_radii_m: self.singular_radii_m.clone(),
-        };
+        let meridian = self.meridian_of_force(force, contact_radius_m);
         let intervals = if contact_radius_m > 0.0 { LINE } else { 0 };
         let place_m = |k: usize| {
             let part = k as f64 / LINE as f64;
@@ -185,12 +194,19 @@ impl Axisymmetric {
     }
 
     fn meridian(&self, response: &Response<'_>) -> Meridian {
-        let contact_radius_m = response.contact_radius_m;
-        let force = self.force_stretches(response.pressure, contact_radius_m);
+        Meridian {
+            shortening: self.shortening_stretches(response),
+            ..self.meridian_of_force(response.pressure, response.contact_radius_m)
+        }
+    }
+
+    /// The same for the pressure alone.
+    fn meridian_of_force(&self, force: &[f64], contact_radius_m: f64) -> Meridian {
+        let force = self.force_stretches(force, contact_radius_m);
         Meridian {
             rim_force: self.rim_force(&force, contact_radius_m),
             force,
-            shortening: self.shortening_stretches(response),
+            shortening: Vec::new(),
             contact_radius_m,
             singular_radii_m: self.singular_radii_m.clone(),
         }
@@ -304,11 +320,13 @@ fn continued_to_the_axis(stretches: &mut Vec<Stretch>) {
 /// p(r) in Pa inside a contact of this radius, from the line force in N/m.
 fn pressure_pa(force: &[Stretch], rim_force: f64, contact_radius_m: f64, r_m: f64) -> f64 {
     let root = |x_m: f64| ((x_m - r_m).max(0.0) * (x_m + r_m)).sqrt();
-    let smooth: f64 = force
-        .iter()
-        .filter(|stretch| stretch.to_m > r_m)
-        .map(|stretch| stretch.slope_per_m2 * (root(stretch.to_m) - root(stretch.from_m)))
-        .sum();
+    let (mut smooth, mut inner) = (0.0, 0.0);
+    // One stretch begins where the last ended, the first of these before r.
+    for stretch in &force[force.partition_point(|stretch| stretch.to_m <= r_m)..] {
+        let outer = root(stretch.to_m);
+        smooth += stretch.slope_per_m2 * (outer - inner);
+        inner = outer;
+    }
     let rim = if rim_force > 0.0 {
         FRAC_1_PI * rim_force / root(contact_radius_m)
     } else {

@@ -14,7 +14,6 @@ mod frame;
 mod outside;
 mod polonsky_keer;
 mod spans;
-mod sums;
 mod tangent;
 mod windows;
 
@@ -29,7 +28,7 @@ use windows::Windows;
 
 use super::convolution::{Convolution, ConvolutionError};
 use crate::contact::surface::{Along, CellSurface, PressureLine, Response, Surface};
-use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
+use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution, sums};
 
 /// When the iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -22,7 +22,7 @@ use crate::sweep::case::edge_layer::EdgeLayer;
 use crate::sweep::case::solid::Solid;
 #[cfg(feature = "report")]
 pub(crate) use crate::sweep::case::stabilise::sample;
-use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised};
+use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
 use crate::sweep::engine::{EngineBuilder, EngineError, LargestContact};
 use crate::sweep::plan::check::{PlanError, check_frequency};
 use crate::sweep::plan::instant_tolerance;
@@ -354,6 +354,10 @@ impl Setup {
             interrupt,
             checkpoints,
             marches_at_last: true,
+            wanted: match aim {
+                Aim::Plan => Wanted::Everything,
+                Aim::Loss(_) => Wanted::Loss,
+            },
         };
         match cycle.accuracy {
             Some(accuracy) => self.to_accuracy(&contact, accuracy, record)?,
@@ -510,7 +514,11 @@ impl Setup {
         steps: &[usize],
         record: &mut CaseRecord,
     ) -> Result<Solved, CaseError> {
-        let solved = match self.solve(contact, nodes, steps, &mut Domain::default()) {
+        let contact = Contact {
+            wanted: contact.wanted.min(Wanted::Numbers),
+            ..*contact
+        };
+        let solved = match self.solve(&contact, nodes, steps, &mut Domain::default()) {
             Err(CaseError::Interrupted) => return Err(CaseError::Interrupted),
             Err(_) => Solved {
                 nodes,

@@ -5,7 +5,7 @@
 //! replica is that of the case times the ratio of the two.
 
 use crate::sweep::case::checkpoint::Checkpoints;
-use crate::sweep::case::stabilise::{CaseError, Contact};
+use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
 use crate::sweep::case::{Resolution, Setup};
 use crate::sweep::plan::{CyclePlan, EngineKind, Method};
 use crate::sweep::record::CaseRecord;
@@ -32,6 +32,7 @@ impl Setup {
                 ..contact.cycle
             },
             checkpoints: &checkpoints,
+            wanted: Wanted::Loss,
             ..*contact
         };
         let at = self.coarse_for_replicas();

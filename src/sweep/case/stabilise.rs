@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use serde::{Deserialize, Serialize};
 
 use crate::contact::surface::Surface;
-use crate::contact::{ContactError, Engine, Prescribed, Solution};
+use crate::contact::{ContactError, Engine, Prescribed, Solution, sums};
 use crate::cycle::{self, Extrema, Loop, LoopError};
 use crate::drive::Control;
 use crate::history::{Dissipation, March, Stage, StepWeights, TimeRule, Work};
@@ -29,6 +29,17 @@ const SEARCH_CYCLES: usize = 200;
 /// what the branches dissipate, which no rounding touches.
 const LARGEST_ROUNDING: f64 = 1e-6;
 
+/// What a stabilised cycle is recorded for, least first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::sweep) enum Wanted {
+    /// The energy loss.
+    Loss,
+    /// All numbers that have error bars.
+    Numbers,
+    /// Fields over the surface too.
+    Everything,
+}
+
 /// What has to be known of a case, whatever its resolution.
 #[derive(Clone, Copy)]
 pub(in crate::sweep) struct Contact<'a> {
@@ -45,6 +56,8 @@ pub(in crate::sweep) struct Contact<'a> {
     pub checkpoints: &'a Checkpoints,
     /// Whether a cycle that a direct search does not find is marched to.
     pub marches_at_last: bool,
+    /// Of the cycle in the most steps; those in fewer only serve its error bars.
+    pub wanted: Wanted,
 }
 
 /// A cycle's end.
@@ -148,7 +161,12 @@ impl Contact<'_> {
         for &count in steps {
             let coarser = solved.last().filter(|(_, cycle)| cycle.result.is_some());
             let start = coarser.map(|(_, cycle)| cycle.memory.clone());
-            let cycle = match self.stabilise(engine, count, start) {
+            let wanted = match Some(&count) == steps.last() {
+                true => self.wanted,
+                false => self.wanted.min(Wanted::Numbers),
+            };
+            let contact = Contact { wanted, ..*self };
+            let cycle = match contact.stabilise(engine, count, start) {
                 // What fails in fewer steps may succeed in more.
                 Err(error) if error.may_be_of_the_resolution() && Some(&count) != steps.last() => {
                     continue;
@@ -321,12 +339,32 @@ impl Contact<'_> {
     }
 }
 
-/// What a recorded cycle is watched for.
+/// What a recorded cycle is watched for, as far as it is wanted.
 struct Recording {
     samples: Loop,
     dissipation: Dissipation,
-    pressures: Pressures,
-    tangent_radius: TangentRadius,
+    pressures: Option<Pressures>,
+    tangent_radius: Option<TangentRadius>,
+}
+
+impl Recording {
+    /// Takes in the instant at the end of a step.
+    fn see(&mut self, march: &mut March<'_>, step: usize, time_s: f64) -> Result<(), ContactError> {
+        self.sample(march, time_s)?;
+        if let Some(pressures) = &mut self.pressures {
+            pressures.see(march, step, time_s)?;
+        }
+        if let Some(tangent_radius) = &mut self.tangent_radius {
+            tangent_radius.see(march, step)?;
+        }
+        Ok(())
+    }
+
+    /// Appends the present instant to the loop.
+    fn sample(&mut self, march: &mut March<'_>, time_s: f64) -> Result<(), ContactError> {
+        let with_numbers = self.tangent_radius.is_some();
+        sample(march, &mut self.samples, time_s, with_numbers)
+    }
 }
 
 /// Cycles of one case in one number of steps.
@@ -384,7 +422,7 @@ impl<'a> Cycles<'a> {
         self.mean.add(0, march.pressure());
         let mut scale = 0.0_f64;
         if let Some(recording) = recording.as_deref_mut() {
-            sample(march, &mut recording.samples, 0.0)?;
+            recording.sample(march, 0.0)?;
         }
         for step in 1..=self.steps {
             if self.contact.interrupted() {
@@ -396,15 +434,12 @@ impl<'a> Cycles<'a> {
                 None => march.step_in_stages(&self.stages, drive)?,
                 Some(recording) => {
                     march.step_dissipating(&self.stages, drive, &mut recording.dissipation)?;
-                    let time_s = fraction(1.0) * self.contact.period_s();
-                    sample(march, &mut recording.samples, time_s)?;
-                    recording.pressures.see(march, step, time_s)?;
-                    recording.tangent_radius.see(march, step)?;
+                    recording.see(march, step, fraction(1.0) * self.contact.period_s())?;
                 }
             }
             self.see(march);
             self.mean.add(step, march.pressure());
-            scale = scale.max(march.pressure().iter().map(|p| p * p).sum());
+            scale = scale.max(sums::dot(march.pressure(), march.pressure()));
         }
         self.count += 1;
         self.distance = self.estimate(march, scale.sqrt());
@@ -436,8 +471,10 @@ impl<'a> Cycles<'a> {
         let mut recording = Recording {
             samples: Loop::default(),
             dissipation: Dissipation::new(contact.compliance, nodes, step_s, contact.time_rule),
-            pressures: Pressures::new(&contact.condition.drive, self.steps),
-            tangent_radius: TangentRadius::new(self.steps),
+            pressures: (contact.wanted >= Wanted::Everything)
+                .then(|| Pressures::new(&contact.condition.drive, self.steps)),
+            tangent_radius: (contact.wanted >= Wanted::Numbers)
+                .then(|| TangentRadius::new(self.steps)),
         };
         self.run(march, Some(&mut recording))?;
         if !self.is_within_tolerance() {
@@ -497,9 +534,11 @@ impl Contact<'_> {
         // The mean over the period counts the seam once.
         let mean_radius_m =
             radii.iter().skip(1).sum::<f64>() / radii.len().saturating_sub(1).max(1) as f64;
-        let moduli = tangent_radius.mean_m(mean_radius_m).and_then(|radius_m| {
-            analysis.equivalent_moduli_pa(radius_m, self.condition.material.poisson_ratio())
-        });
+        let moduli = tangent_radius
+            .and_then(|tangent_radius| tangent_radius.mean_m(mean_radius_m))
+            .and_then(|radius_m| {
+                analysis.equivalent_moduli_pa(radius_m, self.condition.material.poisson_ratio())
+            });
         let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
         let extrema = |signal: &[f64]| {
             Extrema::of(signal).ok_or(LoopError::TooFewSamples {
@@ -508,7 +547,14 @@ impl Contact<'_> {
             })
         };
         let largest_radius_m = radii.iter().copied().fold(0.0, f64::max);
-        let surface = march.surface_density(dissipation.nodal_work(), largest_radius_m)?;
+        let work = dissipation.nodal_work();
+        let surface_loss = match self.wanted {
+            Wanted::Everything => surface_loss(march.surface_density(work, largest_radius_m)?),
+            Wanted::Numbers | Wanted::Loss => SurfaceLoss::Radial {
+                radius_m: Vec::new(),
+                density_j_per_m2: Vec::new(),
+            },
+        };
         let branches = self.compliance.branches().iter().zip(energies);
         Ok(CaseResult {
             storage_modulus_pa: moduli.map(|m| m.0),
@@ -524,8 +570,8 @@ impl Contact<'_> {
                     energy_loss_j,
                 })
                 .collect(),
-            surface_loss: surface_loss(surface),
-            pressures: pressures.finished(),
+            surface_loss,
+            pressures: pressures.map_or_else(Vec::new, Pressures::finished),
             analysis,
             samples,
         })
@@ -582,20 +628,22 @@ fn surface_loss(surface: Surface) -> SurfaceLoss {
     }
 }
 
-/// Appends the present instant to a loop.
+/// Appends the present instant to a loop, with its peak pressure or without.
 pub(crate) fn sample(
     march: &mut March<'_>,
     samples: &mut Loop,
     time_s: f64,
+    with_peak: bool,
 ) -> Result<(), ContactError> {
     march.observe(&mut |engine, pressure, solution| {
         samples.time_s.push(time_s);
         samples.load_n.push(solution.load_n);
         samples.approach_m.push(solution.approach_m);
         samples.contact_radius_m.push(solution.contact_radius_m);
-        samples
-            .peak_pressure_pa
-            .push(engine.peak_pressure_pa(pressure, solution)?);
+        samples.peak_pressure_pa.push(match with_peak {
+            true => engine.peak_pressure_pa(pressure, solution)?,
+            false => None,
+        });
         Ok(())
     })
 }

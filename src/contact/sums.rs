@@ -5,7 +5,7 @@ const LANES: usize = 8;
 
 /// Sums of `terms(a, b)` over pairs, `N` at a time.
 #[inline(always)]
-pub(super) fn sums<const N: usize>(
+pub(crate) fn sums<const N: usize>(
     a: &[f64],
     b: &[f64],
     terms: impl Fn(f64, f64) -> [f64; N],
@@ -31,22 +31,43 @@ pub(super) fn sums<const N: usize>(
     totals
 }
 
-pub(super) fn sum(a: &[f64]) -> f64 {
+/// The sum of a term over triples.
+#[inline(always)]
+pub(crate) fn sum_over_triples(
+    a: &[f64],
+    b: &[f64],
+    c: &[f64],
+    term: impl Fn(f64, f64, f64) -> f64,
+) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let ((whole_a, rest_a), (whole_b, rest_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let (whole_c, rest_c) = c.as_chunks::<LANES>();
+    for ((a, b), c) in whole_a.iter().zip(whole_b).zip(whole_c) {
+        for lane in 0..LANES {
+            lanes[lane] += term(a[lane], b[lane], c[lane]);
+        }
+    }
+    let rest = rest_a.iter().zip(rest_b).zip(rest_c);
+    let rest = rest.map(|((&a, &b), &c)| term(a, b, c));
+    lanes.iter().sum::<f64>() + rest.sum::<f64>()
+}
+
+pub(crate) fn sum(a: &[f64]) -> f64 {
     sums(a, a, |a, _| [a])[0]
 }
 
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums(a, b, |a, b| [a * b])[0]
 }
 
 /// The least value; infinite for none.
-pub(super) fn least(a: &[f64]) -> f64 {
+pub(crate) fn least(a: &[f64]) -> f64 {
     least_of(a, |a| a)
 }
 
 /// The least of a function of the values; infinite for none.
 #[inline(always)]
-pub(super) fn least_of(a: &[f64], function: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn least_of(a: &[f64], function: impl Fn(f64) -> f64) -> f64 {
     let mut lanes = [f64::INFINITY; LANES];
     let whole = a.chunks_exact(LANES);
     let rest = whole.remainder();
@@ -79,6 +100,9 @@ mod tests {
                 dot(&a, &b),
                 a.iter().zip(&b).map(|(a, b)| a * b).sum::<f64>()
             );
+            let products = a.iter().zip(&b).map(|(a, b)| a * b * b);
+            let triples = sum_over_triples(&a, &b, &b, |a, b, c| a * b * c);
+            assert_eq!(triples, products.sum::<f64>());
             let expected = if length == 0 { f64::INFINITY } else { -3.0 };
             assert_eq!(least(&a), expected);
         }
