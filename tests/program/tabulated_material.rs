@@ -152,7 +152,7 @@ fn a_sweep_takes_its_material_from_a_table_beside_its_file_and_shows_the_misfit(
     let folder = TempDir::new().unwrap();
     let project = folder.path().join("project");
     write(
-        &project.join("data"),
+        project.join("data"),
         "creep.csv",
         &csv(MaterialFunction::Creep),
     );
