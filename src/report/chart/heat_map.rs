@@ -21,9 +21,10 @@ use super::scale::AxisMap;
 use super::{Axis, Chart, ChartError, Color, Scale};
 
 /// The shape of a map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MapShape {
     /// Lengths along y are to the scale of those along x.
+    #[default]
     ToScale,
     /// To scale too, a square about the origin: the values are one row, from there to the edge, and turned about it.
     Turned,
@@ -32,7 +33,7 @@ pub enum MapShape {
 }
 
 /// Values on a grid of cells that are equal on the scales of the axes.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeatMap {
     /// Drawn above the frame.
     pub title: Option<String>,
@@ -380,24 +381,16 @@ mod tests {
             (inside > 0.0).then(|| 50.0 * inside.sqrt())
         };
         HeatMap {
-            title: None,
             x_label: "x / µm".to_owned(),
             y_label: "y / µm".to_owned(),
             x_range: (-400.0, 400.0),
             y_range: (-200.0, 200.0),
-            x_scale: Scale::Linear,
-            y_scale: Scale::Linear,
             columns,
             rows,
             values: (0..columns * rows).map(value).collect(),
             value_label: "pressure p / MPa".to_owned(),
-            value_range: None,
-            value_scale: Scale::Linear,
-            contours: false,
-            points: Vec::new(),
-            rings: Vec::new(),
             width_px: 800,
-            shape: MapShape::ToScale,
+            ..HeatMap::default()
         }
     }
 

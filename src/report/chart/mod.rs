@@ -185,8 +185,9 @@ impl Axis {
 }
 
 /// How a value becomes a length along an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scale {
+    #[default]
     Linear,
     /// Base ten; values must be above zero.
     Log,

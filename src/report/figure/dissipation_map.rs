@@ -5,7 +5,7 @@ use super::units::Units;
 use super::{Drawn, Figure};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
-use crate::report::chart::{HeatMap, MapShape, Scale};
+use crate::report::chart::{HeatMap, MapShape};
 use crate::report::number::{largest, with_error};
 use crate::report::table::{cells, csv};
 use crate::sweep::record::{CaseRecord, CaseResult, SurfaceLoss};
@@ -142,19 +142,13 @@ impl Field {
             y_label: format!("y / {length}"),
             x_range: (to_length * left, to_length * right),
             y_range: (to_length * low, to_length * high),
-            x_scale: Scale::Linear,
-            y_scale: Scale::Linear,
             columns: self.columns,
             rows: self.rows,
             values: self.density.iter().map(scaled).collect(),
             value_label: format!("work per cycle and area / {unit}"),
-            value_range: None,
-            value_scale: Scale::Linear,
-            contours: false,
-            points: Vec::new(),
-            rings: Vec::new(),
             width_px: WIDTH_PX,
             shape: self.shape,
+            ..HeatMap::default()
         }
     }
 }

@@ -216,7 +216,7 @@ fn resized(chart: &Chart, width_px: u32, ratio: f64) -> Chart {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::chart::{Axis, HeatMap, MapShape, Marker, Scale, Series};
+    use crate::report::chart::{Axis, HeatMap, MapShape, Marker, Series};
 
     fn chart() -> Chart {
         let line = |step: u8| {
@@ -265,24 +265,17 @@ mod tests {
     #[test]
     fn a_map_to_scale_keeps_its_shape_and_others_take_the_height() {
         let map = |shape| HeatMap {
-            title: None,
             x_label: "x".to_owned(),
             y_label: "y".to_owned(),
             x_range: (0.0, 1.0),
             y_range: (0.0, 1.0),
-            x_scale: Scale::Linear,
-            y_scale: Scale::Linear,
             columns: 1,
             rows: 1,
             values: vec![Some(1.0)],
             value_label: "value".to_owned(),
-            value_range: None,
-            value_scale: Scale::Linear,
-            contours: false,
-            points: Vec::new(),
-            rings: Vec::new(),
             width_px: 800,
             shape,
+            ..HeatMap::default()
         };
         let resized = |shape, height_m| {
             let mut picture = Picture::from(map(shape));

@@ -6,7 +6,7 @@ use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{Caption, Setting};
-use crate::report::chart::{HeatMap, MapShape, Scale};
+use crate::report::chart::HeatMap;
 use crate::report::number::{self, plain, scientific};
 use crate::sweep::history::SurfaceRecord;
 
@@ -98,18 +98,12 @@ fn map(time_s: f64, cells: &CellSurface, peak_pa: f64, units: &Units) -> HeatMap
         y_label: format!("y / {length}"),
         x_range: (-to_length * half.0, to_length * half.0),
         y_range: (-to_length * half.1, to_length * half.1),
-        x_scale: Scale::Linear,
-        y_scale: Scale::Linear,
         columns: grid.cells_x(),
         rows: grid.cells_y(),
         values: cells.pressure_pa.iter().map(value).collect(),
         value_label: format!("pressure p / {pressure}"),
         value_range: Some((0.0, to_pressure * peak_pa)),
-        value_scale: Scale::Linear,
-        contours: false,
-        points: Vec::new(),
-        rings: Vec::new(),
         width_px: WIDTH_PX,
-        shape: MapShape::ToScale,
+        ..HeatMap::default()
     }
 }
