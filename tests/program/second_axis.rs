@@ -5,9 +5,12 @@ use std::sync::atomic::AtomicBool;
 use contact_dma::input::diagnostic::Styling;
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
+use contact_dma::quantity::FrequencyUnit;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::plan::resolved::resolved_text;
+use contact_dma::sweep::record::CaseRecord;
+use contact_dma::sweep::record::warning::{self, Warning};
 
 /// Two isotherms that no shift brings onto one another, and a sphere.
 const FILE: &str = r#"
@@ -120,13 +123,28 @@ fn the_cases_outside_what_was_measured_at_their_own_temperature_are_warned_of() 
     let text = format!("{text}material.temperature = [\"20 °C\", \"60 °C\"]\n");
     let plan = sweep_file::plan(&Document::parse("axes.toml", &text).unwrap()).unwrap();
     let setup = Setup::new(plan).unwrap();
-    let codes = setup.plan().cases().into_iter().map(|case| {
-        let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
+    let cases = setup.plan().cases().into_iter();
+    let run = |case| setup.run(&case, &AtomicBool::new(false)).unwrap();
+    let mut records: Vec<_> = cases.map(run).collect();
+    let codes = records.iter().map(|record| {
         let codes = record.warnings.iter().map(|warning| warning.code());
         codes.collect::<Vec<_>>().join(" ")
     });
     // 1/ω is longer than the test at 60 °C at the first frequency alone; at 20 °C nothing is said of a test.
     assert_eq!(codes.collect::<Vec<_>>(), ["", "", "below-measured", ""]);
+    let message = |records: &[CaseRecord]| {
+        let warnings = warning::over_cases(records, FrequencyUnit::RadPerS);
+        warnings[0].message.clone()
+    };
+    let alone = "the material was measured up to 1.00 s: below 1.00 rad/s it is an extrapolation";
+    assert_eq!(message(&records), alone);
+    // Of several windows the one that is left furthest is told, wherever the frequency lies.
+    records[0].warnings = vec![Warning::BelowMeasured {
+        angular_frequency_rad_per_s: 0.01,
+        last_measured_s: 60.0,
+    }];
+    let several = format!("{alone} in the case that is furthest outside");
+    assert_eq!(message(&records), several);
 }
 
 #[test]

@@ -70,14 +70,15 @@ impl Warning {
     /// Among warnings of one kind, the one that says it for all of them has most of this.
     fn extent(&self) -> f64 {
         match *self {
+            // How far outside, since each temperature has a window of its own.
             Self::BelowMeasured {
                 angular_frequency_rad_per_s,
-                ..
-            } => -angular_frequency_rad_per_s,
+                last_measured_s,
+            } => -angular_frequency_rad_per_s * last_measured_s,
             Self::AboveMeasured {
                 angular_frequency_rad_per_s,
-                ..
-            } => angular_frequency_rad_per_s,
+                first_measured_s,
+            } => angular_frequency_rad_per_s * first_measured_s,
             Self::ShorterThanMeasured { time_s, .. } => -time_s,
             Self::LongerThanMeasured { time_s, .. } => time_s,
             Self::LargeStrain { strain } => strain,
@@ -198,6 +199,22 @@ pub struct OverCases {
     of: usize,
     #[serde(skip)]
     unit: FrequencyUnit,
+    /// Whether the materials of the cases were measured at different times.
+    #[serde(skip)]
+    has_other_limits: bool,
+}
+
+/// The end of the measured times (s) that a warning is of.
+fn measured_s(warning: &Warning) -> Option<f64> {
+    match *warning {
+        Warning::BelowMeasured {
+            last_measured_s, ..
+        } => Some(last_measured_s),
+        Warning::AboveMeasured {
+            first_measured_s, ..
+        } => Some(first_measured_s),
+        _ => None,
+    }
 }
 
 /// What is to be said of these cases, with frequencies in this unit: one entry per kind, in the order in which kinds first occur.
@@ -209,6 +226,7 @@ pub fn over_cases(records: &[CaseRecord], unit: FrequencyUnit) -> Vec<OverCases>
             let known = (kinds.iter_mut()).find(|(_, over)| over.code == warning.code());
             match known {
                 Some((worst, over)) => {
+                    over.has_other_limits |= measured_s(warning) != measured_s(worst);
                     if warning.extent() > worst.extent() {
                         *worst = *warning;
                     }
@@ -229,14 +247,21 @@ pub fn over_cases(records: &[CaseRecord], unit: FrequencyUnit) -> Vec<OverCases>
                         highest_angular_frequency_rad_per_s: omega,
                         of: records.len(),
                         unit,
+                        has_other_limits: false,
                     },
                 )),
             }
         }
     }
-    let said = |(worst, over): (Warning, OverCases)| OverCases {
-        message: In(unit, worst).to_string(),
-        ..over
+    let said = |(worst, over): (Warning, OverCases)| {
+        let others = match over.has_other_limits {
+            true => " in the case that is furthest outside",
+            false => "",
+        };
+        OverCases {
+            message: format!("{}{others}", In(unit, worst)),
+            ..over
+        }
     };
     kinds.into_iter().map(said).collect()
 }
