@@ -7,7 +7,7 @@ use crate::material::Material;
 use crate::quantity::Dimension;
 use crate::sweep::history::SimulationOutcome;
 use crate::sweep::plan::scenario::ScenarioPlan;
-use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::plan::{Block, EngineKind, SolverPlan, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 
 /// What a figure itself has to say.
@@ -79,10 +79,11 @@ impl Setting {
             }
             _ => String::new(),
         };
+        let swept = plan.axis.as_ref().map(|axis| axis.varied);
         let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
             "{} on {}, {} (mean ± amplitude){rest}{varied}",
-            indenter(plan.indenter.as_ref()),
+            indenter(plan.indenter.as_ref(), swept),
             material(&plan.material),
             drive_line(&plan.drive, plan)
         );
@@ -112,7 +113,7 @@ impl Setting {
         };
         let of = format!(
             "{} on {body}, {} against time prescribed",
-            indenter(plan.indenter.as_ref()),
+            indenter(plan.indenter.as_ref(), None),
             plan.drive.control().name()
         );
         let computed = format!(
@@ -144,7 +145,8 @@ fn material(material: &Material) -> String {
     format!("{name} (Poisson ratio {})", material.poisson_ratio())
 }
 
-fn indenter(indenter: &dyn Indenter) -> String {
+/// The indenter, without the number that an axis varies.
+fn indenter(indenter: &dyn Indenter, swept: Option<Varied>) -> String {
     let shape = indenter.shape().replace('-', " ");
     // Where a shape comes from is told by resolved.toml.
     let told = |value: &Value| {
@@ -153,10 +155,13 @@ fn indenter(indenter: &dyn Indenter) -> String {
             Value::Quantity(..) | Value::Number(_) | Value::Integer(_)
         )
     };
+    let is_swept = |key: &str| {
+        swept.is_some_and(|varied| (varied.block, varied.key) == (Block::Indenter, key))
+    };
     let settings: Vec<_> = indenter
         .parameters()
         .into_iter()
-        .filter(|parameter| told(&parameter.value))
+        .filter(|parameter| told(&parameter.value) && !is_swept(parameter.key))
         .collect();
     match settings.is_empty() {
         true => format!("rigid {shape}"),

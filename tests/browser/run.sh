@@ -21,8 +21,9 @@ fi
 cp "$here/package.json" "$here/package-lock.json" "$here"/*.mjs "$here/htmlvalidate.json" "$work/"
 (cd "$work" && npm ci --no-audit --no-fund) >"$work/npm.log" 2>&1 || skip "npm gives no packages (target/browser/npm.log)"
 
-cargo build --quiet
-program=$PWD/target/debug/contact-dma
+# The program to try, or else one built here.
+program=$PWD/${1:-target/debug/contact-dma}
+[ $# -gt 0 ] || cargo build --quiet
 pages=()
 for input in "$here"/*.toml; do
     name=$(basename "$input" .toml)

@@ -10,6 +10,7 @@ function start(data) {
   const key = (row) => (varied ? `${row[varied.column]}` : "");
   const drives = [...new Map(rows.map((row) => [key(row), row])).values()];
   const driveText = (row) => {
+    if (!varied) return "";
     const value = row[varied.column];
     return varied.zero ? `${trimmed(significant(value - varied.zero))} ${varied.unit}` : trimmed(withUnit(value, varied.unit));
   };
