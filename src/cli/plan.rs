@@ -39,7 +39,10 @@ fn text(setup: &Setup, cost: &Cost) -> String {
     let mut text = format!("{}\n\n", plan.title);
     let unit = plan.figures.frequency_unit;
     // What an axis varies of something else than the drive takes the place of the drive, which is then the same for all.
-    let axis = plan.axis.as_ref().filter(|axis| axis.has_own_column());
+    let axis = plan
+        .axis
+        .as_ref()
+        .filter(|axis| axis.varied.has_own_column());
     let head = axis.map(|axis| axis.varied.name());
     let head = head.unwrap_or_else(|| "drive mean   amplitude".to_owned());
     let of_case = |Condition { value, drive, .. }: &Condition| match axis.zip(*value) {

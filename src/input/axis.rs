@@ -5,15 +5,16 @@ use serde_json::{Map, Value as Json, json};
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use super::document::Located;
 use super::document::kind::{Decided, Describe, Kind, Scalar, Spot};
-use super::document::reader::join;
+use super::document::reader::{in_backticks, join};
 use super::document::row::{AnyRow, Rows};
 use super::document::similar::similar;
-use super::document::tree::{Entry, Node, NumberFault, Table, Value};
+use super::document::tree::{Entry, Node, Table, Value};
 use super::points::Points;
 use crate::quantity::Dimension;
-use crate::sweep::plan::Block;
+use crate::sweep::plan::{Block, Varied};
 
 /// One key of a block that has a number, with the values that it takes.
+#[derive(Clone, Copy)]
 pub(crate) struct AxisOf {
     pub(crate) block: Block,
     pub(crate) rows: &'static Rows,
@@ -21,17 +22,15 @@ pub(crate) struct AxisOf {
 
 /// The same, once the dimension of what the drive controls is known.
 pub(crate) struct DecidedAxisOf {
-    of: &'static Rows,
-    block: Block,
+    of: AxisOf,
     controlled: Dimension,
 }
 
 /// What the key varies.
 #[derive(Debug, Clone)]
 pub(crate) struct Swept {
-    pub(super) key: &'static str,
+    pub(super) varied: Varied,
     pub(super) key_location: Location,
-    pub(super) dimension: Option<Dimension>,
     /// Ascending, SI units.
     pub(super) values: Located<Vec<f64>>,
 }
@@ -122,33 +121,23 @@ impl Decided for AxisOf {
 
     fn of(&self, controlled: Dimension) -> DecidedAxisOf {
         DecidedAxisOf {
-            of: self.rows,
-            block: self.block,
+            of: *self,
             controlled,
-        }
-    }
-}
-
-impl DecidedAxisOf {
-    fn undecided(&self) -> AxisOf {
-        AxisOf {
-            block: self.block,
-            rows: self.of,
         }
     }
 }
 
 impl Describe for DecidedAxisOf {
     fn expected(&self) -> String {
-        self.undecided().expected()
+        self.of.expected()
     }
 
     fn example(&self) -> String {
-        self.undecided().example()
+        self.of.example()
     }
 
     fn schema(&self) -> Json {
-        self.undecided().schema()
+        self.of.schema()
     }
 }
 
@@ -156,7 +145,7 @@ impl Kind for DecidedAxisOf {
     type Value = Swept;
 
     fn written(&self, swept: &Swept) -> Json {
-        json!({ swept.key: swept.values.value })
+        json!({ swept.varied.key: swept.values.value })
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Swept, Diagnostics> {
@@ -167,7 +156,7 @@ impl Kind for DecidedAxisOf {
         let mut entries = table.entries.iter();
         let (Some((key, entry)), others) = (entries.next(), entries) else {
             let problem = Diagnostic::at(&node.location, format!("`{}` is empty", spot.path));
-            let help = format!("write the key of [{}] that varies", self.block.name());
+            let help = format!("write the key of [{}] that varies", self.of.block.name());
             return Err(problem.help(help).into());
         };
         let others: Vec<_> = others.collect();
@@ -179,7 +168,7 @@ impl Kind for DecidedAxisOf {
                 .fold(problem, |p, (_, other)| p.label(&other.key, "another"));
             return Err(problem.help("remove all but one").into());
         }
-        let numbers = numbers(self.of, self.controlled);
+        let numbers = numbers(self.of.rows, self.controlled);
         let path = join(spot.path, key);
         let Some((row, scalar)) = numbers.iter().find(|(row, _)| row.name() == key) else {
             return Err(self.no_number(&path, entry, &numbers).into());
@@ -189,9 +178,12 @@ impl Kind for DecidedAxisOf {
             key: Some(row.name()),
         };
         Ok(Swept {
-            key: row.name(),
+            varied: Varied {
+                block: self.of.block,
+                key: row.name(),
+                dimension: scalar.dimension(),
+            },
             key_location: entry.key.clone(),
-            dimension: scalar.dimension(),
             values: Located {
                 value: Points(*scalar).convert(&entry.node, &spot)?,
                 path: path.clone(),
@@ -210,7 +202,7 @@ impl DecidedAxisOf {
         numbers: &[(&'static dyn AnyRow, Scalar)],
     ) -> Diagnostic {
         let names: Vec<&str> = numbers.iter().map(|(row, _)| row.name()).collect();
-        let block = self.block.name();
+        let block = self.of.block.name();
         let problem = Diagnostic::at(&entry.key, format!("`{path}` cannot be an axis"))
             .because(format!("no key of [{block}] that takes one number"));
         let key = path.rsplit('.').next().unwrap_or(path);
@@ -218,11 +210,7 @@ impl DecidedAxisOf {
             Some(meant) => problem.help(format!("write `{meant}` instead of `{key}`")),
             None => problem.help(format!(
                 "keys of [{block}] that can: {}",
-                names
-                    .iter()
-                    .map(|name| format!("`{name}`"))
-                    .collect::<Vec<_>>()
-                    .join(", ")
+                in_backticks(&names)
             )),
         }
     }
@@ -232,15 +220,14 @@ impl Swept {
     /// The table of a block with this value (SI units) in place of its own; what is wrong with it is told at the axis.
     pub(super) fn put_into(&self, block: &Table, value: f64) -> Table {
         let mut table = block.clone();
-        let number: Result<f64, NumberFault> = Ok(value);
         let entry = Entry {
             key: self.key_location.clone(),
             node: Node {
-                value: Value::Float(number),
+                value: Value::Float(Ok(value)),
                 location: self.values.location.clone(),
             },
         };
-        table.entries.insert(self.key.to_owned(), entry);
+        table.entries.insert(self.varied.key.to_owned(), entry);
         table
     }
 }

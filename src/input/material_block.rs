@@ -62,7 +62,11 @@ pub(crate) fn read(
     direct_sum: DirectSum,
     problems: &Problems,
 ) -> Option<Located<Material>> {
-    let body = read_body(root, folder, direct_sum, problems)?;
+    read_body(root, folder, direct_sum, problems).and_then(series_of)
+}
+
+/// A material as the series that it is; `None` for samples.
+pub(super) fn series_of(body: Located<BodyMaterial>) -> Option<Located<Material>> {
     let series = body.value.series().cloned()?;
     Some(body.map(|_| series))
 }

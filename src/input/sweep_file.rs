@@ -14,7 +14,6 @@ use super::keys;
 use super::keys::drive::{
     ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, MATERIAL_AXIS, REFINE,
 };
-use super::keys::material::TEMPERATURE;
 use super::keys::settings::{
     CYCLE_ACCURACY, CYCLE_ERROR_BARS, CYCLE_STEPS, CYCLE_TOLERANCE, ENGINE, MAX_CYCLES, METHOD,
     SOLVER_CELLS, SOLVER_SPRINGS, SOLVER_TOLERANCE, TIME_RULE,
@@ -26,9 +25,8 @@ use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::resolved::drive_dimension;
-use crate::sweep::plan::{Block, Condition, CyclePlan, SecondAxis, SolverPlan, SweepPlan, Varied};
+use crate::sweep::plan::{Block, Condition, CyclePlan, SecondAxis, SolverPlan, SweepPlan};
 use crate::sweep::scales::elastic::ElasticScale;
 
 const MAX_CASES: usize = SweepPlan::MAX_CASES;
@@ -106,15 +104,14 @@ type Blocks<'a> = (
 /// What the blocks of a file have in common.
 struct File<'a> {
     folder: &'a Path,
-    swept: Option<&'a (Block, Swept)>,
+    swept: Option<&'a Swept>,
     problems: &'a Problems,
 }
 
 impl File<'_> {
     /// The axis, where it is of this block.
     fn swept(&self, block: Block) -> Option<&Swept> {
-        let (of, swept) = self.swept?;
-        (*of == block).then_some(swept)
+        self.swept.filter(|swept| swept.varied.block == block)
     }
 
     /// Reads a block: once, and once more for each value of the axis. Where the block leaves out what the axis varies, the first
@@ -137,7 +134,7 @@ impl File<'_> {
             let name = block.name().to_owned();
             read(TableReader::new(&table, place.clone(), name, self.problems))
         };
-        let is_given = parsed.entries.contains_key(swept.key);
+        let is_given = parsed.entries.contains_key(swept.varied.key);
         let given = if is_given { Some(read(own)?) } else { None };
         let each: Option<Vec<T>> = swept.values.value.iter().map(with).collect();
         let each = each?;
@@ -149,13 +146,9 @@ impl File<'_> {
         let over = |t: TableReader<'_>, axis| {
             material_block::read_over(t, self.folder, DirectSum::Refused, axis, self.problems)
         };
-        let of_series = |body: Located<BodyMaterial>| {
-            let series = body.value.series().cloned()?;
-            Some(body.map(|_| series))
-        };
         match self.swept(Block::Material) {
             // One fit gives the material at every temperature.
-            Some(swept) if swept.key == TEMPERATURE.name => {
+            Some(swept) if swept.varied.is_temperature() => {
                 let (body, each) = over(root.table(&keys::MATERIAL)?, Some(&swept.values))?;
                 let place = body.location.clone();
                 let at = |material: Material| {
@@ -169,14 +162,14 @@ impl File<'_> {
                 Some((each.first()?.clone(), each))
             }
             _ => self.block(root, &keys::MATERIAL, Block::Material, |t| {
-                for_contact(of_series(over(t, None)?.0)?)
+                for_contact(material_block::series_of(over(t, None)?.0)?)
             }),
         }
     }
 
     /// The second axis, where there is one.
     fn axis(&self, (material, indenter, drive): Blocks<'_>) -> Option<SecondAxis> {
-        let (block, swept) = self.swept?;
+        let swept = self.swept?;
         let values = swept.values.value.iter().enumerate();
         let conditions = values.map(|(k, value)| Condition {
             value: Some(*value),
@@ -185,11 +178,7 @@ impl File<'_> {
             drive: *drive.1.get(k).unwrap_or(&drive.0),
         });
         Some(SecondAxis {
-            varied: Varied {
-                block: *block,
-                key: swept.key,
-                dimension: swept.dimension,
-            },
+            varied: swept.varied,
             conditions: conditions.collect(),
         })
     }
@@ -235,7 +224,7 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
 struct Axes {
     angular_frequencies_rad_per_s: Vec<f64>,
     given_in: FrequencyUnit,
-    swept: Option<(Block, Swept)>,
+    swept: Option<Swept>,
     refine: bool,
 }
 
@@ -246,12 +235,12 @@ fn axes(mut table: TableReader<'_>, controlled: Dimension, problems: &Problems) 
     let mut is_whole = true;
     for row in [&MATERIAL_AXIS, &INDENTER_AXIS, &DRIVE_AXIS] {
         match table.value(&row.of(controlled)) {
-            Some(swept) => all.extend(swept.map(|swept| (row.kind.block, swept))),
+            Some(swept) => all.extend(swept),
             None => is_whole = false,
         }
     }
     table.finish();
-    if let [(_, one), (_, other), ..] = all.as_slice() {
+    if let [one, other, ..] = all.as_slice() {
         problems
             .at(&one.key_location, "a sweep has one second axis")
             .because("one axis")
@@ -261,7 +250,7 @@ fn axes(mut table: TableReader<'_>, controlled: Dimension, problems: &Problems) 
     }
     let (frequencies, given_in) = frequencies?;
     let swept = all.pop();
-    if let Some((_, swept)) = &swept {
+    if let Some(swept) = &swept {
         let cases = swept.values.value.len() * frequencies.len();
         if cases > MAX_CASES {
             problems

@@ -163,10 +163,12 @@ pub fn of_cases(
     if let Some(leading) = named.iter().position(|c| c.name == unit.column()) {
         named[..=leading].rotate_right(1);
     }
-    let varied = axis.filter(|axis| axis.has_own_column()).map(|axis| Named {
-        name: axis.varied.column(),
-        cell: Box::new(|record: &CaseRecord| record.varied.into()),
-    });
+    let varied = axis
+        .filter(|axis| axis.varied.has_own_column())
+        .map(|axis| Named {
+            name: axis.varied.column(),
+            cell: Box::new(|record: &CaseRecord| record.varied.into()),
+        });
     if let (Some(column), Some(place)) = (varied, named.iter().position(|c| c.name == "drive_mean"))
     {
         named.insert(place, column);

@@ -43,7 +43,10 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
 
 /// What else a second axis varies than mean and amplitude, and from where to where: `radius of the indenter 1 mm to 10 mm`.
 pub fn varied_line(plan: &SweepPlan) -> Option<String> {
-    let axis = plan.axis.as_ref().filter(|axis| axis.has_own_column())?;
+    let axis = plan
+        .axis
+        .as_ref()
+        .filter(|axis| axis.varied.has_own_column())?;
     let value = |value| number::varied(&axis.varied, value);
     let (first, last) = (axis.values().next()?, axis.values().next_back()?);
     let words = axis.varied.words();

@@ -371,7 +371,7 @@ fn array_of_tables(path: &str, key: &str) -> String {
     }
 }
 
-fn in_backticks(keys: &[&str]) -> String {
+pub(in crate::input) fn in_backticks(keys: &[&str]) -> String {
     let quoted: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
     quoted.join(", ")
 }

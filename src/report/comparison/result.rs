@@ -31,6 +31,8 @@ pub enum ComparisonError {
 pub struct SweepTable {
     name: String,
     pub(super) columns: Vec<String>,
+    /// The one of them that holds what a second axis varies, where it is not of every table.
+    axis: Option<String>,
     places: HashMap<String, usize>,
     pub(super) rows: Vec<Row>,
     pub(super) peaks: Option<Vec<Peak>>,
@@ -94,6 +96,7 @@ impl SweepTable {
         };
         let mut result = Self {
             name: name.to_owned(),
+            axis: columns.iter().find(|name| is_of_axis(name)).cloned(),
             columns,
             places,
             rows: Vec::new(),
@@ -129,9 +132,8 @@ impl SweepTable {
         };
         let number = |column| Ok(self.number(&row, column)?.unwrap_or(0.0));
         let text = |column| self.cell(&row, column).unwrap_or_default().to_owned();
-        let varied = self.columns.iter().find(|name| is_of_axis(name));
         let place = Place {
-            varied: varied.map_or(Ok(None), |name| self.number(&row, name))?,
+            varied: (self.axis.as_ref()).map_or(Ok(None), |name| self.number(&row, name))?,
             drive_mean: number("drive_mean")?,
             drive_amplitude: number("drive_amplitude")?,
             angular_frequency_rad_per_s: number(FREQUENCY)?,

@@ -50,7 +50,7 @@ pub fn curves<'a>(plan: &SweepPlan, outcome: &'a Outcome, units: &Units) -> Vec<
 
 /// Columns that tell the cases of a sweep apart but for their frequency.
 pub fn place_columns(axis: Option<&SecondAxis>) -> Vec<String> {
-    let own = axis.filter(|axis| axis.has_own_column());
+    let own = axis.filter(|axis| axis.varied.has_own_column());
     let own = own.map(|axis| axis.varied.column());
     let drive = ["drive_mean", "drive_amplitude"].map(str::to_owned);
     own.into_iter().chain(drive).collect()
@@ -58,7 +58,7 @@ pub fn place_columns(axis: Option<&SecondAxis>) -> Vec<String> {
 
 /// Their cells: the varied number, mean and amplitude.
 pub fn place_cells(axis: Option<&SecondAxis>, varied: Option<f64>, drive: [f64; 2]) -> Vec<Cell> {
-    let own = axis.filter(|axis| axis.has_own_column());
+    let own = axis.filter(|axis| axis.varied.has_own_column());
     let own = own.map(|_| varied.into());
     own.into_iter().chain(drive.map(Cell::from)).collect()
 }

@@ -42,9 +42,9 @@ impl VariedUnit {
 
     /// The title of an axis: `load amplitude / N`, `temperature of the material / °C`.
     pub fn title(&self, varied: &Varied, control: Control) -> String {
-        let words = match varied.is_mean() || varied.is_amplitude() {
-            true => format!("{} {}", control.name(), varied.name()),
-            false => varied.words(),
+        let words = match varied.has_own_column() {
+            true => varied.words(),
+            false => format!("{} {}", control.name(), varied.name()),
         };
         match self.unit.as_str() {
             "" => words,
@@ -164,7 +164,7 @@ impl Units {
             let (factor, prefix) = prefix(largest);
             (factor, format!("{prefix}{}", dimension.si_unit()))
         };
-        let of_drive = varied.is_mean() || varied.is_amplitude();
+        let of_drive = !varied.has_own_column();
         let (factor, unit) = match varied.dimension {
             Some(Dimension::Force) if of_drive => self.load(largest),
             Some(Dimension::Length) if of_drive => self.approach(largest),

@@ -121,11 +121,17 @@ impl Varied {
     pub fn column(&self) -> String {
         let name = format!("{}_{}", self.block.name(), self.key);
         match self.dimension {
-            // Columns that every table has, in the unit of the control.
-            _ if self.is_mean() || self.is_amplitude() => name,
-            Some(dimension) => format!("{name}_{}", dimension.si_unit().to_lowercase()),
-            None => name,
+            Some(dimension) if self.has_own_column() => {
+                format!("{name}_{}", dimension.si_unit().to_lowercase())
+            }
+            // The columns that every table has are in the unit of the control.
+            _ => name,
         }
+    }
+
+    /// Whether tables take a column more for it: mean and amplitude of the drive stand in every table.
+    pub fn has_own_column(&self) -> bool {
+        !self.is_mean() && !self.is_amplitude()
     }
 
     pub fn is_mean(&self) -> bool {
@@ -176,11 +182,6 @@ impl SecondAxis {
         };
         let conditions = values.into_iter().map(under).collect::<Result<_, _>>()?;
         Ok(Self { varied, conditions })
-    }
-
-    /// Whether tables take a column more for it: mean and amplitude of the drive stand in every table.
-    pub fn has_own_column(&self) -> bool {
-        !self.varied.is_mean() && !self.varied.is_amplitude()
     }
 
     /// The values of the varied number, in SI units.

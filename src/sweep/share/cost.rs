@@ -79,19 +79,24 @@ impl Cost {
 impl Setup {
     /// Predicted cost of a case, in cycles: marching at a high frequency needs many to forget the start.
     pub fn predicted_cycles(&self, case: &Case) -> f64 {
-        // A condition of no plan, whose material makes no contact, ends at once.
-        let slowest_s = self.solid(&case.condition).map_or(0.0, |solid| {
-            let times = solid.compliance.branches().iter().map(|b| b.time_s);
-            times.fold(0.0, f64::max)
-        });
-        let cycles_to_forget = slowest_s * case.angular_frequency_rad_per_s / std::f64::consts::TAU;
-        let to_tolerance = -self.plan().cycle.tolerance.ln();
-        match self.plan().cycle.method {
+        let cycle = &self.plan().cycle;
+        match cycle.method {
             Method::Direct => 6.0,
             Method::March => {
-                (2.0 + cycles_to_forget * to_tolerance).min(self.plan().cycle.max_cycles as f64)
+                let cycles_to_forget =
+                    self.slowest_s(case) * case.angular_frequency_rad_per_s / std::f64::consts::TAU;
+                let to_tolerance = -cycle.tolerance.ln();
+                (2.0 + cycles_to_forget * to_tolerance).min(cycle.max_cycles as f64)
             }
         }
+    }
+
+    /// The longest retardation time (s) of a case; 0 for a condition of no plan, whose material makes no contact and ends at once.
+    fn slowest_s(&self, case: &Case) -> f64 {
+        self.solid(&case.condition).map_or(0.0, |solid| {
+            let times = solid.compliance.branches().iter().map(|b| b.time_s);
+            times.fold(0.0, f64::max)
+        })
     }
 }
 
@@ -145,9 +150,8 @@ fn step_s(setup: &Setup) -> Result<f64, SetupError> {
         EngineKind::HalfSpace if plan.indenter.own_cells().is_some() => plan.solver.nodes(),
         EngineKind::HalfSpace => plan.solver.nodes().min(CELLS_MEASURED),
     };
-    let conditions = plan.conditions();
-    let base = plan.condition();
-    let condition = conditions.first().unwrap_or(&base);
+    let first = plan.conditions().first().cloned();
+    let condition = &first.unwrap_or_else(|| plan.condition());
     let (drive, solid) = (&condition.drive, setup.solid(condition)?);
     let omegas = &plan.angular_frequencies_rad_per_s;
     let omega = omegas.get(omegas.len() / 2).copied().unwrap_or(1.0);
