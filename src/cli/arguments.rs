@@ -176,6 +176,9 @@ pub(super) struct SweepFlags {
     /// Write tables alone: no figures and no page
     #[arg(long)]
     pub(super) no_figures: bool,
+    /// Write cycles.npz, all cycles for NumPy, of more than 200 cases too
+    #[arg(long)]
+    pub(super) cycles: bool,
     /// Compute only the part K of N; `merge` joins parts in separate folders
     #[arg(long, value_name = "K/N")]
     pub(super) shard: Option<Shard>,
@@ -264,6 +267,9 @@ pub(super) struct ReportFlags {
     /// Write tables alone: no figures and no page
     #[arg(long)]
     pub(super) no_figures: bool,
+    /// Write cycles.npz, all cycles for NumPy, of more than 200 cases too
+    #[arg(long)]
+    pub(super) cycles: bool,
     /// Change one key of [figures], for example figures.width='85 mm'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(super) set: Vec<String>,

@@ -61,16 +61,18 @@ pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, F
     let job = Job {
         setup: &setup,
         store: &out,
+        records: &out,
         quiet: flags.quiet,
         format,
         figures: true,
+        cycles: false,
         stats: false,
         command: "merge",
         clock,
         threads: options.threads,
         found: progress.found(),
     };
-    job.finish(&outcome.map_err(failure)?)
+    job.finish(outcome.map_err(failure)?)
 }
 
 /// Draws tables and figures of a folder again.
@@ -100,22 +102,25 @@ pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended,
     let out = out
         .map(|out| Store::open(out, &changed, flags.force))
         .transpose();
-    let store = out.map_err(refused)?.unwrap_or(store);
+    let out = out.map_err(refused)?;
     let job = Job {
         setup: &setup,
-        store: &store,
+        store: out.as_ref().unwrap_or(&store),
+        records: &store,
         quiet: flags.quiet,
         format,
         figures: !flags.no_figures,
+        cycles: flags.cycles,
         stats: false,
         command: "report",
         clock,
         threads: 1,
         found: outcome.records.len(),
     };
-    let ended = job.finish(&outcome)?;
+    let ended = job.finish(outcome)?;
     if changed != resolved || flags.out.is_some() {
         // What the folder says of its figures must be what they are.
+        let store = out.as_ref().unwrap_or(&store);
         store.write(RESOLVED, changed.as_bytes()).map_err(refused)?;
     }
     Ok(match ended {

@@ -44,7 +44,9 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
         store: &store,
         quiet: flags.quiet,
         format,
+        records: &store,
         figures: !flags.no_figures,
+        cycles: flags.cycles,
         stats: flags.stats,
         command: "sweep",
         clock,
@@ -60,7 +62,7 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
     let outcome = run::run_with(&setup, &store, &options, &interrupt, &progress);
     progress.finish();
     job.found = progress.found();
-    job.finish(&outcome.map_err(failure)?)
+    job.finish(outcome.map_err(failure)?)
 }
 
 /// A folder whose contents must not be used is an input that is wrong; anything else that stops a run is not.
@@ -80,10 +82,14 @@ pub(super) fn failure(error: RunError) -> Failure {
 pub(super) struct Job<'a> {
     pub(super) setup: &'a Setup,
     pub(super) store: &'a Store,
+    /// Where the records are, which `report` may leave in another folder.
+    pub(super) records: &'a Store,
     pub(super) quiet: bool,
     pub(super) format: OutputFormat,
     /// Whether to draw figures and page.
     pub(super) figures: bool,
+    /// Whether to write the cycles of a large sweep for NumPy.
+    pub(super) cycles: bool,
     /// Whether to print what was done.
     pub(super) stats: bool,
     pub(super) command: &'static str,
@@ -95,13 +101,19 @@ pub(super) struct Job<'a> {
 
 impl Job<'_> {
     /// Writes tables, figures and where they come from, and prints the result.
-    pub(super) fn finish(&self, outcome: &Outcome) -> Result<Ended, Failure> {
+    pub(super) fn finish(&self, mut outcome: Outcome) -> Result<Ended, Failure> {
         let plan = self.setup.plan();
+        report::load_drawn_cycles(self.records, plan, &mut outcome).map_err(Failure::run)?;
+        let outcome = &outcome;
         let left_out = match self.figures {
             true => report::write_sweep(self.store, plan, outcome),
             false => report::write_tables_of_sweep(self.store, plan, outcome),
         };
         let left_out = left_out.map_err(Failure::run)?;
+        if self.cycles && !plan.is_small() {
+            let written = report::cycles::write(self.store, self.records, plan, outcome);
+            written.map_err(Failure::run)?;
+        }
         self.sign(outcome.records.len(), outcome.interrupted, None)?;
         if self.format == OutputFormat::Json {
             let hash = self.store.sweep_hash();
@@ -149,7 +161,7 @@ fn run_shard(
     job.found = progress.found();
     let done = part.records.len();
     job.sign(done, part.interrupted, Some(shard))?;
-    if let Some(whole) = &part.whole {
+    if let Some(whole) = part.whole {
         return job.finish(whole);
     }
     if job.format == OutputFormat::Json {

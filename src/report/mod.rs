@@ -30,6 +30,7 @@
 pub mod caption;
 pub mod chart;
 pub mod comparison;
+pub mod cycles;
 pub mod dynamic;
 pub mod figure;
 pub mod fit;
@@ -53,6 +54,7 @@ pub mod work_line;
 
 use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::plan::SweepPlan;
+use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::scales::elastic::NoScale;
 use crate::sweep::search::run::Outcome;
 use crate::sweep::store::files;
@@ -78,6 +80,28 @@ pub enum ReportError {
     Scale(#[from] NoScale),
     #[error("cannot make the table {name}: {reason}")]
     Table { name: &'static str, reason: String },
+}
+
+/// Reads the cycles of the cases that figures and page show, where the outcome does not hold them already.
+///
+/// # Errors
+/// [`ReportError`] where the folder cannot be read.
+pub fn load_drawn_cycles(
+    store: &Store,
+    plan: &SweepPlan,
+    outcome: &mut Outcome,
+) -> Result<(), ReportError> {
+    if plan.is_small() {
+        return Ok(());
+    }
+    let mut shown = figure::of_sweep::drawn(plan, outcome)?;
+    shown.extend(page::shown(plan, outcome)?);
+    for record in &mut outcome.records {
+        if shown.contains(&record.index) {
+            store.load_cycle(record)?;
+        }
+    }
+    Ok(())
 }
 
 /// Writes everything a sweep leaves behind: table, loops, pressures, work, summary, figures with their data. Returns what was left out and
@@ -118,15 +142,25 @@ fn tables_of_sweep(store: &Store, plan: &SweepPlan, outcome: &Outcome) -> Result
         "sweep.csv",
         &quantities::sweep(&outcome.records, branches, unit, plan.axis.as_ref()),
     )?;
-    for record in &outcome.records {
-        if let Some(result) = &record.result {
-            let name = |folder: &str| format!("{folder}/{}.csv", record.index);
-            store.write(name("loops"), &table::samples(&result.samples))?;
-            let pressures = table::pressures(&result.pressures, plan.drive.control());
-            store.write(name("pressures"), &pressures)?;
-            let work = WorkLine::of(&result.surface_loss, plan.indenter.as_ref());
-            store.write(name("work"), &table::work(&work))?;
-        }
+    // Of a large sweep these are the cases that are drawn.
+    let drawn = match plan.is_small() {
+        true => None,
+        false => Some(figure::of_sweep::drawn(plan, outcome)?),
+    };
+    let is_drawn = |record: &&CaseRecord| drawn.as_ref().is_none_or(|d| d.contains(&record.index));
+    for record in outcome.records.iter().filter(is_drawn) {
+        let Some(cycle) = record.result.as_ref().and_then(CaseResult::cycle) else {
+            continue;
+        };
+        let name = |folder: &str| format!("{folder}/{}.csv", record.index);
+        store.write(name("loops"), &table::samples(&cycle.samples))?;
+        let pressures = table::pressures(&cycle.pressures, plan.drive.control());
+        store.write(name("pressures"), &pressures)?;
+        let work = WorkLine::of(&cycle.surface_loss, plan.indenter.as_ref());
+        store.write(name("work"), &table::work(&work))?;
+    }
+    if plan.is_small() {
+        cycles::write(store, store, plan, outcome)?;
     }
     let summary = summary::summary(plan, outcome, store.sweep_hash())?;
     store.write("summary.json", &summary)?;

@@ -2,24 +2,36 @@
 
 /// A matrix of `rows` by `columns` values, given row by row, as the bytes of a .npy file.
 pub fn matrix(rows: usize, columns: usize, values: &[f64]) -> Vec<u8> {
+    let mut bytes = header(&[rows, columns]);
+    bytes.reserve(8 * values.len());
+    for value in values {
+        bytes.extend_from_slice(&value.to_le_bytes());
+    }
+    bytes
+}
+
+/// How the .npy file of an array of this shape begins; the values follow, the last index fastest, each in eight bytes, little endian.
+pub fn header(shape: &[usize]) -> Vec<u8> {
     const MAGIC: &[u8] = b"\x93NUMPY\x01\x00";
     /// The data begin at a multiple of this.
     const ALIGNMENT: usize = 64;
-    let header =
-        format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {columns}), }}");
+    let sides: String = shape.iter().map(|side| format!("{side}, ")).collect();
+    // A tuple of one has its comma; one of more ends without.
+    let sides = match shape {
+        [_] => sides.trim_end(),
+        _ => sides.trim_end_matches(", "),
+    };
+    let header = format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({sides}), }}");
     // Magic, two bytes of length, header, line feed.
     let unpadded = MAGIC.len() + 2 + header.len() + 1;
     let total = unpadded.next_multiple_of(ALIGNMENT);
     let length = (total - MAGIC.len() - 2) as u16;
-    let mut bytes = Vec::with_capacity(total + 8 * values.len());
+    let mut bytes = Vec::with_capacity(total);
     bytes.extend_from_slice(MAGIC);
     bytes.extend_from_slice(&length.to_le_bytes());
     bytes.extend_from_slice(header.as_bytes());
     bytes.resize(total - 1, b' ');
     bytes.push(b'\n');
-    for value in values {
-        bytes.extend_from_slice(&value.to_le_bytes());
-    }
     bytes
 }
 

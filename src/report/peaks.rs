@@ -39,7 +39,10 @@ impl PeakWords {
     }
 }
 
-/// All peaks, the largest first.
+/// Peaks that are listed; of many curves there are too many to be read.
+const SHOWN: usize = 20;
+
+/// The highest peaks, the largest first.
 pub fn all(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<PeakWords> {
     let unit = plan.figures.frequency_unit;
     let words = |(rank, peak): (usize, &Peak)| PeakWords {
@@ -58,7 +61,14 @@ pub fn all(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<Pe
         under: under(plan, peak).unwrap_or_default(),
         material: of_material(plan, peak).unwrap_or_default(),
     };
-    outcome.peaks.iter().enumerate().map(words).collect()
+    let peaks = outcome.peaks.iter().take(SHOWN);
+    peaks.enumerate().map(words).collect()
+}
+
+/// Where the peaks are that [`all`] leaves out; nothing where there are none.
+pub fn rest(outcome: &Outcome) -> Option<String> {
+    let rest = outcome.peaks.len().saturating_sub(SHOWN);
+    (rest > 0).then(|| format!("{rest} lower peaks more are in summary.json."))
 }
 
 fn of_material(plan: &SweepPlan, peak: &Peak) -> Option<String> {

@@ -155,7 +155,10 @@ impl Cycles<'_> {
         Ok(Case {
             f,
             numbers: ByEngine::of(self.numbers(&refined), computed),
-            samples: ByEngine::of(refined.samples, [springs.samples, on_cells.samples]),
+            samples: ByEngine::of(
+                refined.cycle.samples,
+                [springs.cycle.samples, on_cells.samples],
+            ),
             surfaces: [on_springs.surfaces, on_cells.surfaces],
             cell: on_cells.spacing_m / self.scale.contact_radius_m,
             closed: self.closed_forms(f),

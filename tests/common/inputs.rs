@@ -26,7 +26,8 @@ use contact_dma::sweep::plan::{Case, EngineKind};
 use contact_dma::sweep::search::run::Outcome;
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::archive::{Kept, Purpose};
-use contact_dma::sweep::store::sealed;
+use contact_dma::sweep::store::packed_record;
+use contact_dma::sweep::store::segment;
 use sha2::{Digest, Sha256};
 use tempfile::TempDir;
 
@@ -316,37 +317,30 @@ impl Folder {
         self.folder.path().join(name)
     }
 
-    /// What a record's content is before and behind the case, so that any case can be sealed as this program's own.
-    fn record_around_case(&self) -> (Vec<u8>, Vec<u8>) {
-        let record = self.setup.run(&self.case, &AtomicBool::new(false)).unwrap();
-        assert!(record.result.is_some(), "{:?}", record.message);
-        let plain = serde_json::to_string(&record).unwrap();
-        self.store
-            .save_case(Purpose::Sweep, &self.case, &record)
-            .unwrap();
-        let bytes = fs::read(self.path("records/0000.json")).unwrap();
-        let content = String::from_utf8(sealed::unseal(&bytes).unwrap().to_vec()).unwrap();
-        let (before, behind) = content.split_once(&plain).unwrap();
-        (before.into(), behind.into())
-    }
-
     /// The record of a solved case, as text.
     pub fn whole_case(&self) -> String {
         let record = self.setup.run(&self.case, &AtomicBool::new(false)).unwrap();
         serde_json::to_string(&record).unwrap()
     }
 
-    fn load(&self, record: &[u8]) -> Option<Outcome> {
-        fs::write(self.path("records/0000.json"), record).unwrap();
-        match self.store.load_case(Purpose::Sweep, &self.case) {
-            Ok(Kept::Intact(record)) => Some(Outcome {
-                records: vec![*record],
-                peaks: Vec::new(),
-                peak_problems: Vec::new(),
-                interrupted: true,
-            }),
-            Ok(Kept::Absent) => panic!("the record was written"),
-            Ok(Kept::OfAnotherBuild { .. } | Kept::Unusable { .. }) | Err(_) => None,
+    /// The outcome of a folder that holds this segment.
+    fn load(&self, segment: &[u8]) -> Option<Outcome> {
+        let _ = fs::remove_dir_all(self.path("records"));
+        fs::create_dir(self.path("records")).unwrap();
+        fs::write(self.path("records/any.segment"), segment).unwrap();
+        let (store, _) = Store::reopen_to_read(self.folder.path()).unwrap();
+        store.look().unwrap();
+        match store.load_case(Purpose::Sweep, &self.case) {
+            Ok(Kept::Intact(mut record)) => {
+                store.load_cycle(&mut record).unwrap();
+                Some(Outcome {
+                    records: vec![*record],
+                    peaks: Vec::new(),
+                    peak_problems: Vec::new(),
+                    interrupted: true,
+                })
+            }
+            Ok(Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. }) | Err(_) => None,
         }
     }
 }
@@ -354,16 +348,52 @@ impl Folder {
 /// Records, as they are and with a right checksum about them.
 pub struct Records {
     folder: Folder,
-    around: (Vec<u8>, Vec<u8>),
+    /// The segment of one whole record, and where its content begins and what is packed in it.
+    whole: Vec<u8>,
+    content: Vec<u8>,
+    packed: usize,
 }
 
 impl Records {
     pub fn new() -> Self {
         let folder = Folder::new("direct");
+        let record = folder
+            .setup
+            .run(&folder.case, &AtomicBool::new(false))
+            .unwrap();
+        assert!(record.result.is_some(), "{:?}", record.message);
+        let saved = folder
+            .store
+            .save_case(Purpose::Sweep, &folder.case, &record);
+        saved.unwrap();
+        let segment = fs::read_dir(folder.path("records"))
+            .unwrap()
+            .next()
+            .unwrap();
+        let whole = fs::read(segment.unwrap().path()).unwrap();
+        let mut content = Vec::new();
+        let meet = |met: segment::Met<'_>| {
+            if let segment::Met::Record { content: of, .. } = met {
+                content = of.to_vec();
+            }
+        };
+        let path = fs::read_dir(folder.path("records"))
+            .unwrap()
+            .next()
+            .unwrap();
+        segment::read(&path.unwrap().path(), 0, meet).unwrap();
+        let packed = content.len() - packed_record::pack(&record).unwrap().len();
         Self {
-            around: folder.record_around_case(),
             folder,
+            whole,
+            content,
+            packed,
         }
+    }
+
+    /// The bytes of a segment of one record.
+    pub fn whole(&self) -> &[u8] {
+        &self.whole
     }
 
     /// The case of a whole record.
@@ -371,13 +401,32 @@ impl Records {
         self.folder.whole_case()
     }
 
-    /// A case whose checksum is right is refused, or makes tables and a page.
+    /// What is packed in a whole record.
+    pub fn whole_packed(&self) -> &[u8] {
+        &self.content[self.packed..]
+    }
+
+    /// A case that can be read is stored, and refused as that of something else, or makes tables and a page.
     pub fn case(&self, case: &[u8]) -> bool {
-        let (before, behind) = &self.around;
-        let content = [before, case, behind].concat();
-        let Some(outcome) = self.folder.load(&sealed::seal(&content)) else {
+        let Ok(record) = serde_json::from_slice(case) else {
             return false;
         };
+        let packed = packed_record::pack(&record).unwrap();
+        assert_eq!(
+            packed_record::numbers(&packed),
+            Some(record.without_cycle())
+        );
+        self.packed(&packed)
+    }
+
+    /// Whatever is packed under a right checksum is refused, or makes tables and a page.
+    pub fn packed(&self, packed: &[u8]) -> bool {
+        let content = [&self.content[..self.packed], packed].concat();
+        let outcome = self.folder.load(&segment::sealed(&content).unwrap());
+        outcome.is_some_and(|outcome| self.is_told(&outcome))
+    }
+
+    fn is_told(&self, outcome: &Outcome) -> bool {
         let (plan, hash) = (self.folder.setup.plan(), self.folder.store.sweep_hash());
         let branches = outcome.retardation_times_s().len();
         let _ = quantities::sweep(
@@ -387,20 +436,21 @@ impl Records {
             plan.axis.as_ref(),
         );
         for result in outcome.records.iter().filter_map(|r| r.result.as_ref()) {
-            let _ = table::samples(&result.samples);
-            let _ = table::pressures(&result.pressures, plan.drive.control());
-            let line = WorkLine::of(&result.surface_loss, plan.indenter.as_ref());
+            let _ = table::samples(&result.cycle.samples);
+            let _ = table::pressures(&result.cycle.pressures, plan.drive.control());
+            let line = WorkLine::of(&result.cycle.surface_loss, plan.indenter.as_ref());
             let _ = table::work(&line);
         }
-        let _ = machine::sweep(plan, &outcome, hash);
-        let _ = page::sweep(plan, &outcome, &page::Pictures::default(), hash);
+        let _ = machine::sweep(plan, outcome, hash);
+        let _ = page::sweep(plan, outcome, &page::Pictures::default(), hash);
         true
     }
 
-    /// Bytes that are not a record are not taken for one.
+    /// Bytes of a segment hold the whole record or none.
     pub fn bytes(&self, bytes: &[u8]) -> bool {
         let taken = self.folder.load(bytes).is_some();
-        assert!(!taken || sealed::unseal(bytes).is_some());
+        let frame = self.whole.as_slice();
+        assert!(!taken || bytes.windows(frame.len()).any(|part| part == frame));
         taken
     }
 }

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // Each test file uses its own part.
 
+use crate::segments;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command as Process, Stdio};
@@ -10,10 +11,19 @@ use std::time::{Duration, Instant, SystemTime};
 /// The files that must not depend on how a run came to its end.
 pub fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut files = every_file(folder);
-    files.retain(|(name, _)| {
-        let name = name.file_name().unwrap().to_str().unwrap();
-        !name.starts_with("run")
+    files.retain(|(path, _)| {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        !name.starts_with("run") && !path.starts_with("records")
     });
+    // Records lie in segments in the order in which they were finished, and some of them twice.
+    let mut records = segments::read(folder);
+    records.dedup();
+    let records = records.into_iter().enumerate();
+    files.extend(records.map(|(k, stored)| {
+        let heading = format!("{:?}", stored.heading).into_bytes();
+        let name = PathBuf::from(format!("records, number {k}"));
+        (name, [heading, stored.record].concat())
+    }));
     files
 }
 

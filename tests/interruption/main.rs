@@ -4,6 +4,8 @@
 mod kills;
 #[path = "../common/program.rs"]
 mod program;
+#[path = "../common/segments.rs"]
+mod segments;
 
 mod one_plan;
 mod simulate_survival;

@@ -9,8 +9,8 @@ use std::process::{Child, Command as Process, Output, Stdio};
 
 use crate::kills::{assert_same, signal, wait_for};
 use crate::program::{pmma_sweep, program, write};
+use crate::segments;
 use contact_dma::sweep::plan::resolved::hash;
-use contact_dma::sweep::store::sealed;
 use predicates::prelude::*;
 use predicates::str::contains;
 use tempfile::TempDir;
@@ -86,23 +86,16 @@ fn hashes(out: &Path) -> (BTreeSet<String>, usize) {
         let named = json.get("sweep_hash").or(json.get("scenario_hash"));
         named.unwrap().as_str().unwrap().to_owned()
     };
-    let mut records = 0;
-    for folder in ["records", "peaks"] {
-        let entries = fs::read_dir(out.join(folder));
-        for entry in entries.into_iter().flatten() {
-            let path = entry.unwrap().path();
-            // What is being written has no ending yet.
-            if path.extension().is_some_and(|ending| ending == "json") {
-                let bytes = fs::read(path).unwrap();
-                hashes.insert(of(sealed::unseal(&bytes).unwrap()));
-                records += 1;
-            }
-        }
-    }
+    let records = segments::read(out);
+    hashes.extend(
+        records
+            .iter()
+            .map(|stored| stored.heading.sweep_hash.clone()),
+    );
     if let Ok(summary) = fs::read(out.join("summary.json")) {
         hashes.insert(of(&summary));
     }
-    (hashes, records)
+    (hashes, records.len())
 }
 
 /// Who was refused says so, of this folder and for what to do; the others came to their end.
@@ -181,9 +174,7 @@ fn stop(child: &Child) {
 /// A sweep of [`MANY`] that has some of its records.
 fn begun(file: &str, out: &Path) -> Child {
     let child = start(&[&["sweep", file], &MANY[..]].concat(), out);
-    wait_for("no case was finished", || {
-        fs::read_dir(out.join("records")).map_or(0, Iterator::count) > 2
-    });
+    wait_for("no case was finished", || segments::count(out) > 2);
     child
 }
 

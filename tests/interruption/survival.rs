@@ -13,6 +13,7 @@ use crate::kills::{
     wait_for,
 };
 use crate::program::{program, write};
+use crate::segments::{self, Stored};
 use predicates::prelude::*;
 use predicates::str::contains;
 use tempfile::TempDir;
@@ -105,21 +106,27 @@ fn finished_cases_are_read_and_damaged_ones_named_and_computed_again() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
     let (whole, out) = (whole_cheap(), copy_of_cheap(&folder));
-    let record = |k: usize| out.join(format!("records/{k:04}.json"));
-    for k in 10..20 {
-        fs::remove_file(record(k)).unwrap();
-    }
-    let torn = fs::read(record(30)).unwrap();
-    fs::write(record(30), &torn[..torn.len() / 2]).unwrap();
-    let mut flipped = fs::read(record(31)).unwrap();
-    flipped[200] ^= 4;
-    fs::write(record(31), flipped).unwrap();
+    let mut records = segments::read(&out);
+    // Number 30 of the cases is torn, as if its process had been killed: the end of its own segment.
+    let torn = records.remove(30);
+    records.drain(10..20);
+    segments::replace(&out, &[torn]);
+    let path = out.join("records/torn.segment");
+    fs::rename(segments::one(&out), &path).unwrap();
+    let bytes = fs::read(&path).unwrap();
+    let places = segments::replace(&out, &records);
+    fs::write(&path, &bytes[..bytes.len() / 2]).unwrap();
+    let mut flipped = fs::read(segments::one(&out)).unwrap();
+    let (from, to) = places[20];
+    flipped[from + 200] ^= 4;
+    fs::write(segments::one(&out), flipped).unwrap();
+    let named = format!("one.segment: bytes {from} to {to} are damaged or torn");
     fs::remove_file(out.join("sweep.csv")).unwrap();
     sweep(&file, &out, &["--threads", "1"])
         .success()
         .stderr(contains("48 of 60 cases were already done"))
-        .stderr(contains("0030.json").and(contains("0031.json")))
-        .stderr(contains("damaged or torn"));
+        .stderr(contains(named))
+        .stderr(contains("torn.segment: its last").and(contains("without its end")));
     assert_same(&out, &whole);
     sweep(&file, &out, &[])
         .success()
@@ -156,35 +163,24 @@ fn a_record_of_a_newer_program_is_not_replaced_unless_told_to() {
     let one = ["--quiet", "--set", "sweep.angular_frequency=[0.01]"];
     sweep(&file, &out, &one).success();
     let whole = results(&out);
-    let path = out.join("records/0000.json");
-    let text = fs::read_to_string(&path).unwrap();
-    let (_, content) = text.split_once("\"content\":").unwrap();
-    let content = content.strip_suffix("}\n").unwrap();
-    let here = format!("\"program_version\":\"{}\"", env!("CARGO_PKG_VERSION"));
-    assert!(content.contains(&here));
-    let newer = content.replace(&here, "\"program_version\":\"1000.0.0\"");
-    fs::write(
-        &path,
-        contact_dma::sweep::store::sealed::seal(newer.as_bytes()),
-    )
-    .unwrap();
+    let mut records = segments::read(&out);
+    assert_eq!(
+        records[0].heading.program_version,
+        env!("CARGO_PKG_VERSION")
+    );
+    records[0].heading.program_version = "1000.0.0".to_owned();
+    segments::replace(&out, &records);
     sweep(&file, &out, &one)
         .code(2)
         .stderr(contains("1000.0.0").and(contains("--force")));
-    assert!(fs::read_to_string(&path).unwrap().contains("1000.0.0"));
+    assert_eq!(segments::read(&out), records);
     sweep(&file, &out, &[&one[..], &["--force"]].concat()).success();
+    let own: Vec<_> = segments::read(&out)
+        .into_iter()
+        .filter(|r| *r != records[0])
+        .collect();
+    segments::replace(&out, &own);
     assert_eq!(results(&out), whole);
-}
-
-/// Makes a record one of another build of the same version.
-fn of_another_build(path: &Path) {
-    use contact_dma::sweep::store::{provenance::BUILD, sealed};
-    let bytes = fs::read(path).unwrap();
-    let content = std::str::from_utf8(sealed::unseal(&bytes).unwrap()).unwrap();
-    let here = format!("\"build\":\"{BUILD}\"");
-    assert!(content.contains(&here));
-    let other = content.replace(&here, "\"build\":\"0123456789abcdef\"");
-    fs::write(path, sealed::seal(other.as_bytes())).unwrap();
 }
 
 #[test]
@@ -192,17 +188,17 @@ fn records_of_another_build_are_computed_again_by_a_sweep_and_shown_by_a_report(
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
     let (whole, out) = (whole_cheap(), copy_of_cheap(&folder));
-    let other = out.join("records/0005.json");
-    of_another_build(&other);
-    let altered = fs::read(&other).unwrap();
+    let mut records = segments::read(&out);
+    records[5].heading.build = "0123456789abcdef".to_owned();
+    segments::replace(&out, &records);
     let report = || {
         let mut command = program();
         command.arg("report").arg(&out).assert()
     };
     report().success().stderr(
-        contains("0005.json: it was written by another build").and(contains("as they are")),
+        contains("one.segment: it was written by another build").and(contains("as they are")),
     );
-    assert_eq!(fs::read(&other).unwrap(), altered);
+    assert_eq!(segments::read(&out), records);
     // One result is that of one build.
     let merged = folder.path().join("merged");
     program()
@@ -212,12 +208,17 @@ fn records_of_another_build_are_computed_again_by_a_sweep_and_shown_by_a_report(
         .arg(&merged)
         .assert()
         .code(1)
-        .stderr(contains("0005.json: it was written by another build"))
+        .stderr(contains("one.segment: it was written by another build"))
         .stderr(contains("1 of 60 cases are in none of the parts"));
     sweep(&file, &out, &[])
         .success()
         .stderr(contains("59 of 60 cases were already done"))
-        .stderr(contains("0005.json: it was written by another build").and(contains("again")));
+        .stderr(contains("one.segment: it was written by another build").and(contains("again")));
+    let own: Vec<_> = segments::read(&out)
+        .into_iter()
+        .filter(|r| *r != records[5])
+        .collect();
+    segments::replace(&out, &own);
     assert_same(&out, &whole);
 }
 
@@ -298,7 +299,7 @@ fn a_long_case_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() {
                 how == "-KILL" || status.code() == Some(130),
                 "{name} {round}"
             );
-            assert!(!out.join("records/0000.json").exists(), "{name}: too quick");
+            assert_eq!(segments::count(&out), 0, "{name}: too quick");
         }
         sweep(&file, &out, &["--quiet"]).success();
         assert!(!out.join("checkpoints").exists());
@@ -324,7 +325,7 @@ fn a_clock_that_jumps_between_interruption_and_resumption_changes_nothing() {
         // What a killed process leaves is swept out, however old or young it claims to be.
         let left_over = leave_half_a_file(&out);
         set_clock_back_and_forth(&out);
-        let kept = fs::read_dir(out.join("records")).map_or(0, Iterator::count);
+        let kept = segments::count(&out);
         sweep(&file, &out, &[])
             .success()
             .stderr(contains(format!("{kept} of 60 cases were already done")).or(contains("1/1")))
@@ -412,10 +413,7 @@ fn a_second_interrupt_ends_the_program_at_once_and_the_next_run_goes_on() {
     let file = write(&folder, "cheap.toml", CHEAP);
     let (whole, out) = (whole_cheap(), folder.path().join("out"));
     let mut child = start(&file, &out, &["--threads", "1"]);
-    let records = out.join("records");
-    wait_for("no case was finished", || {
-        fs::read_dir(&records).map_or(0, Iterator::count) > 2
-    });
+    wait_for("no case was finished", || segments::count(&out) > 2);
     signal(&child, "-INT");
     signal(&child, "-INT");
     assert_eq!(child.wait().unwrap().code(), Some(130));
@@ -465,21 +463,27 @@ fn a_full_disk_is_told_and_what_was_whole_before_stays_whole() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "cheap.toml", CHEAP);
     let out = folder.path().join("out");
-    let Some(_disk) = Small::mount(&out, "size=200k") else {
+    let Some(disk) = Small::mount(&out, "size=200k") else {
         println!("skipped: no small file system can be mounted here");
         return;
     };
     sweep(&file, &out, &["--quiet"])
         .code(1)
         .stderr(contains("cannot write").and(contains("No space left")));
-    let records: Vec<_> = fs::read_dir(out.join("records")).unwrap().collect();
-    assert!(!records.is_empty());
-    for entry in records {
-        let path = entry.unwrap().path();
-        let bytes = fs::read(&path).unwrap();
-        let whole = contact_dma::sweep::store::sealed::unseal(&bytes).is_some();
-        assert!(whole, "{} is half-written", path.display());
-    }
+    let records = segments::count(&out);
+    assert!(records > 0);
+    let mut copying = Process::new("cp");
+    copying.arg("-r").arg(&out).arg(folder.path().join("kept"));
+    assert!(copying.status().unwrap().success());
+    drop(disk);
+    // What was taken back has left no torn end.
+    let freed = folder.path().join("freed");
+    fs::rename(folder.path().join("kept"), &freed).unwrap();
+    sweep(&file, &freed, &[])
+        .success()
+        .stderr(contains(format!("{records} of 60 cases were already done")))
+        .stderr(contains("torn").not());
+    assert_same(&freed, &whole_cheap());
 }
 
 #[test]
@@ -600,8 +604,10 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
     report().success().stdout(contains("Peak: "));
     assert_same(&out, &whole);
     // Without the losses that locate the peak everything else is drawn, and what the peak takes is said.
-    let peaks = folder.path().join("peaks");
-    fs::rename(out.join("peaks"), &peaks).unwrap();
+    let records = segments::read(&out);
+    let (cases, peaks): (Vec<_>, Vec<_>) = records.into_iter().partition(Stored::is_of_sweep);
+    assert!(!peaks.is_empty());
+    segments::replace(&out, &cases);
     fs::remove_file(out.join("energy-loss.svg")).unwrap();
     let printed = report().success().get_output().stdout.clone();
     let printed = String::from_utf8(printed).unwrap();
@@ -617,12 +623,16 @@ fn tables_and_figures_are_drawn_again_from_records_alone() {
     assert!(out.join("energy-loss.svg").exists());
     let summary = fs::read_to_string(out.join("summary.json")).unwrap();
     assert!(summary.contains("\"interrupted\": false"), "{summary}");
-    fs::remove_dir_all(out.join("peaks")).unwrap_or_default();
-    fs::rename(&peaks, out.join("peaks")).unwrap();
     // A record that is gone leaves a gap; nothing is solved for it.
-    fs::remove_file(out.join("records/0005.json")).unwrap();
+    let without: Vec<_> = cases
+        .iter()
+        .chain(&peaks)
+        .filter(|r| **r != cases[5])
+        .cloned()
+        .collect();
+    segments::replace(&out, &without);
     report().code(3).stdout(contains("59 of 60 cases are done"));
-    assert!(!out.join("records/0005.json").exists());
+    assert_eq!(segments::read(&out), without);
 }
 
 #[test]

@@ -101,7 +101,7 @@ fn the_work_over_the_surface_adds_up_to_the_loss() {
         plan.solver.engine = engine;
         plan.solver.cells = 48;
         let found = result(&plan, 0.0084);
-        let (total_j, tolerance) = match &found.surface_loss {
+        let (total_j, tolerance) = match &found.cycle.surface_loss {
             SurfaceLoss::Radial {
                 radius_m,
                 density_j_per_m2,

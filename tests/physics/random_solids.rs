@@ -352,7 +352,12 @@ fn no_pressure_that_is_reported_pulls() {
     let cases = plans(&mut random, 4, |_| Arc::new(Sphere::new(0.01).unwrap()));
     for (plan, omega) in &cases {
         let found = solved(plan, *omega).unwrap();
-        for line in found.pressures.iter().flat_map(|profile| &profile.lines) {
+        for line in found
+            .cycle
+            .pressures
+            .iter()
+            .flat_map(|profile| &profile.lines)
+        {
             let peak_pa = line
                 .pressure_pa
                 .iter()

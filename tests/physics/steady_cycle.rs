@@ -272,7 +272,7 @@ fn the_zener_body_has_the_steady_cycles_of_the_exact_solution() {
 fn the_zener_body_has_different_contacts_at_the_same_load_going_up_and_down() {
     let (radius_m, ..) = zener_hertz();
     for (f, up, down) in [(0.4, 0.903, 0.987), (0.8, 0.918, 0.970)] {
-        let found = result(&zener_plan(), TAU * f).samples;
+        let found = result(&zener_plan(), TAU * f).cycle.samples;
         let quarter = (found.load_n.len() - 1) / 4;
         for (i, expected) in [(quarter, up), (3 * quarter, down)] {
             assert!(relative(found.load_n[i], 0.5 * MEAN_N).abs() < 1e-12);

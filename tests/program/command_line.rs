@@ -72,7 +72,7 @@ fn a_sweep_prints_its_table_and_leaves_every_file() {
         "loops/2.csv",
         "pressures/1.csv",
         "work/1.csv",
-        "records/0001.json",
+        "cycles.npz",
     ] {
         assert!(out.join(name).is_file(), "{name} is missing");
     }

@@ -20,6 +20,7 @@ mod figures;
 mod fuzz_inputs;
 mod guides;
 mod input_keys;
+mod large_sweep;
 mod library;
 mod machine_output;
 mod page;

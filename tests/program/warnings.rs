@@ -6,6 +6,10 @@ use std::fs;
 
 use crate::html::{between, unescaped};
 use crate::program::{SVG_ALONE, pmma_sweep, program, write};
+use contact_dma::input::document::Document;
+use contact_dma::input::sweep_file;
+use contact_dma::sweep::store::Store;
+use contact_dma::sweep::store::archive::{Kept, Purpose};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -110,9 +114,14 @@ fn ten_newtons_on_a_tip_of_ten_nanometres_are_warned_of_everywhere() {
     assert!(left.printed.contains("(all cases)"));
     // a/R of the record, which the slope of the paraboloid is, and a fifth of it.
     let out = left.folder.path().join("out");
-    let record = fs::read_to_string(out.join("records/0001.json")).unwrap();
-    let record: Value = serde_json::from_str(&record).unwrap();
-    let case = &record["content"]["case"];
+    let plan = fs::read_to_string(out.join("resolved.toml")).unwrap();
+    let plan = sweep_file::plan(&Document::parse("resolved.toml", &plan).unwrap());
+    let (store, _) = Store::reopen_to_read(&out).unwrap();
+    let case = &plan.ok().unwrap().cases()[1];
+    let Kept::Intact(case) = store.load_case(Purpose::Sweep, case).unwrap() else {
+        panic!("no record");
+    };
+    let case = serde_json::to_value(*case).unwrap();
     let ratio = case["result"]["contact_radius_m"]["maximum"]
         .as_f64()
         .unwrap()

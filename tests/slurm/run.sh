@@ -147,7 +147,7 @@ scontrol show job "${array}_2" | grep -E -o 'Restarts=[0-9]+' | sed 's/^/slurm: 
 scontrol show job "${array}_2" | grep -q 'Restarts=1'
 
 "$program" sweep "$work/sweep.toml" --quiet --out "$work/single"
-for file in sweep.csv summary.json energy-loss.png loops.svg records/0000.json records/0015.json; do
+for file in sweep.csv summary.json energy-loss.png loops.svg cycles.npz; do
     cmp "$work/merged/$file" "$work/single/$file"
 done
 echo "slurm: 4 tasks, one killed and requeued, merged: identical to a single process"
@@ -162,7 +162,7 @@ command=$(sed -n '/^```console$/,/^```$/s/^\$ //p' "$guide")
 SCRATCH=$work/guide bash -e -c "$command"
 patience 400 "the guide's jobs do not end" gone
 "$program" sweep many.toml --quiet --out single
-for file in sweep.csv summary.json energy-loss.png records/0000.json records/0003.json; do
+for file in sweep.csv summary.json energy-loss.png cycles.npz; do
     cmp "many/$file" "single/$file"
 done
 echo "slurm: the guide's $command: identical to a single process"

@@ -18,34 +18,37 @@ pub struct Curve<'a> {
 
 /// The curves of a sweep, in the order of its conditions, labelled in these units; those without any case are left out.
 pub fn curves<'a>(plan: &SweepPlan, outcome: &'a Outcome, units: &Units) -> Vec<Curve<'a>> {
-    let curve = |condition: &Condition| {
-        let varied = plan.axis.as_ref().map(|axis| axis.varied);
-        let label = varied.zip(condition.value).map(|(varied, value)| {
-            let value = units.varied_value(&varied, value);
-            format!("{} {value}", varied.name())
-        });
-        let sentence = varied.zip(label.as_ref()).map(|(varied, label)| {
-            let of = match varied.block {
-                Block::Drive => "Drive",
-                Block::Indenter => "Indenter",
-                Block::Material => "Material",
-            };
-            format!("{of}: {label}.")
-        });
-        Curve {
-            condition: condition.clone(),
-            label,
-            sentence,
-            records: outcome
-                .records
-                .iter()
-                .filter(|record| record.is_of(condition))
-                .collect(),
-        }
-    };
+    // Records stand curve after curve, in the order of the conditions.
+    let mut rest = outcome.records.iter().peekable();
     let conditions = plan.conditions();
-    let curves = conditions.iter().map(curve);
+    let curves = conditions.iter().map(|condition| Curve {
+        records: std::iter::from_fn(|| rest.next_if(|record| record.is_of(condition))).collect(),
+        ..empty(plan, condition, units)
+    });
     curves.filter(|curve| !curve.records.is_empty()).collect()
+}
+
+/// The curve under a condition, without its cases.
+fn empty<'a>(plan: &SweepPlan, condition: &Condition, units: &Units) -> Curve<'a> {
+    let varied = plan.axis.as_ref().map(|axis| axis.varied);
+    let label = varied.zip(condition.value).map(|(varied, value)| {
+        let value = units.varied_value(&varied, value);
+        format!("{} {value}", varied.name())
+    });
+    let sentence = varied.zip(label.as_ref()).map(|(varied, label)| {
+        let of = match varied.block {
+            Block::Drive => "Drive",
+            Block::Indenter => "Indenter",
+            Block::Material => "Material",
+        };
+        format!("{of}: {label}.")
+    });
+    Curve {
+        condition: condition.clone(),
+        label,
+        sentence,
+        records: Vec::new(),
+    }
 }
 
 /// Columns that tell the cases of a sweep apart but for their frequency.

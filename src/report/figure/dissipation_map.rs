@@ -23,7 +23,7 @@ pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
         .iter()
         .max_by(|a, b| loss(a.1).total_cmp(&loss(b.1)));
     let field = largest.and_then(|(record, result)| {
-        let field = Field::of(&result.surface_loss)?;
+        let field = Field::of(&result.cycle.surface_loss)?;
         Some((record, result, field))
     });
     let Some((record, result, field)) = field else {
@@ -38,7 +38,7 @@ pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
         name: "dissipation-map",
         picture: field.map(title, units).into(),
         caption: caption(curve, record, units),
-        data: data(&result.surface_loss),
+        data: data(&result.cycle.surface_loss),
     })
 }
 

@@ -2,6 +2,7 @@
 //! indenter that is not of revolution, along x through the centre of the work.
 
 use super::curve::{Curve, chosen};
+use super::loops::LOOPS;
 use super::units::Units;
 use super::{Drawn, Figure};
 use crate::indenter::Indenter;
@@ -12,9 +13,6 @@ use crate::report::table::{cells, csv_leading};
 use crate::report::words::listed;
 use crate::report::work_line::{WorkAlong, WorkLine};
 use crate::sweep::record::CaseRecord;
-
-/// Profiles in one figure; more cannot be told apart.
-const PROFILES: usize = 5;
 
 /// A case with its line.
 type Profile<'a> = (&'a CaseRecord, WorkLine);
@@ -28,9 +26,9 @@ pub fn figure(
     units: &Units,
 ) -> Drawn {
     let results = curve.results();
-    let profiles: Vec<Profile<'_>> = chosen(&results, asked_rad_per_s, PROFILES)
+    let profiles: Vec<Profile<'_>> = chosen(&results, asked_rad_per_s, LOOPS)
         .into_iter()
-        .map(|(record, result)| (record, WorkLine::of(&result.surface_loss, indenter)))
+        .map(|(record, result)| (record, WorkLine::of(&result.cycle.surface_loss, indenter)))
         .filter(|(_, line)| line.points.iter().any(|(_, density)| density.is_some()))
         .collect();
     if results.is_empty() {

@@ -12,7 +12,7 @@ use crate::report::words::listed;
 use crate::sweep::record::{CaseRecord, CaseResult};
 
 /// Loops in one figure; more cannot be told apart.
-const LOOPS: usize = 5;
+pub const LOOPS: usize = 5;
 
 /// The figure: of the converged cases of a curve those nearest to the frequencies asked for (rad/s), or some evenly spread, the
 /// one with the largest loss among them.
@@ -22,10 +22,10 @@ pub fn figure(curve: &Curve<'_>, asked_rad_per_s: &[f64], units: &Units) -> Figu
         let values = chosen.iter().flat_map(|(_, result)| signal(result));
         largest(values.map(|value| value.abs()))
     };
-    let (to_load, load_unit) = units.load(of(|r| &r.samples.load_n));
-    let (to_approach, approach_unit) = units.approach(of(|r| &r.samples.approach_m));
+    let (to_load, load_unit) = units.load(of(|r| &r.cycle.samples.load_n));
+    let (to_approach, approach_unit) = units.approach(of(|r| &r.cycle.samples.approach_m));
     let series = chosen.iter().enumerate().map(|(step, (record, result))| {
-        let samples = &result.samples;
+        let samples = &result.cycle.samples;
         let points = samples.approach_m.iter().zip(&samples.load_n);
         Series::line(points.map(|(d, w)| (to_approach * d, to_load * w)))
             .label(units.frequency_label(record.angular_frequency_rad_per_s))
@@ -68,7 +68,12 @@ fn caption(curve: &Curve<'_>, chosen: &[(&CaseRecord, &CaseResult)], units: &Uni
 fn data(chosen: &[(&CaseRecord, &CaseResult)], units: &Units) -> Vec<u8> {
     let columns = ["angular_frequency_rad_per_s", "approach_m", "load_n"];
     let rows = chosen.iter().flat_map(|(record, result)| {
-        let samples = result.samples.approach_m.iter().zip(&result.samples.load_n);
+        let samples = result
+            .cycle
+            .samples
+            .approach_m
+            .iter()
+            .zip(&result.cycle.samples.load_n);
         let omega = record.angular_frequency_rad_per_s;
         samples.map(move |(approach, load)| cells![omega, *approach, *load])
     });

@@ -1,6 +1,8 @@
 //! All figures of a sweep, as far as they apply to it.
 
-use super::curve::{curves, largest};
+use std::collections::BTreeSet;
+
+use super::curve::{Curve, chosen, curves, largest};
 use super::equivalent::Equivalent;
 use super::units::Units;
 use super::{
@@ -10,6 +12,7 @@ use super::{
 };
 use crate::report::ReportError;
 use crate::sweep::plan::SweepPlan;
+use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::search::run::Outcome;
 
 /// The figures, and what was left out and why.
@@ -64,4 +67,27 @@ pub fn figures(
         }
     }
     Ok((figures, left_out))
+}
+
+/// The cases whose cycles the figures show: of the curve of the largest loss.
+///
+/// # Errors
+/// As [`figures`].
+pub fn drawn(plan: &SweepPlan, outcome: &Outcome) -> Result<BTreeSet<usize>, ReportError> {
+    let units = Units::of_sweep(plan)?;
+    let curves = curves(plan, outcome, &units);
+    let Some(curve) = largest(&curves) else {
+        return Ok(BTreeSet::new());
+    };
+    Ok(cycles_of(curve, &plan.figures.loops_rad_per_s))
+}
+
+/// The cases of a curve whose cycles are shown, where those at some frequencies are asked for or none.
+pub fn cycles_of(curve: &Curve<'_>, asked_rad_per_s: &[f64]) -> BTreeSet<usize> {
+    let results = curve.results();
+    let loss = |(_, result): &&(&CaseRecord, &CaseResult)| result.analysis.energy_loss_j;
+    let highest = results.iter().max_by(|a, b| loss(a).total_cmp(&loss(b)));
+    let shown = chosen(&results, asked_rad_per_s, loops::LOOPS);
+    let shown = shown.iter().chain(highest);
+    shown.map(|(record, _)| record.index).collect()
 }

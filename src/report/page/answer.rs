@@ -29,6 +29,7 @@ pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> Markup {
                     strong { (peak.loss) } " per cycle at " (peak.symbol) " = " strong { (peak.frequency) } (peak.under) (peak.material)
                 }
             }
+            @if let Some(rest) = peaks::rest(outcome) { li { (rest) } }
         }
     }
 }

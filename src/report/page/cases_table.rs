@@ -1,6 +1,7 @@
 //! The table of all cases: the numbers most asked for, to five digits, errors to two; the script knows the other columns.
 
 use maud::{Markup, html};
+use serde::Serialize;
 
 use crate::quantity::Dimension;
 use crate::report::number::{cell, digits, largest, prefix};
@@ -15,12 +16,34 @@ struct Column {
     heading: String,
     /// Significant digits, or as few as there are.
     digits: Option<usize>,
+    /// From the unit of `sweep.csv` to that of the heading.
+    factor: f64,
+    /// In the unit of the heading.
     values: Vec<Option<f64>>,
+}
+
+/// How the script shows a column: its name in `sweep.csv`, the factor to the unit of its heading, and its digits.
+#[derive(Serialize)]
+pub(super) struct ShownColumn(String, f64, Option<usize>);
+
+/// Rows that the table of a large sweep has before its script turns the page.
+const ROWS: usize = 100;
+
+/// The columns as the script shows them.
+pub(super) fn shown(plan: &SweepPlan, outcome: &Outcome) -> Vec<ShownColumn> {
+    let columns = columns(plan, &outcome.records).into_iter();
+    columns
+        .map(|column| ShownColumn(column.name, column.factor, column.digits))
+        .collect()
 }
 
 /// The table.
 pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     let columns = columns(plan, &outcome.records);
+    let rows = match plan.is_small() {
+        true => outcome.records.len(),
+        false => ROWS,
+    };
     html! {
         table id="cases" {
             thead {
@@ -32,7 +55,7 @@ pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> Markup {
                 }
             }
             tbody {
-                @for (place, record) in outcome.records.iter().enumerate() {
+                @for (place, record) in outcome.records.iter().enumerate().take(rows) {
                     tr data-index=(record.index) {
                         @for (k, column) in columns.iter().enumerate() {
                             @if k == 0 {
@@ -68,6 +91,7 @@ fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
             name: name.to_owned(),
             heading: format!("{heading} / {prefix}{si}"),
             digits,
+            factor,
             values: values.iter().map(|v| v.map(|v| v * factor)).collect(),
         }
     };
@@ -76,6 +100,7 @@ fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
         name: unit.column().to_owned(),
         heading: format!("{} / {}", unit.symbol(), unit.name().replace("/s", "·s⁻¹")),
         digits: None,
+        factor: 1.0,
         values: numbers(&|r| Some(unit.of(r.angular_frequency_rad_per_s))),
     }];
     if let Some(axis) = &plan.axis {
@@ -95,12 +120,14 @@ fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
                 name: known.name.to_owned(),
                 heading: heading.to_owned(),
                 digits: None,
+                factor: 1.0,
                 values,
             }),
             Some(Dimension::Angle) => columns.push(Column {
                 name: known.name.to_owned(),
                 heading: format!("{heading} / °"),
                 digits: Some(5),
+                factor: 1_f64.to_degrees(),
                 values: values
                     .into_iter()
                     .map(|v: Option<f64>| v.map(f64::to_degrees))

@@ -10,7 +10,8 @@ pub(super) fn all_rounded(values: &[f64]) -> Vec<f64> {
     values.iter().copied().map(rounded).collect()
 }
 
-fn digits(value: f64, significant: usize) -> f64 {
+/// Rounded to so many significant digits.
+pub(super) fn digits(value: f64, significant: usize) -> f64 {
     // What Rust prints of a number, Rust reads.
     let text = format!("{value:.*e}", significant.saturating_sub(1));
     text.parse().unwrap_or(value)

@@ -16,11 +16,12 @@ mod simulation;
 mod surface_data;
 mod sweep;
 mod sweep_data;
+mod thinned;
 
 pub use pictures::Pictures;
+pub use thinned::shown;
 
 use super::ReportError;
-use crate::report::quantities;
 use crate::sweep::history::SimulationOutcome;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::resolved;
@@ -46,16 +47,16 @@ pub fn sweep(
     pictures: &Pictures,
     hash: &str,
 ) -> Result<String, ReportError> {
-    let branches = outcome.branches();
-    let unit = plan.figures.frequency_unit;
-    let csv = quantities::sweep(&outcome.records, branches, unit, plan.axis.as_ref());
-    let csv = String::from_utf8_lossy(&csv);
+    let all = outcome.records.len();
+    let (shown, table) = thinned::of_page(plan, outcome)?;
+    let outcome = shown.as_ref();
+    let csv = String::from_utf8_lossy(&table);
     let data = sweep_data::SweepData::new(plan, outcome, &csv);
     let text = resolved::resolved_text(plan);
     let frame = Frame {
         title: &plan.title,
         asked: question::line(plan),
-        main: sweep::sections(plan, outcome, pictures),
+        main: sweep::sections(plan, (outcome, all), pictures),
         input: Input {
             hashes: vec![("exactly this input", hash.to_owned())],
             files: vec![InputFile {

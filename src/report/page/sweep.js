@@ -9,6 +9,8 @@ function start(data) {
   const { varied } = data;
   const key = (row) => (varied ? `${row[varied.column]}` : "");
   const drives = [...new Map(rows.map((row) => [key(row), row])).values()];
+  const byKey = new Map(drives.map((row) => [key(row), []]));
+  for (const row of rows) byKey.get(key(row)).push(row);
   const driveText = (row) => {
     if (!varied) return "";
     const value = row[varied.column];
@@ -19,7 +21,8 @@ function start(data) {
     return time === undefined ? `branch ${k + 1}` : `branch of ${withUnit(time, "s")}`;
   });
   const rowName = (row) => omegaText(row) + (drives.length > 1 ? `, ${driveText(row)}` : "");
-  const done = rows.filter((row) => results.has(row.index));
+  const has = (row) => row.energy_loss_j !== null;
+  const done = rows.filter(has);
   const loss = (row) => row.energy_loss_j;
   const best = done.reduce((a, b) => (a && loss(a) >= loss(b) ? a : b), null);
   const state = { chosen: best, drive: key(best || rows[0] || {}), kept: new Set(spread(done, best)) };
@@ -27,7 +30,7 @@ function start(data) {
 
   /** At most five, ends and largest loss among them. */
   function spread(all, largest) {
-    const some = all.filter((row) => !largest || key(row) === key(largest));
+    const some = all.filter((row) => results.has(row.index) && (!largest || key(row) === key(largest)));
     if (some.length <= 5) return some.map((row) => row.index);
     const at = [0, 1, 2, 3, 4].map((k) => Math.round((k * (some.length - 1)) / 4));
     const place = some.indexOf(largest);
@@ -58,7 +61,7 @@ function start(data) {
   function drawCurve() {
     const [column, error, name, unit, factor] = quantities[$("quantity").value];
     const times = (v) => (v === null ? null : v * factor);
-    const shown = drives.map((drive) => rows.filter((row) => key(row) === key(drive)));
+    const shown = drives.map((drive) => byKey.get(key(drive)));
     const series = shown.map((list, k) => ({
       name: drives.length > 1 ? driveText(list[0]) : name,
       x: list.map((row) => row[frequency.column]),
@@ -77,7 +80,7 @@ function start(data) {
       chosen: state.chosen && at >= 0 ? { series: at, i: shown[at].indexOf(state.chosen) } : null,
       none: "No case has a result: there is nothing to draw.",
       byArea: drives.length > 1,
-      onPick: (k, i) => results.has(shown[k][i].index) && choose(shown[k][i]),
+      onPick: (k, i) => has(shown[k][i]) && choose(shown[k][i]),
     });
     const bars = rows.filter((row) => row[error] !== null && row[column]).map((row) => Math.abs(row[error] / row[column]));
     $("bars").textContent = bars.length
@@ -93,9 +96,8 @@ function start(data) {
   function fillCases() {
     const some = rows.filter((row) => key(row) === state.drive);
     $("case").innerHTML = some.map((row) => {
-      const has = results.has(row.index);
-      const why = has ? withUnit(loss(row), "J") : `no result: ${row.message || row.status}`;
-      return `<option value="${row.index}"${has ? "" : " disabled"}${row === state.chosen ? " selected" : ""}>${esc(`${omegaText(row)} (${why})`)}</option>`;
+      const why = has(row) ? withUnit(loss(row), "J") : `no result: ${row.message || row.status}`;
+      return `<option value="${row.index}"${has(row) ? "" : " disabled"}${row === state.chosen ? " selected" : ""}>${esc(`${omegaText(row)} (${why})`)}</option>`;
     }).join("");
     for (const line of document.querySelectorAll("#cases tbody tr")) {
       const isChosen = state.chosen && Number(line.dataset.index) === state.chosen.index;
@@ -110,7 +112,12 @@ function start(data) {
     const row = state.chosen;
     if (!row) return;
     const cycle = results.get(row.index);
+    $("keep").disabled = !cycle;
     $("spoken").textContent = `${rowName(row)}: energy loss ${withUnit(loss(row), "J")}, phase lag ${withUnit(row.phase_lag_rad * degrees, "°")}`;
+    if (!cycle) {
+      drawNoCycle(row);
+      return;
+    }
     const period = cycle.time_s[cycle.time_s.length - 1];
     const part = cycle.time_s.map((t) => t / period);
     const over = { label: "time / period", name: "t/T" };
@@ -144,6 +151,16 @@ function start(data) {
       ],
     });
     drawSurface(cycle, period);
+    drawFacts(row);
+  }
+
+  /** Of a large sweep the page has the cycles of some cases alone. */
+  function drawNoCycle(row) {
+    const none = `this page has the cycles of ${results.size} of its cases, and this is none of them`;
+    for (const id of ["loop", "phase", "radius", "pressure", "harmonics", "profile", "work"]) plot($(id), { label: none, x: {}, y: {}, series: [], none });
+    $("profile-y-part").hidden = true;
+    $("map-part").hidden = true;
+    $("lines-how").textContent = "";
     drawFacts(row);
   }
 
@@ -199,7 +216,7 @@ function start(data) {
 
   // ---- loops side by side
   function drawLoops() {
-    const shown = done.filter((row) => state.kept.has(row.index) || row === state.chosen);
+    const shown = done.filter((row) => results.has(row.index) && (state.kept.has(row.index) || row === state.chosen));
     const normalised = $("normalised").checked;
     const middle = (values) => (Math.max(...values) + Math.min(...values)) / 2;
     const half = (values) => (Math.max(...values) - Math.min(...values)) / 2;
@@ -277,7 +294,10 @@ function start(data) {
   } else {
     $("cycle").hidden = true;
   }
-  startTable(columns, rows, (index) => results.has(index) && choose(rows.find((row) => row.index === index)));
+  const byIndex = new Map(rows.map((row) => [row.index, row]));
+  const pick = (index) => has(byIndex.get(index)) && choose(byIndex.get(index));
+  if (data.table.length) startPages(data.table, rows, pick);
+  else startTable(columns, rows, pick);
   fillCases();
   drawCurve();
   drawCycle();

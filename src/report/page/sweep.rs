@@ -9,7 +9,12 @@ use crate::sweep::search::run::Outcome;
 
 const NOTHING: &str = "No case has a result: there is nothing to draw.";
 
-pub(super) fn sections(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
+/// Of the cases that the page shows, out of so many.
+pub(super) fn sections(
+    plan: &SweepPlan,
+    (outcome, all): (&Outcome, usize),
+    pictures: &Pictures,
+) -> Markup {
     html! {
         (curve(plan, outcome, pictures))
         (cycle())
@@ -22,7 +27,7 @@ pub(super) fn sections(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures)
             }
             div id="branches" class="plot tall" {}
         }
-        (all_frequencies(plan, outcome))
+        (all_frequencies(plan, outcome, all))
         section aria-labelledby="asked-heading" {
             h2 id="asked-heading" { "What was asked" }
             (question::sweep(plan))
@@ -123,13 +128,26 @@ fn loops(pictures: &Pictures) -> Markup {
     }
 }
 
-fn all_frequencies(plan: &SweepPlan, outcome: &Outcome) -> Markup {
+fn all_frequencies(plan: &SweepPlan, outcome: &Outcome, all: usize) -> Markup {
+    let shown = outcome.records.len();
     html! {
         section aria-labelledby="table-heading" {
             h2 id="table-heading" { "All frequencies" }
-            (super::copying("Copy as CSV", "Download sweep.csv"))
-            p class="live hint" {
-                "Activate a heading to sort by it. The CSV has every column, in the order shown, to the last digit."
+            @if plan.is_small() {
+                (super::copying("Copy as CSV", "Download sweep.csv"))
+                p class="live hint" {
+                    "Activate a heading to sort by it. The CSV has every column, in the order shown, to the last digit."
+                }
+            } @else {
+                p class="hint" {
+                    @if shown < all { "This page shows " (shown) " of " (all) " cases. " }
+                    "All cases, to the last digit, are in sweep.csv beside this page."
+                }
+                div class="live controls" role="group" aria-label="Pages of the table" id="pages" {
+                    button type="button" id="page-before" { "← Before" }
+                    span id="page-place" role="status" {}
+                    button type="button" id="page-after" { "After →" }
+                }
             }
             section class="scroll" tabindex="0" aria-label="Table, may be scrolled" {
                 (cases_table::table(plan, outcome))

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use super::cases_table::{self, ShownColumn};
 use super::compact::{all_rounded, picked, picked_optional, rounded, spread};
 use super::surface_data::{Fineness, PressureData, WorkData, share};
 use crate::material::{Material, MaterialFunction};
@@ -34,7 +35,10 @@ pub(super) struct SweepData<'a> {
     drive_unit: &'static str,
     node_name: &'static str,
     material: MaterialData,
+    /// The cycles that the page holds.
     cases: Vec<CaseData>,
+    /// The columns of the table of cases, where it is read page by page.
+    table: Vec<ShownColumn>,
 }
 
 /// The column of what a second axis varies, and the unit in which it is told, of which zero lies at so many SI units.
@@ -114,7 +118,8 @@ impl<'a> SweepData<'a> {
     /// The data of a sweep whose table is `csv`.
     pub(super) fn new(plan: &SweepPlan, outcome: &'a Outcome, csv: &'a str) -> Self {
         let cases = outcome.records.iter();
-        let count = outcome.records.len();
+        let held = |r: &CaseRecord| r.result.as_ref().is_some_and(|r| r.cycle.is_held());
+        let count = outcome.records.iter().filter(|r| held(r)).count();
         Self {
             kind: "sweep",
             csv,
@@ -130,7 +135,12 @@ impl<'a> SweepData<'a> {
                 None => nodes_name(plan.solver.engine),
             },
             material: MaterialData::over(&plan.material, plan.figures.frequency_unit),
+            table: match plan.is_small() {
+                true => Vec::new(),
+                false => cases_table::shown(plan, outcome),
+            },
             cases: cases
+                .filter(|r| held(r))
                 .filter_map(|r| Some(case(plan, r, r.result.as_ref()?, count)))
                 .collect(),
         }
@@ -177,10 +187,10 @@ impl MaterialData {
 
 /// A case's part of a page of so many.
 fn case(plan: &SweepPlan, record: &CaseRecord, result: &CaseResult, cases: usize) -> CaseData {
-    let samples = &result.samples;
+    let samples = &result.cycle.samples;
     let places = spread(samples.time_s.len(), share(cases, 100, 32));
     let fineness = Fineness::of(cases);
-    let work = WorkLine::of(&result.surface_loss, plan.indenter.as_ref());
+    let work = WorkLine::of(&result.cycle.surface_loss, plan.indenter.as_ref());
     let harmonics = result.analysis.harmonics.iter();
     CaseData {
         index: record.index,
@@ -193,11 +203,11 @@ fn case(plan: &SweepPlan, record: &CaseRecord, result: &CaseResult, cases: usize
             .map(|h| [rounded(h.load_amplitude_n), rounded(h.approach_amplitude_m)])
             .collect(),
         pressure: PressureData::of(
-            &result.pressures,
+            &result.cycle.pressures,
             work.along,
             plan.drive.control(),
             &fineness,
         ),
-        work: WorkData::of(&result.surface_loss, &work, &fineness),
+        work: WorkData::of(&result.cycle.surface_loss, &work, &fineness),
     }
 }

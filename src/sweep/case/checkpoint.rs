@@ -19,8 +19,9 @@ use crate::steady::SearchState;
 use crate::sweep::case::stabilise::Stabilised;
 use crate::sweep::plan::Case;
 use crate::sweep::store::Store;
-use crate::sweep::store::archive::{Purpose, case_name};
+use crate::sweep::store::archive::Purpose;
 use crate::sweep::store::checkpoint_file::{self, CheckpointFile, Rhythm};
+use crate::sweep::store::records::Key;
 
 /// The checkpoints of one case, in the hands of the thread that solves it.
 pub struct Checkpoints {
@@ -79,7 +80,7 @@ impl Checkpoints {
     /// Those of a case in the folder of its sweep.
     pub fn of(store: &Store, purpose: Purpose, case: &Case, every: Duration) -> Self {
         let frequency = case.angular_frequency_rad_per_s.to_bits();
-        let place = (store.clone(), case_name(purpose, case), frequency);
+        let place = (store.clone(), Key::name(purpose, case), frequency);
         Self::new(Some(place), every)
     }
 

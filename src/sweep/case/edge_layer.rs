@@ -53,7 +53,7 @@ impl<'a> EdgeLayer<'a> {
 
     /// By how much (Pa) the largest pressure of a recorded cycle may be larger than it seems.
     pub fn higher_peak_pa(&self, result: &CaseResult) -> f64 {
-        let samples = &result.samples;
+        let samples = &result.cycle.samples;
         let times_and_radii = samples.time_s.iter().zip(&samples.contact_radius_m);
         let course: Vec<Instant> = times_and_radii
             .zip(&samples.peak_pressure_pa)

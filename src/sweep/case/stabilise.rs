@@ -19,7 +19,7 @@ use crate::sweep::case::tangent_radius::TangentRadius;
 use crate::sweep::engine::{AsContactError, EngineError, missed_contact, prescribed};
 use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::{Condition, CyclePlan, Method};
-use crate::sweep::record::{BranchLoss, CaseResult, CellLoss, SurfaceLoss};
+use crate::sweep::record::{BranchLoss, CaseResult, CellLoss, RecordedCycle, SurfaceLoss};
 
 /// Cycles after which a direct search is given up for marching, which takes many more where a search takes long: cells that
 /// come and go at the edge of a strongly relaxing contact may take 140.
@@ -550,10 +550,7 @@ impl Contact<'_> {
         let work = dissipation.nodal_work();
         let surface_loss = match self.wanted {
             Wanted::Everything => surface_loss(march.surface_density(work, largest_radius_m)?),
-            Wanted::Numbers | Wanted::Loss => SurfaceLoss::Radial {
-                radius_m: Vec::new(),
-                density_j_per_m2: Vec::new(),
-            },
+            Wanted::Numbers | Wanted::Loss => SurfaceLoss::default(),
         };
         let branches = self.compliance.branches().iter().zip(energies);
         Ok(CaseResult {
@@ -570,10 +567,13 @@ impl Contact<'_> {
                     energy_loss_j,
                 })
                 .collect(),
-            surface_loss,
-            pressures: pressures.map_or_else(Vec::new, Pressures::finished),
             analysis,
-            samples,
+            cycle: RecordedCycle {
+                samples,
+                pressures: pressures.map_or_else(Vec::new, Pressures::finished),
+                surface_loss,
+            }
+            .with_single_precision(),
         })
     }
 }

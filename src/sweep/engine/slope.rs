@@ -54,7 +54,7 @@ pub(in crate::sweep) fn of_slope(
 /// Slope within the largest contact of a cycle.
 pub(in crate::sweep) fn slope_of_case(indenter: &dyn Indenter, result: &CaseResult) -> Option<f64> {
     let (radius_m, approach_m) = (result.contact_radius_m.maximum, result.approach_m.maximum);
-    match (indenter.axisymmetric(), &result.surface_loss) {
+    match (indenter.axisymmetric(), &result.cycle.surface_loss) {
         (Some(body), _) => slope_of_body(body, radius_m, approach_m),
         (None, SurfaceLoss::Cells(loss)) => Patch::of_work(indenter, loss).steepest(),
         (None, SurfaceLoss::Radial { .. }) => None,

@@ -17,6 +17,9 @@ use crate::quantity::Dimension;
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::resolved::drive_dimension;
 
+/// Cases of a small sweep, at most.
+pub const SMALL: usize = 200;
+
 /// Everything a sweep needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
 pub struct SweepPlan {
@@ -232,6 +235,17 @@ impl SweepPlan {
             Some(axis) => Cow::Borrowed(&axis.conditions),
             None => Cow::Owned(vec![self.condition()]),
         }
+    }
+
+    /// How many cases there are.
+    pub fn count(&self) -> usize {
+        let conditions = self.axis.as_ref().map_or(1, |axis| axis.conditions.len());
+        conditions * self.angular_frequencies_rad_per_s.len()
+    }
+
+    /// Whether every case has tables of its own, and the cycles of all fit in the memory.
+    pub fn is_small(&self) -> bool {
+        self.count() <= SMALL
     }
 
     /// Every case, in order.

@@ -91,13 +91,47 @@ pub struct CaseResult {
     pub replica_losses_j: Vec<Option<f64>>,
     /// Energy (J) that each branch of the creep compliance dissipates over the cycle, shortest retardation time first.
     pub branches: Vec<BranchLoss>,
-    /// Where the energy goes in.
-    pub surface_loss: SurfaceLoss,
-    /// The pressure over the contact at the quarters of the drive's oscillation.
+    /// The cycle itself and its surface; empty where only the numbers are held.
     #[serde(default)]
-    pub pressures: Vec<PressureProfile>,
-    /// The cycle itself.
+    pub cycle: RecordedCycle,
+}
+
+/// A cycle sample by sample, and what it does to the surface. It takes ten times as much memory as the numbers of a case, and large
+/// sweeps hold it only of the cases that are drawn.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct RecordedCycle {
     pub samples: Loop,
+    /// The pressure over the contact at the quarters of the drive's oscillation, in numbers of single precision.
+    pub pressures: Vec<PressureProfile>,
+    /// Where the energy goes in, in numbers of single precision.
+    pub surface_loss: SurfaceLoss,
+}
+
+impl RecordedCycle {
+    /// Whether there is one.
+    pub fn is_held(&self) -> bool {
+        !self.samples.time_s.is_empty()
+    }
+
+    /// Positions and values of the profiles rounded to seven digits, which are more than a grid resolves: what is drawn from a record
+    /// is then what is drawn without one.
+    #[must_use]
+    pub fn with_single_precision(mut self) -> Self {
+        let single = |value: &mut f64| *value = f64::from(*value as f32);
+        for line in self.pressures.iter_mut().flat_map(|p| &mut p.lines) {
+            line.position_m.iter_mut().for_each(single);
+            line.pressure_pa.iter_mut().flatten().for_each(single);
+        }
+        if let SurfaceLoss::Radial {
+            radius_m,
+            density_j_per_m2,
+        } = &mut self.surface_loss
+        {
+            radius_m.iter_mut().for_each(single);
+            density_j_per_m2.iter_mut().flatten().for_each(single);
+        }
+        self
+    }
 }
 
 /// What one branch dissipates over a cycle.
@@ -117,6 +151,16 @@ pub enum SurfaceLoss {
         density_j_per_m2: Vec<Option<f64>>,
     },
     Cells(CellLoss),
+}
+
+impl Default for SurfaceLoss {
+    /// That of nothing.
+    fn default() -> Self {
+        Self::Radial {
+            radius_m: Vec::new(),
+            density_j_per_m2: Vec::new(),
+        }
+    }
 }
 
 /// The same at the centres of cells, row by row, of the smallest rectangle that holds all contact of the cycle.
@@ -196,6 +240,25 @@ impl CaseRecord {
         material_error::of(result.analysis.energy_loss_j, &result.replica_losses_j)
     }
 
+    /// The same with its numbers alone.
+    #[must_use]
+    pub fn without_cycle(&self) -> Self {
+        let numbers = |result: &CaseResult| CaseResult {
+            cycle: RecordedCycle::default(),
+            analysis: result.analysis.clone(),
+            errors: result.errors.clone(),
+            replica_losses_j: result.replica_losses_j.clone(),
+            branches: result.branches.clone(),
+            ..*result
+        };
+        Self {
+            message: self.message.clone(),
+            warnings: self.warnings.clone(),
+            result: self.result.as_ref().map(numbers),
+            ..*self
+        }
+    }
+
     /// Whether the case ran under this condition.
     pub fn is_of(&self, condition: &Condition) -> bool {
         let drive = &condition.drive;
@@ -211,6 +274,11 @@ impl CaseRecord {
 }
 
 impl CaseResult {
+    /// The cycle, where it is held.
+    pub fn cycle(&self) -> Option<&RecordedCycle> {
+        self.cycle.is_held().then_some(&self.cycle)
+    }
+
     /// Energy (J) dissipated by all branches.
     pub fn dissipated_j(&self) -> f64 {
         self.branches.iter().map(|b| b.energy_loss_j).sum()

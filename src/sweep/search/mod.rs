@@ -154,6 +154,10 @@ impl<'a> Search<'a> {
         purpose: Purpose,
         cases: &[Case],
     ) -> Result<(Vec<CaseRecord>, Vec<Case>), StoreError> {
+        for unread in self.archive.look()? {
+            let path = unread.path.display();
+            self.progress.told(&format!("{path}: {}", unread.reason));
+        }
         let (mut records, mut lacking) = (Vec::new(), Vec::new());
         for case in cases {
             match self.archive.load_case(purpose, case)? {
@@ -178,7 +182,19 @@ impl<'a> Search<'a> {
                 }
             }
         }
+        if let (Purpose::Sweep, true, Some(store)) =
+            (purpose, self.holds_cycles(), self.archive.store())
+        {
+            for record in &mut records {
+                store.load_cycle(record)?;
+            }
+        }
         Ok((records, lacking))
+    }
+
+    /// Whether the outcome holds the cycles of all cases; of a large sweep in a folder they stay there.
+    fn holds_cycles(&self) -> bool {
+        self.archive.store().is_none() || self.setup.plan().is_small()
     }
 
     /// Tells why a record is not used.
@@ -250,7 +266,10 @@ impl<'a> Search<'a> {
                 };
                 self.archive.save_case(purpose, case, &record)?;
                 checkpoints.remove();
-                record
+                match self.holds_cycles() {
+                    true => record,
+                    false => record.without_cycle(),
+                }
             }
         };
         if purpose == Purpose::Sweep {

@@ -1,8 +1,6 @@
 //! Records of finished cases: on disk, sealed, and read again where they are whole and of the same sweep and program; or in memory.
 
 use std::collections::HashMap;
-use std::fs;
-use std::io;
 use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -10,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::sweep::plan::Case;
 use crate::sweep::record::CaseRecord;
-use crate::sweep::store::provenance::BUILD;
-use crate::sweep::store::sealed;
+use crate::sweep::store::packed_record;
+use crate::sweep::store::records::{Key, Origin, Place, Unread};
 use crate::sweep::store::{Store, StoreError};
 
 /// Where the records of a sweep's cases are kept.
@@ -24,8 +22,7 @@ pub enum Archive<'a> {
 /// The records of one sweep, in memory alone.
 #[derive(Debug, Default)]
 pub struct MemoryArchive {
-    /// By purpose and the bits of mean, amplitude, frequency and varied number.
-    records: Mutex<HashMap<(Purpose, Vec<u64>), CaseRecord>>,
+    records: Mutex<HashMap<Key, CaseRecord>>,
 }
 
 impl<'a> From<&'a Store> for Archive<'a> {
@@ -49,6 +46,14 @@ impl<'a> Archive<'a> {
         }
     }
 
+    /// As [`Store::look`].
+    ///
+    /// # Errors
+    /// [`StoreError`] with the path, of a folder.
+    pub fn look(self) -> Result<Vec<Unread>, StoreError> {
+        self.store().map_or(Ok(Vec::new()), Store::look)
+    }
+
     /// As [`Store::save_case`].
     ///
     /// # Errors
@@ -64,20 +69,20 @@ impl<'a> Archive<'a> {
             Self::Memory(memory) => {
                 memory
                     .records()
-                    .insert((purpose, bits(case)), record.clone());
+                    .insert(Key::of(purpose, case), record.clone());
             }
         }
         Ok(())
     }
 
-    /// As [`Store::load_case`].
+    /// As [`Store::load_case`]; of a record in memory with its cycle.
     ///
     /// # Errors
     /// [`StoreError`] with the path, of a folder.
     pub fn load_case(self, purpose: Purpose, case: &Case) -> Result<Kept, StoreError> {
         match self {
             Self::Folder(store) => store.load_case(purpose, case),
-            Self::Memory(memory) => Ok(match memory.records().get(&(purpose, bits(case))) {
+            Self::Memory(memory) => Ok(match memory.records().get(&Key::of(purpose, case)) {
                 Some(record) => Kept::Intact(Box::new(CaseRecord {
                     index: case.index,
                     ..record.clone()
@@ -89,26 +94,53 @@ impl<'a> Archive<'a> {
 }
 
 impl MemoryArchive {
-    fn records(&self) -> MutexGuard<'_, HashMap<(Purpose, Vec<u64>), CaseRecord>> {
+    fn records(&self) -> MutexGuard<'_, HashMap<Key, CaseRecord>> {
         // A record is in it whole or not at all, whatever became of the thread that put it there.
         self.records.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Mean, amplitude and frequency of a case, and the varied number where there is one, bit for bit.
-fn bits(case: &Case) -> Vec<u64> {
-    let (drive, omega) = (&case.condition.drive, case.angular_frequency_rad_per_s);
-    let numbers = [drive.mean(), drive.amplitude(), omega].into_iter();
-    let numbers = numbers.chain(case.condition.value);
-    numbers.map(f64::to_bits).collect()
+impl Key {
+    pub(in crate::sweep) fn of(purpose: Purpose, case: &Case) -> Self {
+        let (drive, omega) = (&case.condition.drive, case.angular_frequency_rad_per_s);
+        let drive = [drive.mean(), drive.amplitude()];
+        Self::new(purpose, drive, omega, case.condition.value)
+    }
+
+    /// The case of the sweep whose record this is.
+    fn of_record(record: &CaseRecord) -> Self {
+        let drive = [record.drive_mean, record.drive_amplitude];
+        let omega = record.angular_frequency_rad_per_s;
+        Self::new(Purpose::Sweep, drive, omega, record.varied)
+    }
+
+    fn new(purpose: Purpose, drive: [f64; 2], omega: f64, varied: Option<f64>) -> Self {
+        let numbers = drive.into_iter().chain([omega]).chain(varied);
+        Self {
+            purpose,
+            bits: numbers.map(f64::to_bits).collect(),
+        }
+    }
+
+    /// The name of a case in the folder, without its ending: the same in every process that solves it.
+    pub(in crate::sweep) fn name(purpose: Purpose, case: &Case) -> String {
+        match purpose {
+            Purpose::Sweep => format!("{:04}", case.index),
+            Purpose::Peak => {
+                let bits = Self::of(purpose, case).bits.into_iter();
+                let names: Vec<String> = bits.map(|bits| format!("{bits:016x}")).collect();
+                names.join("-")
+            }
+        }
+    }
 }
 
-/// What a case was solved for, which decides where its record lies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+/// What a case was solved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum Purpose {
-    /// A case of the sweep: `records/<index>.json`.
+    /// A case of the sweep.
     Sweep,
-    /// A frequency between those of the sweep, to locate a peak: `peaks/<bits of mean, amplitude, frequency, varied number>.json`.
+    /// The loss at a frequency between those of the sweep, to locate a peak.
     Peak,
 }
 
@@ -129,31 +161,6 @@ pub enum Kept {
     },
 }
 
-/// A record as stored, with what it takes to know that it belongs to the sweep.
-#[derive(Serialize)]
-struct Stored<'a> {
-    program_version: &'a str,
-    build: &'a str,
-    sweep_hash: &'a str,
-    case: &'a CaseRecord,
-}
-
-/// The part that every version of the program writes and reads.
-#[derive(Deserialize)]
-struct Heading {
-    program_version: String,
-    /// None in records of programs that did not know theirs.
-    build: Option<String>,
-    sweep_hash: String,
-}
-
-#[derive(Deserialize)]
-struct Content {
-    case: CaseRecord,
-}
-
-const VERSION: &str = env!("CARGO_PKG_VERSION");
-
 /// What is said of a record of another build.
 pub const OF_ANOTHER_BUILD: &str = concat!(
     "it was written by another build of version ",
@@ -161,27 +168,16 @@ pub const OF_ANOTHER_BUILD: &str = concat!(
     " of the program"
 );
 
-/// The name of a case in the folder, without its ending: the same in every process that solves it.
-pub(in crate::sweep) fn case_name(purpose: Purpose, case: &Case) -> String {
-    match purpose {
-        Purpose::Sweep => format!("{:04}", case.index),
-        Purpose::Peak => {
-            let numbers = bits(case).into_iter();
-            let names: Vec<String> = numbers.map(|bits| format!("{bits:016x}")).collect();
-            names.join("-")
-        }
-    }
-}
-
-fn file_name(purpose: Purpose, case: &Case) -> PathBuf {
-    let folder = match purpose {
-        Purpose::Sweep => "records",
-        Purpose::Peak => "peaks",
-    };
-    PathBuf::from(folder).join(case_name(purpose, case) + ".json")
-}
-
 impl Store {
+    /// Looks which records are there now, of other processes too; what was met that is none of this sweep's.
+    ///
+    /// # Errors
+    /// [`StoreError::Read`] with the path.
+    pub fn look(&self) -> Result<Vec<Unread>, StoreError> {
+        self.records.look()?;
+        Ok(self.records.unread())
+    }
+
     /// Stores the record of a finished case.
     ///
     /// # Errors
@@ -192,109 +188,132 @@ impl Store {
         case: &Case,
         record: &CaseRecord,
     ) -> Result<(), StoreError> {
-        let name = file_name(purpose, case);
-        let stored = Stored {
-            program_version: VERSION,
-            build: BUILD,
-            sweep_hash: self.sweep_hash(),
-            case: record,
+        let record = match purpose {
+            Purpose::Sweep => packed_record::pack(record),
+            // Its cycle is drawn nowhere.
+            Purpose::Peak => packed_record::pack(&record.without_cycle()),
         };
-        let content = serde_json::to_vec(&stored).map_err(|error| StoreError::Encode {
-            path: self.folder().join(&name),
-            reason: error.to_string(),
+        let record = record.map_err(|reason| StoreError::Encode {
+            path: self.folder().to_path_buf(),
+            reason,
         })?;
-        self.write(name, &sealed::seal(&content))
+        self.check_plan()?;
+        self.records.append(Key::of(purpose, case), &record)
     }
 
-    /// The record of a case, where there is a usable one.
+    /// The numbers of a case's record, where there is a usable one; its cycle is not read: see [`Self::load_cycle`].
     ///
     /// # Errors
     /// [`StoreError`] where the record cannot be read, or was written by a newer program and may not be replaced.
     pub fn load_case(&self, purpose: Purpose, case: &Case) -> Result<Kept, StoreError> {
-        let path = self.folder().join(file_name(purpose, case));
-        let bytes = match fs::read(&path) {
-            Ok(bytes) => bytes,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Kept::Absent),
-            Err(source) => return Err(StoreError::Read { path, source }),
+        let Some(place) = self.records.place(&Key::of(purpose, case))? else {
+            return Ok(Kept::Absent);
         };
-        match self.usable(case, &bytes) {
-            Ok((record, true)) => Ok(Kept::Intact(Box::new(record))),
-            Ok((record, false)) => Ok(Kept::OfAnotherBuild {
-                path,
-                record: Box::new(record),
-            }),
-            Err(Unusable::Newer(version)) if !self.force => {
-                Err(StoreError::NewerProgram { path, version })
+        let path = place.segment.to_path_buf();
+        let unusable = |reason: String| Kept::Unusable {
+            path: path.clone(),
+            reason,
+        };
+        match &place.origin {
+            Origin::Newer(version) if !self.force => {
+                let version = version.clone();
+                return Err(StoreError::NewerProgram { path, version });
             }
-            Err(why) => Ok(Kept::Unusable {
-                path,
-                reason: why.to_string(),
-            }),
+            Origin::Newer(version) => {
+                return Ok(unusable(format!(
+                    "it was written by version {version} of the program, newer than this one"
+                )));
+            }
+            Origin::Older(version) => {
+                return Ok(unusable(format!(
+                    "it was written by version {version} of the program, older than this one"
+                )));
+            }
+            Origin::ThisBuild | Origin::AnotherBuild => {}
         }
-    }
-
-    /// The record, and whether it is one of this build.
-    fn usable(&self, case: &Case, bytes: &[u8]) -> Result<(CaseRecord, bool), Unusable> {
-        let content = sealed::unseal(bytes).ok_or(Unusable::Damaged)?;
-        let heading: Heading = serde_json::from_slice(content).map_err(|_| Unusable::Damaged)?;
-        if heading.program_version != VERSION {
-            let other = heading.program_version;
-            return Err(match numbers(&other) > numbers(VERSION) {
-                true => Unusable::Newer(other),
-                false => Unusable::Older(other),
-            });
-        }
-        if heading.sweep_hash != self.sweep_hash() {
-            return Err(Unusable::Foreign);
-        }
-        let Content { case: record } =
-            serde_json::from_slice(content).map_err(|_| Unusable::Damaged)?;
+        let content = self.records.read(&place)?;
+        let Some(record) = packed_record::numbers(&content) else {
+            return Ok(unusable(format!(
+                "the record of case {} is damaged",
+                case.index
+            )));
+        };
         let same_frequency = record.angular_frequency_rad_per_s.to_bits()
             == case.angular_frequency_rad_per_s.to_bits();
         if !same_frequency || !record.is_of(&case.condition) {
-            return Err(Unusable::Foreign);
+            return Ok(unusable(
+                "a record in it belongs to another sweep".to_owned(),
+            ));
         }
-        let record = CaseRecord {
+        let record = Box::new(CaseRecord {
             index: case.index,
             ..record
-        };
-        Ok((record, heading.build.as_deref() == Some(BUILD)))
+        });
+        Ok(match place.origin {
+            Origin::ThisBuild => Kept::Intact(record),
+            _ => Kept::OfAnotherBuild { path, record },
+        })
     }
-}
 
-/// Why a record is not used.
-#[derive(Debug, thiserror::Error)]
-enum Unusable {
-    #[error("it is damaged or torn (its checksum does not match)")]
-    Damaged,
-    #[error("it belongs to another sweep")]
-    Foreign,
-    #[error("it was written by version {0} of the program, older than this one")]
-    Older(String),
-    #[error("it was written by version {0} of the program, newer than this one")]
-    Newer(String),
-}
+    /// Gives a record of the sweep its cycle, where there is one in the folder.
+    ///
+    /// # Errors
+    /// [`StoreError::Read`] with the path.
+    pub fn load_cycle(&self, record: &mut CaseRecord) -> Result<(), StoreError> {
+        let Some(place) = self.records.place(&Key::of_record(record))? else {
+            return Ok(());
+        };
+        let content = self.records.read(&place)?;
+        if let (Some(result), Some(cycle)) = (&mut record.result, packed_record::cycle(&content)) {
+            result.cycle = cycle;
+        }
+        Ok(())
+    }
 
-/// The numbers of a version; what is no number counts as 0.
-fn numbers(version: &str) -> Vec<u64> {
-    let release = version.split(['-', '+']).next().unwrap_or_default();
-    release
-        .split('.')
-        .map(|part| part.parse().unwrap_or(0))
-        .collect()
+    /// Appends every record of this build that another folder of the same sweep has and this one has not. `differs` hears of those
+    /// that both have and that are not the same; the first stays.
+    ///
+    /// # Errors
+    /// [`StoreError`] with the path.
+    pub(in crate::sweep) fn take_from(
+        &self,
+        other: &Self,
+        differs: &dyn Fn(&CaseRecord),
+    ) -> Result<(), StoreError> {
+        self.check_plan()?;
+        let is_own = |place: &Place| place.origin == Origin::ThisBuild;
+        let places = other.records.places().into_iter();
+        for (key, place) in places.filter(|(_, place)| is_own(place)) {
+            let record = other.records.read(&place)?;
+            match self.records.place(&key)?.filter(is_own) {
+                None => self.records.append(key, &record)?,
+                Some(own) if self.records.read(&own)? == record => {}
+                Some(_) => {
+                    if let Some(record) = packed_record::numbers(&record) {
+                        differs(&record);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sweep::plan::Method;
-    use crate::sweep::record::Status;
+    use crate::cycle::Loop;
+    use crate::sweep::plan::{self, Method};
+    use crate::sweep::record::{RecordedCycle, Status};
+    use crate::sweep::store::segment::{self, Met};
+
+    const PLAN: &str = "title = \"a\"\n";
 
     fn case() -> Case {
         Case {
             index: 7,
             angular_frequency_rad_per_s: 0.1 + 0.2,
-            condition: crate::sweep::plan::tests::condition(),
+            condition: plan::tests::condition(),
         }
     }
 
@@ -329,76 +348,140 @@ mod tests {
         }
     }
 
-    fn store(folder: &tempfile::TempDir) -> Store {
-        let text = "title = \"a\"\n";
-        Store::open(folder.path(), text, false).unwrap()
+    fn open(folder: &tempfile::TempDir) -> Store {
+        Store::open(folder.path(), PLAN, false).unwrap()
+    }
+
+    /// The segment of a folder that has one.
+    fn segment_of(folder: &tempfile::TempDir) -> PathBuf {
+        let mut entries = std::fs::read_dir(folder.path().join("records")).unwrap();
+        entries.next().unwrap().unwrap().path()
     }
 
     #[test]
-    fn a_record_comes_back_bit_for_bit_and_only_for_its_own_case() {
+    fn a_record_comes_back_bit_for_bit_in_every_process_and_only_for_its_own_case() {
         let folder = tempfile::TempDir::new().unwrap();
-        let (store, case) = (store(&folder), case());
+        let (store, case) = (open(&folder), case());
+        let intact = || Kept::Intact(Box::new(record(&case)));
         for purpose in [Purpose::Sweep, Purpose::Peak] {
-            assert_eq!(store.load_case(purpose, &case).unwrap(), Kept::Absent);
+            let another = open(&folder);
+            assert_eq!(another.load_case(purpose, &case).unwrap(), Kept::Absent);
             store.save_case(purpose, &case, &record(&case)).unwrap();
-            let kept = store.load_case(purpose, &case).unwrap();
-            assert_eq!(kept, Kept::Intact(Box::new(record(&case))));
+            assert_eq!(store.load_case(purpose, &case).unwrap(), intact());
+            another.look().unwrap();
+            assert_eq!(another.load_case(purpose, &case).unwrap(), intact());
         }
         let other = Case {
             angular_frequency_rad_per_s: 0.3,
-            ..case
+            ..case.clone()
         };
         let kept = store.load_case(Purpose::Sweep, &other).unwrap();
-        assert!(matches!(kept, Kept::Unusable { reason, .. } if reason.contains("another sweep")));
+        assert_eq!(kept, Kept::Absent);
     }
 
     #[test]
-    fn every_flipped_byte_of_a_record_is_detected() {
+    fn a_solved_case_comes_back_with_its_cycle_and_a_peak_without() {
+        let plan = crate::sweep::plan::SweepPlan::new(
+            crate::material::library::find("pmma")
+                .unwrap()
+                .material()
+                .unwrap(),
+            plan::tests::condition().indenter,
+            plan::tests::condition().drive,
+        );
+        let mut plan = plan;
+        (plan.cycle.steps, plan.solver.springs) = (32, 40);
+        let setup = crate::sweep::case::Setup::new(plan).unwrap();
+        let case = Case {
+            condition: setup.plan().condition(),
+            ..case()
+        };
+        let interrupt = std::sync::atomic::AtomicBool::new(false);
+        let solved = setup.run(&case, &interrupt).unwrap();
+        assert!(solved.result.as_ref().unwrap().cycle.is_held());
         let folder = tempfile::TempDir::new().unwrap();
-        let (store, case) = (store(&folder), case());
-        store
-            .save_case(Purpose::Sweep, &case, &record(&case))
-            .unwrap();
-        let path = folder.path().join("records/0007.json");
-        let whole = fs::read(&path).unwrap();
-        for byte in 0..whole.len() {
-            let mut damaged = whole.clone();
-            damaged[byte] ^= 0x20;
-            fs::write(&path, damaged).unwrap();
-            let kept = store.load_case(Purpose::Sweep, &case).unwrap();
-            assert!(
-                matches!(&kept, Kept::Unusable { reason, .. } if reason.contains("damaged")),
-                "byte {byte}: {kept:?}"
-            );
+        let store = open(&folder);
+        for (purpose, expected) in [
+            (Purpose::Peak, solved.without_cycle()),
+            (Purpose::Sweep, solved.clone()),
+        ] {
+            store.save_case(purpose, &case, &solved).unwrap();
+            let Kept::Intact(mut found) = store.load_case(purpose, &case).unwrap() else {
+                panic!("no record");
+            };
+            assert_eq!(*found, solved.without_cycle());
+            store.load_cycle(&mut found).unwrap();
+            assert_eq!(*found, expected);
         }
     }
 
     #[test]
-    fn records_of_other_versions_are_not_used() {
+    fn every_flipped_byte_of_a_record_is_named_and_the_record_before_it_stays() {
         let folder = tempfile::TempDir::new().unwrap();
-        let (store, case) = (store(&folder), case());
-        let write_of = |version: &str, build: &str| {
-            let stored = Stored {
-                program_version: version,
-                build,
-                sweep_hash: store.sweep_hash(),
-                case: &record(&case),
-            };
-            let content = serde_json::to_vec(&stored).unwrap();
-            store
-                .write("records/0007.json", &sealed::seal(&content))
-                .unwrap();
+        let (store, first) = (open(&folder), case());
+        let second = Case {
+            angular_frequency_rad_per_s: 0.5,
+            ..first.clone()
         };
-        let write = |version: &str| write_of(version, BUILD);
-        write_of(VERSION, "0123");
-        let kept = store.load_case(Purpose::Sweep, &case).unwrap();
+        for case in [&first, &second] {
+            store
+                .save_case(Purpose::Sweep, case, &record(case))
+                .unwrap();
+        }
+        drop(store);
+        let path = segment_of(&folder);
+        let whole = std::fs::read(&path).unwrap();
+        for byte in whole.len() / 2..whole.len() {
+            let mut damaged = whole.clone();
+            damaged[byte] ^= 0x20;
+            std::fs::write(&path, damaged).unwrap();
+            let store = open(&folder);
+            let unread = store.look().unwrap();
+            assert_eq!(unread.len(), 1, "byte {byte}");
+            assert!(unread[0].reason.contains("damaged or torn"), "{unread:?}");
+            let kept = [&first, &second].map(|case| store.load_case(Purpose::Sweep, case).unwrap());
+            assert!(matches!(kept, [Kept::Intact(_), Kept::Absent]), "{byte}");
+        }
+    }
+
+    #[test]
+    fn records_of_other_versions_are_not_used_and_what_is_no_segment_is_named() {
+        let case = case();
+        // The heading of a record begins with the version and the build.
+        let with = |from: &str, to: &str| {
+            let folder = tempfile::TempDir::new().unwrap();
+            let store = open(&folder);
+            let saved = store.save_case(Purpose::Sweep, &case, &record(&case));
+            saved.unwrap();
+            let path = segment_of(&folder);
+            let mut content = Vec::new();
+            let meet = |met: Met<'_>| {
+                if let Met::Record { content: of, .. } = met {
+                    content = of.to_vec();
+                }
+            };
+            segment::read(&path, 0, meet).unwrap();
+            let at = content
+                .windows(from.len())
+                .position(|part| part == from.as_bytes());
+            assert_eq!(from.len(), to.len());
+            let at = at.unwrap();
+            content[at..at + from.len()].copy_from_slice(to.as_bytes());
+            std::fs::write(&path, segment::sealed(&content).unwrap()).unwrap();
+            folder
+        };
+        let build = crate::sweep::store::provenance::BUILD;
+        let folder = with(build, &"0".repeat(build.len()));
+        let kept = open(&folder).load_case(Purpose::Sweep, &case).unwrap();
         assert!(
             matches!(kept, Kept::OfAnotherBuild { record: found, .. } if *found == record(&case))
         );
-        write("0.0.1");
-        let kept = store.load_case(Purpose::Sweep, &case).unwrap();
+        let version = env!("CARGO_PKG_VERSION");
+        let older = with(version, &version.replace(|c: char| c.is_ascii_digit(), "0"));
+        let kept = open(&older).load_case(Purpose::Sweep, &case).unwrap();
         assert!(matches!(kept, Kept::Unusable { reason, .. } if reason.contains("older")));
-        write("1000.0.0");
+        let newer = with(version, &version.replace(|c: char| c.is_ascii_digit(), "9"));
+        let store = open(&newer);
         let refused = store.load_case(Purpose::Sweep, &case);
         assert!(matches!(refused, Err(StoreError::NewerProgram { .. })));
         let forced = Store {
@@ -407,5 +490,52 @@ mod tests {
         };
         let kept = forced.load_case(Purpose::Sweep, &case).unwrap();
         assert!(matches!(kept, Kept::Unusable { .. }));
+        forced
+            .save_case(Purpose::Sweep, &case, &record(&case))
+            .unwrap();
+        let kept = open(&newer).load_case(Purpose::Sweep, &case).unwrap();
+        assert!(matches!(kept, Kept::Intact(_)));
+        std::fs::write(newer.path().join("records/0000.json"), "{}").unwrap();
+        let unread = open(&newer).look().unwrap();
+        assert!(unread[0].reason.contains("earlier version"), "{unread:?}");
+    }
+
+    #[test]
+    fn a_cycle_takes_four_bytes_a_number() {
+        let samples = |k: i32| (std::f64::consts::TAU * f64::from(k) / 200.0).sin();
+        let column = |scale: f64| {
+            (0..=200)
+                .map(|k| scale * (2.0 + samples(k)))
+                .collect::<Vec<_>>()
+        };
+        let cycle = RecordedCycle {
+            samples: Loop {
+                time_s: (0..=200).map(|k| 0.1 * f64::from(k)).collect(),
+                load_n: column(3.0),
+                approach_m: column(1e-5),
+                contact_radius_m: column(3e-4),
+                peak_pressure_pa: column(5e7).into_iter().map(Some).collect(),
+            },
+            ..RecordedCycle::default()
+        };
+        let case = case();
+        let mut with = record(&case);
+        let solved = serde_json::json!({
+            "analysis": {
+                "energy_loss_j": 1.0, "polygon_loss_j": 1.0, "phase_lag_rad": 0.1, "load_mean_n": 1.0,
+                "approach_mean_m": 1.0, "harmonics": []
+            },
+            "storage_modulus_pa": null, "loss_modulus_pa": null,
+            "approach_m": {"minimum": 0.0, "maximum": 1.0},
+            "contact_radius_m": {"minimum": 0.0, "maximum": 1.0},
+            "peak_pressure_pa": null, "errors": null, "branches": []
+        });
+        with.result = Some(serde_json::from_value(solved).unwrap());
+        let without = packed_record::pack(&with).unwrap().len();
+        if let Some(result) = &mut with.result {
+            result.cycle = cycle;
+        }
+        let bytes = packed_record::pack(&with).unwrap().len() - without;
+        assert!(bytes < 5 * 201 * 4, "{bytes}");
     }
 }

@@ -12,8 +12,11 @@ pub mod difference;
 pub mod files;
 pub(in crate::sweep) mod folder_lock;
 pub mod merge;
+pub mod packed;
+pub mod packed_record;
 pub mod provenance;
-pub mod sealed;
+pub mod records;
+pub mod segment;
 
 use std::fs;
 use std::io::{self, Write};
@@ -25,6 +28,7 @@ use tempfile::NamedTempFile;
 use crate::sweep::plan::resolved::{hash, identity};
 use crate::sweep::plan::scenario;
 use crate::sweep::store::folder_lock::{FolderLock, Others};
+use crate::sweep::store::records::Records;
 
 /// Why the folder cannot be used.
 #[derive(Debug, thiserror::Error)]
@@ -75,7 +79,10 @@ pub struct Store {
     /// Whether records of a newer program may be replaced.
     pub(in crate::sweep) force: bool,
     pub(in crate::sweep) lock: Arc<FolderLock>,
+    pub(in crate::sweep) records: Arc<Records>,
 }
+
+const VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// The resolved sweep file inside the folder.
 pub const RESOLVED: &str = "resolved.toml";
@@ -118,6 +125,7 @@ impl Store {
             resolved: resolved.into(),
             force,
             lock: Arc::new(FolderLock::of(folder)),
+            records: Arc::new(Records::of(folder, &hash(resolved))),
         };
         let others = store.lock.try_exclusive();
         if others == Others::Absent {
@@ -160,6 +168,7 @@ impl Store {
             resolved: resolved.as_str().into(),
             force: false,
             lock: Arc::new(FolderLock::none()),
+            records: Arc::new(Records::of(folder, &hash(&resolved))),
         };
         Ok((store, resolved))
     }
@@ -229,12 +238,30 @@ impl Store {
     /// # Errors
     /// [`StoreError::Write`] with the path; [`StoreError::TakenOver`] where the folder is of another sweep by now.
     pub fn write(&self, name: impl AsRef<Path>, bytes: &[u8]) -> Result<(), StoreError> {
+        self.write_with(name, |file| file.write_all(bytes))
+    }
+
+    /// The same, of a file that is written bit by bit.
+    ///
+    /// # Errors
+    /// As [`Self::write`].
+    pub fn write_with(
+        &self,
+        name: impl AsRef<Path>,
+        write: impl FnOnce(&mut fs::File) -> io::Result<()>,
+    ) -> Result<(), StoreError> {
         let path = self.folder.join(name);
-        let file = temporary(&path, bytes)?;
+        let file = temporary(&path, write)?;
+        self.check_plan()?;
+        rename(file, &path)
+    }
+
+    /// Whether the folder is of this sweep still.
+    fn check_plan(&self) -> Result<(), StoreError> {
         match read_plan(&self.folder) {
             // Most often it is as it was, which is sooner seen than hashed; the sweep is the same with other figures too.
             Ok(resolved) if *resolved == *self.resolved || hash(&resolved) == self.sweep_hash => {
-                rename(file, &path)
+                Ok(())
             }
             Ok(_) | Err(StoreError::NoSweep { .. }) => Err(StoreError::TakenOver {
                 path: self.folder.clone(),
@@ -340,12 +367,13 @@ fn read_plan(folder: &Path) -> Result<String, StoreError> {
 /// # Errors
 /// [`StoreError`] with the path.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
-    rename(temporary(path, bytes)?, path)
+    rename(temporary(path, |file| file.write_all(bytes))?, path)
 }
 
 /// The same, unless there is a file of that name: of several that try at once one does. Says whether it did.
 fn create_atomically(path: &Path, bytes: &[u8]) -> Result<bool, StoreError> {
-    match temporary(path, bytes)?.persist_noclobber(path) {
+    let file = temporary(path, |file| file.write_all(bytes))?;
+    match file.persist_noclobber(path) {
         Ok(_) => Ok(true),
         Err(_) if path.exists() => Ok(false),
         // A file system with neither renames that replace nothing nor hard links: of two that begin there within this moment, the
@@ -355,7 +383,10 @@ fn create_atomically(path: &Path, bytes: &[u8]) -> Result<bool, StoreError> {
 }
 
 /// A whole file beside the one whose name it is to take, in a folder that is created where needed.
-fn temporary(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
+fn temporary(
+    path: &Path,
+    write_content: impl FnOnce(&mut fs::File) -> io::Result<()>,
+) -> Result<NamedTempFile, StoreError> {
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder).map_err(|source| StoreError::Create {
         path: folder.to_path_buf(),
@@ -368,7 +399,7 @@ fn temporary(path: &Path, bytes: &[u8]) -> Result<NamedTempFile, StoreError> {
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let mut file = builder.tempfile_in(folder)?;
-        file.write_all(bytes)?;
+        write_content(file.as_file_mut())?;
         file.as_file().sync_all()?;
         Ok(file)
     };

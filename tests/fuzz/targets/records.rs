@@ -1,4 +1,4 @@
-//! Records of cases: the bytes of a file, and the same as a case with a right checksum about it.
+//! Records of cases: the bytes of a segment, and the same as a case and as what is packed under a right checksum.
 
 #![no_main]
 
@@ -15,5 +15,6 @@ libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
     RECORDS.with(|records| {
         records.bytes(bytes);
         records.case(bytes);
+        records.packed(bytes);
     });
 });

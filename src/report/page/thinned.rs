@@ -1,0 +1,110 @@
+//! What of a large sweep its page shows, so that the page stays small whatever the sweep: all curves or some of them, evenly spread,
+//! with the columns it draws in as many digits as can be read; and the cycles of a few cases of each.
+
+use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use super::compact::digits;
+use crate::report::ReportError;
+use crate::report::figure::curve::{Curve, curves, evenly, largest};
+use crate::report::figure::of_sweep::cycles_of;
+use crate::report::figure::units::Units;
+use crate::report::quantities;
+use crate::report::table::{Cell, csv};
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::record::CaseRecord;
+use crate::sweep::search::run::Outcome;
+
+/// Bytes of the table of cases, at most, and curves with cycles on the page.
+const TABLE_BYTES: usize = 1_200_000;
+const CURVES_WITH_CYCLES: usize = 12;
+/// Digits of a value, and of an error or what else is only looked at.
+const DIGITS: usize = 6;
+const FEW_DIGITS: usize = 2;
+
+/// The cases whose cycles the page of a large sweep shows.
+///
+/// # Errors
+/// [`ReportError::Scale`] where figures are normalised by what does not exist.
+pub fn shown(plan: &SweepPlan, outcome: &Outcome) -> Result<BTreeSet<usize>, ReportError> {
+    let units = Units::of_sweep(plan)?;
+    let all = curves(plan, outcome, &units);
+    let some = evenly(all.len(), CURVES_WITH_CYCLES).into_iter();
+    let some = some.filter_map(|k| all.get(k)).chain(largest(&all));
+    let asked = &plan.figures.loops_rad_per_s;
+    Ok(some.flat_map(|curve| cycles_of(curve, asked)).collect())
+}
+
+/// The outcome as the page shows it, and its table.
+///
+/// # Errors
+/// As [`shown`].
+pub(super) fn of_page<'a>(
+    plan: &SweepPlan,
+    outcome: &'a Outcome,
+) -> Result<(Cow<'a, Outcome>, Vec<u8>), ReportError> {
+    let (branches, unit) = (outcome.branches(), plan.figures.frequency_unit);
+    if plan.is_small() {
+        let table = quantities::sweep(&outcome.records, branches, unit, plan.axis.as_ref());
+        return Ok((Cow::Borrowed(outcome), table));
+    }
+    let units = Units::of_sweep(plan)?;
+    let all = curves(plan, outcome, &units);
+    let whole = small_table(plan, branches, &sample(&all));
+    let per_row = whole.len() / sample(&all).len().max(1);
+    let rows = TABLE_BYTES / per_row.max(1);
+    let per_curve = outcome.records.len().div_ceil(all.len().max(1));
+    let most = (rows / per_curve.max(1)).max(2);
+    let mut chosen: BTreeSet<usize> = evenly(all.len(), most).into_iter().collect();
+    let place = largest(&all).and_then(|high| all.iter().position(|c| std::ptr::eq(c, high)));
+    chosen.extend(place);
+    let with_cycles = shown(plan, outcome)?;
+    for (k, curve) in all.iter().enumerate() {
+        if curve.records.iter().any(|r| with_cycles.contains(&r.index)) {
+            chosen.insert(k);
+        }
+    }
+    let records = chosen.iter().filter_map(|k| all.get(*k));
+    let records: Vec<CaseRecord> = records
+        .flat_map(|curve| curve.records.iter().map(|record| (*record).clone()))
+        .collect();
+    let table = small_table(plan, branches, &records.iter().collect::<Vec<_>>());
+    let thinned = Outcome {
+        records,
+        peaks: outcome.peaks.clone(),
+        peak_problems: outcome.peak_problems.clone(),
+        interrupted: outcome.interrupted,
+    };
+    Ok((Cow::Owned(thinned), table))
+}
+
+/// Some cases that stand for all.
+fn sample<'a>(curves: &[Curve<'a>]) -> Vec<&'a CaseRecord> {
+    let first = curves.first().into_iter();
+    first
+        .flat_map(|curve| curve.records.iter().copied().take(50))
+        .collect()
+}
+
+/// The table in few digits.
+fn small_table(plan: &SweepPlan, branches: usize, records: &[&CaseRecord]) -> Vec<u8> {
+    let unit = plan.figures.frequency_unit;
+    let columns = quantities::of_cases(branches, unit, plan.axis.as_ref());
+    let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
+    let rows = records.iter().map(|record| {
+        let cells = columns.iter().map(|column| match (column.cell)(record) {
+            Cell::Number(number) => Cell::Number(match is_looked_at(&column.name) {
+                true => digits(number, FEW_DIGITS),
+                false => digits(number, DIGITS),
+            }),
+            other => other,
+        });
+        cells.collect::<Vec<Cell>>()
+    });
+    csv(&names, rows)
+}
+
+/// Whether nobody computes with a column.
+fn is_looked_at(name: &str) -> bool {
+    name.contains("_error") || ["energy_imbalance", "steady_distance"].contains(&name)
+}

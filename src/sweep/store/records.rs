@@ -1,0 +1,343 @@
+//! The records in a folder: which segments there are, where in them each record stands, and the segment this process appends to.
+
+use std::collections::HashMap;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use serde::{Deserialize, Serialize};
+
+use super::archive::Purpose;
+use super::provenance::{self, BUILD};
+use super::segment::{self, Met, SegmentWriter};
+use super::{StoreError, VERSION};
+
+/// The folder of the segments, and the ending of their names.
+pub const FOLDER: &str = "records";
+pub const ENDING: &str = "segment";
+
+/// Where other processes may be at work, their segments are looked at again after this time.
+const LOOK_AGAIN: Duration = Duration::from_millis(500);
+
+/// Which case a record is of: what it was solved for, and its numbers bit for bit.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub(in crate::sweep) struct Key {
+    pub purpose: Purpose,
+    /// Mean, amplitude, frequency, and the varied number where there is one.
+    pub bits: Vec<u64>,
+}
+
+/// How the content of a record begins, in every version of the program.
+#[derive(Debug, Serialize, Deserialize)]
+struct Heading<'a> {
+    program_version: &'a str,
+    build: &'a str,
+    sweep_hash: &'a str,
+    key: Key,
+}
+
+/// Whose record it is.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(in crate::sweep) enum Origin {
+    ThisBuild,
+    AnotherBuild,
+    Older(String),
+    Newer(String),
+}
+
+/// Where a record stands.
+#[derive(Debug, Clone)]
+pub(in crate::sweep) struct Place {
+    pub segment: Arc<Path>,
+    pub origin: Origin,
+    at: u64,
+    length: usize,
+}
+
+/// Something in the folder that is no record of this sweep.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unread {
+    pub path: PathBuf,
+    pub reason: String,
+}
+
+/// All that is known of the records of a folder.
+#[derive(Debug)]
+pub(in crate::sweep) struct Records {
+    folder: PathBuf,
+    sweep_hash: String,
+    state: Mutex<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
+    /// Segments, and how far each has been read.
+    read: HashMap<PathBuf, (Arc<Path>, u64)>,
+    places: HashMap<Key, Place>,
+    unread: Vec<Unread>,
+    looked: Option<Instant>,
+    own: Option<SegmentWriter>,
+}
+
+impl Records {
+    pub(in crate::sweep) fn of(folder: &Path, sweep_hash: &str) -> Self {
+        Self {
+            folder: folder.join(FOLDER),
+            sweep_hash: sweep_hash.to_owned(),
+            state: Mutex::default(),
+        }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        // What a panicking thread has left half done is read from the files again, at worst.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Looks at the folder again, now.
+    ///
+    /// # Errors
+    /// [`StoreError::Read`] with the path.
+    pub(in crate::sweep) fn look(&self) -> Result<(), StoreError> {
+        self.state().look(&self.folder, &self.sweep_hash)
+    }
+
+    /// Where the record of a case stands, be it of another process that has appended it a moment ago.
+    ///
+    /// # Errors
+    /// As [`Self::look`].
+    pub(in crate::sweep) fn place(&self, key: &Key) -> Result<Option<Place>, StoreError> {
+        let mut state = self.state();
+        if !state.places.contains_key(key)
+            && state.looked.is_none_or(|at| at.elapsed() >= LOOK_AGAIN)
+        {
+            state.look(&self.folder, &self.sweep_hash)?;
+        }
+        Ok(state.places.get(key).cloned())
+    }
+
+    /// All that has been found, in the order of the keys.
+    pub(in crate::sweep) fn places(&self) -> Vec<(Key, Place)> {
+        let places = self.state();
+        let places = places.places.iter();
+        let mut all: Vec<_> = places.map(|(k, p)| (k.clone(), p.clone())).collect();
+        all.sort_by(|a, b| a.0.cmp(&b.0));
+        all
+    }
+
+    /// What was met that is no record of this sweep, since it was last asked for.
+    pub(in crate::sweep) fn unread(&self) -> Vec<Unread> {
+        std::mem::take(&mut self.state().unread)
+    }
+
+    /// The record at a place, without its heading.
+    ///
+    /// # Errors
+    /// [`StoreError::Read`] with the path.
+    pub(in crate::sweep) fn read(&self, place: &Place) -> Result<Vec<u8>, StoreError> {
+        segment::content(&place.segment, place.at, place.length).map_err(|source| {
+            StoreError::Read {
+                path: place.segment.to_path_buf(),
+                source,
+            }
+        })
+    }
+
+    /// Appends a record of this build. The folder of the segments is there once something was written.
+    ///
+    /// # Errors
+    /// [`StoreError`] with the path.
+    pub(in crate::sweep) fn append(&self, key: Key, record: &[u8]) -> Result<(), StoreError> {
+        let heading = Heading {
+            program_version: VERSION,
+            build: BUILD,
+            sweep_hash: &self.sweep_hash,
+            key,
+        };
+        let mut content = postcard::to_stdvec(&heading).map_err(|error| StoreError::Encode {
+            path: self.folder.clone(),
+            reason: error.to_string(),
+        })?;
+        let begins = content.len() as u64;
+        content.extend_from_slice(record);
+        let mut state = self.state();
+        let writer = state.writer(&self.folder)?;
+        let at = writer.append(&content);
+        let at = at.map_err(|source| StoreError::Write {
+            path: writer.path().to_path_buf(),
+            source,
+        })?;
+        let (path, length) = (writer.path().to_path_buf(), writer.length());
+        let segment: Arc<Path> = match state.read.get(&path) {
+            Some((segment, _)) => Arc::clone(segment),
+            None => path.as_path().into(),
+        };
+        state.read.insert(path, (Arc::clone(&segment), length));
+        let place = Place {
+            segment,
+            origin: Origin::ThisBuild,
+            at: at + begins,
+            length: record.len(),
+        };
+        state.places.insert(heading.key, place);
+        Ok(())
+    }
+}
+
+impl State {
+    /// The segment of this process, made with its first record.
+    fn writer(&mut self, folder: &Path) -> Result<&mut SegmentWriter, StoreError> {
+        if self.own.is_none() {
+            let created = |path: PathBuf| move |source| StoreError::Create { path, source };
+            fs::create_dir_all(folder).map_err(created(folder.to_path_buf()))?;
+            let host: String = provenance::host().unwrap_or_default();
+            let host = host.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "");
+            let since = SystemTime::now().duration_since(UNIX_EPOCH);
+            let began = since.map_or(0, |since| since.as_millis());
+            let process = std::process::id();
+            let mut count = 0;
+            let writer = loop {
+                // Several in one process, or a clock that was set back.
+                let path = folder.join(format!("{host}-{process}-{began}-{count}.{ENDING}"));
+                match SegmentWriter::create(&path) {
+                    Ok(writer) => break writer,
+                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists => count += 1,
+                    Err(source) => return Err(StoreError::Create { path, source }),
+                }
+            };
+            self.own = Some(writer);
+        }
+        match &mut self.own {
+            Some(writer) => Ok(writer),
+            None => Err(StoreError::Create {
+                path: folder.to_path_buf(),
+                source: io::Error::other("no segment"),
+            }),
+        }
+    }
+
+    fn look(&mut self, folder: &Path, sweep_hash: &str) -> Result<(), StoreError> {
+        let first = self.looked.is_none();
+        self.looked = Some(Instant::now());
+        let failed = |path: &Path| {
+            let path = path.to_path_buf();
+            move |source| StoreError::Read { path, source }
+        };
+        let entries = match fs::read_dir(folder) {
+            Ok(entries) => entries,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+            Err(source) => return Err(failed(folder)(source)),
+        };
+        let mut paths = Vec::new();
+        for entry in entries {
+            let path = entry.map_err(failed(folder))?.path();
+            match path.extension().is_some_and(|ending| ending == ENDING) {
+                true => paths.push(path),
+                false if first => self.unread.extend(other_file(path)),
+                false => {}
+            }
+        }
+        // Whatever the order in which a system lists them.
+        paths.sort();
+        for path in paths {
+            self.look_at(&path, sweep_hash).map_err(failed(&path))?;
+        }
+        Ok(())
+    }
+
+    /// Reads what a segment has grown by.
+    fn look_at(&mut self, path: &Path, sweep_hash: &str) -> io::Result<()> {
+        let (segment, from) = match self.read.get(path) {
+            Some((segment, from)) => (Arc::clone(segment), *from),
+            None => (Arc::from(path), 0),
+        };
+        let length = fs::metadata(path)?.len();
+        if length <= from {
+            return Ok(());
+        }
+        let mut found = Vec::new();
+        let to = segment::read(path, from, |met| {
+            match met {
+            Met::Damaged { from, to } => found.push(Err(format!(
+                "bytes {from} to {to} are damaged or torn (their checksum does not match): what stood there is not used"
+            ))),
+            Met::Record { at, content } => {
+                found.push(place(&segment, at, content, sweep_hash));
+            }
+        }
+        })?;
+        // A process that is killed leaves such an end, and one at work for a moment too.
+        if to < length && from == 0 {
+            found.push(Err(format!(
+                "its last {} bytes are damaged or torn (a record without its end): they are not used",
+                length - to
+            )));
+        }
+        for found in found {
+            match found {
+                Ok((key, place)) => self.insert(key, place),
+                Err(reason) => self.unread.push(Unread {
+                    path: path.to_path_buf(),
+                    reason,
+                }),
+            }
+        }
+        self.read.insert(path.to_path_buf(), (segment, to));
+        Ok(())
+    }
+
+    /// Of several records of a case the one of this build counts, and of several of these the first.
+    fn insert(&mut self, key: Key, place: Place) {
+        match self.places.get(&key) {
+            Some(known) if known.origin <= place.origin => {}
+            _ => {
+                self.places.insert(key, place);
+            }
+        }
+    }
+}
+
+/// The case and the place of a whole record; why it is not used where it is of something else.
+fn place(
+    segment: &Arc<Path>,
+    at: u64,
+    content: &[u8],
+    sweep_hash: &str,
+) -> Result<(Key, Place), String> {
+    let heading = postcard::take_from_bytes::<Heading<'_>>(content);
+    let (heading, record) = heading.map_err(|_| "a record in it has no heading".to_owned())?;
+    let version = heading.program_version;
+    let origin = match numbers(version).cmp(&numbers(VERSION)) {
+        std::cmp::Ordering::Less => Origin::Older(version.to_owned()),
+        std::cmp::Ordering::Greater => Origin::Newer(version.to_owned()),
+        std::cmp::Ordering::Equal if heading.build == BUILD => Origin::ThisBuild,
+        std::cmp::Ordering::Equal => Origin::AnotherBuild,
+    };
+    if heading.sweep_hash != sweep_hash {
+        return Err("a record in it belongs to another sweep".to_owned());
+    }
+    let place = Place {
+        segment: Arc::clone(segment),
+        origin,
+        at: at + (content.len() - record.len()) as u64,
+        length: record.len(),
+    };
+    Ok((heading.key, place))
+}
+
+/// A file among the segments that is none; files half-written by earlier versions say nothing.
+fn other_file(path: PathBuf) -> Option<Unread> {
+    let is_record = path.extension().is_some_and(|ending| ending == "json");
+    is_record.then(|| Unread {
+        path,
+        reason: "a record of an earlier version of the program, which kept one file per case: it is not used".to_owned(),
+    })
+}
+
+/// The numbers of a version; what is no number counts as 0.
+fn numbers(version: &str) -> Vec<u64> {
+    let release = version.split(['-', '+']).next().unwrap_or_default();
+    let parts = release.split('.');
+    parts.map(|part| part.parse().unwrap_or(0)).collect()
+}

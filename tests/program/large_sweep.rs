@@ -1,0 +1,112 @@
+//! A sweep of more cases than anybody reads one by one: few files, a page that stays small, cycles where they are asked for.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::Path;
+
+use crate::program::{pmma_sweep, program, write};
+use tempfile::TempDir;
+
+/// 11 curves of 20 cases, as coarse as they may be.
+const LARGE: &str = r#"[sweep]
+angular_frequency = { from = "1e-3 rad/s", to = "1 rad/s", points = 20, spacing = "log" }
+drive.amplitude = { from = "1 N", to = "10 N", points = 11 }
+[cycle]
+steps = 32
+error_bars = false
+[solver]
+springs = 24
+[figures]
+formats = ["svg"]
+"#;
+
+fn files(folder: &Path) -> usize {
+    let entries = fs::read_dir(folder).into_iter().flatten();
+    let count = |path: &Path| if path.is_dir() { files(path) } else { 1 };
+    entries.map(|entry| count(&entry.unwrap().path())).sum()
+}
+
+/// The shape of an array of a .npz file, and its values.
+fn array(bytes: &[u8], name: &str) -> (Vec<usize>, Vec<f64>) {
+    let mut zip = zip::ZipArchive::new(std::io::Cursor::new(bytes)).unwrap();
+    let mut file = zip.by_name(&format!("{name}.npy")).unwrap();
+    let mut npy = Vec::new();
+    std::io::Read::read_to_end(&mut file, &mut npy).unwrap();
+    let length = usize::from(u16::from_le_bytes([npy[8], npy[9]]));
+    let header = std::str::from_utf8(&npy[10..10 + length]).unwrap();
+    let (_, shape) = header.split_once("'shape': (").unwrap();
+    let (shape, _) = shape.split_once(')').unwrap();
+    let sides = shape.split(',').filter_map(|side| side.trim().parse().ok());
+    let values = npy[10 + length..].chunks_exact(8);
+    let values = values.map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()));
+    (sides.collect(), values.collect())
+}
+
+fn column(out: &Path, name: &str) -> Vec<f64> {
+    let mut reader = csv::Reader::from_path(out.join("sweep.csv")).unwrap();
+    let place = reader.headers().unwrap().iter().position(|c| c == name);
+    let place = place.unwrap();
+    let rows = reader.records();
+    rows.map(|row| row.unwrap()[place].parse().unwrap())
+        .collect()
+}
+
+#[test]
+fn a_large_sweep_leaves_few_files_and_all_its_cycles_where_they_are_asked_for() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "large.toml", &pmma_sweep(LARGE));
+    let out = folder.path().join("out");
+    let sweep = |more: &[&str]| {
+        let mut command = program();
+        command.args(["sweep", &file, "--quiet", "--out"]).arg(&out);
+        command.args(more).assert().success();
+    };
+    sweep(&[]);
+    assert_eq!(column(&out, "energy_loss_j").len(), 220);
+    assert!(files(&out) < 100, "{}", files(&out));
+    assert!(!out.join("cycles.npz").exists());
+    // Tables of the cycles that the figures show.
+    let loops: Vec<_> = fs::read_dir(out.join("loops")).unwrap().collect();
+    assert!((2..=6).contains(&loops.len()), "{}", loops.len());
+    let page = fs::read(out.join("index.html")).unwrap();
+    assert!(page.len() < 3_000_000, "{}", page.len());
+    // Drawn again from the records, everything is the same, and the cycles are written on demand.
+    let figure = fs::read(out.join("loops.svg")).unwrap();
+    let report = |more: &[&str]| {
+        let mut command = program();
+        command.args(["report", "--quiet"]).arg(&out).args(more);
+        command.assert().success();
+    };
+    report(&["--cycles"]);
+    assert!(fs::read(out.join("loops.svg")).unwrap() == figure);
+    assert!(fs::read(out.join("index.html")).unwrap() == page);
+    let bytes = fs::read(out.join("cycles.npz")).unwrap();
+    let (shape, losses) = array(&bytes, "energy_loss_j");
+    assert_eq!(shape, [220]);
+    assert_eq!(losses, column(&out, "energy_loss_j"));
+    let (shape, load) = array(&bytes, "load_n");
+    assert_eq!(shape, [220, 33]);
+    let (shape, approach) = array(&bytes, "approach_m");
+    assert_eq!(shape, [220, 33]);
+    // The polygon of the cycle has the loss as its area but for its corners: (N/2 pi) sin(2 pi/N) of it.
+    let corners = 32.0 / std::f64::consts::TAU * (std::f64::consts::TAU / 32.0).sin();
+    for (case, loss) in losses.iter().enumerate() {
+        let (w, d) = (
+            &load[33 * case..33 * (case + 1)],
+            &approach[33 * case..33 * (case + 1)],
+        );
+        let area: f64 = (1..33)
+            .map(|k| 0.5 * (w[k] + w[k - 1]) * (d[k] - d[k - 1]))
+            .sum();
+        assert!(
+            (area / loss / corners - 1.0).abs() < 1e-3,
+            "{case}: {area} {loss}"
+        );
+    }
+    let (shape, _) = array(&bytes, "profile_pressure_pa");
+    assert_eq!(shape[..2], [220, 4]);
+    // A second run finds everything and changes nothing.
+    sweep(&[]);
+    assert!(fs::read(out.join("index.html")).unwrap() == page);
+}
