@@ -90,7 +90,7 @@ fn case_s(cells: usize) -> f64 {
         material: Arc::new(entry.material().expect("a tested entry")),
         indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
         drive: HarmonicDrive::load(LOAD_N, 0.5 * LOAD_N).expect("a valid drive"),
-        axis: None,
+        axes: None,
         angular_frequencies_rad_per_s: vec![0.01],
         refine: false,
         cycle: CyclePlan {

@@ -31,7 +31,7 @@ fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
         indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
         drive: HarmonicDrive::new(Control::Load, LOAD_N, 0.5 * LOAD_N, 0.0, 0.0)
             .expect("a valid drive"),
-        axis: None,
+        axes: None,
         angular_frequencies_rad_per_s: vec![OMEGA_RAD_PER_S],
         refine: false,
         cycle: CyclePlan {

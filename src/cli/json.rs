@@ -65,7 +65,7 @@ pub(super) fn plan(setup: &Setup, cost: &Cost) -> Value {
         json!({
             "index": case.case.index,
             "angular_frequency_rad_per_s": case.case.angular_frequency_rad_per_s,
-            "varied": case.case.condition.value,
+            "varied": case.case.condition.values,
             "drive_mean": case.case.condition.drive.mean(),
             "drive_amplitude": case.case.condition.drive.amplitude(),
             "cycles": case.cycles,

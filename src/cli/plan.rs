@@ -9,7 +9,7 @@ use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::{four_digits, varied};
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{Condition, EngineKind, SolverPlan};
+use crate::sweep::plan::{Axes, Condition, EngineKind, SolverPlan};
 use crate::sweep::share::cost::Cost;
 
 /// Cases listed before the rest is counted.
@@ -39,19 +39,23 @@ fn text(setup: &Setup, cost: &Cost) -> String {
     let mut text = format!("{}\n\n", plan.title);
     let unit = plan.figures.frequency_unit;
     // What an axis varies of something else than the drive takes the place of the drive, which is then the same for all.
-    let axis = plan
-        .axis
-        .as_ref()
-        .filter(|axis| axis.varied.has_own_column());
-    let head = axis.map(|axis| axis.varied.name());
-    let head = head.unwrap_or_else(|| "drive mean   amplitude".to_owned());
-    let of_case = |Condition { value, drive, .. }: &Condition| match axis.zip(*value) {
-        Some((axis, value)) => varied(&axis.varied, value),
-        None => format!(
+    let own: Vec<_> = plan.axes.iter().flat_map(Axes::own_columns).collect();
+    let names: Vec<String> = own.iter().map(|(_, varied)| varied.name()).collect();
+    let head = match own.is_empty() {
+        true => "drive mean   amplitude".to_owned(),
+        false => names.join(", "),
+    };
+    let of_case = |Condition { values, drive, .. }: &Condition| match own.is_empty() {
+        true => format!(
             "{:>10}   {:>9}",
             short(drive.mean()),
             short(drive.amplitude())
         ),
+        false => {
+            let own = own.iter();
+            let own = own.filter_map(|(axis, of)| Some(varied(of, values.get(*axis)?)));
+            own.collect::<Vec<_>>().join(", ")
+        }
     };
     // Writing to a String cannot fail.
     let _ = writeln!(

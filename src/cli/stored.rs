@@ -162,8 +162,9 @@ fn lacking(missing: &[Case], of: usize, out: &Store) -> String {
         missing.len()
     );
     for case in missing.iter().take(NAMED) {
-        let Condition { value, drive, .. } = &case.condition;
-        let value = value.map_or(String::new(), |value| format!("axis {value}, "));
+        let Condition { values, drive, .. } = &case.condition;
+        let values = values.all().iter();
+        let value: String = values.map(|value| format!("axis {value}, ")).collect();
         text.push_str(&format!(
             "  case {}: ω = {:e} rad/s ({value}mean {}, amplitude {})\n",
             case.index,

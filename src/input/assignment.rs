@@ -235,11 +235,8 @@ fn remove_excluded(table: &mut Table, path: &str, set: &str) {
     };
     let rows = tables_at(path).into_iter();
     let excluded: Vec<&str> = rows.flat_map(|rows| rows.excluded_by(set, &word)).collect();
-    let (above, own) = path.rsplit_once('.').unwrap_or_default();
-    let mut same = tables_at(above).into_iter().flat_map(|rows| rows.all());
-    let takes_one = same.any(|row| row.name() == own && row.kind().takes_one_key());
-    let is_excluded = |name: &str| excluded.contains(&name) || (takes_one && name != set);
-    let was_given = |name: &str, entry: &Entry| is_excluded(name) && !entry.key.source().is_flag();
+    let was_given =
+        |name: &str, entry: &Entry| excluded.contains(&name) && !entry.key.source().is_flag();
     table.entries.retain(|name, entry| !was_given(name, entry));
 }
 

@@ -1,15 +1,15 @@
-//! The second axis of a sweep: any number of `[material]`, `[indenter]` or `[drive]`, by its key, as a list or a range.
+//! The axes of a sweep besides the frequency: any number of `[material]`, `[indenter]` or `[drive]`, by its key, as a list or a range.
 
 use serde_json::{Map, Value as Json, json};
 
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use super::document::Located;
-use super::document::kind::{Decided, Describe, Kind, Scalar, Spot};
+use super::document::kind::{Array, Decided, Describe, Kind, Scalar, Spot, list};
 use super::document::reader::{in_backticks, join};
 use super::document::row::{AnyRow, Rows};
 use super::document::similar::similar;
 use super::document::tree::{Entry, Node, Table, Value};
-use super::points::Points;
+use super::points::{MOST_POINTS, Points};
 use crate::quantity::Dimension;
 use crate::sweep::plan::{Block, Varied};
 
@@ -24,6 +24,8 @@ pub(crate) struct AxisOf {
 pub(crate) struct DecidedAxisOf {
     of: AxisOf,
     controlled: Dimension,
+    /// Whether the values are taken in their order, repeats and all.
+    in_order: bool,
 }
 
 /// What the key varies.
@@ -31,7 +33,7 @@ pub(crate) struct DecidedAxisOf {
 pub(crate) struct Swept {
     pub(super) varied: Varied,
     pub(super) key_location: Location,
-    /// Ascending, SI units.
+    /// SI units, ascending but in pairs.
     pub(super) values: Located<Vec<f64>>,
 }
 
@@ -70,7 +72,7 @@ impl AxisOf {
 
 impl Describe for AxisOf {
     fn expected(&self) -> String {
-        format!("a table with one key of [{}]", self.block.name())
+        format!("a table with keys of [{}]", self.block.name())
     }
 
     fn example(&self) -> String {
@@ -83,7 +85,6 @@ impl Describe for AxisOf {
             "type": "object",
             "properties": self.references(),
             "minProperties": 1,
-            "maxProperties": 1,
             "additionalProperties": false,
         })
     }
@@ -111,7 +112,7 @@ impl Describe for AxisOf {
             .collect()
     }
 
-    fn takes_one_key(&self) -> bool {
+    fn has_dotted_keys(&self) -> bool {
         true
     }
 }
@@ -123,6 +124,7 @@ impl Decided for AxisOf {
         DecidedAxisOf {
             of: *self,
             controlled,
+            in_order: false,
         }
     }
 }
@@ -142,32 +144,38 @@ impl Describe for DecidedAxisOf {
 }
 
 impl Kind for DecidedAxisOf {
-    type Value = Swept;
+    type Value = Vec<Swept>;
 
-    fn written(&self, swept: &Swept) -> Json {
-        json!({ swept.varied.key: swept.values.value })
+    fn written(&self, all: &Vec<Swept>) -> Json {
+        let entries = all.iter();
+        let entries = entries.map(|swept| (swept.varied.key.to_owned(), json!(swept.values.value)));
+        Json::Object(entries.collect())
     }
 
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Swept, Diagnostics> {
+    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Vec<Swept>, Diagnostics> {
         let Value::Table(table) = &node.value else {
             let help = format!("write `{}.KEY = [...]`", spot.key.unwrap_or_default());
             return Err(self.wrong_type(node, spot).help(help).into());
         };
-        let mut entries = table.entries.iter();
-        let (Some((key, entry)), others) = (entries.next(), entries) else {
+        if table.entries.is_empty() {
             let problem = Diagnostic::at(&node.location, format!("`{}` is empty", spot.path));
             let help = format!("write the key of [{}] that varies", self.of.block.name());
             return Err(problem.help(help).into());
-        };
-        let others: Vec<_> = others.collect();
-        if !others.is_empty() {
-            let message = "a sweep has one second axis";
-            let problem = Diagnostic::at(&entry.key, message).because("one key");
-            let problem = others
-                .iter()
-                .fold(problem, |p, (_, other)| p.label(&other.key, "another"));
-            return Err(problem.help("remove all but one").into());
         }
+        let entries = table.entries.iter();
+        entries
+            .map(|(key, entry)| self.swept(key, entry, spot))
+            .collect()
+    }
+}
+
+impl DecidedAxisOf {
+    /// The same, whose values go with those of other axes one by one.
+    pub(super) fn in_order(self, in_order: bool) -> Self {
+        Self { in_order, ..self }
+    }
+
+    fn swept(&self, key: &str, entry: &Entry, spot: &Spot<'_>) -> Result<Swept, Diagnostics> {
         let numbers = numbers(self.of.rows, self.controlled);
         let path = join(spot.path, key);
         let Some((row, scalar)) = numbers.iter().find(|(row, _)| row.name() == key) else {
@@ -177,6 +185,17 @@ impl Kind for DecidedAxisOf {
             path: &path,
             key: Some(row.name()),
         };
+        let points = match (&entry.node.value, self.in_order) {
+            (Value::Array(_), true) => {
+                let all = Array {
+                    entries: 1..=MOST_POINTS,
+                    ..list(*scalar)
+                };
+                let points = all.convert(&entry.node, &spot)?;
+                points.into_iter().map(|point| point.value).collect()
+            }
+            _ => Points(*scalar).convert(&entry.node, &spot)?,
+        };
         Ok(Swept {
             varied: Varied {
                 block: self.of.block,
@@ -185,15 +204,13 @@ impl Kind for DecidedAxisOf {
             },
             key_location: entry.key.clone(),
             values: Located {
-                value: Points(*scalar).convert(&entry.node, &spot)?,
+                value: points,
                 path: path.clone(),
                 location: entry.node.location.clone(),
             },
         })
     }
-}
 
-impl DecidedAxisOf {
     /// A key that no number stands under.
     fn no_number(
         &self,

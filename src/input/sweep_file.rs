@@ -1,5 +1,6 @@
 //! Sweep files: from a document to a finished plan, every default filled in, every problem reported where it stands.
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,11 +9,11 @@ use super::diagnostic::{Diagnostics, Problems};
 use super::document::kind::Table;
 use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
-use super::document::{Document, Located};
+use super::document::{self, Document, Located};
 use super::figures_block::{self, Figures};
 use super::keys;
 use super::keys::drive::{
-    ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, MATERIAL_AXIS, REFINE,
+    ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, MATERIAL_AXIS, PAIRS, REFINE,
 };
 use super::keys::settings::{
     CYCLE_ACCURACY, CYCLE_ERROR_BARS, CYCLE_STEPS, CYCLE_TOLERANCE, ENGINE, MAX_CYCLES, METHOD,
@@ -25,8 +26,9 @@ use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::axes::MOST as MOST_AXES;
 use crate::sweep::plan::resolved::drive_dimension;
-use crate::sweep::plan::{Block, Condition, CyclePlan, SecondAxis, SolverPlan, SweepPlan};
+use crate::sweep::plan::{self, AxisValues, Block, Condition, CyclePlan, SolverPlan, SweepPlan};
 use crate::sweep::scales::elastic::ElasticScale;
 
 const MAX_CASES: usize = SweepPlan::MAX_CASES;
@@ -43,10 +45,13 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let sweep = root
         .table(&keys::SWEEP)
         .and_then(|t| axes(t, controlled, &problems));
-    let swept = sweep.as_ref().and_then(|sweep| sweep.swept.as_ref());
+    let swept = sweep.as_ref().map_or(&[][..], |sweep| &sweep.swept);
+    let pairs = sweep.as_ref().is_some_and(|sweep| sweep.pairs);
     let file = File {
         folder: document.folder(),
         swept,
+        pairs,
+        conditions: conditions(swept, pairs),
         problems: &problems,
     };
     let material = file.material(&mut root);
@@ -70,7 +75,7 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let plan = (|| {
         let (figures, cycle, solver) = (figures?, cycle?, solver?);
         let (material, indenter, drive) = (material?, indenter?, drive?);
-        let axis = file.axis((&material, &indenter, &drive));
+        let axes = file.axes((&material, &indenter, &drive));
         let sweep = sweep.as_ref()?;
         let mut plan = SweepPlan {
             title: title?,
@@ -78,7 +83,7 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
             indenter: indenter.0,
             drive: drive.0,
             angular_frequencies_rad_per_s: sweep.angular_frequencies_rad_per_s.clone(),
-            axis,
+            axes,
             refine: sweep.refine,
             cycle,
             solver,
@@ -91,7 +96,7 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     problems.into_result(plan)
 }
 
-/// What a block says, and what it says with each value of an axis in place of its own; none where the axis is not of this block.
+/// What a block says, and what it says under each condition.
 type Over<T> = (T, Vec<T>);
 
 /// Material, indenter and drive.
@@ -104,18 +109,23 @@ type Blocks<'a> = (
 /// What the blocks of a file have in common.
 struct File<'a> {
     folder: &'a Path,
-    swept: Option<&'a Swept>,
+    swept: &'a [Swept],
+    pairs: bool,
+    /// The values of all axes under each condition.
+    conditions: Vec<Vec<f64>>,
     problems: &'a Problems,
 }
 
 impl File<'_> {
-    /// The axis, where it is of this block.
-    fn swept(&self, block: Block) -> Option<&Swept> {
-        self.swept.filter(|swept| swept.varied.block == block)
+    /// The axes of a block, with the place of each among all.
+    fn swept(&self, block: Block) -> Vec<(usize, &Swept)> {
+        let all = self.swept.iter().enumerate();
+        all.filter(|(_, swept)| swept.varied.block == block)
+            .collect()
     }
 
-    /// Reads a block: once, and once more for each value of the axis. Where the block leaves out what the axis varies, the first
-    /// value counts.
+    /// Reads a block: once, and once more for each set of values that the axes give it. Where the block leaves out what an axis varies,
+    /// the first condition counts.
     fn block<T: Clone>(
         &self,
         root: &mut TableReader<'_>,
@@ -125,41 +135,76 @@ impl File<'_> {
     ) -> Option<Over<T>> {
         let parsed = root.parsed(row);
         let own = root.table(row)?;
-        let (Some(swept), Some(parsed)) = (self.swept(block), parsed) else {
+        let swept = self.swept(block);
+        let (false, Some(parsed)) = (swept.is_empty(), parsed) else {
             return Some((read(own)?, Vec::new()));
         };
         let place = own.as_ref().clone();
-        let with = |value: &f64| {
-            let table = swept.put_into(parsed, *value);
+        let is_given = |(_, swept): &(usize, &Swept)| parsed.entries.contains_key(swept.varied.key);
+        let given = match swept.iter().all(is_given) {
+            true => Some(read(own)?),
+            false => None,
+        };
+        let each = self.each(&swept, |values| {
+            let with = |table: document::tree::Table, (value, (_, swept)): (&f64, &(_, &Swept))| {
+                swept.put_into(&table, *value)
+            };
+            let table = values.iter().zip(&swept).fold(parsed.clone(), with);
             let name = block.name().to_owned();
             read(TableReader::new(&table, place.clone(), name, self.problems))
-        };
-        let is_given = parsed.entries.contains_key(swept.varied.key);
-        let given = if is_given { Some(read(own)?) } else { None };
-        let each: Option<Vec<T>> = swept.values.value.iter().map(with).collect();
-        let each = each?;
+        })?;
         Some((given.or_else(|| each.first().cloned())?, each))
+    }
+
+    /// What is read of the values of some axes, under each condition; each set of values is read once.
+    fn each<T: Clone>(
+        &self,
+        swept: &[(usize, &Swept)],
+        read: impl Fn(&[f64]) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let mut known: HashMap<Vec<u64>, T> = HashMap::new();
+        let of_condition = |values: &Vec<f64>| {
+            let own: Vec<f64> = swept.iter().map(|(axis, _)| values[*axis]).collect();
+            let bits = own.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
+            if let Some(known) = known.get(&bits) {
+                return Some(known.clone());
+            }
+            let found = read(&own)?;
+            known.insert(bits, found.clone());
+            Some(found)
+        };
+        self.conditions.iter().map(of_condition).collect()
     }
 
     fn material(&self, root: &mut TableReader<'_>) -> Option<Over<Arc<Material>>> {
         let for_contact = |material| for_contact(self.problems, material).map(Arc::new);
-        let over = |t: TableReader<'_>, axis| {
+        let over = |t: TableReader<'_>, axis: Option<&Located<Vec<f64>>>| {
             material_block::read_over(t, self.folder, DirectSum::Refused, axis, self.problems)
         };
-        match self.swept(Block::Material) {
+        let swept = self.swept(Block::Material);
+        let temperature = |(_, swept): &&(usize, &Swept)| swept.varied.is_temperature();
+        match (swept.iter().find(temperature), swept.as_slice()) {
             // One fit gives the material at every temperature.
-            Some(swept) if swept.varied.is_temperature() => {
-                let (body, each) = over(root.table(&keys::MATERIAL)?, Some(&swept.values))?;
+            (Some(temperatures), [_]) => {
+                let values = &temperatures.1.values;
+                let (body, each) = over(root.table(&keys::MATERIAL)?, Some(values))?;
                 let place = body.location.clone();
-                let at = |material: Material| {
+                let at = |material: &Material| {
                     for_contact(Located {
-                        value: material,
+                        value: material.clone(),
                         path: "material".to_owned(),
                         location: place.clone(),
                     })
                 };
-                let each: Vec<_> = each.into_iter().map(at).collect::<Option<_>>()?;
-                Some((each.first()?.clone(), each))
+                let each: Vec<_> = each.iter().map(at).collect::<Option<_>>()?;
+                let of_condition = self.each(&swept, |at| {
+                    let at = values
+                        .value
+                        .iter()
+                        .position(|value| Some(value) == at.first());
+                    each.get(at?).cloned()
+                })?;
+                Some((of_condition.first()?.clone(), of_condition))
             }
             _ => self.block(root, &keys::MATERIAL, Block::Material, |t| {
                 for_contact(material_block::series_of(over(t, None)?.0)?)
@@ -167,21 +212,51 @@ impl File<'_> {
         }
     }
 
-    /// The second axis, where there is one.
-    fn axis(&self, (material, indenter, drive): Blocks<'_>) -> Option<SecondAxis> {
-        let swept = self.swept?;
-        let values = swept.values.value.iter().enumerate();
-        let conditions = values.map(|(k, value)| Condition {
-            value: Some(*value),
-            material: Arc::clone(material.1.get(k).unwrap_or(&material.0)),
-            indenter: Arc::clone(indenter.1.get(k).unwrap_or(&indenter.0)),
-            drive: *drive.1.get(k).unwrap_or(&drive.0),
+    /// The axes besides the frequency, where there are any.
+    fn axes(&self, (material, indenter, drive): Blocks<'_>) -> Option<plan::Axes> {
+        if self.swept.is_empty() {
+            return None;
+        }
+        let conditions = self.conditions.iter().enumerate();
+        let conditions = conditions.map(|(k, values)| {
+            Some(Condition {
+                values: AxisValues::new(values)?,
+                material: Arc::clone(material.1.get(k).unwrap_or(&material.0)),
+                indenter: Arc::clone(indenter.1.get(k).unwrap_or(&indenter.0)),
+                drive: *drive.1.get(k).unwrap_or(&drive.0),
+            })
         });
-        Some(SecondAxis {
-            varied: swept.varied,
-            conditions: conditions.collect(),
+        Some(plan::Axes {
+            over: self.swept.iter().map(|swept| swept.varied).collect(),
+            pairs: self.pairs,
+            conditions: conditions.collect::<Option<_>>()?,
         })
     }
+}
+
+/// All combinations of the values of these axes, those of the last fastest; or the values that stand at the same place, in the order of
+/// the first axis.
+fn conditions(swept: &[Swept], pairs: bool) -> Vec<Vec<f64>> {
+    let values = |axis: &Swept| axis.values.value.clone();
+    if pairs {
+        let all: Vec<Vec<f64>> = swept.iter().map(values).collect();
+        let count = all.iter().map(Vec::len).min().unwrap_or(0);
+        let mut together: Vec<Vec<f64>> = (0..count)
+            .map(|k| all.iter().map(|values| values[k]).collect())
+            .collect();
+        together.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
+        together.dedup();
+        return together;
+    }
+    swept.iter().fold(vec![Vec::new()], |before, axis| {
+        let with = |values: &Vec<f64>| {
+            let values = values.clone();
+            let next = axis.values.value.iter();
+            next.map(move |value| values.iter().copied().chain([*value]).collect())
+                .collect::<Vec<Vec<f64>>>()
+        };
+        before.iter().flat_map(with).collect()
+    })
 }
 
 /// The solver where the file asks for none: springs where the indenter allows them, cells elsewhere.
@@ -224,51 +299,81 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
 struct Axes {
     angular_frequencies_rad_per_s: Vec<f64>,
     given_in: FrequencyUnit,
-    swept: Option<Swept>,
+    swept: Vec<Swept>,
+    pairs: bool,
     refine: bool,
 }
 
 fn axes(mut table: TableReader<'_>, controlled: Dimension, problems: &Problems) -> Option<Axes> {
     let frequencies = frequencies(&mut table);
     let refine = table.value(&REFINE);
-    let mut all = Vec::new();
+    let pairs = table.value(&PAIRS);
+    let mut swept = Vec::new();
     let mut is_whole = true;
     for row in [&MATERIAL_AXIS, &INDENTER_AXIS, &DRIVE_AXIS] {
-        match table.value(&row.of(controlled)) {
-            Some(swept) => all.extend(swept),
+        let row = row.of(controlled);
+        let row = Row {
+            kind: row.kind.in_order(pairs.unwrap_or(false)),
+            ..row
+        };
+        match table.value(&row) {
+            Some(found) => swept.extend(found.into_iter().flatten()),
             None => is_whole = false,
         }
     }
     table.finish();
-    if let [one, other, ..] = all.as_slice() {
-        problems
-            .at(&one.key_location, "a sweep has one second axis")
-            .because("one axis")
-            .label(&other.key_location, "another")
-            .help("remove all but one, or make several sweeps of it");
-        return None;
-    }
-    let (frequencies, given_in) = frequencies?;
-    let swept = all.pop();
-    if let Some(swept) = &swept {
-        let cases = swept.values.value.len() * frequencies.len();
-        if cases > MAX_CASES {
-            problems
-                .at(
-                    &swept.key_location,
-                    format!("{cases} cases are more than a sweep may have, {MAX_CASES}"),
-                )
-                .help("make several sweeps of it");
-            return None;
-        }
-    }
+    let ((frequencies, given_in), pairs) = (frequencies?, pairs?);
+    check_axes(&swept, pairs, frequencies.len(), problems)?;
     is_whole.then_some(())?;
     Some(Axes {
         angular_frequencies_rad_per_s: frequencies,
         given_in,
         swept,
+        pairs,
         refine: refine?,
     })
+}
+
+/// What axes must not be together.
+fn check_axes(swept: &[Swept], pairs: bool, frequencies: usize, problems: &Problems) -> Option<()> {
+    let (Some(first), Some(last)) = (swept.first(), swept.last()) else {
+        return Some(());
+    };
+    if swept.len() > MOST_AXES {
+        let what = format!("a sweep has at most {MOST_AXES} axes besides the frequency");
+        problems
+            .at(&last.key_location, what)
+            .help("remove one, or make several sweeps of it");
+        return None;
+    }
+    let count = |axis: &Swept| axis.values.value.len();
+    if let Some(other) = swept
+        .iter()
+        .find(|axis| pairs && count(axis) != count(first))
+    {
+        let what = "pairs need as many values on every axis";
+        problems
+            .at(&other.key_location, what)
+            .because(format!("{} values", count(other)))
+            .label(&first.key_location, format!("{} values", count(first)))
+            .help("give as many, or remove `pairs` for all combinations");
+        return None;
+    }
+    let conditions = match pairs {
+        true => count(first),
+        false => swept.iter().map(count).fold(1, usize::saturating_mul),
+    };
+    let cases = conditions.saturating_mul(frequencies);
+    if cases > MAX_CASES {
+        problems
+            .at(
+                &last.key_location,
+                format!("{cases} cases are more than a sweep may have, {MAX_CASES}"),
+            )
+            .help("make several sweeps of it");
+        return None;
+    }
+    Some(())
 }
 
 /// Angular frequencies in rad/s, ascending, and the unit they are given in.

@@ -79,7 +79,7 @@ impl Setting {
             }
             _ => String::new(),
         };
-        let swept = plan.axis.as_ref().map(|axis| axis.varied);
+        let swept = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
         let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
             "{} on {}, {} (mean ± amplitude){rest}{varied}",
@@ -113,7 +113,7 @@ impl Setting {
         };
         let of = format!(
             "{} on {body}, {} against time prescribed",
-            indenter(plan.indenter.as_ref(), None),
+            indenter(plan.indenter.as_ref(), &[]),
             plan.drive.control().name()
         );
         let computed = format!(
@@ -145,8 +145,8 @@ fn material(material: &Material) -> String {
     format!("{name} (Poisson ratio {})", material.poisson_ratio())
 }
 
-/// The indenter, without the number that an axis varies.
-fn indenter(indenter: &dyn Indenter, swept: Option<Varied>) -> String {
+/// The indenter, without the numbers that axes vary.
+fn indenter(indenter: &dyn Indenter, swept: &[Varied]) -> String {
     let shape = indenter.shape().replace('-', " ");
     // Where a shape comes from is told by resolved.toml.
     let told = |value: &Value| {
@@ -156,7 +156,8 @@ fn indenter(indenter: &dyn Indenter, swept: Option<Varied>) -> String {
         )
     };
     let is_swept = |key: &str| {
-        swept.is_some_and(|varied| (varied.block, varied.key) == (Block::Indenter, key))
+        let mut swept = swept.iter();
+        swept.any(|varied| (varied.block, varied.key) == (Block::Indenter, key))
     };
     let settings: Vec<_> = indenter
         .parameters()

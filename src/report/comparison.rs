@@ -18,6 +18,7 @@ use result::Row;
 
 use crate::quantity::FrequencyUnit;
 use crate::report::quantities::{self, Compared};
+use crate::sweep::plan::AxisValues;
 use crate::sweep::search::peak::Peak;
 
 /// How much two values may differ.
@@ -39,11 +40,11 @@ impl Default for Tolerances {
     }
 }
 
-/// Which case: what else a second axis varies, mean and amplitude of the drive, angular frequency (rad/s).
+/// Which case: what else axes vary, mean and amplitude of the drive, angular frequency (rad/s).
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Place {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub varied: Option<f64>,
+    #[serde(skip_serializing_if = "AxisValues::is_empty")]
+    pub varied: AxisValues,
     pub drive_mean: f64,
     pub drive_amplitude: f64,
     pub angular_frequency_rad_per_s: f64,

@@ -56,7 +56,7 @@ const ARRAYS: [Array; 15] = [
     of_case("angular_frequency_rad_per_s", |c| {
         vec![c.record.angular_frequency_rad_per_s]
     }),
-    of_case("varied", |c| c.record.varied.into_iter().collect()),
+    of_case("varied", |c| c.record.varied.all().to_vec()),
     of_case("drive_mean", |c| vec![c.record.drive_mean]),
     of_case("drive_amplitude", |c| vec![c.record.drive_amplitude]),
     of_case("energy_loss_j", |c| {

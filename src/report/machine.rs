@@ -21,7 +21,7 @@ pub fn sweep(plan: &SweepPlan, outcome: &Outcome, sweep_hash: &str) -> Result<St
     let summary = summary::summary(plan, outcome, sweep_hash)?;
     let summary: Value = serde_json::from_slice(&summary).map_err(failed)?;
     let branches = outcome.branches();
-    let columns = quantities::of_cases(branches, plan.figures.frequency_unit, plan.axis.as_ref());
+    let columns = quantities::of_cases(branches, plan.figures.frequency_unit, plan.axes.as_ref());
     let case = |record| -> Map<String, Value> {
         let cells = columns.iter();
         cells

@@ -140,7 +140,7 @@ fn tables_of_sweep(store: &Store, plan: &SweepPlan, outcome: &Outcome) -> Result
     let unit = plan.figures.frequency_unit;
     store.write(
         "sweep.csv",
-        &quantities::sweep(&outcome.records, branches, unit, plan.axis.as_ref()),
+        &quantities::sweep(&outcome.records, branches, unit, plan.axes.as_ref()),
     )?;
     // Of a large sweep these are the cases that are drawn.
     let drawn = match plan.is_small() {

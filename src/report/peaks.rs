@@ -80,15 +80,18 @@ fn of_material(plan: &SweepPlan, peak: &Peak) -> Option<String> {
 }
 
 fn under(plan: &SweepPlan, peak: &Peak) -> Option<String> {
-    let varied = plan.axis.as_ref()?.varied;
-    let value = number::varied(&varied, peak.varied?);
-    Some(format!(", {} {value}", varied.name()))
+    let over = plan.axes.as_ref()?.over.iter().zip(peak.varied.all());
+    let words = over.map(|(varied, value)| {
+        let value = number::varied(varied, *value);
+        format!(", {} {value}", varied.name())
+    });
+    Some(words.collect())
 }
 
 /// The same; of a sweep of two axes the largest alone: each curve has its own.
 pub fn shown(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<PeakWords> {
     let mut peaks = all(plan, outcome, with_error);
-    if plan.axis.is_some() {
+    if plan.axes.is_some() {
         peaks.truncate(1);
     }
     peaks

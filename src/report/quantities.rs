@@ -6,7 +6,7 @@ use super::table::{Cell, csv};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::history::errors::RowErrors;
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
-use crate::sweep::plan::SecondAxis;
+use crate::sweep::plan::Axes;
 use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::record::{CaseRecord, CaseResult};
 
@@ -150,11 +150,11 @@ pub struct Named<R: 'static> {
 }
 
 /// The columns of `sweep.csv`, errors beside their values; frequencies in the unit asked for come first, and before the drive
-/// stands what a second axis varies of something else.
+/// stands what other axes vary of something else.
 pub fn of_cases(
     branches: usize,
     unit: FrequencyUnit,
-    axis: Option<&SecondAxis>,
+    axes: Option<&Axes>,
 ) -> Vec<Named<CaseRecord>> {
     let columns = SWEEP.iter();
     let mut named: Vec<_> = columns
@@ -163,15 +163,13 @@ pub fn of_cases(
     if let Some(leading) = named.iter().position(|c| c.name == unit.column()) {
         named[..=leading].rotate_right(1);
     }
-    let varied = axis
-        .filter(|axis| axis.varied.has_own_column())
-        .map(|axis| Named {
-            name: axis.varied.column(),
-            cell: Box::new(|record: &CaseRecord| record.varied.into()),
-        });
-    if let (Some(column), Some(place)) = (varied, named.iter().position(|c| c.name == "drive_mean"))
-    {
-        named.insert(place, column);
+    let own = axes.into_iter().flat_map(Axes::own_columns);
+    let own = own.map(|(axis, varied)| Named {
+        name: varied.column(),
+        cell: Box::new(move |record: &CaseRecord| record.varied.get(axis).into()),
+    });
+    if let Some(place) = named.iter().position(|c| c.name == "drive_mean") {
+        named.splice(place..place, own.collect::<Vec<_>>());
     }
     named
 }
@@ -380,9 +378,9 @@ pub fn sweep(
     records: &[CaseRecord],
     branches: usize,
     unit: FrequencyUnit,
-    axis: Option<&SecondAxis>,
+    axes: Option<&Axes>,
 ) -> Vec<u8> {
-    named(&of_cases(branches, unit, axis), records)
+    named(&of_cases(branches, unit, axes), records)
 }
 
 /// `history.csv`: one row per time step, two with the same time at a jump. Errors are absolute.

@@ -9,7 +9,7 @@ use super::peaks;
 use super::words::{without_result, wrapped};
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
-use crate::sweep::plan::{SecondAxis, SweepPlan};
+use crate::sweep::plan::{Axes, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::record::warning;
 use crate::sweep::search::run::Outcome;
@@ -17,8 +17,8 @@ use crate::sweep::search::run::Outcome;
 /// One line per case: frequency, loss with its error, phase, cycles, status; an absent value is a dash. A sweep of two axes
 /// has one line per value of the second instead: its cases are too many to be read.
 pub fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
-    match &plan.axis {
-        Some(axis) => conditions(plan, axis, outcome),
+    match &plan.axes {
+        Some(axes) => conditions(plan, axes, outcome),
         None => cases(plan.figures.frequency_unit, &outcome.records),
     }
 }
@@ -78,8 +78,9 @@ fn material_error(record: &CaseRecord) -> Option<String> {
 }
 
 /// Each value of the second axis with its highest peak.
-fn conditions(plan: &SweepPlan, axis: &SecondAxis, outcome: &Outcome) -> String {
-    let name = axis.varied.name();
+fn conditions(plan: &SweepPlan, axes: &Axes, outcome: &Outcome) -> String {
+    let names: Vec<String> = axes.over.iter().map(Varied::name).collect();
+    let name = names.join(", ");
     let unit = plan.figures.frequency_unit;
     let mut text = format!(
         "{name:>10}   converged    loss / cycle, peak          {:>10}\n",
@@ -87,9 +88,9 @@ fn conditions(plan: &SweepPlan, axis: &SecondAxis, outcome: &Outcome) -> String 
     );
     let units = Units::default();
     for curve in figure::curve::curves(plan, outcome, &units) {
-        let value = curve.condition.value;
-        let value = value.map(|value| units.varied_value(&axis.varied, value));
-        let value = value.unwrap_or_default();
+        let values = axes.over.iter().zip(curve.condition.values.all());
+        let values = values.map(|(varied, value)| units.varied_value(varied, *value));
+        let value = values.collect::<Vec<_>>().join(", ");
         let peak = outcome.highest_peak(&curve.condition);
         let loss = loss(
             peak.map(|p| p.energy_loss_j),

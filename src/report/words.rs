@@ -27,13 +27,18 @@ pub fn without_result(unit: FrequencyUnit, outcome: &Outcome) -> impl Iterator<I
     })
 }
 
-/// What is prescribed, with the range of what a second axis varies: `load 10 N ± 0.1 N to 10 N`.
+/// What is prescribed, with the range of what an axis varies: `load 10 N ± 0.1 N to 10 N`.
 pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
     let dimension = drive_dimension(drive.control());
     let value = |value| plain(value, dimension, 4);
     let range = |is_varied: fn(&Varied) -> bool| {
-        let axis = plan.axis.as_ref().filter(|axis| is_varied(&axis.varied))?;
-        let (first, last) = (axis.values().next()?, axis.values().next_back()?);
+        let axes = plan.axes.as_ref()?;
+        let axis = axes.over.iter().position(is_varied)?;
+        let values = axes.values_of(axis);
+        let (first, last) = (
+            values.iter().copied().reduce(f64::min)?,
+            values.into_iter().reduce(f64::max)?,
+        );
         Some(format!("{} to {}", value(first), value(last)))
     };
     let mean = range(Varied::is_mean).unwrap_or_else(|| value(drive.mean()));
@@ -41,16 +46,19 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
     format!("{} {mean} ± {amplitude}", drive.control().name())
 }
 
-/// What else a second axis varies than mean and amplitude, and from where to where: `radius of the indenter 1 mm to 10 mm`.
+/// What axes vary besides mean and amplitude, and from where to where: `radius of the indenter 1 mm to 10 mm`.
 pub fn varied_line(plan: &SweepPlan) -> Option<String> {
-    let axis = plan
-        .axis
-        .as_ref()
-        .filter(|axis| axis.varied.has_own_column())?;
-    let value = |value| number::varied(&axis.varied, value);
-    let (first, last) = (axis.values().next()?, axis.values().next_back()?);
-    let words = axis.varied.words();
-    Some(format!("{words} {} to {}", value(first), value(last)))
+    let axes = plan.axes.as_ref()?;
+    let line = |(axis, varied): (usize, &Varied)| {
+        let values = axes.values_of(axis);
+        let value = |value| number::varied(varied, value);
+        let least = values.iter().copied().reduce(f64::min)?;
+        let largest = values.into_iter().reduce(f64::max)?;
+        let words = varied.words();
+        Some(format!("{words} {} to {}", value(least), value(largest)))
+    };
+    let lines: Vec<String> = axes.own_columns().filter_map(line).collect();
+    (!lines.is_empty()).then(|| lines.join(", "))
 }
 
 /// A key as words.

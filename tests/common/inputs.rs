@@ -433,7 +433,7 @@ impl Records {
             &outcome.records,
             branches,
             plan.figures.frequency_unit,
-            plan.axis.as_ref(),
+            plan.axes.as_ref(),
         );
         for result in outcome.records.iter().filter_map(|r| r.result.as_ref()) {
             let _ = table::samples(&result.cycle.samples);

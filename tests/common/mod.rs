@@ -141,7 +141,7 @@ pub fn sweep_plan(
         material: Arc::new(material),
         indenter,
         drive: HarmonicDrive::load(mean_n, amplitude_n).unwrap(),
-        axis: None,
+        axes: None,
         angular_frequencies_rad_per_s: vec![1.0],
         refine: false,
         // Tests that look at error bars ask for them.

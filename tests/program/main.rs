@@ -10,6 +10,7 @@ mod inputs;
 mod program;
 
 mod architecture;
+mod axes;
 mod build_identity;
 mod command_line;
 mod data_files;
@@ -27,7 +28,7 @@ mod page;
 mod paths;
 mod refined_sweep;
 mod reproduce;
-mod second_axis;
+
 mod simulate;
 mod sweep_figures;
 mod tabulated_material;

@@ -14,7 +14,7 @@ use contact_dma::indenter::{FlatPunch, HeightMap, MapEdge, MapQuantity, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation};
 use contact_dma::report;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{EngineKind, SecondAxis, SweepPlan, Varied};
+use contact_dma::sweep::plan::{Axes, EngineKind, SweepPlan, Varied};
 use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::search::run::{self, Outcome, Progress};
 use contact_dma::sweep::store::Store;
@@ -96,8 +96,8 @@ fn pmma(angular_frequencies_rad_per_s: &[f64]) -> SweepPlan {
 
 fn with_amplitudes(mut plan: SweepPlan, amplitudes: &[f64]) -> SweepPlan {
     let varied = Varied::amplitude(plan.drive.control());
-    let axis = SecondAxis::of_drive(&plan, varied, amplitudes.iter().copied());
-    plan.axis = Some(axis.unwrap());
+    let axis = Axes::of_drive(&plan, varied, amplitudes.iter().copied());
+    plan.axes = Some(axis.unwrap());
     plan
 }
 

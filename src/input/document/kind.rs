@@ -72,8 +72,8 @@ pub(crate) trait Describe: Sync {
         None
     }
 
-    /// Whether it is a table of which one key alone is given.
-    fn takes_one_key(&self) -> bool {
+    /// Whether its keys are written behind a dot, those of [`Self::dotted`].
+    fn has_dotted_keys(&self) -> bool {
         false
     }
 

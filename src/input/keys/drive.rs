@@ -55,20 +55,23 @@ rows! { _:
 }
 
 rows! { SWEEP_KEYS:
-    /// A second axis: every frequency under each value of one key of `[drive]`: `drive.amplitude = ["1 N", "2 N"]`.
+    /// Another axis: every frequency under each value of a key of `[drive]`: `drive.amplitude = ["1 N", "2 N"]`. Up to four axes may
+    /// be given, and the cases are all combinations of their values.
     DRIVE_AXIS: Row<AxisOf, Optional> = "drive", AxisOf { block: Block::Drive, rows: &HARMONIC }, Optional;
-    /// The same over one number of the indenter: `indenter.radius = ["1 mm", "2 mm"]`.
+    /// The same over a number of the indenter: `indenter.radius = ["1 mm", "2 mm"]`.
     INDENTER_AXIS: Row<AxisOf, Optional> =
         "indenter", AxisOf { block: Block::Indenter, rows: &INDENTER }, Optional;
-    /// The same over one number of the material: `material.temperature = ["0 °C", "25 °C"]`.
+    /// The same over a number of the material: `material.temperature = ["0 °C", "25 °C"]`.
     MATERIAL_AXIS: Row<AxisOf, Optional> =
         "material", AxisOf { block: Block::Material, rows: &MATERIAL }, Optional;
+    /// Whether the values of several axes go together one by one, each axis with as many, in place of all their combinations.
+    PAIRS: Row<Boolean, Or<bool>> = "pairs", Boolean, Or(false);
     /// Whether frequencies are added where the given ones do not resolve the curve of the loss.
     REFINE: Row<Boolean, Or<bool>> = "refine", Boolean, Or(false);
 }
 
 pub(super) static SWEEP: Rows = Rows {
-    means: " The cases: exactly one of `angular_frequency` and `frequency`, and perhaps a second axis.",
+    means: " The cases: exactly one of `angular_frequency` and `frequency`, and perhaps other axes.",
     keys: SWEEP_KEYS,
     others: Others::OneList(&[&[&ANGULAR_FREQUENCY], &[&FREQUENCY]]),
 };

@@ -138,7 +138,7 @@ pub fn paths(kind: FileKind) -> Vec<String> {
     let mut paths = Vec::new();
     kind.rows().visit("", &mut |path, row| {
         let kind = row.kind();
-        match kind.takes_one_key() {
+        match kind.has_dotted_keys() {
             true => paths.extend(kind.dotted().keys().map(|key| {
                 let key = key.rsplit('.').next().unwrap_or(key);
                 format!("{path}.{key}")

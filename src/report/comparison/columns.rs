@@ -60,12 +60,12 @@ fn cases<'a>(baseline: &'a SweepTable, new: &'a SweepTable) -> Vec<Case<'a>> {
         .chain(added.map(|row| (row.place, None, Some(row))))
         .collect();
     let key = |place: &Place| {
-        [
-            place.varied.unwrap_or(0.0),
+        (
+            place.varied,
             place.drive_mean,
             place.drive_amplitude,
             place.angular_frequency_rad_per_s,
-        ]
+        )
     };
     cases.sort_by(|(a, ..), (b, ..)| {
         key(a)

@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::Place;
 use crate::quantity::FrequencyUnit;
 use crate::report::quantities;
-use crate::sweep::plan::Block;
+use crate::sweep::plan::{AxisValues, Block};
 use crate::sweep::search::peak::Peak;
 
 /// Why a result cannot be compared.
@@ -31,10 +31,12 @@ pub enum ComparisonError {
 pub struct SweepTable {
     name: String,
     pub(super) columns: Vec<String>,
-    /// The one of them that holds what a second axis varies, where it is not of every table.
-    axis: Option<String>,
+    /// Those of them that hold what axes vary, where they are not of every table.
+    axes: Vec<String>,
     places: HashMap<String, usize>,
     pub(super) rows: Vec<Row>,
+    /// Rows by the bits of their places.
+    exact: HashMap<Vec<u64>, usize>,
     pub(super) peaks: Option<Vec<Peak>>,
 }
 
@@ -96,10 +98,15 @@ impl SweepTable {
         };
         let mut result = Self {
             name: name.to_owned(),
-            axis: columns.iter().find(|name| is_of_axis(name)).cloned(),
+            axes: columns
+                .iter()
+                .filter(|name| is_of_axis(name))
+                .cloned()
+                .collect(),
             columns,
             places,
             rows: Vec::new(),
+            exact: HashMap::new(),
             peaks,
         };
         if !result.has(FREQUENCY) {
@@ -112,6 +119,10 @@ impl SweepTable {
             let line = record.position().map_or(0, |p| p.line() as usize);
             let cells = record.iter().map(str::to_owned).collect();
             let row = result.row_of(line, cells)?;
+            result
+                .exact
+                .entry(bits(row.place))
+                .or_insert(result.rows.len());
             result.rows.push(row);
         }
         Ok(result)
@@ -122,7 +133,7 @@ impl SweepTable {
             line,
             cells,
             place: Place {
-                varied: None,
+                varied: AxisValues::default(),
                 drive_mean: 0.0,
                 drive_amplitude: 0.0,
                 angular_frequency_rad_per_s: 0.0,
@@ -132,8 +143,13 @@ impl SweepTable {
         };
         let number = |column| Ok(self.number(&row, column)?.unwrap_or(0.0));
         let text = |column| self.cell(&row, column).unwrap_or_default().to_owned();
+        let varied = self.axes.iter().map(|name| number(name));
+        let varied: Vec<f64> = varied.collect::<Result<_, _>>()?;
         let place = Place {
-            varied: (self.axis.as_ref()).map_or(Ok(None), |name| self.number(&row, name))?,
+            varied: AxisValues::new(&varied).ok_or_else(|| ComparisonError::Table {
+                name: self.name.clone(),
+                reason: "it has more axes than a sweep".to_owned(),
+            })?,
             drive_mean: number("drive_mean")?,
             drive_amplitude: number("drive_amplitude")?,
             angular_frequency_rad_per_s: number(FREQUENCY)?,
@@ -178,15 +194,34 @@ impl SweepTable {
 
     /// The case at this place.
     pub(super) fn row(&self, place: Place) -> Option<&Row> {
+        if let Some(row) = self
+            .exact
+            .get(&bits(place))
+            .and_then(|at| self.rows.get(*at))
+        {
+            return Some(row);
+        }
         let near = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
         self.rows.iter().find(|row| {
             let other = row.place;
             near(
                 other.angular_frequency_rad_per_s,
                 place.angular_frequency_rad_per_s,
-            ) && near(other.varied.unwrap_or(0.0), place.varied.unwrap_or(0.0))
+            ) && other.varied.all().len() == place.varied.all().len()
+                && (other.varied.all().iter().zip(place.varied.all())).all(|(a, b)| near(*a, *b))
                 && near(other.drive_mean, place.drive_mean)
                 && near(other.drive_amplitude, place.drive_amplitude)
         })
     }
+}
+
+/// The numbers of a place, bit for bit.
+fn bits(place: Place) -> Vec<u64> {
+    let drive = [
+        place.drive_mean,
+        place.drive_amplitude,
+        place.angular_frequency_rad_per_s,
+    ];
+    let numbers = place.varied.all().iter().copied().chain(drive);
+    numbers.map(f64::to_bits).collect()
 }

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::{Comparison, PeakComparison, Place};
 use crate::quantity::FrequencyUnit;
 use crate::report::number::four_digits;
-use crate::report::table::{cells, csv_leading};
+use crate::report::table::{Cell, cells, csv_leading};
 use crate::report::words::{case, wrapped};
 use crate::sweep::search::peak::Peak;
 
@@ -63,8 +63,17 @@ impl Comparison {
 
     /// `comparison.csv`: the curves of the energy loss and their difference.
     pub fn table(&self) -> Vec<u8> {
-        let columns = [
-            "varied",
+        let curve = self.curve.iter();
+        let axes = curve
+            .map(|point| point.place.varied.all().len())
+            .max()
+            .unwrap_or(0);
+        // The first is `varied` alone, as where there is one.
+        let varied = (1..=axes).map(|k| match k {
+            1 => "varied".to_owned(),
+            k => format!("varied_{k}"),
+        });
+        let numbers = [
             "drive_mean",
             "drive_amplitude",
             "angular_frequency_rad_per_s",
@@ -73,9 +82,10 @@ impl Comparison {
             "relative_difference",
             "error_bars_j",
         ];
+        let columns: Vec<String> = varied.chain(numbers.map(str::to_owned)).collect();
         let rows = self.curve.iter().map(|point| {
-            cells![
-                point.place.varied,
+            let varied = (0..axes).map(|axis| point.place.varied.get(axis).into());
+            let numbers: [Cell; 7] = cells![
                 point.place.drive_mean,
                 point.place.drive_amplitude,
                 point.place.angular_frequency_rad_per_s,
@@ -83,13 +93,10 @@ impl Comparison {
                 point.new_j,
                 point.relative_difference(),
                 point.error_j,
-            ]
+            ];
+            varied.chain(numbers).collect::<Vec<Cell>>()
         });
-        // Most sweeps vary nothing but the drive.
-        let has_axis = self.curve.iter().any(|point| point.place.varied.is_some());
-        let first = usize::from(!has_axis);
-        let rows = rows.map(|row| row[first..].to_vec());
-        csv_leading(self.unit, &columns[first..], rows)
+        csv_leading(self.unit, &columns, rows)
     }
 }
 
@@ -103,9 +110,8 @@ impl super::CurvePoint {
 
 /// A case in words.
 pub(in crate::report) fn words(unit: FrequencyUnit, place: &Place) -> String {
-    let varied = place
-        .varied
-        .map_or(String::new(), |value| format!("axis {value}, "));
+    let varied = place.varied.all().iter();
+    let varied: String = varied.map(|value| format!("axis {value}, ")).collect();
     format!(
         "{} ({varied}mean {}, amplitude {})",
         case(unit, place.angular_frequency_rad_per_s),

@@ -9,6 +9,7 @@ use crate::report::caption::{Caption, Setting};
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
 use crate::report::comparison::{Comparison, CurvePoint, Place};
 use crate::report::number::{at_frequency, largest, prefix, range, scientific};
+use crate::sweep::plan::AxisValues;
 
 const NAME: &str = "comparison";
 const WIDTH_PX: u32 = 800;
@@ -57,7 +58,7 @@ fn caption(comparison: &Comparison) -> Caption {
         .say_all(largest)
 }
 
-fn condition(place: &Place) -> (Option<f64>, f64, f64) {
+fn condition(place: &Place) -> (AxisValues, f64, f64) {
     (place.varied, place.drive_mean, place.drive_amplitude)
 }
 

@@ -2,7 +2,7 @@
 
 use super::units::Units;
 use crate::report::table::Cell;
-use crate::sweep::plan::{Block, Condition, SecondAxis, SweepPlan};
+use crate::sweep::plan::{Axes, AxisValues, Block, Condition, SweepPlan, Varied};
 use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::search::run::Outcome;
 
@@ -30,19 +30,24 @@ pub fn curves<'a>(plan: &SweepPlan, outcome: &'a Outcome, units: &Units) -> Vec<
 
 /// The curve under a condition, without its cases.
 fn empty<'a>(plan: &SweepPlan, condition: &Condition, units: &Units) -> Curve<'a> {
-    let varied = plan.axis.as_ref().map(|axis| axis.varied);
-    let label = varied.zip(condition.value).map(|(varied, value)| {
-        let value = units.varied_value(&varied, value);
-        format!("{} {value}", varied.name())
-    });
-    let sentence = varied.zip(label.as_ref()).map(|(varied, label)| {
+    let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
+    let parts: Vec<(Varied, String)> = (over.iter().zip(condition.values.all()))
+        .map(|(varied, value)| {
+            let value = units.varied_value(varied, *value);
+            (*varied, format!("{} {value}", varied.name()))
+        })
+        .collect();
+    let words: Vec<&str> = parts.iter().map(|(_, words)| words.as_str()).collect();
+    let label = (!words.is_empty()).then(|| words.join(", "));
+    let sentences = parts.iter().map(|(varied, words)| {
         let of = match varied.block {
             Block::Drive => "Drive",
             Block::Indenter => "Indenter",
             Block::Material => "Material",
         };
-        format!("{of}: {label}.")
+        format!("{of}: {words}.")
     });
+    let sentence = (!words.is_empty()).then(|| sentences.collect::<Vec<_>>().join(" "));
     Curve {
         condition: condition.clone(),
         label,
@@ -52,24 +57,25 @@ fn empty<'a>(plan: &SweepPlan, condition: &Condition, units: &Units) -> Curve<'a
 }
 
 /// Columns that tell the cases of a sweep apart but for their frequency.
-pub fn place_columns(axis: Option<&SecondAxis>) -> Vec<String> {
-    let own = axis.filter(|axis| axis.varied.has_own_column());
-    let own = own.map(|axis| axis.varied.column());
+pub fn place_columns(axes: Option<&Axes>) -> Vec<String> {
+    let own = axes.into_iter().flat_map(Axes::own_columns);
     let drive = ["drive_mean", "drive_amplitude"].map(str::to_owned);
-    own.into_iter().chain(drive).collect()
+    own.map(|(_, varied)| varied.column())
+        .chain(drive)
+        .collect()
 }
 
-/// Their cells: the varied number, mean and amplitude.
-pub fn place_cells(axis: Option<&SecondAxis>, varied: Option<f64>, drive: [f64; 2]) -> Vec<Cell> {
-    let own = axis.filter(|axis| axis.varied.has_own_column());
-    let own = own.map(|_| varied.into());
-    own.into_iter().chain(drive.map(Cell::from)).collect()
+/// Their cells: the varied numbers, mean and amplitude.
+pub fn place_cells(axes: Option<&Axes>, varied: AxisValues, drive: [f64; 2]) -> Vec<Cell> {
+    let own = axes.into_iter().flat_map(Axes::own_columns);
+    let own = own.map(|(axis, _)| varied.get(axis).into());
+    own.chain(drive.map(Cell::from)).collect()
 }
 
 /// The same of a case.
-pub fn place_of(axis: Option<&SecondAxis>, record: &CaseRecord) -> Vec<Cell> {
+pub fn place_of(axes: Option<&Axes>, record: &CaseRecord) -> Vec<Cell> {
     let drive = [record.drive_mean, record.drive_amplitude];
-    place_cells(axis, record.varied, drive)
+    place_cells(axes, record.varied, drive)
 }
 
 /// The curve with the largest loss: what a figure that has room for one curve shows.

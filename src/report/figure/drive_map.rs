@@ -6,7 +6,7 @@ use super::units::Units;
 use crate::report::chart::{HeatMap, MapShape, Scale};
 use crate::report::number::range;
 use crate::report::table::csv_leading;
-use crate::sweep::plan::{SecondAxis, SweepPlan};
+use crate::sweep::plan::{Axes, SweepPlan};
 use crate::sweep::record::CaseRecord;
 
 const WIDTH_PX: u32 = 800;
@@ -28,7 +28,7 @@ pub struct Mapped<'a> {
 /// The map; `None` where there are not two frequencies under each of two conditions to colour between.
 pub fn map(
     plan: &SweepPlan,
-    axis: &SecondAxis,
+    axis: &Axes,
     (curves, units): (&[Curve<'_>], &Units),
     mapped: Mapped<'_>,
 ) -> Option<HeatMap> {
@@ -37,9 +37,9 @@ pub fn map(
     let records = || curves.iter().flat_map(|curve| &curve.records);
     let values = records().filter_map(|record| (mapped.value)(record));
     let value_scale = scale(range(values), WIDE_COLOURS);
-    let values = || curves.iter().filter_map(|curve| curve.condition.value);
+    let values = || curves.iter().filter_map(|curve| curve.condition.value());
     let (low, high) = (values().next()?, values().next_back()?);
-    let unit = units.varied(&axis.varied, low.abs().max(high.abs()));
+    let unit = units.varied(&axis.varied(), low.abs().max(high.abs()));
     let y_scale = scale((low, high), WIDE);
     let x_range = range(records().map(|record| record.angular_frequency_rad_per_s));
     if x_range.0 >= x_range.1 || low >= high {
@@ -71,14 +71,14 @@ pub fn map(
     let coloured: Vec<Option<f64>> = (0..COLUMNS * ROWS).map(cell).collect();
     coloured.iter().any(Option::is_some).then_some(())?;
     let points = curves.iter().flat_map(|curve| {
-        let value = curve.condition.value.map(|value| unit.of(value));
+        let value = curve.condition.value().map(|value| unit.of(value));
         let there = curve.records.iter().filter(|r| (mapped.value)(r).is_some());
         there.filter_map(move |r| Some((to_omega * r.angular_frequency_rad_per_s, value?)))
     });
     Some(HeatMap {
         title: None,
         x_label: units.frequency_title(),
-        y_label: unit.title(&axis.varied, control),
+        y_label: unit.title(&axis.varied(), control),
         x_range: (to_omega * x_range.0, to_omega * x_range.1),
         y_range: (unit.of(low), unit.of(high)),
         x_scale: Scale::Log,
@@ -139,7 +139,7 @@ fn row(
         (record.angular_frequency_rad_per_s.log10(), value)
     };
     Some(Row {
-        place: on(y_scale, curve.condition.value?),
+        place: on(y_scale, curve.condition.value()?),
         cases: curve.records.iter().map(case).collect(),
     })
 }
@@ -170,7 +170,7 @@ pub type Column<'a> = (&'a str, &'a dyn Fn(&CaseRecord) -> Option<f64>);
 
 /// The table behind a map: the cases.
 pub fn data<const N: usize>(
-    axis: &SecondAxis,
+    axis: &Axes,
     (curves, units): (&[Curve<'_>], &Units),
     columns: [Column<'_>; N],
 ) -> Vec<u8> {

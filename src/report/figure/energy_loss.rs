@@ -145,8 +145,8 @@ fn mark(peak: &Peak, (units, factor): (&Units, f64), labelled: bool) -> Mark {
 fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>], units: &Units) -> Caption {
     let over = units.frequency_words();
     let mut caption = Caption::new(format!("Energy loss per cycle over {over}"));
-    if let Some(axis) = &plan.axis {
-        let varied = axis.varied.words();
+    if let Some(axes) = &plan.axes {
+        let varied = axes.varied().words();
         let curves = shown.len();
         caption = caption.say(format!("{curves} curves, one per {varied}."));
     }
@@ -169,9 +169,9 @@ fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>], units: &Un
 }
 
 fn data(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
-    let axis = plan.axis.as_ref();
+    let axes = plan.axes.as_ref();
     let mut columns = vec!["kind".to_owned()];
-    columns.extend(place_columns(axis));
+    columns.extend(place_columns(axes));
     let numbers = [
         "angular_frequency_rad_per_s",
         "energy_loss_j",
@@ -191,7 +191,7 @@ fn data(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
             record.energy_loss_error_j(),
             record.energy_loss_material_error_j(),
         ];
-        row("case", place_of(axis, record), numbers)
+        row("case", place_of(axes, record), numbers)
     });
     let peaks = outcome.peaks.iter().map(|peak| {
         let drive = [
@@ -204,7 +204,7 @@ fn data(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
             peak.energy_loss_error_j,
             peak.energy_loss_material_error_j,
         ];
-        row("peak", place_cells(axis, peak.varied, drive), numbers)
+        row("peak", place_cells(axes, peak.varied, drive), numbers)
     });
     csv_leading(units.frequency_unit(), &columns, cases.chain(peaks))
 }

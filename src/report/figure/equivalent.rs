@@ -140,7 +140,7 @@ impl LoopModulus<'_> {
 
 /// The table behind the moduli: all loops of a sweep, under all conditions.
 pub fn table(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
-    let mut columns = place_columns(plan.axis.as_ref());
+    let mut columns = place_columns(plan.axes.as_ref());
     let numbers = [
         "angular_frequency_rad_per_s",
         "storage_modulus_pa",
@@ -156,7 +156,7 @@ pub fn table(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
     let curves = curves(plan, outcome, units);
     let loops = curves.iter();
     let rows = loops.flat_map(|curve| of_loops(curve)).map(|at| {
-        let mut row = place_of(plan.axis.as_ref(), at.record);
+        let mut row = place_of(plan.axes.as_ref(), at.record);
         row.extend(cells![
             at.omega(),
             at.storage_pa,

@@ -7,11 +7,11 @@ use super::{Drawn, Figure};
 use crate::drive::Control;
 use crate::report::caption::Caption;
 use crate::report::number::{largest, scientific};
-use crate::sweep::plan::{SecondAxis, SweepPlan};
+use crate::sweep::plan::{Axes, SweepPlan};
 use crate::sweep::record::CaseRecord;
 
 /// The figure.
-pub fn figure(plan: &SweepPlan, axis: &SecondAxis, curves: &[Curve<'_>], units: &Units) -> Drawn {
+pub fn figure(plan: &SweepPlan, axis: &Axes, curves: &[Curve<'_>], units: &Units) -> Drawn {
     if plan.drive.control() == Control::Approach {
         return Drawn::left_out("no harmonic-2 map: the approach is prescribed and has none");
     }
@@ -37,8 +37,8 @@ fn second(record: &CaseRecord) -> Option<f64> {
     record.result.as_ref()?.analysis.approach_harmonic(2)
 }
 
-fn caption(axis: &SecondAxis, curves: &[Curve<'_>], units: &Units) -> Caption {
-    let (over, varied) = (units.frequency_words(), axis.varied.words());
+fn caption(axis: &Axes, curves: &[Curve<'_>], units: &Units) -> Caption {
+    let (over, varied) = (units.frequency_words(), axis.varied().words());
     let title =
         format!("Second harmonic of the approach relative to its first, over {over} and {varied}");
     let values = curves.iter().flat_map(|curve| &curve.records);

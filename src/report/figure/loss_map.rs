@@ -7,7 +7,7 @@ use super::{Drawn, Figure};
 use crate::quantity::Dimension;
 use crate::report::caption::{self, Caption};
 use crate::report::number::{largest, with_error};
-use crate::sweep::plan::{SecondAxis, SweepPlan};
+use crate::sweep::plan::{Axes, SweepPlan};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Outcome;
 
@@ -15,7 +15,7 @@ use crate::sweep::search::run::Outcome;
 pub fn figure(
     plan: &SweepPlan,
     outcome: &Outcome,
-    axis: &SecondAxis,
+    axis: &Axes,
     curves: &[Curve<'_>],
     units: &Units,
 ) -> Drawn {
@@ -24,7 +24,7 @@ pub fn figure(
     let rings = outcome
         .peaks
         .iter()
-        .filter_map(|peak| Some((peak.angular_frequency_rad_per_s, peak.varied?)));
+        .filter_map(|peak| Some((peak.angular_frequency_rad_per_s, peak.varied.first()?)));
     let mapped = Mapped {
         value: &|record| Some(factor * record.energy_loss_j()?),
         label: format!("energy loss per cycle / {unit}"),
@@ -51,8 +51,8 @@ pub fn figure(
     })
 }
 
-fn caption(outcome: &Outcome, axis: &SecondAxis, units: &Units) -> Caption {
-    let (over, varied) = (units.frequency_words(), axis.varied.words());
+fn caption(outcome: &Outcome, axis: &Axes, units: &Units) -> Caption {
+    let (over, varied) = (units.frequency_words(), axis.varied().words());
     let title = format!("Energy loss per cycle over {over} and {varied}");
     let losses = outcome.records.iter().filter_map(|record| {
         let loss_j = record.energy_loss_j()?;

@@ -8,7 +8,7 @@ use super::{Drawn, Figure, Picture, axis};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Marker, Series};
 use crate::report::number::{largest, range};
-use crate::sweep::plan::{SecondAxis, SweepPlan};
+use crate::sweep::plan::{Axes, SweepPlan};
 use crate::sweep::search::run::Outcome;
 
 /// Frequencies in one figure; more cannot be told apart.
@@ -23,7 +23,7 @@ type Row<'a> = Vec<(f64, Option<LoopModulus<'a>>)>;
 pub fn figure(
     plan: &SweepPlan,
     outcome: &Outcome,
-    over: &SecondAxis,
+    over: &Axes,
     curves: &[Curve<'_>],
     units: &Units,
 ) -> Drawn {
@@ -33,9 +33,9 @@ pub fn figure(
         return Drawn::left_out("no figure of the error of the moduli: too few loops have moduli");
     }
     let control = plan.drive.control();
-    let values = || curves.iter().filter_map(|curve| curve.condition.value);
-    let unit = &units.varied(&over.varied, largest(values().map(f64::abs)));
-    let label = unit.title(&over.varied, control);
+    let values = || curves.iter().filter_map(|curve| curve.condition.value());
+    let unit = &units.varied(&over.varied(), largest(values().map(f64::abs)));
+    let label = unit.title(&over.varied(), control);
     let x_axis = |label: String| axis(range(values()), WIDE, label);
     let series = |difference: fn(&LoopModulus<'_>) -> Option<f64>| {
         let of = rows.len();
@@ -70,8 +70,8 @@ pub fn figure(
     })
 }
 
-fn caption(axis: &SecondAxis, rows: &[(f64, Row<'_>)]) -> Caption {
-    let varied = axis.varied.words();
+fn caption(axis: &Axes, rows: &[(f64, Row<'_>)]) -> Caption {
+    let varied = axis.varied().words();
     let loops = || {
         rows.iter()
             .flat_map(|(_, row)| row)
@@ -89,7 +89,7 @@ fn caption(axis: &SecondAxis, rows: &[(f64, Row<'_>)]) -> Caption {
 fn rows<'a>(plan: &SweepPlan, curves: &[Curve<'a>]) -> Vec<(f64, Row<'a>)> {
     let loops: Vec<(f64, Vec<LoopModulus<'a>>)> = curves
         .iter()
-        .filter_map(|curve| Some((curve.condition.value?, of_loops(curve))))
+        .filter_map(|curve| Some((curve.condition.value()?, of_loops(curve))))
         .collect();
     let planned = &plan.angular_frequencies_rad_per_s;
     evenly(planned.len(), FREQUENCIES)

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use super::curve::{Curve, chosen, curves, largest};
 use super::equivalent::Equivalent;
+use super::line::{self, Line};
 use super::units::Units;
 use super::{
     Drawn, Figure, cole_cole, dissipation, dissipation_map, dissipation_profile, energy_loss,
@@ -11,11 +12,12 @@ use super::{
     van_gurp_palmen,
 };
 use crate::report::ReportError;
-use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::{SweepPlan, axes};
 use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::search::run::Outcome;
 
-/// The figures, and what was left out and why.
+/// The figures, and what was left out and why. Of a sweep over several axes each figure shows one of them, the others at their values
+/// where the loss is largest.
 ///
 /// # Errors
 /// [`ReportError::Scale`] where normalised axes are asked for and there is nothing to normalise by.
@@ -23,12 +25,36 @@ pub fn figures(
     plan: &SweepPlan,
     outcome: &Outcome,
 ) -> Result<(Vec<Figure>, Vec<String>), ReportError> {
+    let along = line::along(plan, outcome, 0);
+    let (one_plan, one) = along
+        .as_ref()
+        .map_or((plan, outcome), |line| (&line.plan, &line.outcome));
+    let mut drawn = of_first_axis(one_plan, one)?;
+    if let Some(line) = &along {
+        drawn = drawn.into_iter().map(|drawn| line.say(drawn)).collect();
+    }
+    let lines = (1..axes::MOST).map_while(|axis| Some((axis, line::along(plan, outcome, axis)?)));
+    for (axis, line) in lines {
+        let others = of_other_axis(axis, &line)?.into_iter();
+        drawn.extend(others.map(|drawn| line.say(drawn)));
+    }
+    let (mut figures, mut left_out) = (Vec::new(), Vec::new());
+    for drawn in drawn {
+        match drawn {
+            Drawn::Figure(figure) => figures.push(figure),
+            Drawn::LeftOut(why) => left_out.push(why),
+        }
+    }
+    Ok((figures, left_out))
+}
+
+fn of_first_axis(plan: &SweepPlan, outcome: &Outcome) -> Result<Vec<Drawn>, ReportError> {
     let units = &Units::of_sweep(plan)?;
     let asked = &plan.figures.loops_rad_per_s;
     let curves = curves(plan, outcome, units);
     let Some(curve) = largest(&curves).filter(|curve| !curve.results().is_empty()) else {
         let why = "no figures: no case converged, so there is nothing to draw";
-        return Ok((Vec::new(), vec![why.to_owned()]));
+        return Ok(vec![Drawn::left_out(why)]);
     };
     let mut drawn = vec![
         Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)),
@@ -51,22 +77,48 @@ pub fn figures(
             "no figures of the moduli: fewer than two loops have equivalent moduli",
         )),
     }
-    if let Some(axis) = &plan.axis {
+    if let Some(axes) = &plan.axes {
         drawn.extend([
-            loss_map::figure(plan, outcome, axis, &curves, units),
-            harmonic_map::figure(plan, axis, &curves, units),
-            moduli_error::figure(plan, outcome, axis, &curves, units),
-            peaks_over_axis::figure(plan, outcome, axis, units),
+            loss_map::figure(plan, outcome, axes, &curves, units),
+            harmonic_map::figure(plan, axes, &curves, units),
+            moduli_error::figure(plan, outcome, axes, &curves, units),
+            peaks_over_axis::figure(plan, outcome, axes, units),
         ]);
     }
-    let (mut figures, mut left_out) = (Vec::new(), Vec::new());
-    for drawn in drawn {
-        match drawn {
-            Drawn::Figure(figure) => figures.push(figure),
-            Drawn::LeftOut(why) => left_out.push(why),
-        }
-    }
-    Ok((figures, left_out))
+    Ok(drawn)
+}
+
+/// Names of the figures over the second, third and fourth axis.
+const OF_OTHER_AXES: [[&str; 3]; axes::MOST - 1] = [
+    ["energy-loss-2", "loss-map-2", "peaks-2"],
+    ["energy-loss-3", "loss-map-3", "peaks-3"],
+    ["energy-loss-4", "loss-map-4", "peaks-4"],
+];
+
+fn of_other_axis(axis: usize, line: &Line) -> Result<Vec<Drawn>, ReportError> {
+    let (plan, outcome) = (&line.plan, &line.outcome);
+    let units = &Units::of_sweep(plan)?;
+    let curves = curves(plan, outcome, units);
+    let (Some(names), Some(axes)) = (OF_OTHER_AXES.get(axis - 1), &plan.axes) else {
+        return Ok(Vec::new());
+    };
+    let has_results = curves.iter().any(|curve| !curve.results().is_empty());
+    let drawn = match has_results {
+        false => Vec::new(),
+        true => vec![
+            Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)),
+            loss_map::figure(plan, outcome, axes, &curves, units),
+            peaks_over_axis::figure(plan, outcome, axes, units),
+        ],
+    };
+    let named = drawn
+        .into_iter()
+        .zip(names)
+        .map(|(drawn, name)| match drawn {
+            Drawn::Figure(figure) => Drawn::Figure(Figure { name, ..figure }),
+            left_out => left_out,
+        });
+    Ok(named.collect())
 }
 
 /// The cases whose cycles the figures show: of the curve of the largest loss.
@@ -75,6 +127,7 @@ pub fn figures(
 /// As [`figures`].
 pub fn drawn(plan: &SweepPlan, outcome: &Outcome) -> Result<BTreeSet<usize>, ReportError> {
     let units = Units::of_sweep(plan)?;
+    // The curve of the largest loss lies on every line.
     let curves = curves(plan, outcome, &units);
     let Some(curve) = largest(&curves) else {
         return Ok(BTreeSet::new());

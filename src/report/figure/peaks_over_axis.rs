@@ -9,7 +9,7 @@ use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Marker, Series};
 use crate::report::number::{largest, range};
 use crate::report::table::{Cell, cells, csv_leading};
-use crate::sweep::plan::{SecondAxis, SweepPlan};
+use crate::sweep::plan::{Axes, SweepPlan};
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
 
@@ -17,17 +17,17 @@ use crate::sweep::search::run::Outcome;
 const WIDE_LOSSES: f64 = 20.0;
 
 /// The figure.
-pub fn figure(plan: &SweepPlan, outcome: &Outcome, over: &SecondAxis, units: &Units) -> Drawn {
+pub fn figure(plan: &SweepPlan, outcome: &Outcome, over: &Axes, units: &Units) -> Drawn {
     let highest = over
         .conditions
         .iter()
-        .filter_map(|condition| Some((condition.value?, outcome.highest_peak(condition))));
+        .filter_map(|condition| Some((condition.value()?, outcome.highest_peak(condition))));
     let highest: Vec<(f64, Option<&Peak>)> = highest.collect();
     let found = || highest.iter().filter_map(|(_, peak)| *peak);
     if found().count() < 2 {
         return Drawn::left_out("no figure of the peaks: fewer than two curves have a peak");
     }
-    let unit = &units.varied(&over.varied, largest(highest.iter().map(|at| at.0.abs())));
+    let unit = &units.varied(&over.varied(), largest(highest.iter().map(|at| at.0.abs())));
     let x_axis = |label: String| axis(range(highest.iter().map(|at| at.0)), WIDE, label);
     let (factor, energy) = units.energy(largest(found().map(|peak| peak.energy_loss_j)));
     let to_omega = units.frequency().0;
@@ -56,7 +56,7 @@ pub fn figure(plan: &SweepPlan, outcome: &Outcome, over: &SecondAxis, units: &Un
             .marker(Marker::Disc)
             .error_bars(loss_errors)])
         .size(800, 360);
-    let title = unit.title(&over.varied, plan.drive.control());
+    let title = unit.title(&over.varied(), plan.drive.control());
     let frequency = Chart::new(x_axis(title), Axis::log(units.frequency_title()))
         .all_series([Series::line(frequencies)
             .marker(Marker::Disc)
@@ -70,8 +70,8 @@ pub fn figure(plan: &SweepPlan, outcome: &Outcome, over: &SecondAxis, units: &Un
     })
 }
 
-fn caption(outcome: &Outcome, over: &SecondAxis, without: usize) -> Caption {
-    let words = over.varied.words();
+fn caption(outcome: &Outcome, over: &Axes, without: usize) -> Caption {
+    let words = over.varied().words();
     let caption = Caption::new(format!(
         "Largest energy loss per cycle over frequency, against the {words}: its value above, its frequency below"
     ));
@@ -86,7 +86,7 @@ fn caption(outcome: &Outcome, over: &SecondAxis, without: usize) -> Caption {
     caption.say_all(absent.into_iter().chain(lower))
 }
 
-fn data(plan: &SweepPlan, outcome: &Outcome, over: &SecondAxis, units: &Units) -> Vec<u8> {
+fn data(plan: &SweepPlan, outcome: &Outcome, over: &Axes, units: &Units) -> Vec<u8> {
     let mut columns = place_columns(Some(over));
     let numbers = [
         "angular_frequency_rad_per_s",

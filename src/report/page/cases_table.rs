@@ -103,10 +103,15 @@ fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
         factor: 1.0,
         values: numbers(&|r| Some(unit.of(r.angular_frequency_rad_per_s))),
     }];
-    if let Some(axis) = &plan.axis {
-        let si = axis.varied.dimension.map_or("", Dimension::si_unit);
-        let (name, heading) = (axis.varied.column(), axis.varied.name());
-        columns.push(column(&name, &heading, si, None, numbers(&|r| r.varied)));
+    for (axis, varied) in plan
+        .axes
+        .iter()
+        .flat_map(|axes| axes.over.iter().enumerate())
+    {
+        let si = varied.dimension.map_or("", Dimension::si_unit);
+        let (name, heading) = (varied.column(), varied.name());
+        let values = numbers(&|r| r.varied.get(axis));
+        columns.push(column(&name, &heading, si, None, values));
     }
     let shown = SWEEP.iter().filter_map(|c| Some((c, c.in_cases?)));
     for (known, heading) in shown {

@@ -173,9 +173,8 @@ fn data<'a>(compared: &Compared<'a>, csv: &'a str) -> Data<'a> {
     let unit = compared.comparison.unit;
     let places = || compared.comparison.curve.iter().map(|point| point.place);
     let drive = |place: Place| {
-        let varied = place
-            .varied
-            .map_or(String::new(), |value| format!("{value}, "));
+        let varied = place.varied.all().iter();
+        let varied: String = varied.map(|value| format!("{value}, ")).collect();
         format!("{varied}{} ± {}", place.drive_mean, place.drive_amplitude)
     };
     Data {

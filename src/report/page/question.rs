@@ -75,7 +75,7 @@ pub(super) fn sweep(plan: &SweepPlan) -> Markup {
         &plain(plan.drive.hold_s(), Dimension::Time, 4),
     );
     if let Some(line) = words::varied_line(plan) {
-        drive.add("second axis", &line);
+        drive.add("other axes", &line);
     }
     parts(
         material(&plan.material),

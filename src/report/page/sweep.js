@@ -7,14 +7,13 @@ function start(data) {
   const results = new Map(data.cases.map((c) => [c.index, c]));
   const omegaText = (row) => `${trimmed(significant(row[frequency.column]))} ${frequency.unit}`;
   const { varied } = data;
-  const key = (row) => (varied ? `${row[varied.column]}` : "");
+  const key = (row) => varied.map(({ column }) => row[column]).join(" ");
   const drives = [...new Map(rows.map((row) => [key(row), row])).values()];
   const byKey = new Map(drives.map((row) => [key(row), []]));
   for (const row of rows) byKey.get(key(row)).push(row);
   const driveText = (row) => {
-    if (!varied) return "";
-    const value = row[varied.column];
-    return varied.zero ? `${trimmed(significant(value - varied.zero))} ${varied.unit}` : trimmed(withUnit(value, varied.unit));
+    const one = ({ column, unit, zero }) => (zero ? `${trimmed(significant(row[column] - zero))} ${unit}` : trimmed(withUnit(row[column], unit)));
+    return varied.map(one).join(", ");
   };
   const branchNames = Array.from({ length: data.branches }, (_, k) => {
     const time = data.retardation_times_s[k];

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Pictures, answer, cases_table, how, moduli, question, still};
-use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::{SweepPlan, Varied};
 use crate::sweep::record::warning;
 use crate::sweep::search::run::Outcome;
 
@@ -42,8 +42,9 @@ pub(super) fn sections(
 }
 
 fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
-    let varied = plan.axis.as_ref();
-    let varied = varied.map_or(String::new(), |axis| axis.varied.name());
+    let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
+    let varied: Vec<String> = over.iter().map(Varied::name).collect();
+    let varied = varied.join(", ");
     html! {
         section aria-labelledby="answer" class="answer" {
             h2 id="answer" { "Energy loss per cycle" }

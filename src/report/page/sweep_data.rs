@@ -30,8 +30,8 @@ pub(super) struct SweepData<'a> {
     branches: usize,
     /// Of every curve; empty where they have different ones.
     retardation_times_s: Vec<f64>,
-    /// What the second axis varies, where there is one.
-    varied: Option<VariedData>,
+    /// What other axes than the frequency vary.
+    varied: Vec<VariedData>,
     drive_unit: &'static str,
     node_name: &'static str,
     material: MaterialData,
@@ -41,7 +41,7 @@ pub(super) struct SweepData<'a> {
     table: Vec<ShownColumn>,
 }
 
-/// The column of what a second axis varies, and the unit in which it is told, of which zero lies at so many SI units.
+/// The column of what an axis varies, and the unit in which it is told, of which zero lies at so many SI units.
 #[derive(Serialize)]
 struct VariedData {
     column: String,
@@ -128,7 +128,10 @@ impl<'a> SweepData<'a> {
             peaks: &outcome.peaks,
             branches: outcome.branches(),
             retardation_times_s: all_rounded(&outcome.retardation_times_s()),
-            varied: plan.axis.as_ref().map(|axis| VariedData::of(&axis.varied)),
+            varied: match &plan.axes {
+                Some(axes) => axes.over.iter().map(VariedData::of).collect(),
+                None => Vec::new(),
+            },
             drive_unit: plan.drive.control().unit(),
             node_name: match plan.indenter.own_cells() {
                 Some(_) => "cells along the longer side of the map",

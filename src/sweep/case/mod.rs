@@ -299,7 +299,7 @@ impl Setup {
         let mut record = CaseRecord {
             index: case.index,
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
-            varied: case.condition.value,
+            varied: case.condition.values,
             drive_mean: case.condition.drive.mean(),
             drive_amplitude: case.condition.drive.amplitude(),
             status: Status::Failed,

@@ -4,7 +4,7 @@
 use std::ops::{Range, RangeInclusive};
 
 use crate::sweep::plan::scenario::ScenarioPlan;
-use crate::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::plan::{Condition, CyclePlan, EngineKind, SolverPlan, SweepPlan};
 
 /// Why a plan is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -72,12 +72,14 @@ impl SweepPlan {
             .iter()
             .try_for_each(|omega| check_frequency(*omega))?;
         check_order("angular frequency (rad/s)", omegas)?;
-        if let Some(axis) = &self.axis {
-            let values: Vec<f64> = axis.values().collect();
-            if values.is_empty() || values.len() < axis.conditions.len() {
+        if let Some(axes) = &self.axes {
+            let lacks_one = |c: &Condition| c.values.all().len() != axes.over.len();
+            if axes.conditions.is_empty() || axes.conditions.iter().any(lacks_one) {
                 return Err(PlanError::NoCondition);
             }
-            check_order(axis.varied.key, &values)?;
+            if let [varied] = axes.over[..] {
+                check_order(varied.key, &axes.values().collect::<Vec<_>>())?;
+            }
         }
         let cases = self.conditions().len().saturating_mul(omegas.len());
         if cases > Self::MAX_CASES {
@@ -192,7 +194,7 @@ mod tests {
     use crate::drive::{Control, HarmonicDrive};
     use crate::indenter::Sphere;
     use crate::material::library;
-    use crate::sweep::plan::{SecondAxis, Varied};
+    use crate::sweep::plan::{Axes, Varied};
 
     /// What is said of a plan with this change.
     fn refused(change: impl FnOnce(&mut SweepPlan)) -> Option<String> {
@@ -229,8 +231,8 @@ mod tests {
         let axis = |amplitudes: &[f64]| {
             let varied = Varied::amplitude(Control::Load);
             refused(|plan| {
-                let axis = SecondAxis::of_drive(plan, varied, amplitudes.iter().copied());
-                plan.axis = Some(axis.unwrap());
+                let axis = Axes::of_drive(plan, varied, amplitudes.iter().copied());
+                plan.axes = Some(axis.unwrap());
             })
         };
         assert!(axis(&[]).unwrap().contains("no value"));

@@ -1,21 +1,22 @@
 //! A sweep as it will be run, every default filled in. [`check`] has the ranges of its values.
 
+pub mod axes;
 pub mod body_material;
 pub mod check;
 pub mod instant_tolerance;
 pub mod resolved;
 pub mod scenario;
 
+pub use axes::{Axes, AxisValues, Block, Varied};
+
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::drive::{Control, DriveError, HarmonicDrive};
+use crate::drive::HarmonicDrive;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
-use crate::quantity::Dimension;
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::plan::resolved::drive_dimension;
 
 /// Cases of a small sweep, at most.
 pub const SMALL: usize = 200;
@@ -27,8 +28,8 @@ pub struct SweepPlan {
     pub material: Arc<Material>,
     pub indenter: Arc<dyn Indenter>,
     pub drive: HarmonicDrive,
-    /// The second axis of the sweep, where there is one: every frequency is then solved under each of its conditions.
-    pub axis: Option<SecondAxis>,
+    /// Other axes than the frequency, where there are any: every frequency is then solved under each of their conditions.
+    pub axes: Option<Axes>,
     /// Ascending, in rad/s.
     pub angular_frequencies_rad_per_s: Vec<f64>,
     /// Whether frequencies are added where these do not resolve the curve of the loss.
@@ -39,158 +40,14 @@ pub struct SweepPlan {
     pub figures: FigurePlan,
 }
 
-/// Conditions that differ in one number.
-#[derive(Debug, Clone)]
-pub struct SecondAxis {
-    pub varied: Varied,
-    /// In the order of the varied number, ascending; the first, with the frequencies, makes the first cases.
-    pub conditions: Vec<Condition>,
-}
-
 /// What all cases of a curve over frequency have in common.
 #[derive(Debug, Clone)]
 pub struct Condition {
-    /// The varied number in SI units; `None` in a sweep without a second axis.
-    pub value: Option<f64>,
+    /// The varied numbers.
+    pub values: AxisValues,
     pub material: Arc<Material>,
     pub indenter: Arc<dyn Indenter>,
     pub drive: HarmonicDrive,
-}
-
-/// The key whose number differs between the conditions of an [`SecondAxis`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Varied {
-    pub block: Block,
-    /// In the block: `amplitude`.
-    pub key: &'static str,
-    /// `None` for a bare number.
-    pub dimension: Option<Dimension>,
-}
-
-/// The block of a sweep file that a varied key belongs to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Block {
-    Material,
-    Indenter,
-    Drive,
-}
-
-impl Block {
-    /// The name as written in a sweep file.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Material => "material",
-            Self::Indenter => "indenter",
-            Self::Drive => "drive",
-        }
-    }
-}
-
-impl Varied {
-    /// The amplitude of a drive.
-    pub fn amplitude(control: Control) -> Self {
-        Self::of_drive("amplitude", control)
-    }
-
-    /// The mean of a drive.
-    pub fn mean(control: Control) -> Self {
-        Self::of_drive("mean", control)
-    }
-
-    fn of_drive(key: &'static str, control: Control) -> Self {
-        Self {
-            block: Block::Drive,
-            key,
-            dimension: Some(drive_dimension(control)),
-        }
-    }
-
-    /// The key as words: `half angle`.
-    pub fn name(&self) -> String {
-        self.key.replace('_', " ")
-    }
-
-    /// The same and what it belongs to: `half angle of the indenter`.
-    pub fn words(&self) -> String {
-        format!("{} of the {}", self.name(), self.block.name())
-    }
-
-    /// The dotted key: `indenter.half_angle`.
-    pub fn path(&self) -> String {
-        format!("{}.{}", self.block.name(), self.key)
-    }
-
-    /// The column of tables that holds it: `indenter_half_angle_rad`.
-    pub fn column(&self) -> String {
-        let name = format!("{}_{}", self.block.name(), self.key);
-        match self.dimension {
-            Some(dimension) if self.has_own_column() => {
-                format!("{name}_{}", dimension.si_unit().to_lowercase())
-            }
-            // The columns that every table has are in the unit of the control.
-            _ => name,
-        }
-    }
-
-    /// Whether tables take a column more for it: mean and amplitude of the drive stand in every table.
-    pub fn has_own_column(&self) -> bool {
-        !self.is_mean() && !self.is_amplitude()
-    }
-
-    pub fn is_mean(&self) -> bool {
-        (self.block, self.key) == (Block::Drive, "mean")
-    }
-
-    pub fn is_amplitude(&self) -> bool {
-        (self.block, self.key) == (Block::Drive, "amplitude")
-    }
-
-    pub fn is_temperature(&self) -> bool {
-        (self.block, self.key) == (Block::Material, "temperature")
-    }
-
-    /// The drive with another varied number (SI units); the same where no number of it varies.
-    ///
-    /// # Errors
-    /// As [`HarmonicDrive::new`].
-    pub fn drive(&self, drive: &HarmonicDrive, value: f64) -> Result<HarmonicDrive, DriveError> {
-        let is = |key| (self.block, self.key) == (Block::Drive, key);
-        let or = |key, own| if is(key) { value } else { own };
-        HarmonicDrive::new(
-            drive.control(),
-            or("mean", drive.mean()),
-            or("amplitude", drive.amplitude()),
-            or("phase", drive.phase_rad()),
-            or("hold", drive.hold_s()),
-        )
-    }
-}
-
-impl SecondAxis {
-    /// The conditions of a plan with each of these values (SI units, ascending) as a number of its drive.
-    ///
-    /// # Errors
-    /// As [`HarmonicDrive::new`].
-    pub fn of_drive(
-        plan: &SweepPlan,
-        varied: Varied,
-        values: impl IntoIterator<Item = f64>,
-    ) -> Result<Self, DriveError> {
-        let under = |value| {
-            Ok(Condition {
-                value: Some(value),
-                drive: varied.drive(&plan.drive, value)?,
-                ..plan.condition()
-            })
-        };
-        let conditions = values.into_iter().map(under).collect::<Result<_, _>>()?;
-        Ok(Self { varied, conditions })
-    }
-
-    /// The values of the varied number, in SI units.
-    pub fn values(&self) -> impl DoubleEndedIterator<Item = f64> + '_ {
-        self.conditions.iter().filter_map(|c| c.value)
-    }
 }
 
 /// One frequency under one condition.
@@ -211,7 +68,7 @@ impl SweepPlan {
             solver: SolverPlan::of_indenter(indenter.as_ref()),
             indenter,
             drive,
-            axis: None,
+            axes: None,
             angular_frequencies_rad_per_s: Vec::new(),
             refine: false,
             cycle: CyclePlan::default(),
@@ -219,27 +76,27 @@ impl SweepPlan {
         }
     }
 
-    /// The only condition of a sweep without a second axis.
+    /// The only condition of a sweep over frequency alone.
     pub fn condition(&self) -> Condition {
         Condition {
-            value: None,
+            values: AxisValues::default(),
             material: Arc::clone(&self.material),
             indenter: Arc::clone(&self.indenter),
             drive: self.drive,
         }
     }
 
-    /// The conditions: one, but for a sweep of two axes.
+    /// The conditions: one, but for a sweep with other axes than the frequency.
     pub fn conditions(&self) -> Cow<'_, [Condition]> {
-        match &self.axis {
-            Some(axis) => Cow::Borrowed(&axis.conditions),
+        match &self.axes {
+            Some(axes) => Cow::Borrowed(&axes.conditions),
             None => Cow::Owned(vec![self.condition()]),
         }
     }
 
     /// How many cases there are.
     pub fn count(&self) -> usize {
-        let conditions = self.axis.as_ref().map_or(1, |axis| axis.conditions.len());
+        let conditions = self.axes.as_ref().map_or(1, |axes| axes.conditions.len());
         conditions * self.angular_frequencies_rad_per_s.len()
     }
 
@@ -424,6 +281,7 @@ impl Default for SolverPlan {
 #[cfg(test)]
 pub(in crate::sweep) mod tests {
     use super::*;
+    use crate::drive::Control;
     use crate::indenter::{HeightMap, MapEdge, MapQuantity, Shifted, Sphere};
     use crate::material::library;
 

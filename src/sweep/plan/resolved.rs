@@ -10,7 +10,7 @@ use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
-use crate::sweep::plan::{CyclePlan, SecondAxis, SolverPlan, SweepPlan};
+use crate::sweep::plan::{Axes, CyclePlan, SolverPlan, SweepPlan, Varied};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {
@@ -20,7 +20,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         material,
         indenter,
         drive,
-        axis,
+        axes,
         angular_frequencies_rad_per_s,
         refine,
         cycle,
@@ -35,8 +35,8 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         error_bars,
         accuracy,
     } = cycle;
-    let material = match axis {
-        Some(axis) if axis.varied.is_temperature() => material_text_over(axis),
+    let material = match axes {
+        Some(axes) if axes.over.iter().any(Varied::is_temperature) => material_text_over(axes),
         _ => material_text(material),
     };
     let mut text = opening_text(title, &material, indenter.as_ref());
@@ -62,13 +62,17 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         quantity(drive.hold_s(), Dimension::Time)
     ));
     line("\n[sweep]");
-    if let Some(axis) = axis {
-        let number = |value: f64| match axis.varied.dimension {
+    for (k, varied) in axes.iter().flat_map(|axes| axes.over.iter().enumerate()) {
+        let number = |value: f64| match varied.dimension {
             Some(dimension) => quantity(value, dimension),
             None => format!("{value:?}"),
         };
-        let values: Vec<String> = axis.values().map(number).collect();
-        line(&format!("{} = [{}]", axis.varied.path(), values.join(", ")));
+        let values = axes.as_ref().map_or(Vec::new(), |axes| axes.values_of(k));
+        let values: Vec<String> = values.into_iter().map(number).collect();
+        line(&format!("{} = [{}]", varied.path(), values.join(", ")));
+    }
+    if axes.as_ref().is_some_and(|axes| axes.pairs) {
+        line("pairs = true");
     }
     if *refine {
         line("refine = true");
@@ -205,8 +209,15 @@ pub fn material_text(material: &Material) -> String {
 }
 
 /// The same of a material at every temperature of an axis, the first of which counts where none is asked for.
-fn material_text_over(axis: &SecondAxis) -> String {
-    let materials = || axis.conditions.iter().map(|condition| &condition.material);
+fn material_text_over(axes: &Axes) -> String {
+    let mut materials: Vec<&Material> = Vec::new();
+    for condition in &axes.conditions {
+        let known = |other: &&Material| other.temperature_k() == condition.material.temperature_k();
+        if !materials.iter().any(known) {
+            materials.push(&condition.material);
+        }
+    }
+    let materials = || materials.iter().copied();
     text_of(|line| {
         if let Some(first) = materials().next() {
             head_lines(first, line);

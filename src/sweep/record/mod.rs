@@ -10,7 +10,7 @@ use crate::contact::surface::PressureLine;
 use crate::cycle::{Extrema, Loop, LoopAnalysis};
 use crate::drive::Control;
 use crate::history::Work;
-use crate::sweep::plan::{Condition, Method};
+use crate::sweep::plan::{AxisValues, Condition, Method};
 use crate::sweep::record::error_bars::ErrorBars;
 use crate::sweep::record::warning::Warning;
 
@@ -43,9 +43,9 @@ pub struct CaseRecord {
     /// Position in the sweep, from 0, in ascending frequency.
     pub index: usize,
     pub angular_frequency_rad_per_s: f64,
-    /// The number (SI units) that the second axis of the sweep varies, where there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub varied: Option<f64>,
+    /// The numbers (SI units) that other axes than the frequency vary.
+    #[serde(default, skip_serializing_if = "AxisValues::is_empty")]
+    pub varied: AxisValues,
     /// Mean and amplitude of the drive (N or m).
     pub drive_mean: f64,
     pub drive_amplitude: f64,
@@ -262,7 +262,7 @@ impl CaseRecord {
     /// Whether the case ran under this condition.
     pub fn is_of(&self, condition: &Condition) -> bool {
         let drive = &condition.drive;
-        self.varied == condition.value
+        self.varied == condition.values
             && self.drive_mean == drive.mean()
             && self.drive_amplitude == drive.amplitude()
     }

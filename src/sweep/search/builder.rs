@@ -9,7 +9,7 @@ use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::plan::check::PlanError;
-use crate::sweep::plan::{Case, EngineKind, SecondAxis, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, Case, EngineKind, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::{self, Options, Outcome, Progress, RunError};
 use crate::sweep::store::archive::MemoryArchive;
@@ -117,7 +117,7 @@ impl Sweep {
         varied: Varied,
         values: impl IntoIterator<Item = f64>,
     ) -> Result<Self, SetupError> {
-        self.plan.axis = Some(SecondAxis::of_drive(&self.plan, varied, values)?);
+        self.plan.axes = Some(Axes::of_drive(&self.plan, varied, values)?);
         Ok(self.checked()?)
     }
 

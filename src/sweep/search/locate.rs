@@ -43,8 +43,8 @@ impl Search<'_> {
             match peak::refine(&bracket.points, &losses) {
                 Ok(mut found) => {
                     let condition = &bracket.condition;
-                    if plan.axis.is_some() {
-                        found.varied = condition.value;
+                    if plan.axes.is_some() {
+                        found.varied = condition.values;
                         found.drive_mean = Some(condition.drive.mean());
                         found.drive_amplitude = Some(condition.drive.amplitude());
                     }

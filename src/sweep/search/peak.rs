@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::sweep::plan::Condition;
+use crate::sweep::plan::{AxisValues, Condition};
 
 /// A local maximum of the energy loss.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -20,9 +20,9 @@ pub struct Peak {
     pub angular_frequency_material_error_rad_per_s: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub energy_loss_material_error_j: Option<f64>,
-    /// The number (SI units) that the second axis of the sweep varies, where there is one.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub varied: Option<f64>,
+    /// The numbers (SI units) that other axes than the frequency vary.
+    #[serde(default, skip_serializing_if = "AxisValues::is_empty")]
+    pub varied: AxisValues,
     /// Mean and amplitude of the drive (N or m) there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drive_mean: Option<f64>,
@@ -33,7 +33,7 @@ pub struct Peak {
 impl Peak {
     /// Whether it is one of the curve under this condition: those of the only curve do not say which it is.
     pub fn is_of(&self, condition: &Condition) -> bool {
-        self.varied == condition.value
+        self.varied == condition.values
     }
 }
 
@@ -118,7 +118,7 @@ pub fn refine<E: From<PeakError>>(bracket: &[Point; 3], losses: &Losses<'_, E>) 
                 energy_loss_error_j: error,
                 angular_frequency_material_error_rad_per_s: None,
                 energy_loss_material_error_j: None,
-                varied: None,
+                varied: AxisValues::default(),
                 drive_mean: None,
                 drive_amplitude: None,
             });

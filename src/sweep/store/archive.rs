@@ -6,7 +6,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
-use crate::sweep::plan::Case;
+use crate::sweep::plan::{AxisValues, Case};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::store::packed_record;
 use crate::sweep::store::records::{Key, Origin, Place, Unread};
@@ -104,7 +104,7 @@ impl Key {
     pub(in crate::sweep) fn of(purpose: Purpose, case: &Case) -> Self {
         let (drive, omega) = (&case.condition.drive, case.angular_frequency_rad_per_s);
         let drive = [drive.mean(), drive.amplitude()];
-        Self::new(purpose, drive, omega, case.condition.value)
+        Self::new(purpose, drive, omega, case.condition.values)
     }
 
     /// The case of the sweep whose record this is.
@@ -114,8 +114,9 @@ impl Key {
         Self::new(Purpose::Sweep, drive, omega, record.varied)
     }
 
-    fn new(purpose: Purpose, drive: [f64; 2], omega: f64, varied: Option<f64>) -> Self {
-        let numbers = drive.into_iter().chain([omega]).chain(varied);
+    fn new(purpose: Purpose, drive: [f64; 2], omega: f64, varied: AxisValues) -> Self {
+        let numbers = drive.into_iter().chain([omega]);
+        let numbers = numbers.chain(varied.all().iter().copied());
         Self {
             purpose,
             bits: numbers.map(f64::to_bits).collect(),
@@ -321,7 +322,7 @@ mod tests {
         CaseRecord {
             index: case.index,
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
-            varied: case.condition.value,
+            varied: case.condition.values,
             drive_mean: case.condition.drive.mean(),
             drive_amplitude: case.condition.drive.amplitude(),
             status: Status::NotConverged,
@@ -390,6 +391,7 @@ mod tests {
             plan::tests::condition().drive,
         );
         let mut plan = plan;
+        plan.angular_frequencies_rad_per_s = vec![0.1 + 0.2];
         (plan.cycle.steps, plan.solver.springs) = (32, 40);
         let setup = crate::sweep::case::Setup::new(plan).unwrap();
         let case = Case {

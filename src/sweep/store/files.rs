@@ -1,7 +1,7 @@
 //! What a sweep leaves at the top of its folder: known here, so that another sweep that takes the folder can clear it.
 
 /// Every figure a sweep may have; which of them it has depends on its axes, its material and its results.
-pub const FIGURES: [&str; 13] = [
+pub const FIGURES: [&str; 22] = [
     "energy-loss",
     "loops",
     "dissipation",
@@ -15,6 +15,15 @@ pub const FIGURES: [&str; 13] = [
     "harmonic-2-map",
     "moduli-error",
     "peaks",
+    "energy-loss-2",
+    "loss-map-2",
+    "peaks-2",
+    "energy-loss-3",
+    "loss-map-3",
+    "peaks-3",
+    "energy-loss-4",
+    "loss-map-4",
+    "peaks-4",
 ];
 
 /// Where it comes from, table, summary and page.

@@ -25,7 +25,7 @@ const LOOK_AGAIN: Duration = Duration::from_millis(500);
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub(in crate::sweep) struct Key {
     pub purpose: Purpose,
-    /// Mean, amplitude, frequency, and the varied number where there is one.
+    /// Mean, amplitude, frequency, and what else varies.
     pub bits: Vec<u64>,
 }
 

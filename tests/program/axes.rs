@@ -1,16 +1,21 @@
-//! A second axis over any number of material, indenter or drive: the cases are those of separate sweeps, to the last bit.
+//! Axes over any number of material, indenter or drive: the cases are those of separate sweeps, to the last bit.
 
+#![cfg(feature = "cli")]
+
+use std::fs;
 use std::sync::atomic::AtomicBool;
 
+use crate::program::{program, write};
 use contact_dma::input::diagnostic::Styling;
 use contact_dma::input::document::Document;
 use contact_dma::input::sweep_file;
 use contact_dma::quantity::FrequencyUnit;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::plan::resolved::resolved_text;
+use contact_dma::sweep::plan::{SweepPlan, Varied};
 use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::record::warning::{self, Warning};
+use tempfile::TempDir;
 
 /// Two isotherms that no shift brings onto one another, and a sphere.
 const FILE: &str = r#"
@@ -69,7 +74,8 @@ fn losses(plan: SweepPlan) -> Vec<(Option<f64>, u64)> {
     let cases = setup.plan().cases().into_iter();
     let loss = |case| {
         let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
-        (record.varied, record.energy_loss_j().unwrap().to_bits())
+        let loss = record.energy_loss_j().unwrap();
+        (record.varied.first(), loss.to_bits())
     };
     cases.map(loss).collect()
 }
@@ -188,14 +194,14 @@ fn what_cannot_be_an_axis_is_shown_where_it_stands() {
         ),
         ("drive.mean = [0.1]", "pull", "axes.toml:"),
         (
-            "drive.mean = [1, 2]\nindenter.radius = [1e-3]",
-            "a sweep has one second axis",
-            "remove all but one",
+            "drive.mean = [1, 2]\nindenter.radius = [1e-3]\npairs = true",
+            "pairs need as many values on every axis",
+            "give as many, or remove `pairs`",
         ),
         (
-            "drive.mean = [1, 2]\ndrive.amplitude = [0.1]",
-            "a sweep has one second axis",
-            "remove all but one",
+            "drive = { mean = [1], amplitude = [0.1], phase = [0] }\nindenter.radius = [1]\nmaterial.temperature = [293.15]",
+            "a sweep has at most 4 axes besides the frequency",
+            "remove one",
         ),
         (
             "drive.mean = [1, 2]\n\"drive.mean\" = [1]",
@@ -216,11 +222,91 @@ fn what_cannot_be_an_axis_is_shown_where_it_stands() {
 }
 
 #[test]
-fn a_flag_takes_the_place_of_another_axis_of_the_same_block() {
+fn a_flag_adds_an_axis_or_takes_the_place_of_its_values() {
     let text = format!("{FILE}drive.amplitude = [0.1, 0.2]\n");
     let mut document = Document::parse("axes.toml", &text).unwrap();
     document.set("sweep.drive.mean=[1, 2, 3]").unwrap();
-    let axis = sweep_file::plan(&document).unwrap().axis.unwrap();
-    assert!(axis.varied.is_mean());
-    assert_eq!(axis.values().collect::<Vec<_>>(), [1.0, 2.0, 3.0]);
+    document.set("sweep.drive.amplitude=[0.3]").unwrap();
+    let axes = sweep_file::plan(&document).unwrap().axes.unwrap();
+    assert_eq!(axes.conditions.len(), 3);
+    assert!(axes.over.iter().any(Varied::is_mean));
+    document.set("sweep.drive.amplitude=").unwrap();
+    let axes = sweep_file::plan(&document).unwrap().axes.unwrap();
+    assert!(axes.over.len() == 1 && axes.varied().is_mean());
+    assert_eq!(axes.values().collect::<Vec<_>>(), [1.0, 2.0, 3.0]);
+}
+
+#[test]
+fn the_cases_over_several_axes_are_all_combinations_or_pairs_of_their_values() {
+    let axes = "material.temperature = [\"60 °C\", \"20 °C\"]\nindenter.radius = [5e-3, 20e-3]\ndrive.mean = [1, 2]\n";
+    let alone = |temperature: f64, radius: f64, mean: f64| {
+        let mut document = Document::parse("axes.toml", FILE).unwrap();
+        for flag in [
+            format!("material.temperature={temperature}"),
+            format!("indenter.radius={radius}"),
+            format!("drive.mean={mean}"),
+        ] {
+            document.set(&flag).unwrap();
+        }
+        let losses = losses(sweep_file::plan(&document).unwrap());
+        losses.into_iter().map(|(_, bits)| bits).collect::<Vec<_>>()
+    };
+    let bits = |plan: SweepPlan| losses(plan).into_iter().map(|(_, bits)| bits);
+    let mut product = Vec::new();
+    for temperature in [293.15, 333.15] {
+        for radius in [5e-3, 20e-3] {
+            for mean in [1.0, 2.0] {
+                product.extend(alone(temperature, radius, mean));
+            }
+        }
+    }
+    let mut pairs = alone(293.15, 20e-3, 2.0);
+    pairs.extend(alone(333.15, 5e-3, 1.0));
+    for (text, expected) in [
+        (axes.to_owned(), &product),
+        (format!("{axes}pairs = true\n"), &pairs),
+    ] {
+        let plan = read(&text).unwrap();
+        let resolved = resolved_text(&plan);
+        assert_eq!(&bits(plan).collect::<Vec<_>>(), expected);
+        let again = Document::parse("resolved.toml", &resolved).unwrap();
+        let again = sweep_file::plan(&again).unwrap();
+        assert_eq!(resolved_text(&again), resolved);
+        assert_eq!(&bits(again).collect::<Vec<_>>(), expected);
+    }
+}
+
+#[test]
+fn a_sweep_over_several_axes_is_drawn_along_each_and_compared_with_itself() {
+    let folder = TempDir::new().unwrap();
+    let text = FILE.replace("[\"0.3 rad/s\", \"3 rad/s\"]", "[0.1, 0.5, 2, 8, 30]");
+    let text = format!(
+        "{text}material.temperature = [293.15, 333.15]\ndrive.mean = [1, 2, 3]\n[figures]\nformats = [\"svg\"]\n"
+    );
+    let file = write(&folder, "axes.toml", &text);
+    let out = folder.path().join("out");
+    let run = |arguments: &[&str]| {
+        let output = program().args(arguments).assert().success();
+        String::from_utf8(output.get_output().stdout.clone()).unwrap()
+    };
+    let printed = run(&["sweep", &file, "--out", out.to_str().unwrap()]);
+    // One line per condition.
+    assert!(printed.contains("60 °C, 3 N"), "{printed}");
+    let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
+    let head = table.lines().next().unwrap();
+    assert!(head.contains("material_temperature_k,drive_mean"), "{head}");
+    assert_eq!(table.lines().count(), 1 + 2 * 3 * 5);
+    for name in ["loss-map", "loss-map-2", "energy-loss-2", "peaks-2"] {
+        assert!(out.join(format!("{name}.svg")).exists(), "{name}");
+    }
+    let caption = fs::read_to_string(out.join("loss-map-2.caption.txt")).unwrap();
+    assert!(
+        caption.contains("Other axes at temperature of the material"),
+        "{caption}"
+    );
+    let summary = fs::read(out.join("summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+    assert_eq!(summary["peaks"][0]["varied"].as_array().unwrap().len(), 2);
+    let same = run(&["compare", out.to_str().unwrap(), out.to_str().unwrap()]);
+    assert!(same.contains("30 cases"), "{same}");
 }

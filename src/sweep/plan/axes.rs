@@ -1,0 +1,300 @@
+//! The axes of a sweep besides the frequency: which numbers vary, and the conditions that their values make.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::{Condition, SweepPlan};
+use crate::drive::{Control, DriveError, HarmonicDrive};
+use crate::quantity::Dimension;
+use crate::sweep::plan::resolved::drive_dimension;
+
+/// Axes besides the frequency, at most.
+pub const MOST: usize = 4;
+
+/// Conditions that differ in one number or a few.
+#[derive(Debug, Clone)]
+pub struct Axes {
+    /// What varies: one to [`MOST`] numbers.
+    pub over: Vec<Varied>,
+    /// Whether the values of all axes go together one by one; otherwise the conditions are all their combinations.
+    pub pairs: bool,
+    /// In the order of the values, of the last axis fastest; the first, with the frequencies, makes the first cases.
+    pub conditions: Vec<Condition>,
+}
+
+/// The key whose number differs between conditions.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Varied {
+    pub block: Block,
+    /// In the block: `amplitude`.
+    pub key: &'static str,
+    /// `None` for a bare number.
+    pub dimension: Option<Dimension>,
+}
+
+/// The block of a sweep file that a varied key belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Block {
+    Material,
+    Indenter,
+    Drive,
+}
+
+/// The varied numbers of a condition (SI units), in the order of the axes; of none in a sweep over frequency alone. Written as a number
+/// where there is one axis, else as a list.
+#[derive(Debug, Clone, Copy, Default, PartialEq, PartialOrd)]
+pub struct AxisValues {
+    count: usize,
+    /// Zero beyond the count.
+    values: [f64; MOST],
+}
+
+impl AxisValues {
+    /// These values; `None` of more than [`MOST`].
+    pub fn new(values: &[f64]) -> Option<Self> {
+        let mut all = [0.0; MOST];
+        all.get_mut(..values.len())?.copy_from_slice(values);
+        Some(Self {
+            count: values.len(),
+            values: all,
+        })
+    }
+
+    /// One value.
+    pub const fn one(value: f64) -> Self {
+        Self {
+            count: 1,
+            values: [value, 0.0, 0.0, 0.0],
+        }
+    }
+
+    /// All of them.
+    pub fn all(&self) -> &[f64] {
+        &self.values[..self.count]
+    }
+
+    /// That of one axis.
+    pub fn get(&self, axis: usize) -> Option<f64> {
+        self.all().get(axis).copied()
+    }
+
+    /// That of the first axis.
+    pub fn first(&self) -> Option<f64> {
+        self.get(0)
+    }
+
+    /// That of one axis without the others.
+    #[must_use]
+    pub fn alone(&self, axis: usize) -> Self {
+        self.get(axis).map(Self::one).unwrap_or_default()
+    }
+
+    /// Whether nothing varies.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+}
+
+impl Serialize for AxisValues {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self.all() {
+            [] => serializer.serialize_none(),
+            [one] => serializer.serialize_f64(*one),
+            several => several.serialize(serializer),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for AxisValues {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        #[serde(untagged)]
+        enum Form {
+            None,
+            One(f64),
+            Several(Vec<f64>),
+        }
+        match Form::deserialize(deserializer)? {
+            Form::None => Ok(Self::default()),
+            Form::One(value) => Ok(Self::one(value)),
+            Form::Several(values) => {
+                let too_many = || serde::de::Error::custom("more values than axes");
+                Self::new(&values).ok_or_else(too_many)
+            }
+        }
+    }
+}
+
+impl Block {
+    /// The name as written in a sweep file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Material => "material",
+            Self::Indenter => "indenter",
+            Self::Drive => "drive",
+        }
+    }
+}
+
+impl Varied {
+    /// The amplitude of a drive.
+    pub fn amplitude(control: Control) -> Self {
+        Self::of_drive("amplitude", control)
+    }
+
+    /// The mean of a drive.
+    pub fn mean(control: Control) -> Self {
+        Self::of_drive("mean", control)
+    }
+
+    fn of_drive(key: &'static str, control: Control) -> Self {
+        Self {
+            block: Block::Drive,
+            key,
+            dimension: Some(drive_dimension(control)),
+        }
+    }
+
+    /// The key as words: `half angle`.
+    pub fn name(&self) -> String {
+        self.key.replace('_', " ")
+    }
+
+    /// The same and what it belongs to: `half angle of the indenter`.
+    pub fn words(&self) -> String {
+        format!("{} of the {}", self.name(), self.block.name())
+    }
+
+    /// The dotted key: `indenter.half_angle`.
+    pub fn path(&self) -> String {
+        format!("{}.{}", self.block.name(), self.key)
+    }
+
+    /// The column of tables that holds it: `indenter_half_angle_rad`.
+    pub fn column(&self) -> String {
+        let name = format!("{}_{}", self.block.name(), self.key);
+        match self.dimension {
+            Some(dimension) if self.has_own_column() => {
+                format!("{name}_{}", dimension.si_unit().to_lowercase())
+            }
+            // The columns that every table has are in the unit of the control.
+            _ => name,
+        }
+    }
+
+    /// Whether tables take a column more for it: mean and amplitude of the drive stand in every table.
+    pub fn has_own_column(&self) -> bool {
+        !self.is_mean() && !self.is_amplitude()
+    }
+
+    pub fn is_mean(&self) -> bool {
+        (self.block, self.key) == (Block::Drive, "mean")
+    }
+
+    pub fn is_amplitude(&self) -> bool {
+        (self.block, self.key) == (Block::Drive, "amplitude")
+    }
+
+    pub fn is_temperature(&self) -> bool {
+        (self.block, self.key) == (Block::Material, "temperature")
+    }
+
+    /// The drive with another varied number (SI units); the same where no number of it varies.
+    ///
+    /// # Errors
+    /// As [`HarmonicDrive::new`].
+    pub fn drive(&self, drive: &HarmonicDrive, value: f64) -> Result<HarmonicDrive, DriveError> {
+        let is = |key| (self.block, self.key) == (Block::Drive, key);
+        let or = |key, own| if is(key) { value } else { own };
+        HarmonicDrive::new(
+            drive.control(),
+            or("mean", drive.mean()),
+            or("amplitude", drive.amplitude()),
+            or("phase", drive.phase_rad()),
+            or("hold", drive.hold_s()),
+        )
+    }
+}
+
+impl Axes {
+    /// The conditions of a plan with each of these values (SI units, ascending) as a number of its drive.
+    ///
+    /// # Errors
+    /// As [`HarmonicDrive::new`].
+    pub fn of_drive(
+        plan: &SweepPlan,
+        varied: Varied,
+        values: impl IntoIterator<Item = f64>,
+    ) -> Result<Self, DriveError> {
+        let under = |value| {
+            Ok(Condition {
+                values: AxisValues::one(value),
+                drive: varied.drive(&plan.drive, value)?,
+                ..plan.condition()
+            })
+        };
+        Ok(Self {
+            over: vec![varied],
+            pairs: false,
+            conditions: values.into_iter().map(under).collect::<Result<_, _>>()?,
+        })
+    }
+
+    /// What the first axis varies.
+    pub fn varied(&self) -> Varied {
+        self.over.first().copied().unwrap_or(Varied {
+            block: Block::Drive,
+            key: "amplitude",
+            dimension: None,
+        })
+    }
+
+    /// The values of the first axis, in SI units, as often as there are conditions.
+    pub fn values(&self) -> impl DoubleEndedIterator<Item = f64> + '_ {
+        self.conditions.iter().filter_map(Condition::value)
+    }
+
+    /// The values of an axis in ascending order, each once; of pairs in the order of the pairs.
+    pub fn values_of(&self, axis: usize) -> Vec<f64> {
+        let values = self.conditions.iter().filter_map(|c| c.values.get(axis));
+        let mut values: Vec<f64> = values.collect();
+        if !self.pairs {
+            values.sort_by(f64::total_cmp);
+            values.dedup();
+        }
+        values
+    }
+
+    /// The numbers that have a column of their own in tables, each with the place of its axis.
+    pub fn own_columns(&self) -> impl Iterator<Item = (usize, &Varied)> {
+        let all = self.over.iter().enumerate();
+        all.filter(|(_, varied)| varied.has_own_column())
+    }
+
+    /// Whether these values lie on the line through others along an axis: those of pairs, whose numbers vary together, always do.
+    pub fn is_along(&self, axis: usize, values: &AxisValues, through: &AxisValues) -> bool {
+        let mut others = (0..self.over.len()).filter(|other| *other != axis);
+        self.pairs || others.all(|other| values.get(other) == through.get(other))
+    }
+
+    /// One axis alone, along the line through these values: what a figure with room for one axis shows.
+    pub fn along(&self, axis: usize, through: &AxisValues) -> Option<Self> {
+        let conditions = self.conditions.iter();
+        let conditions = conditions.filter(|c| self.is_along(axis, &c.values, through));
+        let alone = |condition: &Condition| Condition {
+            values: condition.values.alone(axis),
+            ..condition.clone()
+        };
+        Some(Self {
+            over: vec![*self.over.get(axis)?],
+            pairs: false,
+            conditions: conditions.map(alone).collect(),
+        })
+    }
+}
+
+impl Condition {
+    /// The number that the first axis varies (SI units); `None` in a sweep over frequency alone.
+    pub fn value(&self) -> Option<f64> {
+        self.values.first()
+    }
+}
