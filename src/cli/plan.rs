@@ -77,13 +77,17 @@ fn text(setup: &Setup, cost: &Cost) -> String {
     if cost.cases.len() > LISTED {
         let _ = writeln!(text, "  and {} more", cost.cases.len() - LISTED);
     }
+    let refined = match plan.refine {
+        true => ", added frequencies not",
+        false => "",
+    };
     let processors = std::thread::available_parallelism().map_or(1, usize::from);
     let _ = write!(
         text,
         "\n{} on {} ({} engine), {} steps per cycle.\n\
-         Time: about {} on one thread, about {} on {processors}, from {} per step measured here;\n\
-         peaks and refinement come on top, about ten cases for every peak.\n\
-         Memory: about {memory} for every thread{free}.\n\
+         Time: about {} on one thread, about {} on {processors}, peaks and figures included{refined};\n\
+         from cases tried here, {} per step.\n\
+         Memory: about {memory} for every thread{free}. Disk: about {}.\n\
          Shards: {} (below about ten minutes each, more of them gain little).\n",
         match cost.cases.len() {
             1 => "1 case".to_owned(),
@@ -92,9 +96,10 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         nodes(&plan.solver, plan.indenter.as_ref()),
         plan.solver.engine.name(),
         plan.cycle.steps,
-        spoken(cost.time_s()),
-        spoken(cost.time_s() / processors.min(cost.cases.len().max(1)) as f64),
+        spoken(cost.on_threads_s(1)),
+        spoken(cost.on_threads_s(processors)),
         spoken(cost.step_s),
+        megabytes(cost.disk_bytes),
         cost.shards(),
     );
     text

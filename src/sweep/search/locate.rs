@@ -1,12 +1,14 @@
 //! Peaks of the curves that a sweep has sampled: bracketed by its cases, then located by solving between them.
 
+use rayon::prelude::*;
+
 use crate::sweep::case::{Aim, Resolution};
 use crate::sweep::plan::{Case, Condition};
 use crate::sweep::record::CaseRecord;
-use crate::sweep::search::peak::{self, Loss, PeakError, Point};
+use crate::sweep::search::peak::{self, Loss, Peak, PeakError, Point};
 use crate::sweep::search::replica_peaks;
 use crate::sweep::search::run::Outcome;
-use crate::sweep::search::{Missing, Search};
+use crate::sweep::search::{Missing, Search, by_condition};
 use crate::sweep::store::StoreError;
 
 /// Why a peak that the cases bracket has no place.
@@ -33,14 +35,30 @@ impl Search<'_> {
     /// records is a peak that was not located.
     pub fn locate_peaks(&self, outcome: &mut Outcome) -> Result<bool, StoreError> {
         let plan = self.setup.plan();
-        let brackets: Vec<Bracket> = (plan.conditions().iter())
-            .flat_map(|condition| Bracket::of_curve(&outcome.records, condition))
+        let conditions = plan.conditions();
+        let curves = by_condition(&outcome.records, &conditions);
+        let brackets: Vec<(Bracket, &[CaseRecord])> = curves
+            .flat_map(|(condition, of_curve)| {
+                let brackets = Bracket::of_curve(of_curve, condition).into_iter();
+                brackets.map(move |bracket| (bracket, of_curve))
+            })
             .collect();
         self.progress.locating_peaks(brackets.len());
+        let refine = |bracket: &Bracket, alone: bool| {
+            peak::refine(&bracket.points, &|omegas: &[f64]| {
+                self.losses_at(bracket, omegas, alone)
+            })
+        };
+        // A thread for each peak, or all threads for each of a few.
+        let found: Vec<Result<Peak, LocateError>> =
+            match brackets.len() < self.pool.current_num_threads() {
+                true => brackets.iter().map(|(b, _)| refine(b, false)).collect(),
+                false => (self.pool)
+                    .install(|| brackets.par_iter().map(|(b, _)| refine(b, true)).collect()),
+            };
         let mut whole = true;
-        for bracket in &brackets {
-            let losses = |omegas: &[f64]| self.losses_at(bracket, omegas);
-            match peak::refine(&bracket.points, &losses) {
+        for ((bracket, of_curve), found) in brackets.iter().zip(found) {
+            match found {
                 Ok(mut found) => {
                     let condition = &bracket.condition;
                     if plan.axes.is_some() {
@@ -48,7 +66,7 @@ impl Search<'_> {
                         found.drive_mean = Some(condition.drive.mean());
                         found.drive_amplitude = Some(condition.drive.amplitude());
                     }
-                    replica_peaks::add_errors(&mut found, &outcome.records, condition);
+                    replica_peaks::add_errors(&mut found, of_curve);
                     outcome.peaks.push(found);
                 }
                 Err(LocateError::Store(error)) => return Err(error),
@@ -62,15 +80,24 @@ impl Search<'_> {
         Ok(whole)
     }
 
-    /// Losses at frequencies inside a bracket.
-    fn losses_at(&self, bracket: &Bracket, omegas: &[f64]) -> Result<Vec<Loss>, LocateError> {
+    /// Losses at frequencies inside a bracket, computed on this thread alone or on all.
+    fn losses_at(
+        &self,
+        bracket: &Bracket,
+        omegas: &[f64],
+        alone: bool,
+    ) -> Result<Vec<Loss>, LocateError> {
         let case = |(index, omega): (usize, &f64)| Case {
             index,
             angular_frequency_rad_per_s: *omega,
             condition: bracket.condition.clone(),
         };
         let cases: Vec<Case> = omegas.iter().enumerate().map(case).collect();
-        let records = self.records_of(Aim::Loss(bracket.resolution), &cases)?;
+        let aim = Aim::Loss(bracket.resolution);
+        let records = match alone {
+            true => self.records_here(aim, &cases)?,
+            false => self.records_of(aim, &cases)?,
+        };
         if records.len() < omegas.len() {
             return Err(match (self.missing, self.archive.store()) {
                 (Missing::LeftOut, Some(store)) => LocateError::NoRecords {
@@ -107,14 +134,12 @@ struct Bracket {
 
 impl Bracket {
     fn of_curve(records: &[CaseRecord], condition: &Condition) -> Vec<Self> {
-        let at = |omega: f64| {
-            (records.iter()).find(|r| r.is_of(condition) && r.angular_frequency_rad_per_s == omega)
-        };
+        let at = |omega: f64| (records.iter()).find(|r| r.angular_frequency_rad_per_s == omega);
         let relative = |point: &Point| {
             let error_j = at(point.0)?.energy_loss_error_j()?;
             (point.1 != 0.0).then(|| (error_j / point.1).abs())
         };
-        peak::brackets(&curve_of(records, condition))
+        peak::brackets(&curve_of(records))
             .into_iter()
             .filter_map(|points| {
                 let [a, b, c] = points.each_ref().map(relative);
@@ -145,13 +170,10 @@ impl Bracket {
     }
 }
 
-/// Loss over frequency under one condition, ascending.
-pub(in crate::sweep) fn curve_of(records: &[CaseRecord], condition: &Condition) -> Vec<Point> {
-    let mut curve: Vec<Point> = records
-        .iter()
-        .filter(|r| r.is_of(condition))
+/// Loss over frequency, of the records of one curve in ascending frequency.
+pub(in crate::sweep) fn curve_of(records: &[CaseRecord]) -> Vec<Point> {
+    let points = records.iter();
+    points
         .filter_map(|r| Some((r.angular_frequency_rad_per_s, r.energy_loss_j()?)))
-        .collect();
-    curve.sort_by(|a, b| a.0.total_cmp(&b.0));
-    curve
+        .collect()
 }

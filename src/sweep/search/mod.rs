@@ -8,6 +8,7 @@ pub mod refine;
 mod replica_peaks;
 pub mod run;
 
+use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -17,7 +18,7 @@ use rayon::ThreadPool;
 
 use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::{Aim, Setup};
-use crate::sweep::plan::Case;
+use crate::sweep::plan::{AxisValues, Case, Condition};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::locate::curve_of;
 use crate::sweep::search::run::{Outcome, Progress, RunError};
@@ -89,12 +90,7 @@ impl<'a> Search<'a> {
         if plan.refine && !interrupted {
             interrupted = self.refine(&mut records)?;
         }
-        let conditions = plan.conditions();
-        let curve = |r: &CaseRecord| conditions.iter().position(|c| r.is_of(c));
-        records.sort_by(|a, b| {
-            let omegas = [a, b].map(|r| r.angular_frequency_rad_per_s);
-            (curve(a).cmp(&curve(b))).then(omegas[0].total_cmp(&omegas[1]))
-        });
+        sort(&mut records, &plan.conditions());
         let mut outcome = Outcome {
             interrupted,
             records,
@@ -116,10 +112,12 @@ impl<'a> Search<'a> {
 
     /// Adds frequencies where the records do not resolve their curve; says whether it was interrupted.
     fn refine(&self, records: &mut Vec<CaseRecord>) -> Result<bool, StoreError> {
+        let conditions = self.setup.plan().conditions();
         for _ in 0..REFINEMENTS {
             let mut added = Vec::new();
-            for condition in self.setup.plan().conditions().iter() {
-                for omega in refine::candidates(&curve_of(records, condition)) {
+            sort(records, &conditions);
+            for (condition, of_curve) in by_condition(records, &conditions) {
+                for omega in refine::candidates(&curve_of(of_curve)) {
                     added.push(Case {
                         index: records.len() + added.len(),
                         angular_frequency_rad_per_s: omega,
@@ -144,6 +142,21 @@ impl<'a> Search<'a> {
     pub fn records_of(&self, aim: Aim, cases: &[Case]) -> Result<Vec<CaseRecord>, StoreError> {
         let (mut records, lacking) = self.known(aim.purpose(), cases)?;
         records.extend(self.compute(aim, &lacking)?);
+        records.sort_by_key(|r| r.index);
+        Ok(records)
+    }
+
+    /// The same, solved one after another on this thread: for what many threads do at once.
+    pub fn records_here(&self, aim: Aim, cases: &[Case]) -> Result<Vec<CaseRecord>, StoreError> {
+        let (mut records, lacking) = self.known(aim.purpose(), cases)?;
+        if let Missing::Solved { checkpoint_every } = self.missing {
+            for case in &lacking {
+                match self.compute_one(aim, case, checkpoint_every)? {
+                    Some(record) if !self.interrupt.load(Ordering::Relaxed) => records.push(record),
+                    _ => break,
+                }
+            }
+        }
         records.sort_by_key(|r| r.index);
         Ok(records)
     }
@@ -277,4 +290,34 @@ impl<'a> Search<'a> {
         }
         Ok(Some(record))
     }
+}
+
+/// Curve after curve in the order of the conditions, each in ascending frequency.
+fn sort(records: &mut [CaseRecord], conditions: &[Condition]) {
+    let bits = |values: AxisValues, drive: [f64; 2]| {
+        let numbers = values.all().iter().copied().chain(drive);
+        numbers.map(f64::to_bits).collect::<Vec<_>>()
+    };
+    let of_condition = |c: &Condition| bits(c.values, [c.drive.mean(), c.drive.amplitude()]);
+    let places = conditions.iter().map(of_condition).zip(0..);
+    let places: HashMap<Vec<u64>, usize> = places.collect();
+    records.sort_by_cached_key(|r| {
+        let place = places.get(&bits(r.varied, [r.drive_mean, r.drive_amplitude]));
+        // Positive numbers are in the order of their bits.
+        (place.copied(), r.angular_frequency_rad_per_s.to_bits())
+    });
+}
+
+/// The records of each condition, of records that are [sorted](sort).
+fn by_condition<'a>(
+    records: &'a [CaseRecord],
+    conditions: &'a [Condition],
+) -> impl Iterator<Item = (&'a Condition, &'a [CaseRecord])> {
+    let mut rest = records;
+    conditions.iter().map(move |condition| {
+        let count = rest.iter().take_while(|r| r.is_of(condition)).count();
+        let (own, others) = rest.split_at(count);
+        rest = others;
+        (condition, own)
+    })
 }

@@ -3,20 +3,18 @@
 //! The curves of the replicas are known at the frequencies of the sweep. Their maxima, and that of the sweep's own curve, are read off
 //! between them in the same way, so that what the interpolation misses is nearly the same for all; the peak located moves by the ratios.
 
-use crate::sweep::plan::Condition;
 use crate::sweep::record::{CaseRecord, material_error};
 use crate::sweep::search::peak::{Peak, Point, vertex};
 
 /// Points through which a maximum is read off.
 const STENCIL: usize = 5;
 
-/// Adds its errors to a peak of the curve under a condition; nothing where there are no replicas.
-pub(super) fn add_errors(found: &mut Peak, records: &[CaseRecord], condition: &Condition) {
-    let results = records.iter().filter(|record| record.is_of(condition));
-    let mut results: Vec<_> = results
+/// Adds its errors to a peak of a curve, whose records are in ascending frequency; nothing where there are no replicas.
+pub(super) fn add_errors(found: &mut Peak, records: &[CaseRecord]) {
+    let results = records.iter();
+    let results: Vec<_> = results
         .filter_map(|record| Some((record.angular_frequency_rad_per_s, record.result.as_ref()?)))
         .collect();
-    results.sort_by(|a, b| a.0.total_cmp(&b.0));
     let replicas = results
         .iter()
         .map(|(_, result)| result.replica_losses_j.len());

@@ -1,4 +1,4 @@
-//! About what a sweep costs: time from steps taken on this machine, memory from what a case keeps.
+//! What a sweep costs: time from cases tried on this machine, memory from what a case keeps, disk from what a record takes.
 
 use std::time::{Duration, Instant};
 
@@ -6,14 +6,22 @@ use crate::history::March;
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::engine::prescribed;
 use crate::sweep::plan::{Case, EngineKind, Method, SweepPlan};
+use crate::sweep::share::trial::{self, Trial};
 
-/// What a sweep costs; good to a factor of two or so, as the number of cycles and of contact iterations is not known before.
+/// What a sweep costs, foretold from some of its cases. On cells, where fewer of them are tried than asked for, the time is good to a
+/// factor of two or so.
 #[derive(Debug, Clone)]
 pub struct Cost {
     /// Per case, in the order of the sweep.
     pub cases: Vec<CaseCost>,
+    /// Time (s) on one thread of locating the peaks.
+    pub peaks_s: f64,
+    /// Time (s) of tables, figures and page, which is the same on any number of threads.
+    pub report_s: f64,
     /// Memory (bytes) of a case under way; every thread has one.
     pub memory_bytes: u64,
+    /// What the folder will take (bytes).
+    pub disk_bytes: u64,
     /// Time (s) of one step of the full number of nodes, as measured.
     pub step_s: f64,
 }
@@ -27,6 +35,15 @@ pub struct CaseCost {
     pub time_s: f64,
 }
 
+/// Drawing figures and page takes this long (s), and every row of their tables this much more: both measured on one machine.
+const FIGURES_S: f64 = 0.2;
+const ROW_S: f64 = 1.2e-4;
+/// What figures and page take (bytes), a row of tables, and the tables of one cycle per step.
+const FIGURES_BYTES: u64 = 6_000_000;
+const ROW_BYTES: u64 = 1_700;
+const TABLE_BYTES: u64 = 450;
+/// Cases of a large sweep that have tables of their cycles.
+const TABLES_OF_LARGE: usize = 6;
 /// Cells of the grid on which steps are taken, at most: larger ones are foretold from it.
 const CELLS_MEASURED: usize = 128;
 /// Steps are taken for this long, but no fewer than some.
@@ -41,27 +58,39 @@ impl Cost {
     /// # Errors
     /// [`SetupError`] where no engine can be made. Where no step can be taken, the measured time is that of the attempt.
     pub fn of(setup: &Setup) -> Result<Self, SetupError> {
+        let (step_s, foretold_s) = foretold(setup)?;
+        let trial = Trial::of(setup, &foretold_s)?;
         let plan = setup.plan();
-        let step_s = step_s(setup)?;
-        let cases = plan.cases().into_iter().map(|case| {
-            let cycles = setup.predicted_cycles(&case);
-            let work: f64 = levels(plan, cycles)
-                .iter()
-                .map(|level| {
-                    level.cycles * level.steps as f64 * relative_step(plan, level.nodes) * step_s
-                })
-                .sum();
-            CaseCost {
+        let cases = plan.cases().into_iter().zip(&foretold_s);
+        let cases: Vec<CaseCost> = cases
+            .map(|(case, foretold_s)| CaseCost {
+                cycles: setup.predicted_cycles(&case),
+                time_s: foretold_s * trial.factor,
                 case,
-                cycles,
-                time_s: work,
-            }
-        });
+            })
+            .collect();
+        let count = cases.len() as f64;
+        let mean_s = cases.iter().map(|case| case.time_s).sum::<f64>() / count.max(1.0);
+        let tables = match plan.is_small() {
+            true => cases.len(),
+            false => TABLES_OF_LARGE,
+        };
+        let of_tables = TABLE_BYTES * (tables * plan.cycle.steps) as u64;
+        let of_records = cases.len() as u64 * (trial.record_bytes + ROW_BYTES);
         Ok(Self {
-            cases: cases.collect(),
+            peaks_s: trial::losses_of_peaks(setup) * trial.loss * mean_s,
+            report_s: FIGURES_S + ROW_S * count,
             memory_bytes: setup.predicted_memory_bytes(),
+            disk_bytes: FIGURES_BYTES + of_tables + of_records,
+            cases,
             step_s,
         })
+    }
+
+    /// Time (s) of the whole on this number of threads.
+    pub fn on_threads_s(&self, threads: usize) -> f64 {
+        let threads = threads.clamp(1, self.cases.len().max(1)) as f64;
+        (self.time_s() + self.peaks_s) / threads + self.report_s
     }
 
     /// Time (s) of all cases on one thread.
@@ -98,6 +127,20 @@ impl Setup {
             times.fold(0.0, f64::max)
         })
     }
+}
+
+/// Time (s) of a step, and of every case as steps alone foretell it.
+pub(super) fn foretold(setup: &Setup) -> Result<(f64, Vec<f64>), SetupError> {
+    let plan = setup.plan();
+    let step_s = step_s(setup)?;
+    let time_s = |case: &Case| {
+        let levels = levels(plan, setup.predicted_cycles(case));
+        let level_s = |level: &Level| {
+            level.cycles * level.steps as f64 * relative_step(plan, level.nodes) * step_s
+        };
+        levels.iter().map(level_s).sum()
+    };
+    Ok((step_s, plan.cases().iter().map(time_s).collect()))
 }
 
 /// Cycles on one number of nodes in one number of steps.

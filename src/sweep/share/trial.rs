@@ -1,0 +1,129 @@
+//! Some cases of a sweep solved as a trial, so that what the sweep costs is foretold from what cases cost.
+
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+use crate::drive::Control;
+use crate::sweep::case::checkpoint::Checkpoints;
+use crate::sweep::case::{Aim, Resolution, Setup, SetupError};
+use crate::sweep::plan::{Condition, EngineKind};
+use crate::sweep::share::cost;
+use crate::sweep::store::packed_record;
+
+/// Trials end after this time, whole cases each.
+const LONGEST: Duration = Duration::from_millis(1500);
+/// Cases that are tried, evenly spread over the sweep.
+const CASES: usize = 9;
+/// A case that is foretold to take longer (s) is tried on fewer cells.
+const LONG_S: f64 = 0.4;
+/// Cells on which it is then tried.
+const FEW_CELLS: usize = 32;
+/// Losses that locating a peak takes.
+const LOSSES_OF_A_PEAK: f64 = 10.0;
+
+/// What the trials showed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Trial {
+    /// Time of the tried cases relative to what was foretold from steps alone.
+    pub factor: f64,
+    /// Time of one loss to locate a peak relative to that of a case.
+    pub loss: f64,
+    /// Bytes of a record.
+    pub record_bytes: u64,
+}
+
+impl Trial {
+    /// Nothing was tried.
+    const NONE: Self = Self {
+        factor: 1.0,
+        loss: 0.3,
+        record_bytes: 9_000,
+    };
+
+    /// Tries some cases of a sweep.
+    ///
+    /// # Errors
+    /// As [`Setup::new`].
+    pub fn of(setup: &Setup, foretold_s: &[f64]) -> Result<Self, SetupError> {
+        let longest_s = foretold_s.iter().copied().fold(0.0, f64::max);
+        if longest_s <= LONG_S {
+            return Ok(Self::run(setup, foretold_s));
+        }
+        let plan = setup.plan();
+        let has_fewer = plan.solver.engine == EngineKind::HalfSpace
+            && plan.indenter.own_cells().is_none()
+            && plan.solver.cells > FEW_CELLS;
+        if !has_fewer {
+            return Ok(Self::NONE);
+        }
+        let mut fewer = plan.clone();
+        fewer.solver.cells = FEW_CELLS;
+        let fewer = Setup::new(fewer)?;
+        let foretold_s = cost::foretold(&fewer)?.1;
+        Ok(Self::run(&fewer, &foretold_s))
+    }
+
+    fn run(setup: &Setup, foretold_s: &[f64]) -> Self {
+        let cases = setup.plan().cases();
+        let interrupt = AtomicBool::new(false);
+        let begun = Instant::now();
+        let (mut taken_s, mut expected_s) = (0.0, 0.0);
+        let mut trial = Self::NONE;
+        let most = CASES.min(cases.len());
+        for k in 0..most {
+            let place = match most {
+                1 => 0,
+                most => k * (cases.len() - 1) / (most - 1),
+            };
+            let (Some(case), Some(foretold_s)) = (cases.get(place), foretold_s.get(place)) else {
+                break;
+            };
+            let clock = Instant::now();
+            let Some(record) = setup.run(case, &interrupt) else {
+                break;
+            };
+            taken_s += clock.elapsed().as_secs_f64();
+            expected_s += foretold_s;
+            if let Ok(packed) = packed_record::pack(&record) {
+                trial.record_bytes = packed.len() as u64;
+            }
+            if k == most / 2 {
+                let own_s = clock.elapsed().as_secs_f64();
+                let at = Resolution {
+                    steps: record.steps,
+                    nodes: record.nodes,
+                };
+                let clock = Instant::now();
+                setup.run_for(Aim::Loss(at), &Checkpoints::none(), case, &interrupt);
+                trial.loss = clock.elapsed().as_secs_f64() / own_s;
+            }
+            if begun.elapsed() > LONGEST {
+                break;
+            }
+        }
+        if expected_s > 0.0 && taken_s > 0.0 {
+            trial.factor = taken_s / expected_s;
+        }
+        trial
+    }
+}
+
+/// Losses that locating all peaks takes: the loss follows the loss compliance, or under a prescribed approach the loss modulus, and
+/// has a peak between the frequencies of the sweep wherever that has one.
+pub(super) fn losses_of_peaks(setup: &Setup) -> f64 {
+    let omegas = &setup.plan().angular_frequencies_rad_per_s;
+    let of_condition = |condition: &Condition| {
+        let Ok(solid) = setup.solid(condition) else {
+            return 0;
+        };
+        let loss = |omega: &f64| match condition.drive.control() {
+            Control::Load => -solid.compliance.complex_compliance(*omega).im,
+            Control::Approach => solid.compliance.complex_modulus(*omega).im,
+        };
+        let losses: Vec<f64> = omegas.iter().map(loss).collect();
+        let tops = losses.windows(3).filter(|w| w[1] > w[0] && w[1] >= w[2]);
+        tops.count()
+    };
+    let peaks: usize = setup.plan().conditions().iter().map(of_condition).sum();
+    LOSSES_OF_A_PEAK * peaks as f64
+}
