@@ -28,7 +28,7 @@ const SWEEP: [&str; 10] = [
 ];
 
 /// Parts of the room `report` from top to bottom.
-const REPORT: [&str; 26] = [
+const REPORT: [&str; 27] = [
     "number",
     "words",
     "peaks",
@@ -42,6 +42,7 @@ const REPORT: [&str; 26] = [
     "caption",
     "comparison",
     "npy",
+    "cycles",
     "vti",
     "stamp",
     "chart",

@@ -279,7 +279,10 @@ fn the_cases_over_several_axes_are_all_combinations_or_pairs_of_their_values() {
 #[test]
 fn a_sweep_over_several_axes_is_drawn_along_each_and_compared_with_itself() {
     let folder = TempDir::new().unwrap();
-    let text = FILE.replace("[\"0.3 rad/s\", \"3 rad/s\"]", "[0.1, 0.5, 2, 8, 30]");
+    let text = FILE.replace(
+        "[\"0.3 rad/s\", \"3 rad/s\"]",
+        "[0.03, 0.1, 0.5, 2, 8, 30, 120, 500, 2000]",
+    );
     let text = format!(
         "{text}material.temperature = [293.15, 333.15]\ndrive.mean = [1, 2, 3]\n[figures]\nformats = [\"svg\"]\n"
     );
@@ -295,7 +298,7 @@ fn a_sweep_over_several_axes_is_drawn_along_each_and_compared_with_itself() {
     let table = fs::read_to_string(out.join("sweep.csv")).unwrap();
     let head = table.lines().next().unwrap();
     assert!(head.contains("material_temperature_k,drive_mean"), "{head}");
-    assert_eq!(table.lines().count(), 1 + 2 * 3 * 5);
+    assert_eq!(table.lines().count(), 1 + 2 * 3 * 9);
     for name in ["loss-map", "loss-map-2", "energy-loss-2", "peaks-2"] {
         assert!(out.join(format!("{name}.svg")).exists(), "{name}");
     }
@@ -308,5 +311,5 @@ fn a_sweep_over_several_axes_is_drawn_along_each_and_compared_with_itself() {
     let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
     assert_eq!(summary["peaks"][0]["varied"].as_array().unwrap().len(), 2);
     let same = run(&["compare", out.to_str().unwrap(), out.to_str().unwrap()]);
-    assert!(same.contains("30 cases"), "{same}");
+    assert!(same.contains("54 cases"), "{same}");
 }

@@ -3,6 +3,7 @@
 #![cfg(feature = "cli")]
 
 use crate::program::{self, program, write};
+use crate::segments;
 use std::fs;
 use std::path::Path;
 use std::process::{Command as Process, Stdio};
@@ -531,9 +532,8 @@ fn an_interrupted_sweep_keeps_what_is_finished() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    let records = out.join("records");
     let started = Instant::now();
-    while fs::read_dir(&records).map_or(0, |entries| entries.count()) < 2 {
+    while segments::count(&out) < 2 {
         assert!(
             started.elapsed() < Duration::from_secs(60),
             "no case was finished"
@@ -553,7 +553,7 @@ fn an_interrupted_sweep_keeps_what_is_finished() {
     assert_eq!(output.status.code(), Some(130));
     let stdout = String::from_utf8(output.stdout).unwrap();
     assert!(stdout.contains("Interrupted"), "{stdout}");
-    let finished = fs::read_dir(&records).unwrap().count();
+    let finished = segments::count(&out);
     let rows = fs::read_to_string(out.join("sweep.csv"))
         .unwrap()
         .lines()

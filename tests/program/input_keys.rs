@@ -260,6 +260,15 @@ fn files() -> Vec<(FileKind, String)> {
                 LIBRARY,
                 SPHERE,
                 HARMONIC,
+                "[sweep]\nfrequency = [1, 2]\ndrive.amplitude = [1, 2]\nindenter.radius = [1e-3, 2e-3]\npairs = false\n",
+            ],
+            "",
+        ),
+        sweep(
+            [
+                LIBRARY,
+                SPHERE,
+                HARMONIC,
                 "[sweep]\nangular_frequency = [1, 2]\ndrive.mean = [6, 7]\n",
             ],
             "",

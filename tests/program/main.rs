@@ -8,6 +8,8 @@ mod html;
 mod inputs;
 #[path = "../common/program.rs"]
 mod program;
+#[path = "../common/segments.rs"]
+mod segments;
 
 mod architecture;
 mod axes;

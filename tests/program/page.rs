@@ -209,7 +209,7 @@ fn a_sweep_of_two_axes_names_its_drives() {
     let text = sweep_file("\"two axes\"", frequencies, more);
     let page = page(&folder, &text, 0);
     let data = data(&page);
-    assert_eq!(data["varied"]["column"], "drive_amplitude");
+    assert_eq!(data["varied"][0]["column"], "drive_amplitude");
     assert_eq!(data["cases"].as_array().unwrap().len(), 6);
     assert!(page.contains(", amplitude 2 N</li>") && page.contains(", amplitude 5 N</li>"));
 }

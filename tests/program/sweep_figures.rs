@@ -12,9 +12,10 @@ use crate::common::{pmma_material, sweep_plan};
 use contact_dma::drive::{Control, HarmonicDrive};
 use contact_dma::indenter::{FlatPunch, HeightMap, MapEdge, MapQuantity, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation};
+use contact_dma::quantity::Dimension;
 use contact_dma::report;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::plan::{Axes, EngineKind, SweepPlan, Varied};
+use contact_dma::sweep::plan::{Axes, AxisValues, Block, Condition, EngineKind, SweepPlan, Varied};
 use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::search::run::{self, Outcome, Progress};
 use contact_dma::sweep::store::Store;
@@ -98,6 +99,39 @@ fn with_amplitudes(mut plan: SweepPlan, amplitudes: &[f64]) -> SweepPlan {
     let varied = Varied::amplitude(plan.drive.control());
     let axis = Axes::of_drive(&plan, varied, amplitudes.iter().copied());
     plan.axes = Some(axis.unwrap());
+    plan
+}
+
+/// Two amplitudes, each under two means, phases and rests: 16 conditions.
+fn over_four_axes(mut plan: SweepPlan) -> SweepPlan {
+    let control = plan.drive.control();
+    let keys = [
+        ("amplitude", Some(Dimension::Force), [1.0, 4.0]),
+        ("mean", Some(Dimension::Force), [8.0, 10.0]),
+        ("phase", Some(Dimension::Angle), [0.0, 1.0]),
+        ("hold", Some(Dimension::Time), [0.0, 5.0]),
+    ];
+    let over = keys.map(|(key, dimension, _)| Varied {
+        block: Block::Drive,
+        key,
+        dimension,
+    });
+    let condition = |k: usize| {
+        let values = [3, 2, 1, 0].map(|bit| k >> bit & 1);
+        let values = [0, 1, 2, 3].map(|axis| keys[axis].2[values[axis]]);
+        let [amplitude, mean, phase_rad, hold_s] = values;
+        let drive = HarmonicDrive::new(control, mean, amplitude, phase_rad, hold_s);
+        Condition {
+            values: AxisValues::new(&values).unwrap(),
+            drive: drive.unwrap(),
+            ..plan.condition()
+        }
+    };
+    plan.axes = Some(Axes {
+        over: over.to_vec(),
+        pairs: false,
+        conditions: (0..16).map(condition).collect(),
+    });
     plan
 }
 
@@ -185,14 +219,17 @@ fn every_figure_is_known_by_name_so_that_another_sweep_clears_it() {
     let known: BTreeSet<String> = files::of_sweep()
         .chain([".contact-dma.lock", "resolved.toml"].map(str::to_owned))
         .collect();
-    for swept in [&one, &two] {
+    let four = swept(over_four_axes(pmma(&omegas)));
+    for swept in [&one, &two, &four] {
         assert!(top_level(swept.folder.path()).is_subset(&known));
     }
     assert_eq!(one.figures().len(), 9);
     let all: BTreeSet<String> = files::FIGURES.map(str::to_owned).into();
-    assert_eq!(two.figures(), all);
-    Store::open(two.folder.path(), "another sweep", true).unwrap();
-    let left: Vec<String> = top_level(two.folder.path()).into_iter().collect();
+    assert_eq!(four.figures(), all);
+    let of_two = all.iter().filter(|name| !name.ends_with(['2', '3', '4']));
+    assert_eq!(two.figures(), of_two.cloned().collect());
+    Store::open(four.folder.path(), "another sweep", true).unwrap();
+    let left: Vec<String> = top_level(four.folder.path()).into_iter().collect();
     assert_eq!(left, [".contact-dma.lock", "resolved.toml"]);
 }
 

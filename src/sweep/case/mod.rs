@@ -331,6 +331,9 @@ impl Setup {
         let solver = &self.plan.solver;
         record.warnings =
             outside_model::warnings(solver, &case.condition, &record, cycle.error_bars);
+        if let (Some(result), false) = (&mut record.result, self.plan.is_small()) {
+            result.cycle.round_profiles();
+        }
         Some(record)
     }
 

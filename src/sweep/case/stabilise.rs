@@ -572,8 +572,7 @@ impl Contact<'_> {
                 samples,
                 pressures: pressures.map_or_else(Vec::new, Pressures::finished),
                 surface_loss,
-            }
-            .with_single_precision(),
+            },
         })
     }
 }

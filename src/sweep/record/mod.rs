@@ -101,9 +101,9 @@ pub struct CaseResult {
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct RecordedCycle {
     pub samples: Loop,
-    /// The pressure over the contact at the quarters of the drive's oscillation, in numbers of single precision.
+    /// The pressure over the contact at the quarters of the drive's oscillation.
     pub pressures: Vec<PressureProfile>,
-    /// Where the energy goes in, in numbers of single precision.
+    /// Where the energy goes in.
     pub surface_loss: SurfaceLoss,
 }
 
@@ -113,10 +113,9 @@ impl RecordedCycle {
         !self.samples.time_s.is_empty()
     }
 
-    /// Positions and values of the profiles rounded to seven digits, which are more than a grid resolves: what is drawn from a record
-    /// is then what is drawn without one.
-    #[must_use]
-    pub fn with_single_precision(mut self) -> Self {
+    /// Rounds positions and values of the profiles to single precision, as large sweeps keep them: seven digits are more than a grid
+    /// resolves, and half the bytes.
+    pub fn round_profiles(&mut self) {
         let single = |value: &mut f64| *value = f64::from(*value as f32);
         for line in self.pressures.iter_mut().flat_map(|p| &mut p.lines) {
             line.position_m.iter_mut().for_each(single);
@@ -130,7 +129,6 @@ impl RecordedCycle {
             radius_m.iter_mut().for_each(single);
             density_j_per_m2.iter_mut().flatten().for_each(single);
         }
-        self
     }
 }
 

@@ -27,7 +27,13 @@ pub const FIGURES: [&str; 22] = [
 ];
 
 /// Where it comes from, table, summary and page.
-const TABLES: [&str; 4] = ["run.json", "sweep.csv", "summary.json", "index.html"];
+const TABLES: [&str; 5] = [
+    "run.json",
+    "sweep.csv",
+    "summary.json",
+    "cycles.npz",
+    "index.html",
+];
 
 /// What follows the name of a figure in those of its files: data, caption, and the picture in every form.
 const ENDINGS: [&str; 6] = {

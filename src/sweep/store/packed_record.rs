@@ -59,12 +59,12 @@ struct PackedProfile {
     quarter: Quarter,
     /// Time, load, approach, radius.
     instant: [f64; 4],
-    lines: Vec<(Along, Vec<u8>, Vec<u8>)>,
+    lines: Vec<(Along, Values, Values)>,
 }
 
 #[derive(Serialize, Deserialize)]
 enum PackedSurface {
-    Radial(Vec<u8>, Vec<u8>),
+    Radial(Values, Values),
     Cells {
         first_m: [f64; 2],
         spacing_m: [f64; 2],
@@ -117,8 +117,8 @@ impl Packed {
 impl PackedProfile {
     fn of(profile: &PressureProfile) -> Self {
         let line = |line: &PressureLine| {
-            let pressure = packed::optional_singles(singles(&line.pressure_pa));
-            (line.along, positions(&line.position_m), pressure)
+            let pressure = Values::of(&line.pressure_pa);
+            (line.along, Values::all(&line.position_m), pressure)
         };
         Self {
             quarter: profile.quarter,
@@ -134,11 +134,11 @@ impl PackedProfile {
 
     fn unpacked(self) -> Option<PressureProfile> {
         let [time_s, load_n, approach_m, contact_radius_m] = self.instant;
-        let line = |(along, position, pressure): &(Along, Vec<u8>, Vec<u8>)| {
+        let line = |(along, position, pressure): &(Along, Values, Values)| {
             Some(PressureLine {
                 along: *along,
-                position_m: to_positions(position)?,
-                pressure_pa: to_numbers(pressure)?,
+                position_m: position.unpacked()?.into_iter().collect::<Option<_>>()?,
+                pressure_pa: pressure.unpacked()?,
             })
         };
         Some(PressureProfile {
@@ -158,10 +158,7 @@ impl PackedSurface {
             SurfaceLoss::Radial {
                 radius_m,
                 density_j_per_m2,
-            } => {
-                let density = packed::optional_singles(singles(density_j_per_m2));
-                Self::Radial(positions(radius_m), density)
-            }
+            } => Self::Radial(Values::all(radius_m), Values::of(density_j_per_m2)),
             SurfaceLoss::Cells(cells) => Self::Cells {
                 first_m: [cells.first_x_m, cells.first_y_m],
                 spacing_m: [cells.spacing_x_m, cells.spacing_y_m],
@@ -174,8 +171,8 @@ impl PackedSurface {
     fn unpacked(self) -> Option<SurfaceLoss> {
         Some(match self {
             Self::Radial(radius, density) => SurfaceLoss::Radial {
-                radius_m: to_positions(&radius)?,
-                density_j_per_m2: to_numbers(&density)?,
+                radius_m: radius.unpacked()?.into_iter().collect::<Option<_>>()?,
+                density_j_per_m2: density.unpacked()?,
             },
             Self::Cells {
                 first_m: [first_x_m, first_y_m],
@@ -196,21 +193,36 @@ impl PackedSurface {
     }
 }
 
-/// Numbers of a profile, which have single precision: see [`RecordedCycle::with_single_precision`].
-fn singles(values: &[Option<f64>]) -> impl Iterator<Item = Option<f32>> + '_ {
-    values.iter().map(|value| value.map(|value| value as f32))
+/// Numbers of a profile, in as much precision as they have.
+#[derive(Serialize, Deserialize)]
+enum Values {
+    Singles(Vec<u8>),
+    Doubles(Vec<u8>),
 }
 
-fn to_numbers(packed: &[u8]) -> Option<Vec<Option<f64>>> {
-    let values = packed::to_optional_singles(packed)?.into_iter();
-    Some(values.map(|value| value.map(f64::from)).collect())
-}
+impl Values {
+    fn of(values: &[Option<f64>]) -> Self {
+        let is_single = |value: &f64| f64::from(*value as f32).to_bits() == value.to_bits();
+        match values.iter().flatten().all(is_single) {
+            true => {
+                let singles = values.iter().map(|value| value.map(|value| value as f32));
+                Self::Singles(packed::optional_singles(singles))
+            }
+            false => Self::Doubles(packed::optional_doubles(values)),
+        }
+    }
 
-fn positions(values_m: &[f64]) -> Vec<u8> {
-    packed::optional_singles(values_m.iter().map(|value| Some(*value as f32)))
-}
+    fn all(values: &[f64]) -> Self {
+        Self::of(&values.iter().copied().map(Some).collect::<Vec<_>>())
+    }
 
-fn to_positions(packed: &[u8]) -> Option<Vec<f64>> {
-    let values = packed::to_optional_singles(packed)?.into_iter();
-    values.map(|value| value.map(f64::from)).collect()
+    fn unpacked(&self) -> Option<Vec<Option<f64>>> {
+        match self {
+            Self::Doubles(bytes) => packed::to_optional_doubles(bytes),
+            Self::Singles(bytes) => {
+                let values = packed::to_optional_singles(bytes)?.into_iter();
+                Some(values.map(|value| value.map(f64::from)).collect())
+            }
+        }
+    }
 }

@@ -5,7 +5,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
@@ -193,13 +193,11 @@ impl State {
             fs::create_dir_all(folder).map_err(created(folder.to_path_buf()))?;
             let host: String = provenance::host().unwrap_or_default();
             let host = host.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "");
-            let since = SystemTime::now().duration_since(UNIX_EPOCH);
-            let began = since.map_or(0, |since| since.as_millis());
             let process = std::process::id();
             let mut count = 0;
             let writer = loop {
-                // Several in one process, or a clock that was set back.
-                let path = folder.join(format!("{host}-{process}-{began}-{count}.{ENDING}"));
+                // Systems number their processes from the beginning again and again.
+                let path = folder.join(format!("{host}-{process}-{count}.{ENDING}"));
                 match SegmentWriter::create(&path) {
                     Ok(writer) => break writer,
                     Err(error) if error.kind() == io::ErrorKind::AlreadyExists => count += 1,
