@@ -126,9 +126,8 @@ fn block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<String, Failure
     let comments: String = comments.collect();
     // Without a Poisson ratio there is none in the text either: the series does not depend on it.
     let nu = flags.poisson_ratio.unwrap_or(0.0);
-    let material = report.made.material(None, nu).map_err(Failure::input)?;
-    let replicas = report.made.replica_materials(None, nu);
-    let material = material.with_replicas(replicas.map_err(Failure::input)?);
+    let material = report.made.whole_material(None, nu);
+    let material = material.map_err(Failure::input)?;
     let block = match flags.poisson_ratio {
         Some(_) => resolved::material_text(&material),
         None => resolved::material_text_without_poisson_ratio(&material),

@@ -20,7 +20,6 @@ use super::keys::material::{
 use super::keys::table;
 use super::material_temperature::AtTemperature;
 use crate::material::dynamic::master_curve::ShiftChoice;
-use crate::material::dynamic::shift_law::Wlf;
 use crate::material::dynamic::{Characterisation, Choices, DynamicData, characterise};
 use crate::material::{Material, ModulusKind};
 
@@ -99,20 +98,8 @@ fn choices(table: &mut TableReader<'_>, folder: &Path, problems: &Problems) -> O
 
 impl AtTemperature for Characterisation {
     fn material(&self, temperature_k: Option<f64>, poisson_ratio: f64) -> Result<Material, String> {
-        let said = |error: crate::material::dynamic::DynamicError| error.to_string();
-        let material = Self::material(self, temperature_k, poisson_ratio).map_err(said)?;
-        let replicas = self.replica_materials(temperature_k, poisson_ratio);
-        let material = material.with_replicas(replicas.map_err(said)?);
-        let Some(temperature_k) = temperature_k.or(self.temperature_k) else {
-            return Ok(material);
-        };
-        let material = material.at_temperature(temperature_k);
-        let law = self.master.as_ref().and_then(|master| master.preferred);
-        let law = law.and_then(|law| Wlf::from(law).referred_to(temperature_k));
-        Ok(match law {
-            Some(law) => material.shifting(law),
-            None => material,
-        })
+        let material = self.whole_material(temperature_k, poisson_ratio);
+        material.map_err(|error| error.to_string())
     }
 }
 

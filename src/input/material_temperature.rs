@@ -4,10 +4,12 @@ use super::diagnostic::{Location, Problems};
 use super::document::Located;
 use super::document::reader::TableReader;
 use super::keys::material::{
-    BRANCH_MODULUS, EQUILIBRIUM, ISOTHERM_TEMPERATURE, ISOTHERMS, MODULUS, POISSON_RATIO,
-    RELAXATION_BRANCHES, REPLICA_EQUILIBRIUM, REPLICA_MODULI, REPLICA_TIMES, REPLICAS, TEMPERATURE,
+    BRANCH_MODULUS, EQUILIBRIUM, ISOTHERM_ACTIVATION_ENERGY, ISOTHERM_TEMPERATURE, ISOTHERM_WLF,
+    ISOTHERMS, MODULUS, POISSON_RATIO, RELAXATION_BRANCHES, REPLICA_EQUILIBRIUM, REPLICA_MODULI,
+    REPLICA_TIMES, REPLICAS, TEMPERATURE,
 };
 use super::material_block::{branches, measured_window};
+use crate::material::dynamic::shift_law::{Arrhenius, Wlf};
 use crate::material::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
 use crate::quantity::celsius;
 
@@ -119,9 +121,10 @@ pub(super) fn replicas(
     })
 }
 
-/// A series that holds at a temperature.
+/// A series that holds at a temperature, and by its law at others.
 struct Isotherm {
     temperature_k: f64,
+    law: Option<Wlf>,
     measured_window_s: Option<(f64, f64)>,
     series: Series,
 }
@@ -137,6 +140,7 @@ pub(super) fn isotherms(
     let all = block.tables(&ISOTHERMS, |mut table| {
         let place = table.as_ref().clone();
         let temperature = table.value(&ISOTHERM_TEMPERATURE);
+        let law = law(&mut table, temperature, problems);
         let measured = measured_window(&mut table, problems);
         let (kind, equilibrium) = (table.value(&MODULUS), table.value(&EQUILIBRIUM));
         let branches = branches(&mut table, &RELAXATION_BRANCHES, &BRANCH_MODULUS);
@@ -146,6 +150,7 @@ pub(super) fn isotherms(
         let relaxation = relaxation.map_err(|error| problems.at(&place, error.to_string()));
         Some(Isotherm {
             temperature_k: temperature?,
+            law: law?,
             measured_window_s: measured?,
             series: Series {
                 kind: kind?,
@@ -163,29 +168,116 @@ pub(super) fn isotherms(
     Some(Box::new(Isotherms(all.value)))
 }
 
-impl AtTemperature for Isotherms {
-    fn material(&self, temperature_k: Option<f64>, poisson_ratio: f64) -> Result<Material, String> {
-        let found = match (temperature_k, self.0.as_slice()) {
-            (None, [only]) => Some(only),
-            (None, _) => {
-                return Err(
-                    "there are several isotherms: write `temperature` with that of one of them"
-                        .to_owned(),
-                );
-            }
-            (Some(wanted), all) => all.iter().find(|isotherm| isotherm.temperature_k == wanted),
+/// The law by which a series at this temperature (K) shifts.
+fn law(
+    table: &mut TableReader<'_>,
+    temperature_k: Option<f64>,
+    problems: &Problems,
+) -> Option<Option<Wlf>> {
+    let (wlf, energy) = (
+        table.read(&ISOTHERM_WLF),
+        table.read(&ISOTHERM_ACTIVATION_ENERGY),
+    );
+    let reference_temperature_k = temperature_k?;
+    Some(match (wlf?, energy?) {
+        (Some(wlf), Some(energy)) => {
+            problems
+                .at(&energy, "a series shifts by one law")
+                .label(&wlf, "another")
+                .help("keep one of them");
+            return None;
+        }
+        (Some(wlf), None) => match wlf.value.as_slice() {
+            [c1, c2_k] => Some(Wlf {
+                reference_temperature_k,
+                c1: c1.value,
+                c2_k: c2_k.value,
+                c1_error: 0.0,
+                c2_error_k: 0.0,
+            }),
+            // The key has two entries.
+            _ => None,
+        },
+        (None, Some(energy)) => {
+            let law = Arrhenius {
+                reference_temperature_k,
+                activation_energy_j_per_mol: energy.value,
+                activation_energy_error_j_per_mol: 0.0,
+            };
+            Some(law.into())
+        }
+        (None, None) => None,
+    })
+}
+
+impl Isotherm {
+    /// The material at a temperature (K), its own or one that its law reaches.
+    fn material(&self, temperature_k: f64, poisson_ratio: f64) -> Result<Material, String> {
+        let law = self
+            .law
+            .and_then(|law| Some((law, law.referred_to(temperature_k)?)));
+        let log10_a_t = match (&law, temperature_k == self.temperature_k) {
+            (_, true) => 0.0,
+            (Some((law, _)), false) => law.log10_a_t(temperature_k).unwrap_or(f64::NAN),
+            (None, false) => f64::NAN,
         };
-        let isotherm = found.ok_or_else(|| {
-            let known: Vec<String> = self.0.iter().map(|i| celsius(i.temperature_k)).collect();
-            let wanted = celsius(temperature_k.unwrap_or_default());
-            format!("no isotherm at {wanted}: there are {}", known.join(", "))
-        })?;
-        let material = isotherm.series.material(poisson_ratio);
-        let material = material.map_err(|error| error.to_string())?;
-        let material = material.at_temperature(isotherm.temperature_k);
-        Ok(match isotherm.measured_window_s {
-            Some(window_s) => material.measured(window_s),
+        let a_t = 10_f64.powf(log10_a_t);
+        if !(a_t.is_normal() && a_t > 0.0) {
+            let at = celsius(temperature_k);
+            return Err(format!(
+                "the series at {} has no shift to {at}",
+                celsius(self.temperature_k)
+            ));
+        }
+        let shifted = |series: &Relaxation| {
+            let branches = series
+                .branches()
+                .iter()
+                .map(|b| (b.modulus_pa, a_t * b.time_s));
+            prony(series.equilibrium_modulus(), branches)
+        };
+        let told = |error: MaterialError| error.to_string();
+        let replicas = self.series.replicas.iter().map(shifted);
+        let series = Series {
+            kind: self.series.kind,
+            relaxation: shifted(&self.series.relaxation).map_err(told)?,
+            replicas: replicas.collect::<Result<_, _>>().map_err(told)?,
+        };
+        let mut material = series.material(poisson_ratio).map_err(told)?;
+        material = material.at_temperature(temperature_k);
+        if let Some((_, law)) = law {
+            material = material.shifting(law);
+        }
+        Ok(match self.measured_window_s {
+            Some((first_s, last_s)) => material.measured((a_t * first_s, a_t * last_s)),
             None => material,
         })
+    }
+}
+
+impl AtTemperature for Isotherms {
+    fn material(&self, temperature_k: Option<f64>, poisson_ratio: f64) -> Result<Material, String> {
+        let several =
+            "there are several isotherms: write `temperature` with that of one of them".to_owned();
+        let Some(wanted_k) = temperature_k else {
+            return match self.0.as_slice() {
+                [only] => only.material(only.temperature_k, poisson_ratio),
+                _ => Err(several),
+            };
+        };
+        let at = |isotherm: &&Isotherm| isotherm.temperature_k == wanted_k;
+        // Where there is no isotherm of its own, the nearest that shifts.
+        let away = |isotherm: &&Isotherm| (isotherm.temperature_k - wanted_k).abs();
+        let shifting = self.0.iter().filter(|isotherm| isotherm.law.is_some());
+        let nearest = shifting.min_by(|a, b| away(a).total_cmp(&away(b)));
+        let isotherm = self.0.iter().find(at).or(nearest).ok_or_else(|| {
+            let known: Vec<String> = self.0.iter().map(|i| celsius(i.temperature_k)).collect();
+            let wanted = celsius(wanted_k);
+            format!(
+                "no isotherm at {wanted}: there are {}, and none has a shift law (`wlf` or `activation_energy`)",
+                known.join(", ")
+            )
+        })?;
+        isotherm.material(wanted_k, poisson_ratio)
     }
 }

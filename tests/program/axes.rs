@@ -154,6 +154,42 @@ fn the_cases_outside_what_was_measured_at_their_own_temperature_are_warned_of() 
 }
 
 #[test]
+fn an_isotherm_with_a_shift_law_is_a_material_at_other_temperatures() {
+    let temperature_k = 293.15 + 12.0;
+    // About 20 °C; the energy of Arrhenius that shifts as far.
+    let (c1, c2) = (8.86, 101.6);
+    let log10_a_t = -c1 * 12.0 / (c2 + 12.0);
+    let energy = log10_a_t * 10_f64.ln() * 8.314_462_618 / (1.0 / temperature_k - 1.0 / 293.15);
+    let one = FILE
+        .split("[[material.isotherm]]")
+        .next()
+        .unwrap()
+        .replace("20 °C", "32 °C");
+    let (_, second) = FILE.split_once("[[material.isotherm]]").unwrap();
+    let (first, rest) = second.split_once("[[material.isotherm]]").unwrap();
+    let (_, rest) = rest.split_once("[indenter]").unwrap();
+    let losses_of = |law: &str, head: &str, omega: f64| {
+        let text = format!("{head}[[material.isotherm]]\n{law}{first}[indenter]{rest}");
+        let text = text.replace("[\"0.3 rad/s\", \"3 rad/s\"]", &format!("[{omega:?}]"));
+        let plan = sweep_file::plan(&Document::parse("law.toml", &text).unwrap());
+        let plan = plan.unwrap_or_else(|why| panic!("{}", why.render(Styling::Plain)));
+        let again = Document::parse("resolved.toml", &resolved_text(&plan)).unwrap();
+        let again = sweep_file::plan(&again).unwrap();
+        assert_eq!(losses(again), losses(plan.clone()));
+        f64::from_bits(losses(plan)[0].1)
+    };
+    let own = losses_of("", &one.replace("32 °C", "20 °C"), 0.7);
+    for law in [
+        format!("wlf = [{c1}, {c2}]\n"),
+        format!("activation_energy = {energy:?}\n"),
+    ] {
+        // The same body on another clock.
+        let shifted = losses_of(&law, &one, 0.7 / 10_f64.powf(log10_a_t));
+        assert!((shifted / own - 1.0).abs() < 1e-9, "{law}: {shifted} {own}");
+    }
+}
+
+#[test]
 fn a_number_that_an_axis_varies_need_not_stand_in_its_block() {
     let given = read("indenter.radius = [\"5 mm\", \"20 mm\"]").unwrap();
     let text = FILE.replace("radius = \"10 mm\"\n", "");
@@ -190,7 +226,7 @@ fn what_cannot_be_an_axis_is_shown_where_it_stands() {
         (
             "material.temperature = [\"20 °C\", \"30 °C\"]",
             "no isotherm at 30 °C",
-            "axes.toml:",
+            "shift law (`wlf` or `activation_energy`)",
         ),
         ("drive.mean = [0.1]", "pull", "axes.toml:"),
         (

@@ -306,8 +306,8 @@ fn files() -> Vec<(FileKind, String)> {
         ),
         format!(
             "temperature = 300\n{}{}",
-            isotherm("temperature = 300"),
-            isotherm("temperature = 303")
+            isotherm("temperature = 300\nwlf = [8, 100]"),
+            isotherm("temperature = 303\nactivation_energy = 1e5")
         ),
         format!("name = \"n\"\nmeasured = [1, 2]\n[material.{series}"),
         format!("measured = [1, 2]\n[material.{creep}"),

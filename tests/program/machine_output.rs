@@ -393,7 +393,33 @@ fn a_material_from_dynamic_data_is_exported_with_its_shift() {
         "temperature = \"40 °C\"\n[material.dynamic]",
     );
     write(&folder, "at_40.toml", &at_40);
-    for (file, reference) in [("material.toml", 25.0), ("at_40.toml", 40.0)] {
+    // What `fit` writes knows the law as well.
+    let fit = [
+        "material",
+        "fit",
+        "dma.csv",
+        "--quantity",
+        "dynamic",
+        "--modulus",
+        "shear",
+        "--poisson-ratio",
+        "0.45",
+        "--reference-temperature",
+        "25 °C",
+        "--out",
+        "fit",
+    ];
+    let fitted = json(&folder, &fit);
+    write(
+        &folder,
+        "fitted.toml",
+        fitted["material_toml"].as_str().unwrap(),
+    );
+    for (file, reference) in [
+        ("material.toml", 25.0),
+        ("at_40.toml", 40.0),
+        ("fitted.toml", 25.0),
+    ] {
         let printed = json(&folder, &["material", "export", file, "--to", "abaqus"]);
         let text = printed["text"].as_str().unwrap();
         let (_, law) = text.split_once("*TRS, DEFINITION=WLF\n").unwrap();

@@ -185,12 +185,20 @@ rows! { _:
     /// Temperature at which the series holds.
     ISOTHERM_TEMPERATURE: Row<Scalar, Required> =
         "temperature", quantity(Temperature).above_zero(), Required;
+    /// How the times of the series shift with the temperature, so that it holds at others too: c1 and c2 (K) of the law of Williams,
+    /// Landel and Ferry about its own temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0).
+    ISOTHERM_WLF: Row<Array<Scalar>, Optional> =
+        "wlf", Array { entries: 2..=2, ..list(number("8.86").above_zero()) }, Optional;
+    /// The same by the law of Arrhenius, with this activation energy in J/mol.
+    ISOTHERM_ACTIVATION_ENERGY: Row<Scalar, Optional> = "activation_energy", number("120e3").above_zero(), Optional;
 }
 
 static ISOTHERM: Rows = super::table(
     " The series at one temperature.",
     &[
         &ISOTHERM_TEMPERATURE,
+        &ISOTHERM_WLF,
+        &ISOTHERM_ACTIVATION_ENERGY,
         &MEASURED,
         &MODULUS,
         &EQUILIBRIUM,

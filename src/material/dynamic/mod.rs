@@ -22,6 +22,7 @@ use super::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
 use master_curve::{MasterCurve, MasterCurveError, ShiftChoice, ShiftFactor};
 use prony::{PronyError, PronyFit};
 use replicas::Replica;
+use shift_law::Wlf;
 
 /// Storage and loss modulus at one frequency and temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -296,6 +297,31 @@ impl Characterisation {
     ) -> Result<Material, DynamicError> {
         let master = self.master.as_ref();
         self.at(temperature_k, &self.fit.relaxation, master, poisson_ratio)
+    }
+
+    /// The same with its replicas, its temperature where that is known, and the law by which it shifts to others, where the data prefer
+    /// one.
+    ///
+    /// # Errors
+    /// As [`material`](Self::material).
+    pub fn whole_material(
+        &self,
+        temperature_k: Option<f64>,
+        poisson_ratio: f64,
+    ) -> Result<Material, DynamicError> {
+        let material = self.material(temperature_k, poisson_ratio)?;
+        let replicas = self.replica_materials(temperature_k, poisson_ratio)?;
+        let material = material.with_replicas(replicas);
+        let Some(temperature_k) = temperature_k.or(self.temperature_k) else {
+            return Ok(material);
+        };
+        let material = material.at_temperature(temperature_k);
+        let law = self.master.as_ref().and_then(|master| master.preferred);
+        let law = law.and_then(|law| Wlf::from(law).referred_to(temperature_k));
+        Ok(match law {
+            Some(law) => material.shifting(law),
+            None => material,
+        })
     }
 
     /// The replicas at a temperature, each by its own shift factors, as [`material`](Self::material).

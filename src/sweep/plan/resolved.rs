@@ -267,6 +267,9 @@ fn temperature_line(material: &Material, line: &mut dyn FnMut(&str)) {
 fn isotherm_lines(material: &Material, line: &mut dyn FnMut(&str)) {
     line("\n[[material.isotherm]]");
     temperature_line(material, line);
+    if let Some(law) = material.shift() {
+        line(&format!("wlf = [{:?}, {:?}]", law.c1, law.c2_k));
+    }
     measured_line(material, line);
     line(&format!("modulus = \"{}\"", material.kind().name()));
     series_lines(material, line);
