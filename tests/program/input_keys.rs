@@ -302,12 +302,12 @@ fn files() -> Vec<(FileKind, String)> {
         ),
         dynamic("files = [\"dma.csv\"]\nformat = \"table\"\nshift = { file = \"shift.csv\" }\nbranches = \"auto\""),
         isotherm(
-            "temperature = \"25 °C\"\nmeasured = [1, 2]\nreplicas = [{ equilibrium = 1.1e6, moduli = 9e5, times = 1 }]",
+            "temperature = \"25 °C\"\nactivation_energy = 1e5\nmeasured = [1, 2]\nreplicas = [{ equilibrium = 1.1e6, moduli = 9e5, times = 1 }]",
         ),
         format!(
             "temperature = 300\n{}{}",
             isotherm("temperature = 300\nwlf = [8, 100]"),
-            isotherm("temperature = 303\nactivation_energy = 1e5")
+            isotherm("temperature = 303")
         ),
         format!("name = \"n\"\nmeasured = [1, 2]\n[material.{series}"),
         format!("measured = [1, 2]\n[material.{creep}"),
