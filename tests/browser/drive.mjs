@@ -192,6 +192,42 @@ test("a sweep of two axes lets its drive be chosen, and shows maps", () => open(
   assert.match(await page.locator("#surface .readout").innerText(), /work density = /);
 }));
 
+test("a large sweep shows its curves, turns the pages of its table and says which cycles it has", () => open("large", {}, async (page) => {
+  const all = rows("large");
+  assert.equal(all.length, 240);
+  assert.equal(await page.evaluate(() => document.querySelector("#curve").spec.series.length), 20);
+  assert.match(await page.locator("#drive option").first().innerText(), /5 mm, 1 N/);
+  const lines = () => page.locator("#cases tbody tr").count();
+  assert.equal(await lines(), 50);
+  assert.equal(await page.locator("#page-place").innerText(), "1 to 50 of 240");
+  for (let k = 0; k < 4; k++) await page.click("#page-after");
+  assert.equal(await lines(), 40);
+  assert.ok(await page.locator("#page-after").isDisabled());
+  // Sorted by the loss, the other way round the second time: the largest comes first.
+  const loss = page.locator("#cases thead th[data-column=energy_loss_j] button");
+  await loss.click();
+  await loss.click();
+  const largest = all.reduce((a, b) => (Number(a.energy_loss_j) >= Number(b.energy_loss_j) ? a : b));
+  assert.equal(Number(await page.locator("#cases tbody tr").first().getAttribute("data-index")), Number(largest.index));
+  await page.locator("#cases tbody tr").first().click();
+  assert.equal(await chosen(page), Number(largest.index));
+  await isLoopOf(page, "large", Number(largest.index));
+  // A case whose cycle the page has not: its numbers are there, and what is missing is said.
+  const without = await page.evaluate(() => {
+    const data = JSON.parse(document.querySelector("script[type='application/json']").textContent);
+    const held = new Set(data.cases.map((c) => c.index));
+    return Array.from({ length: 240 }, (_, k) => k).find((k) => !held.has(k));
+  });
+  if (without !== undefined) {
+    const row = all.find((r) => Number(r.index) === without);
+    await page.selectOption("#drive", `${Number(row.indenter_radius_m)} ${Number(row.drive_amplitude)}`);
+    await page.selectOption("#case", String(without));
+    assert.match(await page.locator("#loop").innerText(), /this page has the cycles of/);
+    assert.ok(await page.locator("#keep").isDisabled());
+    assert.ok((await page.locator("#facts tbody tr").count()) > 5);
+  }
+}));
+
 test("a history shows its signals, profiles by time, and fields by a slider", () => open("history", {}, async (page) => {
   const history = table(`${here}/history/history.csv`);
   const drawn = await page.evaluate(() => document.querySelector("#load").spec.series[0]);

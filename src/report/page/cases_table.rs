@@ -27,7 +27,7 @@ struct Column {
 pub(super) struct ShownColumn(String, f64, Option<usize>);
 
 /// Rows that the table of a large sweep has before its script turns the page.
-const ROWS: usize = 100;
+const ROWS: usize = 50;
 
 /// The columns as the script shows them.
 pub(super) fn shown(plan: &SweepPlan, outcome: &Outcome) -> Vec<ShownColumn> {

@@ -1,11 +1,11 @@
 // The table of cases: sorted by its headings, copied as CSV, a way to choose a case. That of a large sweep is read page by page.
 
-const PAGE = 100;
+const PAGE = 50;
 
 /** A table whose rows are made as they are turned to; `shown` has a name, a factor and digits for each column. */
 function startPages(shown, rows, choose) {
   const table = $("cases"), body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
-  const text = (row, [name, factor, digits]) => (row[name] === null ? "" : digits ? significant(row[name] * factor, digits) : trimmed(significant(row[name] * factor, 6)));
+  const text = (row, [name, factor, digits]) => (row[name] === null ? "" : digits ? significant(row[name] * factor, digits) : trimmed(significant(row[name] * factor, 5)));
   let order = [...rows], page = 0;
   function turn(to) {
     const last = Math.max(0, Math.ceil(order.length / PAGE) - 1);
