@@ -195,14 +195,20 @@ impl<'a> Search<'a> {
                 }
             }
         }
-        if let (Purpose::Sweep, true, Some(store)) =
-            (purpose, self.holds_cycles(), self.archive.store())
-        {
-            for record in &mut records {
-                store.load_cycle(record)?;
-            }
+        for record in &mut records {
+            self.hold_cycle(purpose, record)?;
         }
         Ok((records, lacking))
+    }
+
+    /// Gives a record that was read its cycle, where the outcome holds them.
+    fn hold_cycle(&self, purpose: Purpose, record: &mut CaseRecord) -> Result<(), StoreError> {
+        match self.archive.store() {
+            Some(store) if purpose == Purpose::Sweep && self.holds_cycles() => {
+                store.load_cycle(record)
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Whether the outcome holds the cycles of all cases; of a large sweep in a folder they stay there.
@@ -267,7 +273,10 @@ impl<'a> Search<'a> {
     ) -> Result<Option<CaseRecord>, StoreError> {
         let purpose = aim.purpose();
         let record = match self.archive.load_case(purpose, case)? {
-            Kept::Intact(record) => *record,
+            Kept::Intact(mut record) => {
+                self.hold_cycle(purpose, &mut record)?;
+                *record
+            }
             Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
                 let checkpoints = match self.archive.store() {
                     Some(store) => Checkpoints::of(store, purpose, case, every),
