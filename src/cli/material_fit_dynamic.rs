@@ -50,8 +50,10 @@ pub(super) fn run(
         made: &made,
     };
     let block = block(flags, &report)?;
+    let shifting = shifting_block(flags, &report)?;
+    let shifting = shifting.as_deref();
     match format {
-        OutputFormat::Json => json::print(&printed_json(&report, &block)?)?,
+        OutputFormat::Json => json::print(&printed_json(&report, &block, shifting)?)?,
         OutputFormat::Text => {
             let (text, shifts) = (report.text(), report.shift_table());
             let branches = report.branches();
@@ -61,7 +63,7 @@ pub(super) fn run(
     let Some(folder) = &flags.out else {
         return Ok(Ended::Done);
     };
-    write(folder, &report, &block)?;
+    write(folder, &report, &block, shifting)?;
     print_place("Material and figures", folder, format)
 }
 
@@ -126,8 +128,9 @@ fn block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<String, Failure
     let comments: String = comments.collect();
     // Without a Poisson ratio there is none in the text either: the series does not depend on it.
     let nu = flags.poisson_ratio.unwrap_or(0.0);
-    let material = report.made.whole_material(None, nu);
-    let material = material.map_err(Failure::input)?;
+    let material = report.made.material(None, nu).map_err(Failure::input)?;
+    let replicas = report.made.replica_materials(None, nu);
+    let material = material.with_replicas(replicas.map_err(Failure::input)?);
     let block = match flags.poisson_ratio {
         Some(_) => resolved::material_text(&material),
         None => resolved::material_text_without_poisson_ratio(&material),
@@ -135,8 +138,26 @@ fn block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<String, Failure
     Ok(format!("{comments}{block}"))
 }
 
+/// The block of the same series with its temperature and the law by which it shifts to others; `None` where the data prefer no law, or
+/// no Poisson ratio was given.
+fn shifting_block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<Option<String>, Failure> {
+    let Some(nu) = flags.poisson_ratio else {
+        return Ok(None);
+    };
+    let material = report
+        .made
+        .whole_material(None, nu)
+        .map_err(Failure::input)?;
+    let has_law = material.shift().is_some();
+    Ok(has_law.then(|| resolved::material_text(&material)))
+}
+
 /// The summary, with what else the files hold.
-fn printed_json(report: &DynamicReport<'_>, block: &str) -> Result<Value, Failure> {
+fn printed_json(
+    report: &DynamicReport<'_>,
+    block: &str,
+    shifting: Option<&str>,
+) -> Result<Value, Failure> {
     let mut value = summary::summary(report).map_err(Failure::run)?;
     let shifts = report.made.master.as_ref().map(|master| {
         let shifts = master.shifts.iter().map(|shift| {
@@ -152,15 +173,24 @@ fn printed_json(report: &DynamicReport<'_>, block: &str) -> Result<Value, Failur
     value["shift_factors"] = json!(shifts);
     value["relaxation"] = json!(report.relaxation());
     value["material_toml"] = block.into();
+    value["shifting_toml"] = shifting.into();
     Ok(value)
 }
 
 /// Every file of the folder.
-fn write(folder: &Path, report: &DynamicReport<'_>, block: &str) -> Result<(), Failure> {
+fn write(
+    folder: &Path,
+    report: &DynamicReport<'_>,
+    block: &str,
+    shifting: Option<&str>,
+) -> Result<(), Failure> {
     let put = |name: &str, bytes: &[u8]| {
         write_atomically(&folder.join(name), bytes).map_err(Failure::run)
     };
     put("material.toml", block.as_bytes())?;
+    if let Some(shifting) = shifting {
+        put("shifting.toml", shifting.as_bytes())?;
+    }
     put("prony.csv", &tables::prony(report.relaxation()))?;
     if let Some(master) = &report.made.master {
         put("shift.csv", &tables::shift_factors(master))?;

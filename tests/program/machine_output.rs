@@ -413,7 +413,7 @@ fn a_material_from_dynamic_data_is_exported_with_its_shift() {
     write(
         &folder,
         "fitted.toml",
-        fitted["material_toml"].as_str().unwrap(),
+        fitted["shifting_toml"].as_str().unwrap(),
     );
     for (file, reference) in [
         ("material.toml", 25.0),
