@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms from top to bottom.
-const ROOMS: [&str; 15] = [
+const ROOMS: [&str; 16] = [
     "quantity",
     "material",
     "indenter",
@@ -15,6 +15,7 @@ const ROOMS: [&str; 15] = [
     "steady",
     "reference",
     "sweep",
+    "identify",
     "input",
     "report",
     "reproduction",
