@@ -33,6 +33,9 @@ const EXACTLY: Ending = Ending {
 const CONTRADICTION: f64 = 0.15;
 const TIMES_ERRORS: f64 = 5.0;
 
+/// By how much a criterion must fall for one branch more: odds of seven to one.
+const EVIDENCE: f64 = 4.0;
+
 /// The largest exponent of a confidence factor that is written as a number.
 const WIDEST: f64 = 60.0;
 
@@ -247,13 +250,11 @@ fn candidates(linearised: &Linearised<'_>, known: &[Solution]) -> Vec<Candidate>
 /// The smaller of the numbers that the two criteria ask for, among those whose times are apart.
 fn choose(candidates: &[Candidate]) -> usize {
     let best = |score: fn(&Candidate) -> f64| {
-        let apart = candidates
-            .iter()
-            .enumerate()
-            .filter(|(_, c)| !c.has_close_times);
-        apart
-            .min_by(|a, b| score(a.1).total_cmp(&score(b.1)))
-            .map_or(0, |(place, _)| place)
+        let evident = |c: &Candidate| score(c) + EVIDENCE * c.branches as f64;
+        let all = candidates.iter().enumerate();
+        let apart = all.filter(|(_, c)| !c.has_close_times);
+        let best = apart.min_by(|a, b| evident(a.1).total_cmp(&evident(b.1)));
+        best.map_or(0, |(place, _)| place)
     };
     best(|c| c.akaike).min(best(|c| c.schwarz))
 }

@@ -33,6 +33,7 @@ pub mod comparison;
 pub mod dynamic;
 pub mod figure;
 pub mod fit;
+pub mod identify;
 pub mod machine;
 pub mod material;
 pub mod npy;

@@ -29,7 +29,7 @@ const SWEEP: [&str; 10] = [
 ];
 
 /// Parts of the room `report` from top to bottom.
-const REPORT: [&str; 26] = [
+const REPORT: [&str; 27] = [
     "number",
     "words",
     "peaks",
@@ -39,6 +39,7 @@ const REPORT: [&str; 26] = [
     "quantities",
     "fit",
     "dynamic",
+    "identify",
     "samples",
     "caption",
     "comparison",

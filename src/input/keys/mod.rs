@@ -2,6 +2,7 @@
 //! which others it excludes. Reading, JSON Schema, the reference in the guides and the words of the fuzzers come from here.
 
 pub(crate) mod drive;
+pub(crate) mod identify;
 pub(super) mod indenter;
 pub(crate) mod material;
 pub(super) mod settings;
