@@ -9,8 +9,9 @@ use clap::Args;
 use super::arguments::{OutputFormat, folder, threads};
 use super::material::{print_place, write_figures};
 use super::sweep::interrupt_flag;
-use super::{Ended, Failure, json, open_document, print};
-use crate::identify::{Identified, IdentifyError, identify};
+use super::{Ended, Failure, json, meant_for, open_document, print};
+use crate::identify::resolved::resolved_text;
+use crate::identify::{Identified, IdentifyError, curves, identify};
 use crate::input::identify_file;
 use crate::material::{Material, ModulusKind};
 use crate::report::caption::Setting;
@@ -32,8 +33,8 @@ The file names a table of measured cycles under [identify], with the columns of 
 known), and has the [indenter], the [drive] and the poisson_ratio of the measurement.
 
 Written to the output folder: material.toml (a [material] block for a sweep), prony.csv,
-summary.json, fit.csv (data and model), moduli.csv (E' and E'' with bands), figures as SVG
-and PNG, index.html.")]
+summary.json, fit.csv (data and model), moduli.csv (E' and E'' with bands), resolved.toml
+(the file with every default), figures as SVG and PNG, index.html.")]
 pub(super) struct IdentifyFlags {
     /// The identification file (TOML); - reads standard input, from which paths start in the working folder
     pub(super) file: PathBuf,
@@ -54,18 +55,25 @@ pub(super) struct IdentifyFlags {
 /// Runs the command.
 pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let document = open_document(&flags.file, &flags.set)?;
+    meant_for::identify(&document, &flags.file)?;
     let plan = identify_file::plan(&document)?;
     let interrupt = interrupt_flag()?;
     let pool = run::pool(run::useful_threads(flags.threads)).map_err(Failure::run)?;
-    let found = match pool.install(|| identify(&plan, &interrupt)) {
+    let made = pool.install(|| {
+        let found = identify(&plan, &interrupt)?;
+        let curves = curves(&plan, &found, &interrupt)?;
+        Ok((found, curves))
+    });
+    let (found, curves) = match made {
         _ if interrupt.load(Ordering::Relaxed) => return Ok(Ended::Interrupted),
         Err(IdentifyError::Interrupted) => return Ok(Ended::Interrupted),
         Err(error) => return Err(refused(&flags.file, &error)),
-        Ok(found) => found,
+        Ok(made) => made,
     };
     let report = IdentifyReport {
         plan: &plan,
         found: &found,
+        curves: &curves,
     };
     let block = block(&report, &found)?;
     let stem = flags.file.file_stem().unwrap_or_default();
@@ -121,6 +129,7 @@ fn write(folder: &Path, report: &IdentifyReport<'_>, block: &str) -> Result<(), 
         write_atomically(&folder.join(name), bytes).map_err(Failure::run)
     };
     put("material.toml", block.as_bytes())?;
+    put("resolved.toml", resolved_text(report.plan).as_bytes())?;
     put("prony.csv", &prony(&report.found.relaxation))?;
     put("fit.csv", &tables::fit(report))?;
     put("moduli.csv", &tables::moduli(report))?;

@@ -199,7 +199,8 @@ fn on_linearised(
             None => choose(&candidates),
         };
         let point = &candidates[chosen].ln_moduli;
-        let exact = model.numbers(&point.relaxation()?)?;
+        let exact = model.numbers(&point.relaxation()?);
+        let exact = exact.map_err(|error| explained(linearised, point, error))?;
         let change = linearised.take_factors(point, &exact);
         let is_settled = change < SETTLED && last == Some(chosen);
         last = Some(chosen);
@@ -410,26 +411,51 @@ fn undetermined(directions: &Directions, half_width: f64) -> Vec<Undetermined> {
 
 /// Refuses what no solid explains.
 fn refuse_contradiction(found: &Identified) -> Result<(), IdentifyError> {
-    let differences = found
-        .compared
-        .iter()
-        .map(|c| (c.computed / c.measured).ln());
-    let squares: f64 = differences.clone().map(|d| d * d).sum();
-    let rms = (squares / found.compared.len() as f64).sqrt();
     let within =
         found.knowledge == Knowledge::All && found.reduced_chi_squared.sqrt() < TIMES_ERRORS;
-    if rms < CONTRADICTION || within {
-        return Ok(());
+    let branches = found.relaxation.branches().len();
+    let missed = found.compared.iter().map(|c| {
+        let place = (c.angular_frequency_rad_per_s, column(c.quantity));
+        (place, (c.computed / c.measured).ln())
+    });
+    match contradiction(branches, &missed.collect::<Vec<_>>()) {
+        Some(error) if !within => Err(error),
+        _ => Ok(()),
     }
-    let worst = found.compared.iter().zip(differences);
-    let worst = worst.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-    let (worst, difference) = worst.ok_or(IdentifyError::NoFit("there are no data"))?;
-    Err(IdentifyError::Contradiction {
-        branches: found.relaxation.branches().len(),
+}
+
+/// A cycle that is not found, where the series is one that no data should lead to, is the data's fault.
+fn explained(linearised: &Linearised<'_>, point: &Point, error: IdentifyError) -> IdentifyError {
+    let IdentifyError::NoCycle { .. } = error else {
+        return error;
+    };
+    let measured = &linearised.plan.measurements;
+    let relative = linearised.relative(point);
+    let missed = measured.data().iter().zip(relative).map(|(datum, off)| {
+        let place = (measured.angular_frequency(datum), column(datum.quantity));
+        (place, off)
+    });
+    contradiction(point.branches(), &missed.collect::<Vec<_>>()).unwrap_or(error)
+}
+
+/// What is wrong with data that the best series misses by so much; `None` where it is not much. With every logarithm of computed over
+/// measured numbers, its frequency (rad/s) and its column.
+fn contradiction(branches: usize, missed: &[((f64, &'static str), f64)]) -> Option<IdentifyError> {
+    let squares: f64 = missed.iter().map(|(_, off)| off * off).sum();
+    let rms = (squares / missed.len() as f64).sqrt();
+    if rms < CONTRADICTION {
+        return None;
+    }
+    let worst = missed
+        .iter()
+        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let ((angular_frequency_rad_per_s, column), off) = *worst;
+    Some(IdentifyError::Contradiction {
+        branches,
         misfit_percent: format!("{:.0}", 100.0 * rms),
-        angular_frequency_rad_per_s: worst.angular_frequency_rad_per_s,
-        column: column(worst.quantity),
-        times: format!("{:.2}", difference.exp()),
+        angular_frequency_rad_per_s,
+        column,
+        times: format!("{:.2e}", off.exp()),
     })
 }
 

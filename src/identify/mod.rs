@@ -32,17 +32,20 @@
 //! Inference*, Springer 2002, section 4.3). Combinations of the unknowns along which they may move by more than a factor of two
 //! are named as not determined: singular vectors of the matrix of derivatives.
 
+mod curve;
 pub mod data;
 mod fit;
 mod least_squares;
 mod linear;
 mod model;
 mod noise;
+pub mod resolved;
 mod selection;
 mod series;
 mod student;
 mod uncertainty;
 
+pub use curve::{Curve, curves};
 pub use fit::{Candidate, Compared, Identified, ModulusBand, Undetermined, Unknown, identify};
 pub use noise::Knowledge;
 
@@ -76,6 +79,8 @@ pub struct IdentifyPlan {
     /// How many branches; `None` lets the data choose.
     pub branches: Option<usize>,
     pub measurements: Measurements,
+    /// The file that they come from, as the plan names it.
+    pub data: String,
     pub cycle: CyclePlan,
     pub solver: SolverPlan,
 }
@@ -86,6 +91,7 @@ impl IdentifyPlan {
     pub const CYCLE: CyclePlan = CyclePlan {
         steps: 64,
         tolerance: 1e-6,
+        max_cycles: 200,
         error_bars: false,
         ..CyclePlan::DEFAULT
     };
@@ -150,6 +156,14 @@ pub enum IdentifyError {
     NoCycle {
         angular_frequency_rad_per_s: f64,
         why: String,
+    },
+    #[error(
+        "the cycle at {angular_frequency_rad_per_s:e} rad/s has no {column}: the indenter makes it unbounded, or the contact opens; \
+         leave these cells empty"
+    )]
+    Undefined {
+        angular_frequency_rad_per_s: f64,
+        column: &'static str,
     },
     #[error("no series could be fitted: {0}")]
     NoFit(&'static str),

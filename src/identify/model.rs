@@ -5,10 +5,10 @@ use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use crate::identify::{IdentifyError, IdentifyPlan};
+use crate::identify::{IdentifyError, IdentifyPlan, column};
 use crate::material::{Material, ModulusKind, Relaxation};
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{Case, Condition, SweepPlan};
+use crate::sweep::plan::{Case, Condition, CyclePlan, SweepPlan};
 
 /// Numbers of the cycles of a plan's measurements, for any series.
 pub(super) struct Model<'a> {
@@ -53,12 +53,9 @@ impl<'a> Model<'a> {
             let of_cycle = &of_cycles[datum.cycle];
             let own = self.data_of(datum.cycle).position(|other| other == place);
             let number = own.and_then(|own| of_cycle.get(own).copied().flatten());
-            number.ok_or_else(|| IdentifyError::NoCycle {
+            number.ok_or_else(|| IdentifyError::Undefined {
                 angular_frequency_rad_per_s: self.plan.measurements.angular_frequency(datum),
-                why: format!(
-                    "it has no {}, which this indenter makes unbounded or the contact radius undefined",
-                    super::column(datum.quantity)
-                ),
+                column: column(datum.quantity),
             })
         })
         .collect()
@@ -98,15 +95,24 @@ impl<'a> Model<'a> {
                 ..setup.plan().condition()
             },
         };
-        let record = setup
-            .numbers(&case, self.interrupt)
-            .ok_or(IdentifyError::Interrupted)?;
+        let mut record = setup.numbers(&case, self.interrupt);
+        if record
+            .as_ref()
+            .is_some_and(|record| record.result.is_none())
+        {
+            // The cycles of bodies that relax strongly are not found as closely.
+            let mut plan = setup.plan().clone();
+            plan.cycle.tolerance = plan.cycle.tolerance.max(CyclePlan::DEFAULT.tolerance);
+            record = Setup::new(plan)?.numbers(&case, self.interrupt);
+        }
+        let record = record.ok_or(IdentifyError::Interrupted)?;
         let Some(result) = &record.result else {
+            let why = record
+                .message
+                .unwrap_or_else(|| record.status.name().to_owned());
             return Err(IdentifyError::NoCycle {
                 angular_frequency_rad_per_s: measured.angular_frequency_rad_per_s,
-                why: record
-                    .message
-                    .unwrap_or_else(|| record.status.name().to_owned()),
+                why,
             });
         };
         let data = self.plan.measurements.data();

@@ -45,7 +45,7 @@ pub fn plan(document: &Document) -> Result<IdentifyPlan, Diagnostics> {
     let solver = root.table_or(&MODEL_SOLVER, default, |t| solver(t, default));
     root.finish();
     let plan = (|| {
-        let (measurements, branches) = measured?;
+        let (data, measurements, branches) = measured?;
         Some(IdentifyPlan {
             title: title?,
             poisson_ratio: poisson_ratio?,
@@ -53,6 +53,7 @@ pub fn plan(document: &Document) -> Result<IdentifyPlan, Diagnostics> {
             drive: drive?,
             branches,
             measurements,
+            data,
             cycle: cycle?,
             solver: solver?,
         })
@@ -72,7 +73,7 @@ fn measured_block(
     folder: &Path,
     drive: Option<HarmonicDrive>,
     problems: &Problems,
-) -> Option<(Measurements, Option<usize>)> {
+) -> Option<(String, Measurements, Option<usize>)> {
     let data = table.read(&DATA);
     let branches = table.value(&IDENTIFY_BRANCHES);
     table.finish();
@@ -93,5 +94,5 @@ fn measured_block(
         let refused = Diagnostic::at(&file.location, format!("{name}: {error}"));
         problems.extend(refused.into());
     });
-    Some((measurements.ok()?, branches?.flatten()))
+    Some((name, measurements.ok()?, branches?.flatten()))
 }

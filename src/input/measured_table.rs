@@ -289,7 +289,7 @@ mod tests {
 
     #[test]
     fn columns_are_read_in_their_units_with_errors_and_gaps() {
-        let text = "frequency_hz,energy_loss_uj,energy_loss_error_uj,phase_lag_deg,status,drive_mean,drive_amplitude\n\
+        let text = "frequency_hz,energy_loss_uJ,energy_loss_error_uJ,phase_lag_deg,status,drive_mean,drive_amplitude\n\
                     1,2,0.1,,converged,10,5\n2,,,,failed,10,5\n4,3,,9,converged,11,4\n";
         let (cycles, data) = under_load(text).unwrap();
         assert_eq!(cycles.len(), 2);

@@ -19,6 +19,7 @@ mod fields;
 mod figures;
 mod fuzz_inputs;
 mod guides;
+mod identify;
 mod input_keys;
 mod library;
 mod machine_output;

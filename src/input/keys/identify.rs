@@ -2,7 +2,7 @@
 
 use super::material::POISSON_RATIO;
 use super::rows;
-use super::{drive, settings};
+use super::{INDENTER, TITLE, drive, settings};
 use crate::identify::MOST_BRANCHES;
 use crate::input::document::kind::{Table, Text};
 use crate::input::document::row::{Optional, Required, Row, Rows};
@@ -34,3 +34,16 @@ rows! { _:
     /// Which contact engine, and how fine.
     MODEL_SOLVER: Row<Table, Optional> = "solver", Table(&settings::SOLVER), Optional;
 }
+
+pub(super) static IDENTIFY_FILE: Rows = super::table(
+    " A material from measured cycles, for `contact-dma identify`.",
+    &[
+        &TITLE,
+        &IDENTIFY,
+        &KNOWN_MATERIAL,
+        &INDENTER,
+        &MEASURED_DRIVE,
+        &MODEL_CYCLE,
+        &MODEL_SOLVER,
+    ],
+);

@@ -49,24 +49,9 @@ fn axis(quantity: Quantity, numbers: &[&Compared]) -> (String, f64) {
 /// One frame for each column: what was measured, and what the model makes of it.
 fn data(report: &IdentifyReport<'_>) -> Figure {
     let quantities = report.plan.measurements.quantities();
-    let drives = report
-        .plan
-        .measurements
-        .cycles()
-        .iter()
-        .map(|cycle| cycle.drive);
-    let first = report
-        .plan
-        .measurements
-        .cycles()
-        .first()
-        .map(|cycle| cycle.drive);
-    // Under several drives a line would join what does not belong together.
-    let is_one_drive = drives.into_iter().all(|drive| Some(drive) == first);
-    let charts: Vec<Chart> = quantities
-        .iter()
-        .enumerate()
-        .map(|(place, quantity)| frame(report, *quantity, (place == 0, is_one_drive)))
+    let frames = quantities.iter().enumerate();
+    let charts: Vec<Chart> = frames
+        .map(|(place, q)| frame(report, *q, place == 0))
         .collect();
     let picture = match <[Chart; 1]>::try_from(charts) {
         Ok([only]) => only.into(),
@@ -83,11 +68,7 @@ fn data(report: &IdentifyReport<'_>) -> Figure {
     }
 }
 
-fn frame(
-    report: &IdentifyReport<'_>,
-    quantity: Quantity,
-    (is_first, joined): (bool, bool),
-) -> Chart {
+fn frame(report: &IdentifyReport<'_>, quantity: Quantity, is_first: bool) -> Chart {
     let numbers = of(report, quantity);
     let (label, factor) = axis(quantity, &numbers);
     let (low, high) = range(numbers.iter().map(|c| c.measured));
@@ -110,28 +91,52 @@ fn frame(
         .error_bars(bars.collect::<Vec<_>>())
         .color(1);
     let chart = Chart::new(Axis::log(OMEGA), y);
-    let chart = match joined {
-        true => {
-            let band = numbers.iter().map(|c| {
-                let own = factor * c.computed;
-                (
-                    c.angular_frequency_rad_per_s,
-                    own / c.factor,
-                    own * c.factor,
-                )
+    let curve = report
+        .curves
+        .iter()
+        .find(|curve| curve.quantity == quantity);
+    let chart = match curve {
+        Some(curve) => {
+            let points = curve.points.iter().map(|(omega, v)| (*omega, factor * v));
+            let band = curve.points.iter().map(|(omega, v)| {
+                let open = open_at(&numbers, *omega);
+                (*omega, factor * v / open, factor * v * open)
             });
             chart
                 .series(Series::band(band.collect::<Vec<_>>()).color(0))
-                .series(named(Series::line(at(|c| c.computed)).color(0), "model"))
+                .series(named(
+                    Series::line(points.collect::<Vec<_>>()).color(0),
+                    "model",
+                ))
         }
-        false => {
-            let computed = Series::scatter(at(|c| c.computed))
-                .marker(Marker::Square)
-                .color(0);
-            chart.series(named(computed, "model"))
+        None => {
+            let computed = Series::scatter(at(|c| c.computed)).marker(Marker::Square);
+            chart.series(named(computed.color(0), "model"))
         }
     };
     chart.series(named(measured, "measured"))
+}
+
+/// The factor of the band at a frequency, between those of the data on both sides.
+fn open_at(numbers: &[&Compared], omega: f64) -> f64 {
+    let after = numbers.partition_point(|c| c.angular_frequency_rad_per_s < omega);
+    let below = numbers.get(after.saturating_sub(1));
+    match (below, numbers.get(after)) {
+        (Some(below), Some(above)) => {
+            let (from, to) = (
+                below.angular_frequency_rad_per_s,
+                above.angular_frequency_rad_per_s,
+            );
+            let share = if to > from {
+                (omega / from).ln() / (to / from).ln()
+            } else {
+                0.0
+            };
+            below.factor.powf(1.0 - share) * above.factor.powf(share)
+        }
+        (Some(one), None) | (None, Some(one)) => one.factor,
+        (None, None) => 1.0,
+    }
 }
 
 /// What the model misses, in per cent of the data.
@@ -213,9 +218,30 @@ fn moduli(report: &IdentifyReport<'_>) -> Figure {
         .mark(Mark::vertical(highest, "last measured"));
     Figure {
         name: "moduli",
-        picture: chart.into(),
-        caption: Caption::new("Storage modulus E′ and loss modulus E″ of the identified material")
-            .say("Shaded: 95 % bands, drawn up to a factor of five. Dashed: first and last measured frequency, beyond which the series is an extrapolation."),
+        picture: Picture::Stack(vec![chart, openness(report, &omegas)]),
+        caption: Caption::new("Storage modulus E′ and loss modulus E″ of the identified material, and how well they are known")
+            .say("Shaded: 95 % bands, drawn up to a factor of five. Below: half widths of the bands.")
+            .say("Dashed: first and last measured frequency, beyond which the series is an extrapolation."),
         data: tables::moduli(report),
     }
+}
+
+/// Half widths of the bands, in per cent of the moduli.
+fn openness(report: &IdentifyReport<'_>, omegas: &[f64]) -> Chart {
+    let line = |value: fn(&crate::identify::ModulusBand) -> f64| {
+        let points = omegas.iter().map(|omega| {
+            let open = value(&report.found.band(*omega)).min(WIDE) - 1.0;
+            (*omega, 100.0 * open)
+        });
+        Series::line(points.filter(|(_, open)| *open > 0.0).collect::<Vec<_>>())
+    };
+    let (lowest, highest) = report.found.window_rad_per_s;
+    Chart::new(
+        Axis::log(OMEGA),
+        Axis::log("half width of the 95 % band / %"),
+    )
+    .series(line(|b| b.storage_factor))
+    .series(line(|b| b.loss_factor).color(1).style(LineStyle::Dashed))
+    .mark(Mark::vertical(lowest, ""))
+    .mark(Mark::vertical(highest, ""))
 }

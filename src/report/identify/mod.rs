@@ -3,7 +3,7 @@
 pub mod summary;
 pub mod tables;
 
-use crate::identify::{Identified, IdentifyPlan, Knowledge, Unknown, column};
+use crate::identify::{Curve, Identified, IdentifyPlan, Knowledge, Unknown, column};
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::scientific;
 use crate::report::words::{listed, wrapped};
@@ -13,6 +13,8 @@ use crate::sweep::record::error_bars::Quantity;
 pub struct IdentifyReport<'a> {
     pub plan: &'a IdentifyPlan,
     pub found: &'a Identified,
+    /// Of the model between the data, where there are any.
+    pub curves: &'a [Curve],
 }
 
 /// How many times their errors the model may miss the data, on average, before that is said.
@@ -78,8 +80,11 @@ impl IdentifyReport<'_> {
         let quantities = self.plan.measurements.quantities().into_iter();
         let each: Vec<String> = quantities
             .map(|quantity| {
-                let percent = scientific(100.0 * self.noise_of(quantity), 2);
-                format!("{percent} % of {}", column(quantity))
+                format!(
+                    "{} of {}",
+                    percent(self.noise_of(quantity)),
+                    column(quantity)
+                )
             })
             .collect();
         let each = listed(&each);
@@ -181,7 +186,7 @@ impl IdentifyReport<'_> {
         for unknown in &self.found.unknowns {
             let value = |value: f64| format_human(value, dimension(unknown), 4);
             let known = match unknown.is_determined {
-                true => format!("± {} %", scientific(100.0 * (unknown.factor - 1.0), 2)),
+                true => format!("± {}", percent(unknown.factor - 1.0)),
                 false => "undetermined".to_owned(),
             };
             let interval = match unknown.is_determined {
@@ -202,6 +207,17 @@ impl IdentifyReport<'_> {
     }
 }
 
+/// A part in two digits, as far as a hundredth of a per cent.
+fn percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    let decimals = match percent {
+        p if p >= 9.95 => 0,
+        p if p >= 0.995 => 1,
+        _ => 2,
+    };
+    format!("{percent:.decimals$} %")
+}
+
 /// Pa for moduli, s for times.
 pub fn dimension(unknown: &Unknown) -> Dimension {
     match unknown.name.starts_with("tau") {
@@ -214,6 +230,7 @@ pub fn dimension(unknown: &Unknown) -> Dimension {
 fn power_of(name: &str, power: f64) -> String {
     match (power - 1.0).abs() < 0.05 {
         true => name.to_owned(),
+        false if (power + 1.0).abs() < 0.05 => format!("{name}^-1"),
         false => format!("{name}^{power:.1}"),
     }
 }
