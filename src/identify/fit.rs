@@ -181,32 +181,29 @@ fn on_linearised(
     let mut last = None;
     for round in 0..ROUNDS {
         known = linearised.search(&known, most);
-        let richest = known
-            .last()
-            .ok_or(IdentifyError::NoFit("no start could be tried"))?;
-        let (relative, unknowns) = (
-            linearised.relative(&Point(richest.unknowns.clone())),
-            richest.unknowns.len(),
-        );
-        if round > 0 {
-            linearised
-                .noise
-                .estimate(&plan.measurements, &relative, unknowns);
-        }
         let candidates = candidates(linearised, &known);
         let chosen = match plan.branches {
-            Some(asked) => asked.min(candidates.len()) - 1,
+            Some(asked) => asked.min(candidates.len()).saturating_sub(1),
             None => choose(&candidates),
         };
-        let point = &candidates[chosen].ln_moduli;
+        let point = &candidates
+            .get(chosen)
+            .ok_or(IdentifyError::NoFit("no start could be tried"))?
+            .ln_moduli;
         let exact = model.numbers(&point.relaxation()?);
         let exact = exact.map_err(|error| explained(linearised, point, error))?;
         let change = linearised.take_factors(point, &exact);
         let is_settled = change < SETTLED && last == Some(chosen);
         last = Some(chosen);
+        let point = point.clone();
         if is_settled || round + 1 == ROUNDS {
             return Ok((candidates, chosen));
         }
+        // With the factors of the exact model, what is left is noise; of a series with branches to spare, less than that.
+        let relative = linearised.relative(&point);
+        linearised
+            .noise
+            .estimate(&plan.measurements, &relative, point.0.len());
     }
     Err(IdentifyError::NoFit("no round was tried"))
 }
@@ -278,40 +275,45 @@ struct Exact<'a> {
 }
 
 impl Exact<'_> {
-    fn scaled(&self, numbers: &[f64]) -> Option<DVector<f64>> {
+    /// Residuals of computed numbers, and those that keep times apart.
+    fn scaled(&self, numbers: &[f64], point: &Point) -> Option<DVector<f64>> {
         let data = self.linearised.plan.measurements.data().iter();
         let all = data.zip(numbers).zip(&self.linearised.noise.relative);
         let scaled = all.map(|((datum, number), error)| {
             let number = number.max(1e-6 * datum.value);
             (number / datum.value).ln() / error
         });
-        let residuals = DVector::from_vec(scaled.collect());
+        let residuals = DVector::from_vec(scaled.chain(point.kept_apart()).collect());
         residuals.iter().all(|r| r.is_finite()).then_some(residuals)
     }
 }
 
 impl Problem for Exact<'_> {
     fn residuals(&self, unknowns: &[f64]) -> Option<DVector<f64>> {
-        let series = Point(unknowns.to_vec()).relaxation().ok()?;
-        self.scaled(&self.model.numbers(&series).ok()?)
+        let point = Point(unknowns.to_vec());
+        let series = point.relaxation().ok()?;
+        self.scaled(&self.model.numbers(&series).ok()?, &point)
     }
 
     fn derivatives(&self, unknowns: &[f64]) -> Option<DMatrix<f64>> {
         let moved = (0..2 * unknowns.len()).map(|k| {
             let mut moved = unknowns.to_vec();
-            moved[k / 2] += if k % 2 == 0 { STEP } else { -STEP };
-            Point(moved).relaxation().ok()
+            moved[k / 2] += if k.is_multiple_of(2) { STEP } else { -STEP };
+            Point(moved)
         });
-        let moved: Option<Vec<Relaxation>> = moved.collect();
-        let numbers = self.model.numbers_of_each(&moved?).ok()?;
-        let columns = numbers.chunks(2).map(|pair| {
-            let [above, below] = pair else {
-                return None;
-            };
-            Some((self.scaled(above)? - self.scaled(below)?) / (2.0 * STEP))
-        });
-        let columns: Option<Vec<DVector<f64>>> = columns.collect();
-        Some(DMatrix::from_columns(&columns?))
+        let moved: Vec<Point> = moved.collect();
+        let series: Option<Vec<Relaxation>> = moved.iter().map(|p| p.relaxation().ok()).collect();
+        let numbers = self.model.numbers_of_each(&series?).ok()?;
+        let scaled = numbers
+            .iter()
+            .zip(&moved)
+            .map(|(n, point)| self.scaled(n, point));
+        let scaled: Option<Vec<DVector<f64>>> = scaled.collect();
+        let scaled = scaled?;
+        let columns = scaled
+            .chunks_exact(2)
+            .map(|pair| (&pair[0] - &pair[1]) / (2.0 * STEP));
+        Some(DMatrix::from_columns(&columns.collect::<Vec<_>>()))
     }
 
     fn clamp(&self, place: usize, value: f64) -> f64 {

@@ -21,7 +21,7 @@
 //! (C. M. Hurvich and C.-L. Tsai, Biometrika 76 (1989) 297) and that of G. Schwarz (Ann. Statist. 6 (1978) 461) fall, by four, which is odds of seven to one. A time
 //! that does not exist is searched over several decades, which finds more in noise than a fixed one would: either criterion
 //! alone takes it too often, the first with many data and the second with few. Two times closer than a factor of three are
-//! one: such a series counts as one of fewer branches.
+//! one: times are kept that far apart.
 //!
 //! # How certain
 //!

@@ -13,6 +13,9 @@ const FEWEST_FREE: usize = 5;
 /// How far the noise of columns may differ: a column that is met by chance is not exact.
 const LARGEST_RATIO: f64 = 10.0;
 
+/// Columns whose noise differs by less than this factor have the same: a dozen residuals tell no more.
+const SAME: f64 = 2.0;
+
 /// What is known of the errors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Knowledge {
@@ -65,7 +68,10 @@ impl Noise {
         for quantity in measured.quantities() {
             let (count, own) = of_data(&|other| other == quantity);
             let own = match count as usize >= FEWEST_VALUES {
-                true => own.clamp(common / LARGEST_RATIO, common * LARGEST_RATIO),
+                true if own > SAME * common || own < common / SAME => {
+                    own.clamp(common / LARGEST_RATIO, common * LARGEST_RATIO)
+                }
+                true => common,
                 false => common,
             };
             let data = measured.data().iter().zip(&mut self.relative);

@@ -197,17 +197,19 @@ impl Linearised<'_> {
 
 impl Problem for Linearised<'_> {
     fn residuals(&self, unknowns: &[f64]) -> Option<DVector<f64>> {
-        let relative = self.relative(&Point(unknowns.to_vec()));
+        let point = Point(unknowns.to_vec());
+        let relative = self.relative(&point);
         let scaled = relative
             .iter()
             .zip(&self.noise.relative)
             .map(|(r, error)| r / error);
-        let residuals = DVector::from_vec(scaled.collect());
+        let residuals = DVector::from_vec(scaled.chain(point.kept_apart()).collect());
         residuals.iter().all(|r| r.is_finite()).then_some(residuals)
     }
 
     fn derivatives(&self, unknowns: &[f64]) -> Option<DMatrix<f64>> {
-        let mut matrix = DMatrix::zeros(self.measured().data().len(), unknowns.len());
+        let gaps = Point(unknowns.to_vec()).kept_apart().len();
+        let mut matrix = DMatrix::zeros(self.measured().data().len() + gaps, unknowns.len());
         for place in 0..unknowns.len() {
             let moved = |step: f64| {
                 let mut moved = unknowns.to_vec();

@@ -5,6 +5,10 @@ use num_complex::Complex;
 use crate::identify::CLOSEST;
 use crate::material::{MaterialError, Relaxation, RelaxationBranch};
 
+/// How strongly times are kept apart, in standard deviations for a factor of e; and how far that yields to data.
+const STIFFNESS: f64 = 100.0;
+const YIELDING: f64 = 0.1;
+
 /// Logarithms (Pa, s): of the equilibrium modulus, and of modulus and time of branches.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Point(pub(super) Vec<f64>);
@@ -98,12 +102,25 @@ impl Point {
         self
     }
 
+    /// Gaps between the logarithms of neighbouring times.
+    fn gaps(&self) -> Vec<f64> {
+        let mut times: Vec<f64> = self.times().collect();
+        times.sort_by(f64::total_cmp);
+        times.windows(2).map(|pair| pair[1] - pair[0]).collect()
+    }
+
     /// Whether two times are one.
     pub(super) fn has_close_times(&self) -> bool {
-        let times: Vec<f64> = self.times().collect();
-        times
-            .windows(2)
-            .any(|pair| pair[1] - pair[0] < CLOSEST.ln())
+        self.gaps().iter().any(|gap| *gap < CLOSEST.ln() - YIELDING)
+    }
+
+    /// Residuals that keep times apart: nothing where they are, and one in every gap between neighbours.
+    pub(super) fn kept_apart(&self) -> Vec<f64> {
+        let lack = |gap: f64| (CLOSEST.ln() - gap).max(0.0);
+        self.gaps()
+            .into_iter()
+            .map(|gap| STIFFNESS * lack(gap))
+            .collect()
     }
 
     pub(super) fn relaxation(&self) -> Result<Relaxation, MaterialError> {

@@ -204,7 +204,7 @@ fn moduli(report: &IdentifyReport<'_>) -> Figure {
         Series::band(band.collect::<Vec<_>>())
     };
     let (lowest, highest) = report.found.window_rad_per_s;
-    let chart = Chart::new(Axis::log(OMEGA), Axis::log(format!("modulus / {unit}Pa")))
+    let chart = Chart::new(over(&omegas), Axis::log(format!("modulus / {unit}Pa")))
         .series(shaded(|b| (b.storage_pa, b.storage_factor)).color(0))
         .series(shaded(|b| (b.loss_pa, b.loss_factor)).color(1))
         .series(line(|b| b.storage_pa).label("storage modulus E′"))
@@ -224,6 +224,12 @@ fn moduli(report: &IdentifyReport<'_>) -> Figure {
             .say("Dashed: first and last measured frequency, beyond which the series is an extrapolation."),
         data: tables::moduli(report),
     }
+}
+
+/// The axis of all these frequencies.
+fn over(omegas: &[f64]) -> Axis {
+    let (low, high) = range(omegas.iter().copied());
+    Axis::log(OMEGA).range(low, high)
 }
 
 /// Half widths of the bands, in per cent of the moduli.
