@@ -61,7 +61,8 @@
 //! | [`steady`] | the stabilised cycle found directly |
 //! | [`mod@reference`] | closed forms and slow independent solvers; no production room imports it, but for `reproduction` |
 //! | [`sweep`] | plans, cases in parallel, records on disk, peaks; single histories |
-//! | [`input`] | sweep and scenario files, and the data files they name, to plans |
+//! | [`identify`] | a material from measured cycles: the sweep as a forward model |
+//! | [`input`] | sweep, scenario and identification files, and the data files they name, to plans |
 //! | [`report`] | tables and figures, from records alone |
 //! | [`reproduction`] | the base paper, figure by figure; knows `reference` too, to draw closed forms and compare with them |
 //! | [`cli`] | flags to plans, outcomes to text and exit codes |
@@ -80,6 +81,7 @@ pub mod cycle;
 pub mod drive;
 pub mod guide;
 pub mod history;
+pub mod identify;
 pub mod indenter;
 // Some of it is used by the command line alone.
 #[cfg_attr(not(feature = "cli"), allow(dead_code))]

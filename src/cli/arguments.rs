@@ -120,6 +120,8 @@ pub(super) enum Command {
     Compare(CompareFlags),
     /// Follow one drive history: load or approach against time, from a scenario file
     Simulate(SimulateFlags),
+    /// Find the material that has these measured cycles: moduli and times with confidence bands
+    Identify(super::identify::IdentifyFlags),
     /// Make the computed figures of the base paper, with every number held against its exact value
     Reproduce(super::reproduce::ReproduceFlags),
     /// Look at materials: their series, moduli over frequency, sources

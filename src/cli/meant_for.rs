@@ -9,8 +9,9 @@ use crate::input::document::Document;
 use crate::input::keys;
 use crate::input::keys::drive::SEGMENTS;
 
-/// Refuses a scenario.
+/// Refuses a scenario, and an identification.
 pub(super) fn sweep(document: &Document, file: &Path) -> Result<(), Failure> {
+    refuse_identification(document, file)?;
     match (has_sweep(document), has_segments(document)) {
         (false, true) => Err(other(
             file,
@@ -22,12 +23,47 @@ pub(super) fn sweep(document: &Document, file: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Refuses a sweep.
+/// Refuses a sweep, and an identification.
 pub(super) fn simulate(document: &Document, file: &Path) -> Result<(), Failure> {
+    refuse_identification(document, file)?;
     match (has_sweep(document), has_segments(document)) {
         (true, false) => Err(other(file, "a sweep: it has a table [sweep]", "sweep")),
         (true, true) => Err(both(file)),
         (false, _) => Ok(()),
+    }
+}
+
+fn refuse_identification(document: &Document, file: &Path) -> Result<(), Failure> {
+    // What is wrong with the file is told when it is read in earnest.
+    let has_data = document
+        .root(&Problems::new())
+        .has(&keys::identify::IDENTIFY);
+    match has_data && !has_sweep(document) && !has_segments(document) {
+        true => Err(other(
+            file,
+            "an identification: it has a table [identify]",
+            "identify",
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Sends a sweep and a scenario to the commands that take them.
+pub(super) fn identify(document: &Document, file: &Path) -> Result<(), Failure> {
+    if document
+        .root(&Problems::new())
+        .has(&keys::identify::IDENTIFY)
+    {
+        return Ok(());
+    }
+    match (has_sweep(document), has_segments(document)) {
+        (true, false) => Err(other(file, "a sweep: it has a table [sweep]", "sweep")),
+        (false, true) => Err(other(
+            file,
+            "a scenario: its [drive] has segments",
+            "simulate",
+        )),
+        _ => Ok(()),
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod arguments;
 mod compare;
+mod identify;
 mod json;
 mod material;
 mod material_export;
@@ -89,6 +90,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Report(flags) => stored::report(&flags, format),
         Command::Compare(flags) => compare::run(&flags, format),
         Command::Simulate(flags) => simulate::run(&flags, format),
+        Command::Identify(flags) => identify::run(&flags, format),
         Command::Reproduce(flags) => reproduce::run(&flags, format),
         Command::Schema(flags) => schema::run(&flags),
         Command::Material(command) => material::run(&command, format, data_format),

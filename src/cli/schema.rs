@@ -1,4 +1,4 @@
-//! `contact-dma schema`: the JSON Schema of sweep or scenario files.
+//! `contact-dma schema`: the JSON Schema of sweep, scenario or identification files.
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -23,10 +23,9 @@ pub(super) struct SchemaFlags {
 
 fn kinds() -> impl TypedValueParser<Value = FileKind> {
     PossibleValuesParser::new(FileKind::NAMES.map(|(name, _)| name)).map(|name| {
-        match name == FileKind::NAMES[0].0 {
-            true => FileKind::NAMES[0].1,
-            false => FileKind::NAMES[1].1,
-        }
+        let found = FileKind::NAMES.iter().find(|(known, _)| *known == name);
+        // The parser lets no other name through.
+        found.map_or(FileKind::Sweep, |(_, kind)| *kind)
     })
 }
 

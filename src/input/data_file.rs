@@ -212,6 +212,27 @@ impl DataFile {
         wanted: &[Column],
         without_number: &str,
     ) -> Result<Table, Diagnostics> {
+        self.columns_and_gaps(wanted, without_number, false)
+    }
+
+    /// The same with not-a-number for every empty cell.
+    ///
+    /// # Errors
+    /// As [`DataFile::columns`].
+    pub(crate) fn columns_with_gaps(
+        &self,
+        wanted: &[Column],
+        without_number: &str,
+    ) -> Result<Table, Diagnostics> {
+        self.columns_and_gaps(wanted, without_number, true)
+    }
+
+    fn columns_and_gaps(
+        &self,
+        wanted: &[Column],
+        without_number: &str,
+        gaps: bool,
+    ) -> Result<Table, Diagnostics> {
         let Some(header) = self.header(wanted) else {
             let names: Vec<String> = wanted.iter().map(Column::name_in_si).collect();
             let example = names.join(",");
@@ -226,6 +247,7 @@ impl DataFile {
         let mut lines = header.after.clone();
         let units = header.units_row(&mut lines, &found);
         let mut rows = Rows::new(&header, found.iter().map(|found| found.place).collect());
+        rows.gaps = gaps;
         rows.read(lines, without_number)?;
         let mut table = rows.table;
         for (which, ((column, found), unit)) in wanted.iter().zip(&found).zip(&units).enumerate() {
@@ -520,6 +542,8 @@ struct Rows<'a> {
     table: Table,
     problems: Problems,
     signs: DecimalSigns,
+    /// Whether cells may be empty.
+    gaps: bool,
 }
 
 impl<'a> Rows<'a> {
@@ -536,6 +560,7 @@ impl<'a> Rows<'a> {
             table,
             problems: Problems::new(),
             signs: DecimalSigns::default(),
+            gaps: false,
         }
     }
 
@@ -574,6 +599,7 @@ impl<'a> Rows<'a> {
         let delimiter = self.header.delimiter;
         let number = match plain_number(cell, delimiter) {
             Some(number) => number,
+            None if cell.is_empty() && self.gaps => return Ok(f64::NAN),
             None if cell.is_empty() => return Err("empty"),
             None => return Err("not a number"),
         };

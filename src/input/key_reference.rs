@@ -10,7 +10,10 @@ pub fn markdown() -> String {
     let mut text = String::new();
     let mut known = Vec::new();
     for (name, kind) in FileKind::NAMES {
-        let heading = format!("The file of a {name}");
+        let heading = match kind {
+            FileKind::Sweep | FileKind::Scenario => format!("The file of a {name}"),
+            FileKind::Identify => "The file of an identification".to_owned(),
+        };
         section(kind.rows(), &heading, "", &mut known, &mut text);
     }
     text

@@ -393,7 +393,7 @@ fn frequencies(table: &mut TableReader<'_>) -> Option<(Vec<f64>, FrequencyUnit)>
     Some((values.map(|value| value * to_angular).collect(), given_in))
 }
 
-fn cycle(mut table: TableReader<'_>) -> Option<CyclePlan> {
+pub(super) fn cycle(mut table: TableReader<'_>) -> Option<CyclePlan> {
     let steps = table.value(&CYCLE_STEPS);
     let method = table.value(&METHOD);
     let tolerance = table.value(&CYCLE_TOLERANCE);

@@ -34,6 +34,7 @@ pub mod cycles;
 pub mod dynamic;
 pub mod figure;
 pub mod fit;
+pub mod identify;
 pub mod machine;
 pub mod material;
 pub mod npy;

@@ -9,6 +9,7 @@ mod elastic_contact;
 mod energy_balance;
 mod error_bars;
 mod half_space_work;
+mod identification;
 mod instant_tolerance;
 mod pmma_baseline;
 mod pressure_profiles;

@@ -30,10 +30,13 @@ fn all() -> Vec<PathBuf> {
     examples(&Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps"))
 }
 
-/// `sweep` or `simulate`.
+/// `sweep`, `identify` or `simulate`.
 fn command(text: &str) -> &'static str {
-    if text.lines().any(|line| line.trim() == "[sweep]") {
+    let has = |header: &str| text.lines().any(|line| line.trim() == header);
+    if has("[sweep]") {
         "sweep"
+    } else if has("[identify]") {
+        "identify"
     } else {
         "simulate"
     }
@@ -84,6 +87,8 @@ fn every_example_runs_to_its_end() {
         if command == "simulate" {
             assert_eq!(summary["status"], "done", "{}", path.display());
             assert!(out.join("profiles.csv").is_file(), "{}", path.display());
+        } else if command == "identify" {
+            assert_eq!(summary["branches"], 3, "{}", path.display());
         } else {
             assert!(!summary["peaks"].as_array().unwrap().is_empty());
         }
@@ -97,6 +102,7 @@ fn a_file_is_run_by_the_command_it_is_meant_for_and_not_by_the_other() {
         let text = fs::read_to_string(&path).unwrap();
         let (other, expected) = match command(&text) {
             "sweep" => ("simulate", "run `contact-dma sweep "),
+            "identify" => ("simulate", "run `contact-dma identify "),
             _ => ("sweep", "run `contact-dma simulate "),
         };
         // The folder holds nothing, so that even a run would leave no trace beside the examples.

@@ -7,9 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::program::{pmma_sweep, program};
+use contact_dma::identify;
 use contact_dma::input::document::Document;
 use contact_dma::input::keys::{self, FileKind};
-use contact_dma::input::{key_reference, scenario_file, schema, sweep_file};
+use contact_dma::input::{identify_file, key_reference, scenario_file, schema, sweep_file};
 use contact_dma::sweep::plan::resolved::{identity, resolved_text};
 use contact_dma::sweep::plan::scenario;
 use tempfile::TempDir;
@@ -118,7 +119,11 @@ fn every_example_names_its_schema_and_validates() {
     for path in all.iter().filter(|path| !path.ends_with("claims.toml")) {
         let text = fs::read_to_string(path).unwrap();
         let table: toml::Table = text.parse().unwrap();
-        let (name, kind) = FileKind::NAMES[usize::from(!table.contains_key("sweep"))];
+        let (name, kind) = match ["sweep", "identify"].map(|key| table.contains_key(key)) {
+            [true, _] => FileKind::NAMES[0],
+            [_, true] => FileKind::NAMES[2],
+            _ => FileKind::NAMES[1],
+        };
         let named = text
             .lines()
             .find_map(|line| line.strip_prefix("#:schema "))
@@ -360,6 +365,12 @@ fn files() -> Vec<(FileKind, String)> {
         ],
         "",
     ));
+    files.push((
+        FileKind::Identify,
+        format!(
+            "title = \"t\"\n[identify]\ndata = \"measured.csv\"\nbranches = 2\n[material]\npoisson_ratio = 0.4\n{SPHERE}{HARMONIC}"
+        ),
+    ));
     files
 }
 
@@ -384,7 +395,7 @@ fn over_every_number((of, text): &(FileKind, String)) -> Vec<(FileKind, String)>
 }
 
 /// Keys that cannot be changed alone, or that no file above shows, and why.
-const APART: [&str; 12] = [
+const APART: [&str; 13] = [
     // What the files hold counts, and the hash of it, not what they are called.
     "indenter.file",
     "indenter.sha256",
@@ -395,6 +406,7 @@ const APART: [&str; 12] = [
     // A file has one format.
     "material.dynamic.format",
     "drive.segments.file",
+    "identify.data",
     // There is no other material in the library.
     "material.library",
     // Creep rises and relaxation falls: no values are both.
@@ -443,6 +455,10 @@ fn data() -> TempDir {
             "shift.csv",
             "temperature_k,log10_a_t\n290,0.5\n300,0\n310,-0.4\n",
         ),
+        (
+            "measured.csv",
+            "frequency_hz,energy_loss_j,phase_lag_rad\n1,1e-6,0.1\n10,2e-6,0.2\n100,1e-6,0.1\n",
+        ),
         ("map.csv", "0,1,2,0\n1,9,8,2\n2,7,9,1\n0,2,1,3\n"),
     ] {
         fs::write(folder.path().join(name), text).unwrap();
@@ -459,6 +475,9 @@ fn resolved(kind: FileKind, text: &str, folder: &Path) -> Result<String, String>
         FileKind::Sweep => sweep_file::plan(&document).map(|plan| resolved_text(&plan)),
         FileKind::Scenario => {
             scenario_file::plan(&document).map(|plan| scenario::resolved_text(&plan))
+        }
+        FileKind::Identify => {
+            identify_file::plan(&document).map(|plan| identify::resolved::resolved_text(&plan))
         }
     };
     text.map_err(|why| why.render(contact_dma::input::diagnostic::Styling::Plain))

@@ -22,6 +22,7 @@ mod fields;
 mod figures;
 mod fuzz_inputs;
 mod guides;
+mod identify;
 mod input_keys;
 mod large_sweep;
 mod library;

@@ -2,6 +2,7 @@
 //! which others it excludes. Reading, JSON Schema, the reference in the guides and the words of the fuzzers come from here.
 
 pub(crate) mod drive;
+pub(crate) mod identify;
 pub(super) mod indenter;
 pub(crate) mod material;
 pub(super) mod settings;
@@ -38,24 +39,31 @@ pub(super) const fn table(means: &'static str, keys: List) -> Rows {
     }
 }
 
-/// The two kinds of input files.
+/// The kinds of input files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
     /// A frequency sweep.
     Sweep,
     /// One drive history.
     Scenario,
+    /// A material from measured cycles.
+    Identify,
 }
 
 impl FileKind {
-    /// Both, as they are named on the command line.
-    pub const NAMES: [(&str, Self); 2] = [("sweep", Self::Sweep), ("scenario", Self::Scenario)];
+    /// All, as they are named on the command line.
+    pub const NAMES: [(&str, Self); 3] = [
+        ("sweep", Self::Sweep),
+        ("scenario", Self::Scenario),
+        ("identify", Self::Identify),
+    ];
 
     /// The keys of such a file.
     pub(crate) fn rows(self) -> &'static Rows {
         match self {
             Self::Sweep => &SWEEP_FILE,
             Self::Scenario => &SCENARIO_FILE,
+            Self::Identify => &identify::IDENTIFY_FILE,
         }
     }
 }

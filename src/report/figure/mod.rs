@@ -13,6 +13,7 @@ pub mod equivalent;
 pub mod fit;
 pub mod harmonic_map;
 pub mod history;
+pub mod identify;
 pub mod line;
 pub mod loops;
 pub mod loss_map;

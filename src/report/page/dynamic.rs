@@ -69,7 +69,7 @@ pub fn page(
 }
 
 /// A figure with its caption.
-fn shown(figure: &Figure, pictures: &Pictures) -> Markup {
+pub(super) fn shown(figure: &Figure, pictures: &Pictures) -> Markup {
     html! {
         @if let Some(picture) = pictures.inline(figure.name) {
             figure {

@@ -9,6 +9,7 @@ pub mod dynamic;
 pub mod frame;
 pub(super) mod how;
 pub mod html;
+pub mod identify;
 pub mod material;
 mod pictures;
 pub(super) mod question;

@@ -78,6 +78,8 @@ pub(in crate::sweep) struct Resolution {
 pub(in crate::sweep) enum Aim {
     /// All that the sweep's plan asks for.
     Plan,
+    /// The numbers of the cycle alone, at the resolution of the plan.
+    Numbers,
     /// The loss alone, as this resolution gives it, between cases whose error bars hold for it too.
     Loss(Resolution),
 }
@@ -87,7 +89,7 @@ impl Aim {
     pub fn purpose(self) -> Purpose {
         match self {
             Self::Plan => Purpose::Sweep,
-            Self::Loss(_) => Purpose::Peak,
+            Self::Numbers | Self::Loss(_) => Purpose::Peak,
         }
     }
 }
@@ -268,6 +270,11 @@ impl Setup {
         self.run_from(&Checkpoints::none(), case, interrupt)
     }
 
+    /// As [`Setup::run`], for the numbers of the cycle alone: no error bars, no fields, no replicas of the material.
+    pub fn numbers(&self, case: &Case, interrupt: &AtomicBool) -> Option<CaseRecord> {
+        self.run_for(Aim::Numbers, &Checkpoints::none(), case, interrupt)
+    }
+
     /// As [`Setup::run`], from the checkpoints that an earlier run of the same case has left; the record is the same, bit for
     /// bit. An interruption leaves new ones.
     pub fn run_from(
@@ -294,6 +301,8 @@ impl Setup {
         }
         if let Aim::Loss(at) = aim {
             (cycle.steps, nodes) = (at.steps, at.nodes);
+        }
+        if aim != Aim::Plan {
             (cycle.error_bars, cycle.accuracy) = (false, None);
         }
         let mut record = CaseRecord {
@@ -359,6 +368,7 @@ impl Setup {
             marches_at_last: true,
             wanted: match aim {
                 Aim::Plan => Wanted::Everything,
+                Aim::Numbers => Wanted::Numbers,
                 Aim::Loss(_) => Wanted::Loss,
             },
         };
@@ -368,7 +378,7 @@ impl Setup {
         }
         match aim {
             Aim::Plan => self.add_replicas(&contact, record),
-            Aim::Loss(_) => Ok(()),
+            Aim::Numbers | Aim::Loss(_) => Ok(()),
         }
     }
 

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use sha2::{Digest, Sha256};
 
-use crate::drive::Control;
+use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
@@ -27,14 +27,6 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         solver,
         figures,
     } = plan;
-    let CyclePlan {
-        steps,
-        method,
-        tolerance,
-        max_cycles,
-        error_bars,
-        accuracy,
-    } = cycle;
     let material = match axes {
         Some(axes) if axes.over.iter().any(Varied::is_temperature) => material_text_over(axes),
         _ => material_text(material),
@@ -45,22 +37,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         text.push_str(content);
         text.push('\n');
     };
-    line(&format!(
-        "\n[drive]\ncontrol = \"{}\"",
-        drive.control().name()
-    ));
-    let dimension = drive_dimension(drive.control());
-    line(&format!("mean = {}", quantity(drive.mean(), dimension)));
-    let amplitude = quantity(drive.amplitude(), dimension);
-    line(&format!("amplitude = {amplitude}"));
-    line(&format!(
-        "phase = {}",
-        quantity(drive.phase_rad(), Dimension::Angle)
-    ));
-    line(&format!(
-        "hold = {}",
-        quantity(drive.hold_s(), Dimension::Time)
-    ));
+    line(&drive_text(drive));
     line("\n[sweep]");
     for (k, varied) in axes.iter().flat_map(|axes| axes.over.iter().enumerate()) {
         let number = |value: f64| match varied.dimension {
@@ -84,27 +61,49 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
             quantity(omega, Dimension::AngularFrequency)
         ));
     }
-    line("]\n\n[cycle]");
-    line(&format!("steps = {steps}"));
-    line(&format!("method = \"{}\"", method.name()));
-    line(&format!("tolerance = {tolerance:e}"));
-    line(&format!("max_cycles = {max_cycles}"));
-    line(&format!("error_bars = {error_bars}"));
-    if let Some(accuracy) = accuracy {
-        line(&format!("accuracy = {accuracy:e}"));
-    }
-    line("");
+    line("]\n");
+    text.push_str(&cycle_text(cycle));
+    text.push('\n');
     text.push_str(&solver_text(solver, indenter.as_ref()));
     text.push_str(&figures.text());
     text
 }
 
+/// The `[drive]` block of an oscillation, with an empty line before it and no line end behind it.
+pub(crate) fn drive_text(drive: &HarmonicDrive) -> String {
+    let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
+    let dimension = drive_dimension(drive.control());
+    format!(
+        "\n[drive]\ncontrol = \"{}\"\nmean = {}\namplitude = {}\nphase = {}\nhold = {}",
+        drive.control().name(),
+        quantity(drive.mean(), dimension),
+        quantity(drive.amplitude(), dimension),
+        quantity(drive.phase_rad(), Dimension::Angle),
+        quantity(drive.hold_s(), Dimension::Time)
+    )
+}
+
+/// The `[cycle]` block.
+pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
+    let CyclePlan {
+        steps,
+        method,
+        tolerance,
+        max_cycles,
+        error_bars,
+        accuracy,
+    } = cycle;
+    let accuracy = accuracy.map(|accuracy| format!("accuracy = {accuracy:e}\n"));
+    format!(
+        "[cycle]\nsteps = {steps}\nmethod = \"{}\"\ntolerance = {tolerance:e}\nmax_cycles = {max_cycles}\nerror_bars = \
+         {error_bars}\n{}",
+        method.name(),
+        accuracy.unwrap_or_default()
+    )
+}
+
 /// What sweeps and scenarios have in common at their beginning: title, material, indenter.
-pub(in crate::sweep) fn opening_text(
-    title: &str,
-    material: &str,
-    indenter: &dyn Indenter,
-) -> String {
+pub(crate) fn opening_text(title: &str, material: &str, indenter: &dyn Indenter) -> String {
     let mut text = format!("title = {}\n\n{material}", toml_string(title));
     let mut line = |content: &str| {
         text.push_str(content);
@@ -119,7 +118,7 @@ pub(in crate::sweep) fn opening_text(
 }
 
 /// The `[solver]` block, at the end of both.
-pub(in crate::sweep) fn solver_text(solver: &SolverPlan, indenter: &dyn Indenter) -> String {
+pub(crate) fn solver_text(solver: &SolverPlan, indenter: &dyn Indenter) -> String {
     let SolverPlan {
         engine,
         cells,
@@ -370,6 +369,6 @@ fn series_lines(material: &Material, line: &mut dyn FnMut(&str)) {
 }
 
 /// A TOML basic string.
-pub(in crate::sweep) fn toml_string(text: &str) -> String {
+pub(crate) fn toml_string(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }

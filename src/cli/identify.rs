@@ -1,0 +1,142 @@
+//! `contact-dma identify`: from measured cycles to a material.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+use clap::Args;
+
+use super::arguments::{OutputFormat, folder, threads};
+use super::material::{print_place, write_figures};
+use super::sweep::interrupt_flag;
+use super::{Ended, Failure, json, meant_for, open_document, print};
+use crate::identify::resolved::resolved_text;
+use crate::identify::{Identified, IdentifyError, curves, identify};
+use crate::input::identify_file;
+use crate::material::{Material, ModulusKind};
+use crate::report::caption::Setting;
+use crate::report::dynamic::tables::prony;
+use crate::report::identify::{IdentifyReport, summary, tables};
+use crate::report::{figure, page};
+use crate::sweep::plan::resolved;
+use crate::sweep::search::run;
+use crate::sweep::store::write_atomically;
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma identify sweeps/identify-polymer.toml
+  contact-dma identify measured.toml --set identify.branches=2 --out /tmp/material
+
+The file names a table of measured cycles under [identify], with the columns of sweep.csv
+(energy_loss_j, phase_lag_rad, approach_max_m and so on, errors beside them where they are
+known), and has the [indenter], the [drive] and the poisson_ratio of the measurement.
+
+Written to the output folder: material.toml (a [material] block for a sweep), prony.csv,
+summary.json, fit.csv (data and model), moduli.csv (E' and E'' with bands), resolved.toml
+(the file with every default), figures as SVG and PNG, index.html.")]
+pub(super) struct IdentifyFlags {
+    /// The identification file (TOML); - reads standard input, from which paths start in the working folder
+    pub(super) file: PathBuf,
+    /// Folder for the results [default: reports/<name of the file>]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
+    pub(super) out: Option<PathBuf>,
+    /// Change one key of the file, for example identify.branches=2; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    pub(super) set: Vec<String>,
+    /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
+    pub(super) threads: Option<NonZeroUsize>,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    pub(super) quiet: bool,
+}
+
+/// Runs the command.
+pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, Failure> {
+    let document = open_document(&flags.file, &flags.set)?;
+    meant_for::identify(&document, &flags.file)?;
+    let plan = identify_file::plan(&document)?;
+    let interrupt = interrupt_flag()?;
+    let pool = run::pool(run::useful_threads(flags.threads)).map_err(Failure::run)?;
+    let made = pool.install(|| {
+        let found = identify(&plan, &interrupt)?;
+        let curves = curves(&plan, &found, &interrupt)?;
+        Ok((found, curves))
+    });
+    let (found, curves) = match made {
+        _ if interrupt.load(Ordering::Relaxed) => return Ok(Ended::Interrupted),
+        Err(IdentifyError::Interrupted) => return Ok(Ended::Interrupted),
+        Err(error) => return Err(refused(&flags.file, &error)),
+        Ok(made) => made,
+    };
+    let report = IdentifyReport {
+        plan: &plan,
+        found: &found,
+        curves: &curves,
+    };
+    let block = block(&report, &found)?;
+    let stem = flags.file.file_stem().unwrap_or_default();
+    let default = match stem == "-" {
+        true => PathBuf::from("reports/stdin"),
+        false => Path::new("reports").join(stem),
+    };
+    let folder = flags.out.as_deref().unwrap_or(&default);
+    write(folder, &report, &block)?;
+    match format {
+        OutputFormat::Json => {
+            let mut value = summary::summary(&report);
+            value["material_toml"] = block.into();
+            json::print(&value)
+        }
+        OutputFormat::Text if flags.quiet => Ok(Ended::Done),
+        OutputFormat::Text => {
+            let (title, text, unknowns) = (&plan.title, report.text(), report.unknowns());
+            print(&format!("{title}\n\n{text}\n{unknowns}"))?;
+            print_place("Material and figures", folder, format)
+        }
+    }
+}
+
+/// What is wrong with the data is bad input; a cycle that was not found is not.
+fn refused(file: &Path, error: &IdentifyError) -> Failure {
+    let message = format!("{}: {error}", file.display());
+    match error {
+        IdentifyError::NoCycle { .. } | IdentifyError::NoFit(_) => Failure::Run(message),
+        _ => Failure::Input(message),
+    }
+}
+
+/// The material block of a sweep file, every number exact, with where it comes from.
+fn block(report: &IdentifyReport<'_>, found: &Identified) -> Result<String, Failure> {
+    let text = format!("{}\n{}", report.plan.title, report.text());
+    let comments: String = text.lines().map(|line| format!("# {line}\n")).collect();
+    let (lowest, highest) = found.window_rad_per_s;
+    let material = Material::from_relaxation(
+        found.relaxation.clone(),
+        ModulusKind::Longitudinal,
+        report.plan.poisson_ratio,
+    );
+    let material = material
+        .map_err(Failure::run)?
+        .measured((1.0 / highest, 1.0 / lowest));
+    Ok(format!("{comments}{}", resolved::material_text(&material)))
+}
+
+/// Every file of the folder.
+fn write(folder: &Path, report: &IdentifyReport<'_>, block: &str) -> Result<(), Failure> {
+    let put = |name: &str, bytes: &[u8]| {
+        write_atomically(&folder.join(name), bytes).map_err(Failure::run)
+    };
+    put("material.toml", block.as_bytes())?;
+    put("resolved.toml", resolved_text(report.plan).as_bytes())?;
+    put("prony.csv", &prony(&report.found.relaxation))?;
+    put("fit.csv", &tables::fit(report))?;
+    put("moduli.csv", &tables::moduli(report))?;
+    let summary = serde_json::to_string_pretty(&summary::summary(report)).map_err(Failure::run)?;
+    put("summary.json", format!("{summary}\n").as_bytes())?;
+    let figures = figure::identify::figures(report);
+    write_figures(folder, &figures, &Setting::default(), |pictures, _| {
+        page::identify::page(report, &figures, block, pictures)
+    })
+}

@@ -1,0 +1,493 @@
+//! From measurements to a material: the search on the linearised contact, the refinement on the exact one, and what is
+//! known of the result.
+
+use std::sync::atomic::AtomicBool;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
+use crate::identify::model::Model;
+use crate::identify::noise::Knowledge;
+use crate::identify::selection::{Linearised, Scores};
+use crate::identify::series::{Point, name};
+use crate::identify::student::half_width_95;
+use crate::identify::uncertainty::{Directions, moduli};
+use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES, UNDETERMINED, column};
+use crate::material::Relaxation;
+use crate::sweep::record::error_bars::Quantity;
+
+/// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
+const STEP: f64 = 0.02;
+
+/// How often the factors between the exact and the linearised model are taken, and the change that is none.
+const ROUNDS: usize = 8;
+const SETTLED: f64 = 1e-3;
+
+const EXACTLY: Ending = Ending {
+    iterations: 12,
+    enough: 1e-4,
+};
+
+/// Misfit (root mean square of relative differences) from which data contradict one another, and how many times their errors it
+/// must be.
+const CONTRADICTION: f64 = 0.15;
+const TIMES_ERRORS: f64 = 5.0;
+
+/// By how much a criterion must fall for one branch more: odds of seven to one.
+const EVIDENCE: f64 = 4.0;
+
+/// The largest exponent of a confidence factor that is written as a number.
+const WIDEST: f64 = 60.0;
+
+/// One number of branches that was tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    pub branches: usize,
+    /// Sum of squared residuals, each in its standard deviation.
+    pub chi_squared: f64,
+    /// The criteria: lower is better.
+    pub akaike: f64,
+    pub schwarz: f64,
+    /// Akaike weight: how probable this number of branches is beside the others.
+    pub weight: f64,
+    /// Whether two of its times are one.
+    pub has_close_times: bool,
+    ln_moduli: Point,
+}
+
+/// An unknown with its 95 % interval.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unknown {
+    /// `g_inf`, `g_1`, `tau_1` and so on.
+    pub name: String,
+    /// Pa or s.
+    pub value: f64,
+    /// The interval goes from `value / factor` to `value * factor`.
+    pub factor: f64,
+    /// Whether the factor is below [`UNDETERMINED`].
+    pub is_determined: bool,
+}
+
+/// A combination of the unknowns that the data leave open: the product of the powers of its parts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Undetermined {
+    /// By what factor it may be off, at 95 %.
+    pub factor: f64,
+    /// Unknowns and their powers, the largest first.
+    pub parts: Vec<(String, f64)>,
+}
+
+/// Storage and loss modulus (Pa) at one frequency, with their 95 % bands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ModulusBand {
+    pub storage_pa: f64,
+    pub loss_pa: f64,
+    /// The bands go from the modulus over this factor to the modulus times it.
+    pub storage_factor: f64,
+    pub loss_factor: f64,
+}
+
+/// A number as measured and as computed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Compared {
+    pub angular_frequency_rad_per_s: f64,
+    pub quantity: Quantity,
+    pub measured: f64,
+    /// Standard deviation: as given, or estimated.
+    pub error: f64,
+    pub computed: f64,
+    /// Factor of the 95 % band of the computed number.
+    pub factor: f64,
+}
+
+/// What was found.
+#[derive(Debug, Clone)]
+pub struct Identified {
+    pub relaxation: Relaxation,
+    pub unknowns: Vec<Unknown>,
+    /// Between the unknowns, row by row.
+    pub correlations: Vec<Vec<f64>>,
+    pub singular_values: Vec<f64>,
+    pub undetermined: Vec<Undetermined>,
+    /// Every number of branches tried, fewest first.
+    pub candidates: Vec<Candidate>,
+    pub compared: Vec<Compared>,
+    /// What was known of the errors of the data.
+    pub knowledge: Knowledge,
+    pub degrees_of_freedom: usize,
+    /// Sum of squares over degrees of freedom, with errors as given; where none is given, one by definition.
+    pub reduced_chi_squared: f64,
+    /// Lowest and highest angular frequency of the data.
+    pub window_rad_per_s: (f64, f64),
+    point: Point,
+    directions: Directions,
+    half_width: f64,
+    /// The series on the linearised contact, with which the candidates are compared.
+    linearised: Point,
+}
+
+/// Finds the material.
+///
+/// # Errors
+/// [`IdentifyError`]: too few numbers, cycles that are not found, numbers that no solid has together.
+pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identified, IdentifyError> {
+    let most = most_branches(plan)?;
+    let model = Model::new(plan, interrupt);
+    let mut linearised = Linearised::new(plan);
+    let (candidates, chosen) = on_linearised(plan, &model, &mut linearised, most)?;
+    let start = candidates[chosen].ln_moduli.clone();
+    let exact = Exact {
+        model: &model,
+        linearised: &linearised,
+    };
+    let found = minimise(&exact, &start.0, EXACTLY);
+    let found = found.ok_or(IdentifyError::NoFit("the exact model failed at the start"))?;
+    let derivatives = exact.derivatives(&found.unknowns);
+    let derivatives = derivatives.ok_or(IdentifyError::NoFit(
+        "the exact model has no derivatives there",
+    ))?;
+    let identified = judged(&linearised, (candidates, start), found, &derivatives)?;
+    refuse_contradiction(&identified)?;
+    Ok(identified)
+}
+
+/// How many branches the number of data allows.
+fn most_branches(plan: &IdentifyPlan) -> Result<usize, IdentifyError> {
+    let numbers = plan.measurements.data().len();
+    // As many unknowns, and one number over.
+    let needed = |branches: usize| 2 * branches + 2;
+    let asked = plan.branches.unwrap_or(1);
+    if numbers < needed(asked) {
+        return Err(IdentifyError::TooFew {
+            numbers,
+            branches: asked,
+            needed: needed(asked),
+        });
+    }
+    let allowed = (1..=MOST_BRANCHES)
+        .rev()
+        .find(|most| needed(*most) <= numbers);
+    Ok(plan.branches.or(allowed).unwrap_or(1))
+}
+
+/// Searches with factors from the exact model until they stand still; which candidate the data ask for.
+fn on_linearised(
+    plan: &IdentifyPlan,
+    model: &Model<'_>,
+    linearised: &mut Linearised<'_>,
+    most: usize,
+) -> Result<(Vec<Candidate>, usize), IdentifyError> {
+    let mut known: Vec<Solution> = Vec::new();
+    let mut last = None;
+    for round in 0..ROUNDS {
+        known = linearised.search(&known, most);
+        let candidates = candidates(linearised, &known);
+        let chosen = match plan.branches {
+            Some(asked) => asked.min(candidates.len()).saturating_sub(1),
+            None => choose(&candidates),
+        };
+        let point = &candidates
+            .get(chosen)
+            .ok_or(IdentifyError::NoFit("no start could be tried"))?
+            .ln_moduli;
+        let exact = model.numbers(&point.relaxation()?);
+        let exact = exact.map_err(|error| explained(linearised, point, error))?;
+        let change = linearised.take_factors(point, &exact);
+        let is_settled = change < SETTLED && last == Some(chosen);
+        last = Some(chosen);
+        let point = point.clone();
+        if is_settled || round + 1 == ROUNDS {
+            return Ok((candidates, chosen));
+        }
+        // With the factors of the exact model, what is left is noise; of a series with branches to spare, less than that.
+        let relative = linearised.relative(&point);
+        linearised
+            .noise
+            .estimate(&plan.measurements, &relative, point.0.len());
+    }
+    Err(IdentifyError::NoFit("no round was tried"))
+}
+
+fn candidates(linearised: &Linearised<'_>, known: &[Solution]) -> Vec<Candidate> {
+    let numbers = linearised.plan.measurements.data().len();
+    let mut candidates: Vec<Candidate> = known
+        .iter()
+        .map(|solution| {
+            let point = Point(solution.unknowns.clone());
+            // The noise may have been estimated since.
+            let residuals = linearised.residuals(&point.0);
+            let squares = residuals.map_or(f64::INFINITY, |r| r.norm_squared());
+            let scores = Scores::new(squares, numbers, point.0.len(), &linearised.noise);
+            Candidate {
+                branches: point.branches(),
+                chi_squared: squares,
+                akaike: scores.akaike,
+                schwarz: scores.schwarz,
+                weight: 0.0,
+                has_close_times: point.has_close_times(),
+                ln_moduli: point,
+            }
+        })
+        .collect();
+    let best = candidates
+        .iter()
+        .fold(f64::INFINITY, |a, c| a.min(c.akaike));
+    let weight = |akaike: f64| (0.5 * (best - akaike)).exp();
+    let sum: f64 = candidates
+        .iter()
+        .map(|c| weight(c.akaike))
+        .filter(|w| w.is_finite())
+        .sum();
+    for candidate in &mut candidates {
+        let weight = weight(candidate.akaike) / sum;
+        candidate.weight = if weight.is_finite() { weight } else { 0.0 };
+    }
+    candidates
+}
+
+/// The smaller of the numbers that the two criteria ask for, among those whose times are apart.
+fn choose(candidates: &[Candidate]) -> usize {
+    let best = |score: fn(&Candidate) -> f64| {
+        let evident = |c: &Candidate| score(c) + EVIDENCE * c.branches as f64;
+        let all = candidates.iter().enumerate();
+        let apart = all.filter(|(_, c)| !c.has_close_times);
+        let best = apart.min_by(|a, b| evident(a.1).total_cmp(&evident(b.1)));
+        best.map_or(0, |(place, _)| place)
+    };
+    best(|c| c.akaike).min(best(|c| c.schwarz))
+}
+
+/// Standard deviation of the residuals: one where errors are known, what they leave where not.
+fn scatter(linearised: &Linearised<'_>, squares: f64, numbers: usize, unknowns: usize) -> f64 {
+    match linearised.noise.knowledge {
+        Knowledge::All | Knowledge::Some => 1.0,
+        Knowledge::None => {
+            let free = numbers.saturating_sub(unknowns).max(1) as f64;
+            (squares / free).sqrt().max(linearised.noise.least_scale())
+        }
+    }
+}
+
+/// The exact model as a least squares problem.
+struct Exact<'a> {
+    model: &'a Model<'a>,
+    linearised: &'a Linearised<'a>,
+}
+
+impl Exact<'_> {
+    /// Residuals of computed numbers, and those that keep times apart.
+    fn scaled(&self, numbers: &[f64], point: &Point) -> Option<DVector<f64>> {
+        let data = self.linearised.plan.measurements.data().iter();
+        let all = data.zip(numbers).zip(&self.linearised.noise.relative);
+        let scaled = all.map(|((datum, number), error)| {
+            let number = number.max(1e-6 * datum.value);
+            (number / datum.value).ln() / error
+        });
+        let residuals = DVector::from_vec(scaled.chain(point.kept_apart()).collect());
+        residuals.iter().all(|r| r.is_finite()).then_some(residuals)
+    }
+}
+
+impl Problem for Exact<'_> {
+    fn residuals(&self, unknowns: &[f64]) -> Option<DVector<f64>> {
+        let point = Point(unknowns.to_vec());
+        let series = point.relaxation().ok()?;
+        self.scaled(&self.model.numbers(&series).ok()?, &point)
+    }
+
+    fn derivatives(&self, unknowns: &[f64]) -> Option<DMatrix<f64>> {
+        let moved = (0..2 * unknowns.len()).map(|k| {
+            let mut moved = unknowns.to_vec();
+            moved[k / 2] += if k.is_multiple_of(2) { STEP } else { -STEP };
+            Point(moved)
+        });
+        let moved: Vec<Point> = moved.collect();
+        let series: Option<Vec<Relaxation>> = moved.iter().map(|p| p.relaxation().ok()).collect();
+        let numbers = self.model.numbers_of_each(&series?).ok()?;
+        let scaled = numbers
+            .iter()
+            .zip(&moved)
+            .map(|(n, point)| self.scaled(n, point));
+        let scaled: Option<Vec<DVector<f64>>> = scaled.collect();
+        let scaled = scaled?;
+        let columns = scaled
+            .chunks_exact(2)
+            .map(|pair| (&pair[0] - &pair[1]) / (2.0 * STEP));
+        Some(DMatrix::from_columns(&columns.collect::<Vec<_>>()))
+    }
+
+    fn clamp(&self, place: usize, value: f64) -> f64 {
+        self.linearised.limits.clamp(place, value)
+    }
+}
+
+/// The result with all that is known of it.
+fn judged(
+    linearised: &Linearised<'_>,
+    (candidates, start): (Vec<Candidate>, Point),
+    found: Solution,
+    derivatives: &DMatrix<f64>,
+) -> Result<Identified, IdentifyError> {
+    let measured = &linearised.plan.measurements;
+    let numbers = measured.data().len();
+    let point = Point(found.unknowns.clone());
+    let scatter = scatter(linearised, found.squares(), numbers, point.0.len());
+    let directions = Directions::new(derivatives, scatter);
+    let directions = directions.ok_or(IdentifyError::NoFit("its derivatives are not finite"))?;
+    let degrees_of_freedom = numbers.saturating_sub(point.0.len());
+    let knowledge = linearised.noise.knowledge;
+    let half_width = half_width_95(match knowledge {
+        Knowledge::All | Knowledge::Some => None,
+        Knowledge::None => Some(degrees_of_freedom),
+    });
+    let covariance = directions.covariance();
+    let deviation = |k: usize| covariance[(k, k)].sqrt();
+    let factor = |deviation: f64| (half_width * deviation).min(WIDEST).exp();
+    let unknowns = point.0.iter().enumerate().map(|(k, ln)| Unknown {
+        name: name(k),
+        value: ln.exp(),
+        factor: factor(deviation(k)),
+        is_determined: factor(deviation(k)) < UNDETERMINED,
+    });
+    let count = point.0.len();
+    let correlation = |i: usize, j: usize| covariance[(i, j)] / (deviation(i) * deviation(j));
+    let compared = measured.data().iter().enumerate().map(|(k, datum)| {
+        let error = linearised.noise.relative[k];
+        // A row of derivatives is in standard deviations of its datum.
+        let gradient = derivatives.row(k).transpose() * error;
+        Compared {
+            angular_frequency_rad_per_s: measured.angular_frequency(datum),
+            quantity: datum.quantity,
+            measured: datum.value,
+            error: error * scatter * datum.value,
+            computed: datum.value * (found.residuals[k] * error).exp(),
+            factor: factor(directions.variance(&gradient).sqrt()),
+        }
+    });
+    Ok(Identified {
+        relaxation: point.relaxation()?,
+        unknowns: unknowns.collect(),
+        correlations: (0..count)
+            .map(|i| (0..count).map(|j| correlation(i, j)).collect())
+            .collect(),
+        singular_values: directions.singular_values.clone(),
+        undetermined: undetermined(&directions, half_width),
+        candidates,
+        compared: compared.collect(),
+        knowledge,
+        degrees_of_freedom,
+        reduced_chi_squared: found.squares()
+            / (degrees_of_freedom.max(1) as f64 * scatter * scatter),
+        window_rad_per_s: measured.window_rad_per_s(),
+        point,
+        directions,
+        half_width,
+        linearised: start,
+    })
+}
+
+/// Directions along which the unknowns may move by more than the factor that counts as determined.
+fn undetermined(directions: &Directions, half_width: f64) -> Vec<Undetermined> {
+    let all = directions.deviations.iter().enumerate();
+    let open = all.filter(|(_, deviation)| half_width * **deviation > UNDETERMINED.ln());
+    open.map(|(place, deviation)| {
+        let row = directions.vectors.row(place);
+        let largest = row
+            .iter()
+            .fold(0.0_f64, |a, v| if v.abs() > a.abs() { *v } else { a });
+        let mut parts: Vec<(String, f64)> = row
+            .iter()
+            .enumerate()
+            // The largest power is one; what hardly takes part is left out.
+            .map(|(k, v)| (name(k), v / largest))
+            .filter(|(_, power)| power.abs() > 0.2)
+            .collect();
+        parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
+        Undetermined {
+            factor: (half_width * deviation).min(WIDEST).exp(),
+            parts,
+        }
+    })
+    .collect()
+}
+
+/// Refuses what no solid explains.
+fn refuse_contradiction(found: &Identified) -> Result<(), IdentifyError> {
+    let within =
+        found.knowledge == Knowledge::All && found.reduced_chi_squared.sqrt() < TIMES_ERRORS;
+    let branches = found.relaxation.branches().len();
+    let missed = found.compared.iter().map(|c| {
+        let place = (c.angular_frequency_rad_per_s, column(c.quantity));
+        (place, (c.computed / c.measured).ln())
+    });
+    match contradiction(branches, &missed.collect::<Vec<_>>()) {
+        Some(error) if !within => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// A cycle that is not found, where the series is one that no data should lead to, is the data's fault.
+fn explained(linearised: &Linearised<'_>, point: &Point, error: IdentifyError) -> IdentifyError {
+    let IdentifyError::NoCycle { .. } = error else {
+        return error;
+    };
+    let measured = &linearised.plan.measurements;
+    let relative = linearised.relative(point);
+    let missed = measured.data().iter().zip(relative).map(|(datum, off)| {
+        let place = (measured.angular_frequency(datum), column(datum.quantity));
+        (place, off)
+    });
+    contradiction(point.branches(), &missed.collect::<Vec<_>>()).unwrap_or(error)
+}
+
+/// What is wrong with data that the best series misses by so much; `None` where it is not much. With every logarithm of computed over
+/// measured numbers, its frequency (rad/s) and its column.
+fn contradiction(branches: usize, missed: &[((f64, &'static str), f64)]) -> Option<IdentifyError> {
+    let squares: f64 = missed.iter().map(|(_, off)| off * off).sum();
+    let rms = (squares / missed.len() as f64).sqrt();
+    if rms < CONTRADICTION {
+        return None;
+    }
+    let worst = missed
+        .iter()
+        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
+    let ((angular_frequency_rad_per_s, column), off) = *worst;
+    Some(IdentifyError::Contradiction {
+        branches,
+        misfit_percent: format!("{:.0}", 100.0 * rms),
+        angular_frequency_rad_per_s,
+        column,
+        times: format!("{:.2e}", off.exp()),
+    })
+}
+
+impl Identified {
+    /// The moduli at a frequency, with bands. Beyond the data they are an extrapolation.
+    pub fn band(&self, angular_frequency_rad_per_s: f64) -> ModulusBand {
+        let own = moduli(&self.point, angular_frequency_rad_per_s);
+        let compared = moduli(&self.linearised, angular_frequency_rad_per_s);
+        let mut variances = [0.0; 2];
+        for (part, (_, gradient)) in own.iter().enumerate() {
+            variances[part] = self.directions.variance(gradient);
+        }
+        let chosen = self.point.branches();
+        for other in self
+            .candidates
+            .iter()
+            .filter(|c| c.branches != chosen && c.weight > 0.0)
+        {
+            let theirs = moduli(&other.ln_moduli, angular_frequency_rad_per_s);
+            for part in 0..2 {
+                let apart = theirs[part].0 - compared[part].0;
+                variances[part] += other.weight * apart * apart;
+            }
+        }
+        let factor = |variance: f64| (self.half_width * variance.sqrt()).min(WIDEST).exp();
+        ModulusBand {
+            storage_pa: own[0].0.exp(),
+            loss_pa: own[1].0.exp(),
+            storage_factor: factor(variances[0]),
+            loss_factor: factor(variances[1]),
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! A material from measured cycles: the sweep as a forward model.
+//!
+//! Measured are numbers of stabilised cycles at several load frequencies: energy loss, phase lag, largest approach, contact
+//! radius, whatever a sweep computes. Sought is the solid, a Prony series, whose computed cycles have the same numbers.
+//!
+//! # How
+//!
+//! The unknowns are the logarithms of the equilibrium modulus and of the moduli and times of the branches; the residuals are
+//! the logarithms of computed over measured numbers, divided by the relative errors of the measured ones.
+//!
+//! 1. The linearised contact ([`linear`]) gives every number from E*(omega) and the equilibrium modulus at once. Branches are
+//!    added one by one, each tried at many times ([`selection`]), and all are refined together by the method of Levenberg and
+//!    Marquardt ([`least_squares`]).
+//! 2. The exact model ([`model`]) is solved for the best series. Its ratio to the linearised one is a factor for each number,
+//!    which changes little with the material: with the factors the search is repeated until they stand still.
+//! 3. The series is refined on the exact model itself, with its own derivatives.
+//!
+//! # How many branches
+//!
+//! Every number of branches is fitted. One more is taken where both the criterion of Akaike with the correction for few data
+//! (C. M. Hurvich and C.-L. Tsai, Biometrika 76 (1989) 297) and that of G. Schwarz (Ann. Statist. 6 (1978) 461) fall, by four, which is odds of seven to one. A time
+//! that does not exist is searched over several decades, which finds more in noise than a fixed one would: either criterion
+//! alone takes it too often, the first with many data and the second with few. Two times closer than a factor of three are
+//! one: times are kept that far apart.
+//!
+//! # How certain
+//!
+//! The covariance is that of the linearised least squares at the solution, on the exact model. Where the data have errors,
+//! these are taken as standard deviations; where not, the noise is what the residuals say, and the band is wider by the
+//! quantile of Student's distribution. Which number of branches is right is uncertain too: the band of E* holds the series of
+//! other numbers as well, each by its Akaike weight (K. P. Burnham and D. R. Anderson, *Model Selection and Multimodel
+//! Inference*, Springer 2002, section 4.3). Combinations of the unknowns along which they may move by more than a factor of two
+//! are named as not determined: singular vectors of the matrix of derivatives.
+
+mod curve;
+pub mod data;
+mod fit;
+mod least_squares;
+mod linear;
+mod model;
+mod noise;
+pub mod resolved;
+mod selection;
+mod series;
+mod student;
+mod uncertainty;
+
+pub use curve::{Curve, curves};
+pub use fit::{Candidate, Compared, Identified, ModulusBand, Undetermined, Unknown, identify};
+pub use noise::Knowledge;
+
+use std::sync::Arc;
+
+use crate::drive::HarmonicDrive;
+use crate::identify::data::Measurements;
+use crate::indenter::Indenter;
+use crate::material::MaterialError;
+use crate::sweep::case::SetupError;
+use crate::sweep::plan::{CyclePlan, SolverPlan};
+use crate::sweep::record::error_bars::Quantity;
+
+/// Times of two branches closer than this factor are one time.
+pub const CLOSEST: f64 = 3.0;
+
+/// Most branches tried, and most that may be asked for.
+pub const MOST_BRANCHES: usize = 6;
+
+/// An unknown whose 95 % interval is wider than this factor to either side is not determined.
+pub const UNDETERMINED: f64 = 2.0;
+
+/// Everything that an identification needs to know.
+#[derive(Debug, Clone)]
+pub struct IdentifyPlan {
+    pub title: String,
+    pub poisson_ratio: f64,
+    pub indenter: Arc<dyn Indenter>,
+    /// The drive of rows that have none of their own.
+    pub drive: HarmonicDrive,
+    /// How many branches; `None` lets the data choose.
+    pub branches: Option<usize>,
+    pub measurements: Measurements,
+    /// The file that they come from, as the plan names it.
+    pub data: String,
+    pub cycle: CyclePlan,
+    pub solver: SolverPlan,
+}
+
+impl IdentifyPlan {
+    /// How the cycles of the forward model are resolved where nothing is asked for: its error, below 0.1 % in loss and phase, is
+    /// far below the noise of a measurement, and derivatives are smooth.
+    pub const CYCLE: CyclePlan = CyclePlan {
+        steps: 64,
+        tolerance: 1e-6,
+        max_cycles: 200,
+        error_bars: false,
+        ..CyclePlan::DEFAULT
+    };
+    pub const SPRINGS: usize = 64;
+    pub const CELLS: usize = 32;
+
+    /// The solver where nothing is asked for.
+    pub fn solver(indenter: &dyn Indenter) -> SolverPlan {
+        SolverPlan {
+            springs: Self::SPRINGS,
+            cells: Self::CELLS,
+            ..SolverPlan::of_indenter(indenter)
+        }
+    }
+}
+
+/// Why no material was identified.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IdentifyError {
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    #[error(
+        "the measurements hold {numbers} numbers, and a series of {branches} branches takes at least {needed}"
+    )]
+    TooFew {
+        numbers: usize,
+        branches: usize,
+        needed: usize,
+    },
+    #[error(
+        "the measurements are flat: no column varies over the frequencies by more than {spread_percent} %, which is no more than its \
+         errors, so nothing says at what time the material relaxes; measure over more decades, or more exactly"
+    )]
+    Flat { spread_percent: String },
+    #[error(
+        "all measurements are at one frequency: the time of a relaxation cannot be told from one; measure at several"
+    )]
+    OneFrequency,
+    #[error("the column {column} of row {row} is {value:e}: {why}")]
+    Impossible {
+        column: &'static str,
+        row: usize,
+        value: f64,
+        why: &'static str,
+    },
+    #[error(
+        "the measurements contradict one another, or the drive and the indenter: the best solid of {branches} branches misses them by \
+         {misfit_percent} % (root mean square), most at {angular_frequency_rad_per_s:e} rad/s, where its {column} is {times} times the \
+         measured one; check units, drive, indenter and columns"
+    )]
+    Contradiction {
+        branches: usize,
+        misfit_percent: String,
+        angular_frequency_rad_per_s: f64,
+        column: &'static str,
+        times: String,
+    },
+    #[error("the cycle at {angular_frequency_rad_per_s:e} rad/s was not found: {why}")]
+    NoCycle {
+        angular_frequency_rad_per_s: f64,
+        why: String,
+    },
+    #[error(
+        "the cycle at {angular_frequency_rad_per_s:e} rad/s has no {column}: the indenter makes it unbounded, or the contact opens; \
+         leave these cells empty"
+    )]
+    Undefined {
+        angular_frequency_rad_per_s: f64,
+        column: &'static str,
+    },
+    #[error("no series could be fitted: {0}")]
+    NoFit(&'static str),
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// The column of a quantity, as in `sweep.csv`.
+pub fn column(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::EnergyLoss => "energy_loss_j",
+        Quantity::PhaseLag => "phase_lag_rad",
+        Quantity::StorageModulus => "storage_modulus_pa",
+        Quantity::LossModulus => "loss_modulus_pa",
+        Quantity::ApproachMin => "approach_min_m",
+        Quantity::ApproachMax => "approach_max_m",
+        Quantity::ContactRadiusMin => "contact_radius_min_m",
+        Quantity::ContactRadiusMax => "contact_radius_max_m",
+        Quantity::PeakPressureMin => "peak_pressure_min_pa",
+        Quantity::PeakPressureMax => "peak_pressure_max_pa",
+        Quantity::Harmonic2 => "harmonic_2",
+        Quantity::Harmonic3 => "harmonic_3",
+    }
+}

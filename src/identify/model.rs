@@ -1,0 +1,124 @@
+//! The exact model: stabilised cycles of a series, by the engine that a sweep has.
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use rayon::prelude::*;
+
+use crate::identify::{IdentifyError, IdentifyPlan, column};
+use crate::material::{Material, ModulusKind, Relaxation};
+use crate::sweep::case::Setup;
+use crate::sweep::plan::{Case, Condition, CyclePlan, SweepPlan};
+
+/// Numbers of the cycles of a plan's measurements, for any series.
+pub(super) struct Model<'a> {
+    plan: &'a IdentifyPlan,
+    interrupt: &'a AtomicBool,
+}
+
+impl<'a> Model<'a> {
+    pub(super) fn new(plan: &'a IdentifyPlan, interrupt: &'a AtomicBool) -> Self {
+        Self { plan, interrupt }
+    }
+
+    /// The computed number of every datum, in their order.
+    pub(super) fn numbers(&self, series: &Relaxation) -> Result<Vec<f64>, IdentifyError> {
+        let mut all = self.numbers_of_each(std::slice::from_ref(series))?;
+        all.pop().ok_or(IdentifyError::NoFit("there is no series"))
+    }
+
+    /// The same for each of several series, whose cycles are solved side by side.
+    pub(super) fn numbers_of_each(
+        &self,
+        all: &[Relaxation],
+    ) -> Result<Vec<Vec<f64>>, IdentifyError> {
+        let setups: Vec<Setup> = all
+            .iter()
+            .map(|series| self.setup(series))
+            .collect::<Result<_, _>>()?;
+        let cycles = self.plan.measurements.cycles().len();
+        let solved: Vec<Vec<Option<f64>>> = (0..all.len() * cycles)
+            .into_par_iter()
+            .map(|place| self.cycle(&setups[place / cycles], place % cycles))
+            .collect::<Result<_, _>>()?;
+        solved
+            .chunks(cycles)
+            .map(|of_series| self.in_order(of_series))
+            .collect()
+    }
+
+    fn in_order(&self, of_cycles: &[Vec<Option<f64>>]) -> Result<Vec<f64>, IdentifyError> {
+        let data = self.plan.measurements.data().iter().enumerate();
+        data.map(|(place, datum)| {
+            let of_cycle = &of_cycles[datum.cycle];
+            let own = self.data_of(datum.cycle).position(|other| other == place);
+            let number = own.and_then(|own| of_cycle.get(own).copied().flatten());
+            number.ok_or_else(|| IdentifyError::Undefined {
+                angular_frequency_rad_per_s: self.plan.measurements.angular_frequency(datum),
+                column: column(datum.quantity),
+            })
+        })
+        .collect()
+    }
+
+    /// Places of the data of a cycle.
+    fn data_of(&self, cycle: usize) -> impl Iterator<Item = usize> + '_ {
+        let data = self.plan.measurements.data().iter().enumerate();
+        data.filter(move |(_, datum)| datum.cycle == cycle)
+            .map(|(place, _)| place)
+    }
+
+    fn setup(&self, series: &Relaxation) -> Result<Setup, IdentifyError> {
+        let kind = ModulusKind::Longitudinal;
+        let material = Material::from_relaxation(series.clone(), kind, self.plan.poisson_ratio)?;
+        let mut plan = SweepPlan::new(material, Arc::clone(&self.plan.indenter), self.plan.drive);
+        plan.cycle = self.plan.cycle;
+        plan.solver = self.plan.solver;
+        let cycles = self.plan.measurements.cycles().iter();
+        let mut omegas: Vec<f64> = cycles
+            .map(|cycle| cycle.angular_frequency_rad_per_s)
+            .collect();
+        omegas.sort_by(f64::total_cmp);
+        omegas.dedup();
+        plan.angular_frequencies_rad_per_s = omegas;
+        Ok(Setup::new(plan)?)
+    }
+
+    /// The computed numbers of the data of one cycle, `None` where it has none.
+    fn cycle(&self, setup: &Setup, cycle: usize) -> Result<Vec<Option<f64>>, IdentifyError> {
+        let measured = &self.plan.measurements.cycles()[cycle];
+        let case = Case {
+            index: 0,
+            angular_frequency_rad_per_s: measured.angular_frequency_rad_per_s,
+            condition: Condition {
+                drive: measured.drive,
+                ..setup.plan().condition()
+            },
+        };
+        let mut record = setup.numbers(&case, self.interrupt);
+        if record
+            .as_ref()
+            .is_some_and(|record| record.result.is_none())
+        {
+            // The cycles of bodies that relax strongly are not found as closely.
+            let mut plan = setup.plan().clone();
+            plan.cycle.tolerance = plan.cycle.tolerance.max(CyclePlan::DEFAULT.tolerance);
+            record = Setup::new(plan)?.numbers(&case, self.interrupt);
+        }
+        let record = record.ok_or(IdentifyError::Interrupted)?;
+        let Some(result) = &record.result else {
+            let why = record
+                .message
+                .unwrap_or_else(|| record.status.name().to_owned());
+            return Err(IdentifyError::NoCycle {
+                angular_frequency_rad_per_s: measured.angular_frequency_rad_per_s,
+                why,
+            });
+        };
+        let data = self.plan.measurements.data();
+        let numbers = self
+            .data_of(cycle)
+            .map(|place| data[place].quantity.of(result));
+        Ok(numbers.collect())
+    }
+}

@@ -1,0 +1,260 @@
+//! The search on the linearised contact: series of every number of branches, and which number the data ask for.
+
+use nalgebra::{DMatrix, DVector};
+use num_complex::Complex;
+
+use crate::identify::IdentifyPlan;
+use crate::identify::data::Measurements;
+use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
+use crate::identify::linear::LinearCycle;
+use crate::identify::noise::{Knowledge, Noise};
+use crate::identify::series::{Limits, Point};
+
+/// Step of an unknown for the derivatives of the linearised contact, which is smooth.
+const STEP: f64 = 1e-5;
+
+/// By what factor times may lie beyond one over the angular frequencies of the data: a branch there shows as a slope.
+const BEYOND: f64 = 100.0;
+
+/// Equilibrium moduli (Pa) at which a search begins: from gels to ceramics, per decade.
+const LOWEST_PA: f64 = 1.0;
+const LEVELS: (i32, f64) = (39, 3.0);
+
+/// How many of the best starts are refined closely.
+const KEPT: usize = 4;
+
+const ROUGHLY: Ending = Ending {
+    iterations: 12,
+    enough: 1e-3,
+};
+const CLOSELY: Ending = Ending {
+    iterations: 80,
+    enough: 1e-7,
+};
+
+/// The linearised contact with a factor for each number.
+pub(super) struct Linearised<'a> {
+    pub(super) plan: &'a IdentifyPlan,
+    pub(super) cycles: Vec<LinearCycle>,
+    pub(super) ln_factors: Vec<f64>,
+    pub(super) noise: Noise,
+    pub(super) limits: Limits,
+}
+
+impl Linearised<'_> {
+    pub(super) fn new(plan: &IdentifyPlan) -> Linearised<'_> {
+        let measured = &plan.measurements;
+        let (lowest, highest) = measured.window_rad_per_s();
+        Linearised {
+            plan,
+            cycles: Vec::new(),
+            ln_factors: vec![0.0; measured.data().len()],
+            noise: Noise::new(measured),
+            limits: Limits {
+                moduli: (-10.0, 40.0),
+                times: ((1.0 / (BEYOND * highest)).ln(), (BEYOND / lowest).ln()),
+            },
+        }
+    }
+
+    fn measured(&self) -> &Measurements {
+        &self.plan.measurements
+    }
+
+    /// Linearises about a contact with this equilibrium modulus (Pa).
+    pub(super) fn about(&mut self, equilibrium_pa: f64) {
+        let indenter = self.plan.indenter.as_ref();
+        let nu = self.plan.poisson_ratio;
+        let cycles = self.plan.measurements.cycles().iter();
+        let cycles = cycles.map(|cycle| LinearCycle::new(cycle, indenter, nu, equilibrium_pa));
+        self.cycles = cycles.collect();
+    }
+
+    /// Logarithms of all numbers without their factors.
+    pub(super) fn ln_numbers(&self, point: &Point) -> Vec<f64> {
+        let equilibrium_pa = point.equilibrium_pa();
+        let moduli: Vec<Complex<f64>> = self
+            .cycles
+            .iter()
+            .map(|cycle| point.complex_modulus(cycle.angular_frequency_rad_per_s()))
+            .collect();
+        let number = |datum: &crate::identify::data::Datum| {
+            let (cycle, modulus) = (&self.cycles[datum.cycle], moduli[datum.cycle]);
+            let number = cycle.number(datum.quantity, equilibrium_pa, modulus);
+            number.max(f64::MIN_POSITIVE).ln()
+        };
+        self.measured().data().iter().map(number).collect()
+    }
+
+    /// Logarithms of computed over measured numbers.
+    pub(super) fn relative(&self, point: &Point) -> Vec<f64> {
+        let numbers = self.ln_numbers(point);
+        let all = self
+            .measured()
+            .data()
+            .iter()
+            .zip(numbers)
+            .zip(&self.ln_factors);
+        all.map(|((datum, ln), factor)| ln + factor - datum.value.ln())
+            .collect()
+    }
+
+    /// Takes the factors from the exact numbers of a series.
+    pub(super) fn take_factors(&mut self, point: &Point, exact: &[f64]) -> f64 {
+        self.about(point.equilibrium_pa());
+        let linear = self.ln_numbers(point);
+        let mut largest = 0.0_f64;
+        for ((factor, linear), exact) in self.ln_factors.iter_mut().zip(linear).zip(exact) {
+            let ln = exact.max(f64::MIN_POSITIVE).ln() - linear;
+            largest = largest.max((ln - *factor).abs());
+            *factor = ln;
+        }
+        largest
+    }
+
+    /// Where a search begins when nothing is known: the best of a grid of series of one branch.
+    fn first(&mut self) -> Vec<Point> {
+        let (low, high) = self.limits.times;
+        let (count, per_decade) = LEVELS;
+        let mut all = Vec::new();
+        for level in 0..=count {
+            let equilibrium_pa = LOWEST_PA * 10_f64.powf(f64::from(level) / per_decade);
+            self.about(equilibrium_pa);
+            for ratio in [0.1_f64, 1.0, 10.0, 100.0, 1000.0] {
+                for place in 1..10 {
+                    let time = low + (high - low) * f64::from(place) / 10.0;
+                    let unknowns = vec![equilibrium_pa.ln(), (ratio * equilibrium_pa).ln(), time];
+                    if let Some(residuals) = self.residuals(&unknowns) {
+                        all.push((residuals.norm_squared(), Point(unknowns)));
+                    }
+                }
+            }
+        }
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all.into_iter()
+            .take(2 * KEPT)
+            .map(|(_, point)| point)
+            .collect()
+    }
+
+    /// The best series of 1 to `most` branches, from `known` ones on where there are any.
+    pub(super) fn search(&mut self, known: &[Solution], most: usize) -> Vec<Solution> {
+        let mut starts = match known.first() {
+            Some(first) => vec![Point(first.unknowns.clone())],
+            None => self.first(),
+        };
+        let mut found: Vec<Solution> = Vec::new();
+        for branches in 1..=most {
+            if let Some(known) = known.get(branches - 1) {
+                starts.push(Point(known.unknowns.clone()));
+            }
+            // About where the last search ended: the radius is then that of its own contact.
+            if known.is_empty()
+                && let Some(start) = starts.first()
+            {
+                self.about(start.equilibrium_pa());
+            }
+            let Some(best) = self.best_of(&starts) else {
+                break;
+            };
+            starts = self.with_one_more(&Point(best.unknowns.clone()));
+            found.push(best);
+        }
+        found
+    }
+
+    /// The best of several starts: all roughly, the better ones closely.
+    fn best_of(&self, starts: &[Point]) -> Option<Solution> {
+        let rough = starts
+            .iter()
+            .filter_map(|start| minimise(self, &start.0, ROUGHLY));
+        let mut rough: Vec<Solution> = rough.collect();
+        rough.sort_by(|a, b| a.squares().total_cmp(&b.squares()));
+        let close = rough.iter().take(KEPT);
+        let close = close.filter_map(|start| minimise(self, &start.unknowns, CLOSELY));
+        let best = close.min_by(|a, b| a.squares().total_cmp(&b.squares()))?;
+        let unknowns = Point(best.unknowns).sorted().0;
+        Some(Solution {
+            residuals: self.residuals(&unknowns)?,
+            unknowns,
+            iterations: best.iterations,
+        })
+    }
+
+    /// A series with one branch more, at each of several times.
+    fn with_one_more(&self, point: &Point) -> Vec<Point> {
+        let (low, high) = self.limits.times;
+        let count = ((high - low) / std::f64::consts::LN_10 * 2.0)
+            .round()
+            .max(1.0);
+        let places = (0..=count as usize).map(|k| low + (high - low) * k as f64 / count);
+        let strength = |ln_time: f64| (0.2 * point.complex_modulus((-ln_time).exp()).norm()).ln();
+        places
+            .map(|ln_time| point.with(strength(ln_time), ln_time))
+            .collect()
+    }
+}
+
+impl Problem for Linearised<'_> {
+    fn residuals(&self, unknowns: &[f64]) -> Option<DVector<f64>> {
+        let point = Point(unknowns.to_vec());
+        let relative = self.relative(&point);
+        let scaled = relative
+            .iter()
+            .zip(&self.noise.relative)
+            .map(|(r, error)| r / error);
+        let residuals = DVector::from_vec(scaled.chain(point.kept_apart()).collect());
+        residuals.iter().all(|r| r.is_finite()).then_some(residuals)
+    }
+
+    fn derivatives(&self, unknowns: &[f64]) -> Option<DMatrix<f64>> {
+        let gaps = Point(unknowns.to_vec()).kept_apart().len();
+        let mut matrix = DMatrix::zeros(self.measured().data().len() + gaps, unknowns.len());
+        for place in 0..unknowns.len() {
+            let moved = |step: f64| {
+                let mut moved = unknowns.to_vec();
+                moved[place] += step;
+                self.residuals(&moved)
+            };
+            let column = (moved(STEP)? - moved(-STEP)?) / (2.0 * STEP);
+            matrix.set_column(place, &column);
+        }
+        Some(matrix)
+    }
+
+    fn clamp(&self, place: usize, value: f64) -> f64 {
+        self.limits.clamp(place, value)
+    }
+}
+
+/// What speaks for and against a number of branches: lower is better.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Scores {
+    /// H. Akaike's criterion with the correction for few data.
+    pub(super) akaike: f64,
+    /// G. Schwarz's criterion.
+    pub(super) schwarz: f64,
+}
+
+impl Scores {
+    /// Of a fit with this sum of squares. Where no error is known, one more unknown is the noise.
+    pub(super) fn new(squares: f64, numbers: usize, unknowns: usize, noise: &Noise) -> Self {
+        let n = numbers as f64;
+        let (misfit, unknowns) = match noise.knowledge {
+            Knowledge::None => {
+                let variance = (squares / n).max(noise.least_scale().powi(2));
+                (n * variance.ln(), unknowns as f64 + 1.0)
+            }
+            Knowledge::All | Knowledge::Some => (squares, unknowns as f64),
+        };
+        let free = n - unknowns - 1.0;
+        let corrected = match free > 0.0 {
+            true => 2.0 * unknowns * (1.0 + (unknowns + 1.0) / free),
+            false => f64::INFINITY,
+        };
+        Self {
+            akaike: misfit + corrected,
+            schwarz: misfit + unknowns * n.ln(),
+        }
+    }
+}

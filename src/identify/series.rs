@@ -1,0 +1,154 @@
+//! A Prony series as a point: the logarithms of the equilibrium modulus, then of modulus and time of every branch.
+
+use num_complex::Complex;
+
+use crate::identify::CLOSEST;
+use crate::material::{MaterialError, Relaxation, RelaxationBranch};
+
+/// How strongly times are kept apart, in standard deviations for a factor of e; and how far that yields to data.
+const STIFFNESS: f64 = 100.0;
+const YIELDING: f64 = 0.1;
+
+/// Logarithms (Pa, s): of the equilibrium modulus, and of modulus and time of branches.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Point(pub(super) Vec<f64>);
+
+/// How far unknowns may go.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Limits {
+    /// Of logarithms of moduli (Pa) and of times (s).
+    pub(super) moduli: (f64, f64),
+    pub(super) times: (f64, f64),
+}
+
+impl Limits {
+    /// Nearest allowed value of an unknown.
+    pub(super) fn clamp(&self, place: usize, value: f64) -> f64 {
+        let (low, high) = match is_time(place) {
+            true => self.times,
+            false => self.moduli,
+        };
+        value.clamp(low, high)
+    }
+}
+
+/// Whether the unknown in this place is a time.
+pub(super) fn is_time(place: usize) -> bool {
+    place > 0 && place.is_multiple_of(2)
+}
+
+/// "g_inf", "g_1", "tau_1".
+pub(super) fn name(place: usize) -> String {
+    match (place, is_time(place)) {
+        (0, _) => "g_inf".to_owned(),
+        (_, true) => format!("tau_{}", place / 2),
+        (_, false) => format!("g_{}", place.div_ceil(2)),
+    }
+}
+
+impl Point {
+    pub(super) fn branches(&self) -> usize {
+        self.0.len() / 2
+    }
+
+    pub(super) fn equilibrium_pa(&self) -> f64 {
+        self.0.first().map_or(0.0, |ln| ln.exp())
+    }
+
+    /// Logarithms of the times (s).
+    pub(super) fn times(&self) -> impl Iterator<Item = f64> + '_ {
+        self.0.iter().skip(2).step_by(2).copied()
+    }
+
+    /// The complex modulus (Pa).
+    pub(super) fn complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
+        let ln_omega = angular_frequency_rad_per_s.ln();
+        let start = Complex::new(self.equilibrium_pa(), 0.0);
+        self.0
+            .get(1..)
+            .unwrap_or_default()
+            .chunks_exact(2)
+            .fold(start, |sum, branch| {
+                let x = (ln_omega + branch[1]).exp();
+                let below = 1.0 / (1.0 + x * x);
+                let frozen = match x > 1.0 {
+                    true => 1.0 / (1.0 + 1.0 / (x * x)),
+                    false => x * x * below,
+                };
+                let loss = 1.0 / (x + 1.0 / x);
+                sum + Complex::new(frozen, loss) * branch[0].exp()
+            })
+    }
+
+    /// The same with one branch more, shortest time first.
+    pub(super) fn with(&self, ln_modulus: f64, ln_time: f64) -> Self {
+        let mut point = self.clone();
+        point.0.extend([ln_modulus, ln_time]);
+        point.sorted()
+    }
+
+    /// Branches in the order of their times.
+    pub(super) fn sorted(mut self) -> Self {
+        let mut branches: Vec<[f64; 2]> = self
+            .0
+            .get(1..)
+            .unwrap_or_default()
+            .chunks_exact(2)
+            .map(|branch| [branch[0], branch[1]])
+            .collect();
+        branches.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        self.0.truncate(1);
+        self.0.extend(branches.into_iter().flatten());
+        self
+    }
+
+    /// Gaps between the logarithms of neighbouring times.
+    fn gaps(&self) -> Vec<f64> {
+        let mut times: Vec<f64> = self.times().collect();
+        times.sort_by(f64::total_cmp);
+        times.windows(2).map(|pair| pair[1] - pair[0]).collect()
+    }
+
+    /// Whether two times are one.
+    pub(super) fn has_close_times(&self) -> bool {
+        self.gaps().iter().any(|gap| *gap < CLOSEST.ln() - YIELDING)
+    }
+
+    /// Residuals that keep times apart: nothing where they are, and one in every gap between neighbours.
+    pub(super) fn kept_apart(&self) -> Vec<f64> {
+        let lack = |gap: f64| (CLOSEST.ln() - gap).max(0.0);
+        self.gaps()
+            .into_iter()
+            .map(|gap| STIFFNESS * lack(gap))
+            .collect()
+    }
+
+    pub(super) fn relaxation(&self) -> Result<Relaxation, MaterialError> {
+        let branches = self.0.get(1..).unwrap_or_default().chunks_exact(2);
+        let branches = branches.map(|branch| RelaxationBranch {
+            modulus_pa: branch[0].exp(),
+            time_s: branch[1].exp(),
+        });
+        Relaxation::new(self.equilibrium_pa(), branches.collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_is_the_series_that_it_stands_for() {
+        let point =
+            Point(vec![1e6_f64.ln(), 3e8_f64.ln(), 10_f64.ln()]).with(5e7_f64.ln(), 1e-3_f64.ln());
+        let series = point.relaxation().unwrap();
+        assert_eq!(point.branches(), 2);
+        assert!((series.branches()[0].time_s / 1e-3 - 1.0).abs() < 1e-12);
+        for omega in [1e-8, 0.1, 30.0, 1e12] {
+            let difference = point.complex_modulus(omega) - series.complex_modulus(omega);
+            assert!(difference.norm() < 1e-12 * series.complex_modulus(omega).norm());
+        }
+        assert!(!point.has_close_times() && point.with(1.0, 11_f64.ln()).has_close_times());
+        assert_eq!([0, 1, 2, 3].map(name), ["g_inf", "g_1", "tau_1", "g_2"]);
+    }
+}

@@ -1,0 +1,119 @@
+//! What a least squares solution leaves open: covariance, intervals, and combinations that the data do not determine.
+
+use nalgebra::{DMatrix, DVector, SVD};
+
+use crate::identify::series::Point;
+
+/// Singular values below this part of the largest count as none: what they stand for is not in the data at all.
+const NONE: f64 = 1e-9;
+
+/// Step of an unknown for derivatives of the complex modulus.
+const STEP: f64 = 1e-4;
+
+/// Directions of the unknowns, and how far the data let each of them go.
+#[derive(Debug, Clone)]
+pub(super) struct Directions {
+    /// Descending.
+    pub(super) singular_values: Vec<f64>,
+    /// A row for each direction, of length one.
+    pub(super) vectors: DMatrix<f64>,
+    /// Standard deviation along each, as a logarithm.
+    pub(super) deviations: Vec<f64>,
+}
+
+impl Directions {
+    /// Of derivatives of residuals that scatter with this standard deviation; `None` where there is no decomposition.
+    pub(super) fn new(derivatives: &DMatrix<f64>, scatter: f64) -> Option<Self> {
+        if !derivatives.iter().all(|value| value.is_finite()) {
+            return None;
+        }
+        // As many directions as unknowns, also where there are fewer data.
+        let (rows, columns) = derivatives.shape();
+        let padded = match rows < columns {
+            true => derivatives.clone().resize_vertically(columns, 0.0),
+            false => derivatives.clone(),
+        };
+        let decomposed = SVD::new(padded, false, true);
+        let vectors = decomposed.v_t?;
+        let singular_values: Vec<f64> = decomposed.singular_values.iter().copied().collect();
+        let largest = singular_values.iter().fold(0.0_f64, |a, s| a.max(*s));
+        let deviations = singular_values
+            .iter()
+            .map(|s| scatter / s.max(NONE * largest));
+        Some(Self {
+            deviations: deviations.collect(),
+            vectors,
+            singular_values,
+        })
+    }
+
+    /// Covariance of the unknowns.
+    pub(super) fn covariance(&self) -> DMatrix<f64> {
+        let squares = self.deviations.iter().map(|d| d * d);
+        let diagonal = DMatrix::from_diagonal(&DVector::from_vec(squares.collect()));
+        self.vectors.transpose() * diagonal * &self.vectors
+    }
+
+    /// Variance of a quantity with this gradient.
+    pub(super) fn variance(&self, gradient: &DVector<f64>) -> f64 {
+        let along = &self.vectors * gradient;
+        along
+            .iter()
+            .zip(&self.deviations)
+            .map(|(a, d)| (a * d).powi(2))
+            .sum()
+    }
+}
+
+/// Logarithms of storage and loss modulus (Pa), and their gradients.
+pub(super) fn moduli(point: &Point, angular_frequency_rad_per_s: f64) -> [(f64, DVector<f64>); 2] {
+    let ln = |point: &Point| {
+        let modulus = point.complex_modulus(angular_frequency_rad_per_s);
+        [modulus.re, modulus.im].map(|part| part.max(f64::MIN_POSITIVE).ln())
+    };
+    let count = point.0.len();
+    let mut gradients = [DVector::zeros(count), DVector::zeros(count)];
+    for place in 0..count {
+        let moved = |step: f64| {
+            let mut moved = point.clone();
+            moved.0[place] += step;
+            ln(&moved)
+        };
+        let (above, below) = (moved(STEP), moved(-STEP));
+        for (part, gradient) in gradients.iter_mut().enumerate() {
+            gradient[place] = (above[part] - below[part]) / (2.0 * STEP);
+        }
+    }
+    let [storage, loss] = ln(point);
+    let [of_storage, of_loss] = gradients;
+    [(storage, of_storage), (loss, of_loss)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_combination_that_no_datum_feels_is_wide_open_and_the_others_are_not() {
+        // Two data that feel the sum of two unknowns alone.
+        let matrix = DMatrix::from_row_slice(3, 2, &[1.0, 1.0, 2.0, 2.0, 2.0, 2.0]);
+        let directions = Directions::new(&matrix, 0.1).unwrap();
+        let sum = DVector::from_vec(vec![1.0, 1.0]);
+        let difference = DVector::from_vec(vec![1.0, -1.0]);
+        // Variance of a sum that is measured with weights 1, 4 and 4.
+        assert!((directions.variance(&sum) / (0.01 / 9.0) - 1.0).abs() < 1e-9);
+        assert!(directions.variance(&difference) > 1e6);
+    }
+
+    #[test]
+    fn the_gradient_of_the_moduli_is_that_of_a_maxwell_element() {
+        let point = Point(vec![1e6_f64.ln(), 1e8_f64.ln(), 0.0]);
+        let [(storage, of_storage), (loss, of_loss)] = moduli(&point, 1.0);
+        // At x = 1: E' = g_inf + g/2, E'' = g/2, which does not change with the time.
+        assert!(
+            (storage.exp() / 5.1e7 - 1.0).abs() < 1e-12 && (loss.exp() / 5e7 - 1.0).abs() < 1e-12
+        );
+        assert!((of_storage[1] - 5e7 / 5.1e7).abs() < 1e-7 && (of_loss[1] - 1.0).abs() < 1e-7);
+        assert!((of_storage[2] - 5e7 / 5.1e7).abs() < 1e-7 && of_loss[2].abs() < 1e-7);
+    }
+}

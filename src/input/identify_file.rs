@@ -1,0 +1,98 @@
+//! Identification files: from a document, and the table that it names, to what an identification needs to know.
+
+use std::path::Path;
+
+use super::data_file;
+use super::diagnostic::{Diagnostic, Diagnostics, Problems};
+use super::document::reader::TableReader;
+use super::document::{Document, Located};
+use super::keys;
+use super::keys::identify::{
+    DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE, MODEL_SOLVER,
+};
+use super::keys::material::POISSON_RATIO;
+use super::sweep_file::{cycle, solver};
+use super::{harmonic_block, indenter_block, measured_table};
+use crate::drive::HarmonicDrive;
+use crate::identify::IdentifyPlan;
+use crate::identify::data::Measurements;
+use crate::sweep::plan::SolverPlan;
+
+/// The table of results in a folder of a sweep or of an analysis.
+const TABLE: &str = "sweep.csv";
+
+/// The plan that an identification file asks for.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once, each problem with its place and what to write instead.
+pub fn plan(document: &Document) -> Result<IdentifyPlan, Diagnostics> {
+    let problems = Problems::new();
+    let mut root = document.root(&problems);
+    let title = root.value(&keys::TITLE);
+    let poisson_ratio = root.table(&KNOWN_MATERIAL).and_then(known_material);
+    let indenter = root.table(&keys::INDENTER);
+    let indenter = indenter.and_then(|t| indenter_block::read(t, document.folder(), &problems));
+    let drive = root.table(&MEASURED_DRIVE);
+    let drive = drive.and_then(|t| harmonic_block::read(t, &problems));
+    let measured = root.table(&IDENTIFY);
+    let measured = measured.and_then(|t| measured_block(t, document.folder(), drive, &problems));
+    let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, cycle);
+    let default = indenter
+        .as_ref()
+        .map_or_else(SolverPlan::default, |indenter| {
+            IdentifyPlan::solver(indenter.as_ref())
+        });
+    let solver = root.table_or(&MODEL_SOLVER, default, |t| solver(t, default));
+    root.finish();
+    let plan = (|| {
+        let (data, measurements, branches) = measured?;
+        Some(IdentifyPlan {
+            title: title?,
+            poisson_ratio: poisson_ratio?,
+            indenter: indenter?,
+            drive: drive?,
+            branches,
+            measurements,
+            data,
+            cycle: cycle?,
+            solver: solver?,
+        })
+    })();
+    problems.into_result(plan)
+}
+
+fn known_material(mut table: TableReader<'_>) -> Option<f64> {
+    let poisson_ratio = table.value(&POISSON_RATIO);
+    table.finish();
+    poisson_ratio
+}
+
+/// The `[identify]` block: measurements, and how many branches.
+fn measured_block(
+    mut table: TableReader<'_>,
+    folder: &Path,
+    drive: Option<HarmonicDrive>,
+    problems: &Problems,
+) -> Option<(String, Measurements, Option<usize>)> {
+    let data = table.read(&DATA);
+    let branches = table.value(&IDENTIFY_BRANCHES);
+    table.finish();
+    let data = data?;
+    let file = match data.path_from(folder).is_dir() {
+        true => Located {
+            value: Path::new(&data.value).join(TABLE).display().to_string(),
+            path: data.path,
+            location: data.location,
+        },
+        false => data,
+    };
+    let (name, bytes) = data_file::named(&file, folder, problems)?;
+    // Without a drive, which was reported, rows without one of their own mean nothing.
+    let rows = measured_table::parse(&name, &bytes, drive?);
+    let (cycles, data) = data_file::accepted(rows, &file, problems)?;
+    let measurements = Measurements::new(cycles, data).map_err(|error| {
+        let refused = Diagnostic::at(&file.location, format!("{name}: {error}"));
+        problems.extend(refused.into());
+    });
+    Some((name, measurements.ok()?, branches?.flatten()))
+}

@@ -1,0 +1,49 @@
+//! Keys of an identification: what was measured, and what the result is to be.
+
+use super::material::POISSON_RATIO;
+use super::rows;
+use super::{INDENTER, TITLE, drive, settings};
+use crate::identify::MOST_BRANCHES;
+use crate::input::document::kind::{Table, Text};
+use crate::input::document::row::{Optional, Required, Row, Rows};
+use crate::input::material_dynamic::Branches;
+
+rows! { IDENTIFY_KEYS:
+    /// A table with columns of `sweep.csv`, errors beside values where they are known; or a folder that holds `sweep.csv`.
+    DATA: Row<Text, Required> = "data", Text, Required;
+    /// Branches of the series: a number, or `auto`, which counts where it is left out: as many as the data ask for.
+    IDENTIFY_BRANCHES: Row<Branches, Optional> = "branches", Branches(1..=MOST_BRANCHES), Optional;
+}
+
+static IDENTIFY_TABLE: Rows = super::table(" What was measured.", IDENTIFY_KEYS);
+
+static MATERIAL_TABLE: Rows = super::table(
+    " What is known of the material: its Poisson ratio.",
+    &[&POISSON_RATIO],
+);
+
+rows! { _:
+    /// What was measured.
+    IDENTIFY: Row<Table, Required> = "identify", Table(&IDENTIFY_TABLE), Required;
+    /// What is known of the material.
+    KNOWN_MATERIAL: Row<Table, Required> = "material", Table(&MATERIAL_TABLE), Required;
+    /// The oscillation that the cycles were measured under; rows with `drive_mean` and `drive_amplitude` have their own.
+    MEASURED_DRIVE: Row<Table, Required> = "drive", Table(&drive::HARMONIC), Required;
+    /// How the cycles of the model are resolved.
+    MODEL_CYCLE: Row<Table, Optional> = "cycle", Table(&settings::CYCLE), Optional;
+    /// Which contact engine, and how fine.
+    MODEL_SOLVER: Row<Table, Optional> = "solver", Table(&settings::SOLVER), Optional;
+}
+
+pub(super) static IDENTIFY_FILE: Rows = super::table(
+    " A material from measured cycles, for `contact-dma identify`.",
+    &[
+        &TITLE,
+        &IDENTIFY,
+        &KNOWN_MATERIAL,
+        &INDENTER,
+        &MEASURED_DRIVE,
+        &MODEL_CYCLE,
+        &MODEL_SOLVER,
+    ],
+);

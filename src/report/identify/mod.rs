@@ -1,0 +1,244 @@
+//! What is reported of a material that was identified from measured cycles: lines for people, tables, the summary.
+
+pub mod summary;
+pub mod tables;
+
+use crate::identify::{Curve, Identified, IdentifyPlan, Knowledge, Unknown, column};
+use crate::quantity::{Dimension, format_human};
+use crate::report::number::scientific;
+use crate::report::words::{listed, wrapped};
+use crate::sweep::record::error_bars::Quantity;
+
+/// An identification and what it came to.
+pub struct IdentifyReport<'a> {
+    pub plan: &'a IdentifyPlan,
+    pub found: &'a Identified,
+    /// Of the model between the data, where there are any.
+    pub curves: &'a [Curve],
+}
+
+/// How many times their errors the model may miss the data, on average, before that is said.
+const MISSED: f64 = 1.5;
+
+impl IdentifyReport<'_> {
+    /// What was found, in lines of at most 80 columns; ends with a line end.
+    pub fn text(&self) -> String {
+        let lines = self.lines();
+        lines
+            .iter()
+            .map(|line| wrapped(line, 80, "", "  "))
+            .collect()
+    }
+
+    /// The same, one fact a line.
+    pub fn lines(&self) -> Vec<String> {
+        let measured = &self.plan.measurements;
+        let notes = measured.notes().iter().map(|note| format!("Note: {note}."));
+        let mut lines = vec![self.data()];
+        lines.extend(notes);
+        lines.push(self.noise());
+        lines.push(self.series());
+        lines.push(self.window());
+        lines.extend(self.open());
+        lines.extend(
+            self.warnings()
+                .iter()
+                .map(|warning| format!("Warning: {warning}.")),
+        );
+        lines
+    }
+
+    fn data(&self) -> String {
+        let measured = &self.plan.measurements;
+        let columns: Vec<String> = measured
+            .quantities()
+            .into_iter()
+            .map(|quantity| column(quantity).to_owned())
+            .collect();
+        format!(
+            "Measured: {} numbers of {} cycles ({}).",
+            measured.data().len(),
+            measured.cycles().len(),
+            listed(&columns)
+        )
+    }
+
+    /// The mean relative error of every column.
+    pub fn noise_of(&self, quantity: Quantity) -> f64 {
+        let of = self
+            .found
+            .compared
+            .iter()
+            .filter(|c| c.quantity == quantity);
+        let (sum, count) = of.fold((0.0, 0.0), |(sum, count), c| {
+            (sum + c.error / c.measured, count + 1.0)
+        });
+        sum / f64::max(count, 1.0)
+    }
+
+    fn noise(&self) -> String {
+        let quantities = self.plan.measurements.quantities().into_iter();
+        let each: Vec<String> = quantities
+            .map(|quantity| {
+                format!(
+                    "{} of {}",
+                    percent(self.noise_of(quantity)),
+                    column(quantity)
+                )
+            })
+            .collect();
+        let each = listed(&each);
+        match self.found.knowledge {
+            Knowledge::All => format!(
+                "Errors as given: {each} on average; chi squared per degree of freedom {}.",
+                scientific(self.found.reduced_chi_squared, 2)
+            ),
+            Knowledge::Some => format!(
+                "Errors as given where they are, elsewhere estimated from the residuals: {each} on average."
+            ),
+            Knowledge::None => format!(
+                "The data have no errors: their noise is estimated from the residuals, {each}."
+            ),
+        }
+    }
+
+    fn series(&self) -> String {
+        let count = self.found.relaxation.branches().len();
+        let plural = if count == 1 { "" } else { "es" };
+        match self.plan.branches {
+            Some(asked) if asked == count => {
+                format!("Series: {count} branch{plural}, as asked for.")
+            }
+            _ => {
+                let tried = self.found.candidates.len();
+                format!("Series: {count} branch{plural}, chosen among 1 to {tried}.")
+            }
+        }
+    }
+
+    fn window(&self) -> String {
+        let (lowest, highest) = self.found.window_rad_per_s;
+        let omega = |value| format_human(value, Dimension::AngularFrequency, 4);
+        format!(
+            "Measured from ω = {} to {}; outside, the series is an extrapolation.",
+            omega(lowest),
+            omega(highest)
+        )
+    }
+
+    /// What the data do not determine.
+    pub fn open(&self) -> Vec<String> {
+        let open = self.found.undetermined.iter().map(|open| {
+            let parts: Vec<String> = open
+                .parts
+                .iter()
+                .map(|(name, power)| power_of(name, *power))
+                .collect();
+            format!(
+                "Not determined: {} may be off by a factor of {}.",
+                parts.join(" · "),
+                factor(open.factor)
+            )
+        });
+        let open: Vec<String> = open.collect();
+        match open.is_empty() {
+            true => {
+                vec!["All moduli and times are determined to within a factor of two.".to_owned()]
+            }
+            false => open,
+        }
+    }
+
+    /// What a reader should know before using the material.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut warnings = Vec::new();
+        let missed = self.found.reduced_chi_squared.sqrt();
+        if self.found.knowledge == Knowledge::All && missed > MISSED {
+            warnings.push(format!(
+                "the series misses the data by {} times their errors: the errors are too small, or the material or the contact is \
+                 not what the model takes it for",
+                scientific(missed, 2)
+            ));
+        }
+        let (lowest, highest) = self.found.window_rad_per_s;
+        let beyond = |time_s: f64| time_s * lowest > 1.0 || time_s * highest < 1.0;
+        let branches = self.found.relaxation.branches().iter();
+        let count = branches.filter(|branch| beyond(branch.time_s)).count();
+        if count > 0 {
+            let (has, its) = if count == 1 {
+                ("branch has its time", "it shows")
+            } else {
+                ("branches have their times", "they show")
+            };
+            warnings.push(format!(
+                "{count} {has} beyond one over the measured frequencies, where {its} as a slope alone"
+            ));
+        }
+        warnings
+    }
+
+    /// The unknowns with their intervals, as a table of at most 80 columns.
+    pub fn unknowns(&self) -> String {
+        let mut text = format!(
+            "{:<7}{:>14}  {:>14}  95 % interval\n",
+            "", "value", "known to"
+        );
+        for unknown in &self.found.unknowns {
+            let value = |value: f64| format_human(value, dimension(unknown), 4);
+            let known = match unknown.is_determined {
+                true => format!("± {}", percent(unknown.factor - 1.0)),
+                false => "undetermined".to_owned(),
+            };
+            let interval = match unknown.is_determined {
+                true => format!(
+                    "{} to {}",
+                    value(unknown.value / unknown.factor),
+                    value(unknown.value * unknown.factor)
+                ),
+                false => format!("a factor of {}", factor(unknown.factor)),
+            };
+            text.push_str(&format!(
+                "{:<7}{:>14}  {known:>14}  {interval}\n",
+                unknown.name,
+                value(unknown.value)
+            ));
+        }
+        text
+    }
+}
+
+/// A part in two digits, as far as a hundredth of a per cent.
+fn percent(part: f64) -> String {
+    let percent = 100.0 * part;
+    let decimals = match percent {
+        p if p >= 9.95 => 0,
+        p if p >= 0.995 => 1,
+        _ => 2,
+    };
+    format!("{percent:.decimals$} %")
+}
+
+/// Pa for moduli, s for times.
+pub fn dimension(unknown: &Unknown) -> Dimension {
+    match unknown.name.starts_with("tau") {
+        true => Dimension::Time,
+        false => Dimension::Stress,
+    }
+}
+
+/// `g_1`, `tau_2^-0.8`.
+fn power_of(name: &str, power: f64) -> String {
+    match (power - 1.0).abs() < 0.05 {
+        true => name.to_owned(),
+        false if (power + 1.0).abs() < 0.05 => format!("{name}^-1"),
+        false => format!("{name}^{power:.1}"),
+    }
+}
+
+/// A factor in two digits, or that it is without bounds.
+fn factor(factor: f64) -> String {
+    match factor < 1e6 {
+        true => scientific(factor, 2),
+        false => "more than a million".to_owned(),
+    }
+}

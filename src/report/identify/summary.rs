@@ -1,0 +1,92 @@
+//! `summary.json` of an identification.
+
+use serde_json::{Value, json};
+
+use super::{IdentifyReport, dimension};
+use crate::identify::{Knowledge, column};
+
+/// The summary as an object; what is undefined is null.
+pub fn summary(report: &IdentifyReport<'_>) -> Value {
+    let found = report.found;
+    let measured = &report.plan.measurements;
+    let unknowns = found.unknowns.iter().map(|unknown| {
+        json!({
+            "name": unknown.name,
+            "value": unknown.value,
+            "unit": dimension(unknown).si_unit(),
+            "low": unknown.value / unknown.factor,
+            "high": unknown.value * unknown.factor,
+            "determined": unknown.is_determined,
+        })
+    });
+    let candidates = found.candidates.iter().map(|c| {
+        json!({
+            "branches": c.branches,
+            "chi_squared": c.chi_squared,
+            "akaike": finite(c.akaike),
+            "schwarz": finite(c.schwarz),
+            "weight": c.weight,
+            "two_times_are_one": c.has_close_times,
+        })
+    });
+    let columns = measured.quantities().into_iter().map(|quantity| {
+        json!({ "column": column(quantity), "relative_error": report.noise_of(quantity) })
+    });
+    let undetermined = found.undetermined.iter().map(|open| {
+        let powers = open
+            .parts
+            .iter()
+            .map(|(name, power)| json!({ "name": name, "power": power }));
+        json!({ "factor": open.factor, "powers": powers.collect::<Vec<_>>() })
+    });
+    let mut omegas: Vec<f64> = found
+        .compared
+        .iter()
+        .map(|c| c.angular_frequency_rad_per_s)
+        .collect();
+    omegas.sort_by(f64::total_cmp);
+    omegas.dedup();
+    let moduli = omegas.into_iter().map(|omega| {
+        let band = found.band(omega);
+        json!({
+            "angular_frequency_rad_per_s": omega,
+            "storage_modulus_pa": band.storage_pa,
+            "storage_modulus_low_pa": band.storage_pa / band.storage_factor,
+            "storage_modulus_high_pa": band.storage_pa * band.storage_factor,
+            "loss_modulus_pa": band.loss_pa,
+            "loss_modulus_low_pa": band.loss_pa / band.loss_factor,
+            "loss_modulus_high_pa": band.loss_pa * band.loss_factor,
+        })
+    });
+    json!({
+        "title": report.plan.title,
+        "numbers": found.compared.len(),
+        "columns": columns.collect::<Vec<_>>(),
+        "errors": match found.knowledge {
+            Knowledge::All => "given",
+            Knowledge::Some => "given-in-part",
+            Knowledge::None => "estimated",
+        },
+        "branches": found.relaxation.branches().len(),
+        "branches_asked": report.plan.branches,
+        "equilibrium_modulus_pa": found.relaxation.equilibrium_modulus(),
+        "poisson_ratio": report.plan.poisson_ratio,
+        "unknowns": unknowns.collect::<Vec<_>>(),
+        "correlations": found.correlations,
+        "singular_values": found.singular_values,
+        "undetermined": undetermined.collect::<Vec<_>>(),
+        "candidates": candidates.collect::<Vec<_>>(),
+        "reduced_chi_squared": found.reduced_chi_squared,
+        "degrees_of_freedom": found.degrees_of_freedom,
+        "window_rad_per_s": found.window_rad_per_s,
+        "moduli": moduli.collect::<Vec<_>>(),
+        "notes": measured.notes(),
+        "warnings": report.warnings(),
+        "program": env!("CARGO_PKG_NAME"),
+        "program_version": env!("CARGO_PKG_VERSION"),
+    })
+}
+
+fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
+}

@@ -1,0 +1,187 @@
+//! `contact-dma identify`: what it writes and prints, and what it refuses.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::Path;
+
+use crate::program::program;
+use predicates::str::contains;
+use tempfile::TempDir;
+
+const FILE: &str = "title = \"A measured solid\"\n[identify]\ndata = \"measured.csv\"\n[material]\npoisson_ratio = 0.45\n\
+                    [indenter]\nshape = \"sphere\"\nradius = \"2 mm\"\n[drive]\nmean = \"0.2 N\"\namplitude = \"0.1 N\"\n";
+
+/// The measurement of the example.
+fn example() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/identify-polymer.csv");
+    fs::read_to_string(path).unwrap()
+}
+
+/// A folder with a measurement and the file that names it.
+fn folder(table: &str) -> TempDir {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("measured.csv"), table).unwrap();
+    fs::write(folder.path().join("solid.toml"), FILE).unwrap();
+    folder
+}
+
+fn column(text: &str, name: &str) -> Vec<Option<f64>> {
+    let mut rows = csv::Reader::from_reader(text.as_bytes());
+    let headers = rows.headers().unwrap();
+    let place = headers.iter().position(|header| header == name).unwrap();
+    rows.records()
+        .map(|row| row.unwrap()[place].parse().ok())
+        .collect()
+}
+
+#[test]
+fn the_solid_of_the_example_is_found_and_its_block_is_one_of_a_sweep() {
+    let folder = folder(&example());
+    let printed = program()
+        .current_dir(folder.path())
+        .args(["identify", "solid.toml", "--out", "found"])
+        .assert()
+        .success();
+    let printed = String::from_utf8(printed.get_output().stdout.clone()).unwrap();
+    println!("{printed}");
+    assert!(
+        printed.lines().all(|line| line.chars().count() <= 80),
+        "{printed}"
+    );
+    assert!(printed.contains("Series: 3 branches, chosen among 1 to 6."));
+    let read = |name: &str| fs::read_to_string(folder.path().join("found").join(name)).unwrap();
+    let prony = read("prony.csv");
+    let (moduli, times) = (column(&prony, "modulus_pa"), column(&prony, "time_s"));
+    assert_eq!((moduli.len(), times[0]), (4, None));
+    // Losses and phases with 1 % of noise: moduli and times to some per cent.
+    let truth = [
+        (20e6, None),
+        (150e6, Some(3e-3)),
+        (90e6, Some(0.1)),
+        (40e6, Some(4.0)),
+    ];
+    for ((modulus, time), (modulus_pa, time_s)) in moduli.iter().zip(&times).zip(truth) {
+        assert!(
+            (modulus.unwrap() / modulus_pa - 1.0_f64).abs() < 0.1,
+            "{prony}"
+        );
+        let off = time
+            .zip(time_s)
+            .map_or(0.0, |(found, exact): (f64, f64)| found / exact - 1.0);
+        assert!(off.abs() < 0.1, "{prony}");
+    }
+    let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    assert_eq!(summary["errors"], "given");
+    assert_eq!(summary["unknowns"][0]["name"], "g_inf");
+    assert_eq!(summary["moduli"].as_array().unwrap().len(), 12);
+    for file in [
+        "moduli.svg",
+        "moduli.png",
+        "data-and-model.svg",
+        "residuals.svg",
+        "index.html",
+        "fit.csv",
+    ] {
+        assert!(folder.path().join("found").join(file).is_file(), "{file}");
+    }
+    let block = read("material.toml");
+    let rest = FILE.split_once("[indenter]").unwrap().1;
+    let sweep = format!("title = \"t\"\n{block}\n[indenter]{rest}[sweep]\nfrequency = [1]\n");
+    fs::write(folder.path().join("sweep.toml"), sweep).unwrap();
+    program()
+        .current_dir(folder.path())
+        .args(["sweep", "sweep.toml", "--quiet", "--no-figures"])
+        .assert()
+        .success();
+    // The file with every default is the same identification.
+    fs::copy(
+        folder.path().join("found/resolved.toml"),
+        folder.path().join("again.toml"),
+    )
+    .unwrap();
+    program()
+        .current_dir(folder.path())
+        .args(["identify", "again.toml", "--quiet", "--threads", "1"])
+        .assert()
+        .success()
+        .stdout("");
+    let again = fs::read_to_string(folder.path().join("reports/again/prony.csv")).unwrap();
+    assert_eq!(again, prony);
+}
+
+#[test]
+fn a_folder_of_a_sweep_gives_its_material_back() {
+    let folder = folder("");
+    let sweep = "title = \"t\"\n[material]\npoisson_ratio = 0.45\n[material.relaxation]\nmodulus = \"longitudinal\"\n\
+                 equilibrium = \"5 MPa\"\nbranches = [{ modulus = \"60 MPa\", time = \"0.1 s\" }]\n";
+    let rest = FILE.split_once("[indenter]").unwrap().1;
+    let sweep = format!(
+        "{sweep}[indenter]{rest}[sweep]\nangular_frequency = {{ from = 0.1, to = 1000, points = 9 }}\n"
+    );
+    fs::write(folder.path().join("sweep.toml"), sweep).unwrap();
+    let run = |arguments: &[&str]| {
+        program()
+            .current_dir(folder.path())
+            .args(arguments)
+            .assert()
+            .success()
+    };
+    run(&["sweep", "sweep.toml", "--quiet", "--out", "swept"]);
+    let printed = run(&[
+        "identify",
+        "solid.toml",
+        "--set",
+        "identify.data=swept",
+        "--format",
+        "json",
+    ]);
+    let found: serde_json::Value = serde_json::from_slice(&printed.get_output().stdout).unwrap();
+    assert_eq!(found["branches"], 1, "{found}");
+    for (place, exact) in [5e6, 60e6, 0.1].into_iter().enumerate() {
+        let unknown = &found["unknowns"][place];
+        let value = unknown["value"].as_f64().unwrap();
+        // The forward model on 64 springs and steps is within 0.1 % of the sweep's own.
+        assert!((value / exact - 1.0).abs() < 3e-3, "{unknown}");
+        assert_eq!(unknown["determined"], true);
+    }
+}
+
+#[test]
+fn data_that_say_nothing_or_contradict_themselves_are_refused_with_the_reason() {
+    let rows = |row: &dyn Fn(i32) -> String| -> String {
+        let all = (0..8).map(|k| format!("{},{}\n", 10_f64.powi(k - 3), row(k)));
+        let rows: String = all.collect();
+        format!("frequency_hz,energy_loss_j,phase_lag_rad\n{rows}")
+    };
+    for (table, reason) in [
+        (rows(&|_| "1e-7,0.1".to_owned()), "are flat"),
+        (
+            rows(&|k| format!("{}e-7,-0.1", k + 1)),
+            "a passive material dissipates",
+        ),
+        (rows(&|k| format!("{}e-7,{}", k + 1, 20 + k)), "degrees"),
+        // A loss that falls by decades while the phase rises.
+        (
+            rows(&|k| format!("1e-{},{}", k + 5, 0.05 * f64::from(k + 1))),
+            "contradict one another",
+        ),
+        (
+            "frequency_hz,energy_loss_j\n1,1e-7\n2,2e-7\n".to_owned(),
+            "at least 4",
+        ),
+        (
+            "frequency_hz,energy_loss_j\n1,1e-7\n1,2e-7\n1,3e-7\n1,4e-7\n".to_owned(),
+            "all measurements are at one frequency",
+        ),
+    ] {
+        let folder = folder(&table);
+        program()
+            .current_dir(folder.path())
+            .args(["identify", "solid.toml"])
+            .assert()
+            .code(2)
+            .stderr(contains(reason));
+        assert!(!folder.path().join("reports").exists(), "{reason}");
+    }
+}
