@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 1 could not run; 2 bad usage or bad input; 3 done, but some cases did not converge; 4 results differ (`compare`);
 //! 130 interrupted.
 
+mod analyse;
 mod arguments;
 mod compare;
 mod json;
@@ -87,6 +88,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Plan(flags) => plan::run(&flags, format),
         Command::Merge(flags) => stored::merge(&flags, format),
         Command::Report(flags) => stored::report(&flags, format),
+        Command::Analyse(flags) => analyse::run(&flags, format),
         Command::Compare(flags) => compare::run(&flags, format),
         Command::Simulate(flags) => simulate::run(&flags, format),
         Command::Reproduce(flags) => reproduce::run(&flags, format),

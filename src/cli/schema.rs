@@ -1,4 +1,4 @@
-//! `contact-dma schema`: the JSON Schema of sweep or scenario files.
+//! `contact-dma schema`: the JSON Schema of input files.
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -22,11 +22,12 @@ pub(super) struct SchemaFlags {
 }
 
 fn kinds() -> impl TypedValueParser<Value = FileKind> {
-    PossibleValuesParser::new(FileKind::NAMES.map(|(name, _)| name)).map(|name| {
-        match name == FileKind::NAMES[0].0 {
-            true => FileKind::NAMES[0].1,
-            false => FileKind::NAMES[1].1,
-        }
+    let names = PossibleValuesParser::new(FileKind::NAMES.map(|(name, _)| name));
+    names.try_map(|name| {
+        let found = FileKind::NAMES.iter().find(|(known, _)| *known == name);
+        found
+            .map(|(_, kind)| *kind)
+            .ok_or("this is no kind of file")
     })
 }
 

@@ -7,6 +7,7 @@
 //! | [`input_files`] | every key of a sweep file and of a file of one drive history |
 //! | [`own_material`] | how a material is given: series, tables of measured data, code |
 //! | [`measured_material`] | from the file of a DMA instrument to a master curve, a series and a loss curve with its uncertainty |
+//! | [`measured_loop`] | from an instrument's record of load and depth to loss, phase and moduli with their uncertainties |
 //! | [`own_indenter`] | how a shape is given: profile, height map, code |
 //! | [`own_loading`] | what drives the contact: oscillations about a mean, histories, records |
 //! | [`cluster`] | sweeps on several machines: shards, Slurm; what a folder remembers, how results are compared |
@@ -32,6 +33,10 @@ pub mod own_material {
 
 pub mod measured_material {
     #![doc = include_str!("measured_material.md")]
+}
+
+pub mod measured_loop {
+    #![doc = include_str!("measured_loop.md")]
 }
 
 pub mod own_indenter {

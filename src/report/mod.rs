@@ -35,6 +35,7 @@ pub mod figure;
 pub mod fit;
 pub mod machine;
 pub mod material;
+pub mod measured;
 pub mod npy;
 pub mod number;
 pub mod page;

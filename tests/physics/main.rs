@@ -10,6 +10,7 @@ mod energy_balance;
 mod error_bars;
 mod half_space_work;
 mod instant_tolerance;
+mod measured_loops;
 mod pmma_baseline;
 mod pressure_profiles;
 mod quarter;

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms from top to bottom.
-const ROOMS: [&str; 15] = [
+const ROOMS: [&str; 16] = [
     "quantity",
     "material",
     "indenter",
@@ -15,6 +15,7 @@ const ROOMS: [&str; 15] = [
     "steady",
     "reference",
     "sweep",
+    "measured",
     "input",
     "report",
     "reproduction",
@@ -28,7 +29,7 @@ const SWEEP: [&str; 10] = [
 ];
 
 /// Parts of the room `report` from top to bottom.
-const REPORT: [&str; 26] = [
+const REPORT: [&str; 27] = [
     "number",
     "words",
     "peaks",
@@ -38,6 +39,7 @@ const REPORT: [&str; 26] = [
     "quantities",
     "fit",
     "dynamic",
+    "measured",
     "samples",
     "caption",
     "comparison",

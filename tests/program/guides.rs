@@ -236,6 +236,19 @@ fn measured_material() {
 }
 
 #[test]
+fn measured_loop() {
+    let printed = follow("measured_loop");
+    for part in [
+        "Stabilised from cycle",
+        "Drift of the approach: linear",
+        "without bias",
+        "the same within",
+    ] {
+        assert!(printed.contains(part), "{part}\n{printed}");
+    }
+}
+
+#[test]
 fn own_indenter() {
     follow("own_indenter");
 }
@@ -275,7 +288,7 @@ fn every_guide_is_followed_here_and_named_in_the_readme() {
             assert!(readme.contains(&format!("(src/guide/{name})")), "{guide}");
         }
     }
-    assert_eq!(guides, 11);
+    assert_eq!(guides, 12);
     // What it is, two commands, where to read on.
     assert!(readme.len() < 9 * 1024, "{}", readme.len());
 }

@@ -9,6 +9,7 @@ mod inputs;
 #[path = "../common/program.rs"]
 mod program;
 
+mod analyse;
 mod architecture;
 mod build_identity;
 mod command_line;

@@ -5,6 +5,7 @@ pub(crate) mod drive;
 pub(super) mod indenter;
 pub(crate) mod material;
 pub(super) mod settings;
+pub(super) mod setup;
 
 use super::document::kind::{Table, Text};
 use super::document::row::{List, Optional, Others, Required, Row, Rows};
@@ -38,24 +39,31 @@ pub(super) const fn table(means: &'static str, keys: List) -> Rows {
     }
 }
 
-/// The two kinds of input files.
+/// The kinds of input files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
     /// A frequency sweep.
     Sweep,
     /// One drive history.
     Scenario,
+    /// Instrument and contact of measured loops.
+    Setup,
 }
 
 impl FileKind {
-    /// Both, as they are named on the command line.
-    pub const NAMES: [(&str, Self); 2] = [("sweep", Self::Sweep), ("scenario", Self::Scenario)];
+    /// All, as they are named on the command line.
+    pub const NAMES: [(&str, Self); 3] = [
+        ("sweep", Self::Sweep),
+        ("scenario", Self::Scenario),
+        ("setup", Self::Setup),
+    ];
 
     /// The keys of such a file.
     pub(crate) fn rows(self) -> &'static Rows {
         match self {
             Self::Sweep => &SWEEP_FILE,
             Self::Scenario => &SCENARIO_FILE,
+            Self::Setup => &setup::SETUP_FILE,
         }
     }
 }

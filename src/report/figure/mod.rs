@@ -16,6 +16,7 @@ pub mod history;
 pub mod loops;
 pub mod loss_map;
 pub mod loss_tangent;
+pub mod measured;
 pub mod moduli;
 pub mod moduli_error;
 pub mod of_sweep;

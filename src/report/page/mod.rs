@@ -10,6 +10,7 @@ pub mod frame;
 pub(super) mod how;
 pub mod html;
 pub mod material;
+pub mod measured;
 mod pictures;
 pub(super) mod question;
 mod simulation;
