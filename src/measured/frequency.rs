@@ -26,7 +26,7 @@ impl Frequency {
 }
 
 /// By how much the grid of the transform is finer than that of the record's own frequencies.
-const PADDING: usize = 4;
+pub(super) const LINES_A_FREQUENCY: usize = 4;
 /// Points of the resampled record, at most.
 const LARGEST: usize = 1 << 18;
 /// Steps of Gauss and Newton; from the spectrum it takes three or four.
@@ -37,9 +37,9 @@ pub(super) fn of_spectrum(signal: &Signal, sampling: &Sampling) -> Result<f64, M
     let points = sampling.samples.next_power_of_two().clamp(64, LARGEST);
     let spectrum = |values: &[f64]| power(&uniform(&signal.time_s, values, points));
     let (load, approach) = (spectrum(&signal.load_n), spectrum(&signal.approach_m));
-    let line_hz = (points - 1) as f64 / (points * PADDING) as f64 / sampling.duration_s;
+    let line_hz = (points - 1) as f64 / (points * LINES_A_FREQUENCY) as f64 / sampling.duration_s;
     // Below, a drift is what is seen; above, samples say nothing.
-    let lowest = (0.8 * PADDING as f64).ceil() as usize;
+    let lowest = (0.8 * LINES_A_FREQUENCY as f64).ceil() as usize;
     let highest = (0.5 / sampling.interval_s / line_hz).ceil() as usize;
     let product = |k: usize| load.get(k).zip(approach.get(k)).map_or(0.0, |(w, d)| w * d);
     let lines = lowest..=highest.min(load.len().saturating_sub(1));
@@ -52,7 +52,7 @@ pub(super) fn of_spectrum(signal: &Signal, sampling: &Sampling) -> Result<f64, M
 }
 
 /// A signal at uniform times, by lines between its samples.
-fn uniform(times_s: &[f64], values: &[f64], points: usize) -> Vec<f64> {
+pub(super) fn uniform(times_s: &[f64], values: &[f64], points: usize) -> Vec<f64> {
     let (first, last) = (times_s[0], times_s[times_s.len() - 1]);
     let step = (last - first) / (points - 1) as f64;
     let mut at = 0;
@@ -75,7 +75,7 @@ fn uniform(times_s: &[f64], values: &[f64], points: usize) -> Vec<f64> {
 }
 
 /// The power of a signal without its parabola, through a window (von Hann), over its variance.
-fn power(values: &[f64]) -> Vec<f64> {
+pub(super) fn power(values: &[f64]) -> Vec<f64> {
     let n = values.len();
     let u = |i: usize| 2.0 * i as f64 / (n - 1) as f64 - 1.0;
     let legendre: [fn(f64) -> f64; 3] = [|_| 1.0, |u| u, |u| 1.5 * u * u - 0.5];
@@ -100,7 +100,7 @@ fn power(values: &[f64]) -> Vec<f64> {
     for (i, value) in flat.iter_mut().enumerate() {
         *value *= scale * (0.5 + 0.5 * (std::f64::consts::PI * u(i)).cos());
     }
-    flat.resize(n * PADDING, 0.0);
+    flat.resize(n * LINES_A_FREQUENCY, 0.0);
     let transform = RealFftPlanner::<f64>::new().plan_fft_forward(flat.len());
     let mut lines = transform.make_output_vec();
     match transform.process(&mut flat, &mut lines) {

@@ -30,6 +30,7 @@ pub mod cycles;
 pub mod drift;
 pub mod frequency;
 mod least_squares;
+mod lines;
 pub mod moduli;
 mod noise;
 pub mod quality;

@@ -7,6 +7,7 @@ use super::corrections::Harmonics;
 use super::cycles::{self, Cycle, complex};
 use super::drift::{self, Drift, DriftModel, Span};
 use super::frequency::{self, Fit, Frequency, RecordModel};
+use super::lines::{self, Rest};
 use super::moduli::Contact;
 use super::noise::Noise;
 use super::quality::Finding;
@@ -90,7 +91,7 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
     let (model, frequency) = oscillation(&mut signal, &sampling, options, &mut findings)?;
     let period_s = frequency.hz.recip();
     signal.clipped(period_s, &mut findings);
-    let drifts = drifts(&model, &signal)?;
+    let drifts = drifts(&model, &signal, &sampling, &mut findings)?;
     let cut = cycles::cut(&signal, period_s, sampling.interval_s);
     if cut.ranges.is_empty() {
         return Err(MeasuredError::NoWholeCycle {
@@ -286,8 +287,13 @@ fn leave_out_spikes(model: &RecordModel, signal: &mut Signal, findings: &mut Vec
     true
 }
 
-/// The drifts of both signals at the frequency of the model; refuses signals without an oscillation.
-fn drifts(model: &RecordModel, signal: &Signal) -> Result<[Drift; 2], MeasuredError> {
+/// The drifts of both signals at the frequency of the model, and lines beside the oscillation; refuses signals without an oscillation.
+fn drifts(
+    model: &RecordModel,
+    signal: &Signal,
+    sampling: &Sampling,
+    findings: &mut Vec<Finding>,
+) -> Result<[Drift; 2], MeasuredError> {
     let fits = model.fits(signal);
     let span = Span::of(signal);
     let none = || Drift::new(DriftModel::None, &[], span);
@@ -301,6 +307,15 @@ fn drifts(model: &RecordModel, signal: &Signal) -> Result<[Drift; 2], MeasuredEr
         if frequency::amplitude(&fit.coefficients, 1) < 4.5 * (2.0 * variance / samples).sqrt() {
             return Err(MeasuredError::NoOscillation { signal: name });
         }
+        let rest = Rest {
+            name,
+            times_s: &signal.time_s,
+            residual: &fit.residual,
+            amplitude: frequency::amplitude(&fit.coefficients, 1),
+            hz: model.angular / std::f64::consts::TAU,
+            harmonics: model.harmonics,
+        };
+        findings.extend(lines::highest(&rest, sampling));
     }
     let drift = |which: usize| {
         let coefficients = &fits[which].coefficients[model.drift_columns(which)];
