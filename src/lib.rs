@@ -61,6 +61,7 @@
 //! | [`steady`] | the stabilised cycle found directly |
 //! | [`mod@reference`] | closed forms and slow independent solvers; no production room imports it, but for `reproduction` |
 //! | [`sweep`] | plans, cases in parallel, records on disk, peaks; single histories |
+//! | [`measured`] | measured loops: frequency, drift, cycles, corrections, moduli; signals, and the exact model for the bias of a formula |
 //! | [`identify`] | a material from measured cycles: the sweep as a forward model |
 //! | [`input`] | sweep, scenario and identification files, and the data files they name, to plans |
 //! | [`report`] | tables and figures, from records alone |
@@ -87,6 +88,7 @@ pub mod indenter;
 #[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub mod input;
 pub mod material;
+pub mod measured;
 pub mod quantity;
 pub mod reference;
 #[cfg(feature = "report")]

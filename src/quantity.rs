@@ -51,6 +51,16 @@ pub enum Dimension {
     Energy,
     /// K.
     Temperature,
+    /// kg.
+    Mass,
+    /// N/m.
+    Stiffness,
+    /// m/N.
+    FrameCompliance,
+    /// N s/m.
+    Damping,
+    /// m/s.
+    Speed,
 }
 
 /// What there is to know about a dimension.
@@ -66,7 +76,7 @@ struct Profile {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Dimension; 12] = [
+    pub const ALL: [Dimension; 17] = [
         Dimension::Length,
         Dimension::Area,
         Dimension::Force,
@@ -79,6 +89,11 @@ impl Dimension {
         Dimension::Frequency,
         Dimension::Energy,
         Dimension::Temperature,
+        Dimension::Mass,
+        Dimension::Stiffness,
+        Dimension::FrameCompliance,
+        Dimension::Damping,
+        Dimension::Speed,
     ];
 
     /// The SI unit in which [`parse`] answers, as [`format_si`] writes it.
@@ -139,6 +154,25 @@ impl Dimension {
             Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1, 0], (0, 12)),
             Self::Energy => profile("an energy", "J", "3.5 µJ", [2, 1, -2, 0, 0, 0], (-15, 12)),
             Self::Temperature => profile("a temperature", "K", "25 °C", [0, 0, 0, 0, 0, 1], (0, 0)),
+            Self::Mass => profile("a mass", "kg", "200 mg", [0, 1, 0, 0, 0, 0], (0, 0)),
+            Self::Stiffness => {
+                profile("a stiffness", "N/m", "150 N/m", [0, 1, -2, 0, 0, 0], (0, 0))
+            }
+            Self::FrameCompliance => profile(
+                "a frame compliance",
+                "m/N",
+                "0.5 um/N",
+                [0, -1, 2, 0, 0, 0],
+                (0, 0),
+            ),
+            Self::Damping => profile(
+                "a damping",
+                "N s/m",
+                "0.02 N s/m",
+                [0, 1, -1, 0, 0, 0],
+                (0, 0),
+            ),
+            Self::Speed => profile("a speed", "m/s", "0.05 nm/s", [1, 0, -1, 0, 0, 0], (0, 0)),
         }
     }
 }
@@ -513,7 +547,6 @@ fn common_unit(dimension: Dimension) -> &'static str {
 /// What a quantity with these exponents is, with its article.
 fn describe(exponents: Exponents) -> String {
     const INVERSE_TIME: Exponents = Exponents([0, 0, -1, 0, 0, 0]);
-    const MASS: Exponents = Exponents([0, 1, 0, 0, 0, 0]);
     if let Some(known) = Dimension::ALL
         .into_iter()
         .find(|dimension| dimension.profile().exponents == exponents)
@@ -522,7 +555,6 @@ fn describe(exponents: Exponents) -> String {
     }
     match exponents {
         INVERSE_TIME => "an inverse time, which may mean rad/s or Hz".to_owned(),
-        MASS => "a mass".to_owned(),
         _ => "no quantity that is used here".to_owned(),
     }
 }

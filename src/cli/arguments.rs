@@ -118,6 +118,8 @@ pub(super) enum Command {
     Report(ReportFlags),
     /// Say whether two results of a sweep are the same, and where they differ
     Compare(CompareFlags),
+    /// Read loss, phase and moduli from measured loops, with their uncertainties
+    Analyse(super::analyse::AnalyseFlags),
     /// Follow one drive history: load or approach against time, from a scenario file
     Simulate(SimulateFlags),
     /// Find the material that has these measured cycles: moduli and times with confidence bands
@@ -127,7 +129,7 @@ pub(super) enum Command {
     /// Look at materials: their series, moduli over frequency, sources
     #[command(subcommand)]
     Material(MaterialCommand),
-    /// Print the JSON Schema of sweep or scenario files, by which editors complete and check them
+    /// Print the JSON Schema of sweep, scenario or setup files, by which editors complete and check them
     Schema(super::schema::SchemaFlags),
     /// Print a completion script for a shell
     #[command(after_help = "\
@@ -256,7 +258,7 @@ Examples:
 
 The [figures] table of resolved.toml says how figures look; what is changed is kept there.")]
 pub(super) struct ReportFlags {
-    /// Folder of a sweep
+    /// Folder of a sweep, or of an analysis of measured loops
     #[arg(value_name = "DIR")]
     pub(super) folder: PathBuf,
     /// Folder for tables and figures, without the records [default: the folder of the sweep]; nothing is then written into the

@@ -3,6 +3,7 @@
 //! Exit codes: 0 done; 1 could not run; 2 bad usage or bad input; 3 done, but some cases did not converge; 4 results differ (`compare`);
 //! 130 interrupted.
 
+mod analyse;
 mod arguments;
 mod compare;
 mod identify;
@@ -88,6 +89,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Plan(flags) => plan::run(&flags, format),
         Command::Merge(flags) => stored::merge(&flags, format),
         Command::Report(flags) => stored::report(&flags, format),
+        Command::Analyse(flags) => analyse::run(&flags, format),
         Command::Compare(flags) => compare::run(&flags, format),
         Command::Simulate(flags) => simulate::run(&flags, format),
         Command::Identify(flags) => identify::run(&flags, format),

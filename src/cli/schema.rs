@@ -1,4 +1,4 @@
-//! `contact-dma schema`: the JSON Schema of sweep, scenario or identification files.
+//! `contact-dma schema`: the JSON Schema of input files.
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -22,10 +22,12 @@ pub(super) struct SchemaFlags {
 }
 
 fn kinds() -> impl TypedValueParser<Value = FileKind> {
-    PossibleValuesParser::new(FileKind::NAMES.map(|(name, _)| name)).map(|name| {
+    let names = PossibleValuesParser::new(FileKind::NAMES.map(|(name, _)| name));
+    names.try_map(|name| {
         let found = FileKind::NAMES.iter().find(|(known, _)| *known == name);
-        // The parser lets no other name through.
-        found.map_or(FileKind::Sweep, |(_, kind)| *kind)
+        found
+            .map(|(_, kind)| *kind)
+            .ok_or("this is no kind of file")
     })
 }
 

@@ -77,6 +77,10 @@ pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, F
 
 /// Draws tables and figures of a folder again.
 pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended, Failure> {
+    let asked = (!flags.no_figures, flags.quiet, format);
+    if let Some(done) = super::analyse::again(&flags.folder, flags.out.as_deref(), asked) {
+        return done;
+    }
     let clock = Stopwatch::start();
     let refused = |error| failure(RunError::Store(error));
     // A folder that is only read from may be one that nobody can write to.

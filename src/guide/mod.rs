@@ -8,6 +8,7 @@
 //! | [`own_material`] | how a material is given: series, tables of measured data, code |
 //! | [`measured_material`] | from the file of a DMA instrument to a master curve, a series and a loss curve with its uncertainty |
 //! | [`identify`] | from cycles measured with an indenter to moduli and times, with confidence bands |
+//! | [`measured_loop`] | from an instrument's record of load and depth to loss, phase and moduli with their uncertainties |
 //! | [`own_indenter`] | how a shape is given: profile, height map, code |
 //! | [`own_loading`] | what drives the contact: oscillations about a mean, histories, records |
 //! | [`cluster`] | sweeps on several machines: shards, Slurm; what a folder remembers, how results are compared |
@@ -37,6 +38,10 @@ pub mod measured_material {
 
 pub mod identify {
     #![doc = include_str!("identify.md")]
+}
+
+pub mod measured_loop {
+    #![doc = include_str!("measured_loop.md")]
 }
 
 pub mod own_indenter {

@@ -202,6 +202,21 @@ impl DataFile {
         cells.into_iter().any(is_wanted)
     }
 
+    /// Of each of these columns the first of its names that the header has, and that name alone; `None` where it has none.
+    pub(crate) fn first_named(&self, columns: &[Column]) -> Vec<Option<Column>> {
+        let header = self.header(columns);
+        let cells = header.map(|header| header.texts()).unwrap_or_default();
+        let first = |column: &Column| {
+            let one_name = |place: usize| Column {
+                names: &column.names[place..=place],
+                ..*column
+            };
+            let mut names = (0..column.names.len()).map(one_name);
+            names.find(|named| cells.iter().any(|cell| named.unit_in(cell).is_some()))
+        };
+        columns.iter().map(first).collect()
+    }
+
     /// The columns asked for, in SI units. `without_number` says what to do about a cell that has none.
     ///
     /// # Errors
@@ -212,26 +227,26 @@ impl DataFile {
         wanted: &[Column],
         without_number: &str,
     ) -> Result<Table, Diagnostics> {
-        self.columns_and_gaps(wanted, without_number, false)
+        self.columns_read(wanted, without_number, false)
     }
 
-    /// The same with not-a-number for every empty cell.
+    /// The same, where a cell may say that there is no number (empty, `NaN`, `NA`, a dash): it is read as a NaN.
     ///
     /// # Errors
     /// As [`DataFile::columns`].
-    pub(crate) fn columns_with_gaps(
+    pub(crate) fn columns_with_holes(
         &self,
         wanted: &[Column],
         without_number: &str,
     ) -> Result<Table, Diagnostics> {
-        self.columns_and_gaps(wanted, without_number, true)
+        self.columns_read(wanted, without_number, true)
     }
 
-    fn columns_and_gaps(
+    fn columns_read(
         &self,
         wanted: &[Column],
         without_number: &str,
-        gaps: bool,
+        may_have_holes: bool,
     ) -> Result<Table, Diagnostics> {
         let Some(header) = self.header(wanted) else {
             let names: Vec<String> = wanted.iter().map(Column::name_in_si).collect();
@@ -247,7 +262,7 @@ impl DataFile {
         let mut lines = header.after.clone();
         let units = header.units_row(&mut lines, &found);
         let mut rows = Rows::new(&header, found.iter().map(|found| found.place).collect());
-        rows.gaps = gaps;
+        rows.may_have_holes = may_have_holes;
         rows.read(lines, without_number)?;
         let mut table = rows.table;
         for (which, ((column, found), unit)) in wanted.iter().zip(&found).zip(&units).enumerate() {
@@ -542,8 +557,8 @@ struct Rows<'a> {
     table: Table,
     problems: Problems,
     signs: DecimalSigns,
-    /// Whether cells may be empty.
-    gaps: bool,
+    /// Whether a cell without a number is read as a NaN.
+    may_have_holes: bool,
 }
 
 impl<'a> Rows<'a> {
@@ -560,7 +575,7 @@ impl<'a> Rows<'a> {
             table,
             problems: Problems::new(),
             signs: DecimalSigns::default(),
-            gaps: false,
+            may_have_holes: false,
         }
     }
 
@@ -597,9 +612,11 @@ impl<'a> Rows<'a> {
     /// The number in a cell, or why there is none.
     fn number(&mut self, cell: &str, span: &Range<usize>) -> Result<f64, &'static str> {
         let delimiter = self.header.delimiter;
+        if self.may_have_holes && is_hole(cell) {
+            return Ok(f64::NAN);
+        }
         let number = match plain_number(cell, delimiter) {
             Some(number) => number,
-            None if cell.is_empty() && self.gaps => return Ok(f64::NAN),
             None if cell.is_empty() => return Err("empty"),
             None => return Err("not a number"),
         };
@@ -680,6 +697,12 @@ fn plain_number(cell: &str, delimiter: char) -> Option<f64> {
         _ => cell.replacen(',', ".", 1).parse().ok(),
     };
     cell.parse().ok().or_else(with_comma)
+}
+
+/// Whether a cell says that there is no number.
+fn is_hole(cell: &str) -> bool {
+    let words = ["nan", "na", "n/a", "-", "--", "---"];
+    cell.is_empty() || words.iter().any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// Whether a number with a comma could be an integer with its thousands apart: `1,234`.

@@ -3,7 +3,7 @@
 //!
 //! The rows of a matrix follow one another in the direction of y, its columns in that of x.
 
-mod npy;
+pub(super) mod npy;
 mod points;
 
 use super::data_file::{Column, DataFile};

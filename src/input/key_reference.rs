@@ -11,7 +11,9 @@ pub fn markdown() -> String {
     let mut known = Vec::new();
     for (name, kind) in FileKind::NAMES {
         let heading = match kind {
-            FileKind::Sweep | FileKind::Scenario => format!("The file of a {name}"),
+            FileKind::Sweep | FileKind::Scenario | FileKind::Setup => {
+                format!("The file of a {name}")
+            }
             FileKind::Identify => "The file of an identification".to_owned(),
         };
         section(kind.rows(), &heading, "", &mut known, &mut text);

@@ -67,7 +67,7 @@ pub(super) fn parse(
 ) -> Result<Measured, Diagnostics> {
     let file = DataFile::from_bytes(name, bytes)?;
     let columns = Columns::of(&file, drive.control())?;
-    let table = file.columns_with_gaps(&columns.wanted, EMPTY)?;
+    let table = file.columns_with_holes(&columns.wanted, EMPTY)?;
     let (mut cycles, mut data) = (Vec::new(), Vec::new());
     let problems = Problems::new();
     for row in 0..table.len() {

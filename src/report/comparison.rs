@@ -1,6 +1,6 @@
 //! Two results of a sweep against each other: case by case, column by column, peak by peak.
 //!
-//! Cases are matched by drive and frequency. Two values are the same where they differ by at most `absolute` + `relative`
+//! Cases are matched by drive and frequency; where one result was measured, by the nearest frequency within a hundredth. Two values are the same where they differ by at most `absolute` + `relative`
 //! times the larger of them. Where two cases were solved on different steps or nodes, values that differ by no more than the
 //! sum of their error bars count as the same too, and columns without bars are not judged; on the same steps and nodes, where
 //! the errors are the same, bars excuse nothing, but differences within them are reported as such.
@@ -67,6 +67,8 @@ pub struct Comparison {
     pub peaks: Vec<PeakComparison>,
     /// The curves of the energy loss.
     pub curve: Vec<CurvePoint>,
+    /// Whether one of the two was measured: then cases without a counterpart are no difference.
+    pub measured: bool,
     /// In which the baseline has its frequencies first.
     #[serde(skip)]
     pub unit: FrequencyUnit,
@@ -121,18 +123,24 @@ impl Comparison {
         let pairs: Vec<(&Row, &Row)> = baseline
             .rows
             .iter()
-            .filter_map(|row| Some((row, new.row(row.place)?)))
+            .filter_map(|row| Some((row, new.row(row.place, baseline)?)))
             .collect();
         let alone = |one: &SweepTable, other: &SweepTable| -> Vec<Place> {
             let rows = one.rows.iter().map(|row| row.place);
-            rows.filter(|place| other.row(*place).is_none()).collect()
+            rows.filter(|place| other.row(*place, one).is_none())
+                .collect()
         };
         let names = compared_columns(baseline, new, tolerances)?;
         let (shared, single): (Vec<String>, Vec<String>) = names
             .into_iter()
             .partition(|name| baseline.has(name) && new.has(name));
-        let (missing_columns, added_columns) =
+        let measured = baseline.is_measured() || new.is_measured();
+        let (mut missing_columns, added_columns): (Vec<String>, Vec<String>) =
             single.into_iter().partition(|name| baseline.has(name));
+        if measured {
+            // No loop tells which branch dissipates.
+            missing_columns.clear();
+        }
         let mut columns = Vec::with_capacity(shared.len());
         for name in shared {
             columns.push(column(name, baseline, new, &pairs, tolerances)?);
@@ -150,16 +158,18 @@ impl Comparison {
             columns,
             peaks: peaks(baseline, new, tolerances),
             curve: columns::curve(baseline, new)?,
+            measured,
             unit: baseline.unit(),
         })
     }
 
     /// Whether the results differ by more than the tolerances allow. Columns that only the new result has do not count.
     pub fn differs(&self) -> bool {
-        let all_there = self.missing.is_empty()
-            && self.added.is_empty()
-            && self.missing_columns.is_empty()
-            && self.statuses.is_empty();
+        let cases = match self.measured {
+            true => self.compared > 0,
+            false => self.missing.is_empty() && self.added.is_empty(),
+        };
+        let all_there = cases && self.missing_columns.is_empty() && self.statuses.is_empty();
         !all_there
             || self.columns.iter().any(|column| column.different > 0)
             || self.peaks.iter().any(|peak| peak.differs)
@@ -208,6 +218,7 @@ fn column(
     let known = quantities::of_name(&name);
     let is_relative = known.is_some_and(|c| c.compared == Some(Compared::Absolutely));
     let bar = known.and_then(|column| column.error_name());
+    let measured = baseline.is_measured() || new.is_measured();
     let mut found = ColumnComparison {
         name,
         largest: None,
@@ -221,6 +232,8 @@ fn column(
         let (a, b) = match (value(baseline, old_row)?, value(new, new_row)?) {
             (Some(a), Some(b)) => (a, b),
             (None, None) => continue,
+            // A measurement does not know everything.
+            _ if measured => continue,
             _ => {
                 found.absent += 1;
                 found.different += 1;
@@ -239,7 +252,7 @@ fn column(
                 found.largest = Some((share, old_row.place));
             }
         }
-        let same_discretisation = old_row.discretisation == new_row.discretisation;
+        let same_discretisation = !measured && old_row.discretisation == new_row.discretisation;
         // Without an error bar nothing says how far two discretisations may be apart.
         let is_comparable = same_discretisation || bar.is_some() || own.is_some();
         if difference <= tolerances.absolute + relative * scale || !is_comparable {

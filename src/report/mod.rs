@@ -37,6 +37,7 @@ pub mod fit;
 pub mod identify;
 pub mod machine;
 pub mod material;
+pub mod measured;
 pub mod npy;
 pub mod number;
 pub mod page;

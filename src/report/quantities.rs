@@ -43,7 +43,11 @@ pub enum Compared {
 }
 
 impl<R> Column<R> {
-    const fn new(name: &'static str, value: fn(&R) -> Cell, meaning: &'static str) -> Self {
+    pub(super) const fn new(
+        name: &'static str,
+        value: fn(&R) -> Cell,
+        meaning: &'static str,
+    ) -> Self {
         Self {
             name,
             meaning,
@@ -66,18 +70,22 @@ impl<R> Column<R> {
         column
     }
 
-    const fn called(mut self, heading: &'static str, dimension: Option<Dimension>) -> Self {
+    pub(super) const fn called(
+        mut self,
+        heading: &'static str,
+        dimension: Option<Dimension>,
+    ) -> Self {
         self.heading = heading;
         self.dimension = dimension;
         self
     }
 
-    const fn in_cases(mut self, heading: &'static str) -> Self {
+    pub(super) const fn in_cases(mut self, heading: &'static str) -> Self {
         self.in_cases = Some(heading);
         self
     }
 
-    const fn with_error(mut self, error: fn(&R) -> Option<f64>) -> Self {
+    pub(super) const fn with_error(mut self, error: fn(&R) -> Option<f64>) -> Self {
         self.error = Some(error);
         self
     }
@@ -119,7 +127,7 @@ impl<R> Column<R> {
     }
 
     /// Its columns of values in a table: one, but for branches.
-    fn named(&self, branches: usize) -> Vec<Named<R>> {
+    pub(super) fn named(&self, branches: usize) -> Vec<Named<R>> {
         match self.value {
             Value::Of(value) => vec![Named {
                 name: self.name.to_owned(),
@@ -134,7 +142,7 @@ impl<R> Column<R> {
         }
     }
 
-    fn named_error(&self) -> Option<Named<R>> {
+    pub(super) fn named_error(&self) -> Option<Named<R>> {
         let (name, error) = (self.error_name()?, self.error?);
         Some(Named {
             name,
@@ -366,7 +374,7 @@ pub static HISTORY: &[OfMoment] = &[
 ];
 
 /// The rows of these columns.
-fn named<R>(columns: &[Named<R>], rows: &[R]) -> Vec<u8> {
+pub(super) fn named<R>(columns: &[Named<R>], rows: &[R]) -> Vec<u8> {
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
     let cells = |row| columns.iter().map(|column| (column.cell)(row)).collect();
     csv(&names, rows.iter().map(cells).collect::<Vec<Vec<Cell>>>())

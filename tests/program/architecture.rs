@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Rooms from top to bottom.
-const ROOMS: [&str; 16] = [
+const ROOMS: [&str; 17] = [
     "quantity",
     "material",
     "indenter",
@@ -15,6 +15,7 @@ const ROOMS: [&str; 16] = [
     "steady",
     "reference",
     "sweep",
+    "measured",
     "identify",
     "input",
     "report",
@@ -29,7 +30,7 @@ const SWEEP: [&str; 10] = [
 ];
 
 /// Parts of the room `report` from top to bottom.
-const REPORT: [&str; 28] = [
+const REPORT: [&str; 29] = [
     "number",
     "words",
     "peaks",
@@ -39,6 +40,7 @@ const REPORT: [&str; 28] = [
     "quantities",
     "fit",
     "dynamic",
+    "measured",
     "identify",
     "samples",
     "caption",

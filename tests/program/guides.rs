@@ -248,6 +248,19 @@ fn identify() {
 }
 
 #[test]
+fn measured_loop() {
+    let printed = follow("measured_loop");
+    for part in [
+        "Stabilised from cycle",
+        "Drift of the approach: linear",
+        "without bias",
+        "the same within",
+    ] {
+        assert!(printed.contains(part), "{part}\n{printed}");
+    }
+}
+
+#[test]
 fn own_indenter() {
     follow("own_indenter");
 }

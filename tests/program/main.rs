@@ -11,6 +11,7 @@ mod program;
 #[path = "../common/segments.rs"]
 mod segments;
 
+mod analyse;
 mod architecture;
 mod axes;
 mod build_identity;

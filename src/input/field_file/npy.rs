@@ -5,7 +5,7 @@ use super::Field;
 use crate::input::diagnostic::{Diagnostic, Location, Source};
 
 /// What the file begins with.
-pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
+pub(in crate::input) const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// Bytes of a number, and how they are read.
 type Float = (usize, fn(&[u8]) -> f64);
@@ -25,15 +25,59 @@ fn sized<const N: usize>(bytes: &[u8]) -> [u8; N] {
     bytes.try_into().unwrap_or([0; N])
 }
 
-/// The matrix in a whole file, which messages call `name`.
+/// A matrix, row by row.
+pub(in crate::input) struct Matrix {
+    pub(in crate::input) columns: usize,
+    pub(in crate::input) rows: usize,
+    pub(in crate::input) values: Vec<f64>,
+}
+
+/// What a reader of a file without one is told to write.
+pub(in crate::input) struct Wanted {
+    /// The call of NumPy that writes it.
+    pub(in crate::input) call: &'static str,
+    /// What rows and columns are.
+    pub(in crate::input) layout: &'static str,
+}
+
+const MAP: Wanted = Wanted {
+    call: "numpy.save(\"map.npy\", heights_m.astype(\"<f8\"))",
+    layout: "save a matrix, one row per y and one column per x",
+};
+
+/// The map in a whole file, which messages call `name`.
 pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Field, Diagnostic> {
+    let matrix = matrix(name, bytes, &MAP)?;
+    if let Some(at) = matrix.values.iter().position(|z| !z.is_finite()) {
+        let (row, column) = (at / matrix.columns + 1, at % matrix.columns + 1);
+        let message = format!(
+            "a hole: the entry in row {row}, column {column} is {}",
+            matrix.values[at]
+        );
+        let place = Location::whole(&Source::file(name, ""));
+        return Err(Diagnostic::at(&place, message).help(super::HOLE));
+    }
+    Ok(Field {
+        cells_x: matrix.columns,
+        cells_y: matrix.rows,
+        values_m: matrix.values,
+        spacing_m: None,
+    })
+}
+
+/// The matrix in a whole file, which messages call `name`; numbers as they are.
+pub(in crate::input) fn matrix(
+    name: &str,
+    bytes: &[u8],
+    wanted: &Wanted,
+) -> Result<Matrix, Diagnostic> {
     let fail = |message: String, help: &str| {
         let place = Location::whole(&Source::file(name, ""));
         Diagnostic::at(&place, message).help(help)
     };
     let unreadable = |why: &str| {
         let message = format!("no .npy file that can be read: {why}");
-        fail(message, "write it with numpy.save(\"map.npy\", heights_m)")
+        fail(message, &format!("write it with {}", wanted.call))
     };
     let (header, data) = split(bytes).ok_or_else(|| unreadable("it ends within its header"))?;
     let entry =
@@ -42,15 +86,12 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Field, Diagnostic> {
     let (width, decode) = float(descriptor).ok_or_else(|| {
         let found: String = descriptor.chars().take(40).collect();
         let message = format!("numbers of the type {found}, where '<f8' or '<f4' is needed");
-        fail(
-            message,
-            "write it with numpy.save(\"map.npy\", heights_m.astype(\"<f8\"))",
-        )
+        fail(message, &format!("write it with {}", wanted.call))
     })?;
     let (cells_y, cells_x) = two_lengths(shape).ok_or_else(|| {
         let shape: String = shape.chars().take(40).collect();
         let message = format!("an array of shape {shape}, where two dimensions are needed");
-        fail(message, "save a matrix, one row per y and one column per x")
+        fail(message, wanted.layout)
     })?;
     let expected = cells_x.saturating_mul(cells_y).saturating_mul(width);
     if data.len() != expected {
@@ -59,11 +100,10 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Field, Diagnostic> {
         return Err(fail(message, "the file is not whole: write it again"));
     }
     if expected == 0 {
-        let help = "save a matrix, one row per y and one column per x";
-        return Err(fail("the file holds no numbers".to_owned(), help));
+        return Err(fail("the file holds no numbers".to_owned(), wanted.layout));
     }
     let stored = data.chunks_exact(width).map(decode);
-    let values_m: Vec<f64> = if order == "True" {
+    let values: Vec<f64> = if order == "True" {
         // Columns first.
         let stored: Vec<f64> = stored.collect();
         let place = |index: usize| index % cells_x * cells_y + index / cells_x;
@@ -73,19 +113,10 @@ pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Field, Diagnostic> {
     } else {
         stored.collect()
     };
-    if let Some(at) = values_m.iter().position(|z| !z.is_finite()) {
-        let (row, column) = (at / cells_x + 1, at % cells_x + 1);
-        let message = format!(
-            "a hole: the entry in row {row}, column {column} is {}",
-            values_m[at]
-        );
-        return Err(fail(message, super::HOLE));
-    }
-    Ok(Field {
-        cells_x,
-        cells_y,
-        values_m,
-        spacing_m: None,
+    Ok(Matrix {
+        columns: cells_x,
+        rows: cells_y,
+        values,
     })
 }
 

@@ -6,6 +6,7 @@ pub(crate) mod identify;
 pub(super) mod indenter;
 pub(crate) mod material;
 pub(super) mod settings;
+pub(super) mod setup;
 
 use super::document::kind::{Table, Text};
 use super::document::row::{List, Optional, Others, Required, Row, Rows};
@@ -48,14 +49,17 @@ pub enum FileKind {
     Scenario,
     /// A material from measured cycles.
     Identify,
+    /// Instrument and contact of measured loops.
+    Setup,
 }
 
 impl FileKind {
     /// All, as they are named on the command line.
-    pub const NAMES: [(&str, Self); 3] = [
+    pub const NAMES: [(&str, Self); 4] = [
         ("sweep", Self::Sweep),
         ("scenario", Self::Scenario),
         ("identify", Self::Identify),
+        ("setup", Self::Setup),
     ];
 
     /// The keys of such a file.
@@ -64,6 +68,7 @@ impl FileKind {
             Self::Sweep => &SWEEP_FILE,
             Self::Scenario => &SCENARIO_FILE,
             Self::Identify => &identify::IDENTIFY_FILE,
+            Self::Setup => &setup::SETUP_FILE,
         }
     }
 }

@@ -54,8 +54,11 @@ pub(super) fn curve(
 /// Every case of either result, by drive and frequency.
 fn cases<'a>(baseline: &'a SweepTable, new: &'a SweepTable) -> Vec<Case<'a>> {
     let old = baseline.rows.iter();
-    let old = old.map(|row| (row.place, Some(row), new.row(row.place)));
-    let added = new.rows.iter().filter(|r| baseline.row(r.place).is_none());
+    let old = old.map(|row| (row.place, Some(row), new.row(row.place, baseline)));
+    let added = new
+        .rows
+        .iter()
+        .filter(|r| baseline.row(r.place, new).is_none());
     let mut cases: Vec<Case> = old
         .chain(added.map(|row| (row.place, None, Some(row))))
         .collect();

@@ -59,6 +59,8 @@ struct Summary {
 const FREQUENCY: &str = "angular_frequency_rad_per_s";
 /// Frequencies and drives closer than this, relatively, are the same: what is left of a number written and read elsewhere.
 const SAME: f64 = 1e-9;
+/// The same of a measured frequency and one that was computed.
+const SAME_MEASURED: f64 = 0.01;
 
 /// Whether a column is what a second axis varies of something else than mean and amplitude.
 fn is_of_axis(column: &str) -> bool {
@@ -124,6 +126,10 @@ impl SweepTable {
                 .entry(bits(row.place))
                 .or_insert(result.rows.len());
             result.rows.push(row);
+        }
+        if result.is_measured() {
+            // Peaks are located by solving between frequencies.
+            result.peaks = None;
         }
         Ok(result)
     }
@@ -192,8 +198,19 @@ impl SweepTable {
         }
     }
 
-    /// The case at this place.
-    pub(super) fn row(&self, place: Place) -> Option<&Row> {
+    /// Whether the rows are measured loops: their frequencies and loads are what they were and not what was asked for.
+    pub(super) fn is_measured(&self) -> bool {
+        self.rows
+            .iter()
+            .any(|row| self.cell(row, "method") == Some("measured"))
+    }
+
+    /// The case at this place of another result. Where one of the two was measured, the nearest in frequency, and among equal
+    /// ones the nearest in load.
+    pub(super) fn row(&self, place: Place, other: &Self) -> Option<&Row> {
+        if self.is_measured() || other.is_measured() {
+            return self.nearest(place);
+        }
         if let Some(row) = self
             .exact
             .get(&bits(place))
@@ -211,6 +228,28 @@ impl SweepTable {
                 && (other.varied.all().iter().zip(place.varied.all())).all(|(a, b)| near(*a, *b))
                 && near(other.drive_mean, place.drive_mean)
                 && near(other.drive_amplitude, place.drive_amplitude)
+        })
+    }
+
+    fn nearest(&self, place: Place) -> Option<&Row> {
+        let apart = |a: f64, b: f64| match a.abs().max(b.abs()) {
+            0.0 => 0.0,
+            larger => (a - b).abs() / larger,
+        };
+        let distance = |row: &&Row| {
+            let other = row.place;
+            let frequency = apart(
+                other.angular_frequency_rad_per_s,
+                place.angular_frequency_rad_per_s,
+            );
+            let drive = apart(other.drive_mean, place.drive_mean)
+                + apart(other.drive_amplitude, place.drive_amplitude);
+            (frequency <= SAME_MEASURED).then_some(frequency + drive)
+        };
+        let near = self.rows.iter().filter(|row| distance(row).is_some());
+        near.min_by(|a, b| {
+            let [a, b] = [a, b].map(|row| distance(row).unwrap_or(f64::INFINITY));
+            a.total_cmp(&b)
         })
     }
 }

@@ -18,6 +18,7 @@ pub mod line;
 pub mod loops;
 pub mod loss_map;
 pub mod loss_tangent;
+pub mod measured;
 pub mod moduli;
 pub mod moduli_error;
 pub mod of_sweep;

@@ -11,6 +11,7 @@ pub(super) mod how;
 pub mod html;
 pub mod identify;
 pub mod material;
+pub mod measured;
 mod pictures;
 pub(super) mod question;
 mod simulation;

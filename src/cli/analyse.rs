@@ -1,0 +1,333 @@
+//! `contact-dma analyse`: measured loops to the table of a sweep.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use super::arguments::{OutputFormat, folder};
+use super::material::write_figures;
+use super::{Ended, Failure, json, print, read_document};
+use crate::input::document::read_limited;
+use crate::input::loop_file;
+use crate::input::setup_file::{self, Setup};
+use crate::measured::{Options, analyse};
+use crate::quantity::{Dimension, parse};
+use crate::report::caption::Setting as CaptionSetting;
+use crate::report::measured::{Analysis, Computed, MeasuredRow, ordered, summary, tables, text};
+use crate::report::words::wrapped;
+use crate::report::{figure, page};
+use crate::sweep::record::Status;
+use crate::sweep::store::{RESOLVED, files, write_atomically};
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma analyse loop.csv --out reports/measured
+  contact-dma analyse loops/*.csv --setup setup.toml --out reports/measured
+
+A file has the columns time, load and approach (or force, depth, displacement, ...) with their
+units, `Time (s),Load (mN),Depth (nm)` or `time_s,load_n,approach_m`; or it is a matrix of NumPy
+(.npy) with these three columns in SI units. Times need not be uniform.
+
+Written to the output folder: sweep.csv (one row per file, the columns of a sweep), loops/ (the
+mean cycles), cycles/ (every cycle by itself), summary.json, figures and index.html, and
+analysis.json (everything), from which `contact-dma report` draws again. `contact-dma compare`
+holds the folder against that of a sweep.
+
+A setup says what is known of instrument and contact; every table may be left out:
+
+  [instrument]
+  frame_compliance = \"0.5 um/N\"   # mass, damping, stiffness, time_lag, thermal_drift
+  [contact]                         # for moduli
+  poisson_ratio = 0.38
+  [indenter]
+  shape = \"sphere\"
+  radius = \"1 mm\"")]
+pub(super) struct AnalyseFlags {
+    /// Records of load and approach against time, one a file
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// The frequency of all records, for example '10 Hz' [default: found in each]
+    #[arg(long, value_name = "F", value_parser = frequency)]
+    frequency: Option<f64>,
+    /// What is known of instrument and contact (TOML): frame compliance, mass, damping, stiffness, lag, thermal drift; Poisson
+    /// ratio, indenter
+    #[arg(long, value_name = "SETUP.toml")]
+    setup: Option<PathBuf>,
+    /// Folder for the results
+    #[arg(long, value_name = "DIR", value_parser = folder())]
+    out: PathBuf,
+    /// Folder of a computed sweep, whose loops and curves are drawn beside the measured ones
+    #[arg(long, value_name = "DIR")]
+    against: Option<PathBuf>,
+    /// Write tables alone: no figures and no page
+    #[arg(long)]
+    no_figures: bool,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// A frequency in Hz; rad/s is understood.
+fn frequency(text: &str) -> Result<f64, String> {
+    let hz = match (
+        text.trim().parse::<f64>(),
+        parse(text, Dimension::Frequency),
+    ) {
+        (Ok(hz), _) | (_, Ok(hz)) => hz,
+        (_, Err(error)) => parse(text, Dimension::AngularFrequency)
+            .map(|angular| angular / std::f64::consts::TAU)
+            .map_err(|_| error.to_string())?,
+    };
+    match hz.is_finite() && hz > 0.0 {
+        true => Ok(hz),
+        false => Err(format!(
+            "`{text}` is no frequency: write one above zero, such as '10 Hz'"
+        )),
+    }
+}
+
+/// Where everything about the records is kept, for `report`.
+const ANALYSIS: &str = "analysis.json";
+/// Largest file that `report` reads.
+const MAX_BYTES: usize = 1_000_000_000;
+
+/// Runs the command.
+pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, Failure> {
+    if flags.out.join(RESOLVED).exists() {
+        return Err(Failure::Input(format!(
+            "{} holds a computed result: name another folder",
+            flags.out.display()
+        )));
+    }
+    let (setup, setup_text) = match &flags.setup {
+        None => (Setup::default(), None),
+        Some(file) => {
+            let document = read_document(file)?;
+            let setup = setup_file::setup(&document)?;
+            (setup, Some(document.source().text().to_owned()))
+        }
+    };
+    let options = Options {
+        frequency_hz: flags.frequency,
+        ..setup.options
+    };
+    let computed = flags.against.as_deref().map(computed).transpose()?;
+    // One file a thread is in memory at a time; results come in the order of the files.
+    let rows: Vec<Result<MeasuredRow, Failure>> = flags
+        .files
+        .par_iter()
+        .map(|file| row(file, &options))
+        .collect();
+    let analysis = Analysis {
+        title: setup.title.unwrap_or_else(|| "Measured loops".to_owned()),
+        setup: setup_text,
+        rows: ordered(rows.into_iter().collect::<Result<_, _>>()?),
+    };
+    let output = Output {
+        folder: &flags.out,
+        analysis: &analysis,
+        computed: &computed.unwrap_or_default(),
+        figures: !flags.no_figures,
+        quiet: flags.quiet,
+        format,
+    };
+    output.finish()
+}
+
+/// Draws tables and figures of a folder again, where it holds an analysis; `None` where it holds none.
+pub(super) fn again(
+    folder: &Path,
+    out: Option<&Path>,
+    (figures, quiet, format): (bool, bool, OutputFormat),
+) -> Option<Result<Ended, Failure>> {
+    let path = folder.join(ANALYSIS);
+    if !path.exists() || folder.join(RESOLVED).exists() {
+        return None;
+    }
+    let analysis = read_limited(&path, MAX_BYTES)
+        .map_err(|error| Failure::input(format!("cannot read {}: {error}", path.display())))
+        .and_then(|bytes| {
+            let of_another = |error| {
+                let path = path.display();
+                Failure::input(format!(
+                    "{path} is none that this version of the program wrote: {error}"
+                ))
+            };
+            serde_json::from_slice::<Analysis>(&bytes).map_err(of_another)
+        });
+    Some(analysis.and_then(|analysis| {
+        let output = Output {
+            folder: out.unwrap_or(folder),
+            analysis: &analysis,
+            computed: &[],
+            figures,
+            quiet,
+            format,
+        };
+        output.finish()
+    }))
+}
+
+fn row(file: &Path, options: &Options) -> Result<MeasuredRow, Failure> {
+    let signal = loop_file::read(file)?;
+    let (measured, reason) = match analyse(&signal, options) {
+        Ok(measured) => (Some(measured), None),
+        Err(error) => (None, Some(error.to_string())),
+    };
+    Ok(MeasuredRow {
+        index: 0,
+        file: file.display().to_string(),
+        measured,
+        reason,
+    })
+}
+
+/// The cases of a computed sweep, with their cycles.
+fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
+    let table = folder.join("sweep.csv");
+    if !table.exists() {
+        let folder = folder.display();
+        return Err(Failure::Input(format!(
+            "--against {folder}: the folder of a sweep has a sweep.csv"
+        )));
+    }
+    let mut cases = Vec::new();
+    for row in json::rows_of(&table)? {
+        let number = |column: &str| row[column].as_f64();
+        let Some(angular_rad_per_s) = number("angular_frequency_rad_per_s") else {
+            continue;
+        };
+        let cycle = match row["index"].as_u64() {
+            Some(index) => folder.join(format!("loops/{index}.csv")),
+            None => continue,
+        };
+        let cycle = match cycle.exists() {
+            true => json::rows_of(&cycle)?,
+            false => Vec::new(),
+        };
+        let point = |row: &Value| Some((row["load_n"].as_f64()?, row["approach_m"].as_f64()?));
+        cases.push(Computed {
+            angular_rad_per_s,
+            energy_loss_j: number("energy_loss_j"),
+            storage_modulus_pa: number("storage_modulus_pa"),
+            loss_modulus_pa: number("loss_modulus_pa"),
+            cycle: cycle.iter().filter_map(point).collect(),
+        });
+    }
+    Ok(cases)
+}
+
+/// What is written and printed.
+struct Output<'a> {
+    folder: &'a Path,
+    analysis: &'a Analysis,
+    computed: &'a [Computed],
+    figures: bool,
+    quiet: bool,
+    format: OutputFormat,
+}
+
+impl Output<'_> {
+    fn finish(&self) -> Result<Ended, Failure> {
+        self.write()?;
+        let rows = &self.analysis.rows;
+        match self.format {
+            OutputFormat::Json => json::print(&json!({
+                "folder": self.folder,
+                "rows": json::rows_of(&self.folder.join("sweep.csv"))?,
+                "summary": json::file(&self.folder.join("summary.json"))?,
+            }))?,
+            OutputFormat::Text if !self.quiet => print(&self.printed())?,
+            OutputFormat::Text => Ended::Done,
+        };
+        Ok(
+            match rows.iter().all(|row| row.status() == Status::Converged) {
+                true => Ended::Done,
+                false => Ended::SomeCasesWithoutResult,
+            },
+        )
+    }
+
+    fn printed(&self) -> String {
+        let rows = &self.analysis.rows;
+        let mut printed = String::new();
+        if let [row] = &rows[..]
+            && let Some(measured) = &row.measured
+        {
+            for line in text::record(measured) {
+                printed.push_str(&wrapped(&line, 80, "", "  "));
+            }
+            printed.push('\n');
+        }
+        printed.push_str(&text::table(rows));
+        printed.push_str(&text::moduli(rows));
+        printed.push_str(&text::findings(rows));
+        printed.push_str(&format!("\nResults in {}\n", self.folder.display()));
+        printed
+    }
+
+    fn put(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
+        write_atomically(&self.folder.join(name), bytes).map_err(Failure::run)
+    }
+
+    /// Writes everything; what an earlier analysis left beyond it is removed.
+    fn write(&self) -> Result<(), Failure> {
+        for folder in ["loops", "cycles"] {
+            remove_beyond(&self.folder.join(folder), self.analysis.rows.len())?;
+        }
+        for (name, bytes) in tables(&self.analysis.rows) {
+            self.put(&name, &bytes)?;
+        }
+        let summary = summary::summary(self.analysis).map_err(Failure::run)?;
+        let summary = serde_json::to_string_pretty(&summary).map_err(Failure::run)?;
+        self.put("summary.json", format!("{summary}\n").as_bytes())?;
+        let analysis = serde_json::to_vec(self.analysis).map_err(Failure::run)?;
+        self.put(ANALYSIS, &analysis)?;
+        let figures = match self.figures {
+            true => figure::measured::figures(self.analysis, self.computed),
+            false => Vec::new(),
+        };
+        for name in ["loops", "energy-loss", "moduli", "cycles"] {
+            if !figures.iter().any(|figure| figure.name == name) {
+                for file in files::of_figure(name) {
+                    remove(&self.folder.join(file))?;
+                }
+            }
+        }
+        if figures.is_empty() {
+            return remove(&self.folder.join("index.html"));
+        }
+        write_figures(
+            self.folder,
+            &figures,
+            &CaptionSetting::default(),
+            |pictures, _| page::measured::page(self.analysis, &figures, pictures),
+        )
+    }
+}
+
+/// Removes tables `<index>.csv` from this index on.
+fn remove_beyond(folder: &Path, count: usize) -> Result<(), Failure> {
+    for path in (count..).map(|index| folder.join(format!("{index}.csv"))) {
+        if !path.exists() {
+            break;
+        }
+        remove(&path)?;
+    }
+    Ok(())
+}
+
+/// Removes a file where it is there.
+fn remove(path: &Path) -> Result<(), Failure> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Failure::run(format!(
+            "cannot remove {}: {error}",
+            path.display()
+        ))),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,244 @@
+//! Setup files: what is known of the instrument and of the contact of measured loops.
+
+use std::sync::Arc;
+
+use super::diagnostic::{Diagnostics, Problems};
+use super::document::reader::TableReader;
+use super::document::{Document, plain};
+use super::indenter_block;
+use super::keys::material::POISSON_RATIO;
+use super::keys::setup::{
+    APPROACH_AT_TOUCH, AREA_FUNCTION, BIAS, CONTACT, DAMPING, EPSILON, FRAME_COMPLIANCE,
+    INSTRUMENT, MASS, RADIUS_FROM, RadiusFrom, SETUP_INDENTER, SETUP_TITLE, STIFFNESS,
+    THERMAL_DRIFT, TIME_LAG,
+};
+use crate::indenter::Indenter;
+use crate::measured::moduli::{Contact, Radius};
+use crate::measured::{Corrections, Options};
+
+/// What a setup file says.
+#[derive(Debug, Clone, Default)]
+pub struct Setup {
+    pub title: Option<String>,
+    /// Without a frequency.
+    pub options: Options,
+}
+
+/// The setup in a file.
+///
+/// # Errors
+/// Everything that is wrong with the file, at once, each problem with its place and what to write instead.
+pub fn setup(document: &Document) -> Result<Setup, Diagnostics> {
+    let problems = Problems::new();
+    let mut root = document.root(&problems);
+    let title = root.value(&SETUP_TITLE);
+    let corrections = root.table_or(&INSTRUMENT, Corrections::default(), instrument);
+    let has_indenter = root.has(&SETUP_INDENTER);
+    let indenter = root.table_or(&SETUP_INDENTER, None, |table| {
+        indenter_block::read(table, document.folder(), &problems).map(Some)
+    });
+    let has_contact = root.has(&CONTACT);
+    if let (true, false, Some(place)) = (
+        has_indenter,
+        has_contact,
+        root.key_location(&SETUP_INDENTER),
+    ) {
+        problems
+            .at(&place, "an indenter without a table `[contact]`")
+            .because("asks for moduli")
+            .help("add `[contact]` with the Poisson ratio of the specimen: poisson_ratio = 0.4");
+    }
+    let contact = root.table_or(&CONTACT, None, |table| {
+        contact(table, indenter.clone().flatten(), has_indenter, &problems).map(Some)
+    });
+    root.finish();
+    let setup = (|| {
+        Some(Setup {
+            title: title?,
+            options: Options {
+                frequency_hz: None,
+                corrections: corrections?,
+                contact: contact?,
+            },
+        })
+    })();
+    // An indenter that was refused has been reported.
+    problems.into_result(indenter.and(setup))
+}
+
+fn instrument(mut table: TableReader<'_>) -> Option<Corrections> {
+    let frame = table.value(&FRAME_COMPLIANCE);
+    let (mass, damping) = (table.value(&MASS), table.value(&DAMPING));
+    let (stiffness, lag) = (table.value(&STIFFNESS), table.value(&TIME_LAG));
+    let (drift, touch) = (table.value(&THERMAL_DRIFT), table.value(&APPROACH_AT_TOUCH));
+    table.finish();
+    Some(Corrections {
+        frame_compliance_m_per_n: frame?,
+        mass_kg: mass?,
+        damping_n_s_per_m: damping?,
+        stiffness_n_per_m: stiffness?,
+        time_lag_s: lag?,
+        thermal_drift_m_per_s: drift?,
+        approach_at_touch_m: touch?,
+    })
+}
+
+fn contact(
+    mut table: TableReader<'_>,
+    indenter: Option<Arc<dyn Indenter>>,
+    has_indenter: bool,
+    problems: &Problems,
+) -> Option<Contact> {
+    let poisson_ratio = table.value(&POISSON_RATIO);
+    let (from, terms) = (table.read(&RADIUS_FROM), table.read(&AREA_FUNCTION));
+    let (epsilon, bias) = (table.value(&EPSILON), table.value(&BIAS));
+    let table_place = table.as_ref().clone();
+    table.finish();
+    let (from, terms, epsilon) = (from?, terms?, epsilon?);
+    let radius = match (from.value, terms) {
+        (RadiusFrom::AreaFunction, Some(terms)) => Radius::AreaFunction {
+            coefficients: plain(terms.value),
+            epsilon,
+        },
+        (RadiusFrom::AreaFunction, None) => {
+            problems
+                .at(&from, "an area function without its coefficients")
+                .help("add them: area_function = [24.5, 1e-7]");
+            return None;
+        }
+        (_, Some(terms)) => {
+            problems
+                .at(&terms, "an area function that is not used")
+                .help("write radius = \"area-function\", or remove `area_function`");
+            return None;
+        }
+        (RadiusFrom::Column, None) => Radius::Column,
+        (RadiusFrom::Geometry, None) => Radius::Geometry,
+    };
+    let is_of_revolution = indenter
+        .as_ref()
+        .is_some_and(|i| i.axisymmetric().is_some());
+    if radius == Radius::Geometry && !(has_indenter && (indenter.is_none() || is_of_revolution)) {
+        let report = match &indenter {
+            None => problems.at(
+                &table_place,
+                "no contact radius: the setup has no `[indenter]`",
+            ),
+            Some(shape) => {
+                let because = shape.not_axisymmetric_because();
+                problems
+                    .at(&table_place, "no contact radius from this shape")
+                    .because(format!("the {} {because}", shape.shape()))
+            }
+        };
+        report.help("add `[indenter]` with a body of revolution, or write radius = \"column\" or radius = \"area-function\"");
+        return None;
+    }
+    Some(Contact {
+        poisson_ratio: poisson_ratio?,
+        radius,
+        indenter,
+        bias: bias?,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const WHOLE: &str = r#"
+title = "nano-DMA"
+[instrument]
+frame_compliance = "0.2 um/N"
+mass = "150 mg"
+damping = "0.02 N s/m"
+stiffness = "150 N/m"
+time_lag = "20 us"
+thermal_drift = "0.05 nm/s"
+approach_at_touch = "3 nm"
+[contact]
+poisson_ratio = 0.38
+radius = "area-function"
+area_function = [24.5, 1e-7]
+epsilon = 0.72
+bias = false
+[indenter]
+shape = "sphere"
+radius = "10 um"
+"#;
+
+    fn read(text: &str) -> Result<Setup, String> {
+        let document = Document::parse("setup.toml", text).map_err(|e| e.to_string())?;
+        setup(&document).map_err(|refused| refused.to_string())
+    }
+
+    #[test]
+    fn every_key_arrives_in_si_units() {
+        let Setup { title, options } = read(WHOLE).unwrap();
+        assert_eq!(title.as_deref(), Some("nano-DMA"));
+        let expected = Corrections {
+            frame_compliance_m_per_n: 2e-7,
+            mass_kg: 1.5e-4,
+            damping_n_s_per_m: 0.02,
+            stiffness_n_per_m: 150.0,
+            time_lag_s: 2e-5,
+            thermal_drift_m_per_s: 5e-11,
+            approach_at_touch_m: 3e-9,
+        };
+        let found = options.corrections;
+        let pairs = [
+            (
+                found.frame_compliance_m_per_n,
+                expected.frame_compliance_m_per_n,
+            ),
+            (found.mass_kg, expected.mass_kg),
+            (found.damping_n_s_per_m, expected.damping_n_s_per_m),
+            (found.stiffness_n_per_m, expected.stiffness_n_per_m),
+            (found.time_lag_s, expected.time_lag_s),
+            (found.thermal_drift_m_per_s, expected.thermal_drift_m_per_s),
+            (found.approach_at_touch_m, expected.approach_at_touch_m),
+        ];
+        for (found, expected) in pairs {
+            assert!((found / expected - 1.0).abs() < 1e-14, "{found} {expected}");
+        }
+        let contact = options.contact.unwrap();
+        assert_eq!((contact.poisson_ratio, contact.bias), (0.38, false));
+        let area = Radius::AreaFunction {
+            coefficients: vec![24.5, 1e-7],
+            epsilon: 0.72,
+        };
+        assert_eq!(contact.radius, area);
+        assert_eq!(contact.indenter.unwrap().shape(), "sphere");
+        assert!(read("").unwrap().options.contact.is_none());
+    }
+
+    #[test]
+    fn what_is_missing_or_does_not_go_together_is_told_at_its_place() {
+        let sphere = "[indenter]\nshape = \"sphere\"\nradius = \"1 mm\"\n";
+        for (text, reason) in [
+            (sphere.to_owned(), "an indenter without a table `[contact]`"),
+            ("[contact]\npoisson_ratio = 0.4\n".to_owned(), "the setup has no `[indenter]`"),
+            (format!("[contact]\n{sphere}"), "poisson_ratio"),
+            (
+                "[contact]\npoisson_ratio = 0.4\nradius = \"area-function\"\n".to_owned(),
+                "without its coefficients",
+            ),
+            (
+                format!("[contact]\npoisson_ratio = 0.4\narea_function = [1.0]\n{sphere}"),
+                "that is not used",
+            ),
+            ("[instrument]\nmass = \"1 mm\"\n".to_owned(), "a mass is expected"),
+            ("[instrument]\nmas = \"1 mg\"\n".to_owned(), "did you mean `mass`"),
+            (
+                "[contact]\npoisson_ratio = 0.4\n[indenter]\nshape = \"ellipsoid\"\nradius_x = 1\nradius_y = 2\n"
+                    .to_owned(),
+                "no contact radius from this shape",
+            ),
+        ] {
+            let refused = read(&text).unwrap_err();
+            let words = refused.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert!(words.contains(reason), "{text}\n{refused}");
+            assert!(words.contains("setup.toml:"), "{refused}");
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! The bias of the small-amplitude formula, computed with the exact model and taken out.
+//!
+//! The formula holds the contact radius fixed while the load oscillates. What that costs depends on the amplitude, on how much
+//! stiffer the material is at this frequency than at rest, and on its loss. So a solid is sought that gives the measured loop: one
+//! branch at the frequency, which carries the loss, a slow one between rest and the frequency, and an equilibrium modulus that
+//! gives the mean approach (the mean load where the approach is driven). Its exact stabilised cycle is read by the same formula, its
+//! own modulus is known, and the ratio of the two is the bias.
+
+use serde::{Deserialize, Serialize};
+
+use super::corrections::Harmonics;
+use super::moduli::{Contact, Radius, radius_of_geometry};
+use super::statistics::Estimate;
+use crate::drive::{Control, HarmonicDrive};
+use crate::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
+use crate::sweep::Sweep;
+use crate::sweep::plan::SweepPlan;
+
+/// Moduli without the bias of the formula.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Unbiased {
+    pub storage_modulus_pa: Estimate,
+    pub loss_modulus_pa: Estimate,
+    /// What the formula gives over what is there: below 1 where it is low.
+    pub storage_bias: f64,
+    pub loss_bias: f64,
+}
+
+/// Steps and springs of the model: the bias is then right to a few parts in ten thousand.
+const STEPS: usize = 128;
+const SPRINGS: usize = 128;
+/// Rounds of the search.
+const ROUNDS: usize = 25;
+/// Relative change at which it ends.
+const SETTLED: f64 = 1e-5;
+/// How much slower than the oscillation the slow branch is.
+const SLOW: f64 = 300.0;
+/// Smallest product of frequency and time of the branch that carries the loss.
+const LEAST: f64 = 0.02;
+
+/// A solid that is sought.
+#[derive(Debug, Clone, Copy)]
+struct Solid {
+    storage_pa: f64,
+    loss_pa: f64,
+    equilibrium_pa: f64,
+}
+
+/// What the formula reads from a cycle, and the mean that the drive does not prescribe.
+struct Reading {
+    storage_pa: f64,
+    loss_pa: f64,
+    mean: f64,
+}
+
+/// The moduli that the formula read from a cycle, without its bias.
+///
+/// # Errors
+/// Why the bias is not known, as a part of a sentence.
+pub(super) fn unbiased(
+    contact: &Contact,
+    cycle: &Harmonics,
+    angular: f64,
+    (storage, loss): (Estimate, Estimate),
+) -> Result<Unbiased, String> {
+    let model = Model::new(contact, cycle, angular)?;
+    if loss.value <= 0.0 || storage.value <= 0.0 {
+        return Err("no passive solid has these moduli".to_owned());
+    }
+    let mut solid = Solid {
+        storage_pa: storage.value,
+        loss_pa: loss.value,
+        equilibrium_pa: storage.value,
+    };
+    let mut change = f64::INFINITY;
+    for _ in 0..ROUNDS {
+        let (reading, own) = model.read(&solid)?;
+        let (up, down) = (
+            storage.value / reading.storage_pa,
+            loss.value / reading.loss_pa,
+        );
+        if change < SETTLED {
+            let biases = (reading.storage_pa / own.0, reading.loss_pa / own.1);
+            return Ok(Unbiased {
+                storage_modulus_pa: over(storage, biases.0),
+                loss_modulus_pa: over(loss, biases.1),
+                storage_bias: biases.0,
+                loss_bias: biases.1,
+            });
+        }
+        solid.storage_pa *= up;
+        solid.loss_pa *= down;
+        let before = solid.equilibrium_pa;
+        solid.equilibrium_pa = (before * model.softness(reading.mean)).min(solid.storage_pa);
+        let of_mean = (solid.equilibrium_pa / before).ln().abs();
+        change = up.ln().abs().max(down.ln().abs()).max(of_mean);
+        if !change.is_finite() {
+            break;
+        }
+    }
+    Err("no solid is found whose exact loop is the measured one".to_owned())
+}
+
+fn over(estimate: Estimate, bias: f64) -> Estimate {
+    Estimate {
+        value: estimate.value / bias,
+        standard_error: estimate.standard_error.map(|error| error / bias),
+        error: estimate.error.map(|error| error / bias),
+    }
+}
+
+/// The exact model of a measured cycle.
+struct Model<'a> {
+    contact: &'a Contact,
+    drive: HarmonicDrive,
+    /// Mean of the signal that is not driven.
+    mean: f64,
+    angular: f64,
+}
+
+impl<'a> Model<'a> {
+    fn new(contact: &'a Contact, cycle: &Harmonics, angular: f64) -> Result<Self, String> {
+        let indenter = contact
+            .indenter
+            .as_ref()
+            .ok_or("the setup has no [indenter]")?;
+        if indenter.axisymmetric().is_none() {
+            return Err("the shape is no convex body of revolution".to_owned());
+        }
+        let first =
+            |harmonics: &[num_complex::Complex<f64>]| harmonics.first().map_or(0.0, |a| a.norm());
+        let second = |harmonics: &[num_complex::Complex<f64>]| {
+            harmonics.get(1).map_or(0.0, |a| a.norm()) / first(harmonics)
+        };
+        let (load_n, approach_m) = (first(&cycle.load_n), first(&cycle.approach_m));
+        // The signal that is more of a sine is the driven one.
+        let is_load = second(&cycle.load_n) <= second(&cycle.approach_m);
+        let (drive, mean) = match is_load {
+            true if load_n > cycle.load_mean_n => {
+                return Err("the load becomes a pull in a part of the cycle".to_owned());
+            }
+            true => (
+                HarmonicDrive::load(cycle.load_mean_n, load_n),
+                cycle.approach_mean_m,
+            ),
+            false => (
+                HarmonicDrive::new(
+                    Control::Approach,
+                    cycle.approach_mean_m,
+                    approach_m,
+                    0.0,
+                    0.0,
+                ),
+                cycle.load_mean_n,
+            ),
+        };
+        Ok(Self {
+            contact,
+            drive: drive.map_err(|error| error.to_string())?,
+            mean,
+            angular,
+        })
+    }
+
+    /// The factor by which the equilibrium modulus is to grow for the mean to become the measured one, about.
+    fn softness(&self, mean: f64) -> f64 {
+        match self.drive.control() {
+            // As under a sphere; other shapes take a round or two more.
+            Control::Load => (mean / self.mean).powf(1.5),
+            Control::Approach => self.mean / mean,
+        }
+    }
+
+    /// What the formula reads from the exact cycle of a solid, and the solid's own moduli.
+    fn read(&self, solid: &Solid) -> Result<(Reading, (f64, f64)), String> {
+        let relaxation = solid.relaxation(self.angular)?;
+        let own = relaxation.complex_modulus(self.angular);
+        let material = Material::from_relaxation(
+            relaxation,
+            ModulusKind::Longitudinal,
+            self.contact.poisson_ratio,
+        )
+        .map_err(|error| error.to_string())?;
+        let indenter = self
+            .contact
+            .indenter
+            .clone()
+            .ok_or("the setup has no [indenter]")?;
+        let sweep =
+            Sweep::from(SweepPlan::new(material, indenter, self.drive)).without_error_bars();
+        let sweep = sweep.steps(STEPS).and_then(|sweep| sweep.springs(SPRINGS));
+        let record = sweep
+            .map_err(|error| error.to_string())?
+            .case_at_hz(self.angular / std::f64::consts::TAU)
+            .map_err(|error| error.to_string())?;
+        let Some(result) = record.result else {
+            return Err("the exact cycle is not found".to_owned());
+        };
+        let radius_m = self.radius_m(
+            &result.cycle.samples.contact_radius_m,
+            result.analysis.approach_mean_m,
+        );
+        let moduli = radius_m.and_then(|radius_m| {
+            result
+                .analysis
+                .equivalent_moduli_pa(radius_m, self.contact.poisson_ratio)
+        });
+        let (storage_pa, loss_pa) = moduli.ok_or("the exact cycle has no contact radius")?;
+        let mean = match self.drive.control() {
+            Control::Load => result.analysis.approach_mean_m,
+            Control::Approach => result.analysis.load_mean_n,
+        };
+        let reading = Reading {
+            storage_pa,
+            loss_pa,
+            mean,
+        };
+        Ok((reading, (own.re, own.im)))
+    }
+
+    /// The radius of an exact cycle by the rule that the measured one has it by; an area function stands for the geometry.
+    fn radius_m(&self, radii_m: &[f64], approach_m: f64) -> Option<f64> {
+        match self.contact.radius {
+            Radius::Column => super::statistics::mean(radii_m.get(1..)?),
+            Radius::Geometry | Radius::AreaFunction { .. } => {
+                radius_of_geometry(self.contact.indenter.as_ref()?.axisymmetric()?, approach_m)
+            }
+        }
+    }
+}
+
+impl Solid {
+    /// A branch at the frequency with all of the loss, the rest of the stiffness slow.
+    fn relaxation(&self, angular: f64) -> Result<Relaxation, String> {
+        // Of q = omega tau: the branch adds E'' q to the storage modulus, no more than half of that and no more than what the
+        // equilibrium leaves.
+        let left = (self.storage_pa - self.equilibrium_pa) / self.loss_pa;
+        let q = (0.5 * self.storage_pa / self.loss_pa)
+            .min(1.0)
+            .min(left.max(LEAST));
+        let fast_pa = self.loss_pa * (1.0 + q * q) / q;
+        let rest_pa = self.storage_pa - self.loss_pa * q;
+        let equilibrium_pa = self.equilibrium_pa.min(rest_pa);
+        let branch = |modulus_pa: f64, q: f64| RelaxationBranch {
+            modulus_pa,
+            time_s: q / angular,
+        };
+        let mut branches = vec![branch(fast_pa, q)];
+        let slow_pa = rest_pa - equilibrium_pa;
+        if slow_pa > 1e-6 * rest_pa {
+            branches.push(branch(slow_pa, SLOW));
+        }
+        Relaxation::new(equilibrium_pa, branches).map_err(|error| error.to_string())
+    }
+}

@@ -1,0 +1,176 @@
+//! What the instrument adds to load and approach, taken out of the harmonics: there it is exact.
+//!
+//! The transducer gives the force F on its moving part and that part's displacement x, from where its suspension is at rest:
+//!
+//! ```text
+//! W = F - m x'' - c x' - k x        load on the contact
+//! delta = x - C_f W                 approach, the frame giving way by its compliance
+//! ```
+//!
+//! with the channel of x late by the lag, and x moved at a steady rate by temperature.
+
+use num_complex::Complex;
+use serde::{Deserialize, Serialize};
+
+use super::Signal;
+
+/// What is known of an instrument; zero where it adds nothing.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct Corrections {
+    /// Of frame and mount (m/N).
+    pub frame_compliance_m_per_n: f64,
+    /// Moving mass (kg).
+    pub mass_kg: f64,
+    /// Of the suspension (N s/m).
+    pub damping_n_s_per_m: f64,
+    /// Of the suspension (N/m).
+    pub stiffness_n_per_m: f64,
+    /// By which the channel of the approach is late (s).
+    pub time_lag_s: f64,
+    /// Rate at which temperature moves the approach (m/s).
+    pub thermal_drift_m_per_s: f64,
+    /// Reading of the approach at first touch (m).
+    pub approach_at_touch_m: f64,
+}
+
+/// A cycle of both signals as means and harmonics, the first first.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Harmonics {
+    pub load_mean_n: f64,
+    pub approach_mean_m: f64,
+    #[serde(with = "pairs")]
+    pub load_n: Vec<Complex<f64>>,
+    #[serde(with = "pairs")]
+    pub approach_m: Vec<Complex<f64>>,
+}
+
+/// Complex numbers as pairs of real and imaginary part.
+mod pairs {
+    use num_complex::Complex;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(
+        numbers: &[Complex<f64>],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(numbers.iter().map(|z| (z.re, z.im)))
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Vec<Complex<f64>>, D::Error> {
+        let pairs = Vec::<(f64, f64)>::deserialize(deserializer)?;
+        Ok(pairs
+            .into_iter()
+            .map(|(re, im)| Complex::new(re, im))
+            .collect())
+    }
+}
+
+impl Corrections {
+    /// Takes off the drift that is known.
+    pub(super) fn before(&self, signal: &mut Signal) {
+        let (rate, touch) = (self.thermal_drift_m_per_s, self.approach_at_touch_m);
+        let Some(first) = signal.time_s.first().copied() else {
+            return;
+        };
+        if rate != 0.0 || touch != 0.0 {
+            for (approach, time) in signal.approach_m.iter_mut().zip(&signal.time_s) {
+                *approach -= touch + rate * (time - first);
+            }
+        }
+    }
+
+    /// A cycle without what the instrument adds.
+    pub fn applied(&self, angular_rad_per_s: f64, raw: &Harmonics) -> Harmonics {
+        let load_mean_n = raw.load_mean_n - self.stiffness_n_per_m * raw.approach_mean_m;
+        let mut corrected = Harmonics {
+            load_mean_n,
+            approach_mean_m: raw.approach_mean_m - self.frame_compliance_m_per_n * load_mean_n,
+            load_n: Vec::with_capacity(raw.load_n.len()),
+            approach_m: Vec::with_capacity(raw.approach_m.len()),
+        };
+        for (n, (force, displacement)) in raw.load_n.iter().zip(&raw.approach_m).enumerate() {
+            let angular = (n + 1) as f64 * angular_rad_per_s;
+            let displacement = displacement * Complex::cis(angular * self.time_lag_s);
+            let load = force - self.dynamic_stiffness(angular) * displacement;
+            corrected.load_n.push(load);
+            corrected
+                .approach_m
+                .push(displacement - self.frame_compliance_m_per_n * load);
+        }
+        corrected
+    }
+
+    /// k - m omega^2 + i c omega.
+    fn dynamic_stiffness(&self, angular: f64) -> Complex<f64> {
+        Complex::new(
+            self.stiffness_n_per_m - self.mass_kg * angular * angular,
+            self.damping_n_s_per_m * angular,
+        )
+    }
+
+    /// Load that the instrument takes over that of the contact, first harmonic.
+    pub(super) fn share(
+        &self,
+        angular: f64,
+        raw: &Harmonics,
+        corrected: &Harmonics,
+    ) -> Option<f64> {
+        let own = self.dynamic_stiffness(angular) * raw.approach_m.first()?;
+        let load = corrected.load_n.first()?.norm();
+        (load > 0.0).then(|| own.norm() / load)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_instrument_adds_is_taken_out_again() {
+        let corrections = Corrections {
+            frame_compliance_m_per_n: 2e-7,
+            mass_kg: 2e-4,
+            damping_n_s_per_m: 0.02,
+            stiffness_n_per_m: 150.0,
+            time_lag_s: 2e-5,
+            ..Corrections::default()
+        };
+        let contact = Harmonics {
+            load_mean_n: 3e-3,
+            approach_mean_m: 4e-7,
+            load_n: vec![
+                Complex::from_polar(1e-3, 0.3),
+                Complex::from_polar(1e-5, 1.0),
+            ],
+            approach_m: vec![
+                Complex::from_polar(5e-8, 0.1),
+                Complex::from_polar(2e-9, -2.0),
+            ],
+        };
+        for hz in [1.0, 40.0, 200.0] {
+            let angular = std::f64::consts::TAU * hz;
+            // The instrument, written out: displacement of the moving part, then force on it, then the late channel.
+            let mut raw = contact.clone();
+            raw.approach_mean_m += 2e-7 * contact.load_mean_n;
+            raw.load_mean_n += 150.0 * raw.approach_mean_m;
+            for n in 0..2 {
+                let omega = angular * (n + 1) as f64;
+                let x = contact.approach_m[n] + 2e-7 * contact.load_n[n];
+                let i = Complex::i();
+                let inertia = 2e-4 * (i * omega) * (i * omega) * x;
+                raw.load_n[n] = contact.load_n[n] + inertia + 0.02 * i * omega * x + 150.0 * x;
+                raw.approach_m[n] = x * Complex::cis(-omega * 2e-5);
+            }
+            let found = corrections.applied(angular, &raw);
+            assert!((found.load_mean_n / contact.load_mean_n - 1.0).abs() < 1e-12);
+            assert!((found.approach_mean_m / contact.approach_mean_m - 1.0).abs() < 1e-12);
+            for n in 0..2 {
+                let near = |a: Complex<f64>, b: Complex<f64>| (a - b).norm() < 1e-10 * b.norm();
+                assert!(near(found.load_n[n], contact.load_n[n]), "{hz} {n}");
+                assert!(near(found.approach_m[n], contact.approach_m[n]), "{hz} {n}");
+            }
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! The record cut into cycles, each fitted by itself with mean and harmonics at the times of its samples.
+
+use num_complex::Complex;
+use serde::{Deserialize, Serialize};
+
+use super::Signal;
+use super::corrections::Harmonics;
+use super::drift::Drift;
+use super::least_squares::{Design, Normal, harmonic_columns};
+
+/// One cycle as measured, drift taken off.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cycle {
+    /// From 1, in the order of time.
+    pub number: usize,
+    /// When it begins, from the first sample (s).
+    pub start_s: f64,
+    pub samples: usize,
+    /// As the instrument gives them.
+    pub raw: Harmonics,
+    /// Without what the instrument adds.
+    pub corrected: Harmonics,
+    /// Drift of load and approach at its middle.
+    pub load_drift_n: f64,
+    pub approach_drift_m: f64,
+    /// Mean of the column of radii, where there is one.
+    pub contact_radius_m: Option<f64>,
+}
+
+/// Samples that a cycle must have of those it should have.
+const COMPLETE: f64 = 0.7;
+/// Largest gap within a cycle, in parts of it.
+const GAP: f64 = 0.25;
+/// What may be missing of a cycle at the end of a record.
+const END: f64 = 0.02;
+
+/// The cycles of a record, and the numbers of those that miss samples.
+pub(super) struct Cut {
+    /// Samples of each.
+    pub(super) ranges: Vec<std::ops::Range<usize>>,
+    pub(super) incomplete: Vec<usize>,
+}
+
+/// Cuts a record, from its first sample on, into whole cycles.
+pub(super) fn cut(signal: &Signal, period_s: f64, interval_s: f64) -> Cut {
+    let times = &signal.time_s;
+    let first = times.first().copied().unwrap_or(0.0);
+    let last = times.last().copied().unwrap_or(0.0);
+    let whole = ((last - first + interval_s) / period_s + END)
+        .floor()
+        .max(0.0) as usize;
+    let begin = |number: usize| {
+        let start = first + number as f64 * period_s;
+        // A sample on the seam opens the next cycle, whatever the last digit of its time.
+        times.partition_point(|time| *time < start - 1e-6 * interval_s)
+    };
+    let ranges: Vec<_> = (0..whole).map(|k| begin(k)..begin(k + 1)).collect();
+    let expected = period_s / interval_s;
+    let is_incomplete = |range: &std::ops::Range<usize>| {
+        let own = times.get(range.clone()).unwrap_or_default();
+        let gap = own.windows(2).map(|w| w[1] - w[0]).fold(0.0, f64::max);
+        (own.len() as f64) < COMPLETE * expected || gap > GAP * period_s + interval_s
+    };
+    let incomplete = ranges.iter().enumerate();
+    Cut {
+        incomplete: incomplete
+            .filter(|(_, range)| is_incomplete(range))
+            .map(|(k, _)| k + 1)
+            .collect(),
+        ranges,
+    }
+}
+
+/// One cycle fitted; `None` where its samples do not determine it.
+pub(super) fn fit(
+    signal: &Signal,
+    range: std::ops::Range<usize>,
+    (angular, harmonics): (f64, usize),
+    drifts: &[Drift; 2],
+) -> Option<Cycle> {
+    let first_s = signal.time_s.first()?;
+    let times = signal.time_s.get(range.clone())?;
+    let columns = 1 + 2 * harmonics;
+    if times.len() < columns {
+        return None;
+    }
+    let mut design = Design::new(columns, times.len());
+    for time_s in times {
+        design.push(|row| {
+            harmonic_columns(row, angular * (time_s - first_s), harmonics);
+        });
+    }
+    let normal = Normal::new(&design.gram(), (0..columns).collect())?;
+    let solved = |values: &[f64], drift: &Drift| {
+        let own = values.get(range.clone()).unwrap_or_default();
+        let flat = own
+            .iter()
+            .zip(times)
+            .map(|(value, time)| value - drift.at(*time));
+        normal.solve(&design.with(flat))
+    };
+    let load = solved(&signal.load_n, &drifts[0]);
+    let approach = solved(&signal.approach_m, &drifts[1]);
+    let middle_s = 0.5 * (times[0] + times[times.len() - 1]);
+    let radii = signal
+        .contact_radius_m
+        .as_ref()
+        .and_then(|r| r.get(range.clone()));
+    let known: Option<Vec<f64>> =
+        radii.map(|radii| radii.iter().copied().filter(|r| r.is_finite()).collect());
+    Some(Cycle {
+        number: 0,
+        start_s: times[0] - first_s,
+        samples: times.len(),
+        raw: Harmonics {
+            load_mean_n: load[0],
+            approach_mean_m: approach[0],
+            load_n: complex(&load[1..]),
+            approach_m: complex(&approach[1..]),
+        },
+        corrected: Harmonics::default(),
+        load_drift_n: drifts[0].at(middle_s),
+        approach_drift_m: drifts[1].at(middle_s),
+        contact_radius_m: known.and_then(|known| super::statistics::mean(&known)),
+    })
+}
+
+/// Coefficients of sine and cosine, pair by pair, as harmonics |a| sin(n omega t + arg a).
+pub(super) fn complex(coefficients: &[f64]) -> Vec<Complex<f64>> {
+    let pairs = coefficients.chunks_exact(2);
+    pairs.map(|pair| Complex::new(pair[0], pair[1])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measured::drift::{DriftModel, Span};
+    use std::f64::consts::TAU;
+
+    fn record(samples: usize, interval_s: f64) -> Signal {
+        let time_s: Vec<f64> = (0..samples).map(|i| 5.0 + interval_s * i as f64).collect();
+        let wave =
+            |t: &f64| 2.0 + (TAU * (t - 5.0) + 0.3).sin() + 0.1 * (2.0 * TAU * (t - 5.0)).cos();
+        Signal {
+            load_n: time_s.iter().map(wave).collect(),
+            approach_m: time_s.iter().map(|t| 3.0 * wave(t)).collect(),
+            time_s,
+            contact_radius_m: None,
+        }
+    }
+
+    #[test]
+    fn a_record_is_cut_into_whole_cycles_from_its_first_sample() {
+        // Exactly three cycles without the sample that would close them; three and a half; one sample short.
+        for (samples, cycles) in [(60, 3), (61, 3), (70, 3), (58, 2), (80, 4)] {
+            let signal = record(samples, 0.05);
+            let cut = cut(&signal, 1.0, 0.05);
+            assert_eq!(cut.ranges.len(), cycles, "{samples}");
+            assert!(cut.ranges.iter().all(|range| range.len() == 20));
+            assert!(cut.incomplete.is_empty());
+        }
+        let mut gappy = record(80, 0.05);
+        for column in [&mut gappy.time_s, &mut gappy.load_n, &mut gappy.approach_m] {
+            column.drain(25..32);
+        }
+        assert_eq!(cut(&gappy, 1.0, 0.05).incomplete, [2]);
+    }
+
+    #[test]
+    fn harmonics_of_a_cycle_have_their_phases_from_the_first_sample() {
+        let signal = record(60, 0.05);
+        let span = Span::of(&signal);
+        let none = || Drift::new(DriftModel::None, &[], span);
+        for range in [0..20, 20..40] {
+            let cycle = fit(&signal, range, (TAU, 3), &[none(), none()]).unwrap();
+            let first = cycle.raw.load_n[0];
+            // Rounding of times near 5 s.
+            assert!((first.norm() - 1.0).abs() < 1e-11 && (first.arg() - 0.3).abs() < 1e-11);
+            let second = cycle.raw.approach_m[1];
+            assert!((second.norm() - 0.3).abs() < 1e-11);
+            assert!((second.arg() - 0.5 * std::f64::consts::PI).abs() < 1e-10);
+            assert!((cycle.raw.load_mean_n - 2.0).abs() < 1e-11);
+        }
+    }
+}

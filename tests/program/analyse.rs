@@ -1,0 +1,398 @@
+//! `contact-dma analyse`: records of measured loops in, the table of a sweep out.
+
+#![cfg(feature = "cli")]
+
+#[path = "../../examples/measured_loops.rs"]
+#[allow(dead_code)]
+mod example;
+
+use std::f64::consts::{PI, TAU};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use tempfile::TempDir;
+
+/// A record of a sinusoidal load and an approach that lags, with a deterministic noise, a thousandth of the amplitudes.
+pub(crate) struct Loop {
+    pub(crate) hz: f64,
+    pub(crate) lag: f64,
+    pub(crate) cycles: f64,
+}
+
+impl Loop {
+    fn rows(&self) -> Vec<[f64; 3]> {
+        let noise = |i: f64, k: f64| (12.9 * (i + k).powf(1.7)).sin();
+        let points = 90.7;
+        (0..(self.cycles * points) as usize)
+            .map(|i| {
+                let i = i as f64;
+                let angle = TAU * i / points + 0.7;
+                let load = 10.0 + 5.0 * (angle.sin() + 1e-3 * noise(i, 1.0));
+                let approach =
+                    1e-6 * (40.0 + 2.0 * ((angle - self.lag).sin() + 1e-3 * noise(i, 5e4)));
+                [i / (points * self.hz), load, approach]
+            })
+            .collect()
+    }
+
+    pub(crate) fn loss_j(&self) -> f64 {
+        PI * 5.0 * 2e-6 * self.lag.sin()
+    }
+
+    fn write(&self, path: &Path) {
+        let rows = self.rows();
+        let rows = rows
+            .iter()
+            .map(|[t, w, d]| format!("{t:e},{:e},{:e}\n", 1e3 * w, 1e9 * d));
+        let text = format!(
+            "Time (s),Load (mN),Depth (nm)\n{}",
+            rows.collect::<String>()
+        );
+        fs::write(path, text).unwrap();
+    }
+}
+
+fn program() -> Command {
+    Command::cargo_bin("contact-dma").unwrap()
+}
+
+/// Cells of a table under their names, row by row.
+fn cells(path: &Path, column: &str) -> Vec<String> {
+    let mut reader = csv::Reader::from_path(path).unwrap();
+    let place = reader
+        .headers()
+        .unwrap()
+        .iter()
+        .position(|name| name == column);
+    let place = place.unwrap_or_else(|| panic!("no {column}"));
+    reader
+        .records()
+        .map(|row| row.unwrap()[place].to_owned())
+        .collect()
+}
+
+fn numbers(path: &Path, column: &str) -> Vec<f64> {
+    cells(path, column)
+        .iter()
+        .map(|cell| cell.parse().unwrap())
+        .collect()
+}
+
+fn three(folder: &TempDir) -> ([Loop; 3], Vec<PathBuf>) {
+    let of = |hz, lag| Loop {
+        hz,
+        lag,
+        cycles: 12.4,
+    };
+    let loops = [of(5.0, 0.2), of(0.5, 0.1), of(50.0, 0.3)];
+    let files: Vec<PathBuf> = (0..3)
+        .map(|k| folder.path().join(format!("loop-{k}.csv")))
+        .collect();
+    for (one, file) in loops.iter().zip(&files) {
+        one.write(file);
+    }
+    (loops, files)
+}
+
+#[test]
+fn records_become_the_rows_of_a_sweep_by_ascending_frequency() {
+    let folder = TempDir::new().unwrap();
+    let (mut loops, files) = three(&folder);
+    let out = folder.path().join("measured");
+    let printed = program()
+        .arg("analyse")
+        .args(&files)
+        .arg("--out")
+        .arg(&out)
+        .assert()
+        .success();
+    let printed = String::from_utf8(printed.get_output().stdout.clone()).unwrap();
+    assert!(
+        printed
+            .lines()
+            .all(|line| line.chars().count() <= 80 || line.contains("Results in"))
+    );
+    loops.sort_by(|a, b| a.hz.total_cmp(&b.hz));
+    let table = out.join("sweep.csv");
+    let (hz, loss) = (
+        numbers(&table, "frequency_hz"),
+        numbers(&table, "energy_loss_j"),
+    );
+    let (error, lag) = (
+        numbers(&table, "energy_loss_error_j"),
+        numbers(&table, "phase_lag_rad"),
+    );
+    for (k, one) in loops.iter().enumerate() {
+        assert!((hz[k] / one.hz - 1.0).abs() < 1e-4, "{}", hz[k]);
+        assert!((loss[k] - one.loss_j()).abs() < error[k].max(1e-4 * one.loss_j()));
+        assert!(error[k] < 2e-3 * one.loss_j());
+        assert!((lag[k] - one.lag).abs() < 3e-4);
+        let samples = numbers(&out.join(format!("loops/{k}.csv")), "load_n");
+        assert_eq!(samples.len(), 201);
+        assert_eq!(
+            cells(&out.join(format!("cycles/{k}.csv")), "cycle").len(),
+            12
+        );
+    }
+    assert_eq!(cells(&table, "status"), ["converged"; 3]);
+    let summary: serde_json::Value =
+        serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["cases"]["converged"], 3);
+}
+
+#[test]
+fn results_do_not_depend_on_threads_and_those_of_an_earlier_analysis_do_not_stay() {
+    let folder = TempDir::new().unwrap();
+    let (_, files) = three(&folder);
+    let run = |threads: &str, name: &str, files: &[PathBuf]| {
+        let out = folder.path().join(name);
+        let mut command = program();
+        command
+            .env("RAYON_NUM_THREADS", threads)
+            .arg("analyse")
+            .args(files);
+        command
+            .arg("--out")
+            .arg(&out)
+            .arg("--quiet")
+            .assert()
+            .success()
+            .stdout("");
+        out
+    };
+    let (one, four) = (run("1", "one", &files), run("4", "four", &files));
+    for file in ["sweep.csv", "analysis.json", "loops/2.csv", "summary.json"] {
+        assert_eq!(
+            fs::read(one.join(file)).unwrap(),
+            fs::read(four.join(file)).unwrap(),
+            "{file}"
+        );
+    }
+    run("2", "four", &files[..1]);
+    assert!(four.join("loops/0.csv").exists() && !four.join("loops/1.csv").exists());
+}
+
+#[test]
+fn a_frequency_that_is_given_is_taken_and_one_that_is_another_is_told() {
+    let folder = TempDir::new().unwrap();
+    let (_, files) = three(&folder);
+    let run = |frequency: &str| {
+        let out = folder.path().join("given");
+        let mut command = program();
+        command
+            .arg("analyse")
+            .arg(&files[0])
+            .args(["--frequency", frequency])
+            .arg("--out");
+        let output = command.arg(&out).output().unwrap();
+        (output, out)
+    };
+    let (output, out) = run("5 Hz");
+    assert!(output.status.success());
+    assert_eq!(numbers(&out.join("sweep.csv"), "frequency_hz"), [5.0]);
+    let (output, out) = run("5.02 Hz");
+    assert!(
+        output
+            .status
+            .code()
+            .is_some_and(|code| code == 0 || code == 3)
+    );
+    assert!(cells(&out.join("sweep.csv"), "warnings")[0].contains("other-frequency"));
+    let (output, _) = run("ten");
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn a_record_without_a_loop_is_named_and_one_that_cannot_be_read_stops_before_anything_is_written() {
+    let folder = TempDir::new().unwrap();
+    let (_, files) = three(&folder);
+    let flat = folder.path().join("flat.csv");
+    let rows: String = (0..100).map(|i| format!("{i},1,{}\n", i % 3)).collect();
+    fs::write(&flat, format!("time_s,load_n,depth_nm\n{rows}")).unwrap();
+    let out = folder.path().join("out");
+    let analyse = |second: &Path| {
+        let mut command = program();
+        command
+            .arg("analyse")
+            .arg(&files[0])
+            .arg(second)
+            .arg("--out")
+            .arg(&out)
+            .output()
+            .unwrap()
+    };
+    let output = analyse(&flat);
+    assert_eq!(output.status.code(), Some(3));
+    assert_eq!(
+        cells(&out.join("sweep.csv"), "status"),
+        ["converged", "failed"]
+    );
+    assert!(
+        cells(&out.join("sweep.csv"), "message")[1].contains("load is the same in all samples")
+    );
+    fs::remove_dir_all(&out).unwrap();
+    fs::write(&flat, "time_s,load,depth_nm\n1,2,3\n").unwrap();
+    let output = analyse(&flat);
+    assert_eq!(output.status.code(), Some(2));
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        told.contains("flat.csv:1:8") && told.contains("no unit"),
+        "{told}"
+    );
+    assert!(!out.exists());
+}
+
+#[test]
+fn the_records_of_the_repository_are_what_their_program_writes_and_give_back_their_loss() {
+    let folder = TempDir::new().unwrap();
+    let records = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/measured-loops");
+    let mut files = Vec::new();
+    let mut losses = Vec::new();
+    for (seed, hz) in (1..).zip(example::FREQUENCIES_HZ) {
+        let (text, loss_j) = example::record(hz, seed).unwrap();
+        let file = records.join(format!("{hz}-hz.csv"));
+        assert_eq!(
+            fs::read_to_string(&file).unwrap(),
+            text,
+            "cargo run --example measured_loops"
+        );
+        files.push(file);
+        losses.push(loss_j);
+    }
+    let out = folder.path().join("out");
+    program()
+        .arg("analyse")
+        .args(&files)
+        .arg("--out")
+        .arg(&out)
+        .assert()
+        .success();
+    let table = out.join("sweep.csv");
+    let (found, errors) = (
+        numbers(&table, "energy_loss_j"),
+        numbers(&table, "energy_loss_error_j"),
+    );
+    for (k, loss_j) in losses.iter().enumerate() {
+        // Four intervals of 95 %, of which one in twenty may miss a little.
+        assert!(
+            (found[k] - loss_j).abs() < 1.5 * errors[k],
+            "{} {loss_j} {}",
+            found[k],
+            errors[k]
+        );
+        assert!(errors[k] < 0.03 * loss_j);
+    }
+    assert_eq!(cells(&table, "drift"), ["linear"; 4]);
+}
+
+#[test]
+fn a_setup_gives_moduli_and_what_is_wrong_with_it_is_told() {
+    let folder = TempDir::new().unwrap();
+    let record = Path::new(env!("CARGO_MANIFEST_DIR")).join("sweeps/measured-loops/0.0013-hz.csv");
+    let setup = folder.path().join("setup.toml");
+    let out = folder.path().join("out");
+    let run = |text: &str| {
+        fs::write(&setup, text).unwrap();
+        let mut command = program();
+        command
+            .arg("analyse")
+            .arg(&record)
+            .arg("--setup")
+            .arg(&setup)
+            .arg("--out")
+            .arg(&out);
+        command.output().unwrap()
+    };
+    let sphere = "[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n";
+    let output = run(&format!("[contact]\npoisson_ratio = 0.38\n{sphere}"));
+    assert!(output.status.success());
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert!(printed.contains("without bias"), "{printed}");
+    assert!(
+        printed
+            .lines()
+            .all(|line| line.chars().count() <= 80 || line.contains("Results in"))
+    );
+    let table = out.join("sweep.csv");
+    // What the record was made of.
+    let pmma = contact_dma::material::library::find("pmma")
+        .unwrap()
+        .material()
+        .unwrap();
+    let own = pmma.relaxation().unwrap().complex_modulus(TAU * 1.3e-3);
+    for (column, error, truth) in [
+        (
+            "corrected_storage_modulus_pa",
+            "corrected_storage_modulus_error_pa",
+            own.re,
+        ),
+        (
+            "corrected_loss_modulus_pa",
+            "corrected_loss_modulus_error_pa",
+            own.im,
+        ),
+    ] {
+        let (value, error) = (numbers(&table, column)[0], numbers(&table, error)[0]);
+        // The interval, and a part in a hundred for the solid that stands for PMMA.
+        assert!(
+            (value - truth).abs() < error + 0.01 * truth,
+            "{column}: {value:e} {truth:e} {error:e}"
+        );
+    }
+    assert!(numbers(&table, "loss_modulus_bias")[0] < -0.03);
+    let output = run("[contact]\npoisson_ratio = 0.38\n");
+    assert_eq!(output.status.code(), Some(2));
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(told.contains("setup.toml:1"), "{told}");
+}
+
+#[test]
+fn a_folder_of_an_analysis_is_drawn_again_and_no_folder_of_a_sweep_is_overwritten() {
+    let folder = TempDir::new().unwrap();
+    let (_, files) = three(&folder);
+    let out = folder.path().join("out");
+    let analyse = |out: &Path| {
+        let mut command = program();
+        command
+            .arg("analyse")
+            .args(&files)
+            .arg("--out")
+            .arg(out)
+            .arg("--quiet")
+            .output()
+            .unwrap()
+    };
+    assert!(analyse(&out).status.success());
+    for file in [
+        "loops.svg",
+        "energy-loss.png",
+        "cycles.svg",
+        "index.html",
+        "loops.caption.txt",
+    ] {
+        assert!(
+            out.join(file).metadata().is_ok_and(|file| file.len() > 50),
+            "{file}"
+        );
+    }
+    let before = fs::read(out.join("loops.svg")).unwrap();
+    fs::remove_file(out.join("loops.svg")).unwrap();
+    program()
+        .arg("report")
+        .arg(&out)
+        .arg("--quiet")
+        .assert()
+        .success();
+    assert_eq!(fs::read(out.join("loops.svg")).unwrap(), before);
+    let of_sweep = folder.path().join("sweep");
+    fs::create_dir(&of_sweep).unwrap();
+    fs::write(of_sweep.join("resolved.toml"), "").unwrap();
+    let output = analyse(&of_sweep);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        String::from_utf8(output.stderr)
+            .unwrap()
+            .contains("computed result")
+    );
+}
