@@ -9,7 +9,7 @@ use super::peaks;
 use super::words::{without_result, wrapped};
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
-use crate::sweep::plan::{Axes, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, Condition, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::record::warning;
 use crate::sweep::search::run::Outcome;
@@ -82,15 +82,24 @@ fn conditions(plan: &SweepPlan, axes: &Axes, outcome: &Outcome) -> String {
     let names: Vec<String> = axes.over.iter().map(Varied::name).collect();
     let name = names.join(", ");
     let unit = plan.figures.frequency_unit;
+    let units = Units::default();
+    let curves = figure::curve::curves(plan, outcome, &units);
+    let value = |condition: &Condition| {
+        let values = axes.over.iter().zip(condition.values.all());
+        let values = values.map(|(varied, value)| units.varied_value(varied, *value));
+        values.collect::<Vec<_>>().join(", ")
+    };
+    let values: Vec<String> = curves.iter().map(|curve| value(&curve.condition)).collect();
+    let lengths = values
+        .iter()
+        .chain([&name])
+        .map(|text| text.chars().count());
+    let width = lengths.max().unwrap_or(0).max(10);
     let mut text = format!(
-        "{name:>10}   converged    loss / cycle, peak          {:>10}\n",
+        "{name:>width$}   converged    loss / cycle, peak          {:>10}\n",
         frequency_head(unit)
     );
-    let units = Units::default();
-    for curve in figure::curve::curves(plan, outcome, &units) {
-        let values = axes.over.iter().zip(curve.condition.values.all());
-        let values = values.map(|(varied, value)| units.varied_value(varied, *value));
-        let value = values.collect::<Vec<_>>().join(", ");
+    for (curve, value) in curves.iter().zip(values) {
         let peak = outcome.highest_peak(&curve.condition);
         let loss = loss(
             peak.map(|p| p.energy_loss_j),
@@ -100,7 +109,7 @@ fn conditions(plan: &SweepPlan, axes: &Axes, outcome: &Outcome) -> String {
         let count = format!("{} of {}", curve.results().len(), curve.records.len());
         let _ = writeln!(
             text,
-            "{value:>10}   {count:>9}   {loss}     {:>10}",
+            "{value:>width$}   {count:>9}   {loss}     {:>10}",
             at.unwrap_or_else(|| "-".to_owned())
         );
     }

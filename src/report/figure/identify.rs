@@ -244,7 +244,7 @@ fn openness(report: &IdentifyReport<'_>, omegas: &[f64]) -> Chart {
     let (lowest, highest) = report.found.window_rad_per_s;
     Chart::new(
         Axis::log(OMEGA),
-        Axis::log("half width of the 95 % band / %"),
+        Axis::linear("half width of the 95 % band / %"),
     )
     .series(line(|b| b.storage_factor))
     .series(line(|b| b.loss_factor).color(1).style(LineStyle::Dashed))
