@@ -31,7 +31,20 @@ impl Design {
     pub(super) fn gram(&self) -> DMatrix<f64> {
         let p = self.columns;
         let mut lower = vec![0.0; p * p];
-        for row in self.rows() {
+        // Four rows at once: the sums are then read and written a quarter as often.
+        let mut fours = self.values.chunks_exact(4 * p);
+        for four in fours.by_ref() {
+            let (first, second) = four.split_at(2 * p);
+            let ((a, b), (c, d)) = (first.split_at(p), second.split_at(p));
+            for i in 0..p {
+                let x = [a[i], b[i], c[i], d[i]];
+                let sums = lower[i * p..=i * p + i].iter_mut();
+                for ((((sum, a), b), c), d) in sums.zip(a).zip(b).zip(c).zip(d) {
+                    *sum += (x[0] * a + x[1] * b) + (x[2] * c + x[3] * d);
+                }
+            }
+        }
+        for row in fours.remainder().chunks_exact(p) {
             for (i, x) in row.iter().enumerate() {
                 for (sum, other) in lower[i * p..=i * p + i].iter_mut().zip(row) {
                     *sum += x * other;
