@@ -10,10 +10,10 @@ use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
 use crate::identify::selection::{Linearised, Scores};
 use crate::identify::series::{Point, name};
-use crate::identify::student::half_width_95;
 use crate::identify::uncertainty::{Directions, moduli};
 use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES, UNDETERMINED, column};
 use crate::material::Relaxation;
+use crate::measured::statistics::{NORMAL, student};
 use crate::sweep::record::error_bars::Quantity;
 
 /// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
@@ -336,10 +336,10 @@ fn judged(
     let directions = directions.ok_or(IdentifyError::NoFit("its derivatives are not finite"))?;
     let degrees_of_freedom = numbers.saturating_sub(point.0.len());
     let knowledge = linearised.noise.knowledge;
-    let half_width = half_width_95(match knowledge {
-        Knowledge::All | Knowledge::Some => None,
-        Knowledge::None => Some(degrees_of_freedom),
-    });
+    let half_width = match knowledge {
+        Knowledge::All | Knowledge::Some => NORMAL,
+        Knowledge::None => student(degrees_of_freedom as f64),
+    };
     let covariance = directions.covariance();
     let deviation = |k: usize| covariance[(k, k)].sqrt();
     let factor = |deviation: f64| (half_width * deviation).min(WIDEST).exp();

@@ -42,7 +42,6 @@ mod noise;
 pub mod resolved;
 mod selection;
 mod series;
-mod student;
 mod uncertainty;
 
 pub use curve::{Curve, curves};

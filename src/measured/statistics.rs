@@ -82,8 +82,11 @@ pub fn scatter(values: &[f64]) -> Option<StandardError> {
 /// Student's factor: two-sided, 95 % (G. W. Hill, Algorithm 396, Communications of the ACM 13, 1970). Below three degrees of freedom
 /// those of whole numbers.
 pub fn student(freedom: f64) -> f64 {
-    quantile(freedom, 0.05, 1.959_963_984_540_054)
+    quantile(freedom, 0.05, NORMAL)
 }
+
+/// The same of the normal distribution: of a standard deviation that is known.
+pub const NORMAL: f64 = 1.959_963_984_540_054;
 
 /// The same for a chance of 1 in 400, by which trends are judged.
 pub(super) fn student_of_trend(freedom: f64) -> f64 {
@@ -138,7 +141,10 @@ mod tests {
             (2.0, 4.3027),
             (3.0, 3.1824),
             (4.0, 2.7764),
+            (5.0, 2.570_58),
             (9.0, 2.2622),
+            (10.0, 2.228_14),
+            (21.0, 2.079_61),
             (30.0, 2.0423),
             (120.0, 1.9799),
             (1e7, 1.9600),
@@ -146,6 +152,7 @@ mod tests {
             // The tables have five digits, and the algorithm keeps them.
             assert!((student(freedom) / factor - 1.0).abs() < 2e-4, "{freedom}");
         }
+        assert!((student(1e5) / NORMAL - 1.0).abs() < 1e-4);
         assert!((student_of_trend(1e8) - 3.0233).abs() < 1e-3);
         assert!((student_of_trend(4.0) / 6.7583 - 1.0).abs() < 5e-3);
     }

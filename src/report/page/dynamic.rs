@@ -1,29 +1,20 @@
 //! The page of a material made of dynamic data: what was read, the figures, the shift factors, the block.
 
 use maud::{Markup, html};
-use serde::Serialize;
 
 use super::Pictures;
 use super::frame::{Frame, Input, InputFile};
 use super::html::json_for_script;
+use super::plain::{Data, SCRIPT, shown};
 use super::question::list;
 use crate::material::dynamic::master_curve::MasterCurve;
 use crate::quantity::celsius;
 use crate::report::ReportError;
-use crate::report::caption::Setting;
 use crate::report::dynamic::DynamicReport;
 use crate::report::figure::Figure;
 use crate::report::number::digits;
 use crate::report::words::listed;
 use crate::sweep::plan::resolved;
-
-/// Nothing here moves: the figures are the same with a script and without.
-const SCRIPT: &str = "function start() {}\n";
-
-#[derive(Serialize)]
-struct Data {
-    kind: &'static str,
-}
 
 /// The page; the pictures of the figures have gone by, `block` is the `[material]` block.
 ///
@@ -66,18 +57,6 @@ pub fn page(
         data: json_for_script(&Data { kind: "dynamic" })?,
     };
     Ok(frame.page())
-}
-
-/// A figure with its caption.
-pub(super) fn shown(figure: &Figure, pictures: &Pictures) -> Markup {
-    html! {
-        @if let Some(picture) = pictures.inline(figure.name) {
-            figure {
-                (picture)
-                figcaption { (figure.caption.text(&Setting::default())) }
-            }
-        }
-    }
 }
 
 /// A dash stands for an error that is not known.

@@ -1,12 +1,11 @@
 //! The page of an identified material: what was found and how well, the figures, the block.
 
 use maud::{Markup, html};
-use serde::Serialize;
 
 use super::Pictures;
-use super::dynamic::shown;
 use super::frame::{Frame, Input, InputFile};
 use super::html::json_for_script;
+use super::plain::{Data, SCRIPT, shown};
 use super::question::list;
 use crate::quantity::format_human;
 use crate::report::ReportError;
@@ -14,14 +13,6 @@ use crate::report::figure::Figure;
 use crate::report::identify::{IdentifyReport, dimension};
 use crate::report::number::{digits, scientific};
 use crate::sweep::plan::resolved;
-
-/// Nothing here moves: the figures are the same with a script and without.
-const SCRIPT: &str = "function start() {}\n";
-
-#[derive(Serialize)]
-struct Data {
-    kind: &'static str,
-}
 
 /// The page; the pictures of the figures have gone by, `block` is the `[material]` block.
 ///

@@ -1,28 +1,19 @@
 //! The page of measured loops: what was found, figures, the table, the setup.
 
 use maud::{Markup, html};
-use serde::Serialize;
 
 use super::Pictures;
 use super::frame::{Frame, Input, InputFile};
 use super::html::json_for_script;
+use super::plain::{Data, SCRIPT, shown};
 use super::question::list;
 use crate::measured::{Estimate, Quantity};
 use crate::quantity::Dimension;
 use crate::report::ReportError;
-use crate::report::caption::Setting;
 use crate::report::figure::Figure;
 use crate::report::measured::{Analysis, MeasuredRow, text};
 use crate::report::number::{four_digits, with_error};
 use crate::sweep::plan::resolved;
-
-/// Nothing here moves: the figures are the same with a script and without.
-const SCRIPT: &str = "function start() {}\n";
-
-#[derive(Serialize)]
-struct Data {
-    kind: &'static str,
-}
 
 /// The page; the pictures of the figures have gone by.
 ///
@@ -84,18 +75,6 @@ fn told(row: &MeasuredRow) -> Vec<String> {
         .iter()
         .map(|reason| format!("{}: {reason}.", row.file));
     findings.chain(reason).collect()
-}
-
-/// A figure with its caption.
-fn shown(figure: &Figure, pictures: &Pictures) -> Markup {
-    html! {
-        @if let Some(picture) = pictures.inline(figure.name) {
-            figure {
-                (picture)
-                figcaption { (figure.caption.text(&Setting::default())) }
-            }
-        }
-    }
 }
 
 fn table(rows: &[MeasuredRow]) -> Markup {

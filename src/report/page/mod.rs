@@ -13,6 +13,7 @@ pub mod identify;
 pub mod material;
 pub mod measured;
 mod pictures;
+mod plain;
 pub(super) mod question;
 mod simulation;
 mod surface_data;

@@ -27,12 +27,15 @@ const FEW_DIGITS: usize = 2;
 /// # Errors
 /// [`ReportError::Scale`] where figures are normalised by what does not exist.
 pub fn shown(plan: &SweepPlan, outcome: &Outcome) -> Result<BTreeSet<usize>, ReportError> {
-    let units = Units::of_sweep(plan)?;
-    let all = curves(plan, outcome, &units);
+    let all = curves(plan, outcome, &Units::of_sweep(plan)?);
+    Ok(shown_of(plan, &all))
+}
+
+fn shown_of(plan: &SweepPlan, all: &[Curve<'_>]) -> BTreeSet<usize> {
     let some = evenly(all.len(), CURVES_WITH_CYCLES).into_iter();
-    let some = some.filter_map(|k| all.get(k)).chain(largest(&all));
+    let some = some.filter_map(|k| all.get(k)).chain(largest(all));
     let asked = &plan.figures.loops_rad_per_s;
-    Ok(some.flat_map(|curve| cycles_of(curve, asked)).collect())
+    some.flat_map(|curve| cycles_of(curve, asked)).collect()
 }
 
 /// The outcome as the page shows it, and its table.
@@ -48,17 +51,14 @@ pub(super) fn of_page<'a>(
         let table = quantities::sweep(&outcome.records, branches, unit, plan.axes.as_ref());
         return Ok((Cow::Borrowed(outcome), table));
     }
-    let units = Units::of_sweep(plan)?;
-    let all = curves(plan, outcome, &units);
-    let whole = small_table(plan, branches, &sample(&all));
-    let per_row = whole.len() / sample(&all).len().max(1);
+    let all = curves(plan, outcome, &Units::of_sweep(plan)?);
+    let sample = sample(&all);
+    let per_row = small_table(plan, branches, &sample).len() / sample.len().max(1);
     let rows = TABLE_BYTES / per_row.max(1);
     let per_curve = outcome.records.len().div_ceil(all.len().max(1));
     let most = (rows / per_curve.max(1)).max(2);
     let mut chosen: BTreeSet<usize> = evenly(all.len(), most).into_iter().collect();
-    let place = largest(&all).and_then(|high| all.iter().position(|c| std::ptr::eq(c, high)));
-    chosen.extend(place);
-    let with_cycles = shown(plan, outcome)?;
+    let with_cycles = shown_of(plan, &all);
     for (k, curve) in all.iter().enumerate() {
         if curve.records.iter().any(|r| with_cycles.contains(&r.index)) {
             chosen.insert(k);

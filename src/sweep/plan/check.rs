@@ -25,7 +25,7 @@ pub enum PlanError {
         value: f64,
     },
     #[error(
-        "the second axis of the sweep has no value, or a condition without one; give at least one, and each its own"
+        "an axis of the sweep has no value, or a condition without one; give at least one, and each its own"
     )]
     NoCondition,
     #[error(
@@ -74,7 +74,8 @@ impl SweepPlan {
         check_order("angular frequency (rad/s)", omegas)?;
         if let Some(axes) = &self.axes {
             let lacks_one = |c: &Condition| c.values.all().len() != axes.over.len();
-            if axes.conditions.is_empty() || axes.conditions.iter().any(lacks_one) {
+            let is_empty = axes.over.is_empty() || axes.conditions.is_empty();
+            if is_empty || axes.conditions.iter().any(lacks_one) {
                 return Err(PlanError::NoCondition);
             }
             if let [varied] = axes.over[..] {

@@ -447,6 +447,26 @@ mod tests {
     }
 
     #[test]
+    fn the_torn_end_of_a_segment_without_any_whole_record_is_told_once() {
+        let folder = tempfile::TempDir::new().unwrap();
+        let (store, case) = (open(&folder), case());
+        let saved = store.save_case(Purpose::Sweep, &case, &record(&case));
+        saved.unwrap();
+        drop(store);
+        let path = segment_of(&folder);
+        let whole = std::fs::read(&path).unwrap();
+        std::fs::write(&path, &whole[..whole.len() - 1]).unwrap();
+        let store = open(&folder);
+        let told = [(); 3].map(|()| store.look().unwrap().len());
+        assert_eq!(told, [1, 0, 0]);
+        // The process that was writing it comes to the end of its record.
+        std::fs::write(&path, &whole).unwrap();
+        assert!(store.look().unwrap().is_empty());
+        let kept = store.load_case(Purpose::Sweep, &case).unwrap();
+        assert!(matches!(kept, Kept::Intact(_)));
+    }
+
+    #[test]
     fn records_of_other_versions_are_not_used_and_what_is_no_segment_is_named() {
         let case = case();
         // The heading of a record begins with the version and the build.

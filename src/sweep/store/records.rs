@@ -18,6 +18,10 @@ use super::{StoreError, VERSION};
 pub const FOLDER: &str = "records";
 pub const ENDING: &str = "segment";
 
+/// What is said of bytes that are no record.
+const NOT_USED: &str = "(their checksum does not match): what stood there is not used";
+const NO_END: &str = "(a record without its end): they are not used";
+
 /// Where other processes may be at work, their segments are looked at again after this time.
 const LOOK_AGAIN: Duration = Duration::from_millis(500);
 
@@ -188,31 +192,11 @@ impl Records {
 impl State {
     /// The segment of this process, made with its first record.
     fn writer(&mut self, folder: &Path) -> Result<&mut SegmentWriter, StoreError> {
-        if self.own.is_none() {
-            let created = |path: PathBuf| move |source| StoreError::Create { path, source };
-            fs::create_dir_all(folder).map_err(created(folder.to_path_buf()))?;
-            let host: String = provenance::host().unwrap_or_default();
-            let host = host.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "");
-            let process = std::process::id();
-            let mut count = 0;
-            let writer = loop {
-                // Systems number their processes from the beginning again and again.
-                let path = folder.join(format!("{host}-{process}-{count}.{ENDING}"));
-                match SegmentWriter::create(&path) {
-                    Ok(writer) => break writer,
-                    Err(error) if error.kind() == io::ErrorKind::AlreadyExists => count += 1,
-                    Err(source) => return Err(StoreError::Create { path, source }),
-                }
-            };
-            self.own = Some(writer);
-        }
-        match &mut self.own {
-            Some(writer) => Ok(writer),
-            None => Err(StoreError::Create {
-                path: folder.to_path_buf(),
-                source: io::Error::other("no segment"),
-            }),
-        }
+        let writer = match self.own.take() {
+            Some(writer) => writer,
+            None => new_segment(folder)?,
+        };
+        Ok(self.own.insert(writer))
     }
 
     fn look(&mut self, folder: &Path, sweep_hash: &str) -> Result<(), StoreError> {
@@ -254,22 +238,19 @@ impl State {
         if length <= from {
             return Ok(());
         }
+        let is_first = !self.read.contains_key(path);
         let mut found = Vec::new();
-        let to = segment::read(path, from, |met| {
-            match met {
+        let to = segment::read(path, from, |met| match met {
             Met::Damaged { from, to } => found.push(Err(format!(
-                "bytes {from} to {to} are damaged or torn (their checksum does not match): what stood there is not used"
+                "bytes {from} to {to} are damaged or torn {NOT_USED}"
             ))),
-            Met::Record { at, content } => {
-                found.push(place(&segment, at, content, sweep_hash));
-            }
-        }
+            Met::Record { at, content } => found.push(place(&segment, at, content, sweep_hash)),
         })?;
-        // A process that is killed leaves such an end, and one at work for a moment too.
-        if to < length && from == 0 {
+        // A process that is killed leaves such an end, and one at work for a moment too: it is told once.
+        if to < length && is_first {
+            let torn = length - to;
             found.push(Err(format!(
-                "its last {} bytes are damaged or torn (a record without its end): they are not used",
-                length - to
+                "its last {torn} bytes are damaged or torn {NO_END}"
             )));
         }
         for found in found {
@@ -292,6 +273,25 @@ impl State {
             _ => {
                 self.places.insert(key, place);
             }
+        }
+    }
+}
+
+/// A segment that no other process has.
+fn new_segment(folder: &Path) -> Result<SegmentWriter, StoreError> {
+    let created = |path: PathBuf| move |source| StoreError::Create { path, source };
+    fs::create_dir_all(folder).map_err(created(folder.to_path_buf()))?;
+    let host: String = provenance::host().unwrap_or_default();
+    let host = host.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "");
+    let process = std::process::id();
+    let mut count = 0;
+    loop {
+        // Systems number their processes from the beginning again and again.
+        let path = folder.join(format!("{host}-{process}-{count}.{ENDING}"));
+        match SegmentWriter::create(&path) {
+            Ok(writer) => return Ok(writer),
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => count += 1,
+            Err(source) => return Err(created(path)(source)),
         }
     }
 }
