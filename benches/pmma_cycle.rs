@@ -43,6 +43,7 @@ fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
             },
             tolerance: 1e-4,
             max_cycles: 1000,
+            at_cycle: None,
             error_bars: false,
             accuracy: None,
         },

@@ -152,6 +152,10 @@ fn ended(
         json::print(&serde_json::json!({
             "summary": json::file(&store.folder().join("summary.json"))?,
             "history": json::rows_of(&store.folder().join("history.csv"))?,
+            "cycles": match outcome.cycles.is_empty() {
+                true => Vec::new(),
+                false => json::rows_of(&store.folder().join("cycles.csv"))?,
+            },
         }))?;
     } else if !quiet {
         let mut text = terminal_simulation::text(simulation.plan(), outcome);

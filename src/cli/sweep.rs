@@ -12,7 +12,6 @@ use crate::input::sweep_file;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
 use crate::sweep::plan::resolved;
-use crate::sweep::record::Status;
 use crate::sweep::search::run::{self, Options, Outcome, RunError};
 use crate::sweep::share::shard::{self, Shard};
 use crate::sweep::store::provenance::{Circumstances, Stopwatch};
@@ -186,7 +185,7 @@ fn run_shard(
             "Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}\n"
         ))?;
     }
-    let without_result = part.records.iter().any(|r| r.status != Status::Converged);
+    let without_result = part.records.iter().any(|r| !r.status.has_result());
     Ok(match (part.interrupted, without_result) {
         (true, _) => Ended::Interrupted,
         (false, true) => Ended::SomeCasesWithoutResult,
@@ -210,7 +209,7 @@ pub(super) fn interrupt_flag() -> Result<Arc<AtomicBool>, Failure> {
 fn ended(outcome: &Outcome) -> Ended {
     if outcome.interrupted {
         Ended::Interrupted
-    } else if outcome.count(Status::Converged) < outcome.records.len() {
+    } else if !outcome.records.iter().all(|r| r.status.has_result()) {
         Ended::SomeCasesWithoutResult
     } else {
         Ended::Done

@@ -105,6 +105,27 @@ pub fn analyse(load_n: &[f64], approach_m: &[f64]) -> Result<LoopAnalysis, LoopE
     })
 }
 
+/// Analyses one period of a cycle that does not close, N + 1 uniform samples, both ends included: the straight line through its two
+/// ends is taken off each signal, so that means stay and a steady drift is no part of the loss, the phase or the harmonics.
+///
+/// # Errors
+/// As [`analyse`].
+pub fn analyse_open(load_n: &[f64], approach_m: &[f64]) -> Result<LoopAnalysis, LoopError> {
+    check(load_n, approach_m)?;
+    analyse(&closed(load_n), &closed(approach_m))
+}
+
+/// The samples without the line through first and last, which is zero in the middle.
+fn closed(samples: &[f64]) -> Vec<f64> {
+    let steps = samples.len().saturating_sub(1).max(1) as f64;
+    let change = samples
+        .first()
+        .zip(samples.last())
+        .map_or(0.0, |(a, b)| b - a);
+    let flat = |(i, value): (usize, &f64)| value - change * (i as f64 / steps - 0.5);
+    samples.iter().enumerate().map(flat).collect()
+}
+
 impl LoopAnalysis {
     /// What rounding of the samples may leave in the energy loss (J): some units in the last place of the largest approach, over
     /// the amplitude of the load, and likewise with the two exchanged.
@@ -264,6 +285,23 @@ mod tests {
         assert!((analysis.approach_harmonic(2).unwrap() - 0.25).abs() < 1e-13);
         assert!((analysis.approach_harmonic(3).unwrap() - 0.125).abs() < 1e-13);
         assert!((analysis.harmonics[1].approach_phase_rad - 0.7).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_steady_drift_is_no_part_of_an_open_cycle() {
+        for phase in [0.0, 1.0, -2.5] {
+            let (mut w, mut d) = ellipse(64, 0.3, phase);
+            let closed = analyse(&w, &d).unwrap();
+            for i in 0..=64 {
+                w[i] += 3.0 * (i as f64 / 64.0 - 0.5);
+                d[i] -= 4e-6 * (i as f64 / 64.0 - 0.5);
+            }
+            let open = analyse_open(&w, &d).unwrap();
+            assert!((open.energy_loss_j / closed.energy_loss_j - 1.0).abs() < 1e-12);
+            assert!((open.phase_lag_rad - 0.3).abs() < 1e-12);
+            assert!((open.load_mean_n - 10.0).abs() < 1e-12);
+            assert!((open.polygon_loss_j / closed.polygon_loss_j - 1.0).abs() < 1e-12);
+        }
     }
 
     #[test]

@@ -166,6 +166,13 @@ impl SegmentedDrive {
         &self.segments
     }
 
+    /// When a segment begins (s); `None` for one that there is not.
+    pub fn start_s(&self, segment: usize) -> Option<f64> {
+        let mut pieces = self.pieces.iter();
+        let first = pieces.find(|piece| piece.segment == segment);
+        first.map(|piece| piece.start_s)
+    }
+
     /// Length of the history (s).
     pub fn duration_s(&self) -> f64 {
         self.pieces.last().map_or(0.0, Piece::end_s)

@@ -169,13 +169,28 @@ impl<'a, M: Hereditary> March<'a, M> {
         self.step(&self.weights(0.0), prescribed)
     }
 
-    /// Holds one value for `duration_s`, in steps that grow in proportion to the time since the hold began: as many per
-    /// decade, from a small part of the shortest retardation time on.
+    /// Steps per decade of a hold that is to be forgotten.
+    pub const HOLD_STEPS_PER_DECADE: f64 = 20.0;
+
+    /// As [`March::hold_in`] the usual number of steps.
     ///
     /// # Errors
     /// As [`March::step`].
     pub fn hold(&mut self, duration_s: f64, prescribed: Prescribed) -> Result<(), ContactError> {
-        const STEPS_PER_DECADE: f64 = 20.0;
+        self.hold_in(Self::HOLD_STEPS_PER_DECADE, duration_s, prescribed)
+    }
+
+    /// Holds one value for `duration_s`, in steps that grow in proportion to the time since the hold began: so many per
+    /// decade, from a small part of the shortest retardation time on, the smaller the more there are.
+    ///
+    /// # Errors
+    /// As [`March::step`].
+    pub fn hold_in(
+        &mut self,
+        steps_per_decade: f64,
+        duration_s: f64,
+        prescribed: Prescribed,
+    ) -> Result<(), ContactError> {
         const FIRST_STEP_PER_RETARDATION_TIME: f64 = 1e-2;
         if duration_s <= 0.0 {
             return Ok(());
@@ -184,8 +199,9 @@ impl<'a, M: Hereditary> March<'a, M> {
             .memory
             .shortest_time_s()
             .map_or(duration_s, |time_s| time_s.min(duration_s));
-        let first_s = FIRST_STEP_PER_RETARDATION_TIME * shortest_s;
-        let steps = ((duration_s / first_s).log10() * STEPS_PER_DECADE).ceil() as i32;
+        let finer = Self::HOLD_STEPS_PER_DECADE / steps_per_decade;
+        let first_s = finer * FIRST_STEP_PER_RETARDATION_TIME * shortest_s;
+        let steps = ((duration_s / first_s).log10() * steps_per_decade).ceil() as i32;
         let growth = (duration_s / first_s).powf(1.0 / f64::from(steps));
         let mut time_s = 0.0;
         for k in 0..=steps {

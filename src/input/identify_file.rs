@@ -36,7 +36,7 @@ pub fn plan(document: &Document) -> Result<IdentifyPlan, Diagnostics> {
     let drive = drive.and_then(|t| harmonic_block::read(t, &problems));
     let measured = root.table(&IDENTIFY);
     let measured = measured.and_then(|t| measured_block(t, document.folder(), drive, &problems));
-    let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, cycle);
+    let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, |t| cycle(t, &problems));
     let default = indenter
         .as_ref()
         .map_or_else(SolverPlan::default, |indenter| {

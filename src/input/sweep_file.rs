@@ -16,8 +16,8 @@ use super::keys::drive::{
     ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, MATERIAL_AXIS, PAIRS, REFINE,
 };
 use super::keys::settings::{
-    CYCLE_ACCURACY, CYCLE_ERROR_BARS, CYCLE_STEPS, CYCLE_TOLERANCE, ENGINE, MAX_CYCLES, METHOD,
-    SOLVER_CELLS, SOLVER_SPRINGS, SOLVER_TOLERANCE, TIME_RULE,
+    AT_CYCLE, CYCLE_ACCURACY, CYCLE_ERROR_BARS, CYCLE_STEPS, CYCLE_TOLERANCE, ENGINE, MAX_CYCLES,
+    METHOD, SOLVER_CELLS, SOLVER_SPRINGS, SOLVER_TOLERANCE, TIME_RULE,
 };
 use super::material_table::DirectSum;
 use super::{harmonic_block, indenter_block, material_block};
@@ -28,7 +28,9 @@ use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::axes::MOST as MOST_AXES;
 use crate::sweep::plan::resolved::drive_dimension;
-use crate::sweep::plan::{self, AxisValues, Block, Condition, CyclePlan, SolverPlan, SweepPlan};
+use crate::sweep::plan::{
+    self, AxisValues, Block, Condition, CyclePlan, Method, SolverPlan, SweepPlan,
+};
 use crate::sweep::scales::elastic::ElasticScale;
 
 const MAX_CASES: usize = SweepPlan::MAX_CASES;
@@ -61,7 +63,7 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
     let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
         harmonic_block::read(t, &problems)
     });
-    let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), cycle);
+    let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| cycle(t, &problems));
     let default = default_solver(indenter.as_ref().map(|(own, _)| own.as_ref()));
     let solver = root.table_or(&keys::SOLVER, default, |t| solver(t, default));
     let frequencies = sweep.as_ref();
@@ -393,11 +395,18 @@ fn frequencies(table: &mut TableReader<'_>) -> Option<(Vec<f64>, FrequencyUnit)>
     Some((values.map(|value| value * to_angular).collect(), given_in))
 }
 
-pub(super) fn cycle(mut table: TableReader<'_>) -> Option<CyclePlan> {
+pub(super) fn cycle(mut table: TableReader<'_>, problems: &Problems) -> Option<CyclePlan> {
     let steps = table.value(&CYCLE_STEPS);
     let method = table.value(&METHOD);
     let tolerance = table.value(&CYCLE_TOLERANCE);
     let max_cycles = table.value(&MAX_CYCLES);
+    let at_cycle = table.value(&AT_CYCLE);
+    if let (Some(key), Some(Method::Direct)) = (table.key_location(&AT_CYCLE), method) {
+        problems
+            .at(&key, "a cycle by its number needs `cycle.method = \"march\"`")
+            .because("a direct search knows no cycles before the stabilised one")
+            .help("add `method = \"march\"`, and in `[drive]` perhaps a `hold` before the first cycle");
+    }
     let error_bars = table.value(&CYCLE_ERROR_BARS);
     let accuracy = table.value(&CYCLE_ACCURACY);
     table.finish();
@@ -406,6 +415,7 @@ pub(super) fn cycle(mut table: TableReader<'_>) -> Option<CyclePlan> {
         method: method?,
         tolerance: tolerance?,
         max_cycles: max_cycles?,
+        at_cycle: at_cycle?,
         error_bars: error_bars?,
         accuracy: accuracy?,
     })

@@ -90,9 +90,17 @@ impl Setting {
         let records = &outcome.records;
         let steps = range(records.iter().map(|record| record.steps as f64), 0);
         let nodes = range(records.iter().map(|record| record.nodes as f64), 0);
+        let cycles = match plan.cycle.at_cycle {
+            Some(number) => format!(
+                "Cycle {number} from the beginning of the oscillation, not stabilised, a straight line taken off so that it closes"
+            ),
+            None => format!(
+                "Stabilised cycles to a relative tolerance of {:e}",
+                plan.cycle.tolerance
+            ),
+        };
         let computed = format!(
-            "Stabilised cycles to a relative tolerance of {:e}, {steps} time steps per cycle, computed by {}.",
-            plan.cycle.tolerance,
+            "{cycles}, {steps} time steps per cycle, computed by {}.",
             engine(&plan.solver, plan.indenter.as_ref(), &nodes)
         );
         Self {
@@ -195,9 +203,13 @@ pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
         .iter()
         .any(|record| record.energy_loss_error_j().is_some());
     any.then(|| {
+        let distance = match plan.cycle.at_cycle {
+            Some(_) => "",
+            None => " and from the distance to the stabilised cycle",
+        };
         format!(
-            "Error bars: estimated numerical error, from half and a quarter of the time steps and {nodes} and from the distance \
-             to the stabilised cycle; bars shorter than their symbol are not drawn."
+            "Error bars: estimated numerical error, from half and a quarter of the time steps and {nodes}{distance}; bars shorter \
+             than their symbol are not drawn."
         )
     })
 }

@@ -3,7 +3,6 @@
 use super::number::{self, plain};
 use crate::quantity::Dimension;
 use crate::sweep::plan::SweepPlan;
-use crate::sweep::record::Status;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
 
@@ -99,9 +98,14 @@ pub fn shown(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<
 
 /// Why there is no peak.
 pub fn none(plan: &SweepPlan, outcome: &Outcome) -> &'static str {
-    if outcome.count(Status::Converged) == 0 {
+    let is_elastic = plan.cycle.at_cycle.is_none() && outcome.branches() == 0;
+    if !outcome
+        .records
+        .iter()
+        .any(|record| record.status.has_result())
+    {
         "No peak: no case converged."
-    } else if outcome.branches() == 0 {
+    } else if is_elastic {
         "No peak: the material has no branches; an elastic body loses nothing."
     } else if plan.angular_frequencies_rad_per_s.len() < 3 {
         "No peak: it takes at least three frequencies to enclose one."

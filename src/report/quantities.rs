@@ -3,7 +3,9 @@
 //! reference in `src/guide/results.md` read them here; a column is added by its row.
 
 use super::table::{Cell, csv};
+use crate::cycle::Harmonic;
 use crate::quantity::{Dimension, FrequencyUnit};
+use crate::sweep::history::cycles::{CycleNumbers, HistoryCycle};
 use crate::sweep::history::errors::RowErrors;
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
 use crate::sweep::plan::Axes;
@@ -325,7 +327,7 @@ pub static SWEEP: &[OfCase] = &[
     OfCase::new("convolutions", |r| r.work.convolutions.into(), "convolutions on cells"),
     OfCase::new("warnings", |r| codes(r).into(),
         "what lies outside the model, as [codes](super::validity) with blanks between them; empty where nothing does"),
-    OfCase::new("status", |r| r.status.name().into(), "converged, not-converged or failed; the latter two have no result"),
+    OfCase::new("status", |r| r.status.name().into(), "converged; transient: the cycle asked for by its number; not-converged or failed: no result"),
     OfCase::new("message", |r| r.message.clone().into(), "why there is no result, or what else is to be known"),
 ];
 
@@ -372,6 +374,62 @@ pub static HISTORY: &[OfMoment] = &[
         "largest pressure in the contact; empty where it is unbounded")
         .called("pressure", Some(Stress)).with_error(|m| m.errors.peak_pressure_pa),
 ];
+
+/// Of a cycle that has numbers.
+fn of_cycle(cycle: &HistoryCycle, value: fn(&CycleNumbers) -> Option<f64>) -> Cell {
+    cycle.numbers.as_ref().and_then(value).into()
+}
+
+/// The first harmonic of a cycle.
+fn first(numbers: &CycleNumbers) -> Option<&Harmonic> {
+    numbers.analysis.harmonics.first()
+}
+
+type OfCycle = Column<HistoryCycle>;
+
+/// The columns of `cycles.csv`.
+#[rustfmt::skip]
+pub static CYCLES: &[OfCycle] = &[
+    OfCycle::new("segment", |c| c.segment.into(), "the sine segment of the drive, from 1"),
+    OfCycle::new("cycle", |c| c.number.into(), "the cycle within it, from 1"),
+    OfCycle::new("start_s", |c| c.start_s.into(), "when it begins").called("start", Some(Dimension::Time)),
+    OfCycle::new("angular_frequency_rad_per_s", |c| c.angular_frequency_rad_per_s.into(), "angular frequency of the drive")
+        .called("angular frequency", Some(Dimension::AngularFrequency)),
+    OfCycle::new("energy_loss_j", |c| of_cycle(c, |n| Some(n.analysis.energy_loss_j)),
+        "area of the loop once a straight line has closed it; empty where the approach is undefined for a part of the cycle")
+        .called("loss / cycle", Some(Dimension::Energy)).with_error(|c| c.errors.energy_loss_j),
+    OfCycle::new("phase_lag_rad", |c| of_cycle(c, |n| Some(n.analysis.phase_lag_rad)), "lag of the approach behind the load, first harmonic")
+        .called("phase lag", Some(Dimension::Angle)).with_error(|c| c.errors.phase_lag_rad),
+    OfCycle::new("storage_modulus_pa", |c| of_cycle(c, |n| n.moduli_pa.map(|m| m.0)), "E′ read from the first harmonic and the mean contact radius")
+        .called("E′", Some(Stress)).with_error(|c| c.errors.storage_modulus_pa),
+    OfCycle::new("loss_modulus_pa", |c| of_cycle(c, |n| n.moduli_pa.map(|m| m.1)), "E″ likewise")
+        .called("E″", Some(Stress)).with_error(|c| c.errors.loss_modulus_pa),
+    OfCycle::new("load_mean_n", |c| of_cycle(c, |n| Some(n.analysis.load_mean_n)), "mean load").called("mean load", Some(Dimension::Force)),
+    OfCycle::new("load_amplitude_n", |c| of_cycle(c, |n| Some(first(n)?.load_amplitude_n)), "amplitude of its first harmonic")
+        .called("load amplitude", Some(Dimension::Force)),
+    OfCycle::new("load_change_n", |c| of_cycle(c, |n| Some(n.load_change_n)), "load at the end less that at the beginning, which the straight line takes off")
+        .called("change of load", Some(Dimension::Force)),
+    OfCycle::new("approach_mean_m", |c| of_cycle(c, |n| Some(n.analysis.approach_mean_m)), "mean approach").called("mean approach", Some(Length)),
+    OfCycle::new("approach_amplitude_m", |c| of_cycle(c, |n| Some(first(n)?.approach_amplitude_m)), "amplitude of its first harmonic")
+        .called("approach amplitude", Some(Length)),
+    OfCycle::new("approach_change_m", |c| of_cycle(c, |n| Some(n.approach_change_m)), "approach at the end less that at the beginning")
+        .called("change of approach", Some(Length)),
+    OfCycle::new("contact_radius_mean_m", |c| of_cycle(c, |n| Some(n.mean_contact_radius_m)), "mean contact radius")
+        .called("mean radius", Some(Length)),
+    OfCycle::new("harmonic_2", |c| of_cycle(c, |n| n.analysis.approach_harmonic(2)), "second harmonic of the approach over the first"),
+    OfCycle::new("harmonic_3", |c| of_cycle(c, |n| n.analysis.approach_harmonic(3)), "the third"),
+    OfCycle::new("harmonic_4", |c| of_cycle(c, |n| n.analysis.approach_harmonic(4)), "the fourth"),
+    OfCycle::new("harmonic_5", |c| of_cycle(c, |n| n.analysis.approach_harmonic(5)), "the fifth"),
+];
+
+/// `cycles.csv`: one row per cycle of the sine segments of a history, errors beside their values.
+pub fn cycles(outcome: &SimulationOutcome) -> Vec<u8> {
+    let columns = CYCLES.iter();
+    let named_columns: Vec<_> = columns
+        .flat_map(|c| c.named(0).into_iter().chain(c.named_error()))
+        .collect();
+    named(&named_columns, &outcome.cycles)
+}
 
 /// The rows of these columns.
 pub(super) fn named<R>(columns: &[Named<R>], rows: &[R]) -> Vec<u8> {
@@ -458,6 +516,7 @@ mod tests {
         for (name, rows) in [
             ("sweep.csv", reference(SWEEP)),
             ("history.csv", reference(HISTORY)),
+            ("cycles.csv", reference(CYCLES)),
         ] {
             let begin =
                 format!("<!-- columns of {name}, written by src/report/quantities.rs -->\n");

@@ -25,6 +25,8 @@ use crate::sweep::store::{Store, files};
 
 /// The table of time steps.
 const HISTORY: &str = "history.csv";
+/// The table of cycles of sine segments, where there are any.
+const CYCLES: &str = "cycles.csv";
 
 /// Writes everything, as far as the simulation came. Returns what was left out and why.
 ///
@@ -76,6 +78,10 @@ fn tables(
     outcome: &SimulationOutcome,
 ) -> Result<(), ReportError> {
     store.write(HISTORY, &quantities::history(outcome))?;
+    match outcome.cycles.is_empty() {
+        true => store.remove(CYCLES)?,
+        false => store.write(CYCLES, &quantities::cycles(outcome))?,
+    }
     store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
     if !outcome.profiles.is_empty() {
         store.write("profiles/index.csv", &index(&outcome.profiles))?;
@@ -110,6 +116,7 @@ fn figures(
         Drawn::Figure(figure) => figures.push(figure),
         Drawn::LeftOut(why) => left_out.push(why),
     }
+    figures.extend(figure::cycle_losses::figure(outcome, &units));
     let (profiles, not_drawn) = figure::profiles::figure(&outcome.profiles, &units);
     figures.extend(profiles);
     left_out.extend(not_drawn);

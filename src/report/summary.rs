@@ -32,6 +32,7 @@ struct Summary<'a> {
 struct Cases {
     planned: usize,
     converged: usize,
+    transient: usize,
     not_converged: usize,
     failed: usize,
 }
@@ -51,6 +52,7 @@ pub fn summary(
         cases: Cases {
             planned: plan.cases().len(),
             converged: outcome.count(Status::Converged),
+            transient: outcome.count(Status::Transient),
             not_converged: outcome.count(Status::NotConverged),
             failed: outcome.count(Status::Failed),
         },

@@ -4,9 +4,11 @@ use std::fmt::Write;
 
 use crate::quantity::{Dimension, format_human};
 use crate::report::fit;
+use crate::report::number::with_error;
 use crate::report::quantities::{Column, HISTORY, Moment};
 use crate::report::samples;
 use crate::report::terminal;
+use crate::sweep::history::cycles::HistoryCycle;
 use crate::sweep::history::outside_model;
 use crate::sweep::history::{SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::body_material::BodyMaterial;
@@ -61,6 +63,7 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
             n => format!(", domain enlarged {n} times"),
         }
     );
+    text.push_str(&cycles(outcome));
     let warnings = terminal::warned(outside_model::warnings(plan, outcome));
     if !warnings.is_empty() {
         let _ = write!(text, "\n{warnings}");
@@ -69,6 +72,29 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
         let _ = writeln!(text, "Without errors: {why}.");
     }
     text
+}
+
+/// The loss of the first and the last cycle of every sine segment; nothing where there is none.
+fn cycles(outcome: &SimulationOutcome) -> String {
+    let segments = outcome.cycles.chunk_by(|a, b| a.segment == b.segment);
+    let losses = segments.filter_map(|cycles| {
+        let loss = |cycle: &HistoryCycle| {
+            let numbers = cycle.numbers.as_ref()?;
+            let (loss_j, error) = (numbers.analysis.energy_loss_j, cycle.errors.energy_loss_j);
+            Some((cycle.number, with_error(loss_j, error, Dimension::Energy)))
+        };
+        let (first, last) = (cycles.first()?, cycles.last()?);
+        let ((first_number, first), (number, last)) = (loss(first)?, loss(last)?);
+        let then = match number {
+            1 => String::new(),
+            _ => format!("\n  cycle {number}: {last}"),
+        };
+        let segment = cycles.first()?.segment;
+        Some(format!(
+            "Loss in segment {segment}\n  cycle {first_number}: {first}{then}\n"
+        ))
+    });
+    losses.collect()
 }
 
 /// What has an error.

@@ -12,6 +12,7 @@ mod half_space_work;
 mod identification;
 mod instant_tolerance;
 mod measured_loops;
+mod numbered_cycles;
 mod pmma_baseline;
 mod pressure_profiles;
 mod quarter;

@@ -16,6 +16,7 @@ mod architecture;
 mod axes;
 mod build_identity;
 mod command_line;
+mod cycles_by_number;
 mod data_files;
 mod direct_sum;
 mod examples;

@@ -41,6 +41,8 @@ rows! { CYCLE_KEYS:
         "tolerance", number("1e-4").within(TOLERANCE), Or(CyclePlan::DEFAULT.tolerance);
     /// Cycles of marching after which a frequency counts as not converged.
     MAX_CYCLES: Row<Integer, Or<usize>> = "max_cycles", Integer(CyclePlan::MAX_CYCLES), Or(CyclePlan::DEFAULT.max_cycles);
+    /// With `method = "march"`: this cycle after the hold, counted from 1, is recorded as it is, whether it is stabilised or not.
+    AT_CYCLE: Row<Integer, Optional> = "at_cycle", Integer(CyclePlan::MAX_CYCLES), Optional;
     /// Whether every case is solved on coarser steps and nodes too, which gives its errors.
     CYCLE_ERROR_BARS: Row<Boolean, Or<bool>> = "error_bars", Boolean, Or(CyclePlan::DEFAULT.error_bars);
     /// Largest error of every loss, relative: steps, and springs or cells, are then chosen to reach it. The same as `--accuracy`.

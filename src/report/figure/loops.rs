@@ -9,7 +9,7 @@ use crate::report::chart::{Axis, Chart, Color, Series};
 use crate::report::number::{largest, with_error};
 use crate::report::table::{cells, csv_leading};
 use crate::report::words::listed;
-use crate::sweep::record::{CaseRecord, CaseResult};
+use crate::sweep::record::{CaseRecord, CaseResult, Status};
 
 /// Loops in one figure; more cannot be told apart.
 pub const LOOPS: usize = 5;
@@ -57,10 +57,18 @@ fn caption(curve: &Curve<'_>, chosen: &[(&CaseRecord, &CaseResult)], units: &Uni
             format!("{loss} at {}", units.at(record.angular_frequency_rad_per_s))
         })
         .collect();
-    Caption::new("Hysteresis loops: load W over approach δ in the stabilised cycle")
+    let mut records = chosen.iter().map(|(record, _)| record.status);
+    let (of, areas) = match records.any(|status| status == Status::Transient) {
+        true => (
+            "a cycle on the way to the stabilised one",
+            "The areas that they have once a straight line has closed them",
+        ),
+        false => ("the stabilised cycle", "Their areas"),
+    };
+    Caption::new(format!("Hysteresis loops: load W over approach δ in {of}"))
         .say_all(curve.sentence.clone())
         .say(format!(
-            "Their areas are the energy losses per cycle: {}.",
+            "{areas} are the energy losses per cycle: {}.",
             listed(&loops)
         ))
 }

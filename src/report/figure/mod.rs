@@ -3,6 +3,7 @@
 pub mod cole_cole;
 pub mod comparison;
 pub mod curve;
+pub mod cycle_losses;
 pub mod dissipation;
 pub mod dissipation_map;
 pub mod dissipation_profile;

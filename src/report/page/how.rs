@@ -26,14 +26,20 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
         ),
     );
     solver(&mut facts, &plan.solver);
-    facts.add(
-        "stabilised cycle",
-        &format!(
-            "method {}, tolerance {:e}",
-            plan.cycle.method.name(),
-            plan.cycle.tolerance
+    match plan.cycle.at_cycle {
+        Some(number) => facts.add(
+            "cycle",
+            &format!("number {number} after the hold, as it is"),
         ),
-    );
+        None => facts.add(
+            "stabilised cycle",
+            &format!(
+                "method {}, tolerance {:e}",
+                plan.cycle.method.name(),
+                plan.cycle.tolerance
+            ),
+        ),
+    }
     let integer = |value: fn(&CaseRecord) -> f64| range(records.iter().map(value), 0);
     facts.add("time steps per cycle", &integer(|r| r.steps as f64));
     let nodes = integer(|r| r.nodes as f64);

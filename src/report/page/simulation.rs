@@ -11,8 +11,10 @@ use super::sweep_data::MaterialData;
 use super::{Pictures, moduli, still};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
-use crate::report::number::plain;
+use crate::report::number::{plain, with_error};
 use crate::report::profile_lines::lines;
+use crate::report::quantities::{CYCLES, Column};
+use crate::sweep::history::cycles::HistoryCycle;
 use crate::sweep::history::outside_model;
 use crate::sweep::history::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
 use crate::sweep::plan::body_material::BodyMaterial;
@@ -177,6 +179,7 @@ pub(super) fn sections(
             div id="loop" class="live plot" {}
             (still(pictures, "history", "The history has no two times: there is nothing to draw."))
         }
+        (cycles(outcome, pictures))
         (surface())
         section aria-labelledby="asked-heading" {
             h2 id="asked-heading" { "What was asked" }
@@ -186,6 +189,47 @@ pub(super) fn sections(
         section aria-labelledby="how-heading" {
             h2 id="how-heading" { "How the numbers were obtained" }
             (how(plan, outcome))
+        }
+    }
+}
+
+/// Cycles in the table, at most: the first ones and the last.
+const TABLE: usize = 40;
+
+/// The cycles of sine segments; nothing where there are none.
+fn cycles(outcome: &SimulationOutcome, pictures: &Pictures) -> Markup {
+    let shown: Vec<&Column<HistoryCycle>> =
+        CYCLES.iter().filter(|c| c.error_name().is_some()).collect();
+    let all = &outcome.cycles;
+    if all.is_empty() {
+        return Markup::default();
+    }
+    let rows = all.iter().take(TABLE / 2);
+    let rows = rows.chain(
+        all.iter()
+            .skip((TABLE / 2).max(all.len().saturating_sub(TABLE / 2))),
+    );
+    let cell = |column: &Column<HistoryCycle>, cycle: &HistoryCycle| {
+        let value = column.number(cycle).zip(column.dimension);
+        value.map_or_else(String::new, |(value, dimension)| {
+            with_error(value, column.error(cycle), dimension)
+        })
+    };
+    html! {
+        section aria-labelledby="cycles-heading" {
+            h2 id="cycles-heading" { "Cycle by cycle" }
+            (still(pictures, "cycle-losses", "No segment has two cycles to draw."))
+            section class="scroll" tabindex="0" aria-label="Cycles, may be scrolled" { table {
+                thead { tr {
+                    th scope="col" { "segment" } th scope="col" { "cycle" }
+                    @for column in &shown { th scope="col" { (column.heading) } }
+                } }
+                tbody { @for cycle in rows { tr {
+                    td { (cycle.segment) } td { (cycle.number) }
+                    @for column in &shown { td { (cell(column, cycle)) } }
+                } } }
+            } }
+            @if all.len() > TABLE { p { "The first and the last of " (all.len()) " cycles; all are in cycles.csv." } }
         }
     }
 }

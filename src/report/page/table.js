@@ -66,7 +66,7 @@ function startTable(columns, rows, choose) {
     });
   }
   for (const line of body.rows) {
-    if (byIndex.get(line.dataset.index).status !== "converged") continue;
+    if (!["converged", "transient"].includes(byIndex.get(line.dataset.index).status)) continue;
     const head = line.cells[0], button = document.createElement("button");
     button.type = "button";
     button.append(...head.childNodes);

@@ -218,7 +218,9 @@ impl Setup {
         nodes: usize,
     ) -> Result<Arc<EngineBuilder>, SetupError> {
         let drive = &contact.condition.drive;
-        if self.plan.solver.engine == EngineKind::HalfSpace {
+        // On the way to the stabilised cycle the contact may be smaller than it ever is in that.
+        let is_transient = contact.cycle.at_cycle.is_some();
+        if is_transient || self.plan.solver.engine == EngineKind::HalfSpace {
             return self.engines(contact.condition, nodes);
         }
         let of_drive = |maximum, compliance_per_pa| LargestContact {
@@ -406,7 +408,7 @@ impl Setup {
         (record.domain_half_width_m, record.domain_enlarged) =
             (domain.half_width_m, domain.growths);
         let mut solved = solved?;
-        record.take(&mut solved);
+        record.take(&mut solved, contact.cycle.at_cycle);
         if record.result.is_none() || !bars {
             return Ok(());
         }
@@ -471,7 +473,10 @@ impl Setup {
         let Some(result) = &record.result else {
             return Ok(None);
         };
-        let mut distance = record.steady_distance.unwrap_or(0.0);
+        // How far a cycle is from the stabilised one is an error of that one alone.
+        let of_stabilised = contact.cycle.at_cycle.is_none();
+        let distance = record.steady_distance.filter(|_| of_stabilised);
+        let mut distance = distance.unwrap_or(0.0);
         if self.plan.solver.engine == EngineKind::HalfSpace {
             distance += instant_tolerance::SHARE * contact.cycle.tolerance;
         }
@@ -736,7 +741,7 @@ impl Solved {
 
 impl CaseRecord {
     /// Takes over what was found in the most steps; leaves the coarser results where they are.
-    fn take(&mut self, solved: &mut Solved) {
+    fn take(&mut self, solved: &mut Solved, at_cycle: Option<usize>) {
         self.work = solved.work();
         let Some((_, finest)) = solved.cycles.last_mut() else {
             return;
@@ -746,9 +751,10 @@ impl CaseRecord {
         self.steady_distance = finest.distance;
         self.message = finest.message.take();
         self.result = finest.result.take();
-        self.status = match self.result {
-            Some(_) => Status::Converged,
-            None => Status::NotConverged,
+        self.status = match (&self.result, at_cycle) {
+            (Some(_), None) => Status::Converged,
+            (Some(_), Some(_)) => Status::Transient,
+            (None, _) => Status::NotConverged,
         };
     }
 

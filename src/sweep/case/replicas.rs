@@ -28,7 +28,10 @@ impl Setup {
         let checkpoints = Checkpoints::none();
         let contact = Contact {
             cycle: CyclePlan {
-                method: Method::Direct,
+                method: match contact.cycle.at_cycle {
+                    Some(_) => Method::March,
+                    None => Method::Direct,
+                },
                 ..contact.cycle
             },
             checkpoints: &checkpoints,

@@ -8,7 +8,7 @@ use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine, Prescribed, Solution, sums};
 use crate::cycle::{self, Extrema, Loop, LoopError};
 use crate::drive::Control;
-use crate::history::{Dissipation, March, Stage, StepWeights, TimeRule, Work};
+use crate::history::{Dissipation, March, Memory, Stage, StepWeights, TimeRule, Work};
 use crate::material::Creep;
 use crate::steady::{self, Begin, MeanPressure, Remaining, SteadySettings};
 use crate::sweep::case::SetupError;
@@ -136,6 +136,21 @@ impl Contact<'_> {
 
     fn mean(&self) -> Prescribed {
         prescribed(self.condition.drive.control(), self.condition.drive.mean())
+    }
+
+    /// Cycles of a march, at most.
+    fn most_cycles(&self) -> usize {
+        self.cycle.at_cycle.unwrap_or(self.cycle.max_cycles)
+    }
+
+    /// Steps per decade of a hold. A stabilised cycle has forgotten it; of a cycle by its number it is a part, which is
+    /// refined with the steps of the cycle.
+    fn hold_steps(&self, steps: usize) -> f64 {
+        let usual = March::<Memory>::HOLD_STEPS_PER_DECADE;
+        match self.cycle.at_cycle {
+            Some(_) => usual * steps as f64 / CyclePlan::DEFAULT.steps as f64,
+            None => usual,
+        }
     }
 
     fn interrupted(&self) -> bool {
@@ -297,7 +312,7 @@ impl Contact<'_> {
                 distance,
                 march: state,
             } => {
-                let under_way = 1..self.cycle.max_cycles;
+                let under_way = 1..self.most_cycles();
                 if under_way.contains(&count) && march.restore(&state) {
                     (cycles.count, cycles.distance) = (count, distance);
                 }
@@ -307,11 +322,12 @@ impl Contact<'_> {
         };
         if cycles.count == 0 {
             march.jump(self.mean())?;
-            march.hold(self.condition.drive.hold_s(), self.mean())?;
+            let hold_s = self.condition.drive.hold_s();
+            march.hold_in(self.hold_steps(steps), hold_s, self.mean())?;
             march.jump(self.prescribed(0.0))?;
         }
         let mut result = None;
-        while result.is_none() && cycles.count < self.cycle.max_cycles {
+        while result.is_none() && cycles.count < self.most_cycles() {
             if cycles.count > 0 && self.checkpoints.is_wanted() {
                 let marching = LevelState::Marching {
                     after_search: after_search.clone(),
@@ -321,9 +337,15 @@ impl Contact<'_> {
                 };
                 self.checkpoints.keep(level, marching);
             }
-            cycles.run(&mut march, None)?;
-            if cycles.is_within_tolerance() {
-                result = cycles.record(&mut march)?;
+            match self.cycle.at_cycle {
+                Some(number) if cycles.count + 1 < number => cycles.run(&mut march, None)?,
+                Some(_) => result = cycles.record(&mut march)?,
+                None => {
+                    cycles.run(&mut march, None)?;
+                    if cycles.is_within_tolerance() {
+                        result = cycles.record(&mut march)?;
+                    }
+                }
             }
         }
         let mut marched = cycles.ended(Method::March, &march, result);
@@ -477,7 +499,7 @@ impl<'a> Cycles<'a> {
                 .then(|| TangentRadius::new(self.steps)),
         };
         self.run(march, Some(&mut recording))?;
-        if !self.is_within_tolerance() {
+        if contact.cycle.at_cycle.is_none() && !self.is_within_tolerance() {
             return Ok(None);
         }
         contact.result(march, recording).map(Some)
@@ -522,11 +544,18 @@ impl Contact<'_> {
             pressures,
             tangent_radius,
         } = recording;
-        let mut analysis = cycle::analyse(&samples.load_n, &samples.approach_m)?;
+        let is_transient = self.cycle.at_cycle.is_some();
+        let mut analysis = match is_transient {
+            true => cycle::analyse_open(&samples.load_n, &samples.approach_m)?,
+            false => cycle::analyse(&samples.load_n, &samples.approach_m)?,
+        };
+        // What an open cycle dissipates is not the area of a loop: the body stores another part of the work.
+        let compliance = self.compliance.branches();
+        let branches = if is_transient { &[] } else { compliance };
         let energies = dissipation.branch_energies_j();
         // A body without branches is elastic and loses nothing: what its loop encloses is rounding.
         let is_rounding = analysis.rounding_j() > LARGEST_ROUNDING * analysis.energy_loss_j.abs();
-        if is_rounding || energies.is_empty() {
+        if energies.is_empty() || (is_rounding && !is_transient) {
             // The sum of nothing would be -0.
             analysis = analysis.of_energy_loss(energies.iter().fold(0.0, |sum, e| sum + e));
         }
@@ -549,10 +578,12 @@ impl Contact<'_> {
         let largest_radius_m = radii.iter().copied().fold(0.0, f64::max);
         let work = dissipation.nodal_work();
         let surface_loss = match self.wanted {
-            Wanted::Everything => surface_loss(march.surface_density(work, largest_radius_m)?),
-            Wanted::Numbers | Wanted::Loss => SurfaceLoss::default(),
+            Wanted::Everything if !is_transient => {
+                surface_loss(march.surface_density(work, largest_radius_m)?)
+            }
+            _ => SurfaceLoss::default(),
         };
-        let branches = self.compliance.branches().iter().zip(energies);
+        let branches = branches.iter().zip(energies);
         Ok(CaseResult {
             storage_modulus_pa: moduli.map(|m| m.0),
             loss_modulus_pa: moduli.map(|m| m.1),

@@ -35,6 +35,24 @@ struct Ladder {
     ratios: [f64; 2],
 }
 
+impl Ladder {
+    /// The error that the differences of both pairs tell.
+    fn error(&self, first: f64, second: Option<f64>, orders: (f64, f64)) -> f64 {
+        let [ratio, second_ratio] = self.ratios;
+        if self.pairs[0] == self.pairs[1] {
+            // The history is the coarser of the two, at the lowest order.
+            first * ratio / (ratio - 1.0)
+        } else {
+            richardson(
+                first,
+                ratio,
+                second.map(|second| (second, second_ratio)),
+                orders,
+            )
+        }
+    }
+}
+
 /// The history itself, and what tells its errors.
 pub(in crate::sweep) struct Plan {
     pub(in crate::sweep) resolutions: Vec<Resolution>,
@@ -155,6 +173,26 @@ impl Plan {
         }
     }
 
+    /// The error of a number that the history gives as a whole, from what every resolution gives for it; `None` where one of them has
+    /// none, or the history is the only one.
+    pub(in crate::sweep) fn error_of_whole(&self, values: &[Option<f64>]) -> Option<f64> {
+        let own = (*values.first()?)?;
+        if values.len() < 2 {
+            return None;
+        }
+        let of = |ladder: &Ladder, orders| -> Option<f64> {
+            let difference = |(finer, coarser): (usize, usize)| -> Option<f64> {
+                let of = |level: usize| values.get(level).copied().flatten();
+                Some((of(finer)? - of(coarser)?).abs())
+            };
+            let [first, second] = ladder.pairs.map(difference);
+            Some(ladder.error(first?, second, orders))
+        };
+        let steps = of(&self.steps, STEP_ORDERS)?;
+        let nodes = of(&self.nodes, self.node_orders[1])?;
+        Some(SAFETY * (steps + nodes) + ROUNDING * own.abs())
+    }
+
     /// Errors of every row of the history, the first of the resolutions; none where it is the only one.
     pub(in crate::sweep) fn errors(&self, followed: &[Followed<'_>]) -> Vec<RowErrors> {
         let Some(history) = followed.first().filter(|_| followed.len() > 1) else {
@@ -173,15 +211,7 @@ impl Plan {
             let error = |row: usize| {
                 let size = value(&history.rows[row])?.abs();
                 let of = |ladder: &Ladder, [first, second]: &[Vec<Option<f64>>; 2], orders| {
-                    let first = first[row]?;
-                    let [ratio, second_ratio] = ladder.ratios;
-                    Some(if ladder.pairs[0] == ladder.pairs[1] {
-                        // The history is the coarser of the two, at the lowest order.
-                        first * ratio / (ratio - 1.0)
-                    } else {
-                        let second = second[row].map(|second| (second, second_ratio));
-                        richardson(first, ratio, second, orders)
-                    })
+                    Some(ladder.error(first[row]?, second[row], orders))
                 };
                 let steps = of(&self.steps, &steps, STEP_ORDERS)?;
                 let nodes = of(&self.nodes, &nodes, orders)?;

@@ -10,6 +10,7 @@
 //! begins or ends count, provided that the load is above zero on the other side.
 
 pub mod checkpoint;
+pub mod cycles;
 pub mod errors;
 mod follow;
 pub mod outside_model;
@@ -29,6 +30,7 @@ use crate::sweep::engine::{
     EngineBuilder, EngineError, LargestContact, MAX_GROWTHS, missed_contact,
 };
 use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
+use crate::sweep::history::cycles::HistoryCycle;
 use crate::sweep::history::errors::{Followed, Plan, RowErrors};
 use crate::sweep::history::follow::{Course, Following, MarchError};
 use crate::sweep::plan::EngineKind;
@@ -116,6 +118,8 @@ pub struct SimulationOutcome {
     /// At the requested times, in the order in which they were requested, as far as the march came.
     pub profiles: Vec<SurfaceRecord>,
     pub fields: Vec<SurfaceRecord>,
+    /// The cycles of sine segments, as far as the march came.
+    pub cycles: Vec<HistoryCycle>,
     /// Errors of the rows, where they were asked for and the history is whole.
     pub errors: Vec<RowErrors>,
     /// Why errors are missing although they were asked for.
@@ -334,6 +338,7 @@ impl Simulation {
     }
 
     fn outcome(&self, mut courses: Vec<Course>, ended: SimulationEnd) -> SimulationOutcome {
+        let mut cycles = cycles::of(&self.plan, &courses[0].rows);
         let mut errors = Vec::new();
         let mut errors_missing = self.without_errors.clone();
         if ended == SimulationEnd::Done {
@@ -343,6 +348,9 @@ impl Simulation {
                 in_full: &level.schedule.in_full,
             });
             errors = self.errors.errors(&followed.collect::<Vec<_>>());
+            let coarser = courses.iter().skip(1);
+            let coarser = coarser.map(|course| cycles::of(&self.plan, &course.rows));
+            cycles::add_errors(&mut cycles, &coarser.collect::<Vec<_>>(), &self.errors);
             let failed = courses.iter().find_map(|course| course.failed.as_ref());
             errors_missing = errors_missing.or(failed.map(|why| {
                 format!("the coarser history that tells the errors could not be followed: {why}")
@@ -360,6 +368,7 @@ impl Simulation {
             rows,
             profiles,
             fields,
+            cycles,
             errors,
             errors_missing,
             // What a domain came to be is a domain that could be built.

@@ -4,7 +4,7 @@
 use std::ops::{Range, RangeInclusive};
 
 use crate::sweep::plan::scenario::ScenarioPlan;
-use crate::sweep::plan::{Condition, CyclePlan, EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::plan::{Condition, CyclePlan, EngineKind, Method, SolverPlan, SweepPlan};
 
 /// Why a plan is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -40,6 +40,10 @@ pub enum PlanError {
         least: usize,
         most: usize,
     },
+    #[error(
+        "a cycle by its number is one of a march, and the method is a direct search, which knows no such cycles"
+    )]
+    CycleOfASearch,
     #[error("{what} = {value:e}; it must be at least {least:e} and below {limit}")]
     Ratio {
         what: &'static str,
@@ -102,6 +106,12 @@ impl CyclePlan {
     fn check(&self) -> Result<(), PlanError> {
         check_count("steps per cycle", self.steps, &Self::STEPS)?;
         check_count("most cycles", self.max_cycles, &Self::MAX_CYCLES)?;
+        if let Some(cycle) = self.at_cycle {
+            check_count("recorded cycle", cycle, &Self::MAX_CYCLES)?;
+            if self.method == Method::Direct {
+                return Err(PlanError::CycleOfASearch);
+            }
+        }
         check_ratio("tolerance of the cycle", self.tolerance, &Self::TOLERANCE)?;
         let accuracy = self.accuracy.unwrap_or(Self::ACCURACY.start);
         check_ratio("accuracy", accuracy, &Self::ACCURACY)

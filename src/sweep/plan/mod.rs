@@ -135,6 +135,8 @@ pub struct CyclePlan {
     pub tolerance: f64,
     /// Cycles of marching after which a frequency counts as not converged.
     pub max_cycles: usize,
+    /// The cycle of the march, counted from 1, that is recorded as it is, in place of the stabilised one.
+    pub at_cycle: Option<usize>,
     /// Whether every result is to be computed on coarser resolutions too, which gives its error.
     pub error_bars: bool,
     /// Largest allowed error of the loss, relative: steps and nodes are then chosen to reach it.
@@ -250,6 +252,7 @@ impl CyclePlan {
         method: Method::Direct,
         tolerance: 1e-4,
         max_cycles: 1000,
+        at_cycle: None,
         error_bars: true,
         accuracy: None,
     };

@@ -90,14 +90,17 @@ pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
         method,
         tolerance,
         max_cycles,
+        at_cycle,
         error_bars,
         accuracy,
     } = cycle;
+    let at_cycle = at_cycle.map(|cycle| format!("at_cycle = {cycle}\n"));
     let accuracy = accuracy.map(|accuracy| format!("accuracy = {accuracy:e}\n"));
     format!(
-        "[cycle]\nsteps = {steps}\nmethod = \"{}\"\ntolerance = {tolerance:e}\nmax_cycles = {max_cycles}\nerror_bars = \
+        "[cycle]\nsteps = {steps}\nmethod = \"{}\"\ntolerance = {tolerance:e}\nmax_cycles = {max_cycles}\n{}error_bars = \
          {error_bars}\n{}",
         method.name(),
+        at_cycle.unwrap_or_default(),
         accuracy.unwrap_or_default()
     )
 }

@@ -77,7 +77,7 @@ impl Default for OutputPlan {
 
 /// Every figure a scenario may have. Their files at the top of its folder are replaced by later runs, and summary.json, which a
 /// sweep has too.
-pub const FIGURES: [&str; 3] = ["history", "profiles", "pressure-map"];
+pub const FIGURES: [&str; 4] = ["history", "cycle-losses", "profiles", "pressure-map"];
 
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {

@@ -20,6 +20,8 @@ use crate::sweep::record::warning::Warning;
 pub enum Status {
     /// The stabilised cycle was reached within the tolerance.
     Converged,
+    /// The cycle asked for by its number, on the way to the stabilised one.
+    Transient,
     /// The cycle was not stabilised, or not to the accuracy asked for, before the limits were met: there is no result.
     NotConverged,
     /// An instant could not be solved: there is no result.
@@ -27,10 +29,19 @@ pub enum Status {
 }
 
 impl Status {
+    /// Whether there is a result.
+    pub fn has_result(self) -> bool {
+        match self {
+            Self::Converged | Self::Transient => true,
+            Self::NotConverged | Self::Failed => false,
+        }
+    }
+
     /// The name used in every output.
     pub fn name(self) -> &'static str {
         match self {
             Self::Converged => "converged",
+            Self::Transient => "transient",
             Self::NotConverged => "not-converged",
             Self::Failed => "failed",
         }
@@ -69,7 +80,7 @@ pub struct CaseRecord {
     pub domain_enlarged: usize,
     /// What the case cost, coarser resolutions too.
     pub work: Work,
-    /// Only for a converged case.
+    /// Only for a converged or transient case.
     pub result: Option<CaseResult>,
 }
 
@@ -89,7 +100,8 @@ pub struct CaseResult {
     /// The loss (J) with each replica of the material in its place; `None` where no stabilised cycle was found with it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub replica_losses_j: Vec<Option<f64>>,
-    /// Energy (J) that each branch of the creep compliance dissipates over the cycle, shortest retardation time first.
+    /// Energy (J) that each branch of the creep compliance dissipates over the cycle, shortest retardation time first; empty for a
+    /// transient cycle.
     pub branches: Vec<BranchLoss>,
     /// The cycle itself and its surface; empty where only the numbers are held.
     #[serde(default)]
@@ -286,6 +298,6 @@ impl CaseResult {
     /// `None` for a loop without area.
     pub fn energy_imbalance(&self) -> Option<f64> {
         let loss = self.analysis.energy_loss_j;
-        (loss != 0.0).then(|| self.dissipated_j() / loss - 1.0)
+        (loss != 0.0 && !self.branches.is_empty()).then(|| self.dissipated_j() / loss - 1.0)
     }
 }

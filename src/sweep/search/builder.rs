@@ -9,7 +9,7 @@ use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::plan::check::PlanError;
-use crate::sweep::plan::{Axes, Case, EngineKind, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, Case, EngineKind, Method, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::{self, Options, Outcome, Progress, RunError};
 use crate::sweep::store::archive::MemoryArchive;
@@ -127,6 +127,16 @@ impl Sweep {
     /// [`PlanError`] where the number is not in [`crate::sweep::plan::CyclePlan::STEPS`].
     pub fn steps(mut self, steps: usize) -> Result<Self, PlanError> {
         self.plan.cycle.steps = steps;
+        self.checked()
+    }
+
+    /// This cycle of a march, counted from 1 and after the hold of the drive, in place of the stabilised one.
+    ///
+    /// # Errors
+    /// [`PlanError`] where there is no such cycle.
+    pub fn at_cycle(mut self, number: usize) -> Result<Self, PlanError> {
+        self.plan.cycle.method = Method::March;
+        self.plan.cycle.at_cycle = Some(number);
         self.checked()
     }
 

@@ -109,6 +109,9 @@ impl Setup {
     /// Predicted cost of a case, in cycles: marching at a high frequency needs many to forget the start.
     pub fn predicted_cycles(&self, case: &Case) -> f64 {
         let cycle = &self.plan().cycle;
+        if let Some(cycle) = cycle.at_cycle {
+            return cycle as f64;
+        }
         match cycle.method {
             Method::Direct => 6.0,
             Method::March => {

@@ -1,0 +1,226 @@
+//! The sine segments of a history cycle by cycle: the numbers that a stabilised cycle has, of each cycle on the way to it.
+//!
+//! A cycle of a history does not close. The straight line through its two ends is taken off load and approach
+//! ([`crate::cycle::analyse_open`]): what is left is the loop that an experimenter sees once a steady drift is taken off.
+
+use std::f64::consts::TAU;
+
+use crate::cycle::{self, LoopAnalysis};
+use crate::drive::Segment;
+use crate::sweep::history::HistoryRow;
+use crate::sweep::history::errors::Plan;
+use crate::sweep::plan::scenario::ScenarioPlan;
+
+/// One cycle of one sine segment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HistoryCycle {
+    /// The segment of the drive, and the cycle within it, both counted from 1.
+    pub segment: usize,
+    pub number: usize,
+    /// When it begins, from the beginning of the history (s).
+    pub start_s: f64,
+    pub angular_frequency_rad_per_s: f64,
+    /// `None` where the approach is undefined for a part of it, or its rows are too few.
+    pub numbers: Option<CycleNumbers>,
+    pub errors: CycleErrors,
+}
+
+/// What a cycle comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CycleNumbers {
+    /// Of the closed loop.
+    pub analysis: LoopAnalysis,
+    /// What has been taken off: load (N) and approach (m) at the end less those at the beginning.
+    pub load_change_n: f64,
+    pub approach_change_m: f64,
+    pub mean_contact_radius_m: f64,
+    /// E' and E'' (Pa); `None` for a contact that is no disk, or none at all.
+    pub moduli_pa: Option<(f64, f64)>,
+}
+
+/// Estimated errors, absolute; `None` where they were not asked for or could not be estimated.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct CycleErrors {
+    pub energy_loss_j: Option<f64>,
+    pub phase_lag_rad: Option<f64>,
+    pub storage_modulus_pa: Option<f64>,
+    pub loss_modulus_pa: Option<f64>,
+}
+
+/// Uniform samples of a cycle.
+const SAMPLES: usize = 200;
+/// Rows that a cycle must have: fewer do not show its third harmonic.
+const FEWEST_ROWS: usize = 12;
+/// Times closer than this part of a cycle are the same.
+const SAME: f64 = 1e-9;
+
+/// Every whole cycle of every sine segment, as far as the rows go.
+pub(in crate::sweep) fn of(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<HistoryCycle> {
+    let segments = plan.drive.segments().iter().enumerate();
+    segments
+        .flat_map(|(index, segment)| match segment {
+            Segment::Sine {
+                angular_frequency_rad_per_s,
+                cycles,
+                ..
+            } => of_segment(plan, rows, index, (*angular_frequency_rad_per_s, *cycles)),
+            _ => Vec::new(),
+        })
+        .collect()
+}
+
+/// Adds the errors that the same cycles at coarser resolutions tell.
+pub(in crate::sweep) fn add_errors(
+    cycles: &mut [HistoryCycle],
+    coarser: &[Vec<HistoryCycle>],
+    plan: &Plan,
+) {
+    type Value = fn(&CycleNumbers) -> Option<f64>;
+    for (place, cycle) in cycles.iter_mut().enumerate() {
+        let error = |value: Value| {
+            let own = cycle.numbers.as_ref().and_then(value);
+            let of = |cycles: &Vec<HistoryCycle>| value(cycles.get(place)?.numbers.as_ref()?);
+            let values: Vec<_> = [own].into_iter().chain(coarser.iter().map(of)).collect();
+            plan.error_of_whole(&values)
+        };
+        let errors = CycleErrors {
+            energy_loss_j: error(|n| Some(n.analysis.energy_loss_j)),
+            phase_lag_rad: error(|n| Some(n.analysis.phase_lag_rad)),
+            storage_modulus_pa: error(|n| n.moduli_pa.map(|m| m.0)),
+            loss_modulus_pa: error(|n| n.moduli_pa.map(|m| m.1)),
+        };
+        cycle.errors = errors;
+    }
+}
+
+fn of_segment(
+    plan: &ScenarioPlan,
+    rows: &[HistoryRow],
+    segment: usize,
+    (angular_frequency_rad_per_s, cycles): (f64, f64),
+) -> Vec<HistoryCycle> {
+    let period_s = TAU / angular_frequency_rad_per_s;
+    let Some(first_s) = plan.drive.start_s(segment) else {
+        return Vec::new();
+    };
+    let whole = (cycles + SAME).floor() as usize;
+    (1..=whole)
+        .map_while(|number| {
+            let start_s = first_s + (number - 1) as f64 * period_s;
+            let rows = within(rows, start_s, period_s)?;
+            Some(HistoryCycle {
+                segment: segment + 1,
+                number,
+                start_s,
+                angular_frequency_rad_per_s,
+                numbers: numbers(plan, rows, start_s, period_s),
+                errors: CycleErrors::default(),
+            })
+        })
+        .collect()
+}
+
+/// The rows of a cycle, both ends included: at a jump the row after it, and at its end the one before. `None` where the history has
+/// not come so far.
+fn within(rows: &[HistoryRow], start_s: f64, period_s: f64) -> Option<&[HistoryRow]> {
+    let slack_s = SAME * period_s;
+    let first = rows.partition_point(|row| row.time_s <= start_s + slack_s);
+    let last = rows.partition_point(|row| row.time_s < start_s + period_s - slack_s);
+    rows.get(first.checked_sub(1)?..=last)
+}
+
+fn numbers(
+    plan: &ScenarioPlan,
+    rows: &[HistoryRow],
+    start_s: f64,
+    period_s: f64,
+) -> Option<CycleNumbers> {
+    if rows.len() < FEWEST_ROWS {
+        return None;
+    }
+    let times: Vec<f64> = rows.iter().map(|row| row.time_s).collect();
+    let sampled = |values: &[f64]| -> Vec<f64> {
+        let at = |k: usize| start_s + period_s * k as f64 / SAMPLES as f64;
+        (0..=SAMPLES)
+            .map(|k| cubic(&times, values, at(k)))
+            .collect()
+    };
+    let approach: Option<Vec<f64>> = rows.iter().map(|row| row.approach_m).collect();
+    let load_n = sampled(&rows.iter().map(|row| row.load_n).collect::<Vec<_>>());
+    let approach_m = sampled(&approach?);
+    let radii = sampled(
+        &rows
+            .iter()
+            .map(|row| row.contact_radius_m)
+            .collect::<Vec<_>>(),
+    );
+    let analysis = cycle::analyse_open(&load_n, &approach_m).ok()?;
+    let mean_contact_radius_m = radii.iter().skip(1).sum::<f64>() / SAMPLES as f64;
+    let change = |samples: &[f64]| samples[SAMPLES] - samples[0];
+    // Only of a disk the radius by its area is the one by its stiffness.
+    let is_disk = plan.indenter.axisymmetric().is_some();
+    let moduli_pa = is_disk.then(|| {
+        analysis.equivalent_moduli_pa(mean_contact_radius_m, plan.material.poisson_ratio())
+    });
+    Some(CycleNumbers {
+        load_change_n: change(&load_n),
+        approach_change_m: change(&approach_m),
+        mean_contact_radius_m,
+        moduli_pa: moduli_pa.flatten(),
+        analysis,
+    })
+}
+
+/// The cubic through the four samples about a time, in Lagrange's form: exact at the samples.
+fn cubic(times: &[f64], values: &[f64], time: f64) -> f64 {
+    let after = times.partition_point(|t| *t < time);
+    let first = after.saturating_sub(2).min(times.len().saturating_sub(4));
+    let near = first..(first + 4).min(times.len());
+    let weight = |i: usize| -> f64 {
+        let others = near.clone().filter(|j| *j != i);
+        others
+            .map(|j| (time - times[j]) / (times[i] - times[j]))
+            .product()
+    };
+    near.clone().map(|i| values[i] * weight(i)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_is_found_between_samples_of_any_distances() {
+        let times = [0.0, 0.1, 0.5, 0.6, 1.0, 1.7];
+        let cubed = |t: f64| 2.0 - t + 0.5 * t * t + 3.0 * t * t * t;
+        let values = times.map(cubed);
+        for time in [0.0, 0.03, 0.5, 0.77, 1.3, 1.7] {
+            assert!((cubic(&times, &values, time) - cubed(time)).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_cycle_between_two_jumps_has_the_rows_inside() {
+        let row = |time_s, load_n| HistoryRow {
+            time_s,
+            load_n,
+            approach_m: None,
+            contact_radius_m: 0.0,
+            peak_pressure_pa: None,
+        };
+        let rows = [
+            row(0.0, 0.0),
+            row(1.0, 0.0),
+            row(1.0, 1.0),
+            row(1.5, 2.0),
+            row(2.0, 3.0),
+            row(2.0, 9.0),
+        ];
+        let loads = |start_s, period_s| -> Option<Vec<f64>> {
+            let rows = within(&rows, start_s, period_s)?;
+            Some(rows.iter().map(|row| row.load_n).collect())
+        };
+        assert_eq!(loads(1.0, 1.0), Some(vec![1.0, 2.0, 3.0]));
+        assert_eq!(loads(1.5, 1.0), None);
+    }
+}
