@@ -1,9 +1,13 @@
 //! Synthetic measurements for `contact-dma identify`: losses and phases of a known solid with 1 % of noise, as the table
-//! `sweeps/identify-polymer.csv`: `cargo run --release --example measured_cycles > sweeps/identify-polymer.csv`.
+//! `sweeps/identify-polymer.csv`: `cargo run --release --example measured_cycles > sweeps/identify-polymer.csv`; and the creep of a
+//! slower one under a constant load, `... --example measured_cycles creep > sweeps/identify-creep.csv`.
 
 use std::error::Error;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 use contact_dma::prelude::*;
+use contact_dma::sweep::history::between::values_at;
 
 /// Relative standard deviation of losses and phases.
 const NOISE: f64 = 0.01;
@@ -66,7 +70,42 @@ pub fn table() -> Result<String, Box<dyn Error>> {
     Ok(text)
 }
 
+/// The solid that creeps: moduli (Pa) and times (s).
+pub const SOFT_EQUILIBRIUM_PA: f64 = 4e6;
+pub const SLOW_BRANCHES: [(f64, f64); 2] = [(3e6, 2.0), (2e6, 60.0)];
+
+/// 20 mN within 0.5 s, held for 600 s, under a sphere of 1 mm: 120 rows with 0.5 % of noise, ever farther apart.
+pub fn creep_table() -> Result<String, Box<dyn Error>> {
+    const CREEP_NOISE: f64 = 5e-3;
+    let branches =
+        SLOW_BRANCHES.map(|(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s });
+    let relaxation = Relaxation::new(SOFT_EQUILIBRIUM_PA, branches.into())?;
+    let material = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.49)?;
+    let ramp = |to, duration_s| Segment::Ramp { to, duration_s };
+    let drive = SegmentedDrive::new(Control::Load, vec![ramp(0.02, 0.5), ramp(0.02, 600.0)])?;
+    let plan = ScenarioPlan::new(material, Arc::new(Sphere::new(1e-3)?), drive.clone());
+    let outcome = Simulation::new(plan)?.run(&AtomicBool::new(false), &|_, _| {});
+    let times: Vec<f64> = (0..120)
+        .map(|k| 0.2 * 3000_f64.powf(f64::from(k) / 119.0))
+        .collect();
+    let exact = values_at(&drive, &outcome.rows, &times, |row| row.approach_m);
+    let mut text = "# Synthetic: examples/measured_cycles.rs. A sphere of 1 mm under 20 mN, reached within 0.5 s; every approach has normal\n\
+                    # noise of 0.5 % of itself.\n\
+                    time_s,approach_um\n"
+        .to_owned();
+    let mut random = Random(1847);
+    for (time_s, exact_m) in times.iter().zip(exact) {
+        let noisy_m = exact_m.ok_or("no approach")? * (1.0 + CREEP_NOISE * random.normal());
+        text += &format!("{time_s:.4},{:.4}\n", 1e6 * noisy_m);
+    }
+    Ok(text)
+}
+
 pub fn main() -> Result<(), Box<dyn Error>> {
-    print!("{}", table()?);
+    let text = match std::env::args().nth(1).as_deref() {
+        Some("creep") => creep_table()?,
+        _ => table()?,
+    };
+    print!("{text}");
     Ok(())
 }

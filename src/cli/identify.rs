@@ -30,7 +30,8 @@ Examples:
 
 The file names a table of measured cycles under [identify], with the columns of sweep.csv
 (energy_loss_j, phase_lag_rad, approach_max_m and so on, errors beside them where they are
-known), and has the [indenter], the [drive] and the poisson_ratio of the measurement.
+known), and has the [indenter], the [drive] and the poisson_ratio of the measurement. Where
+[drive] has segments, the table is a history: time_s and approach_m, or load_n.
 
 Written to the output folder: material.toml (a [material] block for a sweep), prony.csv,
 summary.json, fit.csv (data and model), moduli.csv (E' and E'' with bands), resolved.toml
@@ -102,7 +103,9 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
 fn refused(file: &Path, error: &IdentifyError) -> Failure {
     let message = format!("{}: {error}", file.display());
     match error {
-        IdentifyError::NoCycle { .. } | IdentifyError::NoFit(_) => Failure::Run(message),
+        IdentifyError::NoCycle { .. } | IdentifyError::NoHistory(_) | IdentifyError::NoFit(_) => {
+            Failure::Run(message)
+        }
         _ => Failure::Input(message),
     }
 }

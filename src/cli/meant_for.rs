@@ -38,7 +38,7 @@ fn refuse_identification(document: &Document, file: &Path) -> Result<(), Failure
     let has_data = document
         .root(&Problems::new())
         .has(&keys::identify::IDENTIFY);
-    match has_data && !has_sweep(document) && !has_segments(document) {
+    match has_data && !has_sweep(document) {
         true => Err(other(
             file,
             "an identification: it has a table [identify]",

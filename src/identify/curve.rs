@@ -2,16 +2,15 @@
 
 use std::sync::atomic::AtomicBool;
 
-use crate::drive::HarmonicDrive;
-use crate::identify::data::{Datum, MeasuredCycle, Measurements};
+use crate::drive::{HarmonicDrive, SegmentedDrive};
+use crate::identify::data::{Datum, MeasuredCycle, Measurements, Number};
 use crate::identify::model::Model;
-use crate::identify::{Identified, IdentifyError, IdentifyPlan};
-use crate::sweep::record::error_bars::Quantity;
+use crate::identify::{Driven, Identified, IdentifyError, IdentifyPlan, history};
 
-/// A number of the computed cycles over the angular frequency (rad/s).
+/// A number of the computed cycles over the angular frequency (rad/s), or of the computed history over time (s).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
-    pub quantity: Quantity,
+    pub number: Number,
     pub points: Vec<(f64, f64)>,
 }
 
@@ -30,6 +29,9 @@ pub fn curves(
     found: &Identified,
     interrupt: &AtomicBool,
 ) -> Result<Vec<Curve>, IdentifyError> {
+    if let Driven::History(drive) = &plan.drive {
+        return Ok(vec![of_history(plan, drive, found, interrupt)?]);
+    }
     let Some(drive) = one_drive(plan.measurements.cycles()) else {
         return Ok(Vec::new());
     };
@@ -37,7 +39,7 @@ pub fn curves(
     let count = (PER_DECADE * (high / low).log10()).ceil().max(1.0) as usize;
     let omegas = (0..=count).map(|k| low * (high / low).powf(k as f64 / count as f64));
     let omegas: Vec<f64> = omegas.collect();
-    let quantities = plan.measurements.quantities();
+    let numbers_measured = plan.measurements.numbers();
     let cycles = omegas
         .iter()
         .enumerate()
@@ -47,9 +49,9 @@ pub fn curves(
             row: place + 1,
         });
     let data = (0..omegas.len()).flat_map(|cycle| {
-        quantities.iter().map(move |quantity| Datum {
-            cycle,
-            quantity: *quantity,
+        numbers_measured.iter().map(move |number| Datum {
+            place: cycle,
+            number: *number,
             value: 1.0,
             error: None,
         })
@@ -59,8 +61,8 @@ pub fn curves(
         ..plan.clone()
     };
     let numbers = Model::new(&dense, interrupt).numbers(&found.relaxation)?;
-    let curve = |(place, quantity): (usize, &Quantity)| Curve {
-        quantity: *quantity,
+    let curve = |(place, number): (usize, &Number)| Curve {
+        number: *number,
         points: omegas
             .iter()
             .copied()
@@ -68,12 +70,35 @@ pub fn curves(
                 numbers
                     .iter()
                     .skip(place)
-                    .step_by(quantities.len())
+                    .step_by(numbers_measured.len())
                     .copied(),
             )
             .collect(),
     };
-    Ok(quantities.iter().enumerate().map(curve).collect())
+    Ok(numbers_measured.iter().enumerate().map(curve).collect())
+}
+
+/// The computed history between the first and the last instant measured.
+fn of_history(
+    plan: &IdentifyPlan,
+    drive: &SegmentedDrive,
+    found: &Identified,
+    interrupt: &AtomicBool,
+) -> Result<Curve, IdentifyError> {
+    let outcome = history::followed(plan, drive, &found.relaxation, interrupt)?;
+    let (number, value) = history::response(drive.control());
+    let (lowest, highest) = found.window_rad_per_s;
+    let measured = 1.0 / highest..=1.0 / lowest;
+    let rows = outcome
+        .rows
+        .iter()
+        .filter(|row| measured.contains(&row.time_s));
+    Ok(Curve {
+        number,
+        points: rows
+            .filter_map(|row| Some((row.time_s, value(row)?)))
+            .collect(),
+    })
 }
 
 /// The drive of all cycles, as far as they have one.

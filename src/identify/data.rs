@@ -1,8 +1,62 @@
-//! Measured numbers of cycles, and what makes them useless.
+//! Measured numbers of cycles or of a history, and what makes them useless.
 
-use crate::drive::HarmonicDrive;
+use crate::drive::{Control, HarmonicDrive, SegmentedDrive};
 use crate::identify::{IdentifyError, column};
+use crate::quantity::{Dimension, format_human};
 use crate::sweep::record::error_bars::Quantity;
+
+/// What was measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Number {
+    /// Of a stabilised cycle.
+    OfCycle(Quantity),
+    /// At an instant of a history.
+    Approach,
+    Load,
+}
+
+impl Number {
+    /// Its column, as in `sweep.csv` or `history.csv`.
+    pub fn column(self) -> &'static str {
+        match self {
+            Self::OfCycle(quantity) => column(quantity),
+            Self::Approach => "approach_m",
+            Self::Load => "load_n",
+        }
+    }
+}
+
+/// One instant of a measured history: the mean of the rows about it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Instant {
+    pub time_s: f64,
+    /// The first of its rows, from 1.
+    pub row: usize,
+}
+
+/// One row of a measured history.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// From 1.
+    pub row: usize,
+    /// Since first touch.
+    pub time_s: f64,
+    /// Approach (m) or load (N), whichever was not prescribed.
+    pub value: f64,
+    /// Standard deviation, where it is known.
+    pub error: Option<f64>,
+}
+
+/// Rows of a history that follow one another within this part of the time since the drive's last joint are one instant, their mean:
+/// what an instrument takes a thousand times a second says no more about a time of minutes.
+const ONE_INSTANT: f64 = 0.05;
+
+/// What the numbers belong to.
+#[derive(Debug, Clone, PartialEq)]
+enum Places {
+    Cycles(Vec<MeasuredCycle>),
+    Instants(Vec<Instant>),
+}
 
 /// One measured cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,9 +71,9 @@ pub struct MeasuredCycle {
 /// One number of a cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Datum {
-    /// Place among the cycles.
-    pub cycle: usize,
-    pub quantity: Quantity,
+    /// Which of the cycles, or of the instants.
+    pub place: usize,
+    pub number: Number,
     /// In SI units.
     pub value: f64,
     /// Standard deviation, where it is known.
@@ -29,7 +83,7 @@ pub struct Datum {
 /// All that was measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurements {
-    cycles: Vec<MeasuredCycle>,
+    places: Places,
     data: Vec<Datum>,
     /// What was left out, and why.
     notes: Vec<String>,
@@ -47,20 +101,79 @@ impl Measurements {
     /// # Errors
     /// [`IdentifyError`]: numbers that no solid can have, all at one frequency, or none that varies.
     pub fn new(cycles: Vec<MeasuredCycle>, all: Vec<Datum>) -> Result<Self, IdentifyError> {
+        Self::checked(Places::Cycles(cycles), all)
+    }
+
+    /// The same of one history under a drive, from its rows in the order of time. Rows that are one instant are averaged, which the
+    /// notes say.
+    ///
+    /// # Errors
+    /// As [`Measurements::new`].
+    pub fn of_history(drive: &SegmentedDrive, rows: &[Reading]) -> Result<Self, IdentifyError> {
+        let number = match drive.control() {
+            Control::Load => Number::Approach,
+            Control::Approach => Number::Load,
+        };
+        let joints: Vec<f64> = drive.joints().iter().map(|joint| joint.time_s).collect();
+        let instant_of = |row: &Reading| {
+            let joint = joints.partition_point(|joint| *joint <= row.time_s);
+            let since_s = row.time_s - joints.get(joint.saturating_sub(1)).unwrap_or(&0.0);
+            // At the joint itself nothing is later.
+            (
+                joint,
+                (since_s.max(f64::MIN_POSITIVE).ln() / ONE_INSTANT.ln_1p()).floor(),
+            )
+        };
+        let (mut instants, mut data) = (Vec::new(), Vec::new());
+        // An instant at first touch says nothing: whatever the body is, nothing has happened yet.
+        let rows: Vec<&Reading> = rows.iter().filter(|row| row.time_s > 0.0).collect();
+        for same in rows.chunk_by(|a, b| instant_of(a) == instant_of(b)) {
+            let count = same.len() as f64;
+            let mean =
+                |value: fn(&Reading) -> f64| same.iter().map(|row| value(row)).sum::<f64>() / count;
+            let squares: Option<f64> = same.iter().map(|row| row.error.map(|e| e * e)).sum();
+            data.push(Datum {
+                place: instants.len(),
+                number,
+                value: mean(|row| row.value),
+                error: squares.map(|squares| squares.sqrt() / count),
+            });
+            instants.push(Instant {
+                time_s: mean(|row| row.time_s),
+                row: same.first().map_or(0, |row| row.row),
+            });
+        }
+        let averaged = (instants.len() < rows.len()).then(|| {
+            format!(
+                "{} rows are averaged to {} instants",
+                rows.len(),
+                instants.len()
+            )
+        });
+        let mut measured = Self::checked(Places::Instants(instants), data)?;
+        measured.notes.splice(0..0, averaged);
+        Ok(measured)
+    }
+
+    fn checked(places: Places, all: Vec<Datum>) -> Result<Self, IdentifyError> {
         let mut data = Vec::with_capacity(all.len());
         let mut notes = Vec::new();
         for datum in all {
-            let row = cycles.get(datum.cycle).map_or(0, |cycle| cycle.row);
+            let row = match &places {
+                Places::Cycles(cycles) => cycles.get(datum.place).map(|cycle| cycle.row),
+                Places::Instants(instants) => instants.get(datum.place).map(|instant| instant.row),
+            };
+            let row = row.unwrap_or(0);
             match usable(&datum, row)? {
                 None => data.push(datum),
                 Some(why) => notes.push(format!(
                     "row {row}: {} left out, {why}",
-                    column(datum.quantity)
+                    datum.number.column()
                 )),
             }
         }
         let measured = Self {
-            cycles,
+            places,
             data,
             notes,
         };
@@ -71,14 +184,31 @@ impl Measurements {
     /// What is no measurement but a list of what is to be computed.
     pub(super) fn unchecked(cycles: Vec<MeasuredCycle>, data: Vec<Datum>) -> Self {
         Self {
-            cycles,
+            places: Places::Cycles(cycles),
             data,
             notes: Vec::new(),
         }
     }
 
+    /// The cycles; none of a history.
     pub fn cycles(&self) -> &[MeasuredCycle] {
-        &self.cycles
+        match &self.places {
+            Places::Cycles(cycles) => cycles,
+            Places::Instants(_) => &[],
+        }
+    }
+
+    /// Whether the numbers are those of a history.
+    pub fn is_history(&self) -> bool {
+        matches!(self.places, Places::Instants(_))
+    }
+
+    /// How many cycles or instants there are.
+    pub fn places(&self) -> usize {
+        match &self.places {
+            Places::Cycles(cycles) => cycles.len(),
+            Places::Instants(instants) => instants.len(),
+        }
     }
 
     pub fn data(&self) -> &[Datum] {
@@ -89,10 +219,12 @@ impl Measurements {
         &self.notes
     }
 
-    /// The quantities measured, in the order of the table.
-    pub fn quantities(&self) -> Vec<Quantity> {
-        let measured = |q: &Quantity| self.data.iter().any(|datum| datum.quantity == *q);
-        Quantity::ALL.into_iter().filter(measured).collect()
+    /// What was measured, in the order of the table.
+    pub fn numbers(&self) -> Vec<Number> {
+        let measured = |n: &Number| self.data.iter().any(|datum| datum.number == *n);
+        let of_cycle = Quantity::ALL.into_iter().map(Number::OfCycle);
+        let all = of_cycle.chain([Number::Approach, Number::Load]);
+        all.filter(measured).collect()
     }
 
     /// Whether some numbers come with errors, and whether some come without.
@@ -102,11 +234,36 @@ impl Measurements {
         (with, without)
     }
 
-    /// The angular frequency (rad/s) of a datum.
+    /// The angular frequency (rad/s) that a datum speaks of: that of its cycle, or one over its time.
     pub fn angular_frequency(&self, datum: &Datum) -> f64 {
-        self.cycles
-            .get(datum.cycle)
-            .map_or(f64::NAN, |cycle| cycle.angular_frequency_rad_per_s)
+        match &self.places {
+            Places::Cycles(cycles) => cycles
+                .get(datum.place)
+                .map_or(f64::NAN, |cycle| cycle.angular_frequency_rad_per_s),
+            Places::Instants(_) => 1.0 / self.time_s(datum),
+        }
+    }
+
+    /// The time (s) of a datum: of its instant, or one over the angular frequency of its cycle.
+    pub fn time_s(&self, datum: &Datum) -> f64 {
+        match &self.places {
+            Places::Cycles(_) => 1.0 / self.angular_frequency(datum),
+            Places::Instants(instants) => instants
+                .get(datum.place)
+                .map_or(f64::NAN, |instant| instant.time_s),
+        }
+    }
+
+    /// Where a datum is, for messages: "3 rad/s" or "20 s".
+    pub fn place_in_words(&self, datum: &Datum) -> String {
+        match self.is_history() {
+            true => format_human(self.time_s(datum), Dimension::Time, 4),
+            false => format_human(
+                self.angular_frequency(datum),
+                Dimension::AngularFrequency,
+                4,
+            ),
+        }
     }
 
     /// Lowest and highest angular frequency (rad/s).
@@ -127,12 +284,15 @@ impl Measurements {
         }
         let (lowest, highest) = self.window_rad_per_s();
         if highest <= lowest * (1.0 + 1e-9) {
-            return Err(IdentifyError::OneFrequency);
+            return Err(match self.is_history() {
+                true => IdentifyError::OneInstant,
+                false => IdentifyError::OneFrequency,
+            });
         }
         let spreads: Vec<(f64, f64)> = self
-            .quantities()
+            .numbers()
             .into_iter()
-            .map(|q| self.spread(q))
+            .map(|number| self.spread(number))
             .collect();
         let varies = |(spread, error): &(f64, f64)| *spread > LEAST_SPREAD.max(4.0 * error);
         if spreads.iter().any(varies) {
@@ -147,8 +307,8 @@ impl Measurements {
     }
 
     /// By how much a column varies under one drive, and its mean error; both relative.
-    fn spread(&self, quantity: Quantity) -> (f64, f64) {
-        let of = |datum: &&Datum| datum.quantity == quantity;
+    fn spread(&self, number: Number) -> (f64, f64) {
+        let of = |datum: &&Datum| datum.number == number;
         let values = self.data.iter().filter(of).map(|datum| datum.value.ln());
         let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), ln| {
             (low.min(ln), high.max(ln))
@@ -164,7 +324,7 @@ impl Measurements {
 fn usable(datum: &Datum, row: usize) -> Result<Option<&'static str>, IdentifyError> {
     let refused = |why| {
         Err(IdentifyError::Impossible {
-            column: column(datum.quantity),
+            column: datum.number.column(),
             row,
             value: datum.value,
             why,
@@ -172,7 +332,7 @@ fn usable(datum: &Datum, row: usize) -> Result<Option<&'static str>, IdentifyErr
     };
     let error = datum.error.unwrap_or(0.0);
     if datum.value.is_finite() && datum.value > 0.0 {
-        let too_late = datum.quantity == Quantity::PhaseLag
+        let too_late = datum.number == Number::OfCycle(Quantity::PhaseLag)
             && datum.value - 3.0 * error >= std::f64::consts::FRAC_PI_2;
         if too_late {
             return refused(
@@ -181,8 +341,8 @@ fn usable(datum: &Datum, row: usize) -> Result<Option<&'static str>, IdentifyErr
         }
         return Ok((error >= datum.value).then_some("its error is as large as itself"));
     }
-    match datum.quantity {
-        Quantity::EnergyLoss | Quantity::PhaseLag | Quantity::LossModulus
+    match datum.number {
+        Number::OfCycle(Quantity::EnergyLoss | Quantity::PhaseLag | Quantity::LossModulus)
             if datum.value + 3.0 * error < 0.0 || (datum.error.is_none() && datum.value < 0.0) =>
         {
             refused(
@@ -190,7 +350,7 @@ fn usable(datum: &Datum, row: usize) -> Result<Option<&'static str>, IdentifyErr
                  where it was not measured",
             )
         }
-        Quantity::StorageModulus => refused("a modulus is positive"),
+        Number::OfCycle(Quantity::StorageModulus) => refused("a modulus is positive"),
         _ => Ok(Some("it is not above zero")),
     }
 }

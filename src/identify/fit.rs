@@ -5,16 +5,16 @@ use std::sync::atomic::AtomicBool;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::identify::data::{Measurements, Number};
 use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
 use crate::identify::selection::{Linearised, Scores};
 use crate::identify::series::{Point, name};
 use crate::identify::uncertainty::{Directions, moduli};
-use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES, UNDETERMINED, column};
+use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES, UNDETERMINED};
 use crate::material::Relaxation;
 use crate::measured::statistics::{NORMAL, student};
-use crate::sweep::record::error_bars::Quantity;
 
 /// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
 const STEP: f64 = 0.02;
@@ -90,8 +90,9 @@ pub struct ModulusBand {
 /// A number as measured and as computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Compared {
-    pub angular_frequency_rad_per_s: f64,
-    pub quantity: Quantity,
+    /// Angular frequency (rad/s) of the cycle, or time (s) of the instant of a history.
+    pub place: f64,
+    pub number: Number,
     pub measured: f64,
     /// Standard deviation: as given, or estimated.
     pub error: f64,
@@ -133,7 +134,7 @@ pub struct Identified {
 pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identified, IdentifyError> {
     let most = most_branches(plan)?;
     let model = Model::new(plan, interrupt);
-    let mut linearised = Linearised::new(plan);
+    let mut linearised = Linearised::new(plan)?;
     let (candidates, chosen) = on_linearised(plan, &model, &mut linearised, most)?;
     let start = candidates[chosen].ln_moduli.clone();
     let exact = Exact {
@@ -147,7 +148,7 @@ pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identifie
         "the exact model has no derivatives there",
     ))?;
     let identified = judged(&linearised, (candidates, start), found, &derivatives)?;
-    refuse_contradiction(&identified)?;
+    refuse_contradiction(&plan.measurements, &identified)?;
     Ok(identified)
 }
 
@@ -356,8 +357,11 @@ fn judged(
         // A row of derivatives is in standard deviations of its datum.
         let gradient = derivatives.row(k).transpose() * error;
         Compared {
-            angular_frequency_rad_per_s: measured.angular_frequency(datum),
-            quantity: datum.quantity,
+            place: match measured.is_history() {
+                true => measured.time_s(datum),
+                false => measured.angular_frequency(datum),
+            },
+            number: datum.number,
             measured: datum.value,
             error: error * scatter * datum.value,
             computed: datum.value * (found.residuals[k] * error).exp(),
@@ -412,15 +416,15 @@ fn undetermined(directions: &Directions, half_width: f64) -> Vec<Undetermined> {
 }
 
 /// Refuses what no solid explains.
-fn refuse_contradiction(found: &Identified) -> Result<(), IdentifyError> {
+fn refuse_contradiction(measured: &Measurements, found: &Identified) -> Result<(), IdentifyError> {
     let within =
         found.knowledge == Knowledge::All && found.reduced_chi_squared.sqrt() < TIMES_ERRORS;
     let branches = found.relaxation.branches().len();
-    let missed = found.compared.iter().map(|c| {
-        let place = (c.angular_frequency_rad_per_s, column(c.quantity));
-        (place, (c.computed / c.measured).ln())
-    });
-    match contradiction(branches, &missed.collect::<Vec<_>>()) {
+    let missed = found
+        .compared
+        .iter()
+        .map(|c| (c.computed / c.measured).ln());
+    match contradiction(measured, branches, &missed.collect::<Vec<_>>()) {
         Some(error) if !within => Err(error),
         _ => Ok(()),
     }
@@ -428,35 +432,32 @@ fn refuse_contradiction(found: &Identified) -> Result<(), IdentifyError> {
 
 /// A cycle that is not found, where the series is one that no data should lead to, is the data's fault.
 fn explained(linearised: &Linearised<'_>, point: &Point, error: IdentifyError) -> IdentifyError {
-    let IdentifyError::NoCycle { .. } = error else {
+    let (IdentifyError::NoCycle { .. } | IdentifyError::NoHistory(_)) = error else {
         return error;
     };
     let measured = &linearised.plan.measurements;
-    let relative = linearised.relative(point);
-    let missed = measured.data().iter().zip(relative).map(|(datum, off)| {
-        let place = (measured.angular_frequency(datum), column(datum.quantity));
-        (place, off)
-    });
-    contradiction(point.branches(), &missed.collect::<Vec<_>>()).unwrap_or(error)
+    contradiction(measured, point.branches(), &linearised.relative(point)).unwrap_or(error)
 }
 
-/// What is wrong with data that the best series misses by so much; `None` where it is not much. With every logarithm of computed over
-/// measured numbers, its frequency (rad/s) and its column.
-fn contradiction(branches: usize, missed: &[((f64, &'static str), f64)]) -> Option<IdentifyError> {
-    let squares: f64 = missed.iter().map(|(_, off)| off * off).sum();
+/// What is wrong with data that the best series misses by so much, as logarithms of computed over measured numbers; `None` where it
+/// is not much.
+fn contradiction(
+    measured: &Measurements,
+    branches: usize,
+    missed: &[f64],
+) -> Option<IdentifyError> {
+    let squares: f64 = missed.iter().map(|off| off * off).sum();
     let rms = (squares / missed.len() as f64).sqrt();
     if rms < CONTRADICTION {
         return None;
     }
-    let worst = missed
-        .iter()
-        .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
-    let ((angular_frequency_rad_per_s, column), off) = *worst;
+    let data = measured.data().iter().zip(missed);
+    let (datum, off) = data.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
     Some(IdentifyError::Contradiction {
         branches,
         misfit_percent: format!("{:.0}", 100.0 * rms),
-        angular_frequency_rad_per_s,
-        column,
+        place: measured.place_in_words(datum),
+        column: datum.number.column(),
         times: format!("{:.2e}", off.exp()),
     })
 }

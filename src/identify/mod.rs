@@ -3,6 +3,9 @@
 //! Measured are numbers of stabilised cycles at several load frequencies: energy loss, phase lag, largest approach, contact
 //! radius, whatever a sweep computes. Sought is the solid, a Prony series, whose computed cycles have the same numbers.
 //!
+//! Or measured is a history: approach under a load that steps, ramps and rests, or load under such an approach. Its solid is found
+//! in the same way, with [`history`] in place of the linearised cycles and a simulation in place of the sweep.
+//!
 //! # How
 //!
 //! The unknowns are the logarithms of the equilibrium modulus and of the moduli and times of the branches; the residuals are
@@ -35,6 +38,7 @@
 mod curve;
 pub mod data;
 mod fit;
+mod history;
 mod least_squares;
 mod linear;
 mod model;
@@ -50,7 +54,7 @@ pub use noise::Knowledge;
 
 use std::sync::Arc;
 
-use crate::drive::HarmonicDrive;
+use crate::drive::{HarmonicDrive, SegmentedDrive};
 use crate::identify::data::Measurements;
 use crate::indenter::Indenter;
 use crate::material::MaterialError;
@@ -73,8 +77,7 @@ pub struct IdentifyPlan {
     pub title: String,
     pub poisson_ratio: f64,
     pub indenter: Arc<dyn Indenter>,
-    /// The drive of rows that have none of their own.
-    pub drive: HarmonicDrive,
+    pub drive: Driven,
     /// How many branches; `None` lets the data choose.
     pub branches: Option<usize>,
     pub measurements: Measurements,
@@ -82,6 +85,15 @@ pub struct IdentifyPlan {
     pub data: String,
     pub cycle: CyclePlan,
     pub solver: SolverPlan,
+}
+
+/// What drove the contact.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Driven {
+    /// An oscillation: that of the rows that have none of their own.
+    Cycles(HarmonicDrive),
+    /// One history, from first touch.
+    History(SegmentedDrive),
 }
 
 impl IdentifyPlan {
@@ -124,10 +136,16 @@ pub enum IdentifyError {
         needed: usize,
     },
     #[error(
-        "the measurements are flat: no column varies over the frequencies by more than {spread_percent} %, which is no more than its \
+        "the measurements are flat: no column varies by more than {spread_percent} %, which is no more than its \
          errors, so nothing says at what time the material relaxes; measure over more decades, or more exactly"
     )]
     Flat { spread_percent: String },
+    #[error(
+        "all measurements are at one time, and one tells no relaxation: give the approach or load over a time"
+    )]
+    OneInstant,
+    #[error("the history was not followed: {0}")]
+    NoHistory(String),
     #[error(
         "all measurements are at one frequency: the time of a relaxation cannot be told from one; measure at several"
     )]
@@ -141,13 +159,13 @@ pub enum IdentifyError {
     },
     #[error(
         "the measurements contradict one another, or the drive and the indenter: the best solid of {branches} branches misses them by \
-         {misfit_percent} % (root mean square), most at {angular_frequency_rad_per_s:e} rad/s, where its {column} is {times} times the \
+         {misfit_percent} % (root mean square), most at {place}, where its {column} is {times} times the \
          measured one; check units, drive, indenter and columns"
     )]
     Contradiction {
         branches: usize,
         misfit_percent: String,
-        angular_frequency_rad_per_s: f64,
+        place: String,
         column: &'static str,
         times: String,
     },
@@ -157,13 +175,9 @@ pub enum IdentifyError {
         why: String,
     },
     #[error(
-        "the cycle at {angular_frequency_rad_per_s:e} rad/s has no {column}: the indenter makes it unbounded, or the contact opens; \
-         leave these cells empty"
+        "there is no {column} at {place}: the indenter makes it unbounded, or the contact opens; leave these cells empty"
     )]
-    Undefined {
-        angular_frequency_rad_per_s: f64,
-        column: &'static str,
-    },
+    Undefined { place: String, column: &'static str },
     #[error("no series could be fitted: {0}")]
     NoFit(&'static str),
     #[error("interrupted")]

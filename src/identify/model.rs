@@ -1,11 +1,12 @@
-//! The exact model: stabilised cycles of a series, by the engine that a sweep has.
+//! The exact model: stabilised cycles of a series, by the engine that a sweep has, or its history, by the one of a simulation.
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
 
-use crate::identify::{IdentifyError, IdentifyPlan, column};
+use crate::identify::data::Number;
+use crate::identify::{Driven, IdentifyError, IdentifyPlan, history};
 use crate::material::{Material, ModulusKind, Relaxation};
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{Case, Condition, CyclePlan, SweepPlan};
@@ -32,6 +33,12 @@ impl<'a> Model<'a> {
         &self,
         all: &[Relaxation],
     ) -> Result<Vec<Vec<f64>>, IdentifyError> {
+        if let Driven::History(drive) = &self.plan.drive {
+            let each = all.par_iter();
+            return each
+                .map(|series| history::numbers(self.plan, drive, series, self.interrupt))
+                .collect();
+        }
         let setups: Vec<Setup> = all
             .iter()
             .map(|series| self.setup(series))
@@ -50,12 +57,12 @@ impl<'a> Model<'a> {
     fn in_order(&self, of_cycles: &[Vec<Option<f64>>]) -> Result<Vec<f64>, IdentifyError> {
         let data = self.plan.measurements.data().iter().enumerate();
         data.map(|(place, datum)| {
-            let of_cycle = &of_cycles[datum.cycle];
-            let own = self.data_of(datum.cycle).position(|other| other == place);
+            let of_cycle = &of_cycles[datum.place];
+            let own = self.data_of(datum.place).position(|other| other == place);
             let number = own.and_then(|own| of_cycle.get(own).copied().flatten());
             number.ok_or_else(|| IdentifyError::Undefined {
-                angular_frequency_rad_per_s: self.plan.measurements.angular_frequency(datum),
-                column: column(datum.quantity),
+                place: self.plan.measurements.place_in_words(datum),
+                column: datum.number.column(),
             })
         })
         .collect()
@@ -64,17 +71,20 @@ impl<'a> Model<'a> {
     /// Places of the data of a cycle.
     fn data_of(&self, cycle: usize) -> impl Iterator<Item = usize> + '_ {
         let data = self.plan.measurements.data().iter().enumerate();
-        data.filter(move |(_, datum)| datum.cycle == cycle)
+        data.filter(move |(_, datum)| datum.place == cycle)
             .map(|(place, _)| place)
     }
 
     fn setup(&self, series: &Relaxation) -> Result<Setup, IdentifyError> {
         let kind = ModulusKind::Longitudinal;
         let material = Material::from_relaxation(series.clone(), kind, self.plan.poisson_ratio)?;
-        let mut plan = SweepPlan::new(material, Arc::clone(&self.plan.indenter), self.plan.drive);
+        let measured = self.plan.measurements.cycles();
+        let none = IdentifyError::NoFit("no cycle was measured");
+        let drive = measured.first().ok_or(none)?.drive;
+        let mut plan = SweepPlan::new(material, Arc::clone(&self.plan.indenter), drive);
         plan.cycle = self.plan.cycle;
         plan.solver = self.plan.solver;
-        let cycles = self.plan.measurements.cycles().iter();
+        let cycles = measured.iter();
         let mut omegas: Vec<f64> = cycles
             .map(|cycle| cycle.angular_frequency_rad_per_s)
             .collect();
@@ -116,9 +126,10 @@ impl<'a> Model<'a> {
             });
         };
         let data = self.plan.measurements.data();
-        let numbers = self
-            .data_of(cycle)
-            .map(|place| data[place].quantity.of(result));
+        let numbers = self.data_of(cycle).map(|place| match data[place].number {
+            Number::OfCycle(quantity) => quantity.of(result),
+            Number::Approach | Number::Load => None,
+        });
         Ok(numbers.collect())
     }
 }

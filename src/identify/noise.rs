@@ -1,7 +1,6 @@
 //! How exactly every number was measured: as the data say, or as the residuals do.
 
-use crate::identify::data::{LEAST_ERROR, Measurements};
-use crate::sweep::record::error_bars::Quantity;
+use crate::identify::data::{LEAST_ERROR, Measurements, Number};
 
 /// The relative error of a number whose error is not known, until the residuals say better.
 const FIRST: f64 = 0.01;
@@ -57,16 +56,16 @@ impl Noise {
             return;
         }
         let free = 1.0 - unknowns as f64 / numbers as f64;
-        let of_data = |which: &dyn Fn(Quantity) -> bool| {
+        let of_data = |which: &dyn Fn(Number) -> bool| {
             let data = measured.data().iter().zip(relative);
-            let own = data.filter(|(datum, _)| datum.error.is_none() && which(datum.quantity));
+            let own = data.filter(|(datum, _)| datum.error.is_none() && which(datum.number));
             let (count, squares) =
                 own.fold((0, 0.0), |(count, sum), (_, r)| (count + 1, sum + r * r));
             (count, (squares / (free * f64::from(count.max(1)))).sqrt())
         };
         let (_, common) = of_data(&|_| true);
-        for quantity in measured.quantities() {
-            let (count, own) = of_data(&|other| other == quantity);
+        for number in measured.numbers() {
+            let (count, own) = of_data(&|other| other == number);
             let own = match count as usize >= FEWEST_VALUES {
                 true if own > SAME * common || own < common / SAME => {
                     own.clamp(common / LARGEST_RATIO, common * LARGEST_RATIO)
@@ -75,7 +74,7 @@ impl Noise {
                 false => common,
             };
             let data = measured.data().iter().zip(&mut self.relative);
-            for (_, error) in data.filter(|(d, _)| d.quantity == quantity && d.error.is_none()) {
+            for (_, error) in data.filter(|(d, _)| d.number == number && d.error.is_none()) {
                 *error = own.max(LEAST_ERROR);
             }
         }

@@ -1,9 +1,10 @@
 //! The resolved identification: every default written out, as a file that gives the same plan again.
 
-use crate::identify::IdentifyPlan;
+use crate::identify::{Driven, IdentifyPlan};
 use crate::sweep::plan::resolved::{
     cycle_text, drive_text, opening_text, solver_text, toml_string,
 };
+use crate::sweep::plan::scenario::history_text;
 
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &IdentifyPlan) -> String {
@@ -13,9 +14,13 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         Some(number) => number.to_string(),
         None => "\"auto\"".to_owned(),
     };
+    let driven = match &plan.drive {
+        Driven::Cycles(drive) => drive_text(drive),
+        Driven::History(drive) => history_text(drive).trim_end().to_owned(),
+    };
     format!(
         "{opening}{}\n\n[identify]\ndata = {}\nbranches = {branches}\n\n{}\n{}",
-        drive_text(&plan.drive),
+        driven,
         toml_string(&plan.data),
         cycle_text(&plan.cycle),
         solver_text(&plan.solver, plan.indenter.as_ref())

@@ -3,12 +3,13 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 
-use crate::identify::IdentifyPlan;
-use crate::identify::data::Measurements;
+use crate::identify::data::{Datum, Measurements, Number};
+use crate::identify::history::LinearHistory;
 use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
 use crate::identify::linear::LinearCycle;
 use crate::identify::noise::{Knowledge, Noise};
 use crate::identify::series::{Limits, Point};
+use crate::identify::{IdentifyError, IdentifyPlan};
 
 /// Step of an unknown for the derivatives of the linearised contact, which is smooth.
 const STEP: f64 = 1e-5;
@@ -35,18 +36,26 @@ const CLOSELY: Ending = Ending {
 /// The linearised contact with a factor for each number.
 pub(super) struct Linearised<'a> {
     pub(super) plan: &'a IdentifyPlan,
-    pub(super) cycles: Vec<LinearCycle>,
+    cycles: Vec<LinearCycle>,
+    history: Option<LinearHistory>,
     pub(super) ln_factors: Vec<f64>,
     pub(super) noise: Noise,
     pub(super) limits: Limits,
 }
 
 impl Linearised<'_> {
-    pub(super) fn new(plan: &IdentifyPlan) -> Linearised<'_> {
+    /// # Errors
+    /// [`IdentifyError`] where the data of a history lie outside its drive.
+    pub(super) fn new(plan: &IdentifyPlan) -> Result<Linearised<'_>, IdentifyError> {
+        let history = plan.drive.history().map(|drive| {
+            let outside = "the data lie outside the drive, or there are more than can be followed";
+            LinearHistory::new(plan, drive).ok_or(IdentifyError::NoFit(outside))
+        });
         let measured = &plan.measurements;
         let (lowest, highest) = measured.window_rad_per_s();
-        Linearised {
+        Ok(Linearised {
             plan,
+            history: history.transpose()?,
             cycles: Vec::new(),
             ln_factors: vec![0.0; measured.data().len()],
             noise: Noise::new(measured),
@@ -54,7 +63,7 @@ impl Linearised<'_> {
                 moduli: (-10.0, 40.0),
                 times: ((1.0 / (BEYOND * highest)).ln(), (BEYOND / lowest).ln()),
             },
-        }
+        })
     }
 
     fn measured(&self) -> &Measurements {
@@ -72,15 +81,22 @@ impl Linearised<'_> {
 
     /// Logarithms of all numbers without their factors.
     pub(super) fn ln_numbers(&self, point: &Point) -> Vec<f64> {
+        if let Some(history) = &self.history {
+            let numbers = history.numbers(point).into_iter();
+            return numbers.map(|n| n.max(f64::MIN_POSITIVE).ln()).collect();
+        }
         let equilibrium_pa = point.equilibrium_pa();
         let moduli: Vec<Complex<f64>> = self
             .cycles
             .iter()
             .map(|cycle| point.complex_modulus(cycle.angular_frequency_rad_per_s()))
             .collect();
-        let number = |datum: &crate::identify::data::Datum| {
-            let (cycle, modulus) = (&self.cycles[datum.cycle], moduli[datum.cycle]);
-            let number = cycle.number(datum.quantity, equilibrium_pa, modulus);
+        let number = |datum: &Datum| {
+            let (cycle, modulus) = (&self.cycles[datum.place], moduli[datum.place]);
+            let number = match datum.number {
+                Number::OfCycle(quantity) => cycle.number(quantity, equilibrium_pa, modulus),
+                Number::Approach | Number::Load => f64::NAN,
+            };
             number.max(f64::MIN_POSITIVE).ln()
         };
         self.measured().data().iter().map(number).collect()

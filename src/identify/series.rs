@@ -123,12 +123,15 @@ impl Point {
             .collect()
     }
 
-    pub(super) fn relaxation(&self) -> Result<Relaxation, MaterialError> {
+    /// Moduli (Pa) and times (s) of the branches.
+    pub(super) fn branches_pa_s(&self) -> Vec<(f64, f64)> {
         let branches = self.0.get(1..).unwrap_or_default().chunks_exact(2);
-        let branches = branches.map(|branch| RelaxationBranch {
-            modulus_pa: branch[0].exp(),
-            time_s: branch[1].exp(),
-        });
+        branches.map(|b| (b[0].exp(), b[1].exp())).collect()
+    }
+
+    pub(super) fn relaxation(&self) -> Result<Relaxation, MaterialError> {
+        let branches = self.branches_pa_s().into_iter();
+        let branches = branches.map(|(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s });
         Relaxation::new(self.equilibrium_pa(), branches.collect())
     }
 }

@@ -7,15 +7,15 @@ use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use super::document::reader::TableReader;
 use super::document::{Document, Located};
 use super::keys;
+use super::keys::drive::SEGMENTS;
 use super::keys::identify::{
     DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE, MODEL_SOLVER,
 };
 use super::keys::material::POISSON_RATIO;
 use super::sweep_file::{cycle, solver};
-use super::{harmonic_block, indenter_block, measured_table};
-use crate::drive::HarmonicDrive;
-use crate::identify::IdentifyPlan;
+use super::{harmonic_block, indenter_block, measured_history, measured_table, segments_block};
 use crate::identify::data::Measurements;
+use crate::identify::{Driven, IdentifyPlan};
 use crate::sweep::plan::SolverPlan;
 
 /// The table of results in a folder of a sweep or of an analysis.
@@ -33,9 +33,10 @@ pub fn plan(document: &Document) -> Result<IdentifyPlan, Diagnostics> {
     let indenter = root.table(&keys::INDENTER);
     let indenter = indenter.and_then(|t| indenter_block::read(t, document.folder(), &problems));
     let drive = root.table(&MEASURED_DRIVE);
-    let drive = drive.and_then(|t| harmonic_block::read(t, &problems));
+    let drive = drive.and_then(|t| driven(t, document.folder(), &problems));
     let measured = root.table(&IDENTIFY);
-    let measured = measured.and_then(|t| measured_block(t, document.folder(), drive, &problems));
+    let measured =
+        measured.and_then(|t| measured_block(t, document.folder(), drive.as_ref(), &problems));
     let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, |t| cycle(t, &problems));
     let default = indenter
         .as_ref()
@@ -61,6 +62,14 @@ pub fn plan(document: &Document) -> Result<IdentifyPlan, Diagnostics> {
     problems.into_result(plan)
 }
 
+/// The `[drive]` block: a history where it has segments, an oscillation where not.
+fn driven(mut table: TableReader<'_>, folder: &Path, problems: &Problems) -> Option<Driven> {
+    match table.has(&SEGMENTS) {
+        true => segments_block::read(table, folder, problems).map(Driven::History),
+        false => harmonic_block::read(table, problems).map(Driven::Cycles),
+    }
+}
+
 fn known_material(mut table: TableReader<'_>) -> Option<f64> {
     let poisson_ratio = table.value(&POISSON_RATIO);
     table.finish();
@@ -71,7 +80,7 @@ fn known_material(mut table: TableReader<'_>) -> Option<f64> {
 fn measured_block(
     mut table: TableReader<'_>,
     folder: &Path,
-    drive: Option<HarmonicDrive>,
+    drive: Option<&Driven>,
     problems: &Problems,
 ) -> Option<(String, Measurements, Option<usize>)> {
     let data = table.read(&DATA);
@@ -88,9 +97,19 @@ fn measured_block(
     };
     let (name, bytes) = data_file::named(&file, folder, problems)?;
     // Without a drive, which was reported, rows without one of their own mean nothing.
-    let rows = measured_table::parse(&name, &bytes, drive?);
-    let (cycles, data) = data_file::accepted(rows, &file, problems)?;
-    let measurements = Measurements::new(cycles, data).map_err(|error| {
+    let found = match drive? {
+        Driven::Cycles(drive) => {
+            let rows = measured_table::parse(&name, &bytes, *drive);
+            let (cycles, data) = data_file::accepted(rows, &file, problems)?;
+            Measurements::new(cycles, data)
+        }
+        Driven::History(drive) => {
+            let rows = measured_history::parse(&name, &bytes, drive);
+            let rows = data_file::accepted(rows, &file, problems)?;
+            Measurements::of_history(drive, &rows)
+        }
+    };
+    let measurements = found.map_err(|error| {
         let refused = Diagnostic::at(&file.location, format!("{name}: {error}"));
         problems.extend(refused.into());
     });

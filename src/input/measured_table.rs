@@ -3,7 +3,7 @@
 use super::data_file::{Column, DataFile, Table};
 use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use crate::drive::{Control, HarmonicDrive};
-use crate::identify::data::{Datum, MeasuredCycle};
+use crate::identify::data::{Datum, MeasuredCycle, Number};
 use crate::quantity::Dimension::{
     self, Angle, AngularFrequency, Energy, Force, Frequency, Length, Stress,
 };
@@ -78,8 +78,8 @@ pub(super) fn parse(
                 let cycle_place = cycles.len();
                 cycles.push(cycle);
                 data.extend(of_cycle.into_iter().map(|(quantity, value, error)| Datum {
-                    cycle: cycle_place,
-                    quantity,
+                    place: cycle_place,
+                    number: Number::OfCycle(quantity),
                     value,
                     error,
                 }));
@@ -299,7 +299,7 @@ mod tests {
         assert!(near(data[0].value, 2e-6) && near(data[0].error.unwrap(), 1e-7));
         assert_eq!((data.len(), data[1].error), (3, None));
         assert!(near(data[2].value, std::f64::consts::PI / 20.0));
-        assert_eq!(data[2].quantity, Quantity::PhaseLag);
+        assert_eq!(data[2].number, Number::OfCycle(Quantity::PhaseLag));
     }
 
     #[test]

@@ -49,6 +49,7 @@ pub(crate) mod material_dynamic;
 mod material_fractional;
 pub(crate) mod material_table;
 mod material_temperature;
+mod measured_history;
 mod measured_table;
 mod points;
 pub mod scenario_file;

@@ -26,6 +26,11 @@ impl Random {
         10_f64.powf(self.between(low, high))
     }
 
+    /// Mean zero, variance one: the sum of twelve uniform deviates, whose tails end at six.
+    pub fn normal(&mut self) -> f64 {
+        (0..12).map(|_| self.unit()).sum::<f64>() - 6.0
+    }
+
     /// A whole number from `low` to `high`.
     pub fn count(&mut self, low: usize, high: usize) -> usize {
         low + (self.unit() * (high - low + 1) as f64) as usize

@@ -9,8 +9,8 @@ use std::time::Instant;
 
 use crate::common::solids::Random;
 use contact_dma::drive::HarmonicDrive;
-use contact_dma::identify::data::{Datum, MeasuredCycle, Measurements};
-use contact_dma::identify::{Identified, IdentifyError, IdentifyPlan, identify};
+use contact_dma::identify::data::{Datum, MeasuredCycle, Measurements, Number};
+use contact_dma::identify::{Driven, Identified, IdentifyError, IdentifyPlan, identify};
 use contact_dma::indenter::{Cone, Indenter, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
 use contact_dma::sweep::Sweep;
@@ -19,14 +19,9 @@ use contact_dma::sweep::record::error_bars::Quantity;
 
 const POISSON: f64 = 0.35;
 
-fn from_environment(name: &str, default: u64) -> u64 {
+pub fn from_environment(name: &str, default: u64) -> u64 {
     let asked = std::env::var(name).ok();
     asked.map_or(default, |text| text.parse().expect("a whole number"))
-}
-
-/// Mean zero, variance one: the sum of twelve uniform deviates, whose tails end at six.
-fn normal(random: &mut Random) -> f64 {
-    (0..12).map(|_| random.unit()).sum::<f64>() - 6.0
 }
 
 /// Twelve frequencies over five decades about 1 rad/s.
@@ -105,9 +100,9 @@ impl Experiment {
             for quantity in &self.quantities {
                 let exact = quantity.of(record.result.as_ref().unwrap()).unwrap();
                 data.push(Datum {
-                    cycle: place,
-                    quantity: *quantity,
-                    value: exact * (1.0 + self.noise * normal(random)),
+                    place,
+                    number: Number::OfCycle(*quantity),
+                    value: exact * (1.0 + self.noise * random.normal()),
                     error: self.with_errors.then_some(self.noise * exact),
                 });
             }
@@ -118,7 +113,7 @@ impl Experiment {
             poisson_ratio: POISSON,
             solver: IdentifyPlan::solver(indenter.as_ref()),
             indenter,
-            drive,
+            drive: Driven::Cycles(drive),
             branches: None,
             measurements: Measurements::new(cycles, data).unwrap(),
             cycle: IdentifyPlan::CYCLE,

@@ -10,6 +10,7 @@ mod energy_balance;
 mod error_bars;
 mod half_space_work;
 mod identification;
+mod identified_histories;
 mod instant_tolerance;
 mod measured_loops;
 mod numbered_cycles;

@@ -185,3 +185,55 @@ fn data_that_say_nothing_or_contradict_themselves_are_refused_with_the_reason() 
         assert!(!folder.path().join("reports").exists(), "{reason}");
     }
 }
+
+#[test]
+fn the_gel_of_the_creep_example_is_found_and_its_tables_go_by_time() {
+    let out = TempDir::new().unwrap();
+    let printed = program()
+        .args([
+            "identify",
+            "sweeps/identify-creep.toml",
+            "--format",
+            "json",
+            "--out",
+        ])
+        .arg(out.path().join("gel"))
+        .assert()
+        .success();
+    let json: serde_json::Value = serde_json::from_slice(&printed.get_output().stdout).unwrap();
+    assert_eq!(
+        (&json["of"], &json["branches"]),
+        (&"history".into(), &2.into())
+    );
+    // examples/measured_cycles.rs; the intervals are of 95 %, those of one solid.
+    let truth = [4e6, 3e6, 2.0, 2e6, 60.0];
+    for (unknown, truth) in json["unknowns"].as_array().unwrap().iter().zip(truth) {
+        let value = unknown["value"].as_f64().unwrap();
+        assert!((value / truth - 1.0).abs() < 0.08, "{unknown}");
+    }
+    let fit = fs::read_to_string(out.path().join("gel/fit.csv")).unwrap();
+    let times = column(&fit, "time_s");
+    assert!(times.first().unwrap().unwrap() < 0.21 && times.last().unwrap().unwrap() > 599.0);
+    // The resolved file holds the segments and gives the same again.
+    let resolved = fs::read_to_string(out.path().join("gel/resolved.toml")).unwrap();
+    assert!(resolved.contains("segments = ["), "{resolved}");
+}
+
+#[test]
+fn a_measured_time_outside_the_drive_is_refused_at_its_row() {
+    let folder = folder("time_s,approach_m\n1,1e-6\n2,2e-6\n70,3e-6\n");
+    let file = FILE.replace(
+        "mean = \"0.2 N\"\namplitude = \"0.1 N\"",
+        "control = \"load\"\nsegments = [{ kind = \"step\", to = \"0.2 N\", duration = \"60 s\" }]",
+    );
+    fs::write(folder.path().join("solid.toml"), file).unwrap();
+    let assert = program()
+        .current_dir(folder.path())
+        .args(["identify", "solid.toml", "--out", "found"])
+        .assert()
+        .code(2);
+    assert
+        .stderr(contains("measured.csv:4:1"))
+        .stderr(contains("not within the drive"));
+    assert!(!folder.path().join("found").exists());
+}

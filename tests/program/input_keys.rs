@@ -249,7 +249,7 @@ fn files() -> Vec<(FileKind, String)> {
                 "[sweep]\nangular_frequency = { from = 0.01, to = 1, points = 3, spacing = \"linear\" }\n\
                  drive.mean = { from = 6, to = 9, points = 3, spacing = \"log\" }\n",
             ],
-            "[figures]\ncolumn = \"one\"\n",
+            "[cycle]\nmethod = \"march\"\nat_cycle = 3\n[figures]\ncolumn = \"one\"\n",
         ),
         sweep(
             [

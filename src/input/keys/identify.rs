@@ -5,11 +5,12 @@ use super::rows;
 use super::{INDENTER, TITLE, drive, settings};
 use crate::identify::MOST_BRANCHES;
 use crate::input::document::kind::{Table, Text};
-use crate::input::document::row::{Optional, Required, Row, Rows};
+use crate::input::document::row::{Optional, Others, Required, Row, Rows};
 use crate::input::material_dynamic::Branches;
 
 rows! { IDENTIFY_KEYS:
-    /// A table with columns of `sweep.csv`, errors beside values where they are known; or a folder that holds `sweep.csv`.
+    /// A table with columns of `sweep.csv`, errors beside values where they are known; or a folder that holds `sweep.csv`. Of a
+    /// history `time_s` and `approach_m`, or `load_n` under a prescribed approach.
     DATA: Row<Text, Required> = "data", Text, Required;
     /// Branches of the series: a number, or `auto`, which counts where it is left out: as many as the data ask for.
     IDENTIFY_BRANCHES: Row<Branches, Optional> = "branches", Branches(1..=MOST_BRANCHES), Optional;
@@ -27,16 +28,26 @@ rows! { _:
     IDENTIFY: Row<Table, Required> = "identify", Table(&IDENTIFY_TABLE), Required;
     /// What is known of the material.
     KNOWN_MATERIAL: Row<Table, Required> = "material", Table(&MATERIAL_TABLE), Required;
-    /// The oscillation that the cycles were measured under; rows with `drive_mean` and `drive_amplitude` have their own.
-    MEASURED_DRIVE: Row<Table, Required> = "drive", Table(&drive::HARMONIC), Required;
+    /// The oscillation that the cycles were measured under, or the segments of a history.
+    MEASURED_DRIVE: Row<Table, Required> = "drive", Table(&DRIVEN), Required;
     /// How the cycles of the model are resolved.
     MODEL_CYCLE: Row<Table, Optional> = "cycle", Table(&settings::CYCLE), Optional;
     /// Which contact engine, and how fine.
     MODEL_SOLVER: Row<Table, Optional> = "solver", Table(&settings::SOLVER), Optional;
 }
 
+static DRIVEN: Rows = Rows {
+    means: " Of measured cycles an oscillation; rows with `drive_mean` and `drive_amplitude` have their own. Of a measured history \
+            its `segments`, as in a scenario.",
+    keys: &[&drive::CONTROL],
+    others: Others::OneList(&[
+        &[&drive::MEAN, &drive::AMPLITUDE, &drive::PHASE, &drive::HOLD],
+        &[&drive::SEGMENTS],
+    ]),
+};
+
 pub(super) static IDENTIFY_FILE: Rows = super::table(
-    " A material from measured cycles, for `contact-dma identify`.",
+    " A material from measured cycles or a measured history, for `contact-dma identify`.",
     &[
         &TITLE,
         &IDENTIFY,

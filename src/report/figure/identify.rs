@@ -1,6 +1,7 @@
-//! Figures of a material identified from measured cycles: data and model, residuals, and the moduli with their bands.
+//! Figures of a material identified from measured cycles or a history: data and model, residuals, and the moduli with their bands.
 
-use crate::identify::{Compared, column};
+use crate::identify::Compared;
+use crate::identify::data::Number;
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LineStyle, Mark, Marker, Series};
@@ -9,7 +10,6 @@ use crate::report::identify::IdentifyReport;
 use crate::report::identify::tables;
 use crate::report::number::{largest, prefix, range};
 use crate::report::quantities;
-use crate::sweep::record::error_bars::Quantity;
 
 /// Values that differ by more than this factor stand on a logarithmic axis.
 const WIDE: f64 = 5.0;
@@ -21,22 +21,41 @@ pub fn figures(report: &IdentifyReport<'_>) -> Vec<Figure> {
     vec![moduli(report), data(report), residuals(report)]
 }
 
-/// The numbers of one column, in ascending frequency.
-fn of<'a>(report: &'a IdentifyReport<'_>, quantity: Quantity) -> Vec<&'a Compared> {
+/// The numbers of one column, in ascending frequency or time.
+fn of<'a>(report: &'a IdentifyReport<'_>, number: Number) -> Vec<&'a Compared> {
     let all = report.found.compared.iter();
-    let mut own: Vec<&Compared> = all.filter(|c| c.quantity == quantity).collect();
-    own.sort_by(|a, b| {
-        a.angular_frequency_rad_per_s
-            .total_cmp(&b.angular_frequency_rad_per_s)
-    });
+    let mut own: Vec<&Compared> = all.filter(|c| c.number == number).collect();
+    own.sort_by(|a, b| a.place.total_cmp(&b.place));
     own
 }
 
+/// The axis of the places: frequencies, or times.
+fn places(report: &IdentifyReport<'_>) -> Axis {
+    match report.plan.measurements.is_history() {
+        true => Axis::log("time t / s"),
+        false => Axis::log(OMEGA),
+    }
+}
+
+/// What was measured, in the words of its column, and its dimension.
+fn words(number: Number) -> (&'static str, Option<Dimension>) {
+    let name = number.column();
+    match number {
+        Number::OfCycle(_) => {
+            let column = quantities::of_name(name);
+            column.map_or((name, None), |c| (c.heading, c.dimension))
+        }
+        Number::Approach | Number::Load => {
+            let column = quantities::HISTORY.iter().find(|c| c.name == name);
+            column.map_or((name, None), |c| (c.heading, c.dimension))
+        }
+    }
+}
+
 /// What an axis is headed with, and the factor from SI.
-fn axis(quantity: Quantity, numbers: &[&Compared]) -> (String, f64) {
-    let known = quantities::of_name(column(quantity));
-    let heading = known.map_or(column(quantity), |known| known.heading);
-    match known.and_then(|known| known.dimension) {
+fn axis(number: Number, numbers: &[&Compared]) -> (String, f64) {
+    let (heading, dimension) = words(number);
+    match dimension {
         Some(Dimension::Angle) => (format!("{heading} / °"), 180.0 / std::f64::consts::PI),
         Some(dimension) => {
             let (factor, unit) = prefix(largest(numbers.iter().map(|c| c.measured)));
@@ -48,10 +67,10 @@ fn axis(quantity: Quantity, numbers: &[&Compared]) -> (String, f64) {
 
 /// One frame for each column: what was measured, and what the model makes of it.
 fn data(report: &IdentifyReport<'_>) -> Figure {
-    let quantities = report.plan.measurements.quantities();
-    let frames = quantities.iter().enumerate();
+    let numbers = report.plan.measurements.numbers();
+    let frames = numbers.iter().enumerate();
     let charts: Vec<Chart> = frames
-        .map(|(place, q)| frame(report, *q, place == 0))
+        .map(|(place, number)| frame(report, *number, place == 0))
         .collect();
     let picture = match <[Chart; 1]>::try_from(charts) {
         Ok([only]) => only.into(),
@@ -60,26 +79,25 @@ fn data(report: &IdentifyReport<'_>) -> Figure {
     Figure {
         name: "data-and-model",
         picture,
-        caption: Caption::new(
-            "Measured cycles, and the cycles computed with the identified material",
-        )
+        caption: Caption::new(match report.plan.measurements.is_history() {
+            true => "Measured history, and the history computed with the identified material",
+            false => "Measured cycles, and the cycles computed with the identified material",
+        })
         .say("Bars: standard errors of the data. Shaded: 95 % band of the model."),
         data: tables::fit(report),
     }
 }
 
-fn frame(report: &IdentifyReport<'_>, quantity: Quantity, is_first: bool) -> Chart {
-    let numbers = of(report, quantity);
-    let (label, factor) = axis(quantity, &numbers);
+fn frame(report: &IdentifyReport<'_>, number: Number, is_first: bool) -> Chart {
+    let numbers = of(report, number);
+    let (label, factor) = axis(number, &numbers);
     let (low, high) = range(numbers.iter().map(|c| c.measured));
     let y = match high > WIDE * low {
         true => Axis::log(label),
         false => Axis::linear(label),
     };
     let at = |value: fn(&Compared) -> f64| {
-        let places = numbers
-            .iter()
-            .map(|c| (c.angular_frequency_rad_per_s, factor * value(c)));
+        let places = numbers.iter().map(|c| (c.place, factor * value(c)));
         places.collect::<Vec<_>>()
     };
     let named = |series: Series, label: &str| match is_first {
@@ -90,11 +108,8 @@ fn frame(report: &IdentifyReport<'_>, quantity: Quantity, is_first: bool) -> Cha
     let measured = Series::scatter(at(|c| c.measured))
         .error_bars(bars.collect::<Vec<_>>())
         .color(1);
-    let chart = Chart::new(Axis::log(OMEGA), y);
-    let curve = report
-        .curves
-        .iter()
-        .find(|curve| curve.quantity == quantity);
+    let chart = Chart::new(places(report), y);
+    let curve = report.curves.iter().find(|curve| curve.number == number);
     let chart = match curve {
         Some(curve) => {
             let points = curve.points.iter().map(|(omega, v)| (*omega, factor * v));
@@ -119,14 +134,11 @@ fn frame(report: &IdentifyReport<'_>, quantity: Quantity, is_first: bool) -> Cha
 
 /// The factor of the band at a frequency, between those of the data on both sides.
 fn open_at(numbers: &[&Compared], omega: f64) -> f64 {
-    let after = numbers.partition_point(|c| c.angular_frequency_rad_per_s < omega);
+    let after = numbers.partition_point(|c| c.place < omega);
     let below = numbers.get(after.saturating_sub(1));
     match (below, numbers.get(after)) {
         (Some(below), Some(above)) => {
-            let (from, to) = (
-                below.angular_frequency_rad_per_s,
-                above.angular_frequency_rad_per_s,
-            );
+            let (from, to) = (below.place, above.place);
             let share = if to > from {
                 (omega / from).ln() / (to / from).ln()
             } else {
@@ -142,26 +154,21 @@ fn open_at(numbers: &[&Compared], omega: f64) -> f64 {
 /// What the model misses, in per cent of the data.
 fn residuals(report: &IdentifyReport<'_>) -> Figure {
     const MARKERS: [Marker; 2] = [Marker::Disc, Marker::Square];
-    let (lowest, highest) = report.found.window_rad_per_s;
+    let (lowest, highest) = range(report.found.compared.iter().map(|c| c.place));
     let mut chart = Chart::new(
-        Axis::log(OMEGA),
+        places(report),
         Axis::linear("difference model − data / % of the data"),
     )
     .series(Series::line([(lowest, 0.0), (highest, 0.0)]).color(Color::Rgb(0x40, 0x40, 0x40)));
-    for (place, quantity) in report
-        .plan
-        .measurements
-        .quantities()
-        .into_iter()
-        .enumerate()
-    {
-        let numbers = of(report, quantity);
+    let measured = report.plan.measurements.numbers();
+    for (place, number) in measured.into_iter().enumerate() {
+        let numbers = of(report, number);
         let places = numbers.iter().map(|c| {
             let off = 100.0 * (c.computed / c.measured - 1.0);
-            (c.angular_frequency_rad_per_s, off)
+            (c.place, off)
         });
         let bars = numbers.iter().map(|c| 100.0 * c.error / c.measured);
-        let heading = quantities::of_name(column(quantity)).map_or(column(quantity), |q| q.heading);
+        let (heading, _) = words(number);
         let series = Series::scatter(places.collect::<Vec<_>>())
             .error_bars(bars.collect::<Vec<_>>())
             .marker(MARKERS[place % MARKERS.len()])
@@ -172,7 +179,7 @@ fn residuals(report: &IdentifyReport<'_>) -> Figure {
     Figure {
         name: "residuals",
         picture: chart.into(),
-        caption: Caption::new("Difference of the computed cycles from the measured ones")
+        caption: Caption::new("Difference of the computed numbers from the measured ones")
             .say("Bars: standard errors of the data."),
         data: Vec::new(),
     }

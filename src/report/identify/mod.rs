@@ -3,11 +3,11 @@
 pub mod summary;
 pub mod tables;
 
-use crate::identify::{Curve, Identified, IdentifyPlan, Knowledge, Unknown, column};
+use crate::identify::data::Number;
+use crate::identify::{Curve, Identified, IdentifyPlan, Knowledge, Unknown};
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::scientific;
 use crate::report::words::{listed, wrapped};
-use crate::sweep::record::error_bars::Quantity;
 
 /// An identification and what it came to.
 pub struct IdentifyReport<'a> {
@@ -51,25 +51,25 @@ impl IdentifyReport<'_> {
     fn data(&self) -> String {
         let measured = &self.plan.measurements;
         let columns: Vec<String> = measured
-            .quantities()
+            .numbers()
             .into_iter()
-            .map(|quantity| column(quantity).to_owned())
+            .map(|number| number.column().to_owned())
             .collect();
+        let of = match measured.is_history() {
+            true => "instants of a history",
+            false => "cycles",
+        };
         format!(
-            "Measured: {} numbers of {} cycles ({}).",
+            "Measured: {} numbers of {} {of} ({}).",
             measured.data().len(),
-            measured.cycles().len(),
+            measured.places(),
             listed(&columns)
         )
     }
 
     /// The mean relative error of every column.
-    pub fn noise_of(&self, quantity: Quantity) -> f64 {
-        let of = self
-            .found
-            .compared
-            .iter()
-            .filter(|c| c.quantity == quantity);
+    pub fn noise_of(&self, number: Number) -> f64 {
+        let of = self.found.compared.iter().filter(|c| c.number == number);
         let (sum, count) = of.fold((0.0, 0.0), |(sum, count), c| {
             (sum + c.error / c.measured, count + 1.0)
         });
@@ -77,15 +77,9 @@ impl IdentifyReport<'_> {
     }
 
     fn noise(&self) -> String {
-        let quantities = self.plan.measurements.quantities().into_iter();
-        let each: Vec<String> = quantities
-            .map(|quantity| {
-                format!(
-                    "{} of {}",
-                    percent(self.noise_of(quantity)),
-                    column(quantity)
-                )
-            })
+        let numbers = self.plan.measurements.numbers().into_iter();
+        let each: Vec<String> = numbers
+            .map(|number| format!("{} of {}", percent(self.noise_of(number)), number.column()))
             .collect();
         let each = listed(&each);
         match self.found.knowledge {
@@ -118,6 +112,14 @@ impl IdentifyReport<'_> {
 
     fn window(&self) -> String {
         let (lowest, highest) = self.found.window_rad_per_s;
+        if self.plan.measurements.is_history() {
+            let time = |value: f64| format_human(1.0 / value, Dimension::Time, 4);
+            return format!(
+                "Measured from t = {} to {}; outside, the series is an extrapolation.",
+                time(highest),
+                time(lowest)
+            );
+        }
         let omega = |value| format_human(value, Dimension::AngularFrequency, 4);
         format!(
             "Measured from ω = {} to {}; outside, the series is an extrapolation.",

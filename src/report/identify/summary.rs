@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{IdentifyReport, dimension};
-use crate::identify::{Knowledge, column};
+use crate::identify::Knowledge;
 
 /// The summary as an object; what is undefined is null.
 pub fn summary(report: &IdentifyReport<'_>) -> Value {
@@ -29,9 +29,9 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
             "two_times_are_one": c.has_close_times,
         })
     });
-    let columns = measured.quantities().into_iter().map(|quantity| {
-        json!({ "column": column(quantity), "relative_error": report.noise_of(quantity) })
-    });
+    let columns = measured.numbers().into_iter().map(
+        |number| json!({ "column": number.column(), "relative_error": report.noise_of(number) }),
+    );
     let undetermined = found.undetermined.iter().map(|open| {
         let powers = open
             .parts
@@ -39,10 +39,9 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
             .map(|(name, power)| json!({ "name": name, "power": power }));
         json!({ "factor": open.factor, "powers": powers.collect::<Vec<_>>() })
     });
-    let mut omegas: Vec<f64> = found
-        .compared
-        .iter()
-        .map(|c| c.angular_frequency_rad_per_s)
+    let data = measured.data().iter();
+    let mut omegas: Vec<f64> = data
+        .map(|datum| measured.angular_frequency(datum))
         .collect();
     omegas.sort_by(f64::total_cmp);
     omegas.dedup();
@@ -60,6 +59,7 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
     });
     json!({
         "title": report.plan.title,
+        "of": if measured.is_history() { "history" } else { "cycles" },
         "numbers": found.compared.len(),
         "columns": columns.collect::<Vec<_>>(),
         "errors": match found.knowledge {

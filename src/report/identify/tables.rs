@@ -1,7 +1,6 @@
 //! The tables of an identification: measured and computed numbers, and the moduli with their bands.
 
 use super::IdentifyReport;
-use crate::identify::column;
 use crate::report::table::{cells, csv};
 
 /// Points of the moduli over a decade, and how far beyond the data they go.
@@ -12,8 +11,8 @@ const BEYOND: f64 = 3.0;
 pub fn fit(report: &IdentifyReport<'_>) -> Vec<u8> {
     let rows = report.found.compared.iter().map(|c| {
         cells![
-            c.angular_frequency_rad_per_s,
-            column(c.quantity),
+            c.place,
+            c.number.column(),
             c.measured,
             c.error,
             c.computed,
@@ -22,7 +21,7 @@ pub fn fit(report: &IdentifyReport<'_>) -> Vec<u8> {
         ]
     });
     let columns = [
-        "angular_frequency_rad_per_s",
+        place_column(report),
         "column",
         "measured",
         "error",
@@ -31,6 +30,14 @@ pub fn fit(report: &IdentifyReport<'_>) -> Vec<u8> {
         "computed_high",
     ];
     csv(&columns, rows)
+}
+
+/// The column of the place of a number: a frequency, or a time.
+fn place_column(report: &IdentifyReport<'_>) -> &'static str {
+    match report.plan.measurements.is_history() {
+        true => "time_s",
+        false => "angular_frequency_rad_per_s",
+    }
 }
 
 /// `moduli.csv`: E' and E'' with their 95 % bands, over the data and a little beyond.

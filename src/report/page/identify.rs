@@ -40,7 +40,11 @@ pub fn page(
     let title = &report.plan.title;
     let frame = Frame {
         title,
-        asked: "which solid has these cycles".to_owned(),
+        asked: match report.plan.measurements.is_history() {
+            true => "which solid has this history",
+            false => "which solid has these cycles",
+        }
+        .to_owned(),
         main,
         input: Input {
             hashes: vec![("exactly this material", resolved::hash(block))],

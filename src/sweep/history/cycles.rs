@@ -8,6 +8,7 @@ use std::f64::consts::TAU;
 use crate::cycle::{self, LoopAnalysis};
 use crate::drive::Segment;
 use crate::sweep::history::HistoryRow;
+use crate::sweep::history::between::{self, SAME};
 use crate::sweep::history::errors::Plan;
 use crate::sweep::plan::scenario::ScenarioPlan;
 
@@ -51,8 +52,6 @@ pub struct CycleErrors {
 const SAMPLES: usize = 200;
 /// Rows that a cycle must have: fewer do not show its third harmonic.
 const FEWEST_ROWS: usize = 12;
-/// Times closer than this part of a cycle are the same.
-const SAME: f64 = 1e-9;
 
 /// Every whole cycle of every sine segment, as far as the rows go.
 pub(in crate::sweep) fn of(plan: &ScenarioPlan, rows: &[HistoryRow]) -> Vec<HistoryCycle> {
@@ -107,7 +106,7 @@ fn of_segment(
     (1..=whole)
         .map_while(|number| {
             let start_s = first_s + (number - 1) as f64 * period_s;
-            let rows = within(rows, start_s, period_s)?;
+            let rows = between::within(rows, start_s, period_s)?;
             Some(HistoryCycle {
                 segment: segment + 1,
                 number,
@@ -118,15 +117,6 @@ fn of_segment(
             })
         })
         .collect()
-}
-
-/// The rows of a cycle, both ends included: at a jump the row after it, and at its end the one before. `None` where the history has
-/// not come so far.
-fn within(rows: &[HistoryRow], start_s: f64, period_s: f64) -> Option<&[HistoryRow]> {
-    let slack_s = SAME * period_s;
-    let first = rows.partition_point(|row| row.time_s <= start_s + slack_s);
-    let last = rows.partition_point(|row| row.time_s < start_s + period_s - slack_s);
-    rows.get(first.checked_sub(1)?..=last)
 }
 
 fn numbers(
@@ -142,7 +132,7 @@ fn numbers(
     let sampled = |values: &[f64]| -> Vec<f64> {
         let at = |k: usize| start_s + period_s * k as f64 / SAMPLES as f64;
         (0..=SAMPLES)
-            .map(|k| cubic(&times, values, at(k)))
+            .map(|k| between::cubic(&times, values, at(k)))
             .collect()
     };
     let approach: Option<Vec<f64>> = rows.iter().map(|row| row.approach_m).collect();
@@ -169,58 +159,4 @@ fn numbers(
         moduli_pa: moduli_pa.flatten(),
         analysis,
     })
-}
-
-/// The cubic through the four samples about a time, in Lagrange's form: exact at the samples.
-fn cubic(times: &[f64], values: &[f64], time: f64) -> f64 {
-    let after = times.partition_point(|t| *t < time);
-    let first = after.saturating_sub(2).min(times.len().saturating_sub(4));
-    let near = first..(first + 4).min(times.len());
-    let weight = |i: usize| -> f64 {
-        let others = near.clone().filter(|j| *j != i);
-        others
-            .map(|j| (time - times[j]) / (times[i] - times[j]))
-            .product()
-    };
-    near.clone().map(|i| values[i] * weight(i)).sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_cubic_is_found_between_samples_of_any_distances() {
-        let times = [0.0, 0.1, 0.5, 0.6, 1.0, 1.7];
-        let cubed = |t: f64| 2.0 - t + 0.5 * t * t + 3.0 * t * t * t;
-        let values = times.map(cubed);
-        for time in [0.0, 0.03, 0.5, 0.77, 1.3, 1.7] {
-            assert!((cubic(&times, &values, time) - cubed(time)).abs() < 1e-13);
-        }
-    }
-
-    #[test]
-    fn a_cycle_between_two_jumps_has_the_rows_inside() {
-        let row = |time_s, load_n| HistoryRow {
-            time_s,
-            load_n,
-            approach_m: None,
-            contact_radius_m: 0.0,
-            peak_pressure_pa: None,
-        };
-        let rows = [
-            row(0.0, 0.0),
-            row(1.0, 0.0),
-            row(1.0, 1.0),
-            row(1.5, 2.0),
-            row(2.0, 3.0),
-            row(2.0, 9.0),
-        ];
-        let loads = |start_s, period_s| -> Option<Vec<f64>> {
-            let rows = within(&rows, start_s, period_s)?;
-            Some(rows.iter().map(|row| row.load_n).collect())
-        };
-        assert_eq!(loads(1.0, 1.0), Some(vec![1.0, 2.0, 3.0]));
-        assert_eq!(loads(1.5, 1.0), None);
-    }
 }

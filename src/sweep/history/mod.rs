@@ -9,6 +9,7 @@
 //! touches the surface. Both engines return it, and it is reported for exactly these instants; those at which the history
 //! begins or ends count, provided that the load is above zero on the other side.
 
+pub mod between;
 pub mod checkpoint;
 pub mod cycles;
 pub mod errors;

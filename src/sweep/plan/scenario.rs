@@ -83,14 +83,7 @@ pub const FIGURES: [&str; 4] = ["history", "cycle-losses", "profiles", "pressure
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
     let mut text =
         resolved::opening_text(&plan.title, &plan.material.text(), plan.indenter.as_ref());
-    let control = plan.drive.control();
-    // Writing to a String cannot fail.
-    let _ = writeln!(text, "\n[drive]\ncontrol = \"{}\"", control.name());
-    text.push_str("segments = [\n");
-    for segment in plan.drive.segments() {
-        let _ = writeln!(text, "    {{ {} }},", segment_text(segment, control));
-    }
-    text.push_str("]\n");
+    text.push_str(&history_text(&plan.drive));
     if let Some(step_s) = plan.step_s {
         let _ = writeln!(text, "\n[time]\nstep = {}", quoted(step_s, Dimension::Time));
     }
@@ -110,6 +103,19 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
     text.push_str(&resolved::solver_text(&plan.solver, plan.indenter.as_ref()));
     text.push_str(&plan.figures.text());
     text
+}
+
+/// The `[drive]` block of a history, with an empty line before it.
+pub(crate) fn history_text(drive: &SegmentedDrive) -> String {
+    let control = drive.control();
+    let segments = drive.segments().iter();
+    let segments: String = segments
+        .map(|segment| format!("    {{ {} }},\n", segment_text(segment, control)))
+        .collect();
+    format!(
+        "\n[drive]\ncontrol = \"{}\"\nsegments = [\n{segments}]\n",
+        control.name()
+    )
 }
 
 fn quoted(value: f64, dimension: Dimension) -> String {

@@ -1,0 +1,264 @@
+//! Measured histories: what a step, a ramp and a hold leave of approach or load, by the exact model and by one that needs no contact.
+//!
+//! While a contact grows, W C of an elastic body becomes the convolution of the load with the creep compliance, and the load of an
+//! elastic body the convolution of E with its load per modulus (E. H. Lee and J. R. M. Radok, J. Appl. Mech. 27, 1960, 438):
+//!
+//! ```text
+//! F(delta(t)) = integral of C(t - s) dW(s),      W(t) = integral of E(t - s)/(1 - nu^2) dF(delta(s)),      dF/d(delta) = 2 a(delta)
+//! ```
+//!
+//! Both are exact for a body of revolution as long as the contact does not shrink, and close to it afterwards: what is missing is in
+//! the factors that the exact model gives.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::drive::{Control, Schedule, SegmentedDrive, Steps};
+use crate::identify::data::Number;
+use crate::identify::series::Point;
+use crate::identify::{Driven, IdentifyError, IdentifyPlan};
+use crate::indenter::Indenter;
+use crate::material::{Material, ModulusKind, Relaxation};
+use crate::sweep::history::between::values_at;
+use crate::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
+use crate::sweep::plan::scenario::ScenarioPlan;
+
+/// Load per modulus and approach of an elastic contact, between points that are joined by powers.
+struct Elastic {
+    /// Logarithms of approaches (m) and of F (m^2), ascending.
+    ln_approach: Vec<f64>,
+    ln_load: Vec<f64>,
+}
+
+impl Elastic {
+    /// From a hundredth of an atom to a metre.
+    const RANGE_M: (f64, f64) = (1e-12, 1.0);
+    const PER_DECADE: f64 = 20.0;
+
+    fn new(indenter: &dyn Indenter) -> Self {
+        let (low, high) = Self::RANGE_M;
+        let count = ((high / low).log10() * Self::PER_DECADE) as i32;
+        let approach = |k: i32| low * 10_f64.powf(f64::from(k) / Self::PER_DECADE);
+        let half_width = |k: i32| indenter.half_widths_under_approach_m(approach(k)).0;
+        let (mut ln_approach, mut ln_load) = (Vec::new(), Vec::new());
+        // From nothing to the first point a power, half of it for a cone and all for a punch.
+        let mut load = 1.5 * approach(0) * half_width(0);
+        for k in 0..=count {
+            if k > 0 {
+                load += (half_width(k) + half_width(k - 1)) * (approach(k) - approach(k - 1));
+            }
+            if load.is_finite() && load > 0.0 {
+                ln_approach.push(approach(k).ln());
+                ln_load.push(load.ln());
+            }
+        }
+        Self {
+            ln_approach,
+            ln_load,
+        }
+    }
+
+    /// F (m^2) of an approach (m); 0 above the surface.
+    fn load(&self, approach_m: f64) -> f64 {
+        match approach_m > 0.0 {
+            true => between(&self.ln_approach, &self.ln_load, approach_m.ln()).exp(),
+            false => 0.0,
+        }
+    }
+
+    /// The approach (m) of F (m^2).
+    fn approach_m(&self, load: f64) -> f64 {
+        match load > 0.0 {
+            true => between(&self.ln_load, &self.ln_approach, load.ln()).exp(),
+            false => 0.0,
+        }
+    }
+}
+
+/// The straight line through the two points about `at`, or the two at the end that it lies beyond.
+fn between(x: &[f64], y: &[f64], at: f64) -> f64 {
+    let above = x.partition_point(|x| *x < at);
+    let above = above.clamp(1, x.len().saturating_sub(1).max(1));
+    match (x.get(above - 1..=above), y.get(above - 1..=above)) {
+        (Some([a, b]), Some([of_a, of_b])) if b > a => of_a + (of_b - of_a) * (at - a) / (b - a),
+        _ => f64::NAN,
+    }
+}
+
+/// A history without its contact.
+pub(super) struct LinearHistory {
+    control: Control,
+    elastic: Elastic,
+    /// 1 - nu^2.
+    plane: f64,
+    /// Length (s) and values at beginning and end of every step of what is convolved: load (N), or F (m^2).
+    steps: Vec<(f64, f64, f64)>,
+    /// For each datum how many steps lead to it.
+    ends: Vec<usize>,
+}
+
+impl LinearHistory {
+    /// The history of a plan; `None` where its data lie outside the drive.
+    pub(super) fn new(plan: &IdentifyPlan, drive: &SegmentedDrive) -> Option<Self> {
+        let times: Vec<f64> = (plan.measurements.data().iter())
+            .map(|datum| plan.measurements.time_s(datum))
+            .collect();
+        let chosen = Steps::Chosen {
+            shortest_time_s: None,
+        };
+        let schedule = Schedule::new(drive, chosen, &times).ok()?;
+        let elastic = Elastic::new(plan.indenter.as_ref());
+        let convolved = |value: f64| match drive.control() {
+            Control::Load => value,
+            Control::Approach => elastic.load(value),
+        };
+        let mut before = 0.0;
+        let steps = schedule.moments.iter().map(|moment| {
+            let value = convolved(moment.value);
+            (moment.step_s, std::mem::replace(&mut before, value), value)
+        });
+        Some(Self {
+            control: drive.control(),
+            steps: steps.collect(),
+            ends: schedule.requested.iter().map(|moment| moment + 1).collect(),
+            plane: 1.0 - plan.poisson_ratio * plan.poisson_ratio,
+            elastic,
+        })
+    }
+
+    /// The number of every datum.
+    pub(super) fn numbers(&self, point: &Point) -> Vec<f64> {
+        match self.control {
+            Control::Approach => {
+                let branches = point.branches_pa_s();
+                let loads = self.convolved(point.equilibrium_pa(), 0.0, &branches);
+                loads.iter().map(|load| load / self.plane).collect()
+            }
+            Control::Load => {
+                let Ok(creep) = point.relaxation().and_then(|series| series.to_creep()) else {
+                    return vec![f64::NAN; self.ends.len()];
+                };
+                let at_once = creep.instantaneous_compliance();
+                let branches = creep.branches().iter();
+                let branches: Vec<(f64, f64)> = branches
+                    .map(|branch| (branch.compliance_per_pa, branch.time_s))
+                    .collect();
+                let late: f64 = branches.iter().map(|(c, _)| c).sum();
+                let falling: Vec<(f64, f64)> = branches.iter().map(|(c, t)| (-c, *t)).collect();
+                let products = self.convolved(at_once + late, 0.0, &falling);
+                let approach = |product: &f64| self.elastic.approach_m(self.plane * product);
+                products.iter().map(approach).collect()
+            }
+        }
+    }
+
+    /// The convolution of the steps with `constant` + sum of w exp(-t/tau), at every datum.
+    fn convolved(&self, constant: f64, start: f64, branches: &[(f64, f64)]) -> Vec<f64> {
+        let mut states = vec![start; branches.len()];
+        let mut after = Vec::with_capacity(self.steps.len());
+        for (step_s, before, value) in &self.steps {
+            let change = value - before;
+            let mut sum = constant * value;
+            for ((weight, time_s), state) in branches.iter().zip(&mut states) {
+                let ratio = step_s / time_s;
+                // (1 - exp(-r))/r, which is 1 for a jump.
+                let part = if ratio > 0.0 {
+                    -(-ratio).exp_m1() / ratio
+                } else {
+                    1.0
+                };
+                *state = *state * (-ratio).exp() + change * part;
+                sum += weight * *state;
+            }
+            after.push(sum);
+        }
+        let at = |end: &usize| after.get(end - 1).copied().unwrap_or(f64::NAN);
+        self.ends.iter().map(at).collect()
+    }
+}
+
+/// The history that a solid has under the drive of a plan.
+pub(super) fn followed(
+    plan: &IdentifyPlan,
+    drive: &SegmentedDrive,
+    series: &Relaxation,
+    interrupt: &AtomicBool,
+) -> Result<SimulationOutcome, IdentifyError> {
+    let kind = ModulusKind::Longitudinal;
+    let material = Material::from_relaxation(series.clone(), kind, plan.poisson_ratio)?;
+    let mut scenario = ScenarioPlan::new(material, Arc::clone(&plan.indenter), drive.clone());
+    scenario.solver = plan.solver;
+    scenario.output.error_bars = false;
+    let simulation = Simulation::new(scenario);
+    let simulation = simulation.map_err(|error| IdentifyError::NoHistory(error.to_string()))?;
+    let outcome = simulation.run(interrupt, &|_, _| {});
+    match outcome.ended {
+        _ if interrupt.load(Ordering::Relaxed) => Err(IdentifyError::Interrupted),
+        SimulationEnd::Failed(why) => Err(IdentifyError::NoHistory(why)),
+        SimulationEnd::Interrupted => Err(IdentifyError::Interrupted),
+        SimulationEnd::Done => Ok(outcome),
+    }
+}
+
+/// What is measured under a control.
+pub(super) fn response(control: Control) -> (Number, fn(&HistoryRow) -> Option<f64>) {
+    match control {
+        Control::Load => (Number::Approach, |row| row.approach_m),
+        Control::Approach => (Number::Load, |row| Some(row.load_n)),
+    }
+}
+
+/// The computed number of every datum of a history, for one solid.
+pub(super) fn numbers(
+    plan: &IdentifyPlan,
+    drive: &SegmentedDrive,
+    series: &Relaxation,
+    interrupt: &AtomicBool,
+) -> Result<Vec<f64>, IdentifyError> {
+    let outcome = followed(plan, drive, series, interrupt)?;
+    let data = plan.measurements.data();
+    let times: Vec<f64> = data.iter().map(|d| plan.measurements.time_s(d)).collect();
+    let (_, value) = response(drive.control());
+    let found = values_at(drive, &outcome.rows, &times, value).into_iter();
+    found
+        .zip(data)
+        .map(|(number, datum)| {
+            number.ok_or_else(|| IdentifyError::Undefined {
+                place: plan.measurements.place_in_words(datum),
+                column: datum.number.column(),
+            })
+        })
+        .collect()
+}
+
+impl Driven {
+    /// The drive of a history.
+    pub fn history(&self) -> Option<&SegmentedDrive> {
+        match self {
+            Self::Cycles(_) => None,
+            Self::History(drive) => Some(drive),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::indenter::{Cone, FlatPunch, Sphere};
+
+    #[test]
+    fn an_elastic_contact_is_that_of_hertz_sneddon_and_a_punch() {
+        let sphere = Elastic::new(&Sphere::new(0.01).unwrap());
+        // 4/3 sqrt(R) delta^(3/2), by the trapezium rule on a grid of 12 %.
+        let hertz = 4.0 / 3.0 * (0.01_f64 * 1e-5_f64.powi(3)).sqrt();
+        assert!((sphere.load(1e-5) / hertz - 1.0).abs() < 2e-3);
+        assert!((sphere.approach_m(hertz) / 1e-5 - 1.0).abs() < 2e-3);
+        let punch = Elastic::new(&FlatPunch::new(1e-3).unwrap());
+        assert!((punch.load(1e-5) / (2e-3 * 1e-5) - 1.0).abs() < 2e-3);
+        let half_angle = 70_f64.to_radians();
+        let cone = Elastic::new(&Cone::new(half_angle).unwrap());
+        let sneddon = 2.0 / std::f64::consts::PI * half_angle.tan() * 1e-10;
+        assert!((cone.load(1e-5) / sneddon - 1.0).abs() < 3e-3);
+        assert_eq!(cone.load(-1.0), 0.0);
+    }
+}
