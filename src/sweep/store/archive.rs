@@ -94,6 +94,54 @@ impl<'a> Archive<'a> {
 }
 
 impl MemoryArchive {
+    /// Every record with its cycle, for another process of the same build.
+    ///
+    /// # Errors
+    /// Why a record cannot be encoded.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
+        let records = self.records();
+        let packed = (records.iter())
+            .map(|(key, record)| Ok((key, packed_record::pack(record)?)))
+            .collect::<Result<Vec<_>, String>>()?;
+        postcard::to_stdvec(&packed).map_err(|error| error.to_string())
+    }
+
+    /// The records of [`Self::to_bytes`]; `None` of anything else.
+    pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
+        let packed: Vec<(Key, Vec<u8>)> = postcard::from_bytes(bytes).ok()?;
+        let record = |(key, packed): (Key, Vec<u8>)| {
+            let mut record = packed_record::numbers(&packed)?;
+            if let (Some(result), Some(cycle)) = (&mut record.result, packed_record::cycle(&packed))
+            {
+                result.cycle = cycle;
+            }
+            Some((key, record))
+        };
+        let records: HashMap<_, _> = packed.into_iter().map(record).collect::<Option<_>>()?;
+        Some(Self {
+            records: Mutex::new(records),
+        })
+    }
+
+    /// Puts every record into the folder of the same sweep that has none of the case.
+    ///
+    /// # Errors
+    /// [`StoreError`] with the path.
+    pub fn put_into(&self, store: &Store) -> Result<(), StoreError> {
+        store.check_plan()?;
+        store.records.look()?;
+        let records = self.records();
+        let mut all: Vec<_> = records.iter().collect();
+        all.sort_by_key(|(key, record)| (key.purpose, record.index, *key));
+        for (key, record) in all {
+            let place = store.records.place(key)?;
+            if place.is_none_or(|place| place.origin != Origin::ThisBuild) {
+                store.append(key.clone(), record)?;
+            }
+        }
+        Ok(())
+    }
+
     fn records(&self) -> MutexGuard<'_, HashMap<Key, CaseRecord>> {
         // A record is in it whole or not at all, whatever became of the thread that put it there.
         self.records.lock().unwrap_or_else(PoisonError::into_inner)
@@ -189,7 +237,12 @@ impl Store {
         case: &Case,
         record: &CaseRecord,
     ) -> Result<(), StoreError> {
-        let record = match purpose {
+        self.check_plan()?;
+        self.append(Key::of(purpose, case), record)
+    }
+
+    fn append(&self, key: Key, record: &CaseRecord) -> Result<(), StoreError> {
+        let record = match key.purpose {
             Purpose::Sweep => packed_record::pack(record),
             // Its cycle is drawn nowhere.
             Purpose::Peak => packed_record::pack(&record.without_cycle()),
@@ -198,8 +251,7 @@ impl Store {
             path: self.folder().to_path_buf(),
             reason,
         })?;
-        self.check_plan()?;
-        self.records.append(Key::of(purpose, case), &record)
+        self.records.append(key, &record)
     }
 
     /// The numbers of a case's record, where there is a usable one; its cycle is not read: see [`Self::load_cycle`].

@@ -1,0 +1,90 @@
+//! Indenters.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use contact_dma::indenter::{HeightMap, Indenter};
+use contact_dma::input::document::Document;
+use contact_dma::input::field_file::Field;
+use contact_dma::input::given;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::{arrays, failure};
+
+/// An indenter that was read from its block of a sweep file, or a height map of an array.
+#[pyclass(frozen, module = "contact_dma._contact_dma")]
+pub struct Shape {
+    indenter: Arc<dyn Indenter>,
+    /// The map, of one that has no file.
+    map: Option<Arc<HeightMap>>,
+}
+
+#[pymethods]
+impl Shape {
+    /// The indenter of a block; paths in it start from the folder.
+    #[new]
+    fn new(name: &str, text: &str, folder: PathBuf) -> PyResult<Self> {
+        let document = Document::parse(name, text).map_err(|found| failure::of_input(&found))?;
+        let indenter = given::indenter(&document.in_folder(&folder));
+        Ok(Self {
+            indenter: indenter.map_err(|found| failure::of_input(&found))?,
+            map: None,
+        })
+    }
+
+    /// A map of heights, one row for each y, with the other keys of its block.
+    #[staticmethod]
+    fn of_heights(name: &str, text: &str, heights: PyReadonlyArray2<'_, f64>) -> PyResult<Self> {
+        let document = Document::parse(name, text).map_err(|found| failure::of_input(&found))?;
+        let (cells_y, cells_x) = (heights.shape()[0], heights.shape()[1]);
+        let field = Field {
+            cells_x,
+            cells_y,
+            values_m: heights.as_array().iter().copied().collect(),
+            spacing_m: None,
+        };
+        let map = given::height_map(&document, field);
+        let map = Arc::new(map.map_err(|found| failure::of_input(&found))?);
+        Ok(Self {
+            indenter: Arc::clone(&map) as Arc<dyn Indenter>,
+            map: Some(map),
+        })
+    }
+
+    /// Gap (m) at every point of a map of an array.
+    fn gaps<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let Some(map) = &slf.get().map else {
+            return Err(PyValueError::new_err("this indenter is no map of an array"));
+        };
+        let (cells_x, cells_y) = map.cells();
+        let gaps = arrays::matrix(slf.as_any(), map.gaps_m(), (cells_y, cells_x));
+        gaps.ok_or_else(|| failure::of_run("the map has another size than it says"))
+    }
+
+    /// Gap (m) between the undeformed indenter and the half-space at points x, y (m).
+    fn gap<'py>(
+        &self,
+        py: Python<'py>,
+        x: PyReadonlyArray1<'py, f64>,
+        y: PyReadonlyArray1<'py, f64>,
+    ) -> Bound<'py, PyArray1<f64>> {
+        let (x, y) = (x.as_array(), y.as_array());
+        let points = x.iter().zip(y.iter());
+        let gaps: Vec<f64> = points.map(|(x, y)| self.indenter.gap_m(*x, *y)).collect();
+        gaps.into_pyarray(py)
+    }
+}
+
+impl Shape {
+    /// The indenter as plans take it.
+    pub fn indenter(&self) -> Arc<dyn Indenter> {
+        Arc::clone(&self.indenter)
+    }
+
+    /// The map, of one that has no file.
+    pub fn map(&self) -> Option<&HeightMap> {
+        self.map.as_deref()
+    }
+}
