@@ -7,10 +7,8 @@ use pyo3::prelude::*;
 use contact_dma::report::quantities::Named;
 use contact_dma::report::table::Cell;
 
-/// The columns of tables that hold text.
-const TEXTS: [&str; 7] = [
-    "method", "warnings", "status", "message", "file", "findings", "drift",
-];
+/// Columns that hold text, be it that no row has any.
+const TEXTS: [&str; 2] = ["warnings", "message"];
 
 /// Absent values as NaN.
 pub fn numbers(values: impl IntoIterator<Item = Option<f64>>) -> Vec<f64> {
@@ -47,14 +45,15 @@ pub fn columns<'py, R>(
     rows: &[R],
 ) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
     let of_column = |column: &Named<R>| {
-        let cells = rows.iter().map(|row| (column.cell)(row));
-        let values = match TEXTS.contains(&column.name.as_str()) {
+        let cells: Vec<Cell> = rows.iter().map(|row| (column.cell)(row)).collect();
+        let has_text = cells.iter().any(|cell| matches!(cell, Cell::Text(_)));
+        let values = match has_text || TEXTS.contains(&column.name.as_str()) {
             true => {
-                let texts: Vec<String> = cells.map(|cell| cell.text()).collect();
+                let texts: Vec<String> = cells.iter().map(Cell::text).collect();
                 texts.into_pyobject(py)?
             }
             false => {
-                let values = numbers(cells.map(|cell: Cell| cell.number()));
+                let values = numbers(cells.iter().map(Cell::number));
                 values.into_pyarray(py).into_any()
             }
         };

@@ -1,7 +1,5 @@
 //! Materials.
 
-use std::path::PathBuf;
-
 use contact_dma::input::document::Document;
 use contact_dma::input::given;
 use contact_dma::material::{Material, MaterialError, ModulusKind};
@@ -18,9 +16,8 @@ use crate::{failure, wait};
 #[pyclass(frozen, module = "contact_dma._contact_dma")]
 pub struct Body {
     material: BodyMaterial,
-    /// A block that gives the same material again, and the folder where its paths start.
+    /// A block that gives the same material again.
     text: String,
-    folder: String,
 }
 
 /// Equilibrium modulus, moduli and times of a generalised Maxwell solid.
@@ -29,10 +26,10 @@ type Prony<'py> = (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 #[pymethods]
 impl Body {
     #[new]
-    fn new(py: Python<'_>, name: String, text: String, folder: String) -> PyResult<Self> {
-        let (block, paths) = (text.clone(), PathBuf::from(&folder));
+    fn new(py: Python<'_>, name: String, text: String) -> PyResult<Self> {
+        let block = text.clone();
         let read = wait::run_unheard(py, move || {
-            let document = Document::parse(&name, &block)?.in_folder(&paths);
+            let document = Document::parse(&name, &block)?;
             given::material(&document)
         })?;
         let material = read.map_err(|found| failure::of_input(&found))?;
@@ -41,23 +38,13 @@ impl Body {
             Some(series) => material_text(series),
             None => text,
         };
-        Ok(Self {
-            material,
-            text,
-            folder,
-        })
+        Ok(Self { material, text })
     }
 
     /// A block of a sweep file that gives the same material again.
     #[getter]
     fn text(&self) -> &str {
         &self.text
-    }
-
-    /// The folder where paths of the block start.
-    #[getter]
-    fn folder(&self) -> &str {
-        &self.folder
     }
 
     /// Whether it is a series, which sweeps take, and not samples as they are.

@@ -12,6 +12,7 @@ use pyo3::PyResult;
 use std::path::Path;
 
 use crate::failure;
+use crate::shape::spacing_m;
 
 /// The file of the map.
 const NAME: &str = "height-map.npy";
@@ -24,7 +25,7 @@ pub struct MapFile {
 
 impl MapFile {
     /// The file that a map has in this folder.
-    pub fn of(map: &HeightMap, spacing_m: (f64, f64), folder: &Path) -> PyResult<Self> {
+    pub fn of(map: &HeightMap, folder: &Path) -> PyResult<Self> {
         let (cells_x, cells_y) = map.cells();
         let bytes = npy::matrix(cells_y, cells_x, map.gaps_m());
         let path = std::path::absolute(folder.join(NAME)).map_err(failure::of_value)?;
@@ -40,6 +41,7 @@ impl MapFile {
             height_unit: HEIGHT_UNITS[0].1,
             level: MapLevel::None,
         };
+        let spacing_m = spacing_m(map)?;
         let gaps = map.gaps_m().to_vec();
         let same = HeightMap::new(map.cells(), spacing_m, gaps, MapQuantity::Gap, map.edge());
         let same = same.map_err(failure::of_value)?.with_source(source);

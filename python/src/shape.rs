@@ -1,13 +1,14 @@
 //! Indenters.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
-use contact_dma::indenter::{HeightMap, Indenter};
+use contact_dma::indenter::{Domain, HeightMap, Indenter, MapEdge};
 use contact_dma::input::document::Document;
 use contact_dma::input::field_file::Field;
 use contact_dma::input::given;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
+};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -23,11 +24,11 @@ pub struct Shape {
 
 #[pymethods]
 impl Shape {
-    /// The indenter of a block; paths in it start from the folder.
+    /// The indenter of a block.
     #[new]
-    fn new(name: &str, text: &str, folder: PathBuf) -> PyResult<Self> {
+    fn new(name: &str, text: &str) -> PyResult<Self> {
         let document = Document::parse(name, text).map_err(|found| failure::of_input(&found))?;
-        let indenter = given::indenter(&document.in_folder(&folder));
+        let indenter = given::indenter(&document);
         Ok(Self {
             indenter: indenter.map_err(|found| failure::of_input(&found))?,
             map: None,
@@ -55,12 +56,23 @@ impl Shape {
 
     /// Gap (m) at every point of a map of an array.
     fn gaps<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let Some(map) = &slf.get().map else {
-            return Err(PyValueError::new_err("this indenter is no map of an array"));
-        };
+        let map = slf.get().map_of_array()?;
         let (cells_x, cells_y) = map.cells();
         let gaps = arrays::matrix(slf.as_any(), map.gaps_m(), (cells_y, cells_x));
         gaps.ok_or_else(|| failure::of_run("the map has another size than it says"))
+    }
+
+    /// The block, without file, that a map of an array has together with its gaps.
+    fn map_keys(&self) -> PyResult<String> {
+        let map = self.map_of_array()?;
+        let (x_m, y_m) = spacing_m(map)?;
+        let edge = match map.edge() {
+            MapEdge::Unknown => "unknown",
+            MapEdge::Rim => "rim",
+        };
+        Ok(format!(
+            "[indenter]\nshape = \"height-map\"\nquantity = \"gap\"\nspacing = [{x_m:?}, {y_m:?}]\nedge = \"{edge}\"\n"
+        ))
     }
 
     /// Gap (m) between the undeformed indenter and the half-space at points x, y (m).
@@ -83,8 +95,26 @@ impl Shape {
         Arc::clone(&self.indenter)
     }
 
+    fn map_of_array(&self) -> PyResult<&HeightMap> {
+        let map = self.map();
+        map.ok_or_else(|| PyValueError::new_err("this indenter is no map of an array"))
+    }
+
     /// The map, of one that has no file.
     pub fn map(&self) -> Option<&HeightMap> {
         self.map.as_deref()
+    }
+}
+
+/// Distance of the points of a map along x and y.
+pub fn spacing_m(map: &HeightMap) -> PyResult<(f64, f64)> {
+    // Of a map the domain is its own, whatever the contact.
+    match map.domain(0.0, 0.0) {
+        Domain::Cells {
+            spacing_x_m,
+            spacing_y_m,
+            ..
+        } => Ok((spacing_x_m, spacing_y_m)),
+        _ => Err(failure::of_run("a map without cells")),
     }
 }
