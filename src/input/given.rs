@@ -90,3 +90,72 @@ pub fn height_map(document: &Document, field: Field) -> Result<HeightMap, Diagno
     root.finish();
     problems.into_result(read)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::sweep_file;
+    use crate::sweep::plan::resolved::resolved_text;
+
+    const MATERIAL: &str = "[material]\nlibrary = \"pmma\"\n";
+    const INDENTER: &str = "[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n";
+    const REST: &str = "[drive]\nmean = 10.0\namplitude = 5.0\n[sweep]\nfrequency = [1.0]\n";
+
+    fn document(text: &str) -> Document {
+        Document::parse("call", text).unwrap()
+    }
+
+    fn given() -> Given {
+        Given {
+            material: Some(material(&document(MATERIAL)).unwrap()),
+            indenter: Some(indenter(&document(INDENTER)).unwrap()),
+        }
+    }
+
+    #[test]
+    fn values_give_the_plan_that_their_blocks_give() {
+        let title = "title = \"a\"\n";
+        let blocks = document(&format!("{title}{MATERIAL}{INDENTER}{REST}"));
+        let from_blocks = sweep_file::plan(&blocks).unwrap();
+        let values = document(&format!("{title}{REST}"));
+        let from_values = sweep_file::plan_with(&values, &given()).unwrap();
+        assert_eq!(resolved_text(&from_values), resolved_text(&from_blocks));
+        // What the document has counts.
+        let other = INDENTER.replace("10 mm", "3 mm");
+        let with_block = document(&format!("{title}{other}{REST}"));
+        let plan = sweep_file::plan_with(&with_block, &given()).unwrap();
+        assert!(resolved_text(&plan).contains("radius = \"0.003 m\""));
+        // And without either it is missing.
+        let refused = sweep_file::plan_with(&values, &Given::default()).unwrap_err();
+        assert!(refused.to_string().contains("material"), "{refused}");
+    }
+
+    #[test]
+    fn a_map_of_values_is_held_to_what_one_of_a_file_is() {
+        let block = document("[indenter]\nshape = \"height-map\"\nspacing = 1e-6\n");
+        let field = |scale: f64, hole: f64| Field {
+            cells_x: 9,
+            cells_y: 7,
+            values_m: (0..63)
+                .map(|at| {
+                    let (x, y) = ((at % 9) as f64 - 4.0, (at / 9) as f64 - 3.0);
+                    if at == 12 {
+                        hole
+                    } else {
+                        -scale * (x * x + y * y)
+                    }
+                })
+                .collect(),
+            spacing_m: None,
+        };
+        let map = height_map(&block, field(1e-9, 0.0)).unwrap();
+        assert_eq!(map.cells(), (9, 7));
+        for (field, word) in [
+            (field(1e-3, -0.01), "steeper"),
+            (field(1e-9, f64::NAN), "row 1, column 3"),
+        ] {
+            let refused = height_map(&block, field).unwrap_err().to_string();
+            assert!(refused.contains(word), "{refused}");
+        }
+    }
+}

@@ -1,13 +1,12 @@
-//! Records of finished cases: on disk, sealed, and read again where they are whole and of the same sweep and program; or in memory.
+//! Records of finished cases: on disk, sealed, and read again where they are whole and of the same sweep and program; or in memory, see [`super::memory`].
 
-use std::collections::HashMap;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
 use crate::sweep::plan::{AxisValues, Case};
 use crate::sweep::record::CaseRecord;
+pub use crate::sweep::store::memory::MemoryArchive;
 use crate::sweep::store::packed_record;
 use crate::sweep::store::records::{Key, Origin, Place, Unread};
 use crate::sweep::store::{Store, StoreError};
@@ -17,12 +16,6 @@ use crate::sweep::store::{Store, StoreError};
 pub enum Archive<'a> {
     Folder(&'a Store),
     Memory(&'a MemoryArchive),
-}
-
-/// The records of one sweep, in memory alone.
-#[derive(Debug, Default)]
-pub struct MemoryArchive {
-    records: Mutex<HashMap<Key, CaseRecord>>,
 }
 
 impl<'a> From<&'a Store> for Archive<'a> {
@@ -90,61 +83,6 @@ impl<'a> Archive<'a> {
                 None => Kept::Absent,
             }),
         }
-    }
-}
-
-impl MemoryArchive {
-    /// Every record with its cycle, for another process of the same build.
-    ///
-    /// # Errors
-    /// Why a record cannot be encoded.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
-        let records = self.records();
-        let packed = (records.iter())
-            .map(|(key, record)| Ok((key, packed_record::pack(record)?)))
-            .collect::<Result<Vec<_>, String>>()?;
-        postcard::to_stdvec(&packed).map_err(|error| error.to_string())
-    }
-
-    /// The records of [`Self::to_bytes`]; `None` of anything else.
-    pub fn from_bytes(bytes: &[u8]) -> Option<Self> {
-        let packed: Vec<(Key, Vec<u8>)> = postcard::from_bytes(bytes).ok()?;
-        let record = |(key, packed): (Key, Vec<u8>)| {
-            let mut record = packed_record::numbers(&packed)?;
-            if let (Some(result), Some(cycle)) = (&mut record.result, packed_record::cycle(&packed))
-            {
-                result.cycle = cycle;
-            }
-            Some((key, record))
-        };
-        let records: HashMap<_, _> = packed.into_iter().map(record).collect::<Option<_>>()?;
-        Some(Self {
-            records: Mutex::new(records),
-        })
-    }
-
-    /// Puts every record into the folder of the same sweep that has none of the case.
-    ///
-    /// # Errors
-    /// [`StoreError`] with the path.
-    pub fn put_into(&self, store: &Store) -> Result<(), StoreError> {
-        store.check_plan()?;
-        store.records.look()?;
-        let records = self.records();
-        let mut all: Vec<_> = records.iter().collect();
-        all.sort_by_key(|(key, record)| (key.purpose, record.index, *key));
-        for (key, record) in all {
-            let place = store.records.place(key)?;
-            if place.is_none_or(|place| place.origin != Origin::ThisBuild) {
-                store.append(key.clone(), record)?;
-            }
-        }
-        Ok(())
-    }
-
-    fn records(&self) -> MutexGuard<'_, HashMap<Key, CaseRecord>> {
-        // A record is in it whole or not at all, whatever became of the thread that put it there.
-        self.records.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -241,7 +179,8 @@ impl Store {
         self.append(Key::of(purpose, case), record)
     }
 
-    fn append(&self, key: Key, record: &CaseRecord) -> Result<(), StoreError> {
+    /// Appends a record of this case.
+    pub(super) fn append(&self, key: Key, record: &CaseRecord) -> Result<(), StoreError> {
         let record = match key.purpose {
             Purpose::Sweep => packed_record::pack(record),
             // Its cycle is drawn nowhere.
