@@ -11,6 +11,7 @@ from typing import Any, Literal, overload
 from . import _contact_dma as _core
 from . import _toml
 from ._result import Progress, Table, Warning, arrays, heard, svg
+from ._stored import StoredHistory
 from .indenters import Indenter
 from .materials import Floats, Material, Quantity
 from .sweeps import _refuse, _solver, _Source, _threads
@@ -82,7 +83,7 @@ class HistoryResult(Table):
         (True, 5.0)
     """
 
-    def __init__(self, core: _core.History) -> None:
+    def __init__(self, core: _core.History | StoredHistory) -> None:
         self._core = core
         self._columns = arrays(core.columns())
 
@@ -115,8 +116,8 @@ class HistoryResult(Table):
     @property
     def fields(self) -> tuple[Field, ...]:
         """Whole fields at the times of ``fields_at``; their arrays are views that cannot be written to."""
-        made = (self._core.field(k) for k in range(self._core.field_count))
-        return tuple(Field(*at, *rest) for at, *rest in made)
+        fields = (self._core.field(k) for k in range(self._core.field_count))
+        return tuple(Field(*made[0], *made[1:]) for made in fields)
 
     @property
     def resolved(self) -> str:
@@ -170,6 +171,7 @@ def simulate(
 @overload
 def simulate(
     file: str | os.PathLike[str],
+    indenter: None = None,
     /,
     *,
     overrides: Mapping[str, Any] | None = None,

@@ -33,7 +33,7 @@ class Indenter:
         """Gap (m) between the undeformed indenter and the half-space at points x, y (m), which broadcast; inf where it ends.
 
         Example:
-            >>> float(Sphere("10 mm").gap(3e-4, 4e-4))
+            >>> round(float(Sphere("10 mm").gap(3e-4, 4e-4)), 12)
             1.25e-05
         """
         first, second = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(y, np.float64))
@@ -72,7 +72,7 @@ class Cone(Indenter):
     """A cone of this angle (rad) between its axis and its side.
 
     Example:
-        >>> float(Cone("45 deg").gap(1e-3))
+        >>> round(float(Cone("45 deg").gap(1e-3)), 12)
         0.001
     """
 
@@ -267,6 +267,8 @@ class HeightMap(Indenter):
         values = np.asarray(heights, dtype=np.float64)
         if values.ndim != 2:
             raise ValueError(f"heights have shape {values.shape}: give an array of rows along y and columns along x")
+        if offset is not None:
+            raise ValueError("a map of an array has no offset: its grid is centred on the origin")
         rows, columns = values.shape
         self._text = None
         self._call = f"HeightMap of {columns} x {rows} points"
@@ -281,11 +283,10 @@ class HeightMap(Indenter):
     def __reduce__(self) -> tuple[Any, ...]:
         if self._text is not None:
             return super().__reduce__()
-        return (_restored_map, (np.array(self.gaps), self._core.map_keys()))
+        return (_restored_map, (self._core, self._call))
 
 
-def _restored_map(gaps: Floats, keys: str) -> HeightMap:
+def _restored_map(core: _core.Shape, call: str) -> HeightMap:
     map = HeightMap.__new__(HeightMap)
-    map._text, map._call = None, f"HeightMap of {gaps.shape[1]} x {gaps.shape[0]} points"
-    map._core = _core.Shape.of_heights("the pickled HeightMap", keys, gaps)
+    map._text, map._call, map._core = None, call, core
     return map

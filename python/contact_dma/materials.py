@@ -7,7 +7,7 @@ import os
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, TypeAlias
+from typing import Any, Literal, NamedTuple, TypeAlias, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -15,10 +15,10 @@ import numpy.typing as npt
 from . import _contact_dma as _core
 from . import _toml
 
-Quantity: TypeAlias = "float | str"
+Quantity: TypeAlias = Union[float, str]
 """A number in SI units, or a string with a unit: ``0.01`` or ``"10 mm"``."""
 
-ModulusKind: TypeAlias = Literal["longitudinal", "shear"]
+ModulusKind: TypeAlias = Union[Literal["longitudinal"], Literal["shear"]]
 """Whether a modulus is Young's (E) or the shear modulus (G)."""
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -48,7 +48,7 @@ class Material:
         >>> pmma = cd.Material.library("pmma")
         >>> pmma
         Material('PMMA', poisson_ratio=0.38)
-        >>> abs(pmma.complex_modulus(1.0)) > pmma.prony.equilibrium
+        >>> bool(abs(pmma.complex_modulus(1.0)) > pmma.prony.equilibrium)
         True
     """
 
@@ -218,7 +218,7 @@ class Material:
         Example:
             >>> glass = Material.fractional("zener", stiffness="1 GPa", time="1 s", exponent=0.5, equilibrium="100 MPa",
             ...                             band=("1e-2 rad/s", "1e2 rad/s"), poisson_ratio=0.4)
-            >>> glass.complex_modulus(1.0).imag > 0
+            >>> bool(glass.complex_modulus(1.0).imag > 0)
             True
         """
         table = {

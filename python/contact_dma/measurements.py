@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import csv
 import html
-import io
 import json
 import os
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -19,11 +17,12 @@ import numpy.typing as npt
 from . import _contact_dma as _core
 from . import _toml
 from ._result import Status, Table, Warning, arrays, svg
+from ._stored import table
 from .indenters import Indenter
 from .materials import Floats, Material, Prony, Quantity, write_columns
 from .sweeps import _CYCLE_KEYS, _DRIVE_KEYS, _refuse, _solver, _chosen, _Source, _threads
 
-Record: TypeAlias = "str | os.PathLike[str] | Mapping[str, npt.ArrayLike]"
+Record: TypeAlias = Union[str, "os.PathLike[str]", Mapping[str, npt.ArrayLike]]
 """A record of load and approach: a file, or ``{"time": ..., "load": ..., "approach": ...}`` in s, N and m, shape (n,)."""
 
 
@@ -75,7 +74,7 @@ class AnalysisResult(Table):
     def cycles(self) -> tuple[MeasuredCycle, ...]:
         """The mean cycle of every record."""
         none = np.empty(0)
-        return tuple(MeasuredCycle(*(samples or [none] * 3)) for samples in self._cycles)
+        return tuple(MeasuredCycle(*(samples or (none, none, none))) for samples in self._cycles)
 
     @property
     def summary(self) -> dict[str, Any]:
@@ -189,12 +188,12 @@ class IdentifiedMaterial:
     @property
     def fit(self) -> dict[str, npt.NDArray[Any]]:
         """Data and model, the columns of ``fit.csv``."""
-        return _table(dict(self._files)["fit.csv"])
+        return table(dict(self._files)["fit.csv"].decode("utf-8"))
 
     @property
     def moduli(self) -> dict[str, npt.NDArray[Any]]:
         """E' and E'' with their bands over frequency, the columns of ``moduli.csv``."""
-        return _table(dict(self._files)["moduli.csv"])
+        return table(dict(self._files)["moduli.csv"].decode("utf-8"))
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``moduli.csv``,
@@ -206,19 +205,6 @@ class IdentifiedMaterial:
 
     def _repr_html_(self) -> str:
         return f"<pre>{html.escape(chr(10).join(self.report))}</pre>"
-
-
-def _table(content: bytes) -> dict[str, npt.NDArray[Any]]:
-    """A CSV file as columns: numbers with NaN for empty cells, or texts."""
-    head, *rows = csv.reader(io.StringIO(content.decode("utf-8")))
-
-    def column(cells: Sequence[str]) -> npt.NDArray[Any]:
-        try:
-            return np.array([float(cell) if cell else np.nan for cell in cells])
-        except ValueError:
-            return np.array(cells)
-
-    return {name: column([row[k] for row in rows]) for k, name in enumerate(head)}
 
 
 def identify(

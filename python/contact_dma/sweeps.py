@@ -216,7 +216,7 @@ class SweepResult(Table):
             for instant, numbers, lines in self._core.profiles(index)
         )
         omega = float(self["angular_frequency_rad_per_s"][index])
-        return Cycle(omega, *(samples or [none] * 5), tuple(profiles))
+        return Cycle(omega, *(samples or (none, none, none, none, none)), tuple(profiles))
 
     def _curves(self) -> list[tuple[Floats, Floats]]:
         omega, loss = self["angular_frequency_rad_per_s"], self["energy_loss_j"]
@@ -276,6 +276,7 @@ def sweep(
 @overload
 def sweep(
     file: str | os.PathLike[str],
+    indenter: None = None,
     /,
     *,
     overrides: Mapping[str, Any] | None = None,

@@ -17,7 +17,7 @@ temperatures = ["25 °C", "60 °C"]
 materials = [cd.Material.from_dynamic(data, poisson_ratio=0.38, temperature_of_sweep=t) for t in temperatures]
 
 # %%
-w = np.logspace(-3, 3, 13)  # rad/s
+w = np.logspace(-3, 3, 25)  # rad/s
 options = dict(mean="1 N", amplitude="0.5 N", angular_frequency=w, springs=128, steps=64)
 results = [cd.sweep(material, cd.Sphere("5 mm"), **options) for material in materials]
 
@@ -29,7 +29,8 @@ for color, temperature, material, result in zip(["tab:blue", "tab:red"], tempera
     moduli.plot(fine, e.imag / 1e6, "--", color=color, label=f"E″, {temperature}")
     losses.plot(result["angular_frequency_rad_per_s"], result["energy_loss_j"] * 1e6, "o-", ms=3, color=color, label=temperature)
 moduli.set(xscale="log", yscale="log", xlabel="angular frequency ω (rad/s)", ylabel="modulus (MPa)")
-moduli.legend()
+moduli.set_ylim(20)
+moduli.legend(ncols=2, loc="lower right")
 losses.set(xscale="log", xlabel="angular frequency ω (rad/s)", ylabel="energy loss ΔW (µJ)")
 losses.legend(title="temperature")
 figure.savefig("measured-data.png", dpi=150)

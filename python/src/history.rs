@@ -58,10 +58,15 @@ struct Packed {
 }
 
 /// A line of a profile: along what, positions, pressures, displacements, gaps.
-type Line<'py> = (&'static str, [Bound<'py, PyArray1<f64>>; 4]);
+type Line<'py> = (
+    &'static str,
+    (Values<'py>, Values<'py>, Values<'py>, Values<'py>),
+);
+
+type Values<'py> = Bound<'py, PyArray1<f64>>;
 
 /// Instant of a surface: time, load, approach, contact radius.
-type Instant = [f64; 4];
+type Instant = (f64, f64, f64, f64);
 
 /// A field: its instant, spacing along x and y, pressure, displacement, gap.
 type Field<'py> = (
@@ -128,12 +133,12 @@ impl History {
             let of = |value: fn(&profile_lines::ProfilePoint) -> Option<f64>| {
                 arrays::numbers(points.iter().map(value)).into_pyarray(py)
             };
-            let columns = [
+            let columns = (
                 of(|point| Some(point.position_m)),
                 of(|point| point.pressure_pa),
                 of(|point| Some(point.displacement_m)),
                 of(|point| point.gap_m),
-            ];
+            );
             (along, columns)
         };
         Ok((instant(&record.row), lines.map(line).collect()))
@@ -259,12 +264,12 @@ fn at(records: &[SurfaceRecord], index: usize) -> PyResult<&SurfaceRecord> {
 }
 
 fn instant(row: &HistoryRow) -> Instant {
-    [
+    (
         row.time_s,
         row.load_n,
         row.approach_m.unwrap_or(f64::NAN),
         row.contact_radius_m,
-    ]
+    )
 }
 
 /// Follows a drive history.
@@ -301,7 +306,7 @@ pub fn simulate(
     Ok(History {
         plan: simulation.plan().clone(),
         outcome,
-        shape: source.shape(),
+        shape: source.map(),
     })
 }
 

@@ -40,7 +40,9 @@ enum RecordSource {
 type Files<'py> = Vec<(String, Bound<'py, PyBytes>)>;
 
 /// Samples of a mean cycle: time, load, approach.
-type Cycle<'py> = [Bound<'py, PyArray1<f64>>; 3];
+type Cycle<'py> = (Line<'py>, Line<'py>, Line<'py>);
+
+type Line<'py> = Bound<'py, PyArray1<f64>>;
 
 /// Columns, mean cycles, reasons of rows without a result, what was found in each, and every file of the folder.
 type Analysed<'py> = (
@@ -166,11 +168,11 @@ fn row(
 
 fn cycle<'py>(py: Python<'py>, row: &MeasuredRow) -> Option<Cycle<'py>> {
     let samples = row.samples()?;
-    Some([
+    Some((
         samples.time_s.into_pyarray(py),
         samples.load_n.into_pyarray(py),
         samples.approach_m.into_pyarray(py),
-    ])
+    ))
 }
 
 fn findings(row: &MeasuredRow) -> Vec<(&'static str, String)> {

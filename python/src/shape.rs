@@ -11,6 +11,7 @@ use numpy::{
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use crate::{arrays, failure};
 
@@ -60,6 +61,16 @@ impl Shape {
         let (cells_x, cells_y) = map.cells();
         let gaps = arrays::matrix(slf.as_any(), map.gaps_m(), (cells_y, cells_x));
         gaps.ok_or_else(|| failure::of_run("the map has another size than it says"))
+    }
+
+    /// A map of an array by its gaps; other indenters are pickled by their text.
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let py = slf.py();
+        let arguments = ("HeightMap(...)", slf.get().map_keys()?, Self::gaps(slf)?);
+        let of_heights = py.get_type::<Self>().getattr("of_heights")?;
+        Ok((of_heights, arguments.into_pyobject(py)?))
     }
 
     /// The block, without file, that a map of an array has together with its gaps.

@@ -46,8 +46,9 @@ impl<'py> Source<'py> {
         }
     }
 
-    /// The indenter, where it is a value.
-    pub fn shape(&self) -> Option<Py<Shape>> {
-        self.indenter.clone().map(Bound::unbind)
+    /// The indenter, where no text says all of it.
+    pub fn map(&self) -> Option<Py<Shape>> {
+        let shape = self.indenter.as_ref()?;
+        shape.get().map().map(|_| shape.clone().unbind())
     }
 }

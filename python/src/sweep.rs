@@ -84,17 +84,15 @@ impl Progress for Count<'_> {
 }
 
 /// Samples of a cycle: time, load, approach, contact radius, peak pressure.
-type Samples<'py> = [Bound<'py, PyArray1<f64>>; 5];
+type Samples<'py> = (Line<'py>, Line<'py>, Line<'py>, Line<'py>, Line<'py>);
+
+type Line<'py> = Bound<'py, PyArray1<f64>>;
 
 /// A pressure profile: instant, time, load, approach, contact radius; and lines: along what, positions, pressures.
 type Profile<'py> = (
     String,
-    [f64; 4],
-    Vec<(
-        &'static str,
-        Bound<'py, PyArray1<f64>>,
-        Bound<'py, PyArray1<f64>>,
-    )>,
+    (f64, f64, f64, f64),
+    Vec<(&'static str, Line<'py>, Line<'py>)>,
 );
 
 #[pymethods]
@@ -170,23 +168,23 @@ impl Sweep {
         if let Some(cycle) = record.result.as_ref().and_then(|result| result.cycle()) {
             let samples = &cycle.samples;
             let line = |values: &[f64]| arrays::line(slf.as_any(), values);
-            return Ok(Some([
+            return Ok(Some((
                 line(&samples.time_s),
                 line(&samples.load_n),
                 line(&samples.approach_m),
                 line(&samples.contact_radius_m),
                 pressures(py, &samples.peak_pressure_pa),
-            ]));
+            )));
         }
         Ok(slf.get().read_cycle(record)?.map(|cycle| {
             let samples = cycle.samples;
-            [
+            (
                 samples.time_s.into_pyarray(py),
                 samples.load_n.into_pyarray(py),
                 samples.approach_m.into_pyarray(py),
                 samples.contact_radius_m.into_pyarray(py),
                 pressures(py, &samples.peak_pressure_pa),
-            ]
+            )
         }))
     }
 
@@ -212,12 +210,12 @@ impl Sweep {
                     pressures(py, &line.pressure_pa),
                 )
             });
-            let instant = [
+            let instant = (
                 profile.time_s,
                 profile.load_n,
                 profile.approach_m,
                 profile.contact_radius_m,
-            ];
+            );
             (profile.quarter.name(control), instant, lines.collect())
         };
         Ok(profiles.map(profile).collect())
@@ -389,7 +387,7 @@ pub fn sweep(
         plan: setup.plan().clone(),
         outcome,
         records: Records::Memory(memory),
-        shape: source.shape(),
+        shape: source.map(),
         clock,
         threads,
         notes: notes.into_inner().unwrap_or_default(),

@@ -23,7 +23,9 @@ def small_sweep(**changes: object) -> cd.SweepResult:
         "steps": 32,
         "title": "PMMA",
     }
-    return cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), **{**options, **changes})  # type: ignore[call-overload]
+    result = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), **{**options, **changes})  # type: ignore[call-overload]
+    assert isinstance(result, cd.SweepResult)
+    return result
 
 
 @pytest.fixture(scope="session")

@@ -15,10 +15,12 @@ fi
 python3 -m venv "$work/venv" || { echo "No virtual environment can be made."; exit 77; }
 python="$work/venv/bin/python"
 if ! "$python" -m pip install --quiet --disable-pip-version-check --retries 1 \
-    maturin numpy pandas pandas-stubs pytest mypy matplotlib joblib distributed; then
+    maturin numpy pandas pandas-stubs pytest mypy matplotlib joblib distributed tqdm types-tqdm joblib-stubs; then
     echo "Packages cannot be installed from PyPI."
     exit 77
 fi
+cmp LICENSE-MIT python/licenses/LICENSE-MIT
+cmp LICENSE-APACHE python/licenses/LICENSE-APACHE
 # The profile of the tests of the crate, whose dependencies are built already; the wheel that users build is the same but for speed.
 CARGO_TARGET_DIR="$target" PATH="$work/venv/bin:$PATH" "$python" -m maturin build --quiet --profile dev \
     --manifest-path python/Cargo.toml --interpreter "$python" --out "$work/wheels"

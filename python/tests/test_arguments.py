@@ -46,7 +46,8 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (map_of(np.zeros((2, 2)), spacing=1e-6), ["2 x 2"]),
     (map_of(np.zeros((8, 8))), ["spacing"]),
     (map_of(np.full((8, 8), np.nan), spacing=1e-6), ["row 0, column 0"]),
-    (map_of(np.outer(np.arange(8.0), np.ones(8)), spacing=1e-6), ["steeper", "height_unit"]),
+    (map_of(-np.outer((np.arange(9.0) - 4) ** 2, np.ones(9)), spacing=1e-6), ["steeper", "height_unit"]),
+    (map_of(np.outer(np.arange(8.0), np.ones(8)), spacing=1e-6), ["steeper", "level"]),
     (lambda: cd.Profile("nowhere.csv"), ["nowhere.csv"]),
     (lambda: cd.Material.library("pmna"), ['"pmma"']),
     (lambda: cd.Material.relaxation("1 MPa", [("1 MPa", 0.0)], poisson_ratio=0.3), ["time"]),
@@ -82,7 +83,7 @@ def test_a_mistake_raises_a_value_error_that_names_it(wrong: Callable[[], object
 
 
 def test_an_argument_that_does_not_exist_is_a_type_error() -> None:
-    for call in (small_sweep, lambda **given: cd.simulate(PMMA, SPHERE, segments=[], **given)):  # type: ignore[call-overload]
+    for call in (small_sweep, lambda **given: cd.simulate(PMMA, SPHERE, segments=[], **given)):
         with pytest.raises(TypeError, match="stepps"):
             call(stepps=3)
 
