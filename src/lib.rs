@@ -69,7 +69,8 @@
 //! | [`cli`] | flags to plans, outcomes to text and exit codes |
 //! | [`guide`] | how to use the program; text alone |
 //!
-//! [`report`] and [`reproduction`] are there with the feature `report`, [`cli`] with the feature `cli`; both are on by default.
+//! [`report`] and [`reproduction`] are there with the feature `report`, [`cli`] with the feature `cli`; both are on by default. Of
+//! [`report`] the feature `tables` is all that makes columns and tables, without figures and their dependencies.
 //! With `default-features = false` everything above them is built without their dependencies.
 //!
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
@@ -91,7 +92,9 @@ pub mod material;
 pub mod measured;
 pub mod quantity;
 pub mod reference;
-#[cfg(feature = "report")]
+// Some of it is used by figures and pages alone.
+#[cfg(feature = "tables")]
+#[cfg_attr(not(feature = "report"), allow(dead_code, unused_imports))]
 pub mod report;
 #[cfg(feature = "report")]
 pub mod reproduction;

@@ -11,6 +11,7 @@
 //! | [`measured_loop`] | from an instrument's record of load and depth to loss, phase and moduli with their uncertainties |
 //! | [`own_indenter`] | how a shape is given: profile, height map, code |
 //! | [`own_loading`] | what drives the contact: oscillations about a mean, histories, records |
+//! | [`python`] | the same from Python: arrays, notebooks, studies over many processes |
 //! | [`cluster`] | sweeps on several machines: shards, Slurm; what a folder remembers, how results are compared |
 //! | [`results`] | what is written, what every number means, and how far it can be trusted |
 //! | [`figures`] | figures in the size and look of a journal |
@@ -50,6 +51,10 @@ pub mod own_indenter {
 
 pub mod own_loading {
     #![doc = include_str!("own_loading.md")]
+}
+
+pub mod python {
+    #![doc = include_str!("python.md")]
 }
 
 pub mod cluster {

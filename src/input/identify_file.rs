@@ -6,6 +6,7 @@ use super::data_file;
 use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use super::document::reader::TableReader;
 use super::document::{Document, Located};
+use super::given::Given;
 use super::keys;
 use super::keys::drive::SEGMENTS;
 use super::keys::identify::{
@@ -13,7 +14,7 @@ use super::keys::identify::{
 };
 use super::keys::material::POISSON_RATIO;
 use super::sweep_file::{cycle, solver};
-use super::{harmonic_block, indenter_block, measured_history, measured_table, segments_block};
+use super::{harmonic_block, measured_history, measured_table, segments_block};
 use crate::identify::data::Measurements;
 use crate::identify::{Driven, IdentifyPlan};
 use crate::sweep::plan::SolverPlan;
@@ -26,12 +27,19 @@ const TABLE: &str = "sweep.csv";
 /// # Errors
 /// Everything that is wrong with the file, at once, each problem with its place and what to write instead.
 pub fn plan(document: &Document) -> Result<IdentifyPlan, Diagnostics> {
+    plan_with(document, &Given::default())
+}
+
+/// The same, with an indenter for the block that the file leaves out.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Diagnostics> {
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let title = root.value(&keys::TITLE);
     let poisson_ratio = root.table(&KNOWN_MATERIAL).and_then(known_material);
-    let indenter = root.table(&keys::INDENTER);
-    let indenter = indenter.and_then(|t| indenter_block::read(t, document.folder(), &problems));
+    let indenter = given.indenter(&mut root, document.folder(), &problems);
     let drive = root.table(&MEASURED_DRIVE);
     let drive = drive.and_then(|t| driven(t, document.folder(), &problems));
     let measured = root.table(&IDENTIFY);

@@ -10,6 +10,7 @@ use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
 use super::document::{Located, plain};
 use super::field_file;
+use super::field_file::Field;
 use super::keys::indenter::{
     ASPERITY_HEIGHT, ASPERITY_LIST, ASPERITY_RADIUS, CENTER, CUT_OFF_WAVELENGTH, EDGE, EXPONENT,
     FILE, GAP_HEIGHT, GAP_RADIUS, HALF_ANGLE, HEIGHT_UNIT, HURST_EXPONENT, LEVEL, MAP_QUANTITY,
@@ -61,6 +62,33 @@ pub(super) fn read(table: TableReader<'_>, folder: &Path, problems: &Problems) -
         }
         _ => Some(made),
     }
+}
+
+/// A height map of values in memory, which are called by their place; the table has the other keys of the block.
+pub(super) fn map_of(
+    table: TableReader<'_>,
+    folder: &Path,
+    problems: &Problems,
+    (place, field): (Located<String>, Field),
+) -> Option<HeightMap> {
+    let mut block = Block {
+        table,
+        folder,
+        problems,
+    };
+    block.table.read(&SHAPE)?;
+    let data = DataOf {
+        data: field,
+        source: None,
+        place,
+        name: "array".to_owned(),
+    };
+    let (place, map) = block.map(|_| Some(data))?;
+    block.table.finish();
+    let refused = |error: IndenterError| {
+        problems.at(&place, error.to_string());
+    };
+    map.map_err(refused).ok()
 }
 
 struct Block<'a> {
@@ -182,10 +210,10 @@ impl Block<'_> {
             return None;
         };
         Some(DataOf {
-            source: DataFile {
+            source: Some(DataFile {
                 file: absolute.to_owned(),
                 sha256: hash,
-            },
+            }),
             place: file,
             name,
             data: bytes,
@@ -196,20 +224,45 @@ impl Block<'_> {
         let file = self.file()?;
         let points = field_file::profile(&file.name, &file.data);
         let points = data_file::accepted(points, &file.place, self.problems)?;
-        let profile = Profile::new(&points).map(|profile| profile.with_source(file.source));
+        let profile = Profile::new(&points).map(|profile| match file.source {
+            Some(source) => profile.with_source(source),
+            None => profile,
+        });
         self.made(&file.place, profile)
     }
 
     fn height_map(&mut self) -> Made {
+        let (place, map) = self.map(|block| {
+            let file = block.file()?;
+            let field = field_file::field(&file.name, &file.data);
+            let data = data_file::accepted(field, &file.place, block.problems)?;
+            Some(DataOf {
+                data,
+                source: file.source,
+                place: file.place,
+                name: file.name,
+            })
+        })?;
+        self.made(&place, map)
+    }
+
+    /// A map of these data, and where they are named.
+    fn map(
+        &mut self,
+        data: impl FnOnce(&mut Self) -> Option<DataOf<Field>>,
+    ) -> Option<(Located<String>, Result<HeightMap, IndenterError>)> {
         let quantity = self.table.value(&MAP_QUANTITY);
         let (unit, level) = (self.table.value(&HEIGHT_UNIT), self.table.value(&LEVEL));
         let edge = self.table.value(&EDGE);
         let given = self.table.key_location(&MAP_SPACING);
         let unit_given = self.table.key_location(&HEIGHT_UNIT);
-        let (spacing, file) = (self.table.value(&MAP_SPACING), self.file());
-        let file = file?;
-        let field = field_file::field(&file.name, &file.data);
-        let mut field = data_file::accepted(field, &file.place, self.problems)?;
+        let (spacing, data) = (self.table.value(&MAP_SPACING), data(self));
+        let DataOf {
+            data: mut field,
+            source: file,
+            place,
+            name,
+        } = data?;
         let spacing_m = match (field.spacing_m, spacing?) {
             (Some(spacing_m), None) => spacing_m,
             (None, Some(each)) => (each.first()?.value, each.last()?.value),
@@ -224,15 +277,19 @@ impl Block<'_> {
                 return None;
             }
         };
+        let is_file = file.is_some();
         let source = MapSource {
-            data: file.source,
+            data: file.unwrap_or_else(|| DataFile {
+                file: String::new(),
+                sha256: String::new(),
+            }),
             gives_places: field.spacing_m.is_some(),
             height_unit: unit?,
             level: level?,
         };
-        if let (true, Some(place)) = (source.gives_places, unit_given) {
+        if let (true, Some(unit)) = (source.gives_places, unit_given) {
             let message = "the file names its columns, and with them their unit";
-            let report = self.problems.at(&place, message);
+            let report = self.problems.at(&unit, message);
             report.help("remove `height_unit`");
             return None;
         }
@@ -242,10 +299,14 @@ impl Block<'_> {
         let cells = (field.cells_x, field.cells_y);
         let map = HeightMap::new(cells, spacing_m, field.values_m, quantity?, edge?);
         if let Ok(map) = &map {
-            self.check_slopes(map, &source, &file.place, &file.name)?;
-            self.check_border(map, &source, &file.place, &file.name)?;
+            self.check_slopes(map, &source, &place, &name)?;
+            self.check_border(map, &source, &place, &name)?;
         }
-        self.made(&file.place, map.map(|map| map.with_source(source)))
+        let map = match is_file {
+            true => map.map(|map| map.with_source(source)),
+            false => map,
+        };
+        Some((place, map))
     }
 
     /// Refuses a map that is steep all over: its heights are in another unit than they are read in, or it is tilted.
@@ -313,10 +374,10 @@ impl Block<'_> {
     }
 }
 
-/// Data with the file they came from.
+/// Data with the file they came from, where there is one.
 struct DataOf<T> {
     data: T,
-    source: DataFile,
+    source: Option<DataFile>,
     /// Where the sweep file names it.
     place: Located<String>,
     /// What messages call it.

@@ -38,6 +38,7 @@ mod drive_table;
 pub mod dynamic;
 pub mod field_file;
 pub(crate) mod figures_block;
+pub mod given;
 mod harmonic_block;
 pub mod identify_file;
 mod indenter_block;

@@ -6,11 +6,12 @@ use super::document::reader::TableReader;
 use super::document::row::{Optional, Row};
 use super::document::{Document, Located, plain};
 use super::figures_block::{self, Figures};
+use super::given::Given;
 use super::keys;
 use super::keys::settings::{FIELD_CELLS, FIELDS_AT, OUTPUT_ERROR_BARS, PROFILES_AT, TIME_STEP};
 use super::material_table::DirectSum;
 use super::sweep_file::{default_solver, solver};
-use super::{indenter_block, material_block, segments_block};
+use super::{material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::figures::figure_plan::FigurePlan;
@@ -24,18 +25,31 @@ use crate::sweep::scales::elastic::ElasticScale;
 /// # Errors
 /// Everything that is wrong with the file, at once, each problem with its place and what to write instead.
 pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
+    plan_with(document, &Given::default())
+}
+
+/// The same, with values for blocks that the file leaves out.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Diagnostics> {
     let problems = Problems::new();
     let mut root = document.root(&problems);
+    let folder = document.folder();
     let title = root.value(&keys::TITLE);
-    let material =
-        material_block::read_body(&mut root, document.folder(), DirectSum::Taken, &problems)
-            .and_then(|m| for_contact(&problems, m));
-    let indenter = root
-        .table(&keys::INDENTER)
-        .and_then(|t| indenter_block::read(t, document.folder(), &problems));
+    let material = match (&given.material, root.key_location(&keys::MATERIAL)) {
+        (Some(given), None) => Some(Located {
+            value: given.clone(),
+            path: "material".to_owned(),
+            location: root.as_ref().clone(),
+        }),
+        _ => material_block::read_body(&mut root, folder, DirectSum::Taken, &problems),
+    };
+    let material = material.and_then(|m| for_contact(&problems, m));
+    let indenter = given.indenter(&mut root, folder, &problems);
     let drive = root
         .table(&keys::HISTORY)
-        .and_then(|t| segments_block::read(t, document.folder(), &problems));
+        .and_then(|t| segments_block::read(t, folder, &problems));
     let step_s = root.table_or(&keys::TIME, None, time);
     let default = default_solver(indenter.as_deref());
     let solver = root.table_or(&keys::SOLVER, default, |t| solver(t, default));

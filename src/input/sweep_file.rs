@@ -11,6 +11,7 @@ use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
 use super::document::{self, Document, Located};
 use super::figures_block::{self, Figures};
+use super::given::Given;
 use super::keys;
 use super::keys::drive::{
     ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, MATERIAL_AXIS, PAIRS, REFINE,
@@ -27,6 +28,7 @@ use crate::material::Material;
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::axes::MOST as MOST_AXES;
+use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::plan::{
     self, AxisValues, Block, Condition, CyclePlan, Method, SolverPlan, SweepPlan,
@@ -40,6 +42,14 @@ const MAX_CASES: usize = SweepPlan::MAX_CASES;
 /// # Errors
 /// Everything that is wrong with the file, at once, each problem with its place and what to write instead.
 pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
+    plan_with(document, &Given::default())
+}
+
+/// The same, with values for blocks that the file leaves out.
+///
+/// # Errors
+/// As [`plan`].
+pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagnostics> {
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let title = root.value(&keys::TITLE);
@@ -54,12 +64,11 @@ pub fn plan(document: &Document) -> Result<SweepPlan, Diagnostics> {
         swept,
         pairs,
         conditions: conditions(swept, pairs),
+        given,
         problems: &problems,
     };
     let material = file.material(&mut root);
-    let indenter = file.block(&mut root, &keys::INDENTER, Block::Indenter, |t| {
-        indenter_block::read(t, document.folder(), &problems)
-    });
+    let indenter = file.indenter(&mut root);
     let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
         harmonic_block::read(t, &problems)
     });
@@ -115,6 +124,7 @@ struct File<'a> {
     pairs: bool,
     /// The values of all axes under each condition.
     conditions: Vec<Vec<f64>>,
+    given: &'a Given,
     problems: &'a Problems,
 }
 
@@ -183,6 +193,15 @@ impl File<'_> {
         let over = |t: TableReader<'_>, axis: Option<&Located<Vec<f64>>>| {
             material_block::read_over(t, self.folder, DirectSum::Refused, axis, self.problems)
         };
+        let series = self.given.material.as_ref().and_then(BodyMaterial::series);
+        if let (Some(series), None) = (series, root.key_location(&keys::MATERIAL)) {
+            let given = Located {
+                value: series.clone(),
+                path: "material".to_owned(),
+                location: root.as_ref().clone(),
+            };
+            return Some((for_contact(given)?, Vec::new()));
+        }
         let swept = self.swept(Block::Material);
         let temperature = |(_, swept): &&(usize, &Swept)| swept.varied.is_temperature();
         match (swept.iter().find(temperature), swept.as_slice()) {
@@ -212,6 +231,15 @@ impl File<'_> {
                 for_contact(material_block::series_of(over(t, None)?.0)?)
             }),
         }
+    }
+
+    fn indenter(&self, root: &mut TableReader<'_>) -> Option<Over<Arc<dyn Indenter>>> {
+        if let (Some(given), None) = (&self.given.indenter, root.key_location(&keys::INDENTER)) {
+            return Some((Arc::clone(given), Vec::new()));
+        }
+        self.block(root, &keys::INDENTER, Block::Indenter, |t| {
+            indenter_block::read(t, self.folder, self.problems)
+        })
     }
 
     /// The axes besides the frequency, where there are any.

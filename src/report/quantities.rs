@@ -422,13 +422,17 @@ pub static CYCLES: &[OfCycle] = &[
     OfCycle::new("harmonic_5", |c| of_cycle(c, |n| n.analysis.approach_harmonic(5)), "the fifth"),
 ];
 
-/// `cycles.csv`: one row per cycle of the sine segments of a history, errors beside their values.
-pub fn cycles(outcome: &SimulationOutcome) -> Vec<u8> {
+/// The columns of `cycles.csv`, errors beside their values.
+pub fn of_cycles() -> Vec<Named<HistoryCycle>> {
     let columns = CYCLES.iter();
-    let named_columns: Vec<_> = columns
+    columns
         .flat_map(|c| c.named(0).into_iter().chain(c.named_error()))
-        .collect();
-    named(&named_columns, &outcome.cycles)
+        .collect()
+}
+
+/// `cycles.csv`: one row per cycle of the sine segments of a history.
+pub fn cycles(outcome: &SimulationOutcome) -> Vec<u8> {
+    named(&of_cycles(), &outcome.cycles)
 }
 
 /// The rows of these columns.

@@ -30,7 +30,7 @@ const SWEEP: [&str; 10] = [
 ];
 
 /// Parts of the room `report` from top to bottom.
-const REPORT: [&str; 29] = [
+const REPORT: [&str; 32] = [
     "number",
     "words",
     "peaks",
@@ -54,10 +54,13 @@ const REPORT: [&str; 29] = [
     "material",
     "page",
     "summary",
+    "sweep_tables",
+    "scenario_tables",
     "machine",
     "terminal",
     "terminal_simulation",
     "scenario",
+    "sweep_files",
     "fonts",
     "mod",
 ];

@@ -88,7 +88,11 @@ fn every_example_runs_to_its_end() {
             assert_eq!(summary["status"], "done", "{}", path.display());
             assert!(out.join("profiles.csv").is_file(), "{}", path.display());
         } else if command == "identify" {
-            let branches = if path.ends_with("identify-creep.toml") { 2 } else { 3 };
+            let branches = if path.ends_with("identify-creep.toml") {
+                2
+            } else {
+                3
+            };
             assert_eq!(summary["branches"], branches, "{}", path.display());
         } else {
             assert!(!summary["peaks"].as_array().unwrap().is_empty());

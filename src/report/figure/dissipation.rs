@@ -9,7 +9,7 @@ use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
 use crate::report::number::{largest, scientific};
 use crate::report::table::{cells, csv_leading};
 use crate::report::words::listed;
-use crate::sweep::record::{CaseRecord, CaseResult};
+use crate::sweep::record::{CaseRecord, CaseResult, Status};
 
 /// Bands in one figure; more cannot be told apart.
 const BANDS: usize = 8;
@@ -22,6 +22,11 @@ pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
         return Drawn::left_out("no dissipation figure: it takes two frequencies with a result");
     }
     let bands = bands(&results);
+    if bands.is_empty() && results[0].0.status == Status::Transient {
+        return Drawn::left_out(
+            "no dissipation figure: what the branches dissipate is not the area of a transient loop",
+        );
+    }
     if bands.is_empty() {
         return Drawn::left_out("no dissipation figure: the material has no relaxation branches");
     }

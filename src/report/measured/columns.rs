@@ -128,6 +128,11 @@ pub fn drift(model: DriftModel) -> String {
 
 /// `sweep.csv`: the columns of a sweep with Hz first, then those of measurements.
 pub fn sweep(rows: &[MeasuredRow]) -> Vec<u8> {
+    quantities::named(&of_records(), rows)
+}
+
+/// The columns of that table.
+pub fn of_records() -> Vec<Named<MeasuredRow>> {
     let of_sweep = SWEEP.iter().filter(|column| !column.name.contains("{}"));
     let mut named: Vec<Named<MeasuredRow>> = Vec::new();
     for column in of_sweep {
@@ -152,7 +157,7 @@ pub fn sweep(rows: &[MeasuredRow]) -> Vec<u8> {
     for column in OWN {
         named.extend(column.named(0).into_iter().chain(column.named_error()));
     }
-    quantities::named(&named, rows)
+    named
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@
 
 use std::f64::consts::TAU;
 
+use serde::{Deserialize, Serialize};
+
 use crate::cycle::{self, LoopAnalysis};
 use crate::drive::Segment;
 use crate::sweep::history::HistoryRow;
@@ -13,7 +15,7 @@ use crate::sweep::history::errors::Plan;
 use crate::sweep::plan::scenario::ScenarioPlan;
 
 /// One cycle of one sine segment.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HistoryCycle {
     /// The segment of the drive, and the cycle within it, both counted from 1.
     pub segment: usize,
@@ -27,7 +29,7 @@ pub struct HistoryCycle {
 }
 
 /// What a cycle comes to.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleNumbers {
     /// Of the closed loop.
     pub analysis: LoopAnalysis,
@@ -40,7 +42,7 @@ pub struct CycleNumbers {
 }
 
 /// Estimated errors, absolute; `None` where they were not asked for or could not be estimated.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct CycleErrors {
     pub energy_loss_j: Option<f64>,
     pub phase_lag_rad: Option<f64>,

@@ -1,13 +1,12 @@
-//! Records of finished cases: on disk, sealed, and read again where they are whole and of the same sweep and program; or in memory.
+//! Records of finished cases: on disk, sealed, and read again where they are whole and of the same sweep and program; or in memory, see [`super::memory`].
 
-use std::collections::HashMap;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use serde::{Deserialize, Serialize};
 
 use crate::sweep::plan::{AxisValues, Case};
 use crate::sweep::record::CaseRecord;
+pub use crate::sweep::store::memory::MemoryArchive;
 use crate::sweep::store::packed_record;
 use crate::sweep::store::records::{Key, Origin, Place, Unread};
 use crate::sweep::store::{Store, StoreError};
@@ -17,12 +16,6 @@ use crate::sweep::store::{Store, StoreError};
 pub enum Archive<'a> {
     Folder(&'a Store),
     Memory(&'a MemoryArchive),
-}
-
-/// The records of one sweep, in memory alone.
-#[derive(Debug, Default)]
-pub struct MemoryArchive {
-    records: Mutex<HashMap<Key, CaseRecord>>,
 }
 
 impl<'a> From<&'a Store> for Archive<'a> {
@@ -90,13 +83,6 @@ impl<'a> Archive<'a> {
                 None => Kept::Absent,
             }),
         }
-    }
-}
-
-impl MemoryArchive {
-    fn records(&self) -> MutexGuard<'_, HashMap<Key, CaseRecord>> {
-        // A record is in it whole or not at all, whatever became of the thread that put it there.
-        self.records.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -189,7 +175,13 @@ impl Store {
         case: &Case,
         record: &CaseRecord,
     ) -> Result<(), StoreError> {
-        let record = match purpose {
+        self.check_plan()?;
+        self.append(Key::of(purpose, case), record)
+    }
+
+    /// Appends a record of this case.
+    pub(super) fn append(&self, key: Key, record: &CaseRecord) -> Result<(), StoreError> {
+        let record = match key.purpose {
             Purpose::Sweep => packed_record::pack(record),
             // Its cycle is drawn nowhere.
             Purpose::Peak => packed_record::pack(&record.without_cycle()),
@@ -198,8 +190,7 @@ impl Store {
             path: self.folder().to_path_buf(),
             reason,
         })?;
-        self.check_plan()?;
-        self.records.append(Key::of(purpose, case), &record)
+        self.records.append(key, &record)
     }
 
     /// The numbers of a case's record, where there is a usable one; its cycle is not read: see [`Self::load_cycle`].

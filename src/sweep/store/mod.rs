@@ -11,6 +11,7 @@ pub mod checkpoint_file;
 pub mod difference;
 pub mod files;
 pub(in crate::sweep) mod folder_lock;
+pub mod memory;
 pub mod merge;
 pub mod packed;
 pub mod packed_record;

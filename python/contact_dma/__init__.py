@@ -1,0 +1,76 @@
+"""Dynamic mechanical analysis by contact: energy loss, hysteresis loops and equivalent moduli of viscoelastic half-spaces.
+
+A material and an indenter, a load that oscillates about a mean, and out comes what every cycle dissipates:
+
+    >>> import numpy as np
+    >>> import contact_dma as cd
+    >>> w = np.logspace(-3, -1, 5)
+    >>> result = cd.sweep(cd.Material.library("pmma"), cd.Sphere(10e-3), mean=10.0, amplitude=5.0, angular_frequency=w,
+    ...                   springs=32, steps=32)
+    >>> result["energy_loss_j"].shape
+    (5,)
+    >>> len(result.peaks)
+    1
+
+Quantities are numbers in SI units or strings with units, ``"10 mm"``. A mistake raises ValueError with the message of the program.
+Numbers are those of the program ``contact-dma``, bit for bit, on any number of threads.
+"""
+
+from ._contact_dma import VERSION as __version__
+from ._result import Status, Table, Warning
+from .folders import read
+from .histories import Field, HistoryResult, SurfaceLine, SurfaceProfile, simulate
+from .indenters import (
+    Asperities,
+    Cone,
+    Ellipsoid,
+    FlatPunch,
+    HeightMap,
+    Indenter,
+    PowerLaw,
+    Profile,
+    Rough,
+    Sphere,
+)
+from .materials import Material, Prony, Quantity, library_materials
+from .measurements import AnalysisResult, IdentifiedMaterial, MeasuredCycle, analyse, identify
+from .sweeps import Cycle, Cycles, Peak, PressureLine, PressureProfile, SweepResult, sweep
+
+__all__ = [
+    "AnalysisResult",
+    "Asperities",
+    "Cone",
+    "Cycle",
+    "Cycles",
+    "Ellipsoid",
+    "Field",
+    "FlatPunch",
+    "HeightMap",
+    "HistoryResult",
+    "IdentifiedMaterial",
+    "Indenter",
+    "Material",
+    "MeasuredCycle",
+    "Peak",
+    "PowerLaw",
+    "PressureLine",
+    "PressureProfile",
+    "Profile",
+    "Prony",
+    "Quantity",
+    "Rough",
+    "Sphere",
+    "Status",
+    "SurfaceLine",
+    "SurfaceProfile",
+    "SweepResult",
+    "Table",
+    "Warning",
+    "__version__",
+    "analyse",
+    "identify",
+    "library_materials",
+    "read",
+    "simulate",
+    "sweep",
+]

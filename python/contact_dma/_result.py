@@ -1,0 +1,153 @@
+"""What results have in common: columns by name, a table for pandas, a curve for notebooks, a folder."""
+
+from __future__ import annotations
+
+import html
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+Progress = Callable[[int, int], object]
+"""Called with what is done and how much there is in all."""
+
+
+@dataclass(frozen=True)
+class Status:
+    """How a case ended.
+
+    Attributes:
+        name: ``"converged"``, ``"transient"``, ``"not-converged"`` or ``"failed"``.
+        reason: why there is no result, or what else is to be known.
+    """
+
+    name: str
+    reason: str | None = None
+
+    @property
+    def converged(self) -> bool:
+        """Whether there is a result."""
+        return self.name in ("converged", "transient")
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.reason}" if self.reason else self.name
+
+
+@dataclass(frozen=True)
+class Warning:
+    """What lies outside the model, or was not estimated: the program's code of it, and a sentence."""
+
+    code: str
+    message: str
+
+
+class Table(Mapping[str, npt.NDArray[Any]]):
+    """Columns by name, as in the CSV files of the program: the last part of a name is its SI unit, NaN stands where a value is
+    undefined, texts are arrays of strings. Errors stand beside values: ``energy_loss_j`` and ``energy_loss_error_j``."""
+
+    _columns: dict[str, npt.NDArray[Any]]
+
+    def __getitem__(self, column: str) -> npt.NDArray[Any]:
+        try:
+            return self._columns[column]
+        except KeyError:
+            names = ", ".join(self._columns)
+            raise KeyError(f"no column {column!r}; there are: {names}") from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._columns)
+
+    def __len__(self) -> int:
+        return len(self._columns)
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all columns are the same, bit for bit."""
+        if type(other) is not type(self) or not isinstance(other, Table):
+            return NotImplemented
+        same = (np.array_equal(self[name], other[name], equal_nan=self[name].dtype.kind == "f") for name in self)
+        return list(self) == list(other) and all(same)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def to_pandas(self) -> pd.DataFrame:
+        """The columns as a data frame, one row a case; needs pandas."""
+        import pandas as pd
+
+        return pd.DataFrame(dict(self._columns))
+
+
+def arrays(columns: list[tuple[str, Any]]) -> dict[str, npt.NDArray[Any]]:
+    """Columns of the compiled module, lists of texts as arrays."""
+    return {name: np.asarray(values) for name, values in columns}
+
+
+def heard(progress: Any) -> Progress | None:
+    """A callback, or a bar of tqdm, as a callback."""
+    if progress is None:
+        return None
+    if hasattr(progress, "update"):
+
+        def told(done: int, total: int) -> None:
+            progress.total = total
+            progress.update(done - progress.n)
+
+        return told
+    if not callable(progress):
+        raise ValueError("progress is called with what is done and the total: give a function, or a bar of tqdm")
+    return progress  # type: ignore[no-any-return]
+
+
+def svg(
+    curves: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]], labels: tuple[str, str], *, log_x: bool
+) -> str:
+    """Curves as a small inline picture; points without a value are left out."""
+    width, height, left, top, right, bottom = 420, 240, 78, 14, 12, 44
+    kept = []
+    for x, y in curves:
+        fine = np.isfinite(x) & np.isfinite(y) & ((x > 0) | (not log_x))
+        if fine.any():
+            kept.append((np.log10(x[fine]) if log_x else x[fine], y[fine]))
+    if not kept:
+        return "<p>no case has a result</p>"
+    x0, x1 = min(x.min() for x, _ in kept), max(x.max() for x, _ in kept)
+    y0, y1 = min(0.0, min(y.min() for _, y in kept)), max(y.max() for _, y in kept)
+
+    def place(x: float, y: float) -> str:
+        across = (x - x0) / (x1 - x0) if x1 > x0 else 0.5
+        up = (y - y0) / (y1 - y0) if y1 > y0 else 0.5
+        return f"{left + across * (width - left - right):.1f},{height - bottom - up * (height - top - bottom):.1f}"
+
+    lines = []
+    for x, y in kept:
+        points = " ".join(place(a, b) for a, b in zip(x.tolist(), y.tolist()))
+        lines.append(f'<polyline points="{points}" fill="none" stroke="#1f5fa8" stroke-width="1.6"/>')
+        if len(x) == 1:
+            cx, cy = points.split(",")
+            lines.append(f'<circle cx="{cx}" cy="{cy}" r="2.5" fill="#1f5fa8"/>')
+    ends = [(10.0**end if log_x else end) for end in (x0, x1)]
+    base = height - bottom
+    texts = [
+        f'<text x="{left}" y="{base + 16}">{ends[0]:.3g}</text>',
+        f'<text x="{width - right}" y="{base + 16}" text-anchor="end">{ends[1]:.3g}</text>' if x1 > x0 else "",
+        f'<text x="{left - 5}" y="{top + 8}" text-anchor="end">{y1:.3g}</text>',
+        f'<text x="{left - 5}" y="{base}" text-anchor="end">{y0:.3g}</text>',
+        f'<text x="{(left + width - right) / 2}" y="{height - 8}" text-anchor="middle">{html.escape(labels[0])}</text>',
+        f'<text transform="translate(12 {(top + base) / 2}) rotate(-90)" text-anchor="middle">{html.escape(labels[1])}</text>',
+    ]
+    frame = f'<path d="M{left} {top}V{base}H{width - right}" fill="none" stroke="#888"/>'
+    style = 'font-family="sans-serif" font-size="11" fill="currentColor"'
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" {style}>'
+        f"{frame}{''.join(lines)}{''.join(texts)}</svg>"
+    )
+
+
+def shown(value: float, unit: str) -> str:
+    """A number for people, or a dash."""
+    return f"{value:.4g} {unit}" if math.isfinite(value) else "–"

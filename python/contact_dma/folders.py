@@ -1,0 +1,49 @@
+"""Folders of the program, read."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from . import _contact_dma as _core
+from ._stored import StoredHistory
+from .histories import HistoryResult
+from .measurements import AnalysisResult, IdentifiedMaterial
+from .sweeps import SweepResult
+
+
+def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | AnalysisResult | IdentifiedMaterial:
+    """The result in a folder that the program or `save` has written: of a sweep, a history, measured loops, or an identified material.
+
+    Nothing is solved, and nothing is written. Cycles of a large sweep and fields of a history stay in the folder until they are
+    asked for.
+
+    Args:
+        folder: such as ``reports/pmma``.
+
+    Raises:
+        ValueError: where the folder holds no such result.
+
+    Example:
+        >>> import tempfile
+        >>> import contact_dma as cd
+        >>> result = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), mean=10.0, amplitude=5.0,
+        ...                   angular_frequency=[1e-2], springs=16, steps=16)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     result.save(folder)
+        ...     cd.read(folder) == result
+        True
+    """
+    path = Path(folder)
+    analysis, block = path / "analysis.json", path / "material.toml"
+    if analysis.is_file() and not (path / "resolved.toml").exists():
+        return AnalysisResult(_core.restore_analysis(analysis.read_bytes()))
+    if block.is_file() and (path / "fit.csv").is_file():
+        names = ["material.toml", "resolved.toml", "prony.csv", "fit.csv", "moduli.csv", "summary.json"]
+        files = [(name, (path / name).read_bytes()) for name in names if (path / name).is_file()]
+        text = block.read_text(encoding="utf-8")
+        report = [line.removeprefix("# ") for line in text.splitlines() if line.startswith("# ")]
+        return IdentifiedMaterial(text, report, files)
+    if (path / "history.csv").is_file():
+        return HistoryResult(StoredHistory(path))
+    return SweepResult(_core.read_sweep(os.fspath(path)))

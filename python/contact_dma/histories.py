@@ -1,0 +1,258 @@
+"""Single drive histories and their results."""
+
+from __future__ import annotations
+
+import html
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, overload
+
+import numpy.typing as npt
+
+from . import _contact_dma as _core
+from . import _toml
+from ._result import Progress, Table, Warning, arrays, heard, svg
+from ._stored import StoredHistory
+from .indenters import Indenter
+from .materials import Floats, Material, Quantity
+from .sweeps import _refuse, _solver, _Source, _threads
+
+
+@dataclass(frozen=True)
+class SurfaceLine:
+    """The deformed surface along a line through the origin, arrays of shape (n,).
+
+    Attributes:
+        along: ``"r"``, ``"x"`` or ``"y"``.
+        position: m.
+        pressure: Pa; NaN where it is unbounded.
+        displacement: m, positive into the body.
+        gap: m; NaN where there is no indenter.
+    """
+
+    along: str
+    position: Floats
+    pressure: Floats
+    displacement: Floats
+    gap: Floats
+
+
+@dataclass(frozen=True)
+class SurfaceProfile:
+    """Profiles at a requested time: time (s), load (N), approach (m), contact radius (m), and lines."""
+
+    time: float
+    load: float
+    approach: float
+    contact_radius: float
+    lines: tuple[SurfaceLine, ...]
+
+
+@dataclass(frozen=True)
+class Field:
+    """Fields at a requested time, arrays of shape (cells along y, cells along x) that share the memory of the result.
+
+    Attributes:
+        time: s.
+        load: N.
+        approach: m; NaN where the indenter is clear of the surface.
+        contact_radius: m.
+        spacing: of the cells along x and y (m).
+        pressure: Pa.
+        displacement: m, positive into the body.
+        gap: m, infinite where there is no indenter; None where its place is unknown.
+    """
+
+    time: float
+    load: float
+    approach: float
+    contact_radius: float
+    spacing: tuple[float, float]
+    pressure: Floats
+    displacement: Floats
+    gap: Floats | None
+
+
+class HistoryResult(Table):
+    """What a drive history came to: the columns of ``history.csv``, one row a time step; profiles and fields at requested times.
+
+    Example:
+        >>> import contact_dma as cd
+        >>> result = cd.simulate(cd.Material.library("pmma"), cd.Sphere("10 mm"), springs=32,
+        ...                      segments=[{"kind": "ramp", "to": "5 N", "duration": "10 s"}])
+        >>> result.failure is None, float(result["load_n"][-1])
+        (True, 5.0)
+    """
+
+    def __init__(self, core: _core.History | StoredHistory) -> None:
+        self._core = core
+        self._columns = arrays(core.columns())
+
+    @property
+    def title(self) -> str:
+        """Its title."""
+        return self._core.title
+
+    @property
+    def cycles(self) -> Mapping[str, npt.NDArray[Any]]:
+        """The columns of ``cycles.csv``: loss, phase and moduli of every whole cycle of the sine segments, with errors, arrays of shape
+        (cycles,).
+
+        Example:
+            >>> import contact_dma as cd
+            >>> sine = {"kind": "sine", "mean": 5.0, "amplitude": 2.0, "frequency": "0.1 Hz", "cycles": 2}
+            >>> result = cd.simulate(cd.Material.library("pmma"), cd.Sphere("10 mm"), springs=32, segments=[sine])
+            >>> result.cycles["energy_loss_j"].shape
+            (2,)
+        """
+        return arrays(self._core.cycles())
+
+    @property
+    def failure(self) -> str | None:
+        """Why the history ended before its time; None where it did not. What came before is in the columns."""
+        return self._core.failure
+
+    @property
+    def errors_missing(self) -> str | None:
+        """Why there are no errors although they were asked for."""
+        return self._core.errors_missing
+
+    @property
+    def warnings(self) -> tuple[Warning, ...]:
+        """What lies outside the model."""
+        return tuple(Warning(*each) for each in self._core.warnings())
+
+    @property
+    def profiles(self) -> tuple[SurfaceProfile, ...]:
+        """The surface along lines at the times of ``profiles_at``."""
+        made = (self._core.profile(k) for k in range(self._core.profile_count))
+        return tuple(SurfaceProfile(*at, tuple(SurfaceLine(along, *line) for along, line in lines)) for at, lines in made)
+
+    @property
+    def fields(self) -> tuple[Field, ...]:
+        """Whole fields at the times of ``fields_at``; their arrays are views that cannot be written to."""
+        fields = (self._core.field(k) for k in range(self._core.field_count))
+        return tuple(Field(*made[0], *made[1:]) for made in fields)
+
+    @property
+    def resolved(self) -> str:
+        """The scenario as the text of its file, every default filled in."""
+        return self._core.resolved
+
+    def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes the tables that ``contact-dma simulate --no-figures`` writes: ``history.csv``, profiles, fields, ``summary.json``,
+        ``resolved.toml``.
+
+        Args:
+            folder: is made where it is not there.
+            overwrite: whether another result there is replaced.
+        """
+        self._core.save(os.fspath(folder), overwrite)
+
+    def __repr__(self) -> str:
+        ended = f", failed: {self.failure}" if self.failure else ""
+        return f"<HistoryResult {self.title!r}: {len(self['time_s'])} time steps{ended}>"
+
+    def _repr_html_(self) -> str:
+        picture = svg([(self["time_s"], self["approach_m"])], ("time / s", "approach / m"), log_x=False)
+        return f"<figure><figcaption>{html.escape(self.title)}</figcaption>{picture}</figure>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (HistoryResult, (self._core,))
+
+
+@overload
+def simulate(
+    material: Material,
+    indenter: Indenter,
+    /,
+    *,
+    segments: Sequence[Mapping[str, Any]],
+    control: Literal["load", "approach"] = "load",
+    step: Quantity | None = None,
+    profiles_at: Sequence[Quantity] | None = None,
+    fields_at: Sequence[Quantity] | None = None,
+    field_cells: int | None = None,
+    error_bars: bool | None = None,
+    engine: Literal["axisymmetric", "half-space"] | None = None,
+    cells: int | None = None,
+    springs: int | None = None,
+    solver_tolerance: float | None = None,
+    time_rule: Literal["linear", "constant"] | None = None,
+    title: str | None = None,
+    threads: int | None = None,
+    progress: Progress | Any | None = None,
+) -> HistoryResult: ...
+@overload
+def simulate(
+    file: str | os.PathLike[str],
+    indenter: None = None,
+    /,
+    *,
+    overrides: Mapping[str, Any] | None = None,
+    threads: int | None = None,
+    progress: Progress | Any | None = None,
+) -> HistoryResult: ...
+def simulate(
+    material: Material | str | os.PathLike[str],
+    indenter: Indenter | None = None,
+    /,
+    *,
+    overrides: Mapping[str, Any] | None = None,
+    threads: int | None = None,
+    progress: Progress | Any | None = None,
+    **options: Any,
+) -> HistoryResult:
+    """Follows one history of load or approach: of a scenario file, ``simulate("file.toml", overrides={...})``, or of values.
+
+    Args:
+        material: what the half-space is made of; fluids and samples as they are will do.
+        indenter: what is pressed into it.
+        segments: one after another, with the keys of the program: ``{"kind": "ramp", "to": "2 N", "duration": "5 s"}``, kinds
+            ``step``, ``ramp``, ``polynomial``, ``sine``, and ``table`` with arrays ``times`` (s) and ``values`` (N or m).
+        control: whether the load is prescribed, or the approach.
+        step: time step (s); chosen from drive and material where it is left out.
+        profiles_at: times (s) of profiles.
+        fields_at: times (s) of fields.
+        field_cells: cells per side of the fields of the axisymmetric engine.
+        error_bars: whether coarser resolutions give the errors of all rows.
+        engine: the contact engine.
+        cells: of the half-space engine.
+        springs: of the axisymmetric engine.
+        solver_tolerance: of an instant of the half-space engine.
+        time_rule: rule of the hereditary integral.
+        title: for tables.
+        threads: how many.
+        progress: a function of time steps done and in all, or a bar of tqdm.
+
+    Raises:
+        ValueError: with the program's message, for bad input.
+        KeyboardInterrupt: within a second of Ctrl-C.
+
+    Example:
+        >>> import contact_dma as cd
+        >>> touch = [{"kind": "step", "to": "1 N", "duration": "100 s"}]
+        >>> creep = cd.simulate(cd.Material.library("pmma"), cd.Sphere("10 mm"), segments=touch, springs=32)
+        >>> bool(creep["approach_m"][-1] > creep["approach_m"][1])
+        True
+    """
+    told = heard(progress)
+    if isinstance(material, Material):
+        if not isinstance(indenter, Indenter):
+            raise ValueError("simulate(material, indenter, ...): the second argument is an indenter, such as Sphere(0.01)")
+        if overrides is not None:
+            raise ValueError("overrides change a file; write options as arguments")
+        title = options.pop("title", None) or f"{material.name or 'history'} under {indenter!r}"
+        text = f"title = {_toml.value(title)}\n\n"
+        drive = {"control": options.pop("control", None), "segments": options.pop("segments", None)}
+        output = {key: options.pop(key, None) for key in ("profiles_at", "fields_at", "field_cells", "error_bars")}
+        text += _toml.table("drive", drive) + _toml.table("time", {"step": options.pop("step", None)})
+        text += _toml.table("output", output) + _solver(options)
+        _refuse("simulate", options)
+        source = _Source("simulate(...)", text, (), material._core, indenter._core)
+    else:
+        if indenter is not None or options:
+            raise ValueError("a scenario file says all; write overrides={\"solver.springs\": 48} to change it")
+        source = _Source(os.fspath(material), None, _toml.overrides(overrides))
+    return HistoryResult(_core.simulate(source, _threads(threads), told))

@@ -1,0 +1,292 @@
+"""Rigid indenters."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _contact_dma as _core
+from . import _toml
+from .materials import Floats, Quantity, _mapped
+
+
+class Indenter:
+    """A rigid indenter. Lengths are numbers in metres or strings with units; indenters cannot be changed, and pickle."""
+
+    __slots__ = ("_core", "_text", "_call")
+
+    _core: _core.Shape
+    _text: str | None
+    _call: str
+
+    def _made(self, shape: str, **entries: Any) -> None:
+        shown = (f"{name}={given!r}" for name, given in entries.items() if given is not None)
+        self._call = f"{type(self).__name__}({', '.join(shown)})"
+        self._text = _toml.table("indenter", {"shape": shape, **entries})
+        self._core = _core.Shape(f"{type(self).__name__}(...)", self._text)
+
+    def gap(self, x: npt.ArrayLike, y: npt.ArrayLike = 0.0) -> Any:
+        """Gap (m) between the undeformed indenter and the half-space at points x, y (m), which broadcast; inf where it ends.
+
+        Example:
+            >>> round(float(Sphere("10 mm").gap(3e-4, 4e-4)), 12)
+            1.25e-05
+        """
+        first, second = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(y, np.float64))
+        line = np.ascontiguousarray(second).reshape(-1)
+        return _mapped(lambda places: self._core.gap(places, line), first)
+
+    def __repr__(self) -> str:
+        return self._call
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (_restored, (type(self), self._text, self._call))
+
+
+def _restored(cls: type[Indenter], text: str, call: str) -> Indenter:
+    indenter = cls.__new__(cls)
+    indenter._text, indenter._call = text, call
+    indenter._core = _core.Shape(call, text)
+    return indenter
+
+
+class Sphere(Indenter):
+    """A sphere of this radius (m), as the paraboloid r^2 / (2 radius).
+
+    Example:
+        >>> Sphere("10 mm")
+        Sphere(radius='10 mm')
+    """
+
+    __slots__ = ()
+
+    def __init__(self, radius: Quantity, *, offset: tuple[Quantity, Quantity] | None = None) -> None:
+        self._made("sphere", radius=radius, offset=offset)
+
+
+class Cone(Indenter):
+    """A cone of this angle (rad) between its axis and its side.
+
+    Example:
+        >>> round(float(Cone("45 deg").gap(1e-3)), 12)
+        0.001
+    """
+
+    __slots__ = ()
+
+    def __init__(self, half_angle: Quantity, *, offset: tuple[Quantity, Quantity] | None = None) -> None:
+        self._made("cone", half_angle=half_angle, offset=offset)
+
+
+class FlatPunch(Indenter):
+    """A flat-ended cylinder of this radius (m).
+
+    Example:
+        >>> float(FlatPunch("1 mm").gap(0.5e-3))
+        0.0
+    """
+
+    __slots__ = ()
+
+    def __init__(self, radius: Quantity, *, offset: tuple[Quantity, Quantity] | None = None) -> None:
+        self._made("flat-punch", radius=radius, offset=offset)
+
+
+class Ellipsoid(Indenter):
+    """An ellipsoid of these principal radii of curvature (m).
+
+    Example:
+        >>> float(Ellipsoid("10 mm", "20 mm").gap(1e-4))
+        5e-07
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self, radius_x: Quantity, radius_y: Quantity, *, offset: tuple[Quantity, Quantity] | None = None
+    ) -> None:
+        self._made("ellipsoid", radius_x=radius_x, radius_y=radius_y, offset=offset)
+
+
+class PowerLaw(Indenter):
+    """A body of revolution with gap = height (r / radius)^exponent; lengths in m.
+
+    Example:
+        >>> float(PowerLaw(4.0, radius="1 mm", height="10 um").gap(1e-3))
+        1e-05
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        exponent: float,
+        *,
+        radius: Quantity,
+        height: Quantity,
+        offset: tuple[Quantity, Quantity] | None = None,
+    ) -> None:
+        self._made("power-law", exponent=exponent, radius=radius, height=height, offset=offset)
+
+
+class Profile(Indenter):
+    """A body of revolution of a file with the columns ``r_m`` and ``gap_m``, from the axis outwards."""
+
+    __slots__ = ()
+
+    def __init__(
+        self, file: str | os.PathLike[str], *, offset: tuple[Quantity, Quantity] | None = None
+    ) -> None:
+        self._made("profile", file=_toml.path(file), offset=offset)
+
+
+class Asperities(Indenter):
+    """Several paraboloids on one rigid body.
+
+    Args:
+        asperities: for each ``(x, y, radius)`` or ``(x, y, radius, height)`` (m).
+
+    Example:
+        >>> Asperities([(0.0, 0.0, 1e-3), (2e-3, 0.0, 1e-3, -1e-6)])
+        Asperities of 2
+    """
+
+    __slots__ = ()
+
+    def __init__(self, asperities: Sequence[Sequence[Quantity]]) -> None:
+        rows = []
+        for given in asperities:
+            x, y, radius, *height = given
+            rows.append({"center": [x, y], "radius": radius, "height": height[0] if height else None})
+        self._made("asperities", asperities=rows)
+        self._call = f"Asperities of {len(rows)}"
+
+
+class Rough(Indenter):
+    """A random self-affine surface, perhaps on a sphere.
+
+    Args:
+        cells: points along a side.
+        spacing: their distance (m).
+        hurst_exponent: Hurst exponent.
+        rms_height: root mean square of the heights (m).
+        cut_off_wavelength: shortest wavelength (m).
+        roll_off_wavelength: longest wavelength of the self-affine part (m).
+        seed: of the random numbers.
+        sphere_radius: of the sphere that the roughness is on (m).
+        edge: ``"unknown"`` or ``"rim"``, see `HeightMap`.
+
+    Example:
+        >>> rough = Rough(64, spacing="1 um", hurst_exponent=0.8, rms_height="50 nm",
+        ...               cut_off_wavelength="8 um", seed=1, sphere_radius="1 mm")
+        >>> bool(rough.gap(0.0) >= 0.0)
+        True
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        cells: int,
+        *,
+        spacing: Quantity,
+        hurst_exponent: float,
+        rms_height: Quantity,
+        cut_off_wavelength: Quantity,
+        seed: int,
+        roll_off_wavelength: Quantity | None = None,
+        sphere_radius: Quantity | None = None,
+        edge: Literal["unknown", "rim"] | None = None,
+    ) -> None:
+        self._made(
+            "rough",
+            cells=cells,
+            spacing=spacing,
+            hurst_exponent=hurst_exponent,
+            rms_height=rms_height,
+            roll_off_wavelength=roll_off_wavelength,
+            cut_off_wavelength=cut_off_wavelength,
+            seed=seed,
+            sphere_radius=sphere_radius,
+            edge=edge,
+        )
+
+
+class HeightMap(Indenter):
+    """A measured or computed surface, one value per cell of a regular grid that is centred on the origin.
+
+    Args:
+        heights: an array of shape (cells along y, cells along x), first row at the smallest y; or a file (CSV, ``.npy``).
+        spacing: distance of the points (m), or one for x and one for y. A file with coordinates has its own.
+        quantity: ``"height"``, positive towards the half-space, or ``"gap"``.
+        height_unit: unit of the values, ``"m"`` where it is left out.
+        level: what is taken off: ``"none"``, ``"mean"`` or ``"plane"``.
+        edge: what is beyond the border: ``"unknown"``, so that contact there is an error, or ``"rim"``, the end of the indenter.
+
+    An array is copied once, into the memory of the library.
+
+    Example:
+        >>> import numpy as np
+        >>> x = np.linspace(-1e-3, 1e-3, 65)
+        >>> map = HeightMap(-(x**2 + x[:, None]**2) / 0.02, spacing=x[1] - x[0])
+        >>> map
+        HeightMap of 65 x 65 points
+        >>> map.gaps.shape, float(map.gaps.min())
+        ((65, 65), 0.0)
+    """
+
+    __slots__ = ()
+
+    def __init__(
+        self,
+        heights: npt.ArrayLike | os.PathLike[str],
+        spacing: Quantity | Sequence[Quantity] | None = None,
+        *,
+        quantity: Literal["height", "gap"] | None = None,
+        height_unit: str | None = None,
+        level: Literal["none", "mean", "plane"] | None = None,
+        edge: Literal["unknown", "rim"] | None = None,
+        offset: tuple[Quantity, Quantity] | None = None,
+    ) -> None:
+        spacings = [spacing] if isinstance(spacing, (int, float, str, np.floating)) else spacing
+        entries: dict[str, Any] = {
+            "spacing": spacings,
+            "quantity": quantity,
+            "height_unit": height_unit,
+            "level": level,
+            "edge": edge,
+            "offset": offset,
+        }
+        if isinstance(heights, (str, os.PathLike)):
+            self._made("height-map", file=_toml.path(heights), **entries)
+            return
+        values = np.asarray(heights, dtype=np.float64)
+        if values.ndim != 2:
+            raise ValueError(f"heights have shape {values.shape}: give an array of rows along y and columns along x")
+        if offset is not None:
+            raise ValueError("a map of an array has no offset: its grid is centred on the origin")
+        rows, columns = values.shape
+        self._text = None
+        self._call = f"HeightMap of {columns} x {rows} points"
+        text = _toml.table("indenter", {"shape": "height-map", **entries})
+        self._core = _core.Shape.of_heights("HeightMap(...)", text, values)
+
+    @property
+    def gaps(self) -> Floats:
+        """Gap (m) at every point of a map of an array, shape (cells along y, cells along x); a view that cannot be written to."""
+        return self._core.gaps()
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        if self._text is not None:
+            return super().__reduce__()
+        return (_restored_map, (self._core, self._call))
+
+
+def _restored_map(core: _core.Shape, call: str) -> HeightMap:
+    map = HeightMap.__new__(HeightMap)
+    map._text, map._call, map._core = None, call, core
+    return map

@@ -1,0 +1,282 @@
+"""Measured loops, and materials identified from measured cycles."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal, TypeAlias, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _contact_dma as _core
+from . import _toml
+from ._result import Status, Table, Warning, arrays, svg
+from ._stored import table
+from .indenters import Indenter
+from .materials import Floats, Material, Prony, Quantity, write_columns
+from .sweeps import _CYCLE_KEYS, _DRIVE_KEYS, _refuse, _solver, _chosen, _Source, _threads
+
+Record: TypeAlias = Union[str, "os.PathLike[str]", Mapping[str, npt.ArrayLike]]
+"""A record of load and approach: a file, or ``{"time": ..., "load": ..., "approach": ...}`` in s, N and m, shape (n,)."""
+
+
+@dataclass(frozen=True)
+class MeasuredCycle:
+    """The mean cycle of a record, corrected, as uniform samples; arrays of length 0 where there is none.
+
+    Attributes:
+        time: s, shape (samples,).
+        load: N, shape (samples,).
+        approach: m, shape (samples,).
+    """
+
+    time: Floats
+    load: Floats
+    approach: Floats
+
+
+class AnalysisResult(Table):
+    """What measured loops say: the columns of a sweep, one row a record by ascending frequency, with their errors.
+
+    Example:
+        >>> import numpy as np
+        >>> import contact_dma as cd
+        >>> t = np.linspace(0.0, 10.0, 1001)
+        >>> record = {"time": t, "load": 10 + 5 * np.sin(6 * t), "approach": 1e-5 + 2e-6 * np.sin(6 * t - 0.1)}
+        >>> result = cd.analyse(record)
+        >>> round(float(result["phase_lag_rad"][0]), 4)
+        0.1
+    """
+
+    def __init__(self, analysed: Any) -> None:
+        columns, cycles, statuses, findings, files = analysed
+        self._columns = arrays(columns)
+        self._cycles, self._statuses, self._findings = cycles, statuses, findings
+        self._files: list[tuple[str, bytes]] = files
+
+    @property
+    def status(self) -> tuple[Status, ...]:
+        """How every record ended, and why it has no result."""
+        return tuple(Status(*each) for each in self._statuses)
+
+    @property
+    def findings(self) -> tuple[tuple[Warning, ...], ...]:
+        """For every record, what is to be known of it."""
+        return tuple(tuple(Warning(*each) for each in of_record) for of_record in self._findings)
+
+    @property
+    def cycles(self) -> tuple[MeasuredCycle, ...]:
+        """The mean cycle of every record."""
+        none = np.empty(0)
+        return tuple(MeasuredCycle(*(samples or (none, none, none))) for samples in self._cycles)
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What the program writes to ``summary.json``."""
+        summary: dict[str, Any] = json.loads(dict(self._files)["summary.json"])
+        return summary
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes the tables that ``contact-dma analyse`` writes; ``contact-dma report FOLDER`` draws figures and page from them."""
+        _core.write_files(os.fspath(folder), self._files)
+
+    def __repr__(self) -> str:
+        done = sum(status.converged for status in self.status)
+        return f"<AnalysisResult: {done} of {len(self.status)} records have a loss>"
+
+    def _repr_html_(self) -> str:
+        loops = [(cycle.approach, cycle.load) for cycle in self.cycles]
+        return f"<figure>{svg(loops, ('approach / m', 'load / N'), log_x=False)}</figure>"
+
+
+def analyse(
+    records: Record | Sequence[Record],
+    *,
+    frequency: Quantity | None = None,
+    setup: str | os.PathLike[str] | Mapping[str, Any] | None = None,
+    threads: int | None = None,
+) -> AnalysisResult:
+    """Reads energy loss, phase lag and moduli from measured loops, with their uncertainties.
+
+    Args:
+        records: one or several: files as instruments write them, or arrays.
+        frequency: that of all records (Hz), where it is known.
+        setup: what is known of instrument and contact: a file, or its tables, ``{"instrument": {"frame_compliance": "0.5 um/N"},
+            "contact": {"poisson_ratio": 0.38}, "indenter": cd.Sphere("1 mm")}``.
+        threads: how many.
+
+    Raises:
+        ValueError: with the program's message, for files that cannot be read and bad settings.
+
+    Example:
+        >>> import numpy as np
+        >>> import contact_dma as cd
+        >>> t = np.linspace(0.0, 10.0, 1001)
+        >>> record = {"time": t, "load": 10 + 5 * np.sin(6 * t), "approach": 1e-5 + 2e-6 * np.sin(6 * t - 0.1)}
+        >>> loss = cd.analyse(record)["energy_loss_j"][0]
+        >>> bool(abs(loss / (np.pi * 5.0 * 2e-6 * np.sin(0.1)) - 1) < 1e-6)
+        True
+    """
+    each = [records] if isinstance(records, (str, os.PathLike, Mapping)) else list(records)
+    hertz = _core.frequency_hz(frequency) if isinstance(frequency, str) else frequency
+    given = [_record(record, k) for k, record in enumerate(each)]
+    return AnalysisResult(_core.analyse(given, hertz, _setup(setup), _threads(threads)))
+
+
+def _record(record: Record, index: int) -> Any:
+    if not isinstance(record, Mapping):
+        return os.fspath(record)
+    missing = [name for name in ("time", "load", "approach") if name not in record]
+    if missing:
+        raise ValueError(f"record {index} has no {' and no '.join(missing)}: give time (s), load (N) and approach (m)")
+    columns = [np.asarray(record[name], np.float64).reshape(-1).tolist() for name in ("time", "load", "approach")]
+    return (f"record {index}", columns)
+
+
+def _setup(setup: str | os.PathLike[str] | Mapping[str, Any] | None) -> tuple[str, str | None]:
+    if setup is None:
+        return ("setup", None)
+    if not isinstance(setup, Mapping):
+        path = Path(setup)
+        try:
+            return (str(path), path.read_text(encoding="utf-8"))
+        except OSError as error:
+            raise ValueError(f"cannot read `{path}`: {error.strerror}") from error
+    text = ""
+    for name, entries in setup.items():
+        if isinstance(entries, Indenter):
+            if entries._text is None:
+                raise ValueError("the indenter of a setup is a body of revolution or a file, not an array")
+            text += entries._text
+        elif isinstance(entries, Mapping):
+            text += _toml.table(name, entries)
+        else:
+            text = f"{_toml.key(name)} = {_toml.value(entries)}\n" + text
+    return ("setup", text)
+
+
+class IdentifiedMaterial:
+    """A material identified from measured cycles, and how certain it is.
+
+    Attributes:
+        material: for sweeps.
+        report: what was found, one sentence a line.
+    """
+
+    def __init__(self, block: str, report: Sequence[str], files: Sequence[tuple[str, bytes]]) -> None:
+        self.material = Material._of("the identified material", block)
+        self.report = tuple(report)
+        self._files = list(files)
+
+    @property
+    def prony(self) -> Prony:
+        """Its relaxation modulus E(t): equilibrium modulus (Pa), moduli (Pa) and times (s)."""
+        return self.material.prony
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What the program writes to ``summary.json``: unknowns with intervals, candidates, what is not determined."""
+        summary: dict[str, Any] = json.loads(dict(self._files)["summary.json"])
+        return summary
+
+    @property
+    def fit(self) -> dict[str, npt.NDArray[Any]]:
+        """Data and model, the columns of ``fit.csv``."""
+        return table(dict(self._files)["fit.csv"].decode("utf-8"))
+
+    @property
+    def moduli(self) -> dict[str, npt.NDArray[Any]]:
+        """E' and E'' with their bands over frequency, the columns of ``moduli.csv``."""
+        return table(dict(self._files)["moduli.csv"].decode("utf-8"))
+
+    def save(self, folder: str | os.PathLike[str]) -> None:
+        """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``moduli.csv``,
+        ``summary.json``, ``resolved.toml``."""
+        _core.write_files(os.fspath(folder), self._files)
+
+    def __repr__(self) -> str:
+        return f"<IdentifiedMaterial of {len(self.prony.moduli)} branches>"
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(chr(10).join(self.report))}</pre>"
+
+
+def identify(
+    data: str | os.PathLike[str] | Mapping[str, npt.ArrayLike] | None = None,
+    indenter: Indenter | None = None,
+    *,
+    file: str | os.PathLike[str] | None = None,
+    overrides: Mapping[str, Any] | None = None,
+    poisson_ratio: float | None = None,
+    mean: Quantity | None = None,
+    amplitude: Quantity | None = None,
+    control: Literal["load", "approach"] = "load",
+    branches: int | Literal["auto"] | None = None,
+    title: str | None = None,
+    threads: int | None = None,
+    **options: Any,
+) -> IdentifiedMaterial:
+    """Finds the solid, a Prony series, whose computed cycles have the measured numbers.
+
+    Args:
+        data: measured cycles, with columns of a sweep and their errors where they are known: ``angular_frequency_rad_per_s``,
+            ``energy_loss_j``, ``energy_loss_error_j``, ``phase_lag_rad``, ``approach_max_m``...: arrays of shape (n,) by name,
+            a result of `analyse`, a CSV file, or a folder of ``contact-dma analyse``. NaN where nothing was measured.
+        indenter: that of the measurement.
+        file: an identification file in place of all these, with ``overrides``.
+        overrides: changes of the file.
+        poisson_ratio: of the material.
+        mean: mean load (N) or approach (m) of the measurement.
+        amplitude: its amplitude.
+        control: what the drive prescribes.
+        branches: how many branches; the data choose where it is left out.
+        title: for tables.
+        threads: how many.
+        options: of the forward model, as in `sweep`: ``steps``, ``springs``, ``engine``...
+
+    Raises:
+        ValueError: with the program's message, for data that no solid has, and bad input.
+        KeyboardInterrupt: within a second of Ctrl-C.
+
+    Example:
+        >>> import contact_dma as cd
+        >>> solid = cd.Material.relaxation("10 MPa", [("30 MPa", "1 s")], poisson_ratio=0.45)
+        >>> drive = {"mean": "0.2 N", "amplitude": "0.1 N"}
+        >>> cycles = cd.sweep(solid, cd.Sphere("2 mm"), angular_frequency=[0.1, 0.3, 1.0, 3.0, 10.0], **drive)
+        >>> columns = ["angular_frequency_rad_per_s", "energy_loss_j", "approach_max_m"]
+        >>> found = cd.identify({name: cycles[name] for name in columns}, cd.Sphere("2 mm"), poisson_ratio=0.45, **drive)
+        >>> bool(abs(found.prony.equilibrium / 10e6 - 1) < 0.01)
+        True
+    """
+    if file is not None:
+        if data is not None or indenter is not None:
+            raise ValueError("identify takes a file, or data and indenter, not both")
+        source = _Source(os.fspath(file), None, _toml.overrides(overrides))
+        return IdentifiedMaterial(*_core.identify_material(source, _threads(threads)))
+    if data is None or not isinstance(indenter, Indenter):
+        raise ValueError("identify(data, indenter, ...) needs measured cycles and the indenter, or file=...")
+    options.update(control=control, mean=mean, amplitude=amplitude)
+    drive, cycle, solver = _chosen(options, _DRIVE_KEYS), _chosen(options, _CYCLE_KEYS), _solver(options)
+    _refuse("identify", options)
+    with tempfile.TemporaryDirectory() as folder:
+        text = f"title = {_toml.value(title or 'Measured cycles')}\n\n"
+        text += _toml.table("identify", {"data": _data(data, Path(folder)), "branches": branches})
+        text += (_toml.table("material", {"poisson_ratio": poisson_ratio}) or "[material]\n") + _toml.table("drive", drive)
+        text += _toml.table("cycle", cycle) + solver
+        source = _Source("identify(...)", text, (), None, indenter._core)
+        return IdentifiedMaterial(*_core.identify_material(source, _threads(threads)))
+
+
+def _data(data: str | os.PathLike[str] | Mapping[str, npt.ArrayLike], folder: Path) -> str:
+    if not isinstance(data, Mapping):
+        return _toml.path(data)
+    columns = {name: values for name, values in data.items() if np.asarray(values).dtype.kind in "fiu"}
+    path = folder / "measured.csv"
+    write_columns(path, columns)
+    return _toml.path(path)

@@ -1,0 +1,413 @@
+"""Frequency sweeps and their results."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, overload
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _contact_dma as _core
+from . import _toml
+from ._result import Progress, Status, Table, Warning, arrays, heard, shown, svg
+from .indenters import Indenter
+from .materials import Floats, Material, Quantity
+
+
+@dataclass(frozen=True)
+class Peak:
+    """A local maximum of the energy loss over frequency, located to a thousandth of its frequency.
+
+    Attributes:
+        angular_frequency: its angular frequency (rad/s).
+        energy_loss: the loss per cycle there (J).
+        angular_frequency_uncertainty: numerical uncertainty of the frequency (rad/s).
+        energy_loss_error: numerical error of the loss (J); None without error bars.
+        varied: SI values of the axes besides the frequency, empty where there are none.
+        drive_mean: mean of the drive (N or m), where there are several.
+        drive_amplitude: amplitude of the drive (N or m), where there are several.
+    """
+
+    angular_frequency: float
+    energy_loss: float
+    angular_frequency_uncertainty: float
+    energy_loss_error: float | None
+    varied: tuple[float, ...] = ()
+    drive_mean: float | None = None
+    drive_amplitude: float | None = None
+
+    @property
+    def frequency(self) -> float:
+        """Its frequency (Hz)."""
+        return self.angular_frequency / (2 * np.pi)
+
+
+@dataclass(frozen=True)
+class PressureLine:
+    """The contact pressure along a line through the origin.
+
+    Attributes:
+        along: ``"r"``, ``"x"`` or ``"y"``.
+        position: positions (m), shape (n,).
+        pressure: pressures (Pa), shape (n,); NaN where it is unbounded.
+    """
+
+    along: str
+    position: Floats
+    pressure: Floats
+
+
+@dataclass(frozen=True)
+class PressureProfile:
+    """The contact pressure at a quarter of the oscillation.
+
+    Attributes:
+        instant: such as ``"greatest load"``.
+        time: since the cycle began (s).
+        load: load (N).
+        approach: approach (m).
+        contact_radius: contact radius (m).
+        lines: along the radius, or along x and y.
+    """
+
+    instant: str
+    time: float
+    load: float
+    approach: float
+    contact_radius: float
+    lines: tuple[PressureLine, ...]
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """The stabilised cycle of a case, sample by sample; arrays of length 0 where the case has no result.
+
+    Attributes:
+        angular_frequency: rad/s.
+        time: since the cycle began (s), shape (samples,).
+        load: N, shape (samples,).
+        approach: m, shape (samples,).
+        contact_radius: m, shape (samples,).
+        peak_pressure: Pa, shape (samples,); NaN where it is unbounded.
+        profiles: the pressure over the contact at the quarters of the oscillation.
+    """
+
+    angular_frequency: float
+    time: Floats
+    load: Floats
+    approach: Floats
+    contact_radius: Floats
+    peak_pressure: Floats
+    profiles: tuple[PressureProfile, ...]
+
+
+class Cycles(Sequence[Cycle]):
+    """The cycles of all cases, in the order of the rows."""
+
+    def __init__(self, result: SweepResult) -> None:
+        self._result = result
+
+    def __len__(self) -> int:
+        return len(self._result.status)
+
+    @overload
+    def __getitem__(self, index: int) -> Cycle: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Cycle]: ...
+    def __getitem__(self, index: int | slice) -> Cycle | list[Cycle]:
+        if isinstance(index, slice):
+            return [self._result._cycle(k) for k in range(*index.indices(len(self)))]
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"there are {len(self)} cases, counted from 0, and none {index}")
+        return self._result._cycle(index % len(self))
+
+
+class SweepResult(Table):
+    """What a sweep came to: columns by name, cycles, peaks.
+
+    Cases are rows, condition after condition, each in ascending frequency. A case without a result is NaN in the columns, and
+    `status` has its reason. Results pickle.
+
+    Example:
+        >>> import contact_dma as cd
+        >>> result = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), mean=10.0, amplitude=5.0,
+        ...                   angular_frequency=[1e-3, 1e-2, 1e-1], springs=32, steps=32)
+        >>> result["energy_loss_j"].shape
+        (3,)
+        >>> len(result.peaks), result.cycles[0].load.shape
+        (1, (33,))
+        >>> [str(status) for status in result.status]
+        ['converged', 'converged', 'converged']
+    """
+
+    def __init__(self, core: _core.Sweep) -> None:
+        self._core = core
+        self._columns = arrays(core.columns())
+
+    @property
+    def title(self) -> str:
+        """Its title."""
+        return self._core.title
+
+    @property
+    def status(self) -> tuple[Status, ...]:
+        """How every case ended, and why it has no result."""
+        return tuple(Status(*each) for each in self._core.status())
+
+    @property
+    def warnings(self) -> tuple[tuple[Warning, ...], ...]:
+        """For every case, what lies outside the model or was not estimated."""
+        return tuple(tuple(Warning(*each) for each in of_case) for of_case in self._core.warnings())
+
+    @property
+    def peaks(self) -> tuple[Peak, ...]:
+        """Local maxima of the loss over frequency, largest first."""
+        peaks = self._core.peaks()
+        return tuple(Peak(*p[:4], varied=tuple(p[4]), drive_mean=p[5], drive_amplitude=p[6]) for p in peaks)
+
+    @property
+    def peak_problems(self) -> tuple[str, ...]:
+        """Peaks that could not be located, with the reason."""
+        return tuple(self._core.peak_problems)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What was met on the way, such as a damaged record."""
+        return tuple(self._core.notes)
+
+    @property
+    def cycles(self) -> Cycles:
+        """The stabilised cycle of every case."""
+        return Cycles(self)
+
+    @property
+    def resolved(self) -> str:
+        """The sweep as the text of a sweep file, every default filled in."""
+        return self._core.resolved
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What the program writes to ``summary.json``."""
+        summary: dict[str, Any] = json.loads(self._core.summary())
+        return summary
+
+    def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes what ``contact-dma sweep`` writes: records, ``sweep.csv``, loops, pressures, work, ``cycles.npz``,
+        ``summary.json``, ``resolved.toml``, ``run.json``; a map of an array as ``height-map.npy``.
+
+        Figures and page are drawn from these by ``contact-dma report FOLDER``, and `read` reads them again.
+
+        Args:
+            folder: is made where it is not there.
+            overwrite: whether another sweep's results there are replaced.
+        """
+        self._core.save(os.fspath(folder), overwrite)
+
+    def _cycle(self, index: int) -> Cycle:
+        samples = self._core.cycle(index)
+        none = np.empty(0)
+        profiles = (
+            PressureProfile(instant, *numbers, tuple(PressureLine(*line) for line in lines))
+            for instant, numbers, lines in self._core.profiles(index)
+        )
+        omega = float(self["angular_frequency_rad_per_s"][index])
+        return Cycle(omega, *(samples or (none, none, none, none, none)), tuple(profiles))
+
+    def _curves(self) -> list[tuple[Floats, Floats]]:
+        omega, loss = self["angular_frequency_rad_per_s"], self["energy_loss_j"]
+        # A curve ends where frequencies begin anew.
+        ends = [*(np.flatnonzero(np.diff(omega) <= 0) + 1).tolist(), len(omega)]
+        starts = [0, *ends[:-1]]
+        return [(omega[a:b], loss[a:b]) for a, b in zip(starts, ends)]
+
+    def __repr__(self) -> str:
+        done = sum(status.converged for status in self.status)
+        return f"<SweepResult {self.title!r}: {done} of {len(self.status)} cases converged, {len(self.peaks)} peaks>"
+
+    def _repr_html_(self) -> str:
+        labels = ("angular frequency ω / rad/s", "energy loss ΔW / J")
+        rows = "".join(
+            f"<li>peak of {shown(p.energy_loss, 'J')} at {shown(p.angular_frequency, 'rad/s')}</li>" for p in self.peaks[:5]
+        )
+        failed = [f"<li>case {k}: {html.escape(str(s))}</li>" for k, s in enumerate(self.status) if not s.converged]
+        picture = svg(self._curves(), labels, log_x=True)
+        return f"<figure><figcaption>{html.escape(self.title)}</figcaption>{picture}<ul>{rows}{''.join(failed[:5])}</ul></figure>"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return (SweepResult, (self._core,))
+
+
+@overload
+def sweep(
+    material: Material,
+    indenter: Indenter,
+    /,
+    *,
+    mean: Quantity,
+    amplitude: Quantity,
+    angular_frequency: npt.ArrayLike | Mapping[str, Any] | None = None,
+    frequency: npt.ArrayLike | Mapping[str, Any] | None = None,
+    control: Literal["load", "approach"] = "load",
+    phase: Quantity | None = None,
+    hold: Quantity | None = None,
+    axes: Mapping[str, Sequence[Quantity]] | None = None,
+    pairs: bool | None = None,
+    refine: bool | None = None,
+    steps: int | None = None,
+    method: Literal["direct", "march"] | None = None,
+    tolerance: float | None = None,
+    max_cycles: int | None = None,
+    error_bars: bool | None = None,
+    accuracy: float | None = None,
+    engine: Literal["axisymmetric", "half-space"] | None = None,
+    cells: int | None = None,
+    springs: int | None = None,
+    solver_tolerance: float | None = None,
+    time_rule: Literal["linear", "constant"] | None = None,
+    title: str | None = None,
+    threads: int | None = None,
+    progress: Progress | Any | None = None,
+) -> SweepResult: ...
+@overload
+def sweep(
+    file: str | os.PathLike[str],
+    indenter: None = None,
+    /,
+    *,
+    overrides: Mapping[str, Any] | None = None,
+    threads: int | None = None,
+    progress: Progress | Any | None = None,
+) -> SweepResult: ...
+def sweep(
+    material: Material | str | os.PathLike[str],
+    indenter: Indenter | None = None,
+    /,
+    *,
+    overrides: Mapping[str, Any] | None = None,
+    threads: int | None = None,
+    progress: Progress | Any | None = None,
+    **options: Any,
+) -> SweepResult:
+    """Solves the stabilised cycle at every load frequency, and locates the peaks of the energy loss.
+
+    Either of a sweep file, ``sweep("file.toml", overrides={"cycle.steps": 48})``, where an override takes the place of the
+    program's ``--set`` and None removes a key; or of values:
+
+    Args:
+        material: what the half-space is made of.
+        indenter: what is pressed into it.
+        mean: mean load (N), or mean approach (m).
+        amplitude: amplitude of the load (N), or of the approach (m).
+        angular_frequency: angular frequencies (rad/s), shape (n,), in any order; or a range ``{"from": ..., "to": ..., "points": ...}``.
+        frequency: frequencies (Hz), in place of these.
+        control: whether the load is prescribed, or the approach.
+        phase: at which the oscillation begins (rad).
+        hold: rest under the mean before it (s); for the march alone.
+        axes: other axes of the sweep, such as ``{"indenter.radius": ["5 mm", "10 mm"], "drive.amplitude": [1.0, 2.0]}``.
+        pairs: whether the values of axes go together one by one, in place of all combinations.
+        refine: whether frequencies are added where the curve is not resolved.
+        steps: time steps per cycle.
+        method: whether the stabilised cycle is found directly or by marching.
+        tolerance: distance to the stabilised cycle.
+        max_cycles: cycles of marching, at most.
+        error_bars: whether coarser resolutions give the errors of all results.
+        accuracy: largest relative error of every loss; steps and nodes are then chosen.
+        engine: the contact engine.
+        cells: of the half-space engine, along the longer side.
+        springs: of the axisymmetric engine.
+        solver_tolerance: of an instant of the half-space engine.
+        time_rule: rule of the hereditary integral.
+        title: for tables.
+        threads: how many; one per processor where it is left out. Results do not depend on it, bit for bit.
+        progress: a function of cases done and cases in all, or a bar of tqdm.
+
+    Returns:
+        the result; the numbers are those of the program, bit for bit.
+
+    Raises:
+        ValueError: with the program's message, for bad input.
+        KeyboardInterrupt: within a second of Ctrl-C.
+
+    Example:
+        >>> import contact_dma as cd
+        >>> result = cd.sweep(cd.Material.library("pmma"), cd.Sphere(10e-3), mean=10.0, amplitude="5 N",
+        ...                   angular_frequency=[1e-2], springs=32, steps=32)
+        >>> result["energy_loss_j"] > 0
+        array([ True])
+    """
+    told = heard(progress)
+    if isinstance(material, Material):
+        if not isinstance(indenter, Indenter):
+            raise ValueError("sweep(material, indenter, ...): the second argument is an indenter, such as Sphere(0.01)")
+        if overrides is not None:
+            raise ValueError("overrides change a file; write options as arguments: steps=48 in place of {'cycle.steps': 48}")
+        source = _source_of_values(material, indenter, options)
+    else:
+        if indenter is not None or options:
+            extra = ", ".join(options) or "an indenter"
+            raise ValueError(f"a sweep file says all; in place of {extra} write overrides={{\"cycle.steps\": 48}}")
+        source = _Source(os.fspath(material), None, _toml.overrides(overrides))
+    return SweepResult(_core.sweep(source, _threads(threads), told))
+
+
+_SWEEP_KEYS = ("angular_frequency", "frequency", "pairs", "refine")
+_DRIVE_KEYS = ("control", "mean", "amplitude", "phase", "hold")
+_CYCLE_KEYS = ("steps", "method", "tolerance", "max_cycles", "error_bars", "accuracy")
+_SOLVER_KEYS = ("engine", "cells", "springs", "time_rule")
+
+
+@dataclass(frozen=True)
+class _Source:
+    """A file with changes, or text and values; read by the compiled module."""
+
+    name: str
+    text: str | None
+    set: Sequence[str] = ()
+    material: _core.Body | None = None
+    indenter: _core.Shape | None = None
+
+
+def _chosen(options: dict[str, Any], keys: Sequence[str]) -> dict[str, Any]:
+    return {key: options.pop(key, None) for key in keys}
+
+
+def _refuse(call: str, options: Mapping[str, Any]) -> None:
+    if options:
+        names = ", ".join(options)
+        raise TypeError(f"{call}() got unexpected arguments: {names}")
+
+
+def _solver(options: dict[str, Any]) -> str:
+    return _toml.table("solver", {**_chosen(options, _SOLVER_KEYS), "tolerance": options.pop("solver_tolerance", None)})
+
+
+def _source_of_values(material: Material, indenter: Indenter, options: dict[str, Any]) -> _Source:
+    axes = options.pop("axes", None) or {}
+    title = options.pop("title", None) or f"{material.name or 'sweep'} under {indenter!r}"
+    text = f"title = {_toml.value(title)}\n\n"
+    for kind in ("angular_frequency", "frequency"):
+        if isinstance(options.get(kind), np.ndarray) or np.isscalar(options.get(kind)):
+            options[kind] = np.atleast_1d(options[kind]).tolist()
+    text += _toml.table("drive", _chosen(options, _DRIVE_KEYS))
+    text += _toml.table("sweep", {**_chosen(options, _SWEEP_KEYS), **axes}) or "[sweep]\n\n"
+    text += _toml.table("cycle", _chosen(options, _CYCLE_KEYS)) + _solver(options)
+    _refuse("sweep", options)
+    # A block that an axis varies is read for every value of it.
+    varies = {str(axis).split(".")[0] for axis in axes}
+    body, shape = material._core, indenter._core
+    by_text = "material" in varies or not body.is_series
+    text += material._source + "\n" if by_text else ""
+    block = indenter._text if "indenter" in varies else None
+    text += block or ""
+    return _Source("sweep(...)", text, (), None if by_text else body, None if block else shape)
+
+
+def _threads(threads: int | None) -> int | None:
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads is {threads}: give at least 1, or leave it out for one per processor")
+    return threads

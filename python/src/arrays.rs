@@ -1,0 +1,63 @@
+//! Numbers of the library as arrays of NumPy.
+
+use numpy::ndarray::{ArrayView1, ArrayView2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+
+use contact_dma::report::quantities::Named;
+use contact_dma::report::table::Cell;
+
+/// Columns that hold text, be it that no row has any.
+const TEXTS: [&str; 2] = ["warnings", "message"];
+
+/// Absent values as NaN.
+pub fn numbers(values: impl IntoIterator<Item = Option<f64>>) -> Vec<f64> {
+    let values = values.into_iter();
+    values.map(|value| value.unwrap_or(f64::NAN)).collect()
+}
+
+/// A list that its owner holds, as an array that cannot be written to; nothing is copied.
+pub fn line<'py>(owner: &Bound<'py, PyAny>, values: &[f64]) -> Bound<'py, PyArray1<f64>> {
+    let view = ArrayView1::from(values);
+    // SAFETY: the array keeps its owner alive, which is frozen and never moves or changes the values.
+    let array = unsafe { PyArray1::borrow_from_array(&view, owner.clone()) };
+    array.readwrite().make_nonwriteable();
+    array
+}
+
+/// The same of a matrix that is held row by row; `None` where its size is another.
+pub fn matrix<'py>(
+    owner: &Bound<'py, PyAny>,
+    values: &[f64],
+    shape: (usize, usize),
+) -> Option<Bound<'py, PyArray2<f64>>> {
+    let view = ArrayView2::from_shape(shape, values).ok()?;
+    // SAFETY: as above.
+    let array = unsafe { PyArray2::borrow_from_array(&view, owner.clone()) };
+    array.readwrite().make_nonwriteable();
+    Some(array)
+}
+
+/// Every column of a table: numbers as an array with NaN where a cell is empty, texts as a list.
+pub fn columns<'py, R>(
+    py: Python<'py>,
+    columns: &[Named<R>],
+    rows: &[R],
+) -> PyResult<Vec<(String, Bound<'py, PyAny>)>> {
+    let of_column = |column: &Named<R>| {
+        let cells: Vec<Cell> = rows.iter().map(|row| (column.cell)(row)).collect();
+        let has_text = cells.iter().any(|cell| matches!(cell, Cell::Text(_)));
+        let values = match has_text || TEXTS.contains(&column.name.as_str()) {
+            true => {
+                let texts: Vec<String> = cells.iter().map(Cell::text).collect();
+                texts.into_pyobject(py)?
+            }
+            false => {
+                let values = numbers(cells.iter().map(Cell::number));
+                values.into_pyarray(py).into_any()
+            }
+        };
+        Ok((column.name.clone(), values))
+    };
+    columns.iter().map(of_column).collect()
+}

@@ -1,0 +1,153 @@
+//! Materials.
+
+use contact_dma::input::document::Document;
+use contact_dma::input::given;
+use contact_dma::material::{Material, MaterialError, ModulusKind};
+use contact_dma::sweep::plan::body_material::BodyMaterial;
+use contact_dma::sweep::plan::resolved::material_text;
+use num_complex::Complex;
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::{failure, wait};
+
+/// A material that was read from its block of a sweep file.
+#[pyclass(frozen, module = "contact_dma._contact_dma")]
+pub struct Body {
+    material: BodyMaterial,
+    /// A block that gives the same material again.
+    text: String,
+}
+
+/// Equilibrium modulus, moduli and times of a generalised Maxwell solid.
+type Prony<'py> = (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
+
+#[pymethods]
+impl Body {
+    #[new]
+    fn new(py: Python<'_>, name: String, text: String) -> PyResult<Self> {
+        let block = text.clone();
+        let read = wait::run_unheard(py, move || {
+            let document = Document::parse(&name, &block)?;
+            given::material(&document)
+        })?;
+        let material = read.map_err(|found| failure::of_input(&found))?;
+        let text = match material.series() {
+            // A fit needs not be made again.
+            Some(series) => material_text(series),
+            None => text,
+        };
+        Ok(Self { material, text })
+    }
+
+    /// A block of a sweep file that gives the same material again.
+    #[getter]
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Whether it is a series, which sweeps take, and not samples as they are.
+    #[getter]
+    fn is_series(&self) -> bool {
+        self.material.series().is_some()
+    }
+
+    #[getter]
+    fn name(&self) -> Option<&str> {
+        self.material.series()?.name()
+    }
+
+    #[getter]
+    fn poisson_ratio(&self) -> f64 {
+        match &self.material {
+            BodyMaterial::Series(material) => material.poisson_ratio(),
+            BodyMaterial::Samples(samples) => samples.poisson_ratio(),
+        }
+    }
+
+    #[getter]
+    fn temperature_k(&self) -> Option<f64> {
+        self.material.series()?.temperature_k()
+    }
+
+    fn complex_modulus<'py>(
+        &self,
+        py: Python<'py>,
+        angular_frequency: PyReadonlyArray1<'py, f64>,
+        modulus: &str,
+    ) -> PyResult<Bound<'py, PyArray1<Complex<f64>>>> {
+        let (material, kind) = (self.series()?, kind(modulus)?);
+        let of = |omega: &f64| match kind {
+            ModulusKind::Longitudinal => material.longitudinal_complex_modulus(*omega),
+            ModulusKind::Shear => material.shear_complex_modulus(*omega),
+        };
+        let all: Vec<_> = angular_frequency.as_array().iter().map(of).collect();
+        Ok(all.into_pyarray(py))
+    }
+
+    fn creep_compliance<'py>(
+        &self,
+        py: Python<'py>,
+        time: PyReadonlyArray1<'py, f64>,
+        modulus: &str,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let creep = self.series()?.creep_as(kind(modulus)?);
+        let creep = creep.map_err(failure::of_value)?;
+        let all = time.as_array();
+        let all: Vec<f64> = all.iter().map(|t| creep.compliance(*t)).collect();
+        Ok(all.into_pyarray(py))
+    }
+
+    fn relaxation_modulus<'py>(
+        &self,
+        py: Python<'py>,
+        time: PyReadonlyArray1<'py, f64>,
+        modulus: &str,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let relaxation = self.relaxation(modulus)?;
+        let all = time.as_array();
+        let all: Vec<f64> = all.iter().map(|t| relaxation.modulus(*t)).collect();
+        Ok(all.into_pyarray(py))
+    }
+
+    fn prony<'py>(&self, py: Python<'py>, modulus: &str) -> PyResult<Prony<'py>> {
+        let relaxation = self.relaxation(modulus)?;
+        let branches = relaxation.branches();
+        let moduli: Vec<f64> = branches.iter().map(|b| b.modulus_pa).collect();
+        let times: Vec<f64> = branches.iter().map(|b| b.time_s).collect();
+        let equilibrium = relaxation.equilibrium_modulus();
+        Ok((equilibrium, moduli.into_pyarray(py), times.into_pyarray(py)))
+    }
+}
+
+impl Body {
+    /// The material as plans take it.
+    pub fn material(&self) -> BodyMaterial {
+        self.material.clone()
+    }
+
+    fn series(&self) -> PyResult<&Material> {
+        self.material.series().ok_or_else(|| {
+            PyValueError::new_err(
+                "this material is samples taken as they are, which have no series; leave out evaluation=\"direct\" for a fit",
+            )
+        })
+    }
+
+    fn relaxation(&self, modulus: &str) -> PyResult<contact_dma::material::Relaxation> {
+        let relaxation = self.series()?.relaxation_as(kind(modulus)?);
+        let relaxation = relaxation.map_err(failure::of_value)?;
+        relaxation.ok_or_else(|| failure::of_value(MaterialError::SingularContactPressure))
+    }
+}
+
+fn kind(modulus: &str) -> PyResult<ModulusKind> {
+    let kinds = [ModulusKind::Longitudinal, ModulusKind::Shear];
+    let named = kinds.into_iter().find(|kind| kind.name() == modulus);
+    named.ok_or_else(|| {
+        failure::of_value(format!(
+            "modulus is \"{modulus}\": write \"longitudinal\" or \"shear\""
+        ))
+    })
+}

@@ -1,0 +1,269 @@
+//! Measured loops, and materials identified from measured cycles.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use contact_dma::identify::resolved::resolved_text;
+use contact_dma::identify::{IdentifyError, curves, identify};
+use contact_dma::input::document::Document;
+use contact_dma::input::{identify_file, loop_file, setup_file};
+use contact_dma::material::{Material, ModulusKind};
+use contact_dma::measured::{Options, Signal, analyse as analyse_signal};
+use contact_dma::quantity::{Dimension, parse};
+use contact_dma::report::dynamic::tables::prony;
+use contact_dma::report::identify::{
+    IdentifyReport, summary as identify_summary, tables as identify_tables,
+};
+use contact_dma::report::measured::{Analysis, MeasuredRow, columns, ordered, summary, tables};
+use contact_dma::sweep::plan::resolved::material_text;
+use contact_dma::sweep::search::run;
+use contact_dma::sweep::store::write_atomically;
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use rayon::prelude::*;
+
+use crate::source::Source;
+use crate::wait::{self, Counter, Watch};
+use crate::{arrays, failure};
+
+/// A record of load and approach: of a file, or columns in memory with their name.
+#[derive(FromPyObject)]
+enum RecordSource {
+    File(PathBuf),
+    Columns(String, [Vec<f64>; 3]),
+}
+
+/// Files with their bytes.
+type Files<'py> = Vec<(String, Bound<'py, PyBytes>)>;
+
+/// Samples of a mean cycle: time, load, approach.
+type Cycle<'py> = (Line<'py>, Line<'py>, Line<'py>);
+
+type Line<'py> = Bound<'py, PyArray1<f64>>;
+
+/// Columns, mean cycles, reasons of rows without a result, what was found in each, and every file of the folder.
+type Analysed<'py> = (
+    Vec<(String, Bound<'py, PyAny>)>,
+    Vec<Option<Cycle<'py>>>,
+    Vec<(&'static str, Option<String>)>,
+    Vec<Vec<(&'static str, String)>>,
+    Files<'py>,
+);
+
+/// What measured loops say. The text is that of a setup.
+#[pyfunction]
+pub fn analyse<'py>(
+    py: Python<'py>,
+    records: Vec<Bound<'py, PyAny>>,
+    frequency_hz: Option<f64>,
+    setup: (String, Option<String>),
+    threads: Option<NonZeroUsize>,
+) -> PyResult<Analysed<'py>> {
+    let records = records
+        .iter()
+        .map(record_source)
+        .collect::<PyResult<Vec<_>>>()?;
+    let (name, text) = setup;
+    let given = match &text {
+        None => setup_file::Setup::default(),
+        Some(text) => Document::parse(&name, text)
+            .and_then(|document| setup_file::setup(&document))
+            .map_err(|found| failure::of_input(&found))?,
+    };
+    let options = Options {
+        frequency_hz,
+        ..given.options
+    };
+    let (interrupt, counter) = (AtomicBool::new(false), Counter::default());
+    let watch = Watch {
+        counter: &counter,
+        callback: None,
+    };
+    let pool =
+        run::pool(run::useful_threads(threads)).map_err(|error| failure::of_sweep(&error))?;
+    let rows = wait::run(py, &interrupt, &watch, || {
+        pool.install(|| {
+            let rows = records.into_par_iter().map(|record| row(record, &options));
+            rows.collect::<Result<Vec<MeasuredRow>, _>>()
+        })
+    })?;
+    let analysis = Analysis {
+        title: given.title.unwrap_or_else(|| "Measured loops".to_owned()),
+        setup: text,
+        rows: ordered(rows.map_err(|found| failure::of_input(&found))?),
+    };
+    analysed(py, &analysis)
+}
+
+/// The analysis that the program has kept in `analysis.json`.
+#[pyfunction]
+pub fn restore_analysis<'py>(py: Python<'py>, everything: &[u8]) -> PyResult<Analysed<'py>> {
+    let analysis = serde_json::from_slice::<Analysis>(everything);
+    let analysis = analysis.map_err(|error| {
+        failure::of_value(format!(
+            "analysis.json is none that this version of the program wrote: {error}"
+        ))
+    })?;
+    analysed(py, &analysis)
+}
+
+fn analysed<'py>(py: Python<'py>, analysis: &Analysis) -> PyResult<Analysed<'py>> {
+    let mut files = tables(&analysis.rows);
+    let summary = summary::summary(analysis).map_err(|error| failure::of_report(&error))?;
+    let summary = serde_json::to_string_pretty(&summary).map_err(failure::of_run)?;
+    files.push((
+        "summary.json".to_owned(),
+        format!("{summary}\n").into_bytes(),
+    ));
+    let everything = serde_json::to_vec(analysis).map_err(failure::of_run)?;
+    files.push(("analysis.json".to_owned(), everything));
+    Ok((
+        arrays::columns(py, &columns::of_records(), &analysis.rows)?,
+        analysis.rows.iter().map(|row| cycle(py, row)).collect(),
+        (analysis.rows.iter())
+            .map(|row| (row.status().name(), row.reason.clone()))
+            .collect(),
+        analysis.rows.iter().map(findings).collect(),
+        bytes(py, files),
+    ))
+}
+
+fn record_source(record: &Bound<'_, PyAny>) -> PyResult<RecordSource> {
+    match record.extract::<(String, [Vec<f64>; 3])>() {
+        Ok((name, columns)) => Ok(RecordSource::Columns(name, columns)),
+        Err(_) => record.extract::<PathBuf>().map(RecordSource::File),
+    }
+}
+
+fn row(
+    record: RecordSource,
+    options: &Options,
+) -> Result<MeasuredRow, contact_dma::input::diagnostic::Diagnostics> {
+    let (file, signal) = match record {
+        RecordSource::File(path) => (path.display().to_string(), loop_file::read(&path)?),
+        RecordSource::Columns(name, [time_s, load_n, approach_m]) => (
+            name,
+            Signal {
+                time_s,
+                load_n,
+                approach_m,
+                contact_radius_m: None,
+            },
+        ),
+    };
+    let (measured, reason) = match analyse_signal(&signal, options) {
+        Ok(measured) => (Some(measured), None),
+        Err(error) => (None, Some(error.to_string())),
+    };
+    Ok(MeasuredRow {
+        index: 0,
+        file,
+        measured,
+        reason,
+    })
+}
+
+fn cycle<'py>(py: Python<'py>, row: &MeasuredRow) -> Option<Cycle<'py>> {
+    let samples = row.samples()?;
+    Some((
+        samples.time_s.into_pyarray(py),
+        samples.load_n.into_pyarray(py),
+        samples.approach_m.into_pyarray(py),
+    ))
+}
+
+fn findings(row: &MeasuredRow) -> Vec<(&'static str, String)> {
+    let findings = row.measured.iter().flat_map(|measured| &measured.findings);
+    findings.map(|f| (f.code(), f.to_string())).collect()
+}
+
+fn bytes<'py>(py: Python<'py>, files: Vec<(String, Vec<u8>)>) -> Files<'py> {
+    let files = files.into_iter();
+    files
+        .map(|(name, bytes)| (name, PyBytes::new(py, &bytes)))
+        .collect()
+}
+
+/// A material from measured cycles: its block, and every file of the folder.
+#[pyfunction]
+pub fn identify_material<'py>(
+    py: Python<'py>,
+    source: Source<'py>,
+    threads: Option<NonZeroUsize>,
+) -> PyResult<(String, Vec<String>, Files<'py>)> {
+    let (document, given) = (source.document()?, source.given());
+    let plan = identify_file::plan_with(&document, &given);
+    let plan = plan.map_err(|found| failure::of_input(&found))?;
+    let (interrupt, counter) = (AtomicBool::new(false), Counter::default());
+    let watch = Watch {
+        counter: &counter,
+        callback: None,
+    };
+    let pool =
+        run::pool(run::useful_threads(threads)).map_err(|error| failure::of_sweep(&error))?;
+    let made = wait::run(py, &interrupt, &watch, || {
+        pool.install(|| {
+            let found = identify(&plan, &interrupt)?;
+            let curves = curves(&plan, &found, &interrupt)?;
+            Ok((found, curves))
+        })
+    })?;
+    let (found, curves) = made.map_err(|error| match error {
+        IdentifyError::Interrupted => PyKeyboardInterrupt::new_err("interrupted"),
+        IdentifyError::NoCycle { .. } | IdentifyError::NoFit(_) => failure::of_run(error),
+        error => PyValueError::new_err(error.to_string()),
+    })?;
+    let report = IdentifyReport {
+        plan: &plan,
+        found: &found,
+        curves: &curves,
+    };
+    let (lowest, highest) = found.window_rad_per_s;
+    let series = found.relaxation.clone();
+    let material = Material::from_relaxation(series, ModulusKind::Longitudinal, plan.poisson_ratio);
+    let material = material.map_err(failure::of_run)?;
+    let material = material.measured((1.0 / highest, 1.0 / lowest));
+    let summary = identify_summary::summary(&report);
+    let summary = serde_json::to_string_pretty(&summary).map_err(failure::of_run)?;
+    let block = material_text(&material);
+    let files = vec![
+        ("material.toml".to_owned(), block.clone().into_bytes()),
+        (
+            "resolved.toml".to_owned(),
+            resolved_text(&plan).into_bytes(),
+        ),
+        ("prony.csv".to_owned(), prony(&found.relaxation)),
+        ("fit.csv".to_owned(), identify_tables::fit(&report)),
+        ("moduli.csv".to_owned(), identify_tables::moduli(&report)),
+        (
+            "summary.json".to_owned(),
+            format!("{summary}\n").into_bytes(),
+        ),
+    ];
+    Ok((block, report.lines(), bytes(py, files)))
+}
+
+/// A frequency (Hz) with its unit, be it Hz or rad/s.
+#[pyfunction]
+pub fn frequency_hz(text: &str) -> PyResult<f64> {
+    parse(text, Dimension::Frequency).or_else(|error| {
+        let angular = parse(text, Dimension::AngularFrequency);
+        let hz = angular.map(|angular| angular / std::f64::consts::TAU);
+        hz.map_err(|_| failure::of_value(error))
+    })
+}
+
+/// Writes files into a folder, each whole or not at all.
+#[pyfunction]
+pub fn write_files(py: Python<'_>, folder: PathBuf, files: Vec<(String, Vec<u8>)>) -> PyResult<()> {
+    py.detach(|| {
+        for (name, bytes) in &files {
+            let path: &Path = &folder.join(name);
+            write_atomically(path, bytes).map_err(|error| failure::of_store(&error))?;
+        }
+        Ok(())
+    })
+}

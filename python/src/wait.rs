@@ -1,0 +1,120 @@
+//! Long work beside a Python interpreter that stays awake: other Python threads run, Ctrl-C is heard, progress is told.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+/// How often signals are looked for and progress is told.
+const POLL: Duration = Duration::from_millis(50);
+
+/// How far work has come.
+#[derive(Debug, Default)]
+pub struct Counter {
+    pub done: AtomicUsize,
+    pub total: AtomicUsize,
+}
+
+/// Who hears of progress: called with what is done and how much there is in all.
+pub struct Watch<'a, 'py> {
+    pub counter: &'a Counter,
+    pub callback: Option<&'a Bound<'py, PyAny>>,
+}
+
+impl Watch<'_, '_> {
+    fn tell(&self, told: &mut Option<(usize, usize)>) -> PyResult<()> {
+        let now = (
+            self.counter.done.load(Ordering::Relaxed),
+            self.counter.total.load(Ordering::Relaxed),
+        );
+        if let Some(callback) = self.callback
+            && *told != Some(now)
+        {
+            *told = Some(now);
+            callback.call1(now)?;
+        }
+        Ok(())
+    }
+}
+
+/// Wakes the thread that waits, whatever became of the work.
+struct Ended<'a> {
+    flag: &'a AtomicBool,
+    waiting: thread::Thread,
+}
+
+impl Drop for Ended<'_> {
+    fn drop(&mut self) {
+        self.flag.store(true, Ordering::Release);
+        self.waiting.unpark();
+    }
+}
+
+/// Does the work on a thread of its own. A signal whose handler raises, or a callback that does, sets `interrupt`, and the exception is
+/// raised when the work has ended.
+pub fn run<T: Send>(
+    py: Python<'_>,
+    interrupt: &AtomicBool,
+    watch: &Watch<'_, '_>,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    let flag = AtomicBool::new(false);
+    let (mut told, mut raised) = (None, None);
+    let joined = thread::scope(|scope| {
+        let ended = Ended {
+            flag: &flag,
+            waiting: thread::current(),
+        };
+        let worker = scope.spawn(move || {
+            let _ended = ended;
+            work()
+        });
+        while !flag.load(Ordering::Acquire) {
+            py.detach(|| thread::park_timeout(POLL));
+            if raised.is_none() {
+                let heard = py.check_signals().and_then(|()| watch.tell(&mut told));
+                if let Err(exception) = heard {
+                    interrupt.store(true, Ordering::Relaxed);
+                    raised = Some(exception);
+                }
+            }
+        }
+        worker.join()
+    });
+    match (raised, joined) {
+        (Some(exception), _) => Err(exception),
+        (None, Ok(made)) => watch.tell(&mut told).map(|()| made),
+        (None, Err(_)) => Err(PyRuntimeError::new_err(
+            "the computation stopped by an error of the program; please report it with your input",
+        )),
+    }
+}
+
+/// Does work that cannot be interrupted; after Ctrl-C it goes on to its end unheard.
+pub fn run_unheard<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let shared = Arc::clone(&flag);
+    let waiting = thread::current();
+    let worker = thread::spawn(move || {
+        let _ended = Ended {
+            flag: &shared,
+            waiting,
+        };
+        work()
+    });
+    while !flag.load(Ordering::Acquire) {
+        py.detach(|| thread::park_timeout(POLL));
+        py.check_signals()?;
+    }
+    worker.join().map_err(|_| {
+        PyRuntimeError::new_err(
+            "the computation stopped by an error of the program; please report it with your input",
+        )
+    })
+}

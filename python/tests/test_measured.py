@@ -1,0 +1,56 @@
+"""Measured loops and identification."""
+
+from __future__ import annotations
+
+import pickle
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import contact_dma as cd
+
+LOOPS = sorted((ROOT / "sweeps/measured-loops").glob("*.csv"))
+
+
+def test_files_give_what_the_program_writes(program: str, tmp_path: Path) -> None:
+    out = tmp_path / "program"
+    arguments = [program, "analyse", *map(str, LOOPS), "--quiet", "--no-figures", "--out", str(out)]
+    subprocess.run(arguments, check=True, capture_output=True)
+    result = cd.analyse(LOOPS)
+    result.save(tmp_path / "python")
+    for file in sorted(path.relative_to(out) for path in out.rglob("*.*")):
+        assert (tmp_path / "python" / file).read_bytes() == (out / file).read_bytes(), file
+    assert cd.read(out) == result == pickle.loads(pickle.dumps(result))
+    assert len(result.cycles) == len(LOOPS) and result.cycles[0].load.shape == (201,)
+    assert result["file"][0].endswith(".csv") and "<polyline" in result._repr_html_()
+    # Of a smooth loop of 200 samples the polygon is low by 0.02 %.
+    area = [0.5 * abs(np.dot(c.load[:-1], np.roll(c.approach[:-1], -1)) - np.dot(c.approach[:-1], np.roll(c.load[:-1], -1)))
+            for c in result.cycles]
+    assert area == pytest.approx(result["energy_loss_j"], rel=1e-2)
+
+
+def test_a_setup_gives_moduli_and_a_bad_record_says_why() -> None:
+    t = np.linspace(0.0, 20.0, 2001)
+    good = {"time": t, "load": 1 + 0.5 * np.sin(3 * t), "approach": 1e-5 + 2e-6 * np.sin(3 * t - 0.2)}
+    flat = {"time": t, "load": np.ones_like(t), "approach": np.zeros_like(t)}
+    setup = {"contact": {"poisson_ratio": 0.4}, "indenter": cd.Sphere("1 mm")}
+    result = cd.analyse([good, flat], frequency="3 rad/s", setup=setup)
+    assert result["storage_modulus_pa"][0] > 0 and np.isnan(result["energy_loss_j"][1])
+    assert result.status[0].converged and "same in all samples" in str(result.status[1])
+
+
+def test_an_identification_file_gives_what_the_program_writes(program: str, tmp_path: Path) -> None:
+    file, out = ROOT / "sweeps/identify-polymer.toml", tmp_path / "program"
+    arguments = [program, "identify", str(file), "--set", "identify.branches=3", "--quiet", "--out", str(out)]
+    subprocess.run(arguments, check=True, capture_output=True)
+    found = cd.identify(file=file, overrides={"identify.branches": 3})
+    found.save(tmp_path / "python")
+    for name in ["prony.csv", "fit.csv", "moduli.csv", "summary.json", "resolved.toml"]:
+        assert (tmp_path / "python" / name).read_bytes() == (out / name).read_bytes(), name
+    again = pickle.loads(pickle.dumps(found))
+    assert again.material == found.material and again.summary == found.summary
+    assert cd.read(out).material == found.material  # type: ignore[union-attr]
+    assert found.moduli["angular_frequency_rad_per_s"].dtype == float and found.fit["column"].dtype.kind == "U"

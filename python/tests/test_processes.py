@@ -1,0 +1,146 @@
+"""Other processes and signals: spawn, joblib and Dask; Ctrl-C; other threads of Python; overhead."""
+
+from __future__ import annotations
+
+import multiprocessing
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+from pathlib import Path
+
+import distributed
+import joblib
+import numpy as np
+import pytest
+from conftest import small_sweep
+
+import contact_dma as cd
+
+SPHERE = cd.Sphere("10 mm")
+
+
+def loss(radius: float) -> cd.SweepResult:
+    """A case of a study, as a worker solves it."""
+    material = cd.Material.library("pmma")
+    return cd.sweep(
+        material, cd.Sphere(radius), mean=10.0, amplitude=5.0, angular_frequency=[1e-2], springs=16, steps=16, threads=1
+    )
+
+
+def test_a_result_comes_back_from_a_pickle_bit_for_bit(result: cd.SweepResult) -> None:
+    again = pickle.loads(pickle.dumps(result))
+    assert again == result and again.peaks == result.peaks and again.resolved == result.resolved
+    for one, other in zip(again.cycles, result.cycles):
+        assert np.array_equal(one.load, other.load) and np.array_equal(one.approach, other.approach)
+        assert np.array_equal(one.profiles[1].lines[0].pressure, other.profiles[1].lines[0].pressure, equal_nan=True)
+
+
+def test_a_result_read_from_a_folder_pickles(tmp_path: Path, result: cd.SweepResult) -> None:
+    result.save(tmp_path)
+    assert pickle.loads(pickle.dumps(cd.read(tmp_path))) == result
+
+
+def test_a_study_runs_over_spawned_processes() -> None:
+    radii = [0.005, 0.01]
+    with multiprocessing.get_context("spawn").Pool(2) as pool:
+        made = pool.map(loss, radii)
+    assert made == [loss(radius) for radius in radii]
+
+
+def test_a_study_runs_over_joblib() -> None:
+    radii = [0.005, 0.01]
+    made = joblib.Parallel(n_jobs=2)(joblib.delayed(loss)(radius) for radius in radii)
+    assert made == [loss(radius) for radius in radii]
+
+
+def test_a_study_runs_over_a_cluster_of_dask_with_two_workers() -> None:
+    radii = [0.005, 0.01, 0.02]
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,  # type: ignore[no-untyped-call]
+        distributed.Client(cluster) as client,  # type: ignore[no-untyped-call]
+    ):
+        made = client.gather(client.map(loss, radii))
+    assert made == [loss(radius) for radius in radii]
+
+
+LONG = """
+import contact_dma as cd, numpy as np, time
+print("ready", flush=True)
+try:
+    {call}
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+CALLS = {
+    "sweep": "cd.sweep(cd.Material.library('pmma'), cd.Ellipsoid(0.01, 0.02), mean=10.0, amplitude=5.0,"
+    " angular_frequency=np.logspace(-4, 0, 200), cells=256, method='march', hold='500 s')",
+    "simulate": "cd.simulate(cd.Material.library('pmma'), cd.Ellipsoid(0.01, 0.02), cells=256, step=0.01,"
+    " segments=[{'kind': 'ramp', 'to': 10.0, 'duration': '1000 s'}])",
+}
+
+
+@pytest.mark.parametrize("call", CALLS.values(), ids=CALLS)
+def test_control_c_stops_within_a_second(call: str) -> None:
+    process = subprocess.Popen([sys.executable, "-c", LONG.format(call=call)], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None and process.stdout.readline() == "ready\n"
+    time.sleep(2.0)
+    assert process.poll() is None, "the work ended before it could be interrupted"
+    sent = time.monotonic()
+    process.send_signal(signal.SIGINT)
+    assert process.stdout.readline() == "interrupted\n"
+    assert time.monotonic() - sent < 1.0
+    process.wait()
+
+
+def test_other_threads_of_python_run_meanwhile() -> None:
+    counted, stop = 0, threading.Event()
+
+    def count() -> None:
+        nonlocal counted
+        while not stop.is_set():
+            counted += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    before = counted
+    started = time.monotonic()
+    small_sweep(springs=256, steps=256, threads=1)
+    elapsed, counted_meanwhile = time.monotonic() - started, counted - before
+    stop.set()
+    thread.join()
+    # One in a millisecond at best; a held lock would let none through.
+    assert counted_meanwhile > 50 * elapsed
+
+
+def test_a_thousand_calls_of_one_case_take_less_than_five_seconds() -> None:
+    pmma = cd.Material.library("pmma")
+    options = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [1e-2], "springs": 16, "steps": 16}
+    started = time.process_time()
+    for _ in range(1000):
+        cd.sweep(pmma, SPHERE, threads=1, error_bars=False, **options)  # type: ignore[call-overload]
+    elapsed = time.process_time() - started
+    print(f"\n1000 calls: {elapsed:.2f} s of one core")
+    assert elapsed < 5.0
+
+
+def test_a_call_costs_less_than_a_millisecond_beyond_its_solution() -> None:
+    pmma = cd.Material.library("pmma")
+
+    def shortest(omega: list[float], calls: int) -> float:
+        options = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": omega, "springs": 16, "steps": 16}
+        times = []
+        for _ in range(calls):
+            started = time.perf_counter()
+            cd.sweep(pmma, SPHERE, threads=1, error_bars=False, **options)  # type: ignore[call-overload]
+            times.append(time.perf_counter() - started)
+        return min(times)
+
+    # Cases that differ by a hundredth of a per cent cost the same, and their curve has no peak.
+    one, many = shortest([1e-2], 50), shortest(np.linspace(1e-2, 1.0001e-2, 101).tolist(), 5)
+    overhead = one - (many - one) / 100
+    print(f"\none case: {1e3 * one:.3f} ms, of these beyond its solution {1e3 * overhead:.3f} ms")
+    assert overhead < 1e-3

@@ -1,0 +1,154 @@
+"""Sweeps: numbers are the program's, results can be moved, options say what the keys of a file say."""
+
+from __future__ import annotations
+
+import io
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+import tqdm
+from conftest import ROOT, small_sweep
+
+import contact_dma as cd
+
+COARSE = {"solver.springs": 32, "cycle.steps": 32}
+TABLES = ["sweep.csv", "summary.json", "resolved.toml", "cycles.npz", "loops/0.csv", "pressures/1.csv", "work/2.csv"]
+
+
+def run_program(program: str, *arguments: object) -> None:
+    subprocess.run([program, *map(str, arguments)], check=True, capture_output=True)
+
+
+def test_a_file_gives_what_the_program_writes_byte_for_byte(program: str, tmp_path: Path) -> None:
+    file = ROOT / "sweeps/pmma.toml"
+    changes = [item for key, value in COARSE.items() for item in ("--set", f"{key}={value}")]
+    run_program(program, "sweep", file, "--quiet", "--no-figures", "--out", tmp_path / "program", *changes)
+    result = cd.sweep(file, overrides=COARSE, threads=2)
+    result.save(tmp_path / "python")
+    for name in TABLES:
+        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
+    # The program draws what Python has saved, without solving anything, and peaks are there too.
+    run_program(program, "report", tmp_path / "python")
+    assert (tmp_path / "python/energy-loss.svg").is_file() and (tmp_path / "python/index.html").is_file()
+    for name in TABLES:
+        assert (tmp_path / "python" / name).read_bytes() == (tmp_path / "program" / name).read_bytes(), name
+    # And Python reads what the program has written.
+    assert cd.read(tmp_path / "program") == result
+    assert cd.read(tmp_path / "program").peaks == result.peaks  # type: ignore[union-attr]
+
+
+def test_values_give_what_the_file_of_them_gives(tmp_path: Path) -> None:
+    file = tmp_path / "sweep.toml"
+    file.write_text(
+        'title = "PMMA"\n[material]\nlibrary = "pmma"\n[indenter]\nshape = "sphere"\nradius = "10 mm"\n'
+        '[drive]\nmean = "10 N"\namplitude = "5 N"\n[sweep]\nangular_frequency = [0.001, 0.01, 0.1]\n'
+        "[solver]\nsprings = 32\n[cycle]\nsteps = 32\n"
+    )
+    by_values = small_sweep(angular_frequency=np.array([0.1, 0.001, 0.01]))
+    assert cd.sweep(file) == by_values
+    assert cd.sweep(file).resolved == by_values.resolved
+
+
+def test_results_do_not_depend_on_the_number_of_threads(result: cd.SweepResult) -> None:
+    for threads in (1, 2, 3):
+        assert small_sweep(threads=threads) == result
+
+
+def test_columns_cycles_and_peaks_belong_together(result: cd.SweepResult) -> None:
+    assert len(result["energy_loss_j"]) == len(result.cycles) == len(result.status) == 5
+    assert result["energy_loss_j"].dtype == np.float64 and result["status"].tolist() == ["converged"] * 5
+    assert (result["energy_loss_error_j"] > 0).all()
+    for loss, omega, cycle in zip(result["energy_loss_j"], result["angular_frequency_rad_per_s"], result.cycles):
+        # The area of the polygon through 32 samples is low by (N / 2 pi) sin(2 pi / N): 0.6 %.
+        area = (0.5 * (cycle.load[1:] + cycle.load[:-1]) * np.diff(cycle.approach)).sum()
+        assert abs(area) == pytest.approx(loss, rel=0.01)
+        assert cycle.angular_frequency == omega
+        assert cycle.load.max() == pytest.approx(15.0) and not cycle.load.flags.writeable
+        assert [profile.instant for profile in cycle.profiles][0] == "greatest load"
+        assert cycle.profiles[0].lines[0].along == "r"
+    (peak,) = result.peaks
+    assert 1e-3 < peak.angular_frequency < 1e-1
+    assert peak.energy_loss >= result["energy_loss_j"].max()
+    assert result.summary["peaks"][0]["energy_loss_j"] == peak.energy_loss
+    assert result.cycles[-1].angular_frequency == result.cycles[4].angular_frequency
+    assert len(result.cycles[1:3]) == 2
+    with pytest.raises(IndexError):
+        result.cycles[5]
+
+
+def test_the_loss_is_that_of_the_closed_form_for_a_flat_punch() -> None:
+    # A punch is linear: Delta W = pi |W1|^2 Im(C*) / (2 a), C* = (1 - nu^2) / E*.
+    solid = cd.Material.relaxation("10 MPa", [("30 MPa", "1 s")], poisson_ratio=0.4)
+    omega, load, radius = np.array([0.3, 1.0, 3.0]), 0.5, 1e-3
+    result = cd.sweep(solid, cd.FlatPunch(radius), mean=1.0, amplitude=load, angular_frequency=omega)
+    compliance = (1 - 0.4**2) / solid.complex_modulus(omega)
+    expected = np.pi * load**2 * -compliance.imag / (2 * radius)
+    # The error bars of the result say how far off it may be; ten of them, since they are estimates.
+    assert (abs(result["energy_loss_j"] - expected) <= 10 * result["energy_loss_error_j"] + 1e-9 * expected).all()
+
+
+def test_axes_vary_indenter_and_drive() -> None:
+    axes = {"indenter.radius": ["5 mm", 0.01], "drive.amplitude": [1.0, "5 N"]}
+    result = small_sweep(axes=axes, angular_frequency=[0.01, 0.1], amplitude=None)
+    assert len(result["energy_loss_j"]) == 8
+    assert set(result["indenter_radius_m"]) == {0.005, 0.01}
+    plain = small_sweep(angular_frequency=[0.01, 0.1])
+    same = (result["indenter_radius_m"] == 0.01) & (result["drive_amplitude"] == 5.0)
+    assert result["energy_loss_j"][same].tolist() == plain["energy_loss_j"].tolist()
+    assert len(result._curves()) == 4
+
+
+def test_a_case_without_result_is_nan_and_says_why() -> None:
+    result = small_sweep(method="march", max_cycles=2, tolerance=1e-9, angular_frequency=[1e-2], error_bars=False)
+    assert np.isnan(result["energy_loss_j"]).all() and result["energy_loss_j"].dtype == np.float64
+    (status,) = result.status
+    assert not status.converged and status.reason and str(status).startswith("not-converged: ")
+    assert len(result.cycles[0].load) == 0 and result.peaks == ()
+    assert "no case has a result" in result._repr_html_()
+
+
+def test_progress_is_told_and_an_exception_of_it_stops_the_sweep() -> None:
+    told: list[tuple[int, int]] = []
+    small_sweep(progress=lambda done, total: told.append((done, total)))
+    assert told[-1] == (5, 5) and sorted(told) == told
+
+    with tqdm.tqdm(disable=None, file=io.StringIO()) as bar:
+        small_sweep(progress=bar)
+    assert (bar.n, bar.total) == (5, 5)
+
+    def stop(done: int, total: int) -> None:
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        small_sweep(progress=stop)
+
+
+def test_pandas_and_notebooks_get_a_table_and_a_curve(result: cd.SweepResult) -> None:
+    frame = result.to_pandas()
+    assert frame.shape == (5, len(result)) and frame["energy_loss_j"].tolist() == result["energy_loss_j"].tolist()
+    page = result._repr_html_()
+    assert page.count("<polyline") == 1 and "energy loss" in page and "peak of" in page
+
+
+def test_a_map_of_an_array_is_used_saved_read_and_pickled(tmp_path: Path, program: str) -> None:
+    x = np.linspace(-1.2e-3, 1.2e-3, 33)
+    heights = -(x**2 + x[:, None] ** 2) / (2 * 10e-3)
+    map = cd.HeightMap(heights, spacing=x[1] - x[0])
+    assert not map.gaps.flags.writeable and map.gaps.base is not None
+    options = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [0.01, 0.02], "steps": 16, "error_bars": False}
+    result = cd.sweep(cd.Material.library("pmma"), map, **options)  # type: ignore[call-overload]
+    sphere = cd.sweep(cd.Material.library("pmma"), cd.Sphere("10 mm"), **options)  # type: ignore[call-overload]
+    # Seventeen cells across the contact: two per cent of the loss, measured 0.7 %.
+    assert result["energy_loss_j"] == pytest.approx(sphere["energy_loss_j"], rel=0.02)
+    result.save(tmp_path / "map")
+    assert cd.read(tmp_path / "map") == result
+    run_program(program, "report", tmp_path / "map")
+
+
+def test_a_saved_result_can_be_saved_elsewhere(tmp_path: Path, result: cd.SweepResult) -> None:
+    result.save(tmp_path / "a")
+    cd.read(tmp_path / "a").save(tmp_path / "b")
+    for name in TABLES:
+        assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes(), name

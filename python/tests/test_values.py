@@ -1,0 +1,89 @@
+"""Materials and indenters: functions of the material against closed forms, values compare and pickle."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import ROOT
+
+import contact_dma as cd
+
+MATERIALS = [
+    cd.Material.library("pmma"),
+    cd.Material.relaxation("2 MPa", [("8 MPa", "1 ms"), (5e6, 0.1)], poisson_ratio=0.5, name="rubber", measured=(1e-3, 10.0)),
+    cd.Material.creep(1e-9, [(5e-10, 10.0)], poisson_ratio=0.3, compliance="shear"),
+    cd.Material.zener("1 MPa", "2 MPa", "1 s", poisson_ratio=0.5),
+]
+INDENTERS = [
+    cd.Sphere("10 mm"),
+    cd.Sphere(0.01, offset=("1 um", "0 um")),
+    cd.Cone(1.2),
+    cd.FlatPunch("1 mm"),
+    cd.Ellipsoid(0.01, 0.02),
+    cd.PowerLaw(4.0, radius=1e-3, height=1e-5),
+    cd.Asperities([(0, 0, 1e-3), (2e-3, 0, 1e-3, -1e-6)]),
+    cd.HeightMap(-np.add.outer(np.arange(-4, 5) ** 2, np.arange(-3, 4) ** 2) * 1e-9, spacing=("1 um", "2 um"), edge="rim"),
+    cd.HeightMap(ROOT / "sweeps/height-map.csv", spacing="0.1 mm"),
+]
+
+
+def test_functions_of_a_prony_series_are_its_closed_forms() -> None:
+    rubber = MATERIALS[1]
+    omega = np.logspace(-2, 4, 7).reshape(7, 1)
+    expected = 2e6 + sum(m * 1j * omega * t / (1 + 1j * omega * t) for m, t in [(8e6, 1e-3), (5e6, 0.1)])
+    assert rubber.complex_modulus(omega).shape == (7, 1)
+    assert np.allclose(rubber.complex_modulus(omega), expected, rtol=1e-13)
+    # E = 2 (1 + nu) G.
+    assert np.allclose(rubber.complex_modulus(omega, modulus="shear") * 3.0, expected, rtol=1e-13)
+    t = np.array([0.0, 1e-3, 1.0])
+    assert np.allclose(rubber.relaxation_modulus(t), 2e6 + 8e6 * np.exp(-t / 1e-3) + 5e6 * np.exp(-t / 0.1), rtol=1e-13)
+    assert rubber.creep_compliance(0.0) == pytest.approx(1 / 15e6, rel=1e-12)
+    assert isinstance(rubber.complex_modulus(1.0), complex)
+    assert rubber.prony.equilibrium == 2e6 and rubber.prony.times.tolist() == [1e-3, 0.1]
+    j = MATERIALS[2].creep_compliance(t, modulus="shear")
+    assert np.allclose(j, 1e-9 + 5e-10 * (1 - np.exp(-t / 10)), rtol=1e-13)
+
+
+@pytest.mark.parametrize("material", MATERIALS, ids=repr)
+def test_a_material_pickles_and_compares_by_value(material: cd.Material) -> None:
+    again = pickle.loads(pickle.dumps(material))
+    assert again == material and hash(again) == hash(material) and again is not material
+    assert cd.Material.from_toml(material.text).text == material.text
+    assert again.complex_modulus(0.3) == material.complex_modulus(0.3)
+
+
+@pytest.mark.parametrize("indenter", INDENTERS, ids=repr)
+def test_an_indenter_pickles(indenter: cd.Indenter) -> None:
+    again = pickle.loads(pickle.dumps(indenter))
+    assert type(again) is type(indenter) and repr(again) == repr(indenter)
+    x, y = np.meshgrid(np.linspace(-3e-6, 3e-6, 5), np.linspace(-2e-6, 2e-6, 3))
+    assert np.array_equal(again.gap(x, y), indenter.gap(x, y)) and indenter.gap(x, y).shape == (3, 5)
+
+
+def test_an_array_in_any_memory_order_is_the_same_map() -> None:
+    heights = -np.add.outer(np.arange(-4, 5) ** 2, np.arange(-3, 4) ** 2) * 1e-9
+    one = cd.HeightMap(heights, spacing=1e-6)
+    for other in (np.asfortranarray(heights), heights[::-1][::-1], heights.astype(np.float32).astype(float), heights.tolist()):
+        assert np.allclose(cd.HeightMap(other, spacing=1e-6).gaps, one.gaps, rtol=1e-6, atol=1e-16)
+    # Rows are along y: the map is wider in y.
+    assert one.gap(3e-6, 0.0) == pytest.approx(9e-9) and one.gap(0.0, 4e-6) == pytest.approx(16e-9)
+
+
+def test_measured_moduli_of_a_file_make_a_material() -> None:
+    material = cd.Material.from_dynamic(
+        ROOT / "sweeps/pyvisco-freq-user-raw.csv", poisson_ratio=0.38, temperature_of_sweep="40 °C", name="measured"
+    )
+    assert material.temperature == pytest.approx(313.15) and len(material.prony.moduli) > 3
+    assert pickle.loads(pickle.dumps(material)) == material
+
+
+def test_a_path_stays_right_in_another_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "profile.csv").write_text("r_m,gap_m\n0,0\n1e-3,5e-5\n2e-3,2e-4\n")
+    monkeypatch.chdir(tmp_path)
+    profile = cd.Profile("profile.csv")
+    packed = pickle.dumps(profile)
+    monkeypatch.chdir("/")
+    assert pickle.loads(packed).gap(1e-3) == pytest.approx(5e-5)

@@ -1,0 +1,161 @@
+//! Blocks that are values already: materials and indenters that a program holds, in place of text.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::diagnostic::{Diagnostic, Diagnostics, Problems};
+use super::document::reader::TableReader;
+use super::document::{Document, Located};
+use super::field_file::Field;
+use super::keys;
+use super::material_table::DirectSum;
+use super::{indenter_block, material_block};
+use crate::indenter::{HeightMap, Indenter};
+use crate::sweep::plan::body_material::BodyMaterial;
+
+/// Values for blocks that a document leaves out; what it has counts.
+#[derive(Debug, Clone, Default)]
+pub struct Given {
+    pub material: Option<BodyMaterial>,
+    pub indenter: Option<Arc<dyn Indenter>>,
+}
+
+impl Given {
+    /// The indenter of a document without axes: that of its block, or the one given.
+    pub(super) fn indenter(
+        &self,
+        root: &mut TableReader<'_>,
+        folder: &Path,
+        problems: &Problems,
+    ) -> Option<Arc<dyn Indenter>> {
+        match (&self.indenter, root.key_location(&keys::INDENTER)) {
+            (Some(given), None) => Some(Arc::clone(given)),
+            _ => {
+                let table = root.table(&keys::INDENTER)?;
+                indenter_block::read(table, folder, problems)
+            }
+        }
+    }
+}
+
+/// The material of a document that has this block alone; samples may be taken as they are.
+///
+/// # Errors
+/// Everything that is wrong with the block.
+pub fn material(document: &Document) -> Result<BodyMaterial, Diagnostics> {
+    let problems = Problems::new();
+    let mut root = document.root(&problems);
+    let read = material_block::read_body(&mut root, document.folder(), DirectSum::Taken, &problems);
+    root.finish();
+    problems.into_result(read.map(|material| material.value))
+}
+
+/// The indenter of a document that has this block alone.
+///
+/// # Errors
+/// Everything that is wrong with the block.
+pub fn indenter(document: &Document) -> Result<Arc<dyn Indenter>, Diagnostics> {
+    let problems = Problems::new();
+    let mut root = document.root(&problems);
+    let read = Given::default().indenter(&mut root, document.folder(), &problems);
+    root.finish();
+    problems.into_result(read)
+}
+
+/// A height map of these values, in the unit and with the spacing that the document says: its `[indenter]` block is that of a map
+/// without `file`. The map is held to what one from a file is held to.
+///
+/// # Errors
+/// Everything that is wrong with block and values.
+pub fn height_map(document: &Document, field: Field) -> Result<HeightMap, Diagnostics> {
+    if let Some(at) = field.values_m.iter().position(|z| !z.is_finite()) {
+        let (row, column) = (at / field.cells_x.max(1), at % field.cells_x.max(1));
+        let message = format!("the height in row {row}, column {column} is not finite");
+        let problem = Diagnostic::new(message);
+        return Err(problem
+            .help("fill holes before, by interpolation say")
+            .into());
+    }
+    let problems = Problems::new();
+    let mut root = document.root(&problems);
+    let table = root.table(&keys::INDENTER);
+    let read = table.and_then(|table| {
+        let place = Located {
+            value: String::new(),
+            path: "indenter".to_owned(),
+            location: table.as_ref().clone(),
+        };
+        indenter_block::map_of(table, document.folder(), &problems, (place, field))
+    });
+    root.finish();
+    problems.into_result(read)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::input::sweep_file;
+    use crate::sweep::plan::resolved::resolved_text;
+
+    const MATERIAL: &str = "[material]\nlibrary = \"pmma\"\n";
+    const INDENTER: &str = "[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n";
+    const REST: &str = "[drive]\nmean = 10.0\namplitude = 5.0\n[sweep]\nfrequency = [1.0]\n";
+
+    fn document(text: &str) -> Document {
+        Document::parse("call", text).unwrap()
+    }
+
+    fn given() -> Given {
+        Given {
+            material: Some(material(&document(MATERIAL)).unwrap()),
+            indenter: Some(indenter(&document(INDENTER)).unwrap()),
+        }
+    }
+
+    #[test]
+    fn values_give_the_plan_that_their_blocks_give() {
+        let title = "title = \"a\"\n";
+        let blocks = document(&format!("{title}{MATERIAL}{INDENTER}{REST}"));
+        let from_blocks = sweep_file::plan(&blocks).unwrap();
+        let values = document(&format!("{title}{REST}"));
+        let from_values = sweep_file::plan_with(&values, &given()).unwrap();
+        assert_eq!(resolved_text(&from_values), resolved_text(&from_blocks));
+        // What the document has counts.
+        let other = INDENTER.replace("10 mm", "3 mm");
+        let with_block = document(&format!("{title}{other}{REST}"));
+        let plan = sweep_file::plan_with(&with_block, &given()).unwrap();
+        assert!(resolved_text(&plan).contains("radius = \"0.003 m\""));
+        // And without either it is missing.
+        let refused = sweep_file::plan_with(&values, &Given::default()).unwrap_err();
+        assert!(refused.to_string().contains("material"), "{refused}");
+    }
+
+    #[test]
+    fn a_map_of_values_is_held_to_what_one_of_a_file_is() {
+        let block = document("[indenter]\nshape = \"height-map\"\nspacing = 1e-6\n");
+        let field = |scale: f64, hole: f64| Field {
+            cells_x: 9,
+            cells_y: 7,
+            values_m: (0..63)
+                .map(|at| {
+                    let (x, y) = ((at % 9) as f64 - 4.0, (at / 9) as f64 - 3.0);
+                    if at == 12 {
+                        hole
+                    } else {
+                        -scale * (x * x + y * y)
+                    }
+                })
+                .collect(),
+            spacing_m: None,
+        };
+        let map = height_map(&block, field(1e-9, 0.0)).unwrap();
+        assert_eq!(map.cells(), (9, 7));
+        for (field, word) in [
+            (field(1e-3, -0.01), "steeper"),
+            (field(1e-9, f64::NAN), "row 1, column 3"),
+        ] {
+            let refused = height_map(&block, field).unwrap_err().to_string();
+            assert!(refused.contains(word), "{refused}");
+        }
+    }
+}

@@ -1,0 +1,50 @@
+//! The tables of a sweep: `sweep.csv`, loops, pressures and work of single cases, `cycles.npz`, the summary.
+
+use std::collections::BTreeSet;
+
+use super::ReportError;
+use super::cycles;
+use super::quantities;
+use super::summary;
+use super::table;
+use super::work_line::WorkLine;
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::record::{CaseRecord, CaseResult};
+use crate::sweep::search::run::Outcome;
+use crate::sweep::store::Store;
+
+/// Writes the tables. `only` are the cases that have tables of their own; without it, all that hold their cycle.
+///
+/// # Errors
+/// [`ReportError`] naming the file that could not be made.
+pub fn write(
+    store: &Store,
+    plan: &SweepPlan,
+    outcome: &Outcome,
+    only: Option<&BTreeSet<usize>>,
+) -> Result<(), ReportError> {
+    let branches = outcome.branches();
+    let unit = plan.figures.frequency_unit;
+    store.write(
+        "sweep.csv",
+        &quantities::sweep(&outcome.records, branches, unit, plan.axes.as_ref()),
+    )?;
+    let has_tables = |record: &&CaseRecord| only.is_none_or(|only| only.contains(&record.index));
+    for record in outcome.records.iter().filter(has_tables) {
+        let Some(cycle) = record.result.as_ref().and_then(CaseResult::cycle) else {
+            continue;
+        };
+        let name = |folder: &str| format!("{folder}/{}.csv", record.index);
+        store.write(name("loops"), &table::samples(&cycle.samples))?;
+        let pressures = table::pressures(&cycle.pressures, plan.drive.control());
+        store.write(name("pressures"), &pressures)?;
+        let work = WorkLine::of(&cycle.surface_loss, plan.indenter.as_ref());
+        store.write(name("work"), &table::work(&work))?;
+    }
+    if plan.is_small() {
+        cycles::write(store, store, plan, outcome)?;
+    }
+    let summary = summary::summary(plan, outcome, store.sweep_hash())?;
+    store.write("summary.json", &summary)?;
+    Ok(())
+}
