@@ -9,7 +9,7 @@ use crate::sweep::plan::scenario::history_text;
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &IdentifyPlan) -> String {
     let material = format!("[material]\npoisson_ratio = {:?}\n", plan.poisson_ratio);
-    let opening = opening_text(&plan.title, &material, plan.indenter.as_ref());
+    let opening = opening_text(&plan.title, &material, plan.indenter.as_ref(), None);
     let branches = match plan.branches {
         Some(number) => number.to_string(),
         None => "\"auto\"".to_owned(),

@@ -11,17 +11,21 @@ use super::document::row::{Required, Row};
 use super::document::{Located, plain};
 use super::field_file;
 use super::field_file::Field;
+use super::keys;
 use super::keys::indenter::{
     ASPERITY_HEIGHT, ASPERITY_LIST, ASPERITY_RADIUS, CENTER, CUT_OFF_WAVELENGTH, EDGE, EXPONENT,
-    FILE, GAP_HEIGHT, GAP_RADIUS, HALF_ANGLE, HEIGHT_UNIT, HURST_EXPONENT, LEVEL, MAP_QUANTITY,
-    MAP_SPACING, OFFSET, RADIUS, RADIUS_X, RADIUS_Y, RMS_HEIGHT, ROLL_OFF_WAVELENGTH, ROUGH_SIDE,
-    ROUGH_SPACING, SEED, SHA256, SHAPE, SPHERE_RADIUS, Shape,
+    FILE, GAP_HEIGHT, GAP_RADIUS, HALF_ANGLE, HEIGHT_UNIT, HURST_EXPONENT, INDENTER_MATERIAL,
+    LEVEL, MAP_QUANTITY, MAP_SPACING, OFFSET, RADIUS, RADIUS_X, RADIUS_Y, RMS_HEIGHT,
+    ROLL_OFF_WAVELENGTH, ROUGH_SIDE, ROUGH_SPACING, SEED, SHA256, SHAPE, SPHERE_RADIUS, Shape,
 };
+use super::material_block;
+use super::material_table::DirectSum;
 use crate::indenter::{
     Asperities, Asperity, Cone, DataFile, Ellipsoid, FlatPunch, HEIGHT_UNITS, HeightMap,
     HeightUnit, Indenter, IndenterError, MapEdge, MapLevel, MapSource, PowerLaw, Profile, Rough,
     Roughness, Shifted, Sphere,
 };
+use crate::material::Material;
 use crate::sweep::plan::resolved;
 
 /// The median slope of a map above which it is no surface in contact. Of rough surfaces, paraboloids, punches with walls and maps
@@ -41,6 +45,8 @@ pub(super) fn read(table: TableReader<'_>, folder: &Path, problems: &Problems) -
     };
     let shape = block.table.read(&SHAPE)?;
     let offset = block.table.value(&OFFSET);
+    // Read by itself, with the material that it is pressed against.
+    block.table.has(&INDENTER_MATERIAL);
     let made = match shape.value {
         Shape::Sphere => block.single(&RADIUS, Sphere::new),
         Shape::Cone => block.single(&HALF_ANGLE, Cone::new),
@@ -89,6 +95,28 @@ pub(super) fn map_of(
         problems.at(&place, error.to_string());
     };
     map.map_err(refused).ok()
+}
+
+/// What the indenter of a document is made of, where it is not rigid; `None` where a problem was reported.
+pub(super) fn material(
+    root: &mut TableReader<'_>,
+    folder: &Path,
+    problems: &Problems,
+) -> Option<Option<Material>> {
+    let Some(parsed) = root.parsed(&keys::INDENTER) else {
+        return Some(None);
+    };
+    let place = root.as_ref().clone();
+    let mut table = TableReader::new(parsed, place, "indenter".to_owned(), problems);
+    table.table_or(&INDENTER_MATERIAL, None, |block| {
+        let (body, _) =
+            material_block::read_over(block, folder, DirectSum::Refused, None, problems)?;
+        let material = material_block::series_of(body)?;
+        let checked = material.value.contact_compliance().map_err(|error| {
+            problems.at(&material, error.to_string());
+        });
+        checked.ok().map(|_| Some(material.value))
+    })
 }
 
 struct Block<'a> {

@@ -10,10 +10,11 @@ use super::document::row::{AnyRow, Optional, Required, Row};
 use super::keys;
 use super::keys::material::{
     BRANCH_COMPLIANCE, BRANCH_MODULUS, BRANCH_TIME, COMPLIANCE, CREEP, CREEP_ALTERNATIVE,
-    CREEP_BRANCHES, DYNAMIC, ELEMENT_TIME, EQUILIBRIUM, FRACTIONAL, INSTANTANEOUS, ISOTHERMS,
-    KELVIN_SPRING, KELVIN_VOIGT, LIBRARY, LIBRARY_POISSON_RATIO, MAXWELL, MAXWELL_MODULUS,
-    MEASURED, MEASURED_TABLE, MODULUS, NAME, POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE,
-    RELAXATION_BRANCHES, SPRING, VISCOSITY, ZENER,
+    CREEP_BRANCHES, DYNAMIC, ELASTIC_BODY, ELASTIC_POISSON_RATIO, ELEMENT_TIME, EQUILIBRIUM,
+    FRACTIONAL, INSTANTANEOUS, ISOTHERMS, KELVIN_SPRING, KELVIN_VOIGT, LIBRARY,
+    LIBRARY_POISSON_RATIO, MAXWELL, MAXWELL_MODULUS, MEASURED, MEASURED_TABLE, MODULUS, NAME,
+    POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE, RELAXATION_BRANCHES, SPRING, VISCOSITY,
+    YOUNG, ZENER,
 };
 use super::material_fractional;
 use super::material_table::{self, DirectSum, TableMaterial};
@@ -29,6 +30,7 @@ use crate::sweep::plan::body_material::BodyMaterial;
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Form {
     Library,
+    Elastic,
     Relaxation,
     Creep,
     Maxwell,
@@ -41,8 +43,9 @@ enum Form {
 }
 
 /// The ways to give a material; exactly one of them.
-static FORMS: [(&dyn AnyRow, Form); 10] = [
+static FORMS: [(&dyn AnyRow, Form); 11] = [
     (&LIBRARY, Form::Library),
+    (&ELASTIC_BODY, Form::Elastic),
     (&RELAXATION, Form::Relaxation),
     (&CREEP, Form::Creep),
     (&MAXWELL, Form::Maxwell),
@@ -141,6 +144,12 @@ fn at_one_temperature(
     };
     let body = match form {
         Form::Library => library(block, problems, refused),
+        Form::Elastic => block.table(&ELASTIC_BODY).and_then(|mut table| {
+            let (modulus_pa, nu) = (table.value(&YOUNG), table.value(&ELASTIC_POISSON_RATIO));
+            table.finish();
+            let made = library::elastic(modulus_pa?, nu?).map_err(refused);
+            Some(made.ok()?.into())
+        }),
         _ => {
             let build = from_block(block, folder, direct_sum, problems, form);
             let poisson_ratio = block.value(&POISSON_RATIO);
@@ -178,7 +187,11 @@ fn library(
         (Some(nu), Some(relaxation)) => {
             let other = Material::from_relaxation(relaxation.clone(), material.kind(), nu);
             let other = other.map_err(refused).ok()?;
-            other.named(entry.title).measured(entry.measured_window_s)
+            let other = other.named(entry.title);
+            match entry.measured_window_s {
+                Some(window_s) => other.measured(window_s),
+                None => other,
+            }
         }
         _ => material,
     };
@@ -191,7 +204,10 @@ fn measured(
     problems: &Problems,
     form: Form,
 ) -> Option<Option<(f64, f64)>> {
-    let says_itself = matches!(form, Form::Library | Form::Fractional | Form::Measured);
+    let says_itself = matches!(
+        form,
+        Form::Library | Form::Elastic | Form::Fractional | Form::Measured
+    );
     if let (true, Some(place)) = (says_itself, block.key_location(&MEASURED)) {
         problems
             .at(&place, "this material says itself when it was measured")
@@ -237,7 +253,7 @@ fn from_block(
     form: Form,
 ) -> Option<Build> {
     let mut table = block.table(match form {
-        Form::Library | Form::Isotherms | Form::Dynamic => return None,
+        Form::Library | Form::Elastic | Form::Isotherms | Form::Dynamic => return None,
         Form::Relaxation => &RELAXATION,
         Form::Creep => &CREEP,
         Form::Maxwell => &MAXWELL,
@@ -247,7 +263,7 @@ fn from_block(
         Form::Measured => &MEASURED_TABLE,
     })?;
     let build: Option<Build> = match form {
-        Form::Library | Form::Isotherms | Form::Dynamic => None,
+        Form::Library | Form::Elastic | Form::Isotherms | Form::Dynamic => None,
         Form::Relaxation => {
             let kind = table.value(&MODULUS);
             let replicas = material_temperature::replicas(&mut table, problems);

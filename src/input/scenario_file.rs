@@ -11,8 +11,9 @@ use super::keys;
 use super::keys::settings::{FIELD_CELLS, FIELDS_AT, OUTPUT_ERROR_BARS, PROFILES_AT, TIME_STEP};
 use super::material_table::DirectSum;
 use super::sweep_file::{default_solver, solver};
-use super::{material_block, segments_block};
+use super::{indenter_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
+use crate::material::Material;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::body_material::BodyMaterial;
@@ -45,7 +46,8 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         }),
         _ => material_block::read_body(&mut root, folder, DirectSum::Taken, &problems),
     };
-    let material = material.and_then(|m| for_contact(&problems, m));
+    let counterbody = indenter_block::material(&mut root, folder, &problems);
+    let material = material.and_then(|m| for_contact(&problems, m, counterbody?));
     let indenter = given.indenter(&mut root, folder, &problems);
     let drive = root
         .table(&keys::HISTORY)
@@ -80,10 +82,26 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
 }
 
 /// Refuses materials that cannot be in contact. A fluid can: a history ends before its creep does.
-fn for_contact(problems: &Problems, material: Located<BodyMaterial>) -> Option<BodyMaterial> {
-    match material.value.check_contact() {
-        Ok(()) => Some(material.value),
-        Err(error) => {
+fn for_contact(
+    problems: &Problems,
+    material: Located<BodyMaterial>,
+    counterbody: Option<Material>,
+) -> Option<BodyMaterial> {
+    match (material.value.check_contact(), counterbody, &material.value) {
+        (Ok(()), None, _) => Some(material.value),
+        (Ok(()), Some(indenter), BodyMaterial::Series(own)) => {
+            Some(own.clone().against(indenter).into())
+        }
+        (Ok(()), Some(_), BodyMaterial::Samples(_)) => {
+            problems
+                .at(
+                    &material,
+                    "samples taken as they are press a rigid indenter only",
+                )
+                .help("leave out [indenter.material], or set material.table.evaluation = \"fit\"");
+            None
+        }
+        (Err(error), ..) => {
             problems.at(&material, error.to_string());
             None
         }

@@ -67,7 +67,8 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         given,
         problems: &problems,
     };
-    let material = file.material(&mut root);
+    let counterbody = indenter_block::material(&mut root, document.folder(), &problems);
+    let material = counterbody.and_then(|body| file.material(&mut root, body.as_ref()));
     let indenter = file.indenter(&mut root);
     let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
         harmonic_block::read(t, &problems)
@@ -188,8 +189,18 @@ impl File<'_> {
         self.conditions.iter().map(of_condition).collect()
     }
 
-    fn material(&self, root: &mut TableReader<'_>) -> Option<Over<Arc<Material>>> {
-        let for_contact = |material| for_contact(self.problems, material).map(Arc::new);
+    fn material(
+        &self,
+        root: &mut TableReader<'_>,
+        counterbody: Option<&Material>,
+    ) -> Option<Over<Arc<Material>>> {
+        let for_contact = |material: Located<Material>| {
+            let against = |own: Material| match counterbody {
+                Some(indenter) => own.against(indenter.clone()),
+                None => own,
+            };
+            for_contact(self.problems, material.map(against)).map(Arc::new)
+        };
         let over = |t: TableReader<'_>, axis: Option<&Located<Vec<f64>>>| {
             material_block::read_over(t, self.folder, DirectSum::Refused, axis, self.problems)
         };

@@ -179,6 +179,22 @@ impl Creep {
         Creep::new(self.instantaneous_per_pa * factor, branches, viscosity_pa_s)
     }
 
+    /// Two compliances under the same stress: their sum.
+    ///
+    /// # Errors
+    /// A compliance beyond the range of a double.
+    pub fn beside(&self, other: &Self) -> Result<Self, MaterialError> {
+        let branches = self.branches.iter().chain(&other.branches).copied();
+        // Fluidities add up.
+        let fluidity = [self, other].map(|creep| creep.viscosity_pa_s.map_or(0.0, f64::recip));
+        let fluidity = fluidity[0] + fluidity[1];
+        Creep::new(
+            self.instantaneous_per_pa + other.instantaneous_per_pa,
+            branches.collect(),
+            (fluidity > 0.0).then(|| fluidity.recip()),
+        )
+    }
+
     /// The relaxation modulus of the same material, exactly, from the zeros of
     /// the transformed series; nothing is fitted.
     ///

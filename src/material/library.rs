@@ -13,8 +13,8 @@ pub struct LibraryEntry {
     pub source: &'static str,
     /// How they were measured and what to keep in mind.
     pub notes: &'static str,
-    /// First and last time (s) at which it was observed.
-    pub measured_window_s: (f64, f64),
+    /// First and last time (s) at which it was observed; `None` for an elastic body, which is the same at all times.
+    pub measured_window_s: Option<(f64, f64)>,
     #[serde(skip)]
     build: fn() -> Result<Material, MaterialError>,
 }
@@ -25,23 +25,74 @@ impl LibraryEntry {
     /// # Errors
     /// None for the entries of this file, whose constants are tested.
     pub fn material(&self) -> Result<Material, MaterialError> {
-        let material = (self.build)()?;
-        Ok(material.named(self.title).measured(self.measured_window_s))
+        let material = (self.build)()?.named(self.title);
+        Ok(match self.measured_window_s {
+            Some(window_s) => material.measured(window_s),
+            None => material,
+        })
     }
 }
 
 /// All materials, by name.
 pub fn entries() -> &'static [LibraryEntry] {
-    &[LibraryEntry {
+    &ENTRIES
+}
+
+static ENTRIES: [LibraryEntry; 4] = [
+    elastic_entry(
+        "diamond",
+        "diamond",
+        "W. C. Oliver and G. M. Pharr, \"An improved technique for determining hardness and elastic modulus using load and displacement sensing indentation experiments\", Journal of Materials Research 7 (1992) 1564, doi:10.1557/JMR.1992.1564",
+        "Elastic: the indenter of instrumented indentation, 1141 GPa, Poisson ratio 0.07.",
+        || elastic(1141e9, 0.07),
+    ),
+    elastic_entry(
+        "glass",
+        "soda-lime glass",
+        "EN 572-1, Glass in building: basic soda lime silicate glass products, part 1: definitions and general physical and mechanical properties",
+        "Elastic: 70 GPa, Poisson ratio 0.2.",
+        || elastic(70e9, 0.2),
+    ),
+    LibraryEntry {
         name: "pmma",
         title: "PMMA",
         source: "M. V. Ramesh Kumar and R. Narasimhan, \"Analysis of spherical indentation of linear viscoelastic materials\" (the experiments); as the two-term Prony series of S. Spinu, \"Viscoelastic Contact Simulation under Harmonic Cyclic Load\", Advances in Tribology 2018, 9432894, equation (8), doi:10.1155/2018/9432894, after W. W. Chen, Q. J. Wang, Z. Huan and X. Luo, \"Semi-Analytical Viscoelastic Contact Modeling of Polymer-Based Materials\", Journal of Tribology 133 (2011) 041404, doi:10.1115/1.4004928",
         notes: "Polymethyl methacrylate. Longitudinal relaxation modulus from uniaxial compression, observed for 1000 s (from when on is not said; 1 s is assumed); Poisson ratio 0.38, taken as constant. Two relaxation times describe that window only: far above 1 rad/s or below 1 mrad/s the series is an extrapolation.",
         // The end is the source's. It does not say when the first sample was taken; one second is what a testing machine needs
         // to put the strain on, and a ninth of the shortest time of the series, of which nothing is seen before.
-        measured_window_s: (1.0, 1000.0),
+        measured_window_s: Some((1.0, 1000.0)),
         build: pmma,
-    }]
+    },
+    elastic_entry(
+        "steel",
+        "steel",
+        "EN 1993-1-1:2005, Eurocode 3: design of steel structures, part 1-1: general rules and rules for buildings, section 3.2.6",
+        "Elastic: 210 GPa, Poisson ratio 0.3.",
+        || elastic(210e9, 0.3),
+    ),
+];
+
+const fn elastic_entry(
+    name: &'static str,
+    title: &'static str,
+    source: &'static str,
+    notes: &'static str,
+    build: fn() -> Result<Material, MaterialError>,
+) -> LibraryEntry {
+    LibraryEntry {
+        name,
+        title,
+        source,
+        notes,
+        measured_window_s: None,
+        build,
+    }
+}
+
+/// An elastic body of this Young's modulus.
+pub fn elastic(modulus_pa: f64, poisson_ratio: f64) -> Result<Material, MaterialError> {
+    let relaxation = Relaxation::new(modulus_pa, Vec::new())?;
+    Material::from_relaxation(relaxation, ModulusKind::Longitudinal, poisson_ratio)
 }
 
 /// The entry of that name, whatever the case and surrounding blanks.
@@ -91,7 +142,7 @@ mod tests {
             assert_eq!(entry.material().unwrap().name(), Some(entry.title));
             assert!(entry.material().unwrap().contact_compliance().is_ok());
             let window_s = entry.material().unwrap().measured_window_s();
-            assert!(window_s.is_some_and(|(first_s, last_s)| 0.0 < first_s && first_s < last_s));
+            assert!(window_s.is_none_or(|(first_s, last_s)| 0.0 < first_s && first_s < last_s));
             assert_eq!(find(&entry.name.to_uppercase()).unwrap().name, entry.name);
             assert_eq!(entry.name, entry.name.to_lowercase());
         }
@@ -102,7 +153,7 @@ mod tests {
         assert!(find("pmam").is_none());
         assert_eq!(suggest("pmam"), Some("pmma"));
         assert_eq!(suggest(" PMA "), Some("pmma"));
-        assert_eq!(suggest("steel"), None);
+        assert_eq!(suggest("copper"), None);
         assert_eq!(suggest(""), None);
     }
 

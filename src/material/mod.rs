@@ -121,6 +121,7 @@ pub struct Material {
     temperature_k: Option<f64>,
     alternatives: Vec<Material>,
     replicas: Vec<Material>,
+    counterbody: Option<Box<Material>>,
 }
 
 impl Material {
@@ -147,6 +148,7 @@ impl Material {
             temperature_k: None,
             alternatives: Vec::new(),
             replicas: Vec::new(),
+            counterbody: None,
         })
     }
 
@@ -181,6 +183,7 @@ impl Material {
             temperature_k: None,
             alternatives: Vec::new(),
             replicas: Vec::new(),
+            counterbody: None,
         })
     }
 
@@ -286,6 +289,50 @@ impl Material {
         &self.replicas
     }
 
+    /// The same material, pressed by an indenter of this one in place of a rigid one.
+    pub fn against(self, indenter: Material) -> Self {
+        let with = |others: Vec<Material>| -> Vec<Material> {
+            let others = others.into_iter();
+            others
+                .map(|other| other.against(indenter.clone()))
+                .collect()
+        };
+        Material {
+            alternatives: with(self.alternatives),
+            replicas: with(self.replicas),
+            counterbody: Some(Box::new(indenter.clone())),
+            ..self
+        }
+    }
+
+    /// What the indenter is made of; `None` for a rigid one.
+    pub fn counterbody(&self) -> Option<&Material> {
+        self.counterbody.as_deref()
+    }
+
+    /// Which part of each branch of the [contact compliance](Self::contact_compliance) is the indenter's, in their order: all or
+    /// nothing, but for a retardation time that both bodies have, whose strains differ by a factor only. `None` for a rigid one.
+    ///
+    /// # Errors
+    /// As [`Self::contact_compliance`].
+    pub fn shares_of_indenter(&self) -> Result<Vec<Option<f64>>, MaterialError> {
+        let pair = self.contact_compliance()?;
+        let Some(indenter) = &self.counterbody else {
+            return Ok(vec![None; pair.branches().len()]);
+        };
+        let own = indenter.contact_compliance()?;
+        let share = |branch: &CreepBranch| {
+            let same = own
+                .branches()
+                .iter()
+                .find(|other| other.time_s == branch.time_s);
+            Some(same.map_or(0.0, |other| {
+                other.compliance_per_pa / branch.compliance_per_pa
+            }))
+        };
+        Ok(pair.branches().iter().map(share).collect())
+    }
+
     /// Where the material was fitted to a table: how well, and what was assumed.
     pub fn fit(&self) -> Option<&fit::FitReport> {
         self.fit.as_ref()
@@ -357,7 +404,8 @@ impl Material {
 
     /// The contact compliance `C(t) = (1 - nu^2) D(t) = (1 - nu) J(t)/2`, in 1/Pa: what takes the
     /// place of `1/E* = (1 - nu^2)/E` of a half-space when the solid is viscoelastic (E. H. Lee
-    /// and J. R. M. Radok, Journal of Applied Mechanics 27 (1960) 438).
+    /// and J. R. M. Radok, Journal of Applied Mechanics 27 (1960) 438). That of an indenter which is not rigid is added: both
+    /// surfaces move under the same pressure (K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 4.2).
     ///
     /// # Errors
     /// [`MaterialError::SingularContactPressure`] without an instantaneous compliance; a
@@ -367,10 +415,14 @@ impl Material {
             return Err(MaterialError::SingularContactPressure);
         }
         let lateral = 1.0 - self.poisson_ratio;
-        self.creep.scaled(match self.kind {
+        let own = self.creep.scaled(match self.kind {
             ModulusKind::Shear => 0.5 * lateral,
             ModulusKind::Longitudinal => lateral * (1.0 + self.poisson_ratio),
-        })
+        })?;
+        match &self.counterbody {
+            Some(indenter) => own.beside(&indenter.contact_compliance()?),
+            None => Ok(own),
+        }
     }
 
     /// Longitudinal complex modulus `E* = E' + i E'' = 2 (1 + nu) G*`, in Pa.
@@ -387,6 +439,25 @@ impl Material {
     pub fn contact_complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
         let lateral = (1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio);
         self.longitudinal_complex_modulus(angular_frequency_rad_per_s) / lateral
+    }
+
+    /// What a loop between the pair says of this material: the complex modulus (Pa) read as if the indenter were rigid, less what the
+    /// indenter yields.
+    pub fn without_indenter(
+        &self,
+        (storage_pa, loss_pa): (f64, f64),
+        angular_frequency_rad_per_s: f64,
+    ) -> (f64, f64) {
+        let Some(indenter) = &self.counterbody else {
+            return (storage_pa, loss_pa);
+        };
+        let lateral = (1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio);
+        let of_indenter = indenter
+            .contact_complex_modulus(angular_frequency_rad_per_s)
+            .inv();
+        let of_pair = Complex::new(storage_pa, loss_pa).inv() * lateral;
+        let own = lateral * (of_pair - of_indenter).inv();
+        (own.re, own.im)
     }
 
     /// Local maxima over frequency of loss modulus, loss compliance (of the kind asked for) and

@@ -83,7 +83,7 @@ impl Setting {
         let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
             "{} on {}, {} (mean ± amplitude){rest}{varied}",
-            indenter(plan.indenter.as_ref(), swept),
+            indenter(plan.indenter.as_ref(), swept, plan.material.counterbody()),
             material(&plan.material),
             drive_line(&plan.drive, plan)
         );
@@ -121,7 +121,11 @@ impl Setting {
         };
         let of = format!(
             "{} on {body}, {} against time prescribed",
-            indenter(plan.indenter.as_ref(), &[]),
+            indenter(
+                plan.indenter.as_ref(),
+                &[],
+                plan.material.series().and_then(Material::counterbody)
+            ),
             plan.drive.control().name()
         );
         let computed = format!(
@@ -154,8 +158,12 @@ fn material(material: &Material) -> String {
 }
 
 /// The indenter, without the numbers that axes vary.
-fn indenter(indenter: &dyn Indenter, swept: &[Varied]) -> String {
+fn indenter(indenter: &dyn Indenter, swept: &[Varied], of: Option<&Material>) -> String {
     let shape = indenter.shape().replace('-', " ");
+    let shape = match of {
+        Some(of) => format!("{shape} of {}", material(of)),
+        None => format!("rigid {shape}"),
+    };
     // Where a shape comes from is told by resolved.toml.
     let told = |value: &Value| {
         matches!(
@@ -173,8 +181,8 @@ fn indenter(indenter: &dyn Indenter, swept: &[Varied]) -> String {
         .filter(|parameter| told(&parameter.value) && !is_swept(parameter.key))
         .collect();
     match settings.is_empty() {
-        true => format!("rigid {shape}"),
-        false => format!("rigid {shape} ({})", row(&settings)),
+        true => shape,
+        false => format!("{shape} ({})", row(&settings)),
     }
 }
 

@@ -304,6 +304,9 @@ pub static SWEEP: &[OfCase] = &[
         .called("dissipated by a branch", Some(Energy)).compared(Relatively),
     OfCase::new("dissipated_j", |r| of_result(r, |c| Some(c.dissipated_j())), "the sum over the branches, which must be the loss")
         .called("dissipated by all branches", Some(Energy)).compared(Relatively),
+    OfCase::new("dissipated_in_indenter_j", |r| of_result(r, CaseResult::dissipated_in_indenter_j),
+        "the part of `dissipated_j` that is dissipated in the indenter, the rest in the half-space; empty where the indenter is rigid")
+        .called("dissipated in the indenter", Some(Energy)).compared(Relatively),
     OfCase::new("energy_imbalance", |r| of_result(r, CaseResult::energy_imbalance),
         "`dissipated_j`/`energy_loss_j` − 1: an error of discretisation, not of physics"),
     OfCase::new("polygon_loss_j", |r| of_result(r, |c| Some(c.analysis.polygon_loss_j)),

@@ -23,5 +23,6 @@ mod shapes;
 mod simulate_errors;
 mod steady_cycle;
 mod transient_contact;
+mod two_bodies;
 mod two_engines;
 mod units;

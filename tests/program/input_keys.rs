@@ -226,7 +226,29 @@ fn history(material: &str, indenter: &str, segments: &str, rest: &str) -> (FileK
 fn files() -> Vec<(FileKind, String)> {
     let step = "{ kind = \"step\", to = 1e-3, duration = \"3 s\" }";
     let material = |text: &str| format!("[material]\npoisson_ratio = 0.4\n{text}\n");
-    let mut files = vec![
+    let of = |block: &str| format!("{SPHERE}[indenter.material]\n{block}\n");
+    let series = "modulus = \"shear\"\nequilibrium = \"1 MPa\"\nbranches = [{ modulus = \"1 MPa\", time = \"1 s\" }]";
+    let indenters = [
+        of("name = \"ball\"\nlibrary = \"steel\"\npoisson_ratio = 0.31"),
+        of("elastic = { modulus = \"70 GPa\", poisson_ratio = 0.2 }"),
+        of(&format!(
+            "poisson_ratio = 0.4\nmeasured = [\"1 s\", \"9 s\"]\n[indenter.material.relaxation]\n{series}"
+        )),
+        of(
+            "poisson_ratio = 0.4\n[indenter.material.creep]\ncompliance = \"shear\"\ninstantaneous = \"1e-6 1/Pa\"\n\
+            viscosity = \"1e12 Pa s\"\nbranches = [{ compliance = \"1e-6 1/Pa\", time = \"1 s\" }]",
+        ),
+        of(
+            "poisson_ratio = 0.4\n[indenter.material.zener]\nspring = \"1 MPa\"\nkelvin_spring = \"1 MPa\"\ntime = \"2 s\"",
+        ),
+    ];
+    let elastic = "[material]\nelastic = { modulus = \"2 GPa\", poisson_ratio = 0.3 }\n";
+    let mut files: Vec<(FileKind, String)> = indenters
+        .iter()
+        .map(|indenter| history(LIBRARY, indenter, step, ""))
+        .collect();
+    files.push(sweep([elastic, SPHERE, HARMONIC, ONE], ""));
+    files.extend([
         sweep([LIBRARY, SPHERE, HARMONIC, ONE], ""),
         sweep(
             [
@@ -288,7 +310,7 @@ fn files() -> Vec<(FileKind, String)> {
              { kind = \"table\", times = [0, 1], values = [3, 4] }, { kind = \"table\", file = \"load.csv\" }",
             "[time]\nstep = \"0.1 s\"\n[output]\nprofiles_at = \"1 s\"\nfields_at = [\"1 s\"]\nfield_cells = 16\nerror_bars = true\n",
         ),
-    ];
+    ]);
     let series = "relaxation]\nmodulus = \"shear\"\nequilibrium = 1e6\nbranches = [{ modulus = 1e6, time = 1 }]\n\
                   replicas = [{ equilibrium = 1.1e6, moduli = [9e5, 1e5], times = [1, 2] }]\n\
                   [[material.alternative]]\nequilibrium = 2e6\nbranches = [{ modulus = 2e6, time = 2 }]";

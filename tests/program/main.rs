@@ -37,4 +37,5 @@ mod reproduce;
 mod simulate;
 mod sweep_figures;
 mod tabulated_material;
+mod two_bodies;
 mod warnings;

@@ -2,10 +2,10 @@
 
 use std::ops::RangeInclusive;
 
-use super::rows;
+use super::{material, rows};
 use crate::indenter::{HEIGHT_UNITS, HeightUnit, MapEdge, MapLevel, MapQuantity};
 use crate::input::document::kind::{
-    Array, Choice, Integer, Scalar, Tables, Text, number, pair, quantity,
+    Array, Choice, Integer, Scalar, Table, Tables, Text, number, pair, quantity,
 };
 use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
 use crate::quantity::Dimension::{Angle, Length};
@@ -63,10 +63,12 @@ rows! { INDENTER_KEYS:
     SHAPE: Row<Choice<Shape>, Required> = "shape", Choice(&SHAPES), Required;
     /// Moves the indenter along x and y.
     OFFSET: Row<Array<Scalar>, Optional> = "offset", pair(quantity(Length), POSITION), Optional;
+    /// What the indenter is made of; left out: it is rigid.
+    INDENTER_MATERIAL: Row<Table, Optional> = "material", Table(&material::INDENTER_MATERIAL), Optional;
 }
 
 pub(super) static INDENTER: Rows = Rows {
-    means: " The rigid indenter. Those that are no convex bodies of revolution go to the half-space engine.",
+    means: " The indenter. Those that are no convex bodies of revolution go to the half-space engine.",
     keys: INDENTER_KEYS,
     others: Others::ByWord(&SHAPE, || {
         SHAPES.map(|(word, shape)| (word, shape.rows())).to_vec()

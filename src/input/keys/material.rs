@@ -84,6 +84,8 @@ rows! { _:
     ZENER: Row<Table, Required> = "zener", Table(&ZENER_TABLE), Required;
     /// Spring and dashpot in parallel; it has no instantaneous compliance, and so no contact: `material show` alone takes it.
     KELVIN_VOIGT: Row<Table, Required> = "kelvin_voigt", Table(&KELVIN_VOIGT_TABLE), Required;
+    /// A spring: a body that answers at once and loses nothing.
+    ELASTIC_BODY: Row<Table, Required> = "elastic", Table(&ELASTIC_TABLE), Required;
     /// Springpot, fractional Zener or fractional Maxwell model, represented by a Prony series over a band.
     FRACTIONAL: Row<Table, Required> = "fractional", Table(&FRACTIONAL_TABLE), Required;
     /// Storage and loss modulus over frequency, measured at one temperature or at several: a master curve is made of them, and a
@@ -117,12 +119,35 @@ const fn alternatives(rows: &'static Rows) -> Tables {
     }
 }
 
+rows! { ELASTIC_KEYS:
+    /// Young's modulus.
+    YOUNG: Row<Scalar, Required> = "modulus", quantity(Stress).above_zero(), Required;
+    /// Poisson ratio.
+    ELASTIC_POISSON_RATIO: Row<Scalar, Required> = "poisson_ratio", POISSON_RATIO_VALUE, Required;
+}
+
+static ELASTIC_TABLE: Rows = super::table(" An elastic body.", ELASTIC_KEYS);
+
+/// What an indenter may be made of.
+pub(super) static INDENTER_MATERIAL: Rows = Rows {
+    means: " What the indenter is made of, where it is not rigid: exactly one of `library`, `elastic`, `relaxation`, `creep` and `zener`.",
+    keys: MATERIAL_KEYS,
+    others: Others::OneList(&[
+        LIBRARY_KEYS,
+        &[&ELASTIC_BODY],
+        &[&RELAXATION, &POISSON_RATIO, &MEASURED],
+        &[&CREEP, &POISSON_RATIO, &MEASURED],
+        &[&ZENER, &POISSON_RATIO, &MEASURED],
+    ]),
+};
+
 pub(super) static MATERIAL: Rows = Rows {
-    means: " What the half-space is made of: exactly one of `library`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt`, \
+    means: " What the half-space is made of: exactly one of `library`, `elastic`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt`, \
             `fractional`, `isotherm`, `dynamic` and `table`.",
     keys: MATERIAL_KEYS,
     others: Others::OneList(&[
         LIBRARY_KEYS,
+        &[&ELASTIC_BODY],
         &[
             &RELAXATION,
             &POISSON_RATIO,

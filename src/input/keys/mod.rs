@@ -78,7 +78,7 @@ rows! { SWEEP_KEYS:
     TITLE: Row<Text, Required> = "title", Text, Required;
     /// What the half-space is made of.
     MATERIAL: Row<Table, Required> = "material", Table(&material::MATERIAL), Required;
-    /// The rigid indenter.
+    /// The indenter.
     INDENTER: Row<Table, Required> = "indenter", Table(&indenter::INDENTER), Required;
     /// The load or the approach: an oscillation about a mean.
     DRIVE: Row<Table, Required> = "drive", Table(&drive::HARMONIC), Required;

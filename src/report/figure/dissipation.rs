@@ -9,7 +9,7 @@ use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
 use crate::report::number::{largest, scientific};
 use crate::report::table::{cells, csv_leading};
 use crate::report::words::listed;
-use crate::sweep::record::{CaseRecord, CaseResult, Status};
+use crate::sweep::record::{BranchLoss, CaseRecord, CaseResult, Status};
 
 /// Bands in one figure; more cannot be told apart.
 const BANDS: usize = 8;
@@ -138,10 +138,12 @@ fn bands(results: &[(&CaseRecord, &CaseResult)]) -> Vec<Band> {
         is_rest: false,
     };
     if times.len() <= BANDS {
-        let label = |time_s: f64| format!("λ = {}", format_human(time_s, Dimension::Time, 4));
-        let bands = times.iter().enumerate();
+        let label = |time_s: f64, body: &str| {
+            format!("λ = {}{body}", format_human(time_s, Dimension::Time, 4))
+        };
+        let bands = times.iter().zip(&first.branches).enumerate();
         return bands
-            .map(|(k, &time_s)| band(label(time_s), &[k]))
+            .map(|(k, (&time_s, branch))| band(label(time_s, body_of(branch)), &[k]))
             .collect();
     }
     let decade = |time_s: f64| time_s.log10().floor() as i32;
@@ -158,6 +160,16 @@ fn bands(results: &[(&CaseRecord, &CaseResult)]) -> Vec<Band> {
         })
         .collect();
     with_rest(bands)
+}
+
+/// The body that a branch belongs to, where there are two, as it is added to a label.
+fn body_of(branch: &BranchLoss) -> &'static str {
+    match branch.indenter_share {
+        None => "",
+        Some(0.0) => ", half-space",
+        Some(1.0) => ", indenter",
+        Some(_) => ", both bodies",
+    }
 }
 
 /// At most [`BANDS`]: those with the largest losses, and the sum of the others at the top.

@@ -79,7 +79,7 @@ pub(super) fn sweep(plan: &SweepPlan) -> Markup {
     }
     parts(
         material(&plan.material),
-        indenter(plan.indenter.as_ref()),
+        indenter_body(plan.indenter.as_ref(), Some(&plan.material)),
         drive.html(),
     )
 }
@@ -141,8 +141,16 @@ pub(super) fn material(material: &Material) -> Markup {
     facts.html()
 }
 
+/// The indenter that presses on this material, with its own where it is not rigid.
+pub(super) fn indenter_body(shape: &dyn Indenter, pressed: Option<&Material>) -> Markup {
+    html! {
+        (indenter(shape))
+        @if let Some(own) = pressed.and_then(Material::counterbody) { (material(own)) }
+    }
+}
+
 /// An indenter's shape and settings.
-pub(super) fn indenter(indenter: &dyn Indenter) -> Markup {
+fn indenter(indenter: &dyn Indenter) -> Markup {
     let mut facts = Facts::default();
     facts.add("shape", indenter.shape());
     for parameter in indenter.parameters() {

@@ -346,7 +346,7 @@ fn question(plan: &ScenarioPlan) -> Markup {
     drive.add("largest value", &plain(plan.drive.maximum(), dimension, 6));
     question::parts(
         material,
-        question::indenter(plan.indenter.as_ref()),
+        question::indenter_body(plan.indenter.as_ref(), plan.material.series()),
         drive.html(),
     )
 }

@@ -10,6 +10,8 @@ pub(in crate::sweep) struct Solid {
     pub compliance: Creep,
     /// Its inverse, unless the body answers an instant with no finite modulus.
     pub relaxation: Option<Relaxation>,
+    /// Which part of each branch of it is the indenter's, where that is not rigid.
+    pub shares_of_indenter: Vec<Option<f64>>,
     /// C after an infinite time.
     pub relaxed_per_pa: f64,
     /// C(t) of the solids that the data leave possible beside the material.
@@ -38,6 +40,7 @@ impl Solid {
             relaxed_per_pa: relaxed.ok_or(SetupError::Fluid)?,
             relaxation: compliance.to_relaxation().ok(),
             compliance,
+            shares_of_indenter: material.shares_of_indenter()?,
             alternatives: alternatives.collect(),
             replicas: solids(material.replicas())?,
         })

@@ -567,6 +567,10 @@ impl Contact<'_> {
             .and_then(|tangent_radius| tangent_radius.mean_m(mean_radius_m))
             .and_then(|radius_m| {
                 analysis.equivalent_moduli_pa(radius_m, self.condition.material.poisson_ratio())
+            })
+            .map(|moduli| {
+                let omega = self.angular_frequency_rad_per_s;
+                self.condition.material.without_indenter(moduli, omega)
             });
         let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
         let extrema = |signal: &[f64]| {
@@ -583,7 +587,8 @@ impl Contact<'_> {
             }
             _ => SurfaceLoss::default(),
         };
-        let branches = branches.iter().zip(energies);
+        let branches = branches.iter().zip(&self.solid.shares_of_indenter);
+        let branches = branches.zip(energies);
         Ok(CaseResult {
             storage_modulus_pa: moduli.map(|m| m.0),
             loss_modulus_pa: moduli.map(|m| m.1),
@@ -593,9 +598,10 @@ impl Contact<'_> {
             errors: None,
             replica_losses_j: Vec::new(),
             branches: branches
-                .map(|(branch, energy_loss_j)| BranchLoss {
+                .map(|((branch, indenter_share), energy_loss_j)| BranchLoss {
                     retardation_time_s: branch.time_s,
                     energy_loss_j,
+                    indenter_share: *indenter_share,
                 })
                 .collect(),
             analysis,

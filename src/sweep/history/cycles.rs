@@ -152,7 +152,12 @@ fn numbers(
     // Only of a disk the radius by its area is the one by its stiffness.
     let is_disk = plan.indenter.axisymmetric().is_some();
     let moduli_pa = is_disk.then(|| {
-        analysis.equivalent_moduli_pa(mean_contact_radius_m, plan.material.poisson_ratio())
+        let nu = plan.material.poisson_ratio();
+        let moduli = analysis.equivalent_moduli_pa(mean_contact_radius_m, nu)?;
+        Some(match plan.material.series() {
+            Some(material) => material.without_indenter(moduli, TAU / period_s),
+            None => moduli,
+        })
     });
     Some(CycleNumbers {
         load_change_n: change(&load_n),

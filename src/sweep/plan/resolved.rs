@@ -31,7 +31,8 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         Some(axes) if axes.over.iter().any(Varied::is_temperature) => material_text_over(axes),
         _ => material_text(material),
     };
-    let mut text = opening_text(title, &material, indenter.as_ref());
+    let counterbody = plan.material.counterbody();
+    let mut text = opening_text(title, &material, indenter.as_ref(), counterbody);
     let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
     let mut line = |content: &str| {
         text.push_str(content);
@@ -106,7 +107,12 @@ pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
 }
 
 /// What sweeps and scenarios have in common at their beginning: title, material, indenter.
-pub(crate) fn opening_text(title: &str, material: &str, indenter: &dyn Indenter) -> String {
+pub(crate) fn opening_text(
+    title: &str,
+    material: &str,
+    indenter: &dyn Indenter,
+    counterbody: Option<&Material>,
+) -> String {
     let mut text = format!("title = {}\n\n{material}", toml_string(title));
     let mut line = |content: &str| {
         text.push_str(content);
@@ -117,7 +123,11 @@ pub(crate) fn opening_text(title: &str, material: &str, indenter: &dyn Indenter)
     for parameter in indenter.parameters() {
         line(&format!("{} = {}", parameter.key, value(&parameter.value)));
     }
-    text
+    let of_indenter = counterbody.map(|material| {
+        let block = material_text(material).replace("[material", "[indenter.material");
+        format!("\n{block}")
+    });
+    text + &of_indenter.unwrap_or_default()
 }
 
 /// The `[solver]` block, at the end of both.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
+use crate::material::Material;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::body_material::BodyMaterial;
@@ -81,8 +82,12 @@ pub const FIGURES: [&str; 4] = ["history", "cycle-losses", "profiles", "pressure
 
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
-    let mut text =
-        resolved::opening_text(&plan.title, &plan.material.text(), plan.indenter.as_ref());
+    let mut text = resolved::opening_text(
+        &plan.title,
+        &plan.material.text(),
+        plan.indenter.as_ref(),
+        plan.material.series().and_then(Material::counterbody),
+    );
     text.push_str(&history_text(&plan.drive));
     if let Some(step_s) = plan.step_s {
         let _ = writeln!(text, "\n[time]\nstep = {}", quoted(step_s, Dimension::Time));

@@ -149,6 +149,9 @@ impl RecordedCycle {
 pub struct BranchLoss {
     pub retardation_time_s: f64,
     pub energy_loss_j: f64,
+    /// The part of it (0 to 1) that is dissipated in the indenter; `None` where that is rigid.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub indenter_share: Option<f64>,
 }
 
 /// Density over the surface (J/m2) of the work that the indenter does on it over a cycle, the integral of p d(delta): its
@@ -292,6 +295,13 @@ impl CaseResult {
     /// Energy (J) dissipated by all branches.
     pub fn dissipated_j(&self) -> f64 {
         self.branches.iter().map(|b| b.energy_loss_j).sum()
+    }
+
+    /// Energy (J) dissipated in the indenter; `None` where that is rigid.
+    pub fn dissipated_in_indenter_j(&self) -> Option<f64> {
+        let part = |branch: &BranchLoss| Some(branch.indenter_share? * branch.energy_loss_j);
+        let sum: Option<f64> = self.branches.iter().map(part).sum();
+        sum.filter(|_| !self.branches.is_empty())
     }
 
     /// By how much the dissipation differs from the area of the loop, relative to it: zero but for discretisation.
