@@ -114,7 +114,7 @@ def test_progress_is_told_and_an_exception_of_it_stops_the_sweep() -> None:
     small_sweep(progress=lambda done, total: told.append((done, total)))
     assert told[-1] == (5, 5) and sorted(told) == told
 
-    with tqdm.tqdm(disable=None, file=io.StringIO()) as bar:
+    with tqdm.tqdm(file=io.StringIO()) as bar:
         small_sweep(progress=bar)
     assert (bar.n, bar.total) == (5, 5)
 
