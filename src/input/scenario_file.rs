@@ -9,8 +9,8 @@ use super::figures_block::{self, Figures};
 use super::keys;
 use super::keys::settings::{FIELD_CELLS, FIELDS_AT, OUTPUT_ERROR_BARS, PROFILES_AT, TIME_STEP};
 use super::material_table::DirectSum;
-use super::sweep_file::{default_solver, solver};
-use super::{indenter_block, material_block, segments_block};
+use super::sweep_file::default_solver;
+use super::{indenter_block, layer_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::figures::figure_plan::FigurePlan;
@@ -30,6 +30,8 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
     let material =
         material_block::read_body(&mut root, document.folder(), DirectSum::Taken, &problems)
             .and_then(|m| for_contact(&problems, m));
+    let layer = root.table_or(&keys::LAYER, None, |t| layer_block::read(t).map(Some));
+    let own_layer = layer.flatten();
     let indenter = root
         .table(&keys::INDENTER)
         .and_then(|t| indenter_block::read(t, document.folder(), &problems));
@@ -37,8 +39,10 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
         .table(&keys::HISTORY)
         .and_then(|t| segments_block::read(t, document.folder(), &problems));
     let step_s = root.table_or(&keys::TIME, None, time);
-    let default = default_solver(indenter.as_deref());
-    let solver = root.table_or(&keys::SOLVER, default, |t| solver(t, default));
+    let default = default_solver(indenter.as_deref(), own_layer);
+    let solver = root.table_or(&keys::SOLVER, default, |t| {
+        layer_block::solver_on(own_layer.is_some(), t, default, &problems)
+    });
     let output = root.table_or(&keys::OUTPUT, OutputPlan::default(), |t| {
         output(t, &problems, drive.as_ref(), solver.as_ref())
     });
@@ -51,6 +55,7 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
         let mut plan = ScenarioPlan {
             title: title?,
             material: material?,
+            layer: layer?,
             indenter: indenter?,
             drive: drive?,
             step_s: step_s?,

@@ -11,6 +11,7 @@ mod error_bars;
 mod half_space_work;
 mod identification;
 mod instant_tolerance;
+mod layer;
 mod measured_loops;
 mod pmma_baseline;
 mod pressure_profiles;

@@ -56,6 +56,13 @@ impl BodyMaterial {
         }
     }
 
+    pub fn poisson_ratio(&self) -> f64 {
+        match self {
+            Self::Series(material) => material.poisson_ratio(),
+            Self::Samples(sampled) => sampled.poisson_ratio(),
+        }
+    }
+
     /// The same material under a name.
     pub fn named(self, name: impl Into<String>) -> Self {
         match self {

@@ -8,6 +8,7 @@ use crate::indenter::Indenter;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::resolved;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 
@@ -16,6 +17,8 @@ use crate::sweep::plan::{EngineKind, SolverPlan};
 pub struct ScenarioPlan {
     pub title: String,
     pub material: BodyMaterial,
+    /// The layer that the body is, where it is no half-space.
+    pub layer: Option<LayerPlan>,
     pub indenter: Arc<dyn Indenter>,
     pub drive: SegmentedDrive,
     /// Time step (s); `None`: chosen from drive and material.
@@ -36,6 +39,7 @@ impl ScenarioPlan {
         Self {
             title: String::new(),
             material: material.into(),
+            layer: None,
             solver: SolverPlan::of_indenter(indenter.as_ref()),
             indenter,
             drive,
@@ -81,8 +85,9 @@ pub const FIGURES: [&str; 3] = ["history", "profiles", "pressure-map"];
 
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
-    let mut text =
-        resolved::opening_text(&plan.title, &plan.material.text(), plan.indenter.as_ref());
+    let layer = plan.layer.map_or(String::new(), |layer| layer.text());
+    let body = plan.material.text() + &layer;
+    let mut text = resolved::opening_text(&plan.title, &body, plan.indenter.as_ref());
     let control = plan.drive.control();
     // Writing to a String cannot fail.
     let _ = writeln!(text, "\n[drive]\ncontrol = \"{}\"", control.name());
