@@ -88,6 +88,7 @@ fn case_s(cells: usize) -> f64 {
     let plan = SweepPlan {
         title: "bench".into(),
         material: Arc::new(entry.material().expect("a tested entry")),
+        layer: None,
         indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
         drive: HarmonicDrive::load(LOAD_N, 0.5 * LOAD_N).expect("a valid drive"),
         axes: None,

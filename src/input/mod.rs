@@ -44,6 +44,7 @@ pub mod identify_file;
 mod indenter_block;
 pub mod key_reference;
 pub mod keys;
+mod layer_block;
 pub mod loop_file;
 pub(crate) mod material_block;
 pub(crate) mod material_dynamic;

@@ -10,8 +10,8 @@ use super::given::Given;
 use super::keys;
 use super::keys::settings::{FIELD_CELLS, FIELDS_AT, OUTPUT_ERROR_BARS, PROFILES_AT, TIME_STEP};
 use super::material_table::DirectSum;
-use super::sweep_file::{default_solver, solver};
-use super::{indenter_block, material_block, segments_block};
+use super::sweep_file::default_solver;
+use super::{indenter_block, layer_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::material::Material;
 use crate::quantity::{Dimension, format_human};
@@ -47,14 +47,19 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         _ => material_block::read_body(&mut root, folder, DirectSum::Taken, &problems),
     };
     let counterbody = indenter_block::material(&mut root, folder, &problems);
+    let layer = root.table_or(&keys::LAYER, None, |t| layer_block::read(t).map(Some));
+    let own_layer = layer.flatten();
+    layer_block::refuse_second_body(&mut root, counterbody.as_ref(), &problems);
     let material = material.and_then(|m| for_contact(&problems, m, counterbody?));
     let indenter = given.indenter(&mut root, folder, &problems);
     let drive = root
         .table(&keys::HISTORY)
         .and_then(|t| segments_block::read(t, folder, &problems));
     let step_s = root.table_or(&keys::TIME, None, time);
-    let default = default_solver(indenter.as_deref());
-    let solver = root.table_or(&keys::SOLVER, default, |t| solver(t, default));
+    let default = default_solver(indenter.as_deref(), own_layer);
+    let solver = root.table_or(&keys::SOLVER, default, |t| {
+        layer_block::solver_on(own_layer.is_some(), t, default, &problems)
+    });
     let output = root.table_or(&keys::OUTPUT, OutputPlan::default(), |t| {
         output(t, &problems, drive.as_ref(), solver.as_ref())
     });
@@ -67,6 +72,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         let mut plan = ScenarioPlan {
             title: title?,
             material: material?,
+            layer: layer?,
             indenter: indenter?,
             drive: drive?,
             step_s: step_s?,

@@ -14,14 +14,15 @@ use super::figures_block::{self, Figures};
 use super::given::Given;
 use super::keys;
 use super::keys::drive::{
-    ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, MATERIAL_AXIS, PAIRS, REFINE,
+    ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, LAYER_AXIS, MATERIAL_AXIS, PAIRS,
+    REFINE,
 };
 use super::keys::settings::{
     AT_CYCLE, CYCLE_ACCURACY, CYCLE_ERROR_BARS, CYCLE_STEPS, CYCLE_TOLERANCE, ENGINE, MAX_CYCLES,
     METHOD, SOLVER_CELLS, SOLVER_SPRINGS, SOLVER_TOLERANCE, TIME_RULE,
 };
 use super::material_table::DirectSum;
-use super::{harmonic_block, indenter_block, material_block};
+use super::{harmonic_block, indenter_block, layer_block, material_block};
 use crate::drive::HarmonicDrive;
 use crate::indenter::Indenter;
 use crate::material::Material;
@@ -29,6 +30,7 @@ use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::axes::MOST as MOST_AXES;
 use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::plan::{
     self, AxisValues, Block, Condition, CyclePlan, Method, SolverPlan, SweepPlan,
@@ -68,14 +70,19 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         problems: &problems,
     };
     let counterbody = indenter_block::material(&mut root, document.folder(), &problems);
+    let layer = file.layer(&mut root);
+    layer_block::refuse_second_body(&mut root, counterbody.as_ref(), &problems);
     let material = counterbody.and_then(|body| file.material(&mut root, body.as_ref()));
     let indenter = file.indenter(&mut root);
     let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
         harmonic_block::read(t, &problems)
     });
     let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| cycle(t, &problems));
-    let default = default_solver(indenter.as_ref().map(|(own, _)| own.as_ref()));
-    let solver = root.table_or(&keys::SOLVER, default, |t| solver(t, default));
+    let own_layer = layer.as_ref().and_then(|(own, _)| *own);
+    let default = default_solver(indenter.as_ref().map(|(own, _)| own.as_ref()), own_layer);
+    let solver = root.table_or(&keys::SOLVER, default, |t| {
+        layer_block::solver_on(own_layer.is_some(), t, default, &problems)
+    });
     let frequencies = sweep.as_ref();
     let frequencies = frequencies.map(|axes| axes.angular_frequencies_rad_per_s.as_slice());
     let given_in = sweep.as_ref().map(|axes| axes.given_in);
@@ -86,12 +93,13 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
     root.finish();
     let plan = (|| {
         let (figures, cycle, solver) = (figures?, cycle?, solver?);
-        let (material, indenter, drive) = (material?, indenter?, drive?);
-        let axes = file.axes((&material, &indenter, &drive));
+        let (material, indenter, drive, layer) = (material?, indenter?, drive?, layer?);
+        let axes = file.axes((&material, &layer, &indenter, &drive));
         let sweep = sweep.as_ref()?;
         let mut plan = SweepPlan {
             title: title?,
             material: material.0,
+            layer: layer.0,
             indenter: indenter.0,
             drive: drive.0,
             angular_frequencies_rad_per_s: sweep.angular_frequencies_rad_per_s.clone(),
@@ -111,9 +119,10 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
 /// What a block says, and what it says under each condition.
 type Over<T> = (T, Vec<T>);
 
-/// Material, indenter and drive.
+/// Material, layer, indenter and drive.
 type Blocks<'a> = (
     &'a Over<Arc<Material>>,
+    &'a Over<Option<LayerPlan>>,
     &'a Over<Arc<dyn Indenter>>,
     &'a Over<HarmonicDrive>,
 );
@@ -253,8 +262,18 @@ impl File<'_> {
         })
     }
 
+    /// The layer, where the body is one; where an axis varies it, it must be.
+    fn layer(&self, root: &mut TableReader<'_>) -> Option<Over<Option<LayerPlan>>> {
+        match root.has(&keys::LAYER) || !self.swept(Block::Layer).is_empty() {
+            true => self.block(root, &keys::NEEDED_LAYER, Block::Layer, |t| {
+                layer_block::read(t).map(Some)
+            }),
+            false => Some((None, Vec::new())),
+        }
+    }
+
     /// The axes besides the frequency, where there are any.
-    fn axes(&self, (material, indenter, drive): Blocks<'_>) -> Option<plan::Axes> {
+    fn axes(&self, (material, layer, indenter, drive): Blocks<'_>) -> Option<plan::Axes> {
         if self.swept.is_empty() {
             return None;
         }
@@ -263,6 +282,7 @@ impl File<'_> {
             Some(Condition {
                 values: AxisValues::new(values)?,
                 material: Arc::clone(material.1.get(k).unwrap_or(&material.0)),
+                layer: *layer.1.get(k).unwrap_or(&layer.0),
                 indenter: Arc::clone(indenter.1.get(k).unwrap_or(&indenter.0)),
                 drive: *drive.1.get(k).unwrap_or(&drive.0),
             })
@@ -300,9 +320,14 @@ fn conditions(swept: &[Swept], pairs: bool) -> Vec<Vec<f64>> {
     })
 }
 
-/// The solver where the file asks for none: springs where the indenter allows them, cells elsewhere.
-pub(super) fn default_solver(indenter: Option<&dyn Indenter>) -> SolverPlan {
-    indenter.map_or_else(SolverPlan::default, SolverPlan::of_indenter)
+/// The solver where the file asks for none: springs where indenter and body allow them, cells elsewhere.
+pub(super) fn default_solver(
+    indenter: Option<&dyn Indenter>,
+    layer: Option<LayerPlan>,
+) -> SolverPlan {
+    indenter.map_or_else(SolverPlan::default, |indenter| {
+        SolverPlan::of(indenter, layer)
+    })
 }
 
 /// Refuses materials that cannot be in contact, or whose contact has no stabilised cycle.
@@ -351,7 +376,7 @@ fn axes(mut table: TableReader<'_>, controlled: Dimension, problems: &Problems) 
     let pairs = table.value(&PAIRS);
     let mut swept = Vec::new();
     let mut is_whole = true;
-    for row in [&MATERIAL_AXIS, &INDENTER_AXIS, &DRIVE_AXIS] {
+    for row in [&MATERIAL_AXIS, &LAYER_AXIS, &INDENTER_AXIS, &DRIVE_AXIS] {
         let row = row.of(controlled);
         let row = Row {
             kind: row.kind.in_order(pairs.unwrap_or(false)),

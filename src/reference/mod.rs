@@ -4,6 +4,7 @@
 pub mod direct_sum;
 pub mod elastic;
 pub mod elliptic;
+pub mod layer;
 pub mod power_law;
 pub mod steady;
 pub mod step_load;

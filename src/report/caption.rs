@@ -6,6 +6,7 @@ use crate::indenter::{Indenter, Value};
 use crate::material::Material;
 use crate::quantity::Dimension;
 use crate::sweep::history::SimulationOutcome;
+use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{Block, EngineKind, SolverPlan, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
@@ -82,9 +83,10 @@ impl Setting {
         let swept = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
         let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
-            "{} on {}, {} (mean ± amplitude){rest}{varied}",
+            "{} on {}{}, {} (mean ± amplitude){rest}{varied}",
             indenter(plan.indenter.as_ref(), swept, plan.material.counterbody()),
             material(&plan.material),
+            layer(plan.layer, swept),
             drive_line(&plan.drive, plan)
         );
         let records = &outcome.records;
@@ -120,12 +122,13 @@ impl Setting {
             None => "a material given by its samples".to_owned(),
         };
         let of = format!(
-            "{} on {body}, {} against time prescribed",
+            "{} on {body}{}, {} against time prescribed",
             indenter(
                 plan.indenter.as_ref(),
                 &[],
                 plan.material.series().and_then(Material::counterbody)
             ),
+            layer(plan.layer, &[]),
             plan.drive.control().name()
         );
         let computed = format!(
@@ -155,6 +158,15 @@ impl Setting {
 fn material(material: &Material) -> String {
     let name = material.name().unwrap_or("a viscoelastic material");
     format!("{name} (Poisson ratio {})", material.poisson_ratio())
+}
+
+/// The layer that the body is, with a blank before it, without a thickness that an axis varies; nothing of a half-space.
+fn layer(layer: Option<LayerPlan>, swept: &[Varied]) -> String {
+    let is_swept = swept.iter().any(|varied| varied.block == Block::Layer);
+    layer.map_or(String::new(), |layer| match is_swept {
+        true => format!(" in a layer {}", layer.lies()),
+        false => format!(" {}", layer.words()),
+    })
 }
 
 /// The indenter, without the numbers that axes vary.

@@ -139,6 +139,7 @@ pub fn sweep_plan(
     SweepPlan {
         title: "integration test".into(),
         material: Arc::new(material),
+        layer: None,
         indenter,
         drive: HarmonicDrive::load(mean_n, amplitude_n).unwrap(),
         axes: None,

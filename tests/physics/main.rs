@@ -12,6 +12,7 @@ mod half_space_work;
 mod identification;
 mod identified_histories;
 mod instant_tolerance;
+mod layer;
 mod measured_loops;
 mod numbered_cycles;
 mod pmma_baseline;

@@ -80,6 +80,7 @@ fn scenario(random: &mut Random, springs: usize) -> ScenarioPlan {
     ScenarioPlan {
         title: "random".to_owned(),
         material: material(random).into(),
+        layer: None,
         indenter: shape(random),
         drive,
         step_s,
@@ -240,6 +241,7 @@ fn cells_follow_a_contact_that_grows_fifty_times() {
     let plan = ScenarioPlan {
         title: "grows".to_owned(),
         material: material.into(),
+        layer: None,
         indenter: Arc::new(Sphere::new(0.01).unwrap()),
         drive: SegmentedDrive::new(Control::Load, vec![step]).unwrap(),
         step_s: None,

@@ -205,6 +205,7 @@ fn what_a_schema_can_see_of_a_wrong_file_it_refuses_as_the_program_does() {
 const SPHERE: &str = "[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n";
 const LIBRARY: &str = "[material]\nlibrary = \"pmma\"\npoisson_ratio = 0.4\n";
 const HARMONIC: &str = "[drive]\nmean = 10\namplitude = 5\n";
+const LAYER: &str = "[layer]\nthickness = \"1 mm\"\nbase = \"bonded\"\n";
 const ONE: &str = "[sweep]\nangular_frequency = 0.01\n";
 
 fn sweep(parts: [&str; 4], rest: &str) -> (FileKind, String) {
@@ -300,6 +301,8 @@ fn files() -> Vec<(FileKind, String)> {
             ],
             "",
         ),
+        sweep([LIBRARY, SPHERE, HARMONIC, ONE], LAYER),
+        history(LIBRARY, SPHERE, step, LAYER),
         history(
             LIBRARY,
             SPHERE,

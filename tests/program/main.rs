@@ -27,6 +27,7 @@ mod guides;
 mod identify;
 mod input_keys;
 mod large_sweep;
+mod layer;
 mod library;
 mod machine_output;
 mod page;

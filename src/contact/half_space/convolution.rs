@@ -32,6 +32,7 @@ use thiserror::Error;
 
 use super::grid::Grid;
 use super::influence::Influence;
+use super::layer::{Layer, LayerInfluence};
 use even_column::EvenColumn;
 pub(super) use length::window_length;
 use mirrored_column::MirroredColumn;
@@ -81,6 +82,8 @@ pub enum ConvolutionError {
 /// The half-space operator of one grid: plans and spectrum, to be built once and shared.
 pub struct Convolution {
     grid: Grid,
+    /// The layer that the grid lies on, where it is no half-space.
+    layer: Option<Arc<LayerInfluence>>,
     product: Box<dyn Product>,
     /// Operators of windows of this grid, by their cells along x and y, built when first asked for.
     windows: Mutex<Vec<Window>>,
@@ -97,9 +100,18 @@ impl Convolution {
     /// # Errors
     /// [`ConvolutionError::Transform`] if a planned transform refuses its own buffers, which would be a defect.
     pub fn new(grid: Grid) -> Result<Self, ConvolutionError> {
+        Self::on(grid, None)
+    }
+
+    /// The same on a layer, where there is one.
+    ///
+    /// # Errors
+    /// As [`Convolution::new`].
+    pub fn on(grid: Grid, layer: Option<Arc<LayerInfluence>>) -> Result<Self, ConvolutionError> {
         Ok(Self {
             grid,
-            product: free_space(&grid)?,
+            product: free_space(&grid, layer.clone())?,
+            layer,
             windows: Mutex::new(Vec::new()),
             coarse: OnceLock::new(),
         })
@@ -108,6 +120,11 @@ impl Convolution {
     /// The grid this operator belongs to.
     pub fn grid(&self) -> &Grid {
         &self.grid
+    }
+
+    /// The layer it is of, where the body is no half-space.
+    pub fn layer(&self) -> Option<&Layer> {
+        self.layer.as_ref().map(|influence| influence.layer())
     }
 
     /// Cells per row and per column of the padded grid on which the transforms run.
@@ -156,6 +173,7 @@ impl Convolution {
         let operators = Arc::new(WindowOperators::new(
             &self.grid.part(cells.0, cells.1),
             cells == whole,
+            self.layer.as_ref(),
         )?);
         windows.push((cells, Arc::clone(&operators)));
         Ok(operators)
@@ -170,7 +188,7 @@ impl Convolution {
         if let Some(coarse) = self.coarse.get() {
             return Ok(Arc::clone(coarse));
         }
-        let coarse = Arc::new(Self::new(self.grid.coarse())?);
+        let coarse = Arc::new(Self::on(self.grid.coarse(), self.layer.clone())?);
         Ok(Arc::clone(self.coarse.get_or_init(|| coarse)))
     }
 
@@ -200,11 +218,14 @@ impl Convolution {
 }
 
 /// The product with the spectrum of the influence coefficients, far enough from its periodic images.
-fn free_space(grid: &Grid) -> Result<Box<dyn Product>, FftError> {
-    let influence = Influence::new(grid);
+fn free_space(
+    grid: &Grid,
+    layer: Option<Arc<LayerInfluence>>,
+) -> Result<Box<dyn Product>, FftError> {
+    let influence = Influence::on(grid, layer);
     if grid.is_mirrored() {
         let (x, y) = (2 * grid.cells_x(), 2 * grid.cells_y());
-        return mirrored(grid, &influence, (x, y), |value| value);
+        return mirrored(grid, &influence, (x, y), |_, value| value);
     }
     let row = PaddedRow::new(grid.cells_x());
     let column = EvenColumn::new(length::fast_column(2 * grid.cells_y() - 1));
@@ -212,13 +233,13 @@ fn free_space(grid: &Grid) -> Result<Box<dyn Product>, FftError> {
     Ok(Box::new(SpectralProduct::new(grid, row, column, spectrum)))
 }
 
-/// The product with a function of the spectrum of the influence coefficients on a mirrored grid, filled up with zeros to at
+/// The product with a function of frequency and spectrum of the influence coefficients on a mirrored grid, filled up with zeros to at
 /// least this many cells along x and y.
 fn mirrored(
     grid: &Grid,
     influence: &Influence,
     (cells_x, cells_y): (usize, usize),
-    function: impl Fn(f64) -> f64,
+    function: impl Fn((usize, usize), f64) -> f64,
 ) -> Result<Box<dyn Product>, FftError> {
     let row = MirroredRow::new(2 * length::fast_row_half(cells_x));
     let column = MirroredColumn::new(2 * length::fast_row_half(cells_y));

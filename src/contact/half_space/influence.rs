@@ -15,8 +15,10 @@
 //! there because the integrand is smooth. Long rectangles are halved until one of the two routes is accurate.
 
 use std::f64::consts::PI;
+use std::sync::Arc;
 
 use super::grid::Grid;
+use super::layer::LayerInfluence;
 
 /// Distance from the centre, in longer sides, from which [`GAUSS_8`] is exact to rounding (error below `(4 d)^-16`).
 const FAR_8: f64 = 3.0;
@@ -26,7 +28,7 @@ const FAR_6: f64 = 8.0;
 const FAR_4: f64 = 32.0;
 
 /// Positive nodes and weights of the Gauss-Legendre rules on [-1, 1] (the rules are symmetric).
-type HalfRule = [(f64, f64)];
+pub(super) type HalfRule = [(f64, f64)];
 const GAUSS_4: [(f64, f64); 2] = [
     (0.33998104358485626, 0.6521451548625461),
     (0.8611363115940526, 0.34785484513745385),
@@ -36,7 +38,7 @@ const GAUSS_6: [(f64, f64); 3] = [
     (0.6612093864662645, 0.3607615730481386),
     (0.932469514203152, 0.17132449237917036),
 ];
-const GAUSS_8: [(f64, f64); 4] = [
+pub(super) const GAUSS_8: [(f64, f64); 4] = [
     (0.1834346424956498, 0.362683783378362),
     (0.525532409916329, 0.31370664587788727),
     (0.7966664774136267, 0.22238103445337448),
@@ -44,11 +46,13 @@ const GAUSS_8: [(f64, f64); 4] = [
 ];
 
 /// Influence coefficients of a grid: the displacement of one cell's centre by unit pressure on another cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Influence {
     unit_m: f64,
     half_x: f64,
     half_y: f64,
+    /// What the body is in place of a half-space, where it is a layer.
+    layer: Option<Arc<LayerInfluence>>,
 }
 
 impl Influence {
@@ -60,6 +64,15 @@ impl Influence {
             unit_m,
             half_x: 0.5,
             half_y: 0.5 * grid.spacing_y_m() / unit_m,
+            layer: None,
+        }
+    }
+
+    /// The coefficients of this grid's cells on a layer, where there is one.
+    pub fn on(grid: &Grid, layer: Option<Arc<LayerInfluence>>) -> Self {
+        Self {
+            layer,
+            ..Self::new(grid)
         }
     }
 
@@ -68,7 +81,13 @@ impl Influence {
     pub fn coefficient_m(&self, offset_x: usize, offset_y: usize) -> f64 {
         let x = offset_x as f64;
         let y = offset_y as f64 * (2.0 * self.half_y);
-        self.unit_m * rectangle_displacement_m(x, y, self.half_x, self.half_y)
+        match &self.layer {
+            None => self.unit_m * rectangle_displacement_m(x, y, self.half_x, self.half_y),
+            Some(layer) => {
+                let [x, y, a, b] = [x, y, self.half_x, self.half_y].map(|side| side * self.unit_m);
+                layer.rectangle_displacement_m(x, y, a, b)
+            }
+        }
     }
 }
 
@@ -82,12 +101,8 @@ pub fn rectangle_displacement_m(x_m: f64, y_m: f64, half_x_m: f64, half_y_m: f64
 /// Integral of `1/r` over the rectangle with half sides `a`, `b`, seen from `(x, y)`.
 fn potential(x: f64, y: f64, a: f64, b: f64) -> f64 {
     let distance = x.hypot(y) / (2.0 * a.max(b));
-    if distance >= FAR_4 {
-        quadrature(x, y, a, b, &GAUSS_4)
-    } else if distance >= FAR_6 {
-        quadrature(x, y, a, b, &GAUSS_6)
-    } else if distance >= FAR_8 {
-        quadrature(x, y, a, b, &GAUSS_8)
+    if let Some(rule) = rule_at(distance) {
+        quadrature((x, y), (a, b), rule, |squared| squared.sqrt().recip())
     } else if b > 0.0 && a > 2.0 * b && a.is_finite() {
         let half = 0.5 * a;
         potential(x - half, y, half, b) + potential(x + half, y, half, b)
@@ -108,8 +123,28 @@ fn strip(x: f64, y: f64, b: f64) -> f64 {
     x * (((y + b) / width).asinh() - ((y - b) / width).asinh())
 }
 
-/// Integral of `1/r` over the rectangle by the product of two Gauss-Legendre rules.
-fn quadrature(x: f64, y: f64, a: f64, b: f64, rule: &HalfRule) -> f64 {
+/// The rule that is exact to rounding over a rectangle from which the nearest singularity of the integrand is this many of its
+/// longer sides away; `None` where none is.
+pub(super) fn rule_at(distance: f64) -> Option<&'static HalfRule> {
+    if distance >= FAR_4 {
+        Some(&GAUSS_4)
+    } else if distance >= FAR_6 {
+        Some(&GAUSS_6)
+    } else if distance >= FAR_8 {
+        Some(&GAUSS_8)
+    } else {
+        None
+    }
+}
+
+/// Integral of a function of the squared distance over the rectangle with half sides `a`, `b`, seen from `(x, y)`, by the product of
+/// two Gauss-Legendre rules.
+pub(super) fn quadrature(
+    (x, y): (f64, f64),
+    (a, b): (f64, f64),
+    rule: &HalfRule,
+    of_squared: impl Fn(f64) -> f64,
+) -> f64 {
     let mut sum = 0.0;
     for &(node_x, weight_x) in rule {
         let left = (x - a * node_x).powi(2);
@@ -118,11 +153,11 @@ fn quadrature(x: f64, y: f64, a: f64, b: f64, rule: &HalfRule) -> f64 {
         for &(node_y, weight_y) in rule {
             let below = (y - b * node_y).powi(2);
             let above = (y + b * node_y).powi(2);
-            let inverses = (left + below).sqrt().recip()
-                + (left + above).sqrt().recip()
-                + (right + below).sqrt().recip()
-                + (right + above).sqrt().recip();
-            row += weight_y * inverses;
+            let values = of_squared(left + below)
+                + of_squared(left + above)
+                + of_squared(right + below)
+                + of_squared(right + above);
+            row += weight_y * values;
         }
         sum += weight_x * row;
     }

@@ -160,7 +160,7 @@ impl HalfSpace {
         self
     }
 
-    /// The same engine for a convex body of revolution, whose contact is always a disc.
+    /// The same engine for a convex body of revolution on a half-space, whose contact is always a disc.
     pub fn in_round_contact(mut self) -> Self {
         self.round_contact = true;
         self

@@ -1,6 +1,7 @@
 //! Keys of `[drive]` and `[sweep]`: an oscillation and its axes, or a history of segments.
 
 use super::indenter::INDENTER;
+use super::layer::LAYER;
 use super::material::MATERIAL;
 use super::rows;
 use crate::drive::Control;
@@ -64,6 +65,8 @@ rows! { SWEEP_KEYS:
     /// The same over a number of the material: `material.temperature = ["0 °C", "25 °C"]`.
     MATERIAL_AXIS: Row<AxisOf, Optional> =
         "material", AxisOf { block: Block::Material, rows: &MATERIAL }, Optional;
+    /// The same over the thickness of the layer: `layer.thickness = ["10 um", "1 mm"]`.
+    LAYER_AXIS: Row<AxisOf, Optional> = "layer", AxisOf { block: Block::Layer, rows: &LAYER }, Optional;
     /// Whether the values of several axes go together one by one, each axis with as many, in place of all their combinations.
     PAIRS: Row<Boolean, Or<bool>> = "pairs", Boolean, Or(false);
     /// Whether frequencies are added where the given ones do not resolve the curve of the loss.

@@ -4,6 +4,7 @@
 pub(crate) mod drive;
 pub(crate) mod identify;
 pub(super) mod indenter;
+pub(super) mod layer;
 pub(crate) mod material;
 pub(super) mod settings;
 pub(super) mod setup;
@@ -78,6 +79,8 @@ rows! { SWEEP_KEYS:
     TITLE: Row<Text, Required> = "title", Text, Required;
     /// What the half-space is made of.
     MATERIAL: Row<Table, Required> = "material", Table(&material::MATERIAL), Required;
+    /// The body is a layer on a rigid base in place of a half-space.
+    LAYER: Row<Table, Optional> = "layer", Table(&layer::LAYER), Optional;
     /// The indenter.
     INDENTER: Row<Table, Required> = "indenter", Table(&indenter::INDENTER), Required;
     /// The load or the approach: an oscillation about a mean.
@@ -96,6 +99,11 @@ pub(super) static SWEEP_FILE: Rows =
     table(" A frequency sweep, for `contact-dma sweep`.", SWEEP_KEYS);
 
 rows! { _:
+    /// The layer, where an axis needs one.
+    NEEDED_LAYER: Row<Table, Required> = "layer", Table(&layer::LAYER), Required;
+}
+
+rows! { _:
     /// The load or the approach: a history of segments.
     HISTORY: Row<Table, Required> = "drive", Table(&drive::HISTORY), Required;
     /// Time steps.
@@ -111,6 +119,7 @@ static SCENARIO_FILE: Rows = table(
     &[
         &TITLE,
         &MATERIAL,
+        &LAYER,
         &INDENTER,
         &HISTORY,
         &TIME,

@@ -64,7 +64,7 @@ const SAME_MEASURED: f64 = 0.01;
 
 /// Whether a column is what a second axis varies of something else than mean and amplitude.
 fn is_of_axis(column: &str) -> bool {
-    let blocks = [Block::Material, Block::Indenter, Block::Drive];
+    let blocks = [Block::Material, Block::Layer, Block::Indenter, Block::Drive];
     let is_of = |block: &Block| {
         let key = column.strip_prefix(block.name());
         key.is_some_and(|key| key.starts_with('_'))

@@ -43,6 +43,7 @@ fn empty<'a>(plan: &SweepPlan, condition: &Condition, units: &Units) -> Curve<'a
         let of = match varied.block {
             Block::Drive => "Drive",
             Block::Indenter => "Indenter",
+            Block::Layer => "Layer",
             Block::Material => "Material",
         };
         format!("{of}: {words}.")

@@ -8,6 +8,7 @@ use crate::quantity::Dimension;
 use crate::report::number::plain;
 use crate::report::words;
 use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::layer::LayerPlan;
 
 /// A list of names and values being written.
 #[derive(Default)]
@@ -57,8 +58,10 @@ pub(super) fn line(plan: &SweepPlan) -> String {
         _ => "no frequency".to_owned(),
     };
     format!(
-        "{}, under a {}; {}; {range}",
+        "{}{}, under a {}; {}; {range}",
         plan.material.name().unwrap_or("A material of its own"),
+        plan.layer
+            .map_or(String::new(), |layer| format!(" {}", layer.words())),
         plan.indenter.shape(),
         words::drive_line(&plan.drive, plan)
     ) + &words::varied_line(plan).map_or(String::new(), |line| format!("; {line}"))
@@ -78,7 +81,7 @@ pub(super) fn sweep(plan: &SweepPlan) -> Markup {
         drive.add("other axes", &line);
     }
     parts(
-        material(&plan.material),
+        html! { (material(&plan.material)) (body(plan.layer)) },
         indenter_body(plan.indenter.as_ref(), Some(&plan.material)),
         drive.html(),
     )
@@ -91,6 +94,17 @@ pub(super) fn parts(material: Markup, indenter: Markup, drive: Markup) -> Markup
         h3 { "Indenter" } (indenter)
         h3 { "Drive" } (drive)
     }
+}
+
+/// What the body is, where it is no half-space.
+pub(super) fn body(layer: Option<LayerPlan>) -> Markup {
+    let Some(layer) = layer else {
+        return Markup::default();
+    };
+    let mut facts = Facts::default();
+    facts.add("body", &format!("a layer {}", layer.lies()));
+    facts.add("thickness", &plain(layer.thickness_m, Dimension::Length, 6));
+    facts.html()
 }
 
 /// A material's series as given.

@@ -270,8 +270,10 @@ fn surface() -> Markup {
 pub(super) fn line(plan: &ScenarioPlan) -> String {
     let name = plan.material.series().and_then(|material| material.name());
     format!(
-        "{}, under a {}; {} over {}",
+        "{}{}, under a {}; {} over {}",
         name.unwrap_or("A material of its own"),
+        plan.layer
+            .map_or(String::new(), |layer| format!(" {}", layer.words())),
         plan.indenter.shape(),
         plan.drive.control().name(),
         plain(plan.drive.duration_s(), Dimension::Time, 5)
@@ -345,7 +347,7 @@ fn question(plan: &ScenarioPlan) -> Markup {
     let dimension = drive_dimension(plan.drive.control());
     drive.add("largest value", &plain(plan.drive.maximum(), dimension, 6));
     question::parts(
-        material,
+        html! { (material) (question::body(plan.layer)) },
         question::indenter_body(plan.indenter.as_ref(), plan.material.series()),
         drive.html(),
     )

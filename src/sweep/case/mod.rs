@@ -62,9 +62,9 @@ pub struct Setup {
 /// Solids by the address of their material, which is kept so that no other takes its place.
 type Solids = HashMap<usize, (Arc<Material>, Arc<Solid>)>;
 
-/// What engines differ in: the indenter by its address, the largest value of the drive and the relaxed compliance bit for bit,
-/// and the number of springs or cells.
-type EngineKey = (usize, [u64; 2], usize);
+/// What engines differ in: the indenter by its address, the largest value of the drive, the relaxed compliance and the layer bit for
+/// bit, and the number of springs or cells.
+type EngineKey = (usize, [u64; 5], usize);
 
 /// Steps per cycle, and springs or cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -171,7 +171,15 @@ impl Setup {
     ) -> Result<Arc<EngineBuilder>, SetupError> {
         let relaxed_per_pa = self.solid(condition)?.relaxed_per_pa;
         let indenter = Arc::as_ptr(&condition.indenter).addr();
-        let numbers = [condition.drive.maximum(), relaxed_per_pa].map(f64::to_bits);
+        let layer = condition.layer;
+        let numbers = [
+            condition.drive.maximum(),
+            relaxed_per_pa,
+            layer.map_or(0.0, |layer| layer.thickness_m),
+            layer.map_or(0.0, |layer| f64::from(layer.base as u8)),
+            condition.material.poisson_ratio(),
+        ];
+        let numbers = numbers.map(f64::to_bits);
         let key = (indenter, numbers, nodes);
         let mut engines = whole(&self.engines);
         if let Some(builder) = engines.get(&key) {
@@ -208,7 +216,11 @@ impl Setup {
             compliance_per_pa: relaxed_per_pa,
         };
         let solver = self.plan.solver.with_nodes(nodes);
-        EngineBuilder::new(Arc::clone(&condition.indenter), solver, largest)
+        let poisson_ratio = condition.material.poisson_ratio();
+        let layer = condition
+            .layer
+            .map(|layer| layer.of_material(poisson_ratio));
+        EngineBuilder::on(layer, Arc::clone(&condition.indenter), solver, largest)
     }
 
     /// Engines for a case: those of its drive, with springs laid out for its cycle.

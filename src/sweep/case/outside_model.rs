@@ -25,6 +25,10 @@ pub(in crate::sweep) fn warnings(
         .norm();
     let radius_m = result.contact_radius_m.maximum;
     warnings.extend(of_slope(slope, radius_m, modulus_pa));
+    warnings.extend(Warning::of_depth(
+        condition.layer,
+        result.approach_m.maximum,
+    ));
     if error_bars_wanted && result.errors.is_none() {
         let own =
             solver.engine == EngineKind::HalfSpace && condition.indenter.own_cells().is_some();

@@ -37,6 +37,33 @@ fn half_widths_m(domain: &Domain, growths: usize) -> (f64, f64) {
     }
 }
 
+/// Half widths (m) along x and y of the contact that a domain is to hold.
+pub fn contact_half_widths_m(domain: &Domain) -> (f64, f64) {
+    match *domain {
+        Domain::Around {
+            half_width_x_m,
+            half_width_y_m,
+            ..
+        } => (half_width_x_m, half_width_y_m),
+        Domain::Cells { .. } => half_widths_m(domain, 0),
+    }
+}
+
+/// A domain this many times as wide, where the indenter does not bring cells of its own.
+pub fn scaled(domain: &Domain, factor: f64) -> Domain {
+    let mut scaled = *domain;
+    if let Domain::Around {
+        half_width_x_m,
+        half_width_y_m,
+        ..
+    } = &mut scaled
+    {
+        *half_width_x_m *= factor;
+        *half_width_y_m *= factor;
+    }
+    scaled
+}
+
 /// The larger half width (m) of a domain enlarged `growths` times.
 pub fn half_width_m(domain: &Domain, growths: usize) -> f64 {
     let (x_m, y_m) = half_widths_m(domain, growths);

@@ -3,6 +3,7 @@
 
 pub mod domain;
 pub mod growing;
+mod layered;
 pub mod slope;
 
 use std::sync::{Arc, Mutex, PoisonError};
@@ -10,6 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use crate::contact::axisymmetric::{self, Axisymmetric};
 use crate::contact::half_space::convolution::Convolution;
 use crate::contact::half_space::grid::Grid;
+use crate::contact::half_space::layer::{Layer, LayerInfluence};
 use crate::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes};
 use crate::contact::{ContactError, Engine, Prescribed};
 use crate::drive::Control;
@@ -27,6 +29,11 @@ pub enum EngineError {
         "the {shape} {reason}; the axisymmetric engine cannot treat it (set solver.engine = \"half-space\")"
     )]
     NotAxisymmetric { shape: &'static str, reason: String },
+    #[error(
+        "a layer couples all of its surface, and the springs of the axisymmetric engine do not know one another: set solver.engine = \
+         \"half-space\", whose cells do"
+    )]
+    SpringsOnLayer,
     #[error("the half-space grid cannot be built: {0}")]
     Grid(String),
     #[error(
@@ -57,6 +64,8 @@ pub struct LargestContact {
 pub struct EngineBuilder {
     indenter: Arc<dyn Indenter>,
     solver: SolverPlan,
+    /// What the body is in place of a half-space, where it is a layer.
+    layer: Option<Arc<LayerInfluence>>,
     /// Half width of the largest contact (m), with room for springs.
     half_width_m: f64,
     domain: Domain,
@@ -78,11 +87,33 @@ impl EngineBuilder {
         solver: SolverPlan,
         largest: LargestContact,
     ) -> Result<Self, EngineError> {
+        Self::on(None, indenter, solver, largest)
+    }
+
+    /// The same on a layer, where there is one.
+    ///
+    /// # Errors
+    /// As [`EngineBuilder::new`]; springs, which a layer would couple.
+    pub fn on(
+        layer: Option<Layer>,
+        indenter: Arc<dyn Indenter>,
+        solver: SolverPlan,
+        largest: LargestContact,
+    ) -> Result<Self, EngineError> {
+        if layer.is_some() && solver.engine == EngineKind::Axisymmetric {
+            return Err(EngineError::SpringsOnLayer);
+        }
+        let layer = layer.map(|layer| Arc::new(LayerInfluence::new(layer)));
+        let mut domain = contact_domain(indenter.as_ref(), largest);
+        if let Some(layer) = &layer {
+            domain = layered::contact_domain(layer, indenter.as_ref(), domain, largest)?;
+        }
         let half_width_m = contact_half_width_m(indenter.as_ref(), largest);
         let mut builder = Self {
-            domain: contact_domain(indenter.as_ref(), largest),
+            domain,
             indenter,
             solver,
+            layer,
             half_width_m,
             extremes_m: None,
             grid: None,
@@ -123,19 +154,11 @@ impl EngineBuilder {
     /// # Errors
     /// [`EngineError::Grid`].
     pub(in crate::sweep) fn scaled(&self, factor: f64) -> Result<Self, EngineError> {
-        let mut domain = self.domain;
-        if let Domain::Around {
-            half_width_x_m,
-            half_width_y_m,
-            ..
-        } = &mut domain
-        {
-            *half_width_x_m *= factor;
-            *half_width_y_m *= factor;
-        }
+        let domain = domain::scaled(&self.domain, factor);
         let mut builder = Self {
             indenter: Arc::clone(&self.indenter),
             solver: self.solver,
+            layer: self.layer.clone(),
             half_width_m: factor * self.half_width_m,
             extremes_m: None,
             domain,
@@ -161,7 +184,9 @@ impl EngineBuilder {
             EngineKind::Axisymmetric => ends,
             EngineKind::HalfSpace => {
                 // A small domain about the origin holds the first contact only if that is where the indenter is lowest.
-                own || self.indenter.gap_m(0.0, 0.0) > 0.0
+                // How large it is on a layer is not known beforehand.
+                own || self.layer.is_some()
+                    || self.indenter.gap_m(0.0, 0.0) > 0.0
                     || !growing::is_convex_within(&*self.indenter, self.half_width_m())
             }
         };
@@ -325,7 +350,7 @@ impl EngineBuilder {
         };
         let bounded = self.indenter.pressure_is_bounded();
         let mut engine = HalfSpace::new(operator, gaps, bounded, settings);
-        if self.indenter.axisymmetric().is_some() {
+        if self.layer.is_none() && self.indenter.axisymmetric().is_some() {
             engine = engine.in_round_contact();
         }
         Ok(if self.indenter.ends_in_data() {
@@ -343,7 +368,9 @@ impl EngineBuilder {
 
     /// The operator on a domain enlarged `growths` times; before it is enlarged, one for all engines.
     fn operator(&self, growths: usize) -> Result<Arc<Convolution>, EngineError> {
-        let built = |grid| Convolution::new(grid).map_err(|e| EngineError::Grid(e.to_string()));
+        let built = |grid| {
+            Convolution::on(grid, self.layer.clone()).map_err(|e| EngineError::Grid(e.to_string()))
+        };
         match self.grid {
             Some(grid) if growths == 0 => {
                 let mut shared = self.operator.lock().unwrap_or_else(PoisonError::into_inner);

@@ -181,13 +181,15 @@ impl Simulation {
             // A solid or fluid meets no more than its compliance at the end, and no more than the largest load.
             compliance_per_pa: compliance.largest_per_pa(plan.drive.duration_s()),
         };
+        let poisson_ratio = plan.material.poisson_ratio();
+        let layer = plan.layer.map(|layer| layer.of_material(poisson_ratio));
         let level = |fineness, nodes| -> Result<Level, SimulationError> {
             let schedule = schedule(&plan, steps, fineness)?;
             let solver = plan.solver.with_nodes(nodes);
             Ok(Level {
                 floating: floating(plan.drive.control(), &schedule.moments),
                 schedule,
-                engines: EngineBuilder::new(plan.indenter.clone(), solver, largest)?,
+                engines: EngineBuilder::on(layer, plan.indenter.clone(), solver, largest)?,
             })
         };
         let full = level(fineness, plan.solver.nodes())?;
@@ -700,6 +702,7 @@ mod tests {
         let plan = ScenarioPlan {
             title: "underrated".to_owned(),
             material: library::find("pmma").unwrap().material().unwrap().into(),
+            layer: None,
             indenter: Arc::new(Underrated(Sphere::new(0.01).unwrap())),
             drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
             step_s: Some(0.5),
@@ -756,6 +759,7 @@ mod tests {
         let plan = ScenarioPlan {
             title: "cap".to_owned(),
             material: library::find("pmma").unwrap().material().unwrap().into(),
+            layer: None,
             indenter: Arc::new(Cap(Sphere::new(0.01).unwrap())),
             drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
             step_s: Some(1.0),

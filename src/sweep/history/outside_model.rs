@@ -25,6 +25,11 @@ pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning
         let slope = slope_of_history(plan, outcome, widest);
         warnings.extend(of_slope(slope, widest.contact_radius_m, modulus_pa));
     }
+    let approach_m = outcome.rows.iter().filter_map(|row| row.approach_m);
+    warnings.extend(Warning::of_depth(
+        plan.layer,
+        approach_m.fold(0.0, f64::max),
+    ));
     warnings
 }
 
@@ -85,10 +90,7 @@ fn measured_window_s(material: &BodyMaterial) -> Option<(f64, f64)> {
 
 /// One over the longitudinal creep compliance (Pa) after this time.
 fn creep_modulus_pa(material: &BodyMaterial, time_s: f64) -> Option<f64> {
-    let poisson_ratio = match material {
-        BodyMaterial::Series(material) => material.poisson_ratio(),
-        BodyMaterial::Samples(sampled) => sampled.poisson_ratio(),
-    };
+    let poisson_ratio = material.poisson_ratio();
     let contact_per_pa = material.compliance().ok()?.largest_per_pa(time_s);
     Some((1.0 - poisson_ratio * poisson_ratio) / contact_per_pa)
 }

@@ -35,6 +35,7 @@ pub struct Varied {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Block {
     Material,
+    Layer,
     Indenter,
     Drive,
 }
@@ -129,6 +130,7 @@ impl Block {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Material => "material",
+            Self::Layer => "layer",
             Self::Indenter => "indenter",
             Self::Drive => "drive",
         }

@@ -16,6 +16,8 @@ pub enum PlanError {
         "the angular frequency is {angular_frequency_rad_per_s} rad/s; it must be positive and finite"
     )]
     Frequency { angular_frequency_rad_per_s: f64 },
+    #[error("the layer's thickness is {thickness_m} m; it must be positive and finite")]
+    Thickness { thickness_m: f64 },
     #[error(
         "the {what} {value} does not follow {before} in ascending order; give each once, the smallest first"
     )]
@@ -90,6 +92,9 @@ impl SweepPlan {
         if cases > Self::MAX_CASES {
             return Err(PlanError::Cases { cases });
         }
+        for layer in self.conditions().iter().filter_map(|c| c.layer) {
+            layer.check()?;
+        }
         self.cycle.check()?;
         self.solver.check()
     }
@@ -142,6 +147,7 @@ impl ScenarioPlan {
     pub fn check(&self) -> Result<(), PlanError> {
         let cells = self.output.field_cells;
         check_count("cells of a field", cells, &SolverPlan::CELLS)?;
+        self.layer.map_or(Ok(()), |layer| layer.check())?;
         self.solver.check()
     }
 }

@@ -4,6 +4,7 @@ pub mod axes;
 pub mod body_material;
 pub mod check;
 pub mod instant_tolerance;
+pub mod layer;
 pub mod resolved;
 pub mod scenario;
 
@@ -17,6 +18,7 @@ use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::layer::LayerPlan;
 
 /// Cases of a small sweep, at most.
 pub const SMALL: usize = 200;
@@ -26,6 +28,8 @@ pub const SMALL: usize = 200;
 pub struct SweepPlan {
     pub title: String,
     pub material: Arc<Material>,
+    /// The layer that the body is, where it is no half-space.
+    pub layer: Option<LayerPlan>,
     pub indenter: Arc<dyn Indenter>,
     pub drive: HarmonicDrive,
     /// Other axes than the frequency, where there are any: every frequency is then solved under each of their conditions.
@@ -46,6 +50,7 @@ pub struct Condition {
     /// The varied numbers.
     pub values: AxisValues,
     pub material: Arc<Material>,
+    pub layer: Option<LayerPlan>,
     pub indenter: Arc<dyn Indenter>,
     pub drive: HarmonicDrive,
 }
@@ -65,6 +70,7 @@ impl SweepPlan {
         Self {
             title: String::new(),
             material: Arc::new(material),
+            layer: None,
             solver: SolverPlan::of_indenter(indenter.as_ref()),
             indenter,
             drive,
@@ -81,6 +87,7 @@ impl SweepPlan {
         Condition {
             values: AxisValues::default(),
             material: Arc::clone(&self.material),
+            layer: self.layer,
             indenter: Arc::clone(&self.indenter),
             drive: self.drive,
         }
@@ -197,7 +204,18 @@ impl EngineKind {
 }
 
 impl SolverPlan {
-    /// Everything at its default: springs where the indenter allows them, cells elsewhere.
+    /// Everything at its default, on a layer where there is one: springs where indenter and body allow them, cells elsewhere.
+    pub fn of(indenter: &dyn Indenter, layer: Option<LayerPlan>) -> Self {
+        match layer {
+            Some(_) => Self {
+                engine: EngineKind::HalfSpace,
+                ..Self::default()
+            },
+            None => Self::of_indenter(indenter),
+        }
+    }
+
+    /// Everything at its default on a half-space: springs where the indenter allows them, cells elsewhere.
     pub fn of_indenter(indenter: &dyn Indenter) -> Self {
         let engine = match indenter.axisymmetric() {
             Some(_) => EngineKind::Axisymmetric,

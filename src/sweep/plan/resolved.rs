@@ -18,6 +18,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     let SweepPlan {
         title,
         material,
+        layer,
         indenter,
         drive,
         axes,
@@ -27,10 +28,11 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         solver,
         figures,
     } = plan;
-    let material = match axes {
+    let mut material = match axes {
         Some(axes) if axes.over.iter().any(Varied::is_temperature) => material_text_over(axes),
         _ => material_text(material),
     };
+    material.push_str(&layer.map_or(String::new(), |layer| layer.text()));
     let counterbody = plan.material.counterbody();
     let mut text = opening_text(title, &material, indenter.as_ref(), counterbody);
     let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));

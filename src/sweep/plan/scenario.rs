@@ -9,6 +9,7 @@ use crate::material::Material;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::resolved;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 
@@ -17,6 +18,8 @@ use crate::sweep::plan::{EngineKind, SolverPlan};
 pub struct ScenarioPlan {
     pub title: String,
     pub material: BodyMaterial,
+    /// The layer that the body is, where it is no half-space.
+    pub layer: Option<LayerPlan>,
     pub indenter: Arc<dyn Indenter>,
     pub drive: SegmentedDrive,
     /// Time step (s); `None`: chosen from drive and material.
@@ -37,6 +40,7 @@ impl ScenarioPlan {
         Self {
             title: String::new(),
             material: material.into(),
+            layer: None,
             solver: SolverPlan::of_indenter(indenter.as_ref()),
             indenter,
             drive,
@@ -82,9 +86,10 @@ pub const FIGURES: [&str; 4] = ["history", "cycle-losses", "profiles", "pressure
 
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
+    let layer = plan.layer.map_or(String::new(), |layer| layer.text());
     let mut text = resolved::opening_text(
         &plan.title,
-        &plan.material.text(),
+        &(plan.material.text() + &layer),
         plan.indenter.as_ref(),
         plan.material.series().and_then(Material::counterbody),
     );

@@ -6,6 +6,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
+use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::record::CaseRecord;
 
 /// Slope of an indenter up to which slopes are small: a/R of a sphere, 11 degrees of a cone.
@@ -14,6 +15,8 @@ pub const LARGEST_SLOPE: f64 = 0.2;
 /// are linear further than slopes are small: [`LARGEST_SLOPE`] is a strain of 4 %.
 pub const LARGEST_GLASSY_STRAIN: f64 = 0.01;
 pub const GLASSY_MODULUS_PA: f64 = 1e9;
+/// Approach over the thickness of a layer up to which its compression is small.
+pub const LARGEST_DEPTH: f64 = 0.1;
 /// Representative strain over slope.
 pub const STRAIN_PER_SLOPE: f64 = 0.2;
 
@@ -39,6 +42,8 @@ pub enum Warning {
     LargeStrain { strain: f64 },
     /// The indenter's slope within the contact is not small.
     SteepSlope { slope: f64, contact_radius_m: f64 },
+    /// The approach is no small part of the thickness of a layer.
+    DeepInLayer { part: f64 },
     /// Error bars were wanted, and there are none.
     NoErrorBars { because: NoErrorBars },
 }
@@ -54,6 +59,12 @@ pub enum NoErrorBars {
 }
 
 impl Warning {
+    /// What is to be said of an approach (m) into a layer, where the body is one.
+    pub(in crate::sweep) fn of_depth(layer: Option<LayerPlan>, approach_m: f64) -> Option<Self> {
+        let part = approach_m / layer?.thickness_m;
+        (part > LARGEST_DEPTH && part.is_finite()).then_some(Self::DeepInLayer { part })
+    }
+
     /// A short name, for tables and programs.
     pub fn code(&self) -> &'static str {
         match self {
@@ -63,6 +74,7 @@ impl Warning {
             Self::LongerThanMeasured { .. } => "longer-than-measured",
             Self::LargeStrain { .. } => "large-strain",
             Self::SteepSlope { .. } => "steep-slope",
+            Self::DeepInLayer { .. } => "deep-in-layer",
             Self::NoErrorBars { .. } => "no-error-bars",
         }
     }
@@ -83,6 +95,7 @@ impl Warning {
             Self::LongerThanMeasured { time_s, .. } => time_s,
             Self::LargeStrain { strain } => strain,
             Self::SteepSlope { slope, .. } => slope,
+            Self::DeepInLayer { part } => part,
             Self::NoErrorBars { .. } => 0.0,
         }
     }
@@ -166,6 +179,11 @@ impl Warning {
                  as small, up to about {LARGEST_SLOPE}",
                 two_digits(slope),
                 format_human(contact_radius_m, Dimension::Length, 3)
+            ),
+            Self::DeepInLayer { part } => write!(
+                f,
+                "the approach is up to {} of the layer's thickness: the model takes strains as small, up to about {LARGEST_DEPTH} of it",
+                two_digits(part)
             ),
             Self::NoErrorBars {
                 because: NoErrorBars::OwnCells,

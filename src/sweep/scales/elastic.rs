@@ -26,6 +26,8 @@ pub struct ElasticScale {
 pub enum NoScale {
     #[error("the {0} is no convex body of revolution, which the elastic contact is computed for")]
     Shape(&'static str),
+    #[error("the body is a layer, on which the elastic contact has no closed form")]
+    Layer,
     #[error("the mean approach is not above zero, and has no elastic contact")]
     NoContact,
     #[error("the material is evaluated from its samples, and has no branches to take a time from")]
@@ -44,6 +46,9 @@ impl ElasticScale {
     /// # Errors
     /// [`NoScale`].
     pub fn of_sweep(plan: &SweepPlan) -> Result<Self, NoScale> {
+        if plan.layer.is_some() {
+            return Err(NoScale::Layer);
+        }
         let drive = &plan.drive;
         Self::new(
             &plan.material,
@@ -58,6 +63,9 @@ impl ElasticScale {
     /// # Errors
     /// [`NoScale`].
     pub fn of_scenario(plan: &ScenarioPlan) -> Result<Self, NoScale> {
+        if plan.layer.is_some() {
+            return Err(NoScale::Layer);
+        }
         let material = plan.material.series().ok_or(NoScale::Samples)?;
         let drive = &plan.drive;
         Self::new(

@@ -35,14 +35,14 @@ impl MirroredColumn {
     }
 }
 
-/// A function of the spectrum of the influence coefficients in the order in which it is used: for every bin of a row, four
+/// A function of frequency and spectrum of the influence coefficients in the order in which it is used: for every bin of a row, four
 /// numbers per pair of frequencies `l` and `m - l` along the column, two for either column of the pair; scaled so that the
 /// inverse transforms need no scaling of their own.
 pub(super) fn spectrum(
     influence: &Influence,
     row: &MirroredRow,
     column: &MirroredColumn,
-    function: impl Fn(f64) -> f64,
+    function: impl Fn((usize, usize), f64) -> f64,
 ) -> Result<Vec<f64>, FftError> {
     let (half_x, half_y) = (row.period() / 2, column.half);
     let mut kernel = Kernel::new(influence, 2 * half_x, 2 * half_y)?;
@@ -52,16 +52,19 @@ pub(super) fn spectrum(
     for bin in 0..row.bins() {
         for (frequency, values) in row.frequencies(bin).into_iter().zip(&mut pair) {
             kernel.column(frequency, values)?;
+            for (l, value) in values.iter_mut().enumerate() {
+                *value = function((frequency, l), *value);
+            }
         }
         let [first, second] = &pair;
         let middle = half_y / 2;
         let own = [first[0], second[0], first[middle], second[middle]];
-        spectrum.extend(own.map(|value| scale * function(value)));
+        spectrum.extend(own.map(|value| scale * value));
         for l in 1..middle {
             let mirror = half_y - l;
             let values = [first[l], first[mirror], second[l], second[mirror]];
             // Sums and differences of two numbers stand for their means.
-            spectrum.extend(values.map(|value| 0.5 * scale * function(value)));
+            spectrum.extend(values.map(|value| 0.5 * scale * value));
         }
     }
     Ok(spectrum)

@@ -4,16 +4,19 @@
 //! [`Convolution`]. Its inverse is nearly a product with the reciprocal of its spectrum on the unpadded window, |q|/2 at the
 //! wave number q where cells are small: a pressure that is a wave bends the half-space into the same wave of amplitude 2/|q|
 //! (H. M. Stanley and T. Kato, J. Tribology 119 (1997) 481). Conjugate gradients preconditioned with it need few steps, whose
-//! number hardly depends on the grid.
+//! number hardly depends on the grid. A layer bends into a wave smaller by a factor known in closed form.
 
+use std::f64::consts::TAU;
 use std::ops::Range;
+use std::sync::Arc;
 
-use super::even_column::EvenColumn;
+use super::even_column::{EvenColumn, FrequencyPerBin};
 use super::length::fast_column;
 use super::periodic_row::PeriodicRow;
 use super::spectral::{Column, Product, Row, SpectralProduct};
 use super::{Convolution, ConvolutionError, Influence, Scratch, even_column};
 use crate::contact::half_space::grid::Grid;
+use crate::contact::half_space::layer::{Layer, LayerInfluence};
 
 /// A symmetric positive product that nearly inverts the half-space operator on one window.
 pub struct Preconditioner {
@@ -26,19 +29,37 @@ impl Preconditioner {
     /// # Errors
     /// As [`Convolution::new`].
     pub fn new(grid: &Grid) -> Result<Self, ConvolutionError> {
+        Self::on(grid, None)
+    }
+
+    /// The same on a layer, where there is one.
+    ///
+    /// # Errors
+    /// As [`Convolution::new`].
+    pub fn on(grid: &Grid, layer: Option<&Layer>) -> Result<Self, ConvolutionError> {
+        // The coefficients of a layer cut off at half the window may have no positive spectrum.
         let influence = Influence::new(grid);
         if grid.is_mirrored() {
             let cells = (grid.cells_x(), grid.cells_y());
-            let product = super::mirrored(grid, &influence, cells, f64::recip)?;
+            let periods = [cells.0, cells.1].map(|cells| 4 * super::length::fast_row_half(cells));
+            let softening = Softening::new(grid, periods, layer);
+            let inverse = |at, value: f64| (value * softening.factor(at)).recip();
+            let product = super::mirrored(grid, &influence, cells, inverse)?;
             return Ok(Self { product });
         }
         let row = PeriodicRow::new(grid.cells_x());
         let column = EvenColumn::new(fast_column(grid.cells_y()));
+        let softening = Softening::new(grid, [row.period(), column.length()], layer);
         let mut spectrum = even_column::columns(&influence, &row, column.length())?;
         let cells = row.period() as f64 * column.length() as f64;
-        for value in &mut spectrum {
-            // Scaled like the spectrum it inverts.
-            *value = (*value * cells * cells).recip();
+        let half = column.length() / 2 + 1;
+        for (bin, values) in spectrum.chunks_exact_mut(half).enumerate() {
+            let (along_x, _) = row.frequency_and_weight(bin);
+            for (along_y, value) in values.iter_mut().enumerate() {
+                let factor = softening.factor((along_x, along_y));
+                // Scaled like the spectrum it inverts.
+                *value = (*value * factor * cells * cells).recip();
+            }
         }
         Ok(Self {
             product: Box::new(SpectralProduct::new(grid, row, column, spectrum)),
@@ -62,6 +83,32 @@ impl Preconditioner {
     }
 }
 
+/// By how much less than a half-space a layer yields to the waves of a periodic window.
+struct Softening<'a> {
+    layer: Option<&'a Layer>,
+    /// Wave numbers (1/m) of the first frequency along x and y.
+    first_per_m: [f64; 2],
+}
+
+impl<'a> Softening<'a> {
+    /// For a window that repeats after these many cells along x and y.
+    fn new(grid: &Grid, [x, y]: [usize; 2], layer: Option<&'a Layer>) -> Self {
+        let first = |period: usize, spacing_m: f64| TAU / (period as f64 * spacing_m);
+        Self {
+            layer,
+            first_per_m: [first(x, grid.spacing_x_m()), first(y, grid.spacing_y_m())],
+        }
+    }
+
+    /// Above zero; 1 on a half-space. The mean over the window counts as half of the longest wave.
+    fn factor(&self, (along_x, along_y): (usize, usize)) -> f64 {
+        let Some(layer) = self.layer else { return 1.0 };
+        let [x, y] = self.first_per_m;
+        let wave_per_m = (along_x as f64 * x).hypot(along_y as f64 * y);
+        layer.softening(wave_per_m.max(0.5 * x.min(y)) * layer.thickness_m)
+    }
+}
+
 /// What a window needs; from [`Convolution::window`].
 pub struct WindowOperators {
     /// The half-space restricted to the window; `None` for the whole grid, whose operator exists already.
@@ -70,14 +117,18 @@ pub struct WindowOperators {
 }
 
 impl WindowOperators {
-    pub(super) fn new(grid: &Grid, whole: bool) -> Result<Self, ConvolutionError> {
+    pub(super) fn new(
+        grid: &Grid,
+        whole: bool,
+        layer: Option<&Arc<LayerInfluence>>,
+    ) -> Result<Self, ConvolutionError> {
         let convolution = match whole {
             true => None,
-            false => Some(Convolution::new(*grid)?),
+            false => Some(Convolution::on(*grid, layer.cloned())?),
         };
         Ok(Self {
             convolution,
-            preconditioner: Preconditioner::new(grid)?,
+            preconditioner: Preconditioner::on(grid, layer.map(|influence| influence.layer()))?,
         })
     }
 

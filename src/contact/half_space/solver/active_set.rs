@@ -220,7 +220,16 @@ impl ActiveSet {
         let own_m = match loaded {
             true => {
                 let moments = moments.of_all_copies(grid);
-                moments.mean_displacement_lower_bound(step_y) * grid.spacing_y_m()
+                let bound = moments.mean_displacement_lower_bound(step_y) * grid.spacing_y_m();
+                match problem.whole.layer() {
+                    None => bound,
+                    // Of a disc under uniform pressure the radius, in which waves of its own length are counted.
+                    Some(layer) => {
+                        let (_, spread) = moments.centre_and_spread(step_y);
+                        let radius_m = (2.0 * spread).sqrt() * grid.spacing_x_m();
+                        bound * layer.softening(layer.thickness_m / radius_m)
+                    }
+                }
             }
             false => 0.0,
         };

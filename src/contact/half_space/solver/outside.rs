@@ -6,6 +6,8 @@
 //! Where the gap before deformation makes up the rest of the approach, the surface is clear of the indenter. Gaps
 //! are kept as their least value per ring about the window, so that a proof costs no more than a few hundred operations.
 //!
+//! A layer on a rigid base yields less than the half-space, and rises in places: nothing is proved of it here.
+//!
 //! Places are in cells of width: from the centre of the grid's first cell, or, on a mirrored grid, from the axes.
 
 use std::f64::consts::PI;

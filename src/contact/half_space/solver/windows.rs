@@ -202,13 +202,18 @@ impl HalfSpace {
         }))
     }
 
-    /// Whether the sources certainly keep the surface beyond a window below the indenter at this approach.
+    /// Whether the sources certainly keep the surface beyond a window below the indenter at this approach; nothing is certain of a
+    /// layer.
     pub(super) fn is_clear_beyond(
         &mut self,
         window: Frame,
         source: Frame,
         approach_m: f64,
     ) -> bool {
+        // A layer yields less than a half-space, and rises in places.
+        if self.operator.layer().is_some() {
+            return false;
+        }
         let grid = self.operator.grid();
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
         let mut moments = Moments::default();

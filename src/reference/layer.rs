@@ -1,0 +1,235 @@
+//! Contact of a rigid body of revolution with an elastic layer on a rigid base, by the dual integral equation.
+//!
+//! Where the contact is a disc of radius a, its pressure is that of springs as on the half-space
+//! ([`crate::contact::axisymmetric`]), with a force phi(t) per length that obeys a Fredholm equation of the second kind (N. N. Lebedev
+//! and Ia. S. Ufliand, J. Appl. Math. Mech. 22 (1958) 442; W. C. Hayes, L. M. Keer, G. Herrmann and L. F. Mockros, J. Biomech. 5
+//! (1972) 541; here with the softening S(kh) of [`Layer`]):
+//!
+//! ```text
+//! phi(t) + (1/pi) integral from 0 to a of [kappa(t - s) + kappa(t + s)] phi(s) ds = delta - G(t)
+//! kappa(z) = integral from 0 to infinity of (S(kh) - 1) cos(kz) dk,   W = (2/C) integral from 0 to a of phi dt
+//! ```
+//!
+//! with the transformed gap G of the indenter, and phi(a) = 0 at an edge that it does not prescribe. The kernel is smooth, so that
+//! Gauss-Legendre nodes converge exponentially: what is left shows in the difference that half as many make.
+
+use std::f64::consts::PI;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::contact::half_space::layer::Layer;
+
+/// The equation for contacts of one radius, on nodes of a Gauss-Legendre rule.
+pub struct LayerContact {
+    layer: Layer,
+    radius_m: f64,
+    /// Places (m) and weights (m).
+    nodes: Vec<(f64, f64)>,
+    equation: nalgebra::LU<f64, nalgebra::Dyn, nalgebra::Dyn>,
+}
+
+/// An elastic contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ElasticContact {
+    pub load_n: f64,
+    pub approach_m: f64,
+}
+
+impl LayerContact {
+    /// For this contact radius (m), on so many nodes.
+    pub fn new(layer: Layer, radius_m: f64, nodes: usize) -> Self {
+        let nodes: Vec<(f64, f64)> = legendre(nodes)
+            .into_iter()
+            .map(|(x, weight)| (0.5 * radius_m * (1.0 + x), 0.5 * radius_m * weight))
+            .collect();
+        let waves = waves(&layer, 2.0 * radius_m);
+        let matrix = DMatrix::from_fn(nodes.len(), nodes.len(), |row, column| {
+            let own = if row == column { 1.0 } else { 0.0 };
+            own + kernel(&waves, nodes[row].0, nodes[column].0) * nodes[column].1
+        });
+        Self {
+            layer,
+            radius_m,
+            equation: matrix.lu(),
+            nodes,
+        }
+    }
+
+    /// phi at the nodes, and at the edge, for this right-hand side; `None` where the equation has no solution.
+    fn solve(&self, right: impl Fn(f64) -> f64) -> Option<(Vec<f64>, f64)> {
+        let values =
+            DVector::from_iterator(self.nodes.len(), self.nodes.iter().map(|n| right(n.0)));
+        let phi: Vec<f64> = self.equation.solve(&values)?.iter().copied().collect();
+        let waves = waves(&self.layer, 2.0 * self.radius_m);
+        let nodes = self.nodes.iter().zip(&phi);
+        let coupled = nodes.map(|(node, phi)| kernel(&waves, self.radius_m, node.0) * node.1 * phi);
+        let edge = right(self.radius_m) - coupled.sum::<f64>();
+        Some((phi, edge))
+    }
+
+    fn integral(&self, phi: &[f64]) -> f64 {
+        let nodes = self.nodes.iter().zip(phi);
+        nodes.map(|(node, phi)| node.1 * phi).sum()
+    }
+
+    /// How many times as stiff a flat punch of this radius is as on the half-space.
+    pub fn punch_stiffness(&self) -> Option<f64> {
+        let (phi, _) = self.solve(|_| 1.0)?;
+        Some(self.integral(&phi) / self.radius_m)
+    }
+
+    /// The contact of this radius that a sphere (its radius in m) makes at this contact compliance (1/Pa).
+    pub fn under_sphere(
+        &self,
+        sphere_radius_m: f64,
+        compliance_per_pa: f64,
+    ) -> Option<ElasticContact> {
+        let (flat, flat_edge) = self.solve(|_| 1.0)?;
+        let (round, round_edge) = self.solve(|t| t * t / sphere_radius_m)?;
+        let approach_m = round_edge / flat_edge;
+        let phi = approach_m * self.integral(&flat) - self.integral(&round);
+        Some(ElasticContact {
+            load_n: 2.0 / compliance_per_pa * phi,
+            approach_m,
+        })
+    }
+}
+
+/// Wave numbers (1/m), and (S - 1) times the weight of a quadrature that resolves `cos(k z)` up to this z (m).
+fn waves(layer: &Layer, farthest_m: f64) -> Vec<(f64, f64)> {
+    /// Wave number in thicknesses beyond which S - 1 is rounding.
+    const LONGEST: f64 = 24.0;
+    const NODES: usize = 16;
+    let turns = LONGEST * farthest_m / layer.thickness_m;
+    // At most 4 rad within a piece, of which 16 nodes leave nothing.
+    let pieces = 64.max((turns / 4.0).ceil() as usize);
+    let rule = legendre(NODES);
+    let half = 0.5 * LONGEST / pieces as f64;
+    let mut waves = Vec::with_capacity(pieces * NODES);
+    for piece in 0..pieces {
+        for (node, weight) in &rule {
+            let x = half * (2.0 * piece as f64 + 1.0 + node);
+            let value = half * weight * layer.softening_less_one(x);
+            waves.push((x / layer.thickness_m, value / layer.thickness_m));
+        }
+    }
+    waves
+}
+
+/// (1/pi) [kappa(t - s) + kappa(t + s)], 1/m.
+fn kernel(waves: &[(f64, f64)], t_m: f64, s_m: f64) -> f64 {
+    let terms = waves
+        .iter()
+        .map(|(k, value)| value * (k * t_m).cos() * (k * s_m).cos());
+    2.0 / PI * terms.sum::<f64>()
+}
+
+/// Nodes on [-1, 1] and weights of the Gauss-Legendre rule of so many points, by Newton's method.
+fn legendre(count: usize) -> Vec<(f64, f64)> {
+    let n = count as f64;
+    let node = |k: usize| {
+        let mut x = (PI * (k as f64 + 0.75) / (n + 0.5)).cos();
+        let mut slope = 1.0;
+        for _ in 0..20 {
+            let (mut before, mut value) = (1.0, x);
+            for order in 2..=count {
+                let order = order as f64;
+                let next = ((2.0 * order - 1.0) * x * value - (order - 1.0) * before) / order;
+                (before, value) = (value, next);
+            }
+            slope = n * (x * value - before) / (x * x - 1.0);
+            x -= value / slope;
+        }
+        (x, 2.0 / ((1.0 - x * x) * slope * slope))
+    };
+    (0..count).map(node).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contact::half_space::layer::Base;
+
+    fn layer(base: Base, poisson_ratio: f64) -> Layer {
+        Layer {
+            thickness_m: 1e-3,
+            base,
+            poisson_ratio,
+        }
+    }
+
+    const BASES: [Base; 2] = [Base::Bonded, Base::Frictionless];
+    const RATIOS: [f64; 4] = [0.0, 0.3, 0.45, 0.5];
+
+    #[test]
+    fn half_as_many_nodes_give_the_same_stiffness_from_thick_to_thin() {
+        for base in BASES {
+            for nu in RATIOS {
+                for a_over_h in [0.01, 0.1, 1.0, 3.0, 10.0] {
+                    let stiffness = |nodes| {
+                        let contact = LayerContact::new(layer(base, nu), 1e-3 * a_over_h, nodes);
+                        contact.punch_stiffness().unwrap()
+                    };
+                    let (coarse, fine) = (stiffness(40), stiffness(80));
+                    // A thin layer at 0.5 makes 250 of differences that are 1e-6 of the terms they are between.
+                    assert!(
+                        (coarse / fine - 1.0).abs() < 1e-8,
+                        "{base:?} {nu} {a_over_h} {coarse} {fine}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_sphere_is_as_stiff_as_the_series_of_dimitriadis_has_it_while_the_layer_is_thick() {
+        // E. K. Dimitriadis et al., Biophys. J. 82 (2002) 2798, equations 11 and 13, for nu = 1/2: the load over that of Hertz at the
+        // same approach, as a series in sqrt(R delta)/h.
+        let series = [
+            (Base::Bonded, [1.0, 1.133, 1.283, 0.769, 0.0975]),
+            (Base::Frictionless, [1.0, 0.884, 0.781, 0.386, 0.0048]),
+        ];
+        for (base, coefficients) in series {
+            for (a_over_h, tolerance) in [(0.02, 2e-4), (0.1, 2e-3)] {
+                let contact = LayerContact::new(layer(base, 0.5), 1e-3 * a_over_h, 24);
+                let found = contact.under_sphere(0.1, 1.0).unwrap();
+                let hertz_n = 4.0 / 3.0 * (0.1 * found.approach_m.powi(3)).sqrt();
+                let chi = (0.1 * found.approach_m).sqrt() / 1e-3;
+                let expected: f64 = (0..5).map(|k| coefficients[k] * chi.powi(k as i32)).sum();
+                let ratio = found.load_n / hertz_n / expected;
+                // Coefficients of three digits, and the terms left out.
+                assert!(
+                    (ratio - 1.0).abs() < tolerance,
+                    "{base:?} {a_over_h} {ratio}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_thin_layer_is_compressed_as_in_an_oedometer() {
+        for (base, nu) in [
+            (Base::Bonded, 0.0),
+            (Base::Bonded, 0.3),
+            (Base::Frictionless, 0.4),
+        ] {
+            // 2 a/C kappa = pi a^2 M/h: kappa = (pi/2)(a/h) M C; plane strain where the layer slides.
+            let modulus = match base {
+                Base::Bonded => (1.0 - nu) * (1.0 - nu) / (1.0 - 2.0 * nu),
+                Base::Frictionless => 1.0,
+            };
+            let excess = |a_over_h: f64| {
+                let contact = LayerContact::new(layer(base, nu), 1e-3 * a_over_h, 120);
+                let exact = 0.5 * PI * a_over_h * modulus;
+                contact.punch_stiffness().unwrap() / exact - 1.0
+            };
+            // The rim adds a strip about as wide as the layer is thick.
+            let (ten, twenty) = (excess(10.0), excess(20.0));
+            assert!(ten > 0.0 && ten < 0.12, "{base:?} {nu} {ten}");
+            assert!(
+                (ten / twenty - 2.0).abs() < 0.15,
+                "{base:?} {nu} {ten} {twenty}"
+            );
+        }
+    }
+}

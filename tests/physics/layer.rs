@@ -1,0 +1,274 @@
+//! A layer on a rigid base, on cells, against the dual integral equation, closed forms and correspondence.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+
+use crate::common::{first_touch, grid, pmma_material, root_mean_square, sweep_plan};
+use contact_dma::contact::Prescribed;
+use contact_dma::contact::half_space::convolution::Convolution;
+use contact_dma::contact::half_space::grid::Grid;
+use contact_dma::contact::half_space::layer::{Base, Layer, LayerInfluence};
+use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
+use contact_dma::indenter::{FlatPunch, Indenter, Sphere};
+use contact_dma::reference::layer::LayerContact;
+use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::engine::{EngineBuilder, LargestContact};
+use contact_dma::sweep::plan::layer::LayerPlan;
+use contact_dma::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
+use contact_dma::sweep::record::CaseResult;
+
+const COMPLIANCE_PER_PA: f64 = 4e-10;
+const A_OVER_H: [f64; 7] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0, 10.0];
+const KINDS: [(Base, f64); 5] = [
+    (Base::Bonded, 0.0),
+    (Base::Bonded, 0.3),
+    (Base::Bonded, 0.45),
+    (Base::Bonded, 0.5),
+    (Base::Frictionless, 0.3),
+];
+const RADIUS_M: f64 = 1e-4;
+
+fn layer(base: Base, poisson_ratio: f64, a_over_h: f64) -> Layer {
+    Layer {
+        thickness_m: RADIUS_M / a_over_h,
+        base,
+        poisson_ratio,
+    }
+}
+
+fn on_grid(indenter: &dyn Indenter, layer: Layer, grid: Grid) -> HalfSpace {
+    let gap_m = (0..grid.cells()).map(|cell| {
+        let (x_m, y_m) = grid.center(cell);
+        indenter.gap_m(x_m, y_m)
+    });
+    let influence = Arc::new(LayerInfluence::new(layer));
+    let operator = Arc::new(Convolution::on(grid, Some(influence)).unwrap());
+    let bounded = indenter.pressure_is_bounded();
+    HalfSpace::new(
+        operator,
+        gap_m.collect(),
+        bounded,
+        SolverSettings::default(),
+    )
+}
+
+/// Cells, of which a quarter is solved, on a square of this half width.
+fn engine(indenter: &dyn Indenter, layer: Layer, half_width_m: f64, cells: usize) -> HalfSpace {
+    let quarter = grid(half_width_m, cells).quarter().unwrap();
+    on_grid(indenter, layer, quarter)
+}
+
+/// The load under an approach, found by the fast way.
+fn load_n(mut engine: HalfSpace, approach_m: f64) -> f64 {
+    let prescribed = Prescribed::ApproachM(approach_m);
+    let (solution, _) = first_touch(&mut engine, COMPLIANCE_PER_PA, prescribed).unwrap();
+    assert_eq!(engine.safeguarded_instants(), 0);
+    solution.load_n
+}
+
+#[test]
+fn a_sphere_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it_in_second_order() {
+    let sphere = Sphere::new(0.01).unwrap();
+    let mut orders = Vec::new();
+    for (base, nu) in KINDS {
+        for a_over_h in A_OVER_H {
+            let layer = layer(base, nu, a_over_h);
+            let exact = LayerContact::new(layer, RADIUS_M, 60);
+            let exact = exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap();
+            let error = |cells: usize| {
+                // The edge of the contact lies in another place of a cell for each width.
+                let errors = (0..8).map(|k| {
+                    let width_m = (1.2 + 0.0137 * f64::from(k)) * RADIUS_M;
+                    let engine = engine(&sphere, layer, width_m, cells);
+                    load_n(engine, exact.approach_m) / exact.load_n - 1.0
+                });
+                root_mean_square(errors)
+            };
+            let (coarse, fine) = (error(32), error(128));
+            assert!(fine < 1.5e-4, "{base:?} {nu} {a_over_h}: {fine:e}");
+            orders.push(0.5 * (coarse / fine).log2());
+        }
+    }
+    // Where the edge lies leaves a scatter of the error, and of the order over two refinements.
+    let mean = orders.iter().sum::<f64>() / orders.len() as f64;
+    let least = orders.iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(mean > 1.8 && least > 1.5, "{mean} {least} {orders:?}");
+}
+
+#[test]
+fn a_punch_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it() {
+    let punch = FlatPunch::new(RADIUS_M).unwrap();
+    for (base, nu) in KINDS {
+        for a_over_h in A_OVER_H {
+            let layer = layer(base, nu, a_over_h);
+            let exact = LayerContact::new(layer, RADIUS_M, 80);
+            let exact = exact.punch_stiffness().unwrap();
+            let error = |cells: usize| {
+                let engine = engine(&punch, layer, 1.1 * RADIUS_M, cells);
+                let stiffness = 0.5 * load_n(engine, 1e-7) * COMPLIANCE_PER_PA / (1e-7 * RADIUS_M);
+                (stiffness / exact - 1.0).abs()
+            };
+            let (coarse, fine) = (error(64), error(256));
+            // The rim is a staircase, at which the pressure is singular: first order, and four times as much where it grows like the
+            // fourth power of the radius.
+            assert!(
+                fine < 4e-3 && coarse / fine > 2.5,
+                "{base:?} {nu} {a_over_h}: {coarse:e} {fine:e}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_numbers_of_the_guide_are_those_of_the_dual_integral_equation() {
+    let guide = include_str!("../../src/guide/validity.md");
+    let rows = guide.lines().filter_map(|line| {
+        let cells: Option<Vec<f64>> = line
+            .trim_matches('|')
+            .split('|')
+            .map(|cell| cell.trim().parse().ok())
+            .collect();
+        cells.filter(|cells| cells.len() == 5)
+    });
+    let rows: Vec<Vec<f64>> = rows.collect();
+    assert_eq!(rows.len(), 6);
+    for row in rows {
+        for (nu, told) in [0.0, 0.3, 0.45, 0.5].into_iter().zip(&row[1..]) {
+            let contact = LayerContact::new(layer(Base::Bonded, nu, row[0]), RADIUS_M, 60);
+            let exact = contact.punch_stiffness().unwrap();
+            // Three decimals.
+            assert!(
+                (told - exact).abs() < 6e-4,
+                "{} {nu}: {told} {exact}",
+                row[0]
+            );
+        }
+    }
+}
+
+#[test]
+fn windows_quarters_and_the_safe_way_find_the_same_contact_where_the_surface_rises() {
+    let sphere = Sphere::new(0.01).unwrap();
+    for a_over_h in [0.5, 3.0] {
+        let layer = layer(Base::Bonded, 0.5, a_over_h);
+        let exact = LayerContact::new(layer, RADIUS_M, 60);
+        let load_n = exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap().load_n;
+        let whole = grid(3.0 * RADIUS_M, 128);
+        let approach_m = |mut engine: HalfSpace| {
+            let load = Prescribed::LoadN(load_n);
+            first_touch(&mut engine, COMPLIANCE_PER_PA, load)
+                .unwrap()
+                .0
+                .approach_m
+        };
+        let found_m = approach_m(on_grid(&sphere, layer, whole));
+        let quarter_m = approach_m(on_grid(&sphere, layer, whole.quarter().unwrap()));
+        let safe_m = approach_m(on_grid(&sphere, layer, whole).by_safeguard_alone());
+        // The tolerance of an instant is 1e-8.
+        assert!(
+            (quarter_m / found_m - 1.0).abs() < 1e-7,
+            "{a_over_h} {quarter_m:e} {found_m:e}"
+        );
+        assert!(
+            (safe_m / found_m - 1.0).abs() < 1e-7,
+            "{a_over_h} {safe_m:e} {found_m:e}"
+        );
+    }
+}
+
+#[test]
+fn the_domain_is_as_large_as_the_contact_from_far_below_its_radius_to_far_above() {
+    for (base, nu) in KINDS {
+        for a_over_h in A_OVER_H {
+            let layer = layer(base, nu, a_over_h);
+            let exact = LayerContact::new(layer, RADIUS_M, 60);
+            let exact = exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap();
+            for (control, maximum) in [
+                (contact_dma::drive::Control::Load, exact.load_n),
+                (contact_dma::drive::Control::Approach, exact.approach_m),
+            ] {
+                let largest = LargestContact {
+                    control,
+                    maximum,
+                    compliance_per_pa: COMPLIANCE_PER_PA,
+                };
+                let solver = SolverPlan {
+                    engine: EngineKind::HalfSpace,
+                    cells: 32,
+                    ..SolverPlan::default()
+                };
+                let sphere = Arc::new(Sphere::new(0.01).unwrap());
+                let engines = EngineBuilder::on(Some(layer), sphere, solver, largest).unwrap();
+                let width = engines.half_width_m() / RADIUS_M;
+                // A tenth of room, and what cells of a 24th of the radius make of the edge.
+                assert!(
+                    (1.05..1.2).contains(&width),
+                    "{base:?} {nu} {a_over_h} {control:?} {width}"
+                );
+            }
+        }
+    }
+}
+
+fn on_layer(indenter: Arc<dyn Indenter>, amplitude_n: f64, thickness_m: f64) -> CaseResult {
+    let mut plan: SweepPlan = sweep_plan(pmma_material(), indenter, 10.0, amplitude_n);
+    plan.layer = Some(LayerPlan {
+        thickness_m,
+        base: Base::Bonded,
+    });
+    plan.solver.engine = EngineKind::HalfSpace;
+    plan.solver.cells = 48;
+    plan.cycle.steps = 200;
+    plan.cycle.tolerance = 1e-6;
+    plan.angular_frequencies_rad_per_s = vec![0.00844];
+    let setup = Setup::new(plan).unwrap();
+    let case = setup.plan().cases().remove(0);
+    setup
+        .run(&case, &AtomicBool::new(false))
+        .unwrap()
+        .result
+        .unwrap()
+}
+
+#[test]
+fn a_punch_on_a_viscoelastic_layer_answers_by_correspondence() {
+    let material = pmma_material();
+    let compliance = material.contact_compliance().unwrap();
+    let complex = compliance.complex_compliance(0.00844);
+    for thickness_m in [1e-4, 1e-3] {
+        let punch = FlatPunch::new(5e-4).unwrap();
+        let result = on_layer(Arc::new(punch), 5.0, thickness_m);
+        // The mean of the approach says how compliant layer and cells are: the load's mean at the compliance at rest.
+        let approach_m = result.approach_m;
+        let mean_m = 0.5 * (approach_m.minimum + approach_m.maximum);
+        let per_compliance = mean_m / (10.0 * compliance.equilibrium_compliance().unwrap());
+        let exact_j = PI * 25.0 * complex.im.abs() * per_compliance;
+        let found = result.analysis.energy_loss_j / exact_j;
+        // The mean of extremes at 200 steps, and the rule of second order: 1e-4 as asked for.
+        assert!((found - 1.0).abs() < 1e-4, "{thickness_m} {found}");
+    }
+}
+
+#[test]
+fn equivalent_moduli_are_those_of_the_material_however_thin_the_layer() {
+    let material = pmma_material();
+    let exact = material.longitudinal_complex_modulus(0.00844);
+    for thickness_m in [5e-5, 3e-4, 3e-3] {
+        let sphere = Sphere::new(0.01).unwrap();
+        let result = on_layer(Arc::new(sphere), 0.1, thickness_m);
+        let (storage, loss) = (
+            result.storage_modulus_pa.unwrap(),
+            result.loss_modulus_pa.unwrap(),
+        );
+        // The contact moves by a part of a cell, or not at all: the tangent radius is that of cells, a percent or two.
+        assert!(
+            (storage / exact.re - 1.0).abs() < 0.03,
+            "{thickness_m} {storage:e}"
+        );
+        assert!(
+            (loss / exact.im - 1.0).abs() < 0.03,
+            "{thickness_m} {loss:e}"
+        );
+    }
+}

@@ -1,0 +1,46 @@
+//! A layer in sweep and scenario files: what is refused, and what is told of it.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+
+use crate::program::program;
+use contact_dma::quantity::{Dimension, format_si};
+use tempfile::TempDir;
+
+const SWEEP: &str = "title = \"t\"\n[material]\nlibrary = \"pmma\"\n[layer]\nthickness = \"10 um\"\nbase = \"frictionless\"\n\
+                     [indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n[drive]\nmean = \"10 N\"\namplitude = \"1 N\"\n\
+                     [sweep]\nangular_frequency = [\"0.01 rad/s\"]\n[cycle]\nsteps = 20\nerror_bars = false\n";
+
+#[test]
+fn springs_on_a_layer_are_refused_with_the_reason_and_cells_are_the_default() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("layer.toml");
+    fs::write(&file, SWEEP).unwrap();
+    let run = |set: &str| {
+        let mut command = program();
+        command
+            .arg("sweep")
+            .arg(&file)
+            .args(["--quiet", "--set", set]);
+        command
+            .arg("--out")
+            .arg(folder.path().join("out"))
+            .output()
+            .unwrap()
+    };
+    let refused = run("solver.engine=axisymmetric");
+    let said = String::from_utf8_lossy(&refused.stderr).replace('\n', " ");
+    assert_eq!(refused.status.code(), Some(2), "{said}");
+    assert!(said.contains("springs cannot treat a layer"), "{said}");
+    assert!(said.contains("half-space"), "{said}");
+    assert_eq!(run("solver.cells=24").status.code(), Some(0));
+    let out = folder.path().join("out");
+    let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+    let thickness = format_si(1e-5, Dimension::Length);
+    let block = format!("[layer]\nthickness = \"{thickness}\"\nbase = \"frictionless\"\n");
+    assert!(read("resolved.toml").contains(&block));
+    assert!(read("index.html").contains("a layer on a rigid base without friction"));
+    // 10 N press a sphere of 10 mm in by more than a micrometre of ten.
+    assert!(read("sweep.csv").contains("deep-in-layer"));
+}
