@@ -102,20 +102,28 @@ pub(super) fn material(
     root: &mut TableReader<'_>,
     folder: &Path,
     problems: &Problems,
-) -> Option<Option<Material>> {
+) -> Option<Option<Located<Material>>> {
     let Some(parsed) = root.parsed(&keys::INDENTER) else {
         return Some(None);
     };
     let place = root.as_ref().clone();
     let mut table = TableReader::new(parsed, place, "indenter".to_owned(), problems);
     table.table_or(&INDENTER_MATERIAL, None, |block| {
-        let (body, _) =
-            material_block::read_over(block, folder, DirectSum::Refused, None, problems)?;
-        let material = material_block::series_of(body)?;
+        let read = material_block::read_over(block, folder, DirectSum::Refused, None, problems);
+        let material = material_block::series_of(read?.0)?;
         let checked = material.value.contact_compliance().map_err(|error| {
             problems.at(&material, error.to_string());
         });
-        checked.ok().map(|_| Some(material.value))
+        if !(material.value.replicas().is_empty() && material.value.alternatives().is_empty()) {
+            problems
+                .at(
+                    &material,
+                    "what the data of an indenter's material leave open is not carried through",
+                )
+                .help("leave out `replicas` and `alternative`");
+            return None;
+        }
+        checked.ok().map(|_| Some(material))
     })
 }
 

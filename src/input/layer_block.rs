@@ -1,6 +1,7 @@
 //! The `[layer]` block: the body is a layer on a rigid base, which springs cannot treat.
 
 use super::diagnostic::Problems;
+use super::document::Located;
 use super::document::reader::TableReader;
 use super::keys;
 use super::keys::layer::{BASE, THICKNESS};
@@ -43,7 +44,7 @@ pub(super) fn solver_on(
 /// Refuses an indenter that yields on a layer: how far each yields under one pressure is then not the same but for a factor.
 pub(super) fn refuse_second_body(
     root: &mut TableReader<'_>,
-    counterbody: Option<&Option<Material>>,
+    counterbody: Option<&Option<Located<Material>>>,
     problems: &Problems,
 ) {
     if let (Some(Some(_)), Some(place)) = (counterbody, root.key_location(&keys::LAYER)) {

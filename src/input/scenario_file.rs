@@ -50,7 +50,8 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
     let layer = root.table_or(&keys::LAYER, None, |t| layer_block::read(t).map(Some));
     let own_layer = layer.flatten();
     layer_block::refuse_second_body(&mut root, counterbody.as_ref(), &problems);
-    let material = material.and_then(|m| for_contact(&problems, m, counterbody?));
+    let material =
+        material.and_then(|m| for_contact(&problems, m, counterbody?.map(|of| of.value)));
     let indenter = given.indenter(&mut root, folder, &problems);
     let drive = root
         .table(&keys::HISTORY)

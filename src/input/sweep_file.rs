@@ -72,6 +72,10 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
     let counterbody = indenter_block::material(&mut root, document.folder(), &problems);
     let layer = file.layer(&mut root);
     layer_block::refuse_second_body(&mut root, counterbody.as_ref(), &problems);
+    let counterbody = match counterbody {
+        Some(Some(body)) => for_contact(&problems, body).map(Some),
+        other => other.map(|_| None),
+    };
     let material = counterbody.and_then(|body| file.material(&mut root, body.as_ref()));
     let indenter = file.indenter(&mut root);
     let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {

@@ -45,21 +45,11 @@ fn two_equal_bodies_are_one_of_twice_the_compliance() {
         soft.peak_pressure_pa.unwrap().maximum,
         1e-10,
     );
-    // Each takes its half; and the loop says of one of them what it is alone.
+    // Each takes its half.
     close(
         pair.dissipated_in_indenter_j().unwrap(),
         0.5 * pair.dissipated_j(),
         1e-12,
-    );
-    close(
-        pair.storage_modulus_pa.unwrap(),
-        2.0 * soft.storage_modulus_pa.unwrap(),
-        1e-9,
-    );
-    close(
-        pair.loss_modulus_pa.unwrap(),
-        2.0 * soft.loss_modulus_pa.unwrap(),
-        1e-9,
     );
     assert_eq!(soft.dissipated_in_indenter_j(), None);
 }

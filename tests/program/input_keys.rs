@@ -406,9 +406,10 @@ fn over_every_number((of, text): &(FileKind, String)) -> Vec<(FileKind, String)>
     let all = keys::paths(kind);
     let paths = all.iter().filter_map(|path| {
         let (block, key) = path.strip_prefix("sweep.")?.split_once('.')?;
-        // A history may be on a fluid.
+        // A history may be on a fluid, and under an indenter of one.
         let is_right = block == "indenter" || *of == FileKind::Sweep;
         let whole = table.get(block).filter(|_| is_right)?.as_table()?;
+        let whole = Some(whole).filter(|whole| !whole.contains_key("material"))?;
         let axis = [(key.to_owned(), Value::Array(vec![whole.get(key)?.clone()]))];
         let mut over = base.clone();
         over.insert(block.to_owned(), whole.clone().into());
@@ -420,7 +421,7 @@ fn over_every_number((of, text): &(FileKind, String)) -> Vec<(FileKind, String)>
 }
 
 /// Keys that cannot be changed alone, or that no file above shows, and why.
-const APART: [&str; 13] = [
+const APART: [&str; 14] = [
     // What the files hold counts, and the hash of it, not what they are called.
     "indenter.file",
     "indenter.sha256",
@@ -432,8 +433,9 @@ const APART: [&str; 13] = [
     "material.dynamic.format",
     "drive.segments.file",
     "identify.data",
-    // There is no other material in the library.
+    // No trial finds another name of the library.
     "material.library",
+    "indenter.material.library",
     // Creep rises and relaxation falls: no values are both.
     "material.table.quantity",
     // Has no contact, and so neither sweep nor history.

@@ -126,6 +126,16 @@ rows! { ELASTIC_KEYS:
     ELASTIC_POISSON_RATIO: Row<Scalar, Required> = "poisson_ratio", POISSON_RATIO_VALUE, Required;
 }
 
+rows! { _:
+    /// Generalised Maxwell model (Prony series of the relaxation modulus).
+    INDENTER_RELAXATION: Row<Table, Required> = "relaxation", Table(&INDENTER_RELAXATION_TABLE), Required;
+}
+
+static INDENTER_RELAXATION_TABLE: Rows = super::table(
+    " E(t) = equilibrium + sum of modulus exp(-t / time).",
+    &[&MODULUS, &EQUILIBRIUM, &RELAXATION_BRANCHES],
+);
+
 static ELASTIC_TABLE: Rows = super::table(" An elastic body.", ELASTIC_KEYS);
 
 /// What an indenter may be made of.
@@ -135,7 +145,7 @@ pub(super) static INDENTER_MATERIAL: Rows = Rows {
     others: Others::OneList(&[
         LIBRARY_KEYS,
         &[&ELASTIC_BODY],
-        &[&RELAXATION, &POISSON_RATIO, &MEASURED],
+        &[&INDENTER_RELAXATION, &POISSON_RATIO, &MEASURED],
         &[&CREEP, &POISSON_RATIO, &MEASURED],
         &[&ZENER, &POISSON_RATIO, &MEASURED],
     ]),
