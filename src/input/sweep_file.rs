@@ -76,7 +76,9 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         Some(Some(body)) => for_contact(&problems, body).map(Some),
         other => other.map(|_| None),
     };
-    let material = counterbody.and_then(|body| file.material(&mut root, body.as_ref()));
+    let indenter_of = counterbody.as_ref().and_then(Option::as_ref);
+    let material = file.material(&mut root, indenter_of);
+    let material = material.filter(|_| counterbody.is_some());
     let indenter = file.indenter(&mut root);
     let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
         harmonic_block::read(t, &problems)

@@ -176,7 +176,15 @@ impl Comparison {
     }
 }
 
-/// Physical quantities; not how they came about, nor their error bars, nor differences of nearly equal numbers.
+/// Whether a column has a number in any row of the tables that have it; an unreadable one counts, and is told where it is compared.
+fn has_numbers(tables: [&SweepTable; 2], column: &str) -> bool {
+    let with = tables.into_iter().filter(|table| table.has(column));
+    let mut cells = with.flat_map(|table| table.rows.iter().map(|row| table.number(row, column)));
+    cells.any(|cell| !matches!(cell, Ok(None)))
+}
+
+/// Physical quantities; not how they came about, nor their error bars, nor differences of nearly equal numbers, nor what neither
+/// result has.
 fn compared_columns(
     baseline: &SweepTable,
     new: &SweepTable,
@@ -186,7 +194,8 @@ fn compared_columns(
     for column in baseline.columns.iter().chain(&new.columns) {
         let known = quantities::of_name(column);
         let is_compared = known.is_some_and(|column| column.compared.is_some());
-        if is_compared && !names.contains(column) {
+        let is_new = is_compared && !names.contains(column);
+        if is_new && has_numbers([baseline, new], column) {
             names.push(column.clone());
         }
     }

@@ -114,3 +114,18 @@ fn a_fluid_indenter_is_refused_at_its_place() {
         &["this material is a fluid", "bad.toml"],
     );
 }
+
+#[test]
+fn a_slip_in_the_material_of_the_indenter_is_told_alone() {
+    let ball = "[indenter.material]\nlibrary = \"stel\"\n";
+    let folder = TempDir::new().unwrap();
+    let file = write(
+        &folder,
+        "ball.toml",
+        &format!("{}{ball}", pmma_sweep(COARSE)),
+    );
+    let assert = program().args(["sweep", &file]).assert().code(2);
+    let told = String::from_utf8(assert.get_output().stderr.clone()).unwrap();
+    assert!(told.contains("write \"steel\""), "{told}");
+    assert_eq!(told.matches("error:").count(), 1, "{told}");
+}
