@@ -89,6 +89,7 @@ fn case_s(cells: usize) -> f64 {
         title: "bench".into(),
         material: Arc::new(entry.material().expect("a tested entry")),
         layer: None,
+        adhesion: None,
         indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
         drive: HarmonicDrive::load(LOAD_N, 0.5 * LOAD_N).expect("a valid drive"),
         axes: None,

@@ -29,6 +29,7 @@ fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
         title: String::new(),
         material: Arc::new(entry.material().expect("a tested entry")),
         layer: None,
+        adhesion: None,
         indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
         drive: HarmonicDrive::new(Control::Load, LOAD_N, 0.5 * LOAD_N, 0.0, 0.0)
             .expect("a valid drive"),

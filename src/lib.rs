@@ -16,7 +16,8 @@
 //! u(x,y,t) = integral over area of q / (pi r),       q(x,y,t) = integral from 0 to t of C(t-s) dp(x,y,s)
 //! ```
 //!
-//! Frictionless, quasi-static, no adhesion, small slopes, constant Poisson ratio. C(t) is the contact compliance:
+//! Frictionless, quasi-static, small slopes; no adhesion but that of small, stiff spheres ([`sweep::plan::adhesion`]); a constant Poisson
+//! ratio, or a constant bulk modulus ([`material::compressibility`]). C(t) is the contact compliance: with a constant Poisson ratio
 //! (1 - nu^2) D(t) of the longitudinal creep compliance D, or (1 - nu) J(t)/2 of the shear creep compliance J.
 //!
 //! # Conventions

@@ -55,6 +55,8 @@ pub enum Dimension {
     Mass,
     /// N/m.
     Stiffness,
+    /// J/m^2.
+    EnergyPerArea,
     /// m/N.
     FrameCompliance,
     /// N s/m.
@@ -76,7 +78,7 @@ struct Profile {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Dimension; 17] = [
+    pub const ALL: [Dimension; 18] = [
         Dimension::Length,
         Dimension::Area,
         Dimension::Force,
@@ -91,6 +93,7 @@ impl Dimension {
         Dimension::Temperature,
         Dimension::Mass,
         Dimension::Stiffness,
+        Dimension::EnergyPerArea,
         Dimension::FrameCompliance,
         Dimension::Damping,
         Dimension::Speed,
@@ -158,6 +161,13 @@ impl Dimension {
             Self::Stiffness => {
                 profile("a stiffness", "N/m", "150 N/m", [0, 1, -2, 0, 0, 0], (0, 0))
             }
+            Self::EnergyPerArea => profile(
+                "an energy per area",
+                "J/m^2",
+                "0.05 J/m^2",
+                [0, 1, -2, 0, 0, 0],
+                (0, 0),
+            ),
             Self::FrameCompliance => profile(
                 "a frame compliance",
                 "m/N",

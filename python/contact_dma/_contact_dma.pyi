@@ -1,118 +1,215 @@
-"""The compiled module; its parts are used by the classes and functions of the package."""
+# Written by python/stubs.sh from the compiled module.
+from numpy import complex128, float64
+from numpy.typing import NDArray
+from _typeshed import SupportsGetItem
+from os import PathLike
+from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-import os
-from collections.abc import Callable, Sequence
-from typing import Any, Final, final
-
-import numpy as np
-import numpy.typing as npt
+__all__ = ["VERSION", "Body", "History", "Shape", "Sweep", "analyse", "frequency_hz", "identify_material", "library_materials", "read_sweep", "restore_analysis", "restore_history", "restore_sweep", "simulate", "sweep", "write_files"]
 
 VERSION: Final[str]
 
-_Floats = npt.NDArray[np.float64]
-_Columns = list[tuple[str, Any]]
-_Files = list[tuple[str, bytes]]
-_Instant = tuple[float, float, float, float]
-_Progress = Callable[[int, int], object]
-_Analysed = tuple[
-    _Columns,
-    list[tuple[_Floats, _Floats, _Floats] | None],
-    list[tuple[str, str | None]],
-    list[list[tuple[str, str]]],
-    _Files,
-]
-
 @final
 class Body:
-    def __new__(cls, name: str, text: str) -> Body: ...
+    """
+    A material that was read from its block of a sweep file.
+    """
+    def __new__(cls, /, name: str, text: str) -> Body: ...
     @property
-    def text(self) -> str: ...
+    def bulk_modulus_pa(self, /) -> float | None:
+        """
+        The bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
+        """
+    def complex_modulus(self, /, angular_frequency: NDArray[float64], modulus: str) -> "NDArray[complex128]": ...
+    def creep_compliance(self, /, time: NDArray[float64], modulus: str) -> NDArray[float64]: ...
     @property
-    def is_series(self) -> bool: ...
+    def is_series(self, /) -> bool:
+        """
+        Whether it is a series, which sweeps take, and not samples as they are.
+        """
     @property
-    def name(self) -> str | None: ...
+    def name(self, /) -> str | None: ...
     @property
-    def poisson_ratio(self) -> float: ...
+    def poisson_ratio(self, /) -> float | None:
+        """
+        The Poisson ratio, where it is constant in time.
+        """
+    def prony(self, /, modulus: str) -> tuple[float, NDArray[float64], NDArray[float64]]: ...
+    def relaxation_modulus(self, /, time: NDArray[float64], modulus: str) -> NDArray[float64]: ...
     @property
-    def temperature_k(self) -> float | None: ...
-    def complex_modulus(self, angular_frequency: _Floats, modulus: str) -> npt.NDArray[np.complex128]: ...
-    def creep_compliance(self, time: _Floats, modulus: str) -> _Floats: ...
-    def relaxation_modulus(self, time: _Floats, modulus: str) -> _Floats: ...
-    def prony(self, modulus: str) -> tuple[float, _Floats, _Floats]: ...
-
-@final
-class Shape:
-    def __new__(cls, name: str, text: str) -> Shape: ...
-    @staticmethod
-    def of_heights(name: str, text: str, heights: _Floats) -> Shape: ...
-    def gaps(self) -> _Floats: ...
-    def map_keys(self) -> str: ...
-    def gap(self, x: _Floats, y: _Floats) -> _Floats: ...
-
-@final
-class Sweep:
-    def __len__(self) -> int: ...
-    def columns(self) -> _Columns: ...
-    def status(self) -> list[tuple[str, str | None]]: ...
-    def warnings(self) -> list[list[tuple[str, str]]]: ...
-    def peaks(
-        self,
-    ) -> list[tuple[float, float, float, float | None, list[float], float | None, float | None]]: ...
+    def temperature_k(self, /) -> float | None: ...
     @property
-    def peak_problems(self) -> list[str]: ...
-    @property
-    def notes(self) -> list[str]: ...
-    @property
-    def title(self) -> str: ...
-    @property
-    def control(self) -> str: ...
-    @property
-    def resolved(self) -> str: ...
-    def summary(self) -> bytes: ...
-    def cycle(self, index: int) -> tuple[_Floats, _Floats, _Floats, _Floats, _Floats] | None: ...
-    def profiles(self, index: int) -> list[tuple[str, _Instant, list[tuple[str, _Floats, _Floats]]]]: ...
-    def save(self, folder: str | os.PathLike[str], force: bool) -> None: ...
+    def text(self, /) -> str:
+        """
+        A block of a sweep file that gives the same material again.
+        """
 
 @final
 class History:
-    def columns(self) -> _Columns: ...
-    def cycles(self) -> _Columns: ...
+    """
+    A history and what it came to.
+    """
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def columns(self, /) -> list[tuple[str, Any]]: ...
+    def cycles(self, /) -> list[tuple[str, Any]]:
+        """
+        The cycles of sine segments, one row each.
+        """
     @property
-    def title(self) -> str: ...
+    def errors_missing(self, /) -> str | None: ...
     @property
-    def resolved(self) -> str: ...
+    def failure(self, /) -> str | None:
+        """
+        Why the history ended before its time.
+        """
+    def field(self, /, index: SupportsIndex) -> tuple[tuple[float, float, float, float], tuple[float, float], NDArray[float64], NDArray[float64], NDArray[float64] | None]:
+        """
+        A field of this result, whose arrays are not copied.
+        """
     @property
-    def failure(self) -> str | None: ...
+    def field_count(self, /) -> int: ...
+    def profile(self, /, index: SupportsIndex) -> tuple[tuple[float, float, float, float], list[tuple[str, tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]]]]]: ...
     @property
-    def errors_missing(self) -> str | None: ...
-    def warnings(self) -> list[tuple[str, str]]: ...
+    def profile_count(self, /) -> int: ...
     @property
-    def profile_count(self) -> int: ...
+    def resolved(self, /) -> str:
+        """
+        The scenario as the text of its file, every default filled in.
+        """
+    def save(self, /, folder: str | PathLike[str], force: bool) -> None:
+        """
+        Writes what the program writes, but for figures and page.
+        """
     @property
-    def field_count(self) -> int: ...
-    def profile(
-        self, index: int
-    ) -> tuple[_Instant, list[tuple[str, tuple[_Floats, _Floats, _Floats, _Floats]]]]: ...
-    def field(
-        self, index: int
-    ) -> tuple[_Instant, tuple[float, float], _Floats, _Floats, _Floats | None]: ...
-    def save(self, folder: str | os.PathLike[str], force: bool) -> None: ...
+    def title(self, /) -> str: ...
+    def warnings(self, /) -> list[tuple[str, str]]:
+        """
+        What lies outside the model: code and sentence.
+        """
 
-def sweep(source: Any, threads: int | None, progress: _Progress | None) -> Sweep: ...
-def restore_sweep(
-    build: str, resolved: str, shape: Shape | None, records: bytes, threads: int
-) -> Sweep: ...
-def read_sweep(folder: str | os.PathLike[str]) -> Sweep: ...
-def simulate(source: Any, threads: int | None, progress: _Progress | None) -> History: ...
-def restore_history(build: str, resolved: str, shape: Shape | None, packed: bytes) -> History: ...
-def analyse(
-    records: Sequence[Any],
-    frequency_hz: float | None,
-    setup: tuple[str, str | None],
-    threads: int | None,
-) -> _Analysed: ...
-def restore_analysis(everything: bytes) -> _Analysed: ...
-def identify_material(source: Any, threads: int | None) -> tuple[str, list[str], _Files]: ...
-def frequency_hz(text: str) -> float: ...
-def library_materials() -> list[tuple[str, str, str]]: ...
-def write_files(folder: str | os.PathLike[str], files: Sequence[tuple[str, bytes]]) -> None: ...
+@final
+class Shape:
+    """
+    An indenter that was read from its block of a sweep file, or a height map of an array.
+    """
+    def __new__(cls, /, name: str, text: str) -> Shape:
+        """
+        The indenter of a block.
+        """
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]":
+        """
+        A map of an array by its gaps; other indenters are pickled by their text.
+        """
+    def gap(self, /, x: NDArray[float64], y: NDArray[float64]) -> NDArray[float64]:
+        """
+        Gap (m) between the undeformed indenter and the half-space at points x, y (m).
+        """
+    def gaps(self, /) -> NDArray[float64]:
+        """
+        Gap (m) at every point of a map of an array.
+        """
+    def map_keys(self, /) -> str:
+        """
+        The block, without file, that a map of an array has together with its gaps.
+        """
+    @staticmethod
+    def of_heights(name: str, text: str, heights: NDArray[float64]) -> Shape:
+        """
+        A map of heights, one row for each y, with the other keys of its block.
+        """
+
+@final
+class Sweep:
+    """
+    A sweep and what it came to.
+    """
+    def __len__(self, /) -> int: ...
+    def __reduce__(self, /) -> "tuple[Any, tuple[Any, ...]]": ...
+    def columns(self, /) -> list[tuple[str, Any]]: ...
+    @property
+    def control(self, /) -> str: ...
+    def cycle(self, /, index: SupportsIndex) -> tuple[NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64], NDArray[float64]] | None: ...
+    @property
+    def notes(self, /) -> list[str]: ...
+    @property
+    def peak_problems(self, /) -> list[str]: ...
+    def peaks(self, /) -> list[tuple[float, float, float, float | None, list[float], float | None, float | None]]: ...
+    def profiles(self, /, index: SupportsIndex) -> list[tuple[str, tuple[float, float, float, float], list[tuple[str, NDArray[float64], NDArray[float64]]]]]: ...
+    @property
+    def resolved(self, /) -> str:
+        """
+        The sweep as the text of a sweep file, every default filled in.
+        """
+    def save(self, /, folder: str | PathLike[str], force: bool) -> None:
+        """
+        Writes what the program writes, but for figures and page.
+        """
+    def status(self, /) -> list[tuple[str, str | None]]:
+        """
+        How every case ended, and why it has no result or what else is to be known of it.
+        """
+    def summary(self, /) -> bytes:
+        """
+        What is written to summary.json.
+        """
+    @property
+    def title(self, /) -> str: ...
+    def warnings(self, /) -> list[list[tuple[str, str]]]:
+        """
+        The warnings of every case: code and sentence.
+        """
+
+def analyse(records: SupportsGetItem[int, Any], frequency_hz: SupportsFloat | SupportsIndex | None, setup: tuple[str, str | None], threads: SupportsIndex | None) -> tuple[list[tuple[str, Any]], list[tuple[NDArray[float64], NDArray[float64], NDArray[float64]] | None], list[tuple[str, str | None]], list[list[tuple[str, str]]], list[tuple[str, bytes]]]:
+    """
+    What measured loops say. The text is that of a setup.
+    """
+
+def frequency_hz(text: str) -> float:
+    """
+    A frequency (Hz) with its unit, be it Hz or rad/s.
+    """
+
+def identify_material(source: "object", threads: SupportsIndex | None) -> tuple[str, list[str], list[tuple[str, bytes]]]:
+    """
+    A material from measured cycles: its block, and every file of the folder.
+    """
+
+def library_materials() -> list[tuple[str, str, str]]:
+    """
+    Names and titles of the materials of the library.
+    """
+
+def read_sweep(folder: str | PathLike[str]) -> Sweep:
+    """
+    The result in a folder of the program.
+    """
+
+def restore_analysis(everything: bytes) -> tuple[list[tuple[str, Any]], list[tuple[NDArray[float64], NDArray[float64], NDArray[float64]] | None], list[tuple[str, str | None]], list[list[tuple[str, str]]], list[tuple[str, bytes]]]:
+    """
+    The analysis that the program has kept in `analysis.json`.
+    """
+
+def restore_history(build: str, resolved: str, shape: Shape | None, packed: bytes) -> History:
+    """
+    The history that [`History::__reduce__`] has packed.
+    """
+
+def restore_sweep(build: str, resolved: str, shape: Shape | None, records: bytes, threads: SupportsIndex) -> Sweep:
+    """
+    A result of the records that [`Sweep::__reduce__`] has packed.
+    """
+
+def simulate(source: "object", threads: SupportsIndex | None, progress: Any | None) -> History:
+    """
+    Follows a drive history.
+    """
+
+def sweep(source: "object", threads: SupportsIndex | None, progress: Any | None) -> Sweep:
+    """
+    Solves every case of a sweep and locates the peaks.
+    """
+
+def write_files(folder: str | PathLike[str], files: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]]) -> None:
+    """
+    Writes files into a folder, each whole or not at all.
+    """

@@ -16,7 +16,7 @@ from ._result import Progress, Table, Warning, arrays, heard, svg
 from ._stored import StoredHistory
 from .indenters import Indenter
 from .materials import Floats, Material, Quantity
-from .sweeps import _refuse, _solver, _Source, _threads
+from .sweeps import _bodies, _refuse, _solver, _Source, _threads
 
 
 @dataclass(frozen=True)
@@ -170,6 +170,8 @@ def simulate(
     *,
     segments: Sequence[Mapping[str, Any]],
     control: Literal["load", "approach"] = "load",
+    indenter_material: Material | str | None = None,
+    layer: Mapping[str, Any] | None = None,
     step: Quantity | None = None,
     profiles_at: Sequence[Quantity] | None = None,
     fields_at: Sequence[Quantity] | None = None,
@@ -212,6 +214,8 @@ def simulate(
         segments: one after another, with the keys of the program: ``{"kind": "ramp", "to": "2 N", "duration": "5 s"}``, kinds
             ``step``, ``ramp``, ``polynomial``, ``sine``, and ``table`` with arrays ``times`` (s) and ``values`` (N or m).
         control: whether the load is prescribed, or the approach.
+        indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
+        layer: of the material on a rigid base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells.
         step: time step (s); chosen from drive and material where it is left out.
         profiles_at: times (s) of profiles.
         fields_at: times (s) of fields.
@@ -249,8 +253,10 @@ def simulate(
         output = {key: options.pop(key, None) for key in ("profiles_at", "fields_at", "field_cells", "error_bars")}
         text += _toml.table("drive", drive) + _toml.table("time", {"step": options.pop("step", None)})
         text += _toml.table("output", output) + _solver(options)
+        block = _bodies(indenter, options, False)
         _refuse("simulate", options)
-        source = _Source("simulate(...)", text, (), material._core, indenter._core)
+        shape = None if "[indenter]" in block else indenter._core
+        source = _Source("simulate(...)", text + block, (), material._core, shape)
     else:
         if indenter is not None or options:
             raise ValueError("a scenario file says all; write overrides={\"solver.springs\": 48} to change it")

@@ -1,4 +1,4 @@
-"""Rigid indenters."""
+"""Indenters."""
 
 from __future__ import annotations
 
@@ -178,7 +178,7 @@ class Rough(Indenter):
         roll_off_wavelength: longest wavelength of the self-affine part (m).
         seed: of the random numbers.
         sphere_radius: of the sphere that the roughness is on (m).
-        edge: ``"unknown"`` or ``"rim"``, see `HeightMap`.
+        edge: ``"unknown"``, ``"rim"`` or ``"periodic"``, see `HeightMap`.
 
     Example:
         >>> rough = Rough(64, spacing="1 um", hurst_exponent=0.8, rms_height="50 nm",
@@ -200,7 +200,7 @@ class Rough(Indenter):
         seed: int,
         roll_off_wavelength: Quantity | None = None,
         sphere_radius: Quantity | None = None,
-        edge: Literal["unknown", "rim"] | None = None,
+        edge: Literal["unknown", "rim", "periodic"] | None = None,
     ) -> None:
         self._made(
             "rough",
@@ -225,7 +225,8 @@ class HeightMap(Indenter):
         quantity: ``"height"``, positive towards the half-space, or ``"gap"``.
         height_unit: unit of the values, ``"m"`` where it is left out.
         level: what is taken off: ``"none"``, ``"mean"`` or ``"plane"``.
-        edge: what is beyond the border: ``"unknown"``, so that contact there is an error, or ``"rim"``, the end of the indenter.
+        edge: what is beyond the border: ``"unknown"``, so that contact there is an error, or ``"rim"``, the end of the indenter,
+                or ``"periodic"``, the map again and again, under a prescribed load.
 
     An array is copied once, into the memory of the library.
 
@@ -249,7 +250,7 @@ class HeightMap(Indenter):
         quantity: Literal["height", "gap"] | None = None,
         height_unit: str | None = None,
         level: Literal["none", "mean", "plane"] | None = None,
-        edge: Literal["unknown", "rim"] | None = None,
+        edge: Literal["unknown", "rim", "periodic"] | None = None,
         offset: tuple[Quantity, Quantity] | None = None,
     ) -> None:
         spacings = [spacing] if isinstance(spacing, (int, float, str, np.floating)) else spacing

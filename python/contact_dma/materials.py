@@ -90,12 +90,29 @@ class Material:
         return cls._of("Material.library(...)", _toml.table("material", entries))
 
     @classmethod
+    def elastic(cls, modulus: Quantity, *, poisson_ratio: float, name: str | None = None) -> Material:
+        """An elastic solid, such as what an indenter is made of.
+
+        Args:
+            modulus: Young's modulus (Pa).
+            poisson_ratio: its Poisson ratio.
+            name: a name for tables.
+
+        Example:
+            >>> Material.elastic("210 GPa", poisson_ratio=0.3).complex_modulus(1.0).real
+            210000000000.0
+        """
+        table = {"modulus": modulus, "poisson_ratio": poisson_ratio}
+        return cls._of("Material.elastic(...)", _toml.table("material", {"name": name, "elastic": table}))
+
+    @classmethod
     def relaxation(
         cls,
         equilibrium: Quantity,
         branches: Sequence[tuple[Quantity, Quantity]],
         *,
-        poisson_ratio: float,
+        poisson_ratio: float | None = None,
+        bulk_modulus: Quantity | None = None,
         modulus: ModulusKind = "longitudinal",
         name: str | None = None,
         measured: tuple[Quantity, Quantity] | None = None,
@@ -106,6 +123,7 @@ class Material:
             equilibrium: modulus after all time (Pa).
             branches: modulus (Pa) and relaxation time (s) of each branch.
             poisson_ratio: Poisson ratio, constant in time.
+            bulk_modulus: in its place the bulk modulus (Pa), where that is constant.
             modulus: whether the moduli are Young's or shear moduli.
             name: a name for tables.
             measured: first and last time (s) of the test, outside of which the series is an extrapolation.
@@ -120,7 +138,7 @@ class Material:
             "equilibrium": equilibrium,
             "branches": [{"modulus": m, "time": t} for m, t in branches],
         }
-        entries = {"name": name, "poisson_ratio": poisson_ratio, "measured": measured}
+        entries = {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus, "measured": measured}
         return cls._block("relaxation", entries, relaxation=table)
 
     @classmethod
@@ -129,7 +147,8 @@ class Material:
         instantaneous: Quantity,
         branches: Sequence[tuple[Quantity, Quantity]],
         *,
-        poisson_ratio: float,
+        poisson_ratio: float | None = None,
+        bulk_modulus: Quantity | None = None,
         viscosity: Quantity | None = None,
         compliance: ModulusKind = "longitudinal",
         name: str | None = None,
@@ -141,6 +160,7 @@ class Material:
             instantaneous: compliance at once (1/Pa).
             branches: compliance (1/Pa) and retardation time (s) of each branch.
             poisson_ratio: Poisson ratio, constant in time.
+            bulk_modulus: in its place the bulk modulus (Pa), where that is constant.
             viscosity: of a fluid (Pa s); sweeps need a solid.
             compliance: whether the compliances are longitudinal (D) or of shear (J).
             name: a name for tables.
@@ -157,12 +177,19 @@ class Material:
             "viscosity": viscosity,
             "branches": [{"compliance": c, "time": t} for c, t in branches],
         }
-        entries = {"name": name, "poisson_ratio": poisson_ratio, "measured": measured}
+        entries = {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus, "measured": measured}
         return cls._block("creep", entries, creep=table)
 
     @classmethod
     def zener(
-        cls, spring: Quantity, kelvin_spring: Quantity, time: Quantity, *, poisson_ratio: float, name: str | None = None
+        cls,
+        spring: Quantity,
+        kelvin_spring: Quantity,
+        time: Quantity,
+        *,
+        poisson_ratio: float | None = None,
+        bulk_modulus: Quantity | None = None,
+        name: str | None = None,
     ) -> Material:
         """A spring in series with a Kelvin unit: shear moduli of both springs (Pa), and the time of the unit (s).
 
@@ -171,7 +198,7 @@ class Material:
             0.5
         """
         table = {"spring": spring, "kelvin_spring": kelvin_spring, "time": time}
-        return cls._block("zener", {"name": name, "poisson_ratio": poisson_ratio}, zener=table)
+        return cls._block("zener", {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}, zener=table)
 
     @classmethod
     def maxwell(cls, modulus: Quantity, time: Quantity, *, poisson_ratio: float, name: str | None = None) -> Material:
@@ -193,7 +220,8 @@ class Material:
         time: Quantity,
         exponent: float,
         band: tuple[Quantity, Quantity],
-        poisson_ratio: float,
+        poisson_ratio: float | None = None,
+        bulk_modulus: Quantity | None = None,
         modulus: ModulusKind = "longitudinal",
         equilibrium: Quantity | None = None,
         second_exponent: float | None = None,
@@ -208,7 +236,8 @@ class Material:
             time: its time (s).
             exponent: order of the derivative, above 0 and at most 1.
             band: lowest and highest angular frequency (rad/s).
-            poisson_ratio: Poisson ratio.
+            poisson_ratio: Poisson ratio, constant in time.
+            bulk_modulus: in its place the bulk modulus (Pa), where that is constant.
             modulus: whether moduli are Young's or shear moduli.
             equilibrium: of the Zener model (Pa).
             second_exponent: of the Maxwell model.
@@ -232,7 +261,7 @@ class Material:
             "band": band,
             "accuracy": accuracy,
         }
-        return cls._block("fractional", {"name": name, "poisson_ratio": poisson_ratio}, fractional=table)
+        return cls._block("fractional", {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}, fractional=table)
 
     @classmethod
     def table(
@@ -383,9 +412,19 @@ class Material:
         return self._core.name
 
     @property
-    def poisson_ratio(self) -> float:
-        """Poisson ratio."""
+    def poisson_ratio(self) -> float | None:
+        """Poisson ratio, where it is constant in time."""
         return self._core.poisson_ratio
+
+    @property
+    def bulk_modulus(self) -> float | None:
+        """Bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
+
+        Example:
+            >>> Material.zener("1 MPa", "2 MPa", "1 s", bulk_modulus="1 GPa").bulk_modulus
+            1000000000.0
+        """
+        return self._core.bulk_modulus_pa
 
     @property
     def temperature(self) -> float | None:
@@ -456,7 +495,8 @@ class Material:
 
     def __repr__(self) -> str:
         name = f"{self.name!r}, " if self.name else ""
-        return f"Material({name}poisson_ratio={self.poisson_ratio})"
+        bulk = self.bulk_modulus
+        return f"Material({name}poisson_ratio={self.poisson_ratio})" if bulk is None else f"Material({name}bulk_modulus={bulk})"
 
     def __eq__(self, other: object) -> bool:
         return self.text == other.text if isinstance(other, Material) else NotImplemented

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import json
 import os
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, overload
@@ -255,6 +256,8 @@ def sweep(
     control: Literal["load", "approach"] = "load",
     phase: Quantity | None = None,
     hold: Quantity | None = None,
+    indenter_material: Material | str | None = None,
+    layer: Mapping[str, Any] | None = None,
     axes: Mapping[str, Sequence[Quantity]] | None = None,
     pairs: bool | None = None,
     refine: bool | None = None,
@@ -262,6 +265,7 @@ def sweep(
     method: Literal["direct", "march"] | None = None,
     tolerance: float | None = None,
     max_cycles: int | None = None,
+    at_cycle: int | None = None,
     error_bars: bool | None = None,
     accuracy: float | None = None,
     engine: Literal["axisymmetric", "half-space"] | None = None,
@@ -308,6 +312,8 @@ def sweep(
         control: whether the load is prescribed, or the approach.
         phase: at which the oscillation begins (rad).
         hold: rest under the mean before it (s); for the march alone.
+        indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
+        layer: of the material on a rigid base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells.
         axes: other axes of the sweep, such as ``{"indenter.radius": ["5 mm", "10 mm"], "drive.amplitude": [1.0, 2.0]}``.
         pairs: whether the values of axes go together one by one, in place of all combinations.
         refine: whether frequencies are added where the curve is not resolved.
@@ -315,6 +321,7 @@ def sweep(
         method: whether the stabilised cycle is found directly or by marching.
         tolerance: distance to the stabilised cycle.
         max_cycles: cycles of marching, at most.
+        at_cycle: the cycle of the march that is recorded as it is, in place of the stabilised one; with ``method="march"``.
         error_bars: whether coarser resolutions give the errors of all results.
         accuracy: largest relative error of every loss; steps and nodes are then chosen.
         engine: the contact engine.
@@ -357,7 +364,7 @@ def sweep(
 
 _SWEEP_KEYS = ("angular_frequency", "frequency", "pairs", "refine")
 _DRIVE_KEYS = ("control", "mean", "amplitude", "phase", "hold")
-_CYCLE_KEYS = ("steps", "method", "tolerance", "max_cycles", "error_bars", "accuracy")
+_CYCLE_KEYS = ("steps", "method", "tolerance", "max_cycles", "at_cycle", "error_bars", "accuracy")
 _SOLVER_KEYS = ("engine", "cells", "springs", "time_rule")
 
 
@@ -396,15 +403,30 @@ def _source_of_values(material: Material, indenter: Indenter, options: dict[str,
     text += _toml.table("drive", _chosen(options, _DRIVE_KEYS))
     text += _toml.table("sweep", {**_chosen(options, _SWEEP_KEYS), **axes}) or "[sweep]\n\n"
     text += _toml.table("cycle", _chosen(options, _CYCLE_KEYS)) + _solver(options)
-    _refuse("sweep", options)
     # A block that an axis varies is read for every value of it.
     varies = {str(axis).split(".")[0] for axis in axes}
     body, shape = material._core, indenter._core
     by_text = "material" in varies or not body.is_series
     text += material._source + "\n" if by_text else ""
-    block = indenter._text if "indenter" in varies else None
-    text += block or ""
-    return _Source("sweep(...)", text, (), None if by_text else body, None if block else shape)
+    block = _bodies(indenter, options, "indenter" in varies)
+    _refuse("sweep", options)
+    by_block = "[indenter]" in block
+    return _Source("sweep(...)", text + block, (), None if by_text else body, None if by_block else shape)
+
+
+def _bodies(indenter: Indenter, options: dict[str, Any], by_text: bool) -> str:
+    """The text of the indenter, where it has to be text, of what it is made of, and of a layer."""
+    made_of, layer = options.pop("indenter_material", None), options.pop("layer", None)
+    text = _toml.table("layer", layer) if layer is not None else ""
+    if made_of is not None and indenter._text is None:
+        raise ValueError("an indenter of an array is rigid: write the array to a file and give HeightMap its path")
+    if by_text or made_of is not None:
+        text += indenter._text or ""
+    if isinstance(made_of, Material):
+        text += re.sub(r"(?m)^(\[+)material\b", r"\1indenter.material", made_of._source)
+    elif made_of is not None:
+        text += _toml.table("indenter.material", {"library": made_of})
+    return text
 
 
 def _threads(threads: int | None) -> int | None:

@@ -58,12 +58,16 @@ impl Body {
         self.material.series()?.name()
     }
 
+    /// The Poisson ratio, where it is constant in time.
     #[getter]
-    fn poisson_ratio(&self) -> f64 {
-        match &self.material {
-            BodyMaterial::Series(material) => material.poisson_ratio(),
-            BodyMaterial::Samples(samples) => samples.poisson_ratio(),
-        }
+    fn poisson_ratio(&self) -> Option<f64> {
+        self.material.poisson_ratio()
+    }
+
+    /// The bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
+    #[getter]
+    fn bulk_modulus_pa(&self) -> Option<f64> {
+        self.material.series()?.compressibility().bulk_modulus_pa()
     }
 
     #[getter]
@@ -71,6 +75,7 @@ impl Body {
         self.material.series()?.temperature_k()
     }
 
+    #[pyo3(signature = (angular_frequency, modulus) -> "NDArray[complex128]")]
     fn complex_modulus<'py>(
         &self,
         py: Python<'py>,

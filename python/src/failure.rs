@@ -19,6 +19,13 @@ pub fn of_value(error: impl std::fmt::Display) -> PyErr {
     PyValueError::new_err(error.to_string())
 }
 
+/// A result that this build cannot be sure to read as it was meant.
+pub fn of_other_build() -> PyErr {
+    of_value(
+        "this result was pickled by another build of contact-dma, which may read it otherwise: keep results with save(folder)",
+    )
+}
+
 /// Anything that no other input would cure.
 pub fn of_run(error: impl std::fmt::Display) -> PyErr {
     PyRuntimeError::new_err(error.to_string())

@@ -19,11 +19,10 @@ use contact_dma::sweep::history::{
     HistoryRow, Simulation, SimulationEnd, SimulationOutcome, SurfaceRecord,
 };
 use contact_dma::sweep::plan::scenario::{ScenarioPlan, resolved_text};
-use contact_dma::sweep::search::run;
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::provenance::BUILD;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
-use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt, PyValueError};
+use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
 use serde::{Deserialize, Serialize};
@@ -192,6 +191,7 @@ impl History {
         })
     }
 
+    #[pyo3(signature = () -> "tuple[Any, tuple[Any, ...]]")]
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -283,6 +283,7 @@ fn instant(row: &HistoryRow) -> Instant {
 
 /// Follows a drive history.
 #[pyfunction]
+#[pyo3(signature = (source: "object", threads, progress))]
 pub fn simulate(
     py: Python<'_>,
     source: Source<'_>,
@@ -301,13 +302,9 @@ pub fn simulate(
         callback: progress.as_ref(),
     };
     counter.total.store(simulation.moments(), Ordering::Relaxed);
-    let pool =
-        run::pool(run::useful_threads(threads)).map_err(|error| failure::of_sweep(&error))?;
-    let outcome = wait::run(py, &interrupt, &watch, || {
-        pool.install(|| {
-            let told = |done: usize, _: usize| counter.done.store(done, Ordering::Relaxed);
-            simulation.run(&interrupt, &told)
-        })
+    let outcome = wait::run_on_threads(py, (threads, &interrupt), Some(&watch), || {
+        let told = |done: usize, _: usize| counter.done.store(done, Ordering::Relaxed);
+        simulation.run(&interrupt, &told)
     })?;
     if outcome.ended == SimulationEnd::Interrupted {
         return Err(PyKeyboardInterrupt::new_err("interrupted"));
@@ -329,10 +326,7 @@ pub fn restore_history(
 ) -> PyResult<History> {
     let packed = postcard::from_bytes::<Packed>(packed);
     let (true, Ok(packed)) = (build == BUILD, packed) else {
-        return Err(PyValueError::new_err(
-            "this result was pickled by another build of contact-dma, which may read it otherwise: keep results with \
-             save(folder)",
-        ));
+        return Err(failure::of_other_build());
     };
     let given = Given {
         material: None,

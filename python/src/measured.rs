@@ -17,7 +17,6 @@ use contact_dma::report::identify::{
 };
 use contact_dma::report::measured::{Analysis, MeasuredRow, columns, ordered, summary, tables};
 use contact_dma::sweep::plan::resolved::material_text;
-use contact_dma::sweep::search::run;
 use contact_dma::sweep::store::write_atomically;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
@@ -26,7 +25,7 @@ use pyo3::types::PyBytes;
 use rayon::prelude::*;
 
 use crate::source::Source;
-use crate::wait::{self, Counter, Watch};
+use crate::wait;
 use crate::{arrays, failure};
 
 /// A record of load and approach: of a file, or columns in memory with their name.
@@ -77,23 +76,16 @@ pub fn analyse<'py>(
         frequency_hz,
         ..given.options
     };
-    let (interrupt, counter) = (AtomicBool::new(false), Counter::default());
-    let watch = Watch {
-        counter: &counter,
-        callback: None,
-    };
-    let pool =
-        run::pool(run::useful_threads(threads)).map_err(|error| failure::of_sweep(&error))?;
-    let rows = wait::run(py, &interrupt, &watch, || {
-        pool.install(|| {
-            let rows = records.into_par_iter().map(|record| row(record, &options));
-            rows.collect::<Result<Vec<MeasuredRow>, _>>()
-        })
+    let interrupt = AtomicBool::new(false);
+    let rows = wait::run_on_threads(py, (threads, &interrupt), None, || {
+        let rows = records.into_par_iter().map(|record| row(record, &options));
+        rows.collect::<Result<Vec<MeasuredRow>, _>>()
     })?;
     let analysis = Analysis {
         title: given.title.unwrap_or_else(|| "Measured loops".to_owned()),
         setup: text,
         rows: ordered(rows.map_err(|found| failure::of_input(&found))?),
+        computed: Vec::new(),
     };
     analysed(py, &analysis)
 }
@@ -189,6 +181,7 @@ fn bytes<'py>(py: Python<'py>, files: Vec<(String, Vec<u8>)>) -> Files<'py> {
 
 /// A material from measured cycles: its block, and every file of the folder.
 #[pyfunction]
+#[pyo3(signature = (source: "object", threads))]
 pub fn identify_material<'py>(
     py: Python<'py>,
     source: Source<'py>,
@@ -197,23 +190,17 @@ pub fn identify_material<'py>(
     let (document, given) = (source.document()?, source.given());
     let plan = identify_file::plan_with(&document, &given);
     let plan = plan.map_err(|found| failure::of_input(&found))?;
-    let (interrupt, counter) = (AtomicBool::new(false), Counter::default());
-    let watch = Watch {
-        counter: &counter,
-        callback: None,
-    };
-    let pool =
-        run::pool(run::useful_threads(threads)).map_err(|error| failure::of_sweep(&error))?;
-    let made = wait::run(py, &interrupt, &watch, || {
-        pool.install(|| {
-            let found = identify(&plan, &interrupt)?;
-            let curves = curves(&plan, &found, &interrupt)?;
-            Ok((found, curves))
-        })
+    let interrupt = AtomicBool::new(false);
+    let made = wait::run_on_threads(py, (threads, &interrupt), None, || {
+        let found = identify(&plan, &interrupt)?;
+        let curves = curves(&plan, &found, &interrupt)?;
+        Ok((found, curves))
     })?;
     let (found, curves) = made.map_err(|error| match error {
         IdentifyError::Interrupted => PyKeyboardInterrupt::new_err("interrupted"),
-        IdentifyError::NoCycle { .. } | IdentifyError::NoFit(_) => failure::of_run(error),
+        IdentifyError::NoCycle { .. } | IdentifyError::NoHistory(_) | IdentifyError::NoFit(_) => {
+            failure::of_run(error)
+        }
         error => PyValueError::new_err(error.to_string()),
     })?;
     let report = IdentifyReport {

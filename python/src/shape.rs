@@ -64,6 +64,7 @@ impl Shape {
     }
 
     /// A map of an array by its gaps; other indenters are pickled by their text.
+    #[pyo3(signature = () -> "tuple[Any, tuple[Any, ...]]")]
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -80,6 +81,7 @@ impl Shape {
         let edge = match map.edge() {
             MapEdge::Unknown => "unknown",
             MapEdge::Rim => "rim",
+            MapEdge::Periodic => "periodic",
         };
         Ok(format!(
             "[indenter]\nshape = \"height-map\"\nquantity = \"gap\"\nspacing = [{x_m:?}, {y_m:?}]\nedge = \"{edge}\"\n"

@@ -21,7 +21,7 @@ use contact_dma::sweep::store::merge;
 use contact_dma::sweep::store::provenance::{BUILD, Circumstances, Stopwatch};
 use contact_dma::sweep::store::{RESOLVED, Store};
 use numpy::{IntoPyArray, PyArray1};
-use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt, PyValueError};
+use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
 
@@ -226,6 +226,7 @@ impl Sweep {
         py.detach(|| self.write(&folder, force))
     }
 
+    #[pyo3(signature = () -> "tuple[Any, tuple[Any, ...]]")]
     fn __reduce__<'py>(
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
@@ -342,6 +343,7 @@ fn pressures<'py>(py: Python<'py>, values: &[Option<f64>]) -> Bound<'py, PyArray
 
 /// Solves every case of a sweep and locates the peaks.
 #[pyfunction]
+#[pyo3(signature = (source: "object", threads, progress))]
 pub fn sweep(
     py: Python<'_>,
     source: Source<'_>,
@@ -407,20 +409,14 @@ pub fn restore_sweep(
     records: &[u8],
     threads: usize,
 ) -> PyResult<Sweep> {
-    let other = || {
-        PyValueError::new_err(
-            "this result was pickled by another build of contact-dma, which may read its records otherwise: keep results \
-             with save(folder)",
-        )
-    };
     if build != BUILD {
-        return Err(other());
+        return Err(failure::of_other_build());
     }
     let given = Given {
         material: None,
         indenter: shape.as_ref().map(|shape| shape.get().indenter()),
     };
-    let memory = MemoryArchive::from_bytes(records).ok_or_else(other)?;
+    let memory = MemoryArchive::from_bytes(records).ok_or_else(failure::of_other_build)?;
     let text = match &shape {
         Some(_) => without_indenter(resolved),
         None => resolved.to_owned(),

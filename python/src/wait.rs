@@ -1,12 +1,16 @@
 //! Long work beside a Python interpreter that stays awake: other Python threads run, Ctrl-C is heard, progress is told.
 
+use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 use std::time::Duration;
 
+use contact_dma::sweep::search::run::{pool, useful_threads};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+
+use crate::failure;
 
 /// How often signals are looked for and progress is told.
 const POLL: Duration = Duration::from_millis(50);
@@ -91,6 +95,24 @@ pub fn run<T: Send>(
             "the computation stopped by an error of the program; please report it with your input",
         )),
     }
+}
+
+/// As [`run`], on so many threads, one per processor where it is not said. Without a watch nobody hears of progress.
+pub fn run_on_threads<T: Send>(
+    py: Python<'_>,
+    (threads, interrupt): (Option<NonZeroUsize>, &AtomicBool),
+    watch: Option<&Watch<'_, '_>>,
+    work: impl FnOnce() -> T + Send,
+) -> PyResult<T> {
+    let pool = pool(useful_threads(threads)).map_err(|error| failure::of_sweep(&error))?;
+    let counter = Counter::default();
+    let nobody = Watch {
+        counter: &counter,
+        callback: None,
+    };
+    run(py, interrupt, watch.unwrap_or(&nobody), || {
+        pool.install(work)
+    })
 }
 
 /// Does work that cannot be interrupted; after Ctrl-C it goes on to its end unheard.

@@ -22,8 +22,13 @@ fi
 cmp LICENSE-MIT python/licenses/LICENSE-MIT
 cmp LICENSE-APACHE python/licenses/LICENSE-APACHE
 # The profile of the tests of the crate, whose dependencies are built already; the wheel that users build is the same but for speed.
-CARGO_TARGET_DIR="$target" PATH="$work/venv/bin:$PATH" "$python" -m maturin build --quiet --profile dev \
-    --manifest-path python/Cargo.toml --interpreter "$python" --out "$work/wheels"
+(
+    export CARGO_TARGET_DIR="$target" PATH="$work/venv/bin:$PATH"
+    # With what the stubs are written from, so that one build does for both.
+    maturin build --quiet --profile dev --features stubs --manifest-path python/Cargo.toml \
+        --interpreter "$python" --out "$work/wheels"
+    python/stubs.sh --check --profile dev --interpreter "$python"
+)
 wheel=("$work"/wheels/*.whl)
 "$python" -m pip install --quiet --disable-pip-version-check --no-deps "${wheel[0]}"
 "$python" - "${wheel[0]}" << 'EOF'

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import io
+import pickle
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -87,6 +89,29 @@ def test_the_loss_is_that_of_the_closed_form_for_a_flat_punch() -> None:
     expected = np.pi * load**2 * -compliance.imag / (2 * radius)
     # The error bars of the result say how far off it may be; ten of them, since they are estimates.
     assert (abs(result["energy_loss_j"] - expected) <= 10 * result["energy_loss_error_j"] + 1e-9 * expected).all()
+
+
+def test_bodies_and_cycles_are_what_the_same_keys_of_a_file_give(tmp_path: Path) -> None:
+    glass = cd.Material.elastic("70 GPa", poisson_ratio=0.22)
+    cases: list[tuple[dict[str, Any], str]] = [
+        ({"indenter_material": "steel"}, '[indenter.material]\nlibrary = "steel"\n'),
+        ({"indenter_material": glass}, '[indenter.material]\nelastic = { modulus = "70 GPa", poisson_ratio = 0.22 }\n'),
+        ({"layer": {"thickness": "1 mm"}, "cells": 16}, '[layer]\nthickness = "1 mm"\n[solver]\ncells = 16\n'),
+        ({"method": "march", "at_cycle": 2}, '[cycle]\nmethod = "march"\nat_cycle = 2\nsteps = 16\nerror_bars = false\n'),
+    ]
+    for option, keys in cases:
+        result = cd.sweep(
+            cd.Material.library("pmma"), cd.Sphere("10 mm"), mean=10.0, amplitude=5.0, angular_frequency=[0.01],
+            steps=16, error_bars=False, title="same", **option,
+        )
+        cycle = "" if "[cycle]" in keys else "[cycle]\nsteps = 16\nerror_bars = false\n"
+        file = tmp_path / "same.toml"
+        file.write_text(
+            'title = "same"\n[material]\nlibrary = "pmma"\n[indenter]\nshape = "sphere"\nradius = "10 mm"\n'
+            f'{keys}[drive]\nmean = "10 N"\namplitude = "5 N"\n[sweep]\nangular_frequency = [0.01]\n{cycle}'
+        )
+        assert cd.sweep(file) == result, option
+        assert pickle.loads(pickle.dumps(result)) == result
 
 
 def test_axes_vary_indenter_and_drive() -> None:

@@ -16,6 +16,7 @@ MATERIALS = [
     cd.Material.relaxation("2 MPa", [("8 MPa", "1 ms"), (5e6, 0.1)], poisson_ratio=0.5, name="rubber", measured=(1e-3, 10.0)),
     cd.Material.creep(1e-9, [(5e-10, 10.0)], poisson_ratio=0.3, compliance="shear"),
     cd.Material.zener("1 MPa", "2 MPa", "1 s", poisson_ratio=0.5),
+    cd.Material.relaxation("2 MPa", [("8 MPa", "1 s")], bulk_modulus="30 MPa", modulus="shear"),
 ]
 INDENTERS = [
     cd.Sphere("10 mm"),

@@ -126,11 +126,11 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
         title: setup.title.unwrap_or_else(|| "Measured loops".to_owned()),
         setup: setup_text,
         rows: ordered(rows.into_iter().collect::<Result<_, _>>()?),
+        computed: computed.unwrap_or_default(),
     };
     let output = Output {
         folder: &flags.out,
         analysis: &analysis,
-        computed: &computed.unwrap_or_default(),
         figures: !flags.no_figures,
         quiet: flags.quiet,
         format,
@@ -163,7 +163,6 @@ pub(super) fn again(
         let output = Output {
             folder: out.unwrap_or(folder),
             analysis: &analysis,
-            computed: &[],
             figures,
             quiet,
             format,
@@ -201,10 +200,10 @@ fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
         let Some(angular_rad_per_s) = number("angular_frequency_rad_per_s") else {
             continue;
         };
-        let cycle = match row["index"].as_u64() {
-            Some(index) => folder.join(format!("loops/{index}.csv")),
-            None => continue,
+        let Some(index) = number("index") else {
+            continue;
         };
+        let cycle = folder.join(format!("loops/{}.csv", index as u64));
         let cycle = match cycle.exists() {
             true => json::rows_of(&cycle)?,
             false => Vec::new(),
@@ -225,7 +224,6 @@ fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
 struct Output<'a> {
     folder: &'a Path,
     analysis: &'a Analysis,
-    computed: &'a [Computed],
     figures: bool,
     quiet: bool,
     format: OutputFormat,
@@ -288,7 +286,7 @@ impl Output<'_> {
         let analysis = serde_json::to_vec(self.analysis).map_err(Failure::run)?;
         self.put(ANALYSIS, &analysis)?;
         let figures = match self.figures {
-            true => figure::measured::figures(self.analysis, self.computed),
+            true => figure::measured::figures(self.analysis),
             false => Vec::new(),
         };
         for name in ["loops", "energy-loss", "moduli", "cycles"] {

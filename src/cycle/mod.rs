@@ -68,6 +68,37 @@ impl Extrema {
     }
 }
 
+/// The part of a cycle in which the indenter touches the surface.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ContactDuty {
+    pub part: f64,
+    /// By how much it may be wrong: contact that comes or goes between two samples is taken to do so halfway.
+    pub error: f64,
+}
+
+impl ContactDuty {
+    /// Touching all the time.
+    pub const WHOLE: Self = Self {
+        part: 1.0,
+        error: 0.0,
+    };
+
+    /// Of uniform samples of the load of one period, both ends included; `None` without a whole step.
+    pub fn of(load_n: &[f64]) -> Option<Self> {
+        let steps = load_n.len().checked_sub(1).filter(|steps| *steps > 0)? as f64;
+        let (mut touching, mut crossings) = (0.0, 0.0);
+        for step in load_n.windows(2) {
+            let ends = step.iter().filter(|load| **load > 0.0).count();
+            touching += 0.5 * ends as f64;
+            crossings += f64::from(u8::from(ends == 1));
+        }
+        Some(Self {
+            part: touching / steps,
+            error: 0.5 * crossings / steps,
+        })
+    }
+}
+
 /// Vertex of the parabola through sample `i` and its neighbours on a closed loop whose last sample repeats the first.
 fn refined(samples: &[f64], i: usize) -> f64 {
     let n = samples.len().saturating_sub(1);
@@ -103,6 +134,24 @@ mod tests {
         };
         let order = (error(64) / error(128)).log2();
         assert!((order - 4.0).abs() < 0.1, "order {order}");
+    }
+
+    #[test]
+    fn contact_that_comes_and_goes_between_samples_lasts_so_long_but_for_half_a_step_each() {
+        let steps = 50;
+        for cut in [-0.9, -0.3, 0.0, 0.21, 0.77] {
+            let load = |i: usize| ((angle(i, steps)).sin() - cut).max(0.0);
+            let duty = ContactDuty::of(&(0..=steps).map(load).collect::<Vec<_>>()).unwrap();
+            let exact = 0.5 - f64::asin(cut) / std::f64::consts::PI;
+            assert_eq!(duty.error, 1.0 / steps as f64);
+            assert!((duty.part - exact).abs() <= duty.error, "{duty:?} {exact}");
+        }
+        assert_eq!(ContactDuty::of(&[1.0; 9]), Some(ContactDuty::WHOLE));
+        assert_eq!(ContactDuty::of(&[1.0]), None);
+    }
+
+    fn angle(i: usize, n: usize) -> f64 {
+        std::f64::consts::TAU * i as f64 / n as f64
     }
 
     #[test]

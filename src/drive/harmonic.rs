@@ -5,8 +5,9 @@ use super::{Control, DriveError};
 /// A load or an approach held at its mean from first touch, then mean + amplitude sin(omega t + phase): equation (29) of S. Spinu,
 /// Advances in Tribology 2018, 9432894. The angular frequency belongs to the sweep, not to the drive.
 ///
-/// An approach may swing below the surface's rest position and the indenter leave the surface for part of the cycle; a load
-/// may fall to zero but not below.
+/// The indenter may leave the surface for part of the cycle: an approach may swing below the surface's rest position, and a
+/// load whose amplitude exceeds its mean is held at zero where the sine is below it, since a contact without adhesion carries no
+/// pull. An indenter that is attracted may be pulled as far as the attraction goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HarmonicDrive {
     control: Control,
@@ -14,15 +15,16 @@ pub struct HarmonicDrive {
     amplitude: f64,
     phase_rad: f64,
     hold_s: f64,
+    /// How far a load may be a pull (N): zero without adhesion.
+    pull_off_n: f64,
 }
 
 impl HarmonicDrive {
     /// Mean and amplitude in newtons or metres, phase in radians, hold (s) at the mean before the oscillation.
     ///
     /// # Errors
-    /// [`DriveError`]: an amplitude that is not positive and finite, a phase that is not finite, a negative hold. A load: a mean
-    /// that is not positive and finite, an amplitude above it. An approach: a mean that is not finite, an indenter that never
-    /// goes below the undisturbed surface.
+    /// [`DriveError`]: a mean that is not finite, an amplitude that is not positive and finite, the two of them never above zero, so
+    /// that the indenter never touches the surface; a phase that is not finite, a negative hold.
     pub fn new(
         control: Control,
         mean: f64,
@@ -30,9 +32,25 @@ impl HarmonicDrive {
         phase_rad: f64,
         hold_s: f64,
     ) -> Result<Self, DriveError> {
-        match control {
-            Control::Load => check_load(mean, amplitude)?,
-            Control::Approach => check_approach(mean, amplitude)?,
+        Self::unattracted(control, mean, amplitude, phase_rad, hold_s)?.touching()
+    }
+
+    /// The same, that may never touch without an attraction: see [`Self::attracted_by`].
+    ///
+    /// # Errors
+    /// As [`Self::new`], but for an indenter that never touches.
+    pub(crate) fn unattracted(
+        control: Control,
+        mean: f64,
+        amplitude: f64,
+        phase_rad: f64,
+        hold_s: f64,
+    ) -> Result<Self, DriveError> {
+        if !mean.is_finite() {
+            return Err(DriveError::Mean { control, mean });
+        }
+        if !(amplitude.is_finite() && amplitude > 0.0) {
+            return Err(DriveError::Amplitude { control, amplitude });
         }
         if !phase_rad.is_finite() {
             return Err(DriveError::Phase { phase_rad });
@@ -46,7 +64,47 @@ impl HarmonicDrive {
             amplitude,
             phase_rad,
             hold_s,
+            pull_off_n: 0.0,
         })
+    }
+
+    /// The same, where it touches.
+    fn touching(self) -> Result<Self, DriveError> {
+        let Self {
+            control,
+            mean,
+            amplitude,
+            ..
+        } = self;
+        match self.maximum() + self.pull_off_n > 0.0 {
+            true => Ok(self),
+            false => Err(DriveError::NoTouch {
+                control,
+                mean,
+                amplitude,
+            }),
+        }
+    }
+
+    /// The same load on an indenter that is attracted by this much (N), so that it may be a pull; the indenter does not come off.
+    ///
+    /// # Errors
+    /// [`DriveError`]: a load that falls below the pull-off load.
+    pub fn attracted_by(self, pull_off_n: f64) -> Result<Self, DriveError> {
+        let least_n = self.mean - self.amplitude;
+        let drive = Self { pull_off_n, ..self }.touching()?;
+        match least_n >= -pull_off_n {
+            true => Ok(drive),
+            false => Err(DriveError::PullOff {
+                least_n,
+                pull_off_n,
+            }),
+        }
+    }
+
+    /// How far the load may be a pull (N): zero without adhesion.
+    pub fn pull_off_n(&self) -> f64 {
+        self.pull_off_n
     }
 
     /// A load (N) that oscillates from its mean on, without a hold.
@@ -95,49 +153,53 @@ impl HarmonicDrive {
         self.mean + self.amplitude
     }
 
+    /// The value during the hold before the oscillation, in the unit of the control: the mean, or no load where that is a pull.
+    pub fn held(&self) -> f64 {
+        self.pressing(self.mean)
+    }
+
     /// The value at this fraction of a cycle since the oscillation began, in the unit of the control.
-    ///
-    /// Where the amplitude of a load equals its mean, the load touches zero; rounding must not leave a pull of 1e-16 of it.
     pub fn value(&self, cycle_fraction: f64) -> f64 {
         let angle = std::f64::consts::TAU * cycle_fraction + self.phase_rad;
-        let value = self.mean + self.amplitude * angle.sin();
-        if self.control == Control::Load && value <= 1e-14 * self.maximum() {
-            0.0
-        } else {
-            value
+        self.pressing(self.mean + self.amplitude * angle.sin())
+    }
+
+    /// Zero in place of a pull; where the amplitude of a load equals its mean, rounding must not leave 1e-16 of it.
+    fn pressing(&self, value: f64) -> f64 {
+        // Not -0 without adhesion.
+        let least = 0.0 - self.pull_off_n;
+        match self.control == Control::Load && value - least <= 1e-14 * (self.maximum() - least) {
+            true => least,
+            false => value,
         }
     }
-}
 
-fn check_load(mean_n: f64, amplitude_n: f64) -> Result<(), DriveError> {
-    if !(mean_n.is_finite() && mean_n > 0.0) {
-        return Err(DriveError::Mean { mean_n });
+    /// The part of the cycle in which a load is above zero; `None` under approach control, where it depends on the material.
+    pub fn loaded_part(&self) -> Option<f64> {
+        let crossing_rad = ((self.mean + self.pull_off_n) / self.amplitude)
+            .clamp(-1.0, 1.0)
+            .asin();
+        (self.control == Control::Load).then_some(0.5 + crossing_rad / std::f64::consts::PI)
     }
-    if !(amplitude_n.is_finite() && amplitude_n > 0.0) {
-        return Err(DriveError::Amplitude { amplitude_n });
-    }
-    match amplitude_n > mean_n {
-        true => Err(DriveError::Pull {
-            mean_n,
-            amplitude_n,
-        }),
-        false => Ok(()),
-    }
-}
 
-fn check_approach(mean_m: f64, amplitude_m: f64) -> Result<(), DriveError> {
-    if !mean_m.is_finite() {
-        return Err(DriveError::MeanApproach { mean_m });
+    /// The mean over the cycle (N) of a load, which is above [`Self::mean`] where the load is held at zero for a part of it; the mean
+    /// of an approach (m).
+    pub fn true_mean(&self) -> f64 {
+        match self.loaded_part() {
+            Some(part) if part < 1.0 => {
+                let below = self.amplitude * self.amplitude - self.mean * self.mean;
+                self.mean * part + below.max(0.0).sqrt() / std::f64::consts::PI
+            }
+            _ => self.mean,
+        }
     }
-    if !(amplitude_m.is_finite() && amplitude_m > 0.0) {
-        return Err(DriveError::ApproachAmplitude { amplitude_m });
-    }
-    match mean_m + amplitude_m <= 0.0 {
-        true => Err(DriveError::NoTouch {
-            mean_m,
-            amplitude_m,
-        }),
-        false => Ok(()),
+
+    /// How far the maximum is above [`Self::true_mean`].
+    pub fn above_true_mean(&self) -> f64 {
+        match self.loaded_part() {
+            Some(part) if part < 1.0 => self.maximum() - self.true_mean(),
+            _ => self.amplitude,
+        }
     }
 }
 
@@ -155,13 +217,34 @@ mod tests {
     }
 
     #[test]
-    fn an_amplitude_above_the_mean_is_a_pull_and_is_refused() {
+    fn a_load_is_held_at_zero_where_the_sine_is_below() {
+        let drive = HarmonicDrive::load(1.0, 2.0).unwrap();
+        assert_eq!(
+            (drive.value(0.25), drive.value(0.75), drive.held()),
+            (3.0, 0.0, 1.0)
+        );
+        // sin = -1/2 at 7/12 and 11/12 of the cycle.
+        assert!((drive.loaded_part().unwrap() - 2.0 / 3.0).abs() < 1e-15);
+        assert!(drive.value(7.0 / 12.0 - 1e-9) > 0.0 && drive.value(7.0 / 12.0 + 1e-9) == 0.0);
+        for (mean_n, amplitude_n) in [(1.0, 2.0), (-1.0, 2.0), (0.0, 3.0), (2.0, 2.0), (5.0, 2.0)] {
+            let drive = HarmonicDrive::load(mean_n, amplitude_n).unwrap();
+            let samples = 100_000;
+            let values = (0..samples).map(|k| drive.value(f64::from(k) / f64::from(samples)));
+            let mean = values.clone().sum::<f64>() / f64::from(samples);
+            let part = values.filter(|load| *load > 0.0).count() as f64 / f64::from(samples);
+            assert!((mean - drive.true_mean()).abs() < 1e-8 * drive.maximum());
+            // Where the load crosses zero a sample lies on the one side or the other.
+            assert!((part - drive.loaded_part().unwrap()).abs() <= 2.0 / f64::from(samples));
+        }
+        assert_eq!(HarmonicDrive::load(-1.0, 2.0).unwrap().held(), 0.0);
         assert!(matches!(
-            HarmonicDrive::load(1.0, 1.1),
-            Err(DriveError::Pull { .. })
+            HarmonicDrive::load(-2.0, 2.0),
+            Err(DriveError::NoTouch { .. })
         ));
-        for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        for nonsense in [f64::NAN, f64::INFINITY] {
             assert!(HarmonicDrive::load(nonsense, 0.5).is_err());
+        }
+        for nonsense in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert!(HarmonicDrive::load(1.0, nonsense).is_err());
         }
         assert!(HarmonicDrive::new(Control::Load, 1.0, 0.5, f64::NAN, 0.0).is_err());

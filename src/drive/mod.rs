@@ -1,6 +1,7 @@
 //! What drives the contact: a load (N) or an approach (m) against time. Knows nothing of contact.
 //!
-//! Under load control the drive says how hard the indenter is pressed, and never pulls: a contact without adhesion cannot.
+//! Under load control the drive says how hard the indenter is pressed, and never pulls: a contact without adhesion cannot, and
+//! where the sine of a sweep would, the load is held at zero.
 //! Under approach control it says where the indenter stands, and may well stand clear of the surface. A number whose unit
 //! depends on the [`Control`] carries no unit in its name: it is in newtons or in metres.
 //!
@@ -10,7 +11,7 @@
 //! let drive = HarmonicDrive::load(10.0, 5.0)?; // mean and amplitude, N
 //! assert_eq!(drive.value(0.25), 15.0);
 //! // A contact without adhesion carries no pull.
-//! assert!(HarmonicDrive::load(10.0, 11.0).is_err());
+//! assert_eq!(HarmonicDrive::load(10.0, 11.0)?.value(0.75), 0.0);
 //! let ramp = Segment::Ramp { to: 10.0, duration_s: 2.0 };
 //! let history = SegmentedDrive::new(Control::Load, vec![ramp]);
 //! assert!(history.is_ok_and(|history| history.maximum() == 10.0));
@@ -58,23 +59,23 @@ impl Control {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DriveError {
-    #[error("the mean load is {mean_n} N; a contact needs a positive, finite mean load")]
-    Mean { mean_n: f64 },
-    #[error("the load amplitude is {amplitude_n} N; it must be positive and finite")]
-    Amplitude { amplitude_n: f64 },
+    #[error("the mean {} is {mean} {}; it must be finite", .control.name(), .control.unit())]
+    Mean { control: Control, mean: f64 },
+    #[error("the {} amplitude is {amplitude} {}; it must be positive and finite", .control.name(), .control.unit())]
+    Amplitude { control: Control, amplitude: f64 },
     #[error(
-        "the load amplitude {amplitude_n} N exceeds the mean load {mean_n} N: the load would become a pull for part of the \
-         cycle, which a contact without adhesion cannot carry"
+        "the {} {mean} {unit} with an amplitude of {amplitude} {unit} is never above zero: the indenter never touches the surface",
+        .control.name(), unit = .control.unit()
     )]
-    Pull { mean_n: f64, amplitude_n: f64 },
-    #[error("the mean approach is {mean_m} m; it must be finite")]
-    MeanApproach { mean_m: f64 },
-    #[error("the approach amplitude is {amplitude_m} m; it must be positive and finite")]
-    ApproachAmplitude { amplitude_m: f64 },
+    NoTouch {
+        control: Control,
+        mean: f64,
+        amplitude: f64,
+    },
     #[error(
-        "the approach {mean_m} m with an amplitude of {amplitude_m} m is never above zero: the indenter never touches the surface"
+        "the load falls to {least_n} N, below the pull-off load of {} N: the indenter comes off the surface", -.pull_off_n
     )]
-    NoTouch { mean_m: f64, amplitude_m: f64 },
+    PullOff { least_n: f64, pull_off_n: f64 },
     #[error("the phase {phase_rad} rad is not a finite angle")]
     Phase { phase_rad: f64 },
     #[error("the hold of {hold_s} s must be zero or a positive, finite time")]

@@ -131,7 +131,7 @@ impl LinearHistory {
         match self.control {
             Control::Approach => {
                 let branches = point.branches_pa_s();
-                let loads = self.convolved(point.equilibrium_pa(), 0.0, &branches);
+                let loads = self.convolved(point.equilibrium_pa(), &branches);
                 loads.iter().map(|load| load / self.plane).collect()
             }
             Control::Load => {
@@ -145,7 +145,7 @@ impl LinearHistory {
                     .collect();
                 let late: f64 = branches.iter().map(|(c, _)| c).sum();
                 let falling: Vec<(f64, f64)> = branches.iter().map(|(c, t)| (-c, *t)).collect();
-                let products = self.convolved(at_once + late, 0.0, &falling);
+                let products = self.convolved(at_once + late, &falling);
                 let approach = |product: &f64| self.elastic.approach_m(self.plane * product);
                 products.iter().map(approach).collect()
             }
@@ -153,8 +153,8 @@ impl LinearHistory {
     }
 
     /// The convolution of the steps with `constant` + sum of w exp(-t/tau), at every datum.
-    fn convolved(&self, constant: f64, start: f64, branches: &[(f64, f64)]) -> Vec<f64> {
-        let mut states = vec![start; branches.len()];
+    fn convolved(&self, constant: f64, branches: &[(f64, f64)]) -> Vec<f64> {
+        let mut states = vec![0.0; branches.len()];
         let mut after = Vec::with_capacity(self.steps.len());
         for (step_s, before, value) in &self.steps {
             let change = value - before;

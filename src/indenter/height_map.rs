@@ -27,6 +27,8 @@ pub enum MapEdge {
     Unknown,
     /// The indenter ends half a cell beyond the outer points, as a punch does.
     Rim,
+    /// The map is one period of a surface that repeats itself along x and along y without end.
+    Periodic,
 }
 
 /// What is taken off the values of a map before they count.
@@ -136,13 +138,18 @@ impl MapQuantity {
 
 impl MapEdge {
     /// Names as written in a sweep file.
-    pub const NAMES: [(&'static str, Self); 2] = [("unknown", Self::Unknown), ("rim", Self::Rim)];
+    pub const NAMES: [(&'static str, Self); 3] = [
+        ("unknown", Self::Unknown),
+        ("rim", Self::Rim),
+        ("periodic", Self::Periodic),
+    ];
 
     /// The name as written in a sweep file.
     pub(super) fn parameter(self) -> Parameter {
         let name = match self {
             Self::Unknown => "unknown",
             Self::Rim => "rim",
+            Self::Periodic => "periodic",
         };
         Parameter::new("edge", Value::Text(name.to_owned()))
     }
@@ -308,6 +315,12 @@ fn neighbours(
     let beyond = match edge {
         MapEdge::Unknown => 0.0,
         MapEdge::Rim => 0.5,
+        MapEdge::Periodic => {
+            let place = place.rem_euclid(cells as f64);
+            // Rounding may make a whole period of a tiny part below zero.
+            let index = place.floor() as usize % cells;
+            return Some((index, (index + 1) % cells, place - place.floor()));
+        }
     };
     if !(-beyond..=last + beyond).contains(&place) {
         return None;
@@ -377,7 +390,7 @@ impl Indenter for HeightMap {
     /// A cell on every point; around a rim one more on each side, which stays empty.
     fn domain(&self, _load_n: f64, _compliance_per_pa: f64) -> Domain {
         let border = match self.edge {
-            MapEdge::Unknown => 0,
+            MapEdge::Unknown | MapEdge::Periodic => 0,
             MapEdge::Rim => 2,
         };
         Domain::Cells {
@@ -394,6 +407,10 @@ impl Indenter for HeightMap {
 
     fn ends_in_data(&self) -> bool {
         self.edge == MapEdge::Unknown
+    }
+
+    fn is_periodic(&self) -> bool {
+        self.edge == MapEdge::Periodic
     }
 
     fn pressure_is_bounded(&self) -> bool {

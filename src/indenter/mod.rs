@@ -169,6 +169,10 @@ pub enum IndenterError {
         row: usize,
         value: f64,
     },
+    #[error(
+        "a rough sphere does not repeat itself: leave out sphere_radius, or edge = \"periodic\""
+    )]
+    PeriodicSphere,
     #[error("the Hurst exponent is {hurst}; it must lie between 0 and 1, both included")]
     Hurst { hurst: f64 },
     #[error("the rough surface has {cells} cells per side; give from {} to {}", rough::CELLS.start(), rough::CELLS.end())]
@@ -231,6 +235,11 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
     /// Where the half-space engine puts its cells under this load (N) and contact compliance (1/Pa).
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
         Domain::square(self.elastic_half_width_m(load_n, compliance_per_pa))
+    }
+
+    /// Whether the shape repeats itself without end, and [`Indenter::own_cells`] are one period of it.
+    fn is_periodic(&self) -> bool {
+        false
     }
 
     /// Points along x and y at which the shape is known, where it is a map: the half-space engine has a cell on each of them.

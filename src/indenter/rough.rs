@@ -106,6 +106,9 @@ fn check(roughness: &Roughness) -> Result<(), IndenterError> {
     let spacing_m = positive_length("spacing", roughness.spacing_m)?;
     positive_length("rms_height", roughness.rms_height_m)?;
     if let Some(radius_m) = roughness.sphere_radius_m {
+        if roughness.edge == MapEdge::Periodic {
+            return Err(IndenterError::PeriodicSphere);
+        }
         positive_length("sphere_radius", radius_m)?;
     }
     let hurst = roughness.hurst_exponent;
@@ -270,6 +273,10 @@ impl Indenter for Rough {
 
     fn ends_in_data(&self) -> bool {
         self.map.ends_in_data()
+    }
+
+    fn is_periodic(&self) -> bool {
+        self.map.is_periodic()
     }
 
     fn pressure_is_bounded(&self) -> bool {

@@ -91,6 +91,7 @@ impl Indenter for Shifted {
                 cell_aspect_ratio,
                 limit_m: limit_m.map(|(limit_x_m, limit_y_m)| (limit_x_m + x_m, limit_y_m + y_m)),
             },
+            period @ Domain::Cells { .. } if self.inner.is_periodic() => period,
             Domain::Cells {
                 cells_x,
                 cells_y,
@@ -116,6 +117,10 @@ impl Indenter for Shifted {
 
     fn ends_in_data(&self) -> bool {
         self.inner.ends_in_data()
+    }
+
+    fn is_periodic(&self) -> bool {
+        self.inner.is_periodic()
     }
 
     fn pressure_is_bounded(&self) -> bool {

@@ -19,7 +19,20 @@ pub(super) fn control(root: &mut TableReader<'_>) -> Control {
 }
 
 /// Reads the block; `None` where a problem was reported.
-pub(crate) fn read(mut table: TableReader<'_>, problems: &Problems) -> Option<HarmonicDrive> {
+pub(crate) fn read(table: TableReader<'_>, problems: &Problems) -> Option<HarmonicDrive> {
+    read_with(table, problems, HarmonicDrive::new)
+}
+
+/// The same of an indenter that is attracted, which a drive may pull.
+pub(super) fn read_attracted(table: TableReader<'_>, problems: &Problems) -> Option<HarmonicDrive> {
+    read_with(table, problems, HarmonicDrive::unattracted)
+}
+
+fn read_with(
+    mut table: TableReader<'_>,
+    problems: &Problems,
+    make: fn(Control, f64, f64, f64, f64) -> Result<HarmonicDrive, DriveError>,
+) -> Option<HarmonicDrive> {
     let control = table.value(&CONTROL)?;
     let dimension = drive_dimension(control);
     let mean = table.read(&MEAN.of(dimension));
@@ -27,22 +40,17 @@ pub(crate) fn read(mut table: TableReader<'_>, problems: &Problems) -> Option<Ha
     let (phase_rad, hold_s) = (table.value(&PHASE), table.value(&HOLD));
     table.finish();
     let (mean, amplitude, phase_rad, hold_s) = (mean?, amplitude?, phase_rad?, hold_s?);
-    match HarmonicDrive::new(control, mean.value, amplitude.value, phase_rad, hold_s) {
+    match make(control, mean.value, amplitude.value, phase_rad, hold_s) {
         Ok(drive) => Some(drive),
-        Err(DriveError::Pull { .. }) => {
-            problems
-                .at(&amplitude, "the load would become a pull for part of each cycle")
-                .because("larger than the mean")
-                .label(&mean, "the mean")
-                .help("a contact without adhesion cannot carry a pull: choose an amplitude of at most the mean");
-            None
-        }
         Err(DriveError::NoTouch { .. }) => {
             problems
                 .at(&mean, "the indenter never touches the surface")
                 .because("with the amplitude not above zero")
                 .label(&amplitude, "the amplitude")
-                .help("an approach is positive into the body and zero at first touch");
+                .help(match control {
+                    Control::Load => "a load is positive where the indenter is pressed down; mean and amplitude together must be, too",
+                    Control::Approach => "an approach is positive into the body and zero at first touch",
+                });
             None
         }
         Err(error) => {

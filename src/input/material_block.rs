@@ -9,9 +9,9 @@ use super::document::reader::TableReader;
 use super::document::row::{AnyRow, Optional, Required, Row};
 use super::keys;
 use super::keys::material::{
-    BRANCH_COMPLIANCE, BRANCH_MODULUS, BRANCH_TIME, COMPLIANCE, CREEP, CREEP_ALTERNATIVE,
-    CREEP_BRANCHES, DYNAMIC, ELASTIC_BODY, ELASTIC_POISSON_RATIO, ELEMENT_TIME, EQUILIBRIUM,
-    FRACTIONAL, INSTANTANEOUS, ISOTHERMS, KELVIN_SPRING, KELVIN_VOIGT, LIBRARY,
+    BRANCH_COMPLIANCE, BRANCH_MODULUS, BRANCH_TIME, BULK_MODULUS, COMPLIANCE, CREEP,
+    CREEP_ALTERNATIVE, CREEP_BRANCHES, DYNAMIC, ELASTIC_BODY, ELASTIC_POISSON_RATIO, ELEMENT_TIME,
+    EQUILIBRIUM, FRACTIONAL, INSTANTANEOUS, ISOTHERMS, KELVIN_SPRING, KELVIN_VOIGT, LIBRARY,
     LIBRARY_POISSON_RATIO, MAXWELL, MAXWELL_MODULUS, MEASURED, MEASURED_TABLE, MODULUS, NAME,
     POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE, RELAXATION_BRANCHES, SPRING, VISCOSITY,
     YOUNG, ZENER,
@@ -22,7 +22,7 @@ use super::{material_dynamic, material_temperature};
 use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
 use crate::material::sampled::Sampled;
 use crate::material::{
-    Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, library,
+    Compressibility, Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, library,
 };
 use crate::sweep::plan::body_material::BodyMaterial;
 
@@ -152,8 +152,8 @@ fn at_one_temperature(
         }),
         _ => {
             let build = from_block(block, folder, direct_sum, problems, form);
-            let poisson_ratio = block.value(&POISSON_RATIO);
-            build.and_then(|build| build(poisson_ratio?).map_err(refused).ok())
+            let compressibility = compressibility(block, problems);
+            build.and_then(|build| build(compressibility?).map_err(refused).ok())
         }
     };
     let measured = measured(block, problems, form);
@@ -162,6 +162,24 @@ fn at_one_temperature(
         Some(window_s) => body.measured(window_s),
         None => body,
     })
+}
+
+/// The Poisson ratio, or the bulk modulus in its place; `None` where a problem was reported.
+fn compressibility(block: &mut TableReader<'_>, problems: &Problems) -> Option<Compressibility> {
+    let Some(place) = block.key_location(&BULK_MODULUS) else {
+        return block.value(&POISSON_RATIO).map(Compressibility::from);
+    };
+    if let Some(other) = block.key_location(&POISSON_RATIO) {
+        block.value(&POISSON_RATIO);
+        problems
+            .at(&place, "`bulk_modulus` takes the place of `poisson_ratio`")
+            .label(&other, "given here")
+            .help("keep the one that does not depend on time");
+        return None;
+    }
+    block
+        .value(&BULK_MODULUS)
+        .map(Compressibility::BulkModulusPa)
 }
 
 fn library(
@@ -186,12 +204,7 @@ fn library(
     let material = match (poisson_ratio, material.relaxation()) {
         (Some(nu), Some(relaxation)) => {
             let other = Material::from_relaxation(relaxation.clone(), material.kind(), nu);
-            let other = other.map_err(refused).ok()?;
-            let other = other.named(entry.title);
-            match entry.measured_window_s {
-                Some(window_s) => other.measured(window_s),
-                None => other,
-            }
+            entry.describe(other.map_err(refused).ok()?)
         }
         _ => material,
     };
@@ -239,11 +252,11 @@ pub(super) fn measured_window(
     None
 }
 
-/// A material but for its Poisson ratio.
-type Build = Box<dyn FnOnce(f64) -> Result<BodyMaterial, MaterialError>>;
+/// A material but for its Poisson ratio or bulk modulus.
+type Build = Box<dyn FnOnce(Compressibility) -> Result<BodyMaterial, MaterialError>>;
 
 /// The same of a series.
-type SeriesBuild = Box<dyn FnOnce(f64) -> Result<Material, MaterialError>>;
+type SeriesBuild = Box<dyn FnOnce(Compressibility) -> Result<Material, MaterialError>>;
 
 fn from_block(
     block: &mut TableReader<'_>,
@@ -324,16 +337,22 @@ fn with_replicas(build: SeriesBuild, kind: ModulusKind, replicas: Vec<Relaxation
     })
 }
 
-fn series(build: impl FnOnce(f64) -> Result<Material, MaterialError> + 'static) -> Build {
+fn series(
+    build: impl FnOnce(Compressibility) -> Result<Material, MaterialError> + 'static,
+) -> Build {
     Box::new(move |nu| build(nu).map(BodyMaterial::from))
 }
 
 fn of_table(table: TableMaterial) -> Build {
     match table {
         TableMaterial::Fitted(fit) => series(move |nu| fit.material(nu)),
-        TableMaterial::Direct(data) => {
-            Box::new(move |nu| Sampled::new(data, nu).map(BodyMaterial::from))
-        }
+        TableMaterial::Direct(data) => Box::new(move |compressibility: Compressibility| {
+            let nu = compressibility.poisson_ratio();
+            let nu = nu.ok_or(MaterialError::NoPoissonRatio {
+                what: "a table with evaluation = \"direct\"",
+            })?;
+            Sampled::new(data, nu).map(BodyMaterial::from)
+        }),
     }
 }
 

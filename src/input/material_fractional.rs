@@ -8,13 +8,13 @@ use super::keys::material::{
     FRACTIONAL_MODEL, FRACTIONAL_TIME, FractionalModel, SECOND_EXPONENT, STIFFNESS,
 };
 use crate::material::fractional::{Fractional, FractionalError, Represented};
-use crate::material::{Material, MaterialError};
+use crate::material::{Compressibility, Material, MaterialError};
 
 /// Reads the table: the material but for its Poisson ratio. `None` where a problem was reported.
 pub(super) fn read(
     table: &mut TableReader<'_>,
     problems: &Problems,
-) -> Option<impl FnOnce(f64) -> Result<Material, MaterialError> + use<>> {
+) -> Option<impl FnOnce(Compressibility) -> Result<Material, MaterialError> + use<>> {
     let model = table.read(&FRACTIONAL_MODEL);
     let kind = table.value(&FRACTIONAL_KIND);
     let (stiffness, time) = (table.value(&STIFFNESS), table.value(&FRACTIONAL_TIME));

@@ -29,6 +29,7 @@
 //! # Ok::<(), Diagnostics>(())
 //! ```
 
+mod adhesion_block;
 mod assignment;
 pub(crate) mod axis;
 pub(crate) mod data_file;

@@ -22,7 +22,7 @@ use super::keys::settings::{
     METHOD, SOLVER_CELLS, SOLVER_SPRINGS, SOLVER_TOLERANCE, TIME_RULE,
 };
 use super::material_table::DirectSum;
-use super::{harmonic_block, indenter_block, layer_block, material_block};
+use super::{adhesion_block, harmonic_block, indenter_block, layer_block, material_block};
 use crate::drive::HarmonicDrive;
 use crate::indenter::Indenter;
 use crate::material::Material;
@@ -77,12 +77,21 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         other => other.map(|_| None),
     };
     let indenter_of = counterbody.as_ref().and_then(Option::as_ref);
+    let material_block = file.material_block(&mut root);
     let material = file.material(&mut root, indenter_of);
     let material = material.filter(|_| counterbody.is_some());
     let indenter = file.indenter(&mut root);
-    let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
-        harmonic_block::read(t, &problems)
-    });
+    let adhesion_at = root.key_location(&keys::ADHESION);
+    let adhesion = root.table_or(&keys::ADHESION, None, |t| adhesion_block::read(t).map(Some));
+    let drive = file.block(
+        &mut root,
+        &keys::DRIVE,
+        Block::Drive,
+        |t| match adhesion_at {
+            Some(_) => harmonic_block::read_attracted(t, &problems),
+            None => harmonic_block::read(t, &problems),
+        },
+    );
     let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| cycle(t, &problems));
     let own_layer = layer.as_ref().and_then(|(own, _)| *own);
     let default = default_solver(indenter.as_ref().map(|(own, _)| own.as_ref()), own_layer);
@@ -100,14 +109,27 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
     let plan = (|| {
         let (figures, cycle, solver) = (figures?, cycle?, solver?);
         let (material, indenter, drive, layer) = (material?, indenter?, drive?, layer?);
-        let axes = file.axes((&material, &layer, &indenter, &drive));
+        let adhesion = adhesion?;
+        let attracted =
+            |own: HarmonicDrive, indenter: &dyn Indenter| match (&adhesion, &adhesion_at) {
+                (Some(adhesion), Some(at)) => {
+                    adhesion_block::drive(adhesion, indenter, &own, (at, &problems))
+                }
+                _ => Some(own),
+            };
+        let own_drive = attracted(drive.0, indenter.0.as_ref())?;
+        let mut axes = file.axes((&material, &layer, &indenter, &drive), material_block);
+        for condition in axes.iter_mut().flat_map(|axes| &mut axes.conditions) {
+            condition.drive = attracted(condition.drive, condition.indenter.as_ref())?;
+        }
         let sweep = sweep.as_ref()?;
         let mut plan = SweepPlan {
             title: title?,
             material: material.0,
             layer: layer.0,
             indenter: indenter.0,
-            drive: drive.0,
+            drive: own_drive,
+            adhesion,
             angular_frequencies_rad_per_s: sweep.angular_frequencies_rad_per_s.clone(),
             axes,
             refine: sweep.refine,
@@ -168,7 +190,7 @@ impl File<'_> {
             return Some((read(own)?, Vec::new()));
         };
         let place = own.as_ref().clone();
-        let is_given = |(_, swept): &(usize, &Swept)| parsed.entries.contains_key(swept.varied.key);
+        let is_given = |(_, swept): &(usize, &Swept)| swept.is_in(parsed);
         let given = match swept.iter().all(is_given) {
             true => Some(read(own)?),
             false => None,
@@ -177,7 +199,8 @@ impl File<'_> {
             let with = |table: document::tree::Table, (value, (_, swept)): (&f64, &(_, &Swept))| {
                 swept.put_into(&table, *value)
             };
-            let table = values.iter().zip(&swept).fold(parsed.clone(), with);
+            let table = values.iter().zip(&swept).try_fold(parsed.clone(), with);
+            let table = table.map_err(|problem| self.problems.push(problem)).ok()?;
             let name = block.name().to_owned();
             read(TableReader::new(&table, place.clone(), name, self.problems))
         })?;
@@ -259,6 +282,14 @@ impl File<'_> {
         }
     }
 
+    /// The text of the `[material]` block, where an axis varies a number in a table of it.
+    fn material_block(&self, root: &mut TableReader<'_>) -> Option<Arc<str>> {
+        let swept = self.swept(Block::Material);
+        let is_nested = swept.iter().any(|(_, swept)| swept.varied.is_nested());
+        let block = root.parsed(&keys::MATERIAL).filter(|_| is_nested)?;
+        Some(block.toml("material").into())
+    }
+
     fn indenter(&self, root: &mut TableReader<'_>) -> Option<Over<Arc<dyn Indenter>>> {
         if let (Some(given), None) = (&self.given.indenter, root.key_location(&keys::INDENTER)) {
             return Some((Arc::clone(given), Vec::new()));
@@ -279,7 +310,11 @@ impl File<'_> {
     }
 
     /// The axes besides the frequency, where there are any.
-    fn axes(&self, (material, layer, indenter, drive): Blocks<'_>) -> Option<plan::Axes> {
+    fn axes(
+        &self,
+        (material, layer, indenter, drive): Blocks<'_>,
+        material_block: Option<Arc<str>>,
+    ) -> Option<plan::Axes> {
         if self.swept.is_empty() {
             return None;
         }
@@ -294,8 +329,13 @@ impl File<'_> {
             })
         });
         Some(plan::Axes {
-            over: self.swept.iter().map(|swept| swept.varied).collect(),
+            over: self
+                .swept
+                .iter()
+                .map(|swept| swept.varied.clone())
+                .collect(),
             pairs: self.pairs,
+            material_block,
             conditions: conditions.collect::<Option<_>>()?,
         })
     }

@@ -10,7 +10,7 @@
 use super::creep::{Creep, CreepBranch};
 use super::error::{MaterialError, positive};
 use super::relaxation::{Relaxation, RelaxationBranch};
-use super::{Material, ModulusKind};
+use super::{Compressibility, Material, ModulusKind};
 
 /// The Maxwell fluid: a spring and a dashpot in line.
 ///
@@ -71,8 +71,11 @@ impl Maxwell {
     ///
     /// # Errors
     /// As [`Material::from_relaxation`].
-    pub fn material(&self, poisson_ratio: f64) -> Result<Material, MaterialError> {
-        Material::from_relaxation(self.relaxation()?, ModulusKind::Shear, poisson_ratio)
+    pub fn material(
+        &self,
+        compressibility: impl Into<Compressibility>,
+    ) -> Result<Material, MaterialError> {
+        Material::from_relaxation(self.relaxation()?, ModulusKind::Shear, compressibility)
     }
 }
 
@@ -146,8 +149,11 @@ impl Zener {
     ///
     /// # Errors
     /// As [`Material::from_creep`].
-    pub fn material(&self, poisson_ratio: f64) -> Result<Material, MaterialError> {
-        Material::from_creep(self.creep()?, ModulusKind::Shear, poisson_ratio)
+    pub fn material(
+        &self,
+        compressibility: impl Into<Compressibility>,
+    ) -> Result<Material, MaterialError> {
+        Material::from_creep(self.creep()?, ModulusKind::Shear, compressibility)
     }
 }
 
@@ -197,8 +203,11 @@ impl KelvinVoigt {
     ///
     /// # Errors
     /// As [`Material::from_creep`].
-    pub fn material(&self, poisson_ratio: f64) -> Result<Material, MaterialError> {
-        Material::from_creep(self.creep()?, ModulusKind::Shear, poisson_ratio)
+    pub fn material(
+        &self,
+        compressibility: impl Into<Compressibility>,
+    ) -> Result<Material, MaterialError> {
+        Material::from_creep(self.creep()?, ModulusKind::Shear, compressibility)
     }
 }
 

@@ -179,6 +179,18 @@ impl Creep {
         Creep::new(self.instantaneous_per_pa * factor, branches, viscosity_pa_s)
     }
 
+    /// The same with another instantaneous compliance (1/Pa).
+    ///
+    /// # Errors
+    /// As [`Creep::new`].
+    pub(super) fn with_instantaneous(&self, compliance_per_pa: f64) -> Result<Self, MaterialError> {
+        Creep::new(
+            compliance_per_pa,
+            self.branches.clone(),
+            self.viscosity_pa_s,
+        )
+    }
+
     /// Two compliances under the same stress: their sum.
     ///
     /// # Errors

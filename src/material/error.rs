@@ -41,6 +41,21 @@ pub enum MaterialError {
     )]
     SingularContactPressure,
 
+    /// No shear compliance goes with both.
+    #[error(
+        "a bulk modulus of {bulk_pa:e} Pa is too small for these moduli in tension: it must be above a ninth of the instantaneous Young's modulus, {least_pa:e} Pa"
+    )]
+    SmallBulkModulus { bulk_pa: f64, least_pa: f64 },
+
+    /// What needs a Poisson ratio that does not depend on time.
+    #[error(
+        "{what} needs a Poisson ratio that does not depend on time, and the material has a constant bulk modulus"
+    )]
+    NoPoissonRatio {
+        /// With its article.
+        what: &'static str,
+    },
+
     /// The result is beyond the range of a double.
     #[error(
         "{what} leaves the range of double precision numbers: check the units of moduli, compliances and times"

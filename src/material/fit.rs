@@ -47,8 +47,8 @@ use std::fmt;
 use super::nnls::NnlsError;
 use super::tabulated::{TableWarning, Tabulated, name, seconds};
 use super::{
-    Creep, CreepBranch, Material, MaterialError, MaterialFunction, ModulusKind, Relaxation,
-    RelaxationBranch,
+    Compressibility, Creep, CreepBranch, Material, MaterialError, MaterialFunction, ModulusKind,
+    Relaxation, RelaxationBranch,
 };
 use crate::quantity::{Dimension, format_human};
 use search::{Open, Search, Series};
@@ -496,12 +496,17 @@ impl Fit {
     ///
     /// # Errors
     /// A Poisson ratio outside -1 < nu <= 1/2, or a conversion beyond the range of a double.
-    pub fn material(&self, poisson_ratio: f64) -> Result<Material, MaterialError> {
-        let kind = self.report.kind;
+    pub fn material(
+        &self,
+        compressibility: impl Into<Compressibility>,
+    ) -> Result<Material, MaterialError> {
+        let (kind, compressibility) = (self.report.kind, compressibility.into());
         let material = |series: &FittedSeries| match series {
-            FittedSeries::Creep(creep) => Material::from_creep(creep.clone(), kind, poisson_ratio),
+            FittedSeries::Creep(creep) => {
+                Material::from_creep(creep.clone(), kind, compressibility)
+            }
             FittedSeries::Relaxation(relaxation) => {
-                Material::from_relaxation(relaxation.clone(), kind, poisson_ratio)
+                Material::from_relaxation(relaxation.clone(), kind, compressibility)
             }
         };
         let alternatives: Result<_, _> = self.alternatives.iter().map(material).collect();

@@ -25,11 +25,16 @@ impl LibraryEntry {
     /// # Errors
     /// None for the entries of this file, whose constants are tested.
     pub fn material(&self) -> Result<Material, MaterialError> {
-        let material = (self.build)()?.named(self.title);
-        Ok(match self.measured_window_s {
+        Ok(self.describe((self.build)()?))
+    }
+
+    /// A material made of the numbers of this one, with its title and the times in which it was observed.
+    pub fn describe(&self, material: Material) -> Material {
+        let material = material.named(self.title);
+        match self.measured_window_s {
             Some(window_s) => material.measured(window_s),
             None => material,
-        })
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! Linear viscoelastic materials: relaxation modulus, creep compliance, complex modulus.
 //!
 //! A [`Material`] holds both functions of one material, the [`Creep`] compliance and, where there is
-//! one, the [`Relaxation`] modulus, with a Poisson ratio that does not depend on time. SI units
+//! one, the [`Relaxation`] modulus, with a Poisson ratio or a bulk modulus that does not depend on time. SI units
 //! throughout; harmonic quantities vary as `exp(+i omega t)`, so `E* = E' + i E''` and
 //! `D* = 1/E* = D' - i D''`.
 //!
@@ -13,6 +13,8 @@
 //! | shear creep compliance J | 2 (1 + nu) D | J |
 //! | Phi, shear as S. Spinu (2018) writes it | (1 + nu) D | J/2 |
 //! | contact compliance C = (1 - nu) Phi | (1 - nu^2) D | (1 - nu) J/2 |
+//!
+//! With a constant bulk modulus the Poisson ratio grows as the body relaxes: [`compressibility`].
 //!
 //! This room knows nothing of indenters, drives or contact.
 //!
@@ -28,6 +30,7 @@
 //! ```
 
 pub mod classical;
+pub mod compressibility;
 pub mod dynamic;
 pub mod export;
 pub mod fit;
@@ -51,6 +54,7 @@ mod synthetic;
 
 use num_complex::Complex;
 
+pub use compressibility::Compressibility;
 pub use creep::{Creep, CreepBranch};
 pub use error::MaterialError;
 pub use peaks::{LossPeak, LossPeaks};
@@ -105,11 +109,12 @@ impl MaterialFunction {
     }
 }
 
-/// An isotropic linear viscoelastic material of constant Poisson ratio.
+/// An isotropic linear viscoelastic material of constant Poisson ratio, or of constant bulk modulus.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     name: Option<String>,
-    poisson_ratio: f64,
+    compressibility: Compressibility,
+    /// Shear where the bulk modulus is constant.
     kind: ModulusKind,
     given: MaterialFunction,
     creep: Creep,
@@ -128,15 +133,22 @@ impl Material {
     /// A material from its relaxation modulus.
     ///
     /// # Errors
-    /// A Poisson ratio outside -1 < nu <= 1/2; a creep compliance beyond the range of a double.
+    /// A Poisson ratio outside -1 < nu <= 1/2; a bulk modulus that is not positive, or too small for moduli in tension; a creep
+    /// compliance beyond the range of a double.
     pub fn from_relaxation(
         relaxation: Relaxation,
         kind: ModulusKind,
-        poisson_ratio: f64,
+        compressibility: impl Into<Compressibility>,
     ) -> Result<Self, MaterialError> {
+        let compressibility = compressibility.into().checked()?;
+        if let (Compressibility::BulkModulusPa(_), ModulusKind::Longitudinal) =
+            (compressibility, kind)
+        {
+            return Self::from_creep(relaxation.to_creep()?, kind, compressibility);
+        }
         Ok(Material {
             name: None,
-            poisson_ratio: checked_poisson_ratio(poisson_ratio)?,
+            compressibility,
             kind,
             given: MaterialFunction::Relaxation,
             creep: relaxation.to_creep()?,
@@ -156,13 +168,21 @@ impl Material {
     /// has no relaxation modulus and cannot go into contact, but can be looked at.
     ///
     /// # Errors
-    /// A Poisson ratio outside -1 < nu <= 1/2; a relaxation modulus beyond the range of a double.
+    /// A Poisson ratio outside -1 < nu <= 1/2; a bulk modulus that is not positive, or too small for compliances in tension; a
+    /// relaxation modulus beyond the range of a double.
     pub fn from_creep(
         creep: Creep,
         kind: ModulusKind,
-        poisson_ratio: f64,
+        compressibility: impl Into<Compressibility>,
     ) -> Result<Self, MaterialError> {
-        let poisson_ratio = checked_poisson_ratio(poisson_ratio)?;
+        let compressibility = compressibility.into().checked()?;
+        let (creep, kind) = match (compressibility, kind) {
+            (Compressibility::BulkModulusPa(bulk_pa), ModulusKind::Longitudinal) => {
+                let shear = compressibility::shear_of_longitudinal(&creep, bulk_pa)?;
+                (shear, ModulusKind::Shear)
+            }
+            _ => (creep, kind),
+        };
         let relaxation = match creep.to_relaxation() {
             Ok(relaxation) => Some(relaxation),
             Err(MaterialError::NoRelaxationModulus) => None,
@@ -171,7 +191,7 @@ impl Material {
         let given = MaterialFunction::Creep;
         Ok(Material {
             name: None,
-            poisson_ratio,
+            compressibility,
             kind,
             given,
             creep,
@@ -343,9 +363,34 @@ impl Material {
         self.name.as_deref()
     }
 
-    /// Poisson ratio, constant in time.
-    pub fn poisson_ratio(&self) -> f64 {
-        self.poisson_ratio
+    /// What of the change of volume does not depend on time.
+    pub fn compressibility(&self) -> Compressibility {
+        self.compressibility
+    }
+
+    /// The Poisson ratio, where it is constant in time.
+    pub fn poisson_ratio(&self) -> Option<f64> {
+        self.compressibility.poisson_ratio()
+    }
+
+    /// The Poisson ratio at this time (s) of a relaxation test in tension, minus the lateral over the axial strain.
+    ///
+    /// # Errors
+    /// [`MaterialError::NoRelaxationModulus`]; a compliance beyond the range of a double.
+    pub fn poisson_ratio_at(&self, time_s: f64) -> Result<f64, MaterialError> {
+        match self.compressibility {
+            Compressibility::PoissonRatio(nu) => Ok(nu),
+            Compressibility::BulkModulusPa(bulk_pa) => {
+                let constrained = self.under_lateral_constraint(bulk_pa)?;
+                Ok(4.5 * bulk_pa * constrained.compliance(time_s) - 1.0)
+            }
+        }
+    }
+
+    fn under_lateral_constraint(&self, bulk_pa: f64) -> Result<Creep, MaterialError> {
+        let shear = self.relaxation.as_ref();
+        let shear = shear.ok_or(MaterialError::NoRelaxationModulus)?;
+        compressibility::under_lateral_constraint(shear, bulk_pa)
     }
 
     /// Whether [`creep`](Self::creep) and [`relaxation`](Self::relaxation) are shear or longitudinal.
@@ -374,7 +419,15 @@ impl Material {
     /// # Errors
     /// A compliance beyond the range of a double.
     pub fn creep_as(&self, kind: ModulusKind) -> Result<Creep, MaterialError> {
-        self.creep.scaled(1.0 / self.modulus_factor(kind))
+        match (self.compressibility, kind) {
+            (Compressibility::PoissonRatio(nu), _) => {
+                self.creep.scaled(1.0 / self.modulus_factor(kind, nu))
+            }
+            (Compressibility::BulkModulusPa(_), ModulusKind::Shear) => self.creep.scaled(1.0),
+            (Compressibility::BulkModulusPa(bulk_pa), ModulusKind::Longitudinal) => {
+                compressibility::longitudinal_of_shear(&self.creep, bulk_pa)
+            }
+        }
     }
 
     /// Relaxation modulus of the kind asked for, in Pa: `E(t) = 2 (1 + nu) G(t)`; `None` if the
@@ -383,11 +436,19 @@ impl Material {
     /// # Errors
     /// A modulus beyond the range of a double.
     pub fn relaxation_as(&self, kind: ModulusKind) -> Result<Option<Relaxation>, MaterialError> {
-        let factor = self.modulus_factor(kind);
-        self.relaxation
-            .as_ref()
-            .map(|relaxation| relaxation.scaled(factor))
-            .transpose()
+        let Some(relaxation) = &self.relaxation else {
+            return Ok(None);
+        };
+        let own = match (self.compressibility, kind) {
+            (Compressibility::PoissonRatio(nu), _) => {
+                relaxation.scaled(self.modulus_factor(kind, nu))
+            }
+            (Compressibility::BulkModulusPa(_), ModulusKind::Shear) => relaxation.scaled(1.0),
+            (Compressibility::BulkModulusPa(_), ModulusKind::Longitudinal) => {
+                self.creep_as(kind)?.to_relaxation()
+            }
+        };
+        own.map(Some)
     }
 
     /// The shear creep function `Phi(t) = J(t)/2 = (1 + nu) D(t)`, in 1/Pa, as S. Spinu writes it
@@ -396,13 +457,13 @@ impl Material {
     /// # Errors
     /// A compliance beyond the range of a double.
     pub fn shear_creep_function(&self) -> Result<Creep, MaterialError> {
-        self.creep.scaled(match self.kind {
-            ModulusKind::Shear => 0.5,
-            ModulusKind::Longitudinal => 1.0 + self.poisson_ratio,
+        self.creep.scaled(match (self.kind, self.compressibility) {
+            (ModulusKind::Longitudinal, Compressibility::PoissonRatio(nu)) => 1.0 + nu,
+            _ => 0.5,
         })
     }
 
-    /// The contact compliance `C(t) = (1 - nu^2) D(t) = (1 - nu) J(t)/2`, in 1/Pa: what takes the
+    /// The contact compliance `C(t) = (1 - nu^2) D(t) = (1 - nu) J(t)/2`, in 1/Pa, or that of a constant bulk modulus: what takes the
     /// place of `1/E* = (1 - nu^2)/E` of a half-space when the solid is viscoelastic (E. H. Lee
     /// and J. R. M. Radok, Journal of Applied Mechanics 27 (1960) 438). That of an indenter which is not rigid is added: both
     /// surfaces move under the same pressure (K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 4.2).
@@ -414,11 +475,19 @@ impl Material {
         if self.creep.is_instantaneously_rigid() {
             return Err(MaterialError::SingularContactPressure);
         }
-        let lateral = 1.0 - self.poisson_ratio;
-        let own = self.creep.scaled(match self.kind {
-            ModulusKind::Shear => 0.5 * lateral,
-            ModulusKind::Longitudinal => lateral * (1.0 + self.poisson_ratio),
-        })?;
+        let own = match self.compressibility {
+            Compressibility::PoissonRatio(nu) => {
+                let lateral = 1.0 - nu;
+                self.creep.scaled(match self.kind {
+                    ModulusKind::Shear => 0.5 * lateral,
+                    ModulusKind::Longitudinal => lateral * (1.0 + nu),
+                })?
+            }
+            Compressibility::BulkModulusPa(bulk_pa) => {
+                let constrained = self.under_lateral_constraint(bulk_pa)?.scaled(0.75)?;
+                self.creep.scaled(0.25)?.beside(&constrained)?
+            }
+        };
         match &self.counterbody {
             Some(indenter) => own.beside(&indenter.contact_compliance()?),
             None => Ok(own),
@@ -437,26 +506,40 @@ impl Material {
 
     /// Contact complex modulus `1/C* = E*/(1 - nu^2)`, in Pa, which a flat punch sees.
     pub fn contact_complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
-        let lateral = (1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio);
-        self.longitudinal_complex_modulus(angular_frequency_rad_per_s) / lateral
+        let omega = angular_frequency_rad_per_s;
+        match self.compressibility {
+            Compressibility::PoissonRatio(nu) => {
+                self.longitudinal_complex_modulus(omega) / ((1.0 - nu) * (1.0 + nu))
+            }
+            Compressibility::BulkModulusPa(bulk_pa) => {
+                compressibility::contact_of_shear(self.shear_complex_modulus(omega), bulk_pa)
+            }
+        }
     }
 
-    /// What a loop between the pair says of this material: the complex modulus (Pa) read as if the indenter were rigid, less what the
-    /// indenter yields.
-    pub fn without_indenter(
+    /// What a loop between the pair says of this material: storage and loss modulus (Pa) from those that the formula of
+    /// [`LoopAnalysis::equivalent_moduli_pa`](crate::cycle::LoopAnalysis::equivalent_moduli_pa) reads with the material's Poisson ratio,
+    /// as if the indenter were rigid, or with 0 where that is not constant. What the indenter yields is taken off, and with a constant
+    /// bulk modulus E* is that of the contact modulus 1/C*.
+    pub fn of_loop(
         &self,
         (storage_pa, loss_pa): (f64, f64),
         angular_frequency_rad_per_s: f64,
     ) -> (f64, f64) {
-        let Some(indenter) = &self.counterbody else {
-            return (storage_pa, loss_pa);
+        let read = Complex::new(storage_pa, loss_pa);
+        let nu = self.poisson_ratio().unwrap_or(0.0);
+        let lateral = (1.0 - nu) * (1.0 + nu);
+        let own = self.counterbody.as_ref().map(|indenter| {
+            let of_indenter = indenter.contact_complex_modulus(angular_frequency_rad_per_s);
+            lateral * (read.inv() * lateral - of_indenter.inv()).inv()
+        });
+        let own = match self.compressibility {
+            Compressibility::PoissonRatio(_) => own.unwrap_or(read),
+            Compressibility::BulkModulusPa(bulk_pa) => {
+                let shear = compressibility::shear_of_contact(own.unwrap_or(read), bulk_pa);
+                compressibility::young_of_shear(shear, bulk_pa)
+            }
         };
-        let lateral = (1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio);
-        let of_indenter = indenter
-            .contact_complex_modulus(angular_frequency_rad_per_s)
-            .inv();
-        let of_pair = Complex::new(storage_pa, loss_pa).inv() * lateral;
-        let own = lateral * (of_pair - of_indenter).inv();
         (own.re, own.im)
     }
 
@@ -479,30 +562,24 @@ impl Material {
             (MaterialFunction::Relaxation, Some(relaxation)) => relaxation.complex_modulus(omega),
             _ => self.creep.complex_modulus(omega),
         };
-        own * self.modulus_factor(kind)
+        match (self.compressibility, kind) {
+            (Compressibility::PoissonRatio(nu), _) => own * self.modulus_factor(kind, nu),
+            (Compressibility::BulkModulusPa(_), ModulusKind::Shear) => own,
+            (Compressibility::BulkModulusPa(bulk_pa), ModulusKind::Longitudinal) => {
+                compressibility::young_of_shear(own, bulk_pa)
+            }
+        }
     }
 
     /// What a modulus of the material's own kind is multiplied by to be one of `kind`.
-    fn modulus_factor(&self, kind: ModulusKind) -> f64 {
-        let longitudinal_over_shear = 2.0 * (1.0 + self.poisson_ratio);
+    fn modulus_factor(&self, kind: ModulusKind, poisson_ratio: f64) -> f64 {
+        let longitudinal_over_shear = 2.0 * (1.0 + poisson_ratio);
         match (self.kind, kind) {
             (ModulusKind::Shear, ModulusKind::Longitudinal) => longitudinal_over_shear,
             (ModulusKind::Longitudinal, ModulusKind::Shear) => 1.0 / longitudinal_over_shear,
             _ => 1.0,
         }
     }
-}
-
-/// A Poisson ratio that leaves both the shear and the bulk modulus positive.
-fn checked_poisson_ratio(poisson_ratio: f64) -> Result<f64, MaterialError> {
-    if poisson_ratio > -1.0 && poisson_ratio <= 0.5 {
-        return Ok(poisson_ratio);
-    }
-    Err(MaterialError::Parameter {
-        parameter: "Poisson ratio".to_owned(),
-        value: poisson_ratio,
-        requirement: "greater than -1 and at most 0.5",
-    })
 }
 
 #[cfg(test)]

@@ -370,7 +370,8 @@ impl Tabulated {
     /// # Errors
     /// A Poisson ratio outside -1 < nu <= 1/2, or a compliance beyond the range of a double.
     pub fn contact_compliance(&self, poisson_ratio: f64) -> Result<Interpolant, MaterialError> {
-        let nu = super::checked_poisson_ratio(poisson_ratio)?;
+        super::Compressibility::PoissonRatio(poisson_ratio).checked()?;
+        let nu = poisson_ratio;
         self.creep_curve().scaled(match self.kind {
             ModulusKind::Shear => 0.5 * (1.0 - nu),
             ModulusKind::Longitudinal => (1.0 - nu) * (1.0 + nu),
@@ -942,7 +943,9 @@ mod tests {
             .collect();
         let table =
             Tabulated::new(MaterialFunction::Creep, material.kind(), times, values).unwrap();
-        let contact = table.contact_compliance(material.poisson_ratio()).unwrap();
+        let contact = table
+            .contact_compliance(material.poisson_ratio().unwrap())
+            .unwrap();
         let exact = material.contact_compliance().unwrap();
         for &t in table.times_s() {
             assert!((contact.value(t) / exact.compliance(t) - 1.0).abs() < 1e-14);

@@ -1,7 +1,7 @@
 //! Captions: what a figure shows, of what, with which numbers, and how it was computed, as one paragraph to paste into a paper.
 
 use super::number::plain;
-use super::words::{drive_line, range, row, varied_line};
+use super::words::{adhesion_line, compressibility, drive_line, range, row, varied_line};
 use crate::indenter::{Indenter, Value};
 use crate::material::Material;
 use crate::quantity::Dimension;
@@ -80,10 +80,11 @@ impl Setting {
             }
             _ => String::new(),
         };
+        let attraction = adhesion_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let swept = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
         let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
-            "{} on {}{}, {} (mean ± amplitude){rest}{varied}",
+            "{} on {}{}, {} (mean ± amplitude){rest}{attraction}{varied}",
             indenter(plan.indenter.as_ref(), swept, plan.material.counterbody()),
             material(&plan.material),
             layer(plan.layer, swept),
@@ -123,11 +124,7 @@ impl Setting {
         };
         let of = format!(
             "{} on {body}{}, {} against time prescribed",
-            indenter(
-                plan.indenter.as_ref(),
-                &[],
-                plan.material.series().and_then(Material::counterbody)
-            ),
+            indenter(plan.indenter.as_ref(), &[], plan.material.counterbody()),
             layer(plan.layer, &[]),
             plan.drive.control().name()
         );
@@ -157,7 +154,7 @@ impl Setting {
 
 fn material(material: &Material) -> String {
     let name = material.name().unwrap_or("a viscoelastic material");
-    format!("{name} (Poisson ratio {})", material.poisson_ratio())
+    format!("{name} ({})", compressibility(material))
 }
 
 /// The layer that the body is, with a blank before it, without a thickness that an axis varies; nothing of a half-space.
@@ -185,7 +182,7 @@ fn indenter(indenter: &dyn Indenter, swept: &[Varied], of: Option<&Material>) ->
     };
     let is_swept = |key: &str| {
         let mut swept = swept.iter();
-        swept.any(|varied| (varied.block, varied.key) == (Block::Indenter, key))
+        swept.any(|varied| (varied.block, &*varied.key) == (Block::Indenter, key))
     };
     let settings: Vec<_> = indenter
         .parameters()

@@ -6,6 +6,7 @@ use super::figure;
 use super::figure::Figure;
 use super::figure::moduli::ModulusPoint;
 use super::number::{four_digits, six_digits};
+use super::words;
 use crate::material::{Creep, LossPeak, Material, MaterialError, MaterialFunction, Relaxation};
 use crate::quantity::{Dimension, format_human};
 
@@ -94,6 +95,22 @@ impl<'a> MaterialReport<'a> {
         figures
     }
 
+    /// The Poisson ratio, or the bulk modulus and how the Poisson ratio goes with time.
+    fn compressibility(&self) -> Result<String, MaterialError> {
+        let mut line = words::compressibility(self.material);
+        line.replace_range(..1, &line[..1].to_uppercase());
+        if self.material.poisson_ratio().is_none() {
+            let relaxation = self.material.relaxation().into_iter();
+            let times = relaxation.flat_map(|r| r.branches().iter().map(|b| b.time_s));
+            line.push_str("\n\n       t / s  Poisson ratio in a relaxation test");
+            for time_s in [0.0].into_iter().chain(times).chain([f64::INFINITY]) {
+                let nu = self.material.poisson_ratio_at(time_s)?;
+                line.push_str(&format!("\n{:>12}  {nu:.4}", six_digits(time_s)));
+            }
+        }
+        Ok(line)
+    }
+
     /// The text: series, limits, table, peaks.
     ///
     /// # Errors
@@ -105,7 +122,7 @@ impl<'a> MaterialReport<'a> {
         let compliance = MaterialFunction::Creep.symbol(kind);
         let kind = kind.name();
         // Writing to a String cannot fail.
-        let _ = writeln!(text, "Poisson ratio {}", self.material.poisson_ratio());
+        let _ = writeln!(text, "{}", self.compressibility()?);
         let _ = writeln!(text, "\nRelaxation modulus ({kind}; MPa, s)");
         match self.material.relaxation() {
             Some(relaxation) => relaxation_lines(&mut text, symbol, relaxation),

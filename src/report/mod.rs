@@ -54,6 +54,8 @@ pub mod peaks;
 pub mod profile_lines;
 pub mod quantities;
 #[cfg(feature = "report")]
+pub mod rigid_indenter;
+#[cfg(feature = "report")]
 pub mod samples;
 #[cfg(feature = "report")]
 pub mod scenario;

@@ -275,7 +275,7 @@ pub static SWEEP: &[OfCase] = &[
         "by how much the first harmonic of the approach lags behind that of the load, θ₁ − φ₁")
         .in_cases("phase lag"),
     barred("storage_modulus_pa", bar!(StorageModulus), ("storage modulus from the loop", Some(Stress)),
-        "what instrumented indentation reads from the loop, (1 − ν²) W₁ cos(θ₁ − φ₁)/(2 a₀ δ₁)")
+        "what instrumented indentation reads from the loop, (1 − ν²) W₁ cos(θ₁ − φ₁)/(2 a₀ δ₁); empty where the indenter leaves the surface")
         .in_cases("E′"),
     barred("loss_modulus_pa", bar!(LossModulus), ("loss modulus from the loop", Some(Stress)),
         "the same with the sine")
@@ -290,6 +290,15 @@ pub static SWEEP: &[OfCase] = &[
     barred("contact_radius_max_m", bar!(ContactRadiusMax), ("largest contact radius", Some(Length)),
         "largest contact radius of the cycle")
         .in_cases("largest radius"),
+    OfCase::new("contact_duty", |r| of_result(r, |c| Some(c.contact_duty.part)),
+        "part of the cycle in which the indenter touches the surface: below 1 where an amplitude above the mean lifts it off; exact \
+         under a prescribed load, and to half a time step per lift-off or touch under a prescribed approach")
+        .called("part of the cycle in contact", None)
+        .with_error(|r| Some(r.result.as_ref()?.contact_duty.error))
+        .compared(Absolutely),
+    OfCase::new("tabor_parameter", |r| of_result(r, |c| c.tabor_parameter),
+        "(R w²/(E*² z₀³))^(1/3) of an indenter that is attracted, with |1/C*| at the frequency for E*; empty without `[adhesion]`")
+        .called("Tabor's parameter", None).compared(Relatively),
     barred("peak_pressure_min_pa", bar!(PeakPressureMin), ("smallest peak pressure", Some(Stress)),
         "smallest over the cycle of the largest pressure in the contact; empty where that is unbounded, under a cone or a flat punch"),
     barred("peak_pressure_max_pa", bar!(PeakPressureMax), ("largest peak pressure", Some(Stress)),
@@ -511,7 +520,8 @@ mod tests {
     #[test]
     fn every_quantity_with_an_error_bar_has_a_column() {
         let barred = SWEEP.iter().filter(|column| column.error_name().is_some());
-        assert_eq!(barred.count(), Quantity::ALL.len());
+        // The part of the cycle in contact knows its error without a coarser resolution.
+        assert_eq!(barred.count(), Quantity::ALL.len() + 1);
     }
 
     /// `RENEW_GUIDE=1 cargo test --lib quantities` writes it anew.

@@ -6,6 +6,7 @@ use super::figure;
 use super::figure::units::Units;
 use super::number::{Measured, four_digits, with_error_on_terminal};
 use super::peaks;
+use super::rigid_indenter;
 use super::words::{without_result, wrapped};
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
@@ -184,7 +185,9 @@ pub fn problems(plan: &SweepPlan, outcome: &Outcome) -> String {
 /// What lies outside the model, or was not estimated: one line for each kind, whatever the number of cases.
 pub fn warnings_of_sweep(plan: &SweepPlan, outcome: &Outcome) -> String {
     let unit = plan.figures.frequency_unit;
-    warned(warning::over_cases(&outcome.records, unit))
+    let note = rigid_indenter::note(plan, outcome);
+    let note = note.map(|note| wrapped(&format!("note: {note}"), 80, "", "  "));
+    warned(warning::over_cases(&outcome.records, unit)) + &note.unwrap_or_default()
 }
 
 /// Warnings, one after another.

@@ -3,7 +3,8 @@
 use super::number::{self, four_digits, plain, scientific};
 use crate::drive::HarmonicDrive;
 use crate::indenter::{Parameter, Value};
-use crate::quantity::FrequencyUnit;
+use crate::material::{Compressibility, Material};
+use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::plan::{EngineKind, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
@@ -43,7 +44,18 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
     };
     let mean = range(Varied::is_mean).unwrap_or_else(|| value(drive.mean()));
     let amplitude = range(Varied::is_amplitude).unwrap_or_else(|| value(drive.amplitude()));
-    format!("{} {mean} ± {amplitude}", drive.control().name())
+    let lifts_off = |drive: &HarmonicDrive| drive.loaded_part().is_some_and(|part| part < 1.0);
+    let held = match plan.conditions().iter().any(|c| lifts_off(&c.drive)) {
+        true => ", held at zero where that is a pull",
+        false => "",
+    };
+    format!("{} {mean} ± {amplitude}{held}", drive.control().name())
+}
+
+/// The attraction of the indenter, where there is any: `a work of adhesion of 0.05 J/m² (DMT)`.
+pub fn adhesion_line(plan: &SweepPlan) -> Option<String> {
+    let work = number::six_digits(plan.adhesion?.work_j_per_m2);
+    Some(format!("a work of adhesion of {work} J/m² (DMT)"))
 }
 
 /// What axes vary besides mean and amplitude, and from where to where: `radius of the indenter 1 mm to 10 mm`.
@@ -59,6 +71,16 @@ pub fn varied_line(plan: &SweepPlan) -> Option<String> {
     };
     let lines: Vec<String> = axes.own_columns().filter_map(line).collect();
     (!lines.is_empty()).then(|| lines.join(", "))
+}
+
+/// How a material changes its volume: `Poisson ratio 0.38`, `bulk modulus 3 GPa`.
+pub fn compressibility(material: &Material) -> String {
+    match material.compressibility() {
+        Compressibility::PoissonRatio(nu) => format!("Poisson ratio {nu}"),
+        Compressibility::BulkModulusPa(bulk_pa) => {
+            format!("bulk modulus {}", plain(bulk_pa, Dimension::Stress, 4))
+        }
+    }
 }
 
 /// A key as words.

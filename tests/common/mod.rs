@@ -142,6 +142,7 @@ pub fn sweep_plan(
         layer: None,
         indenter,
         drive: HarmonicDrive::load(mean_n, amplitude_n).unwrap(),
+        adhesion: None,
         axes: None,
         angular_frequencies_rad_per_s: vec![1.0],
         refine: false,

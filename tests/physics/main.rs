@@ -3,6 +3,8 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod adhesion;
+mod bulk_modulus;
 mod contact_shape;
 mod direct_cycle;
 mod elastic_contact;
@@ -12,9 +14,11 @@ mod half_space_work;
 mod identification;
 mod identified_histories;
 mod instant_tolerance;
+mod intermittent;
 mod layer;
 mod measured_loops;
 mod numbered_cycles;
+mod periodic;
 mod pmma_baseline;
 mod pressure_profiles;
 mod quarter;

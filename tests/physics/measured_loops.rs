@@ -347,7 +347,7 @@ fn moduli(
     let signal = recording.record(&exact, &mut Random(1));
     let options = Options {
         contact: Some(Contact {
-            poisson_ratio: material.poisson_ratio(),
+            poisson_ratio: material.poisson_ratio().unwrap(),
             radius: Radius::Geometry,
             indenter: Some(Arc::new(indenter)),
             bias: true,

@@ -352,11 +352,17 @@ fn a_folder_of_an_analysis_is_drawn_again_and_no_folder_of_a_sweep_is_overwritte
     let folder = TempDir::new().unwrap();
     let (_, files) = three(&folder);
     let out = folder.path().join("out");
+    let computed = folder.path().join("computed");
+    fs::create_dir_all(&computed).unwrap();
+    let table = "index,angular_frequency_rad_per_s,energy_loss_j\n0,6.0,1e-6\n1,7.0,1.5e-6\n";
+    fs::write(computed.join("sweep.csv"), table).unwrap();
     let analyse = |out: &Path| {
         let mut command = program();
         command
             .arg("analyse")
             .args(&files)
+            .arg("--against")
+            .arg(&computed)
             .arg("--out")
             .arg(out)
             .arg("--quiet")
@@ -376,7 +382,12 @@ fn a_folder_of_an_analysis_is_drawn_again_and_no_folder_of_a_sweep_is_overwritte
             "{file}"
         );
     }
-    let before = fs::read(out.join("loops.svg")).unwrap();
+    // What was drawn beside the measured ones is drawn again, with nothing but the folder.
+    fs::remove_dir_all(&computed).unwrap();
+    let read = || ["loops.svg", "energy-loss.svg"].map(|file| fs::read(out.join(file)).unwrap());
+    let before = read();
+    let kept = fs::read_to_string(out.join("analysis.json")).unwrap();
+    assert!(kept.contains("\"angular_rad_per_s\":7.0"), "{kept}");
     fs::remove_file(out.join("loops.svg")).unwrap();
     program()
         .arg("report")
@@ -384,7 +395,9 @@ fn a_folder_of_an_analysis_is_drawn_again_and_no_folder_of_a_sweep_is_overwritte
         .arg("--quiet")
         .assert()
         .success();
-    assert_eq!(fs::read(out.join("loops.svg")).unwrap(), before);
+    assert_eq!(read(), before);
+    fs::create_dir_all(&computed).unwrap();
+    fs::write(computed.join("sweep.csv"), table).unwrap();
     let of_sweep = folder.path().join("sweep");
     fs::create_dir(&of_sweep).unwrap();
     fs::write(of_sweep.join("resolved.toml"), "").unwrap();

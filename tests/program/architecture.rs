@@ -30,10 +30,11 @@ const SWEEP: [&str; 10] = [
 ];
 
 /// Parts of the room `report` from top to bottom.
-const REPORT: [&str; 32] = [
+const REPORT: [&str; 33] = [
     "number",
     "words",
     "peaks",
+    "rigid_indenter",
     "work_line",
     "profile_lines",
     "table",

@@ -103,6 +103,14 @@ fn the_cases_over_any_number_are_those_of_separate_sweeps() {
             [0.7, 2.0],
             ["drive.mean=0.7", "drive.mean=2"],
         ),
+        (
+            "\"material.isotherm[0].branches[0].time\" = [\"3 s\", \"0.5 s\"]",
+            [0.5, 3.0],
+            [
+                "material.isotherm[0].branches[0].time=0.5 s",
+                "material.isotherm[0].branches[0].time=3 s",
+            ],
+        ),
     ] {
         let plan = read(axis).unwrap();
         let separate = values.iter().zip(flags).flat_map(|(value, flag)| {
@@ -228,7 +236,27 @@ fn what_cannot_be_an_axis_is_shown_where_it_stands() {
             "no isotherm at 30 °C",
             "shift law (`wlf` or `activation_energy`)",
         ),
-        ("drive.mean = [0.1]", "pull", "axes.toml:"),
+        ("drive.mean = [-20]", "never touches", "axes.toml:"),
+        (
+            "\"material.isotherm[0].branches[1].time\" = [1]",
+            "[material] has no `isotherm[0].branches[1].time`",
+            "another key here",
+        ),
+        (
+            "\"material.isotherm[0].branches.time\" = [1]",
+            "`sweep.material.isotherm[0].branches.time` cannot be an axis",
+            "write `isotherm[].branches[].time`",
+        ),
+        (
+            "\"material.isotherm[0].branches[0].time\" = [\"1 N\"]",
+            "must be a time",
+            "such as",
+        ),
+        (
+            "\"indenter.material.elastic.modulus\" = [1e9, 2e9]",
+            "cannot be an axis",
+            "keys of [indenter] that can",
+        ),
         (
             "drive.mean = [1, 2]\nindenter.radius = [1e-3]\npairs = true",
             "pairs need as many values on every axis",
@@ -348,4 +376,41 @@ fn a_sweep_over_several_axes_is_drawn_along_each_and_compared_with_itself() {
     assert_eq!(summary["peaks"][0]["varied"].as_array().unwrap().len(), 2);
     let same = run(&["compare", out.to_str().unwrap(), out.to_str().unwrap()]);
     assert!(same.contains("54 cases"), "{same}");
+}
+
+/// A solid that was given by two springs and a dashpot, not by the series that it is solved with.
+#[test]
+fn a_number_within_a_model_varies_where_the_file_has_it() {
+    let (head, rest) = FILE.split_once("[material]").unwrap();
+    let (_, rest) = rest.split_once("[indenter]").unwrap();
+    let with = |time: &str, axis: &str| {
+        let model = format!(
+            "[material]\npoisson_ratio = 0.4\n\n[material.zener]\nspring = \"9 MPa\"\nkelvin_spring = \"1 MPa\"\ntime = {time}\n"
+        );
+        let text = format!("{head}{model}\n[indenter]{rest}{axis}\n");
+        let plan = sweep_file::plan(&Document::parse("zener.toml", &text).unwrap());
+        plan.unwrap_or_else(|why| panic!("{}", why.render(Styling::Plain)))
+    };
+    // Quoted, as tables, and as `--set` says it.
+    for axis in [
+        "\"material.zener.time\" = [\"0.5 s\", \"3 s\"]",
+        "material.zener.time = [\"0.5 s\", \"3 s\"]",
+        "material = { zener = { time = [0.5, 3.0] } }",
+    ] {
+        let plan = with("7.0", axis);
+        let separate: Vec<_> = [0.5, 3.0]
+            .iter()
+            .flat_map(|time| {
+                let losses = losses(with(&format!("{time:?}"), ""));
+                losses.into_iter().map(|(_, bits)| (Some(*time), bits))
+            })
+            .collect();
+        let text = resolved_text(&plan);
+        let column = plan.axes.as_ref().unwrap().over[0].column();
+        assert_eq!(column, "material_zener_time_s");
+        assert_eq!(losses(plan), separate, "{axis}");
+        let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
+        assert_eq!(resolved_text(&again), text);
+        assert_eq!(losses(again), separate, "{axis}");
+    }
 }

@@ -241,11 +241,16 @@ fn an_empty_sweep_is_refused() {
 }
 
 #[test]
-fn an_amplitude_above_the_mean_is_refused_with_both_places() {
+fn a_load_that_never_presses_is_refused_with_both_places() {
     refused(
-        "\"5 N\"",
-        "\"15 N\"",
-        &["bad.toml:12:13", "the mean", "pull", "at most the mean"],
+        "\"10 N\"",
+        "\"-5 N\"",
+        &[
+            "bad.toml:11:8",
+            "the amplitude",
+            "never touches",
+            "pressed down",
+        ],
     );
 }
 

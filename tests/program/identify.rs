@@ -147,6 +147,56 @@ fn a_folder_of_a_sweep_gives_its_material_back() {
     }
 }
 
+/// Second cycles after a rest, as an experiment has them, which are not the stabilised ones.
+#[test]
+fn cycles_by_their_number_give_the_material_back_and_are_not_taken_for_stabilised_ones() {
+    let folder = TempDir::new().unwrap();
+    let indenter = "[indenter]\nshape = \"sphere\"\nradius = \"2 mm\"\n";
+    let drive = "[drive]\nmean = \"1 N\"\namplitude = \"0.2 N\"\nhold = \"5 s\"\n";
+    let cycle = "[cycle]\nmethod = \"march\"\nat_cycle = 2\n";
+    let sweep = format!(
+        "title = \"t\"\n[material]\npoisson_ratio = 0.45\n[material.relaxation]\nmodulus = \"longitudinal\"\n\
+         equilibrium = \"10 MPa\"\nbranches = [{{ modulus = \"40 MPa\", time = \"0.3 s\" }}, {{ modulus = \"20 MPa\", time = \"10 s\" }}]\n\
+         {indenter}{drive}{cycle}[sweep]\nangular_frequency = {{ from = \"0.03 rad/s\", to = \"30 rad/s\", points = 8 }}\n\
+         [solver]\nsprings = 60\n"
+    );
+    let file = folder.path().join("cycles.toml");
+    fs::write(&file, sweep).unwrap();
+    let out = folder.path().join("cycles");
+    let mut command = program();
+    command
+        .args(["sweep", "--quiet", "--no-figures"])
+        .arg(&file);
+    command.arg("--out").arg(&out).assert().success();
+    let identify = |cycle: &str| {
+        let text = format!(
+            "title = \"t\"\n[identify]\ndata = \"cycles\"\nbranches = 2\n[material]\npoisson_ratio = 0.45\n{indenter}{drive}{cycle}"
+        );
+        let file = folder.path().join("solid.toml");
+        fs::write(&file, text).unwrap();
+        let mut command = program();
+        command.args(["identify", "--quiet"]).arg(&file);
+        command.arg("--out").arg(folder.path().join("solid"));
+        command.output().unwrap()
+    };
+    let stabilised = identify("");
+    assert_eq!(stabilised.status.code(), Some(2));
+    let told = String::from_utf8(stabilised.stderr).unwrap();
+    assert!(told.contains("contradict"), "{told}");
+    assert_eq!(identify(cycle).status.code(), Some(0));
+    let table = fs::read_to_string(folder.path().join("solid/prony.csv")).unwrap();
+    let found = |name: &str| -> Vec<f64> { column(&table, name).into_iter().flatten().collect() };
+    let exact = [10e6, 40e6, 20e6, 0.3, 10.0];
+    for (found, exact) in [found("modulus_pa"), found("time_s")]
+        .concat()
+        .iter()
+        .zip(exact)
+    {
+        // The errors of the data are some tenths of a per cent.
+        assert!((found / exact - 1.0).abs() < 5e-3, "{found} {exact}");
+    }
+}
+
 #[test]
 fn data_that_say_nothing_or_contradict_themselves_are_refused_with_the_reason() {
     let rows = |row: &dyn Fn(i32) -> String| -> String {

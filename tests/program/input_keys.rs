@@ -243,12 +243,22 @@ fn files() -> Vec<(FileKind, String)> {
             "poisson_ratio = 0.4\n[indenter.material.zener]\nspring = \"1 MPa\"\nkelvin_spring = \"1 MPa\"\ntime = \"2 s\"",
         ),
     ];
+    let of_bulk = |header: &str| {
+        format!("[{header}]\nbulk_modulus = \"3 GPa\"\n[{header}.relaxation]\n{series}\n")
+    };
+    let yielding = format!("{SPHERE}{}", of_bulk("indenter.material"));
     let elastic = "[material]\nelastic = { modulus = \"2 GPa\", poisson_ratio = 0.3 }\n";
     let mut files: Vec<(FileKind, String)> = indenters
         .iter()
         .map(|indenter| history(LIBRARY, indenter, step, ""))
         .collect();
     files.push(sweep([elastic, SPHERE, HARMONIC, ONE], ""));
+    files.push(sweep(
+        [LIBRARY, SPHERE, HARMONIC, ONE],
+        "[adhesion]\nwork = \"0.1 J/m^2\"\nequilibrium_distance = \"0.2 nm\"\n",
+    ));
+    files.push(sweep([&of_bulk("material"), SPHERE, HARMONIC, ONE], ""));
+    files.push(history(&of_bulk("material"), &yielding, step, ""));
     files.extend([
         sweep([LIBRARY, SPHERE, HARMONIC, ONE], ""),
         sweep(

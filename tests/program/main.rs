@@ -11,10 +11,12 @@ mod program;
 #[path = "../common/segments.rs"]
 mod segments;
 
+mod adhesion;
 mod analyse;
 mod architecture;
 mod axes;
 mod build_identity;
+mod bulk_modulus;
 mod command_line;
 mod cycles_by_number;
 mod data_files;
@@ -32,6 +34,7 @@ mod library;
 mod machine_output;
 mod page;
 mod paths;
+mod periodic;
 mod refined_sweep;
 mod reproduce;
 

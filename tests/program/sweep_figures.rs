@@ -113,7 +113,7 @@ fn over_four_axes(mut plan: SweepPlan) -> SweepPlan {
     ];
     let over = keys.map(|(key, dimension, _)| Varied {
         block: Block::Drive,
-        key,
+        key: key.into(),
         dimension,
     });
     let condition = |k: usize| {
@@ -130,6 +130,7 @@ fn over_four_axes(mut plan: SweepPlan) -> SweepPlan {
     plan.axes = Some(Axes {
         over: over.to_vec(),
         pairs: false,
+        material_block: None,
         conditions: (0..16).map(condition).collect(),
     });
     plan

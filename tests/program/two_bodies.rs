@@ -66,6 +66,39 @@ fn two_equal_bodies_are_one_of_twice_the_compliance() {
 }
 
 #[test]
+fn a_rigid_indenter_is_told_where_it_costs_more_than_the_error_bars() {
+    let told = |indenter: &str, bars: bool| {
+        let folder = TempDir::new().unwrap();
+        let text = sweep_of("[material]\nlibrary = \"pmma\"\n", indenter);
+        let text = text.replace("error_bars = false", &format!("error_bars = {bars}"));
+        let file = write(&folder, "two.toml", &text);
+        let mut command = program();
+        command
+            .args(["sweep", &file, "--out"])
+            .arg(folder.path().join("out"));
+        let output = command.output().unwrap();
+        assert!(output.status.success());
+        let page = fs::read_to_string(folder.path().join("out/index.html")).unwrap();
+        let said = String::from_utf8(output.stdout).unwrap();
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        let note = "note: the indenter is taken as rigid: one of steel would add up to ";
+        assert_eq!(said.contains(note), page.contains("one of steel would add"));
+        said.split_once(note).map(|(_, rest)| rest.to_owned())
+    };
+    // (1 - 0.3^2)/210 GPa beside (1 - 0.38^2)/2.4 GPa.
+    let note = told("", true).unwrap();
+    assert!(
+        note.starts_with("1.1 % to the compliance, more than the error bars of 2 of 2 cases"),
+        "{note}"
+    );
+    assert_eq!(told("", false), None);
+    assert_eq!(
+        told("[indenter.material]\nlibrary = \"steel\"\n", true),
+        None
+    );
+}
+
+#[test]
 fn each_body_dissipates_what_its_branches_do() {
     let (rows, _) = run(&sweep_of(
         &zener("material", 1e-9, 2e-9, 40.0),

@@ -1,5 +1,5 @@
 //! The half-space engine: rectangular cells of uniform pressure on an elastic half-space in free space, or on a layer that lies
-//! on a rigid base, for any shape.
+//! on a rigid base, for any shape; and one period of a surface that repeats itself.
 //!
 //! Conventions: displacement positive into the body, pressure positive in compression, cells row-major (x fastest).
 
@@ -7,6 +7,7 @@ pub mod convolution;
 pub mod grid;
 pub mod influence;
 pub mod layer;
+pub mod periodic;
 mod solver;
 
 pub use convolution::predicted_memory_bytes;

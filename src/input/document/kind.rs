@@ -67,6 +67,11 @@ pub(crate) trait Describe: Sync {
         None
     }
 
+    /// Whether what stands there is a list.
+    fn is_list(&self) -> bool {
+        false
+    }
+
     /// What the number is, where the value is one; `controlled` is the dimension of what the drive controls.
     fn scalar(&self, _controlled: Dimension) -> Option<Scalar> {
         None
@@ -84,6 +89,11 @@ pub(crate) trait Describe: Sync {
 
     /// Keys with dots that may be written, in quotes, in place of a table below, and what a JSON Schema says of each.
     fn dotted(&self) -> serde_json::Map<String, Json> {
+        serde_json::Map::new()
+    }
+
+    /// The same of keys that lead into tables and lists, by the pattern of each.
+    fn dotted_patterns(&self) -> serde_json::Map<String, Json> {
         serde_json::Map::new()
     }
 }
@@ -825,5 +835,9 @@ impl Describe for Tables {
 
     fn rows(&self) -> Option<&'static Rows> {
         Some(self.rows)
+    }
+
+    fn is_list(&self) -> bool {
+        true
     }
 }

@@ -225,7 +225,7 @@ impl Rows {
     }
 
     /// Names of the keys that give way once `set` is set: those of other ways to fill the table, unless they are the same key in this
-    /// one, or have to be there. `word` is what stands under a key now. A key of several ways decides for none of them.
+    /// one, or have to be there. `word` is what stands under a key now. A key of several ways decides for none of them, but for the one that they begin with.
     pub(crate) fn excluded_by<'a>(
         &self,
         set: &str,
@@ -251,7 +251,10 @@ impl Rows {
             false => has_set(branch),
         });
         let own: Vec<&Branch> = own.collect();
-        if own.is_empty() || (own.len() > 1 && !decides) {
+        // Ways that begin with one key are variants of one.
+        let begins =
+            |branch: &&Branch| branch.decided_by.last().is_some_and(|(key, _)| *key == set);
+        if own.is_empty() || (own.len() > 1 && !decides && !own.iter().all(begins)) {
             return Vec::new();
         }
         let stays = |row: &&dyn AnyRow| {
@@ -310,7 +313,7 @@ impl Rows {
 }
 
 fn object(keys: &[&dyn AnyRow], decided_by: &[(&str, Option<&str>)]) -> Json {
-    let mut properties = serde_json::Map::new();
+    let (mut properties, mut patterns) = (serde_json::Map::new(), serde_json::Map::new());
     let mut required: Vec<&str> = decided_by.iter().map(|(key, _)| *key).collect();
     for row in keys {
         let mut schema = row.kind().schema();
@@ -323,16 +326,21 @@ fn object(keys: &[&dyn AnyRow], decided_by: &[(&str, Option<&str>)]) -> Json {
         }
         properties.insert(row.name().to_owned(), schema);
         properties.extend(row.kind().dotted());
+        patterns.extend(row.kind().dotted_patterns());
     }
     for (key, word) in decided_by {
         if let Some(word) = word {
             properties.insert((*key).to_owned(), json!({ "const": word }));
         }
     }
-    json!({
+    let mut schema = json!({
         "type": "object",
         "properties": properties,
         "required": required,
         "additionalProperties": false,
-    })
+    });
+    if !patterns.is_empty() {
+        schema["patternProperties"] = json!(patterns);
+    }
+    schema
 }

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
 
 use crate::input::diagnostic::{Location, Source};
+use crate::sweep::plan::resolved::toml_string;
 
 /// The entries of a table, by key.
 #[derive(Clone, Debug, Default)]
@@ -73,6 +74,15 @@ impl Table {
     }
 }
 
+impl Table {
+    /// The table as TOML under this header, its tables inline.
+    pub(in crate::input) fn toml(&self, header: &str) -> String {
+        let entries = self.entries.iter();
+        let lines = entries.map(|(key, entry)| format!("{key} = {}\n", entry.node.value.toml()));
+        format!("[{header}]\n{}", lines.collect::<String>())
+    }
+}
+
 impl Node {
     /// Takes over a value parsed by `toml` at `span` of the text that begins at `offset` in `source`.
     pub(crate) fn from_toml(
@@ -116,6 +126,28 @@ impl Node {
 }
 
 impl Value {
+    /// The value as TOML. A number that cannot be computed with has been refused before, and is not a number here.
+    fn toml(&self) -> String {
+        match self {
+            Self::Text(text) => toml_string(text),
+            Self::Integer(Ok(integer)) => integer.to_string(),
+            Self::Float(Ok(float)) => format!("{float:?}"),
+            Self::Integer(Err(_)) | Self::Float(Err(_)) | Self::DateTime => "nan".to_owned(),
+            Self::Boolean(truth) => truth.to_string(),
+            Self::Array(items) => {
+                let items: Vec<String> = items.iter().map(|item| item.value.toml()).collect();
+                format!("[{}]", items.join(", "))
+            }
+            Self::Table(table) => {
+                let entries = table.entries.iter();
+                let entries: Vec<String> = entries
+                    .map(|(key, entry)| format!("{key} = {}", entry.node.value.toml()))
+                    .collect();
+                format!("{{ {} }}", entries.join(", "))
+            }
+        }
+    }
+
     /// As [`Node::describe`].
     pub(crate) fn describe(&self) -> &'static str {
         match self {

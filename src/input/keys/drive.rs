@@ -34,7 +34,7 @@ rows! { HARMONIC_KEYS:
     CONTROL: Row<Choice<Control>, Or<Control>> = "control", Choice(&CONTROLS), Or(Control::Load);
     /// Mean; of a load above zero.
     MEAN: Row<Dependent, Required> = "mean", of_control(Limits::NONE), Required;
-    /// Amplitude; of a load at most the mean.
+    /// Amplitude; a load is held at zero where the sine is below.
     AMPLITUDE: Row<Dependent, Required> = "amplitude", of_control(Limits::ABOVE_ZERO), Required;
     /// Phase at which the oscillation begins.
     PHASE: Row<Scalar, Or<f64>> = "phase", quantity(Angle), Or(0.0);
@@ -62,7 +62,8 @@ rows! { SWEEP_KEYS:
     /// The same over a number of the indenter: `indenter.radius = ["1 mm", "2 mm"]`.
     INDENTER_AXIS: Row<AxisOf, Optional> =
         "indenter", AxisOf { block: Block::Indenter, rows: &INDENTER }, Optional;
-    /// The same over a number of the material: `material.temperature = ["0 °C", "25 °C"]`.
+    /// The same over a number of the material: `material.temperature = ["0 °C", "25 °C"]`, and, in quotes, of a table or list within
+    /// its block: `"material.relaxation.branches[0].time" = ["1 s", "10 s"]`, items counted from 0.
     MATERIAL_AXIS: Row<AxisOf, Optional> =
         "material", AxisOf { block: Block::Material, rows: &MATERIAL }, Optional;
     /// The same over the thickness of the layer: `layer.thickness = ["10 um", "1 mm"]`.

@@ -127,7 +127,8 @@ rows! { _:
     /// What is taken off the values before they are used: nothing, their mean, or the plane through them.
     LEVEL: Row<Choice<MapLevel>, Or<MapLevel>> =
         "level", Choice(&MapLevel::NAMES), Or(MapLevel::None);
-    /// What lies beyond the map: nothing known, so that contact must stay within, or nothing at all (`rim`).
+    /// What lies beyond the map: nothing known, so that contact must stay within, nothing at all (`rim`), or the map again and again
+    /// (`periodic`), under a prescribed load.
     EDGE: Row<Choice<MapEdge>, Or<MapEdge>> =
         "edge", Choice(&MapEdge::NAMES), Or(MapEdge::Unknown);
 }

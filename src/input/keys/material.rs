@@ -61,6 +61,8 @@ rows! { MATERIAL_KEYS:
 rows! { _:
     /// Poisson ratio, constant in time.
     POISSON_RATIO: Row<Scalar, Required> = "poisson_ratio", POISSON_RATIO_VALUE, Required;
+    /// Bulk modulus, constant in time, in place of the Poisson ratio, which then grows as the body relaxes.
+    BULK_MODULUS: Row<Scalar, Required> = "bulk_modulus", quantity(Stress).above_zero(), Required;
     /// First and last time of the test that the series was fitted to, where that is known.
     MEASURED: Row<Array<Scalar>, Optional> =
         "measured", pair(quantity(Time).above_zero().or_else(WINDOW), WINDOW), Optional;
@@ -148,6 +150,9 @@ pub(super) static INDENTER_MATERIAL: Rows = Rows {
         &[&INDENTER_RELAXATION, &POISSON_RATIO, &MEASURED],
         &[&CREEP, &POISSON_RATIO, &MEASURED],
         &[&ZENER, &POISSON_RATIO, &MEASURED],
+        &[&INDENTER_RELAXATION, &BULK_MODULUS, &MEASURED],
+        &[&CREEP, &BULK_MODULUS, &MEASURED],
+        &[&ZENER, &BULK_MODULUS, &MEASURED],
     ]),
 };
 
@@ -172,6 +177,17 @@ pub(super) static MATERIAL: Rows = Rows {
         &[&ISOTHERMS, &POISSON_RATIO, &TEMPERATURE],
         &[&DYNAMIC, &POISSON_RATIO, &TEMPERATURE],
         &[&MEASURED_TABLE, &POISSON_RATIO],
+        &[
+            &RELAXATION,
+            &BULK_MODULUS,
+            &MEASURED,
+            &RELAXATION_ALTERNATIVE,
+        ],
+        &[&CREEP, &BULK_MODULUS, &MEASURED, &CREEP_ALTERNATIVE],
+        &[&MAXWELL, &BULK_MODULUS, &MEASURED],
+        &[&ZENER, &BULK_MODULUS, &MEASURED],
+        &[&FRACTIONAL, &BULK_MODULUS],
+        &[&MEASURED_TABLE, &BULK_MODULUS],
     ]),
 };
 

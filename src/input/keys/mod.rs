@@ -1,6 +1,7 @@
 //! Every key of the input files, once: what it is called, what may stand under it, what counts without it, what it means and
 //! which others it excludes. Reading, JSON Schema, the reference in the guides and the words of the fuzzers come from here.
 
+pub(crate) mod adhesion;
 pub(crate) mod drive;
 pub(crate) mod identify;
 pub(super) mod indenter;
@@ -85,6 +86,8 @@ rows! { SWEEP_KEYS:
     INDENTER: Row<Table, Required> = "indenter", Table(&indenter::INDENTER), Required;
     /// The load or the approach: an oscillation about a mean.
     DRIVE: Row<Table, Required> = "drive", Table(&drive::HARMONIC), Required;
+    /// The surface attracts the indenter, a sphere under a prescribed load.
+    ADHESION: Row<Table, Optional> = "adhesion", Table(&adhesion::ADHESION), Optional;
     /// The frequencies, and perhaps a second axis.
     SWEEP: Row<Table, Required> = "sweep", Table(&drive::SWEEP), Required;
     /// How a cycle is resolved, and when it counts as stabilised.

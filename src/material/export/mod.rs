@@ -172,6 +172,7 @@ struct Series<'a> {
     material: &'a Material,
     program: Program,
     shift: Option<&'a Wlf>,
+    nu: f64,
     /// Of the material's own kind.
     own: Relaxation,
     longitudinal: Relaxation,
@@ -194,6 +195,9 @@ impl<'a> Series<'a> {
             material,
             program,
             shift,
+            nu: material
+                .poisson_ratio()
+                .ok_or(MaterialError::NoPoissonRatio { what: "an export" })?,
             own: of(material.kind())?,
             longitudinal: of(ModulusKind::Longitudinal)?,
             shear: of(ModulusKind::Shear)?,
@@ -201,7 +205,7 @@ impl<'a> Series<'a> {
     }
 
     fn nu(&self) -> f64 {
-        self.material.poisson_ratio()
+        self.nu
     }
 
     fn is_incompressible(&self) -> bool {

@@ -34,7 +34,7 @@ fn empty<'a>(plan: &SweepPlan, condition: &Condition, units: &Units) -> Curve<'a
     let parts: Vec<(Varied, String)> = (over.iter().zip(condition.values.all()))
         .map(|(varied, value)| {
             let value = units.varied_value(varied, *value);
-            (*varied, format!("{} {value}", varied.name()))
+            (varied.clone(), format!("{} {value}", varied.name()))
         })
         .collect();
     let words: Vec<&str> = parts.iter().map(|(_, words)| words.as_str()).collect();

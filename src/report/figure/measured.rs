@@ -23,7 +23,8 @@ const COMPUTED: &str = "computed";
 const SAME: f64 = 0.01;
 
 /// The figures that the rows have.
-pub fn figures(analysis: &Analysis, computed: &[Computed]) -> Vec<Figure> {
+pub fn figures(analysis: &Analysis) -> Vec<Figure> {
+    let computed = &analysis.computed;
     let rows: Vec<&MeasuredRow> = analysis.rows.iter().collect();
     let all = [
         loops(&rows, computed),

@@ -328,9 +328,9 @@ mod tests {
         assert_eq!(si.varied_value(&approach, 1.5e-6), "1.5 µm");
         assert_eq!(si.varied_value(&approach, 0.0), "0 m");
         assert_eq!(normalised.varied_value(&load, 5.0), "0.5 W₀");
-        let of = |block, key, dimension| Varied {
+        let of = |block, key: &'static str, dimension| Varied {
             block,
-            key,
+            key: key.into(),
             dimension,
         };
         let temperature = of(Block::Material, "temperature", Some(Dimension::Temperature));

@@ -18,10 +18,13 @@ pub struct Analysis {
     /// The setup file, where there was one.
     pub setup: Option<String>,
     pub rows: Vec<MeasuredRow>,
+    /// What is drawn beside the measured.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub computed: Vec<Computed>,
 }
 
 /// A computed case beside which measured ones are drawn.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Computed {
     pub angular_rad_per_s: f64,
     pub energy_loss_j: Option<f64>,

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use crate::indenter::{Indenter, Value};
-use crate::material::{Material, MaterialFunction};
+use crate::material::{Compressibility, Material, MaterialFunction};
 use crate::quantity::Dimension;
 use crate::report::number::plain;
 use crate::report::words;
@@ -72,6 +72,9 @@ pub(super) fn sweep(plan: &SweepPlan) -> Markup {
     let mut drive = Facts::default();
     drive.add("control", plan.drive.control().name());
     drive.add("mean ± amplitude", &words::drive_line(&plan.drive, plan));
+    if let Some(attraction) = words::adhesion_line(plan) {
+        drive.add("attraction", &attraction);
+    }
     drive.add("phase", &plain(plan.drive.phase_rad(), Dimension::Angle, 4));
     drive.add(
         "rest before the oscillation",
@@ -113,7 +116,12 @@ pub(super) fn material(material: &Material) -> Markup {
     if let Some(name) = material.name() {
         facts.add("name", name);
     }
-    facts.add("Poisson ratio", &format!("{}", material.poisson_ratio()));
+    match material.compressibility() {
+        Compressibility::PoissonRatio(nu) => facts.add("Poisson ratio", &format!("{nu}")),
+        Compressibility::BulkModulusPa(bulk_pa) => {
+            facts.add("bulk modulus", &plain(bulk_pa, Dimension::Stress, 6));
+        }
+    }
     let kind = material.kind().name();
     let time = |time_s| plain(time_s, Dimension::Time, 5);
     match (material.given(), material.relaxation()) {

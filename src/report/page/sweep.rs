@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::{Pictures, answer, cases_table, how, moduli, question, still};
+use crate::report::rigid_indenter;
 use crate::sweep::plan::{SweepPlan, Varied};
 use crate::sweep::record::warning;
 use crate::sweep::search::run::Outcome;
@@ -51,6 +52,9 @@ fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {
             (answer::peaks(plan, outcome))
             (answer::problems(plan, outcome))
             (answer::warned(warning::over_cases(&outcome.records, plan.figures.frequency_unit)))
+            @if let Some(note) = rigid_indenter::note(plan, outcome) {
+                p class="hint" { "Note: " (note) "." }
+            }
             div class="live controls" role="group" aria-label="Curve" id="curve-controls" {
                 label { "Curve of " select id="quantity" {} }
                 label id="drive-choice" hidden { (varied) " " select id="drive" {} }

@@ -173,11 +173,11 @@ impl Setup {
         let indenter = Arc::as_ptr(&condition.indenter).addr();
         let layer = condition.layer;
         let numbers = [
-            condition.drive.maximum(),
+            condition.drive.maximum() + condition.drive.pull_off_n(),
             relaxed_per_pa,
             layer.map_or(0.0, |layer| layer.thickness_m),
             layer.map_or(0.0, |layer| f64::from(layer.base as u8)),
-            condition.material.poisson_ratio(),
+            condition.material.poisson_ratio().unwrap_or(f64::NAN),
         ];
         let numbers = numbers.map(f64::to_bits);
         let key = (indenter, numbers, nodes);
@@ -212,14 +212,16 @@ impl Setup {
         // No history within the drive's range makes a larger contact than its maximum held for ever.
         let largest = LargestContact {
             control: condition.drive.control(),
-            maximum: condition.drive.maximum(),
+            maximum: condition.drive.maximum() + condition.drive.pull_off_n(),
             compliance_per_pa: relaxed_per_pa,
         };
         let solver = self.plan.solver.with_nodes(nodes);
-        let poisson_ratio = condition.material.poisson_ratio();
-        let layer = condition
-            .layer
-            .map(|layer| layer.of_material(poisson_ratio));
+        let layer = condition.layer.map(|layer| {
+            let poisson_ratio = condition.material.poisson_ratio();
+            let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfConstantBulkModulus)?;
+            Ok::<_, EngineError>(layer.of_material(poisson_ratio))
+        });
+        let layer = layer.transpose()?;
         EngineBuilder::on(layer, Arc::clone(&condition.indenter), solver, largest)
     }
 
@@ -235,9 +237,9 @@ impl Setup {
         if is_transient || self.plan.solver.engine == EngineKind::HalfSpace {
             return self.engines(contact.condition, nodes);
         }
-        let of_drive = |maximum, compliance_per_pa| LargestContact {
+        let of_drive = |maximum: f64, compliance_per_pa| LargestContact {
             control: drive.control(),
-            maximum,
+            maximum: maximum + drive.pull_off_n(),
             compliance_per_pa,
         };
         let relaxed = contact.solid.relaxed_per_pa;
@@ -246,14 +248,14 @@ impl Setup {
             .compliance
             .complex_compliance(contact.angular_frequency_rad_per_s);
         // |C*| / C_inf under load control, |E*| / E_inf under approach control.
-        let mean = of_drive(drive.mean(), relaxed);
+        let mean = of_drive(drive.true_mean(), relaxed);
         let (always, largest) = match drive.control() {
             // The largest contact grows without falling until it is reached (E. H. Lee and J. R. M. Radok, J. Appl. Mech. 27
             // (1960) 438); the least is that of the least load held for ever.
             Control::Load => (
                 of_drive(drive.mean() - drive.amplitude(), relaxed),
                 of_drive(
-                    drive.mean() + drive.amplitude() * answer.norm() / relaxed,
+                    drive.true_mean() + drive.above_true_mean() * answer.norm() / relaxed,
                     relaxed,
                 ),
             ),
@@ -350,6 +352,14 @@ impl Setup {
                 record.status = Status::Failed;
                 record.message = Some(error.to_string());
             }
+        }
+        if let (Some(adhesion), Some(result)) = (&self.plan.adhesion, &mut record.result)
+            && let Ok(solid) = self.solid(&case.condition)
+        {
+            let omega = case.angular_frequency_rad_per_s;
+            let modulus_pa = solid.compliance.complex_compliance(omega).norm().recip();
+            let pull_off_n = case.condition.drive.pull_off_n();
+            result.tabor_parameter = Some(adhesion.tabor_parameter(pull_off_n, modulus_pa));
         }
         let solver = &self.plan.solver;
         record.warnings =

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine, Prescribed, Solution, sums};
-use crate::cycle::{self, Extrema, Loop, LoopError};
+use crate::cycle::{self, ContactDuty, Extrema, Loop, LoopError};
 use crate::drive::Control;
 use crate::history::{Dissipation, March, Memory, Stage, StepWeights, TimeRule, Work};
 use crate::material::Creep;
@@ -128,14 +128,14 @@ impl Contact<'_> {
 
     /// What the drive asks for at this fraction of a cycle.
     fn prescribed(&self, cycle_fraction: f64) -> Prescribed {
-        prescribed(
-            self.condition.drive.control(),
-            self.condition.drive.value(cycle_fraction),
-        )
+        let drive = &self.condition.drive;
+        let value = drive.value(cycle_fraction) + drive.pull_off_n();
+        prescribed(drive.control(), value)
     }
 
     fn mean(&self) -> Prescribed {
-        prescribed(self.condition.drive.control(), self.condition.drive.mean())
+        let drive = &self.condition.drive;
+        prescribed(drive.control(), drive.held() + drive.pull_off_n())
     }
 
     /// Cycles of a march, at most.
@@ -539,11 +539,21 @@ impl<'a> Cycles<'a> {
 impl Contact<'_> {
     fn result(&self, march: &mut March<'_>, recording: Recording) -> Result<CaseResult, CaseError> {
         let Recording {
-            samples,
+            mut samples,
             dissipation,
             pressures,
             tangent_radius,
         } = recording;
+        // The contact carries the attraction too.
+        let pull_off_n = self.condition.drive.pull_off_n();
+        let mut pressures = pressures.map_or_else(Vec::new, Pressures::finished);
+        if pull_off_n > 0.0 {
+            samples
+                .load_n
+                .iter_mut()
+                .for_each(|load| *load -= pull_off_n);
+            pressures.iter_mut().for_each(|p| p.load_n -= pull_off_n);
+        }
         let is_transient = self.cycle.at_cycle.is_some();
         let mut analysis = match is_transient {
             true => cycle::analyse_open(&samples.load_n, &samples.approach_m)?,
@@ -563,14 +573,23 @@ impl Contact<'_> {
         // The mean over the period counts the seam once.
         let mean_radius_m =
             radii.iter().skip(1).sum::<f64>() / radii.len().saturating_sub(1).max(1) as f64;
+        let drive = &self.condition.drive;
+        let contact_duty = match drive.loaded_part() {
+            Some(part) => Some(ContactDuty { part, error: 0.0 }),
+            None => ContactDuty::of(&samples.load_n),
+        };
+        let contact_duty = contact_duty.unwrap_or(ContactDuty::WHOLE);
+        // A loop that holds time out of contact is read as no modulus.
         let moduli = tangent_radius
+            .filter(|_| contact_duty == ContactDuty::WHOLE)
             .and_then(|tangent_radius| tangent_radius.mean_m(mean_radius_m))
             .and_then(|radius_m| {
-                analysis.equivalent_moduli_pa(radius_m, self.condition.material.poisson_ratio())
+                let nu = self.condition.material.poisson_ratio().unwrap_or(0.0);
+                analysis.equivalent_moduli_pa(radius_m, nu)
             })
             .map(|moduli| {
                 let omega = self.angular_frequency_rad_per_s;
-                self.condition.material.without_indenter(moduli, omega)
+                self.condition.material.of_loop(moduli, omega)
             });
         let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
         let extrema = |signal: &[f64]| {
@@ -594,6 +613,8 @@ impl Contact<'_> {
             loss_modulus_pa: moduli.map(|m| m.1),
             approach_m: extrema(&samples.approach_m)?,
             contact_radius_m: not_negative(extrema(&samples.contact_radius_m)?),
+            contact_duty,
+            tabor_parameter: None,
             peak_pressure_pa: peaks.as_deref().and_then(Extrema::of).map(not_negative),
             errors: None,
             replica_losses_j: Vec::new(),
@@ -607,7 +628,7 @@ impl Contact<'_> {
             analysis,
             cycle: RecordedCycle {
                 samples,
-                pressures: pressures.map_or_else(Vec::new, Pressures::finished),
+                pressures,
                 surface_loss,
             },
         })

@@ -12,6 +12,7 @@ use crate::contact::axisymmetric::{self, Axisymmetric};
 use crate::contact::half_space::convolution::Convolution;
 use crate::contact::half_space::grid::Grid;
 use crate::contact::half_space::layer::{Layer, LayerInfluence};
+use crate::contact::half_space::periodic::{Periodic, PeriodicOperator};
 use crate::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes};
 use crate::contact::{ContactError, Engine, Prescribed};
 use crate::drive::Control;
@@ -34,6 +35,20 @@ pub enum EngineError {
          \"half-space\", whose cells do"
     )]
     SpringsOnLayer,
+    #[error(
+        "a layer is solved with a Poisson ratio that does not depend on time, and the material has a constant bulk modulus: write \
+         poisson_ratio in place of bulk_modulus"
+    )]
+    LayerOfConstantBulkModulus,
+    #[error(
+        "a surface that repeats itself is solved on the half-space alone: leave out [layer], or edge = \"periodic\""
+    )]
+    PeriodicOnLayer,
+    #[error(
+        "a surface that repeats itself is pressed by a load: its approach is counted from the mean plane, and has a bound. Write \
+         control = \"load\""
+    )]
+    PeriodicUnderApproach,
     #[error("the half-space grid cannot be built: {0}")]
     Grid(String),
     #[error(
@@ -75,6 +90,8 @@ pub struct EngineBuilder {
     /// The cells of the domain before it is enlarged, where the engine has any, and their operator once it is needed.
     grid: Option<Grid>,
     operator: Mutex<Option<Arc<Convolution>>>,
+    /// That of one period, where the indenter repeats itself.
+    period: Mutex<Option<Arc<PeriodicOperator>>>,
 }
 
 impl EngineBuilder {
@@ -100,6 +117,14 @@ impl EngineBuilder {
         solver: SolverPlan,
         largest: LargestContact,
     ) -> Result<Self, EngineError> {
+        if indenter.is_periodic() {
+            if layer.is_some() {
+                return Err(EngineError::PeriodicOnLayer);
+            }
+            if largest.control == Control::Approach {
+                return Err(EngineError::PeriodicUnderApproach);
+            }
+        }
         if layer.is_some() && solver.engine == EngineKind::Axisymmetric {
             return Err(EngineError::SpringsOnLayer);
         }
@@ -118,6 +143,7 @@ impl EngineBuilder {
             extremes_m: None,
             grid: None,
             operator: Mutex::new(None),
+            period: Mutex::new(None),
         };
         match solver.engine {
             EngineKind::Axisymmetric => {
@@ -164,6 +190,7 @@ impl EngineBuilder {
             domain,
             grid: None,
             operator: Mutex::new(None),
+            period: Mutex::new(None),
         };
         if self.grid.is_some() {
             builder.grid = Some(builder.grid(0)?);
@@ -281,7 +308,10 @@ impl EngineBuilder {
     pub fn engine(&self, growths: usize) -> Result<Box<dyn Engine>, EngineError> {
         Ok(match self.solver.engine {
             EngineKind::Axisymmetric => Box::new(self.springs(growths)?),
-            EngineKind::HalfSpace => Box::new(self.half_space(growths)?),
+            EngineKind::HalfSpace => match (self.indenter.is_periodic(), self.grid) {
+                (true, Some(grid)) => Box::new(self.periodic(grid)),
+                _ => Box::new(self.half_space(growths)?),
+            },
         })
     }
 
@@ -344,12 +374,8 @@ impl EngineBuilder {
     fn half_space(&self, growths: usize) -> Result<HalfSpace, EngineError> {
         let operator = self.operator(growths)?;
         let gaps = domain::gaps_m(self.indenter.as_ref(), operator.grid());
-        let settings = SolverSettings {
-            tolerance: (self.solver.tolerance).unwrap_or(instant_tolerance::OF_A_HISTORY),
-            ..SolverSettings::default()
-        };
         let bounded = self.indenter.pressure_is_bounded();
-        let mut engine = HalfSpace::new(operator, gaps, bounded, settings);
+        let mut engine = HalfSpace::new(operator, gaps, bounded, self.settings());
         if self.layer.is_none() && self.indenter.axisymmetric().is_some() {
             engine = engine.in_round_contact();
         }
@@ -360,9 +386,26 @@ impl EngineBuilder {
         })
     }
 
+    fn periodic(&self, grid: Grid) -> Periodic {
+        let gaps = domain::gaps_m(self.indenter.as_ref(), &grid);
+        let mut shared = self.period.lock().unwrap_or_else(PoisonError::into_inner);
+        let operator = shared.get_or_insert_with(|| Arc::new(PeriodicOperator::new(grid)));
+        Periodic::new(Arc::clone(operator), gaps, self.settings())
+    }
+
+    fn settings(&self) -> SolverSettings {
+        SolverSettings {
+            tolerance: (self.solver.tolerance).unwrap_or(instant_tolerance::OF_A_HISTORY),
+            ..SolverSettings::default()
+        }
+    }
+
     /// The cells that the engine solves for: a quarter of the domain where that holds all of it.
     fn grid(&self, growths: usize) -> Result<Grid, EngineError> {
         let grid = self.field_grid(self.solver.cells, growths)?;
+        if self.indenter.is_periodic() {
+            return Ok(grid);
+        }
         Ok(domain::quarter_of(self.indenter.as_ref(), &grid).unwrap_or(grid))
     }
 

@@ -152,10 +152,10 @@ fn numbers(
     // Only of a disk the radius by its area is the one by its stiffness.
     let is_disk = plan.indenter.axisymmetric().is_some();
     let moduli_pa = is_disk.then(|| {
-        let nu = plan.material.poisson_ratio();
+        let nu = plan.material.poisson_ratio().unwrap_or(0.0);
         let moduli = analysis.equivalent_moduli_pa(mean_contact_radius_m, nu)?;
         Some(match plan.material.series() {
-            Some(material) => material.without_indenter(moduli, TAU / period_s),
+            Some(material) => material.of_loop(moduli, TAU / period_s),
             None => moduli,
         })
     });

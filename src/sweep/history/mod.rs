@@ -181,8 +181,12 @@ impl Simulation {
             // A solid or fluid meets no more than its compliance at the end, and no more than the largest load.
             compliance_per_pa: compliance.largest_per_pa(plan.drive.duration_s()),
         };
-        let poisson_ratio = plan.material.poisson_ratio();
-        let layer = plan.layer.map(|layer| layer.of_material(poisson_ratio));
+        let layer = plan.layer.map(|layer| {
+            let poisson_ratio = plan.material.poisson_ratio();
+            let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfConstantBulkModulus)?;
+            Ok::<_, EngineError>(layer.of_material(poisson_ratio))
+        });
+        let layer = layer.transpose()?;
         let level = |fineness, nodes| -> Result<Level, SimulationError> {
             let schedule = schedule(&plan, steps, fineness)?;
             let solver = plan.solver.with_nodes(nodes);

@@ -1,6 +1,7 @@
 //! What of a history lies outside the model.
 
 use crate::drive::{Segment, SegmentedDrive};
+use crate::material::ModulusKind;
 use crate::sweep::engine::domain;
 use crate::sweep::engine::slope::{Patch, ROUNDING, of_slope, slope_of_body};
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
@@ -90,9 +91,16 @@ fn measured_window_s(material: &BodyMaterial) -> Option<(f64, f64)> {
 
 /// One over the longitudinal creep compliance (Pa) after this time.
 fn creep_modulus_pa(material: &BodyMaterial, time_s: f64) -> Option<f64> {
-    let poisson_ratio = material.poisson_ratio();
-    let contact_per_pa = material.compliance().ok()?.largest_per_pa(time_s);
-    Some((1.0 - poisson_ratio * poisson_ratio) / contact_per_pa)
+    match material.poisson_ratio() {
+        Some(nu) => {
+            let contact_per_pa = material.compliance().ok()?.largest_per_pa(time_s);
+            Some((1.0 - nu * nu) / contact_per_pa)
+        }
+        None => {
+            let longitudinal = material.series()?.creep_as(ModulusKind::Longitudinal);
+            Some(longitudinal.ok()?.compliance(time_s).recip())
+        }
+    }
 }
 
 /// Slope within the widest contact of a history. Of a shape that is no body of revolution the contact is taken as that lowest part

@@ -1,5 +1,8 @@
 //! The axes of a sweep besides the frequency: which numbers vary, and the conditions that their values make.
 
+use std::borrow::Cow;
+use std::sync::Arc;
+
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::{Condition, SweepPlan};
@@ -19,14 +22,16 @@ pub struct Axes {
     pub pairs: bool,
     /// In the order of the values, of the last axis fastest; the first, with the frequencies, makes the first cases.
     pub conditions: Vec<Condition>,
+    /// The `[material]` block as it was given, where an axis varies a number within it that the series of a material does not show.
+    pub material_block: Option<Arc<str>>,
 }
 
 /// The key whose number differs between conditions.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Varied {
     pub block: Block,
-    /// In the block: `amplitude`.
-    pub key: &'static str,
+    /// In the block: `amplitude`, or `relaxation.branches[0].time`.
+    pub key: Cow<'static, str>,
     /// `None` for a bare number.
     pub dimension: Option<Dimension>,
 }
@@ -151,14 +156,22 @@ impl Varied {
     fn of_drive(key: &'static str, control: Control) -> Self {
         Self {
             block: Block::Drive,
-            key,
+            key: Cow::Borrowed(key),
             dimension: Some(drive_dimension(control)),
         }
     }
 
-    /// The key as words: `half angle`.
+    /// The key as words: `half angle`, `time of relaxation.branches[0]`.
     pub fn name(&self) -> String {
-        self.key.replace('_', " ")
+        match self.key.rsplit_once('.') {
+            Some((table, key)) => format!("{} of {table}", key.replace('_', " ")),
+            None => self.key.replace('_', " "),
+        }
+    }
+
+    /// Whether it is a number in a table within the block.
+    pub fn is_nested(&self) -> bool {
+        self.key.contains('.')
     }
 
     /// The same and what it belongs to: `half angle of the indenter`.
@@ -166,14 +179,19 @@ impl Varied {
         format!("{} of the {}", self.name(), self.block.name())
     }
 
-    /// The dotted key: `indenter.half_angle`.
+    /// The dotted key: `indenter.half_angle`; in quotes where it leads into a list.
     pub fn path(&self) -> String {
-        format!("{}.{}", self.block.name(), self.key)
+        let path = format!("{}.{}", self.block.name(), self.key);
+        match self.is_nested() {
+            true => format!("\"{path}\""),
+            false => path,
+        }
     }
 
     /// The column of tables that holds it: `indenter_half_angle_rad`.
     pub fn column(&self) -> String {
-        let name = format!("{}_{}", self.block.name(), self.key);
+        let key = self.key.replace(['.', '['], "_").replace(']', "");
+        let name = format!("{}_{key}", self.block.name());
         match self.dimension {
             Some(dimension) if self.has_own_column() => {
                 format!("{name}_{}", dimension.si_unit().to_lowercase())
@@ -189,15 +207,15 @@ impl Varied {
     }
 
     pub fn is_mean(&self) -> bool {
-        (self.block, self.key) == (Block::Drive, "mean")
+        (self.block, &*self.key) == (Block::Drive, "mean")
     }
 
     pub fn is_amplitude(&self) -> bool {
-        (self.block, self.key) == (Block::Drive, "amplitude")
+        (self.block, &*self.key) == (Block::Drive, "amplitude")
     }
 
     pub fn is_temperature(&self) -> bool {
-        (self.block, self.key) == (Block::Material, "temperature")
+        (self.block, &*self.key) == (Block::Material, "temperature")
     }
 
     /// The drive with another varied number (SI units); the same where no number of it varies.
@@ -205,15 +223,17 @@ impl Varied {
     /// # Errors
     /// As [`HarmonicDrive::new`].
     pub fn drive(&self, drive: &HarmonicDrive, value: f64) -> Result<HarmonicDrive, DriveError> {
-        let is = |key| (self.block, self.key) == (Block::Drive, key);
+        let is = |key| (self.block, &*self.key) == (Block::Drive, key);
         let or = |key, own| if is(key) { value } else { own };
-        HarmonicDrive::new(
-            drive.control(),
-            or("mean", drive.mean()),
-            or("amplitude", drive.amplitude()),
-            or("phase", drive.phase_rad()),
-            or("hold", drive.hold_s()),
-        )
+        let (mean, amplitude) = (or("mean", drive.mean()), or("amplitude", drive.amplitude()));
+        let (phase_rad, hold_s) = (or("phase", drive.phase_rad()), or("hold", drive.hold_s()));
+        match drive.pull_off_n() {
+            0.0 => HarmonicDrive::new(drive.control(), mean, amplitude, phase_rad, hold_s),
+            pull_off_n => {
+                HarmonicDrive::unattracted(drive.control(), mean, amplitude, phase_rad, hold_s)?
+                    .attracted_by(pull_off_n)
+            }
+        }
     }
 }
 
@@ -235,17 +255,18 @@ impl Axes {
             })
         };
         Ok(Self {
+            conditions: values.into_iter().map(under).collect::<Result<_, _>>()?,
             over: vec![varied],
             pairs: false,
-            conditions: values.into_iter().map(under).collect::<Result<_, _>>()?,
+            material_block: None,
         })
     }
 
     /// What the first axis varies.
     pub fn varied(&self) -> Varied {
-        self.over.first().copied().unwrap_or(Varied {
+        self.over.first().cloned().unwrap_or(Varied {
             block: Block::Drive,
-            key: "amplitude",
+            key: Cow::Borrowed("amplitude"),
             dimension: None,
         })
     }
@@ -287,8 +308,9 @@ impl Axes {
             ..condition.clone()
         };
         Some(Self {
-            over: vec![*self.over.get(axis)?],
+            over: vec![self.over.get(axis)?.clone()],
             pairs: false,
+            material_block: self.material_block.clone(),
             conditions: conditions.map(alone).collect(),
         })
     }

@@ -56,11 +56,16 @@ impl BodyMaterial {
         }
     }
 
-    /// Its Poisson ratio.
-    pub fn poisson_ratio(&self) -> f64 {
+    /// What the indenter is made of, where it is not rigid.
+    pub fn counterbody(&self) -> Option<&Material> {
+        self.series()?.counterbody()
+    }
+
+    /// Its Poisson ratio, where it is constant in time.
+    pub fn poisson_ratio(&self) -> Option<f64> {
         match self {
             Self::Series(material) => material.poisson_ratio(),
-            Self::Samples(sampled) => sampled.poisson_ratio(),
+            Self::Samples(sampled) => Some(sampled.poisson_ratio()),
         }
     }
 

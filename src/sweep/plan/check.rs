@@ -22,7 +22,7 @@ pub enum PlanError {
         "the {what} {value} does not follow {before} in ascending order; give each once, the smallest first"
     )]
     Order {
-        what: &'static str,
+        what: String,
         before: f64,
         value: f64,
     },
@@ -42,6 +42,10 @@ pub enum PlanError {
         least: usize,
         most: usize,
     },
+    #[error("the work of adhesion is {work_j_per_m2} J/m^2; it must be positive and finite")]
+    WorkOfAdhesion { work_j_per_m2: f64 },
+    #[error("adhesion is known of a sphere under a prescribed load only")]
+    AdhesionOfOther,
     #[error(
         "a cycle by its number is one of a march, and the method is a direct search, which knows no such cycles"
     )]
@@ -84,8 +88,8 @@ impl SweepPlan {
             if is_empty || axes.conditions.iter().any(lacks_one) {
                 return Err(PlanError::NoCondition);
             }
-            if let [varied] = axes.over[..] {
-                check_order(varied.key, &axes.values().collect::<Vec<_>>())?;
+            if let [varied] = &axes.over[..] {
+                check_order(&varied.key, &axes.values().collect::<Vec<_>>())?;
             }
         }
         let cases = self.conditions().len().saturating_mul(omegas.len());
@@ -163,11 +167,11 @@ pub(in crate::sweep) fn check_frequency(angular_frequency_rad_per_s: f64) -> Res
     }
 }
 
-fn check_order(what: &'static str, values: &[f64]) -> Result<(), PlanError> {
+fn check_order(what: &str, values: &[f64]) -> Result<(), PlanError> {
     let falls = |pair: &&[f64]| pair[0] >= pair[1];
     match values.windows(2).find(falls) {
         Some(pair) => Err(PlanError::Order {
-            what,
+            what: what.to_owned(),
             before: pair[0],
             value: pair[1],
         }),

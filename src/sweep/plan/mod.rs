@@ -1,5 +1,6 @@
 //! A sweep as it will be run, every default filled in. [`check`] has the ranges of its values.
 
+pub mod adhesion;
 pub mod axes;
 pub mod body_material;
 pub mod check;
@@ -18,6 +19,7 @@ use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::layer::LayerPlan;
 
 /// Cases of a small sweep, at most.
@@ -32,6 +34,8 @@ pub struct SweepPlan {
     pub layer: Option<LayerPlan>,
     pub indenter: Arc<dyn Indenter>,
     pub drive: HarmonicDrive,
+    /// Attraction outside the contact, where there is any; the drive then knows the pull-off load.
+    pub adhesion: Option<AdhesionPlan>,
     /// Other axes than the frequency, where there are any: every frequency is then solved under each of their conditions.
     pub axes: Option<Axes>,
     /// Ascending, in rad/s.
@@ -74,6 +78,7 @@ impl SweepPlan {
             solver: SolverPlan::of_indenter(indenter.as_ref()),
             indenter,
             drive,
+            adhesion: None,
             axes: None,
             angular_frequencies_rad_per_s: Vec::new(),
             refine: false,

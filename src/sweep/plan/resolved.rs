@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::{Indenter, Parameter, Value};
-use crate::material::{Material, MaterialFunction, Relaxation, RelaxationBranch};
+use crate::material::{Compressibility, Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::plan::{Axes, CyclePlan, SolverPlan, SweepPlan, Varied};
@@ -21,6 +21,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         layer,
         indenter,
         drive,
+        adhesion,
         axes,
         angular_frequencies_rad_per_s,
         refine,
@@ -29,6 +30,10 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         figures,
     } = plan;
     let mut material = match axes {
+        Some(Axes {
+            material_block: Some(block),
+            ..
+        }) => block.to_string(),
         Some(axes) if axes.over.iter().any(Varied::is_temperature) => material_text_over(axes),
         _ => material_text(material),
     };
@@ -41,6 +46,9 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         text.push('\n');
     };
     line(&drive_text(drive));
+    if let Some(adhesion) = adhesion {
+        line(adhesion.text().trim_end());
+    }
     line("\n[sweep]");
     for (k, varied) in axes.iter().flat_map(|axes| axes.over.iter().enumerate()) {
         let number = |value: f64| match varied.dimension {
@@ -267,7 +275,15 @@ fn head_lines(material: &Material, line: &mut dyn FnMut(&str)) {
     if let Some(name) = material.name() {
         line(&format!("name = {}", toml_string(name)));
     }
-    line(&format!("poisson_ratio = {:?}", material.poisson_ratio()));
+    line(&match material.compressibility() {
+        Compressibility::PoissonRatio(nu) => format!("poisson_ratio = {nu:?}"),
+        Compressibility::BulkModulusPa(bulk_pa) => {
+            format!(
+                "bulk_modulus = \"{}\"",
+                format_si(bulk_pa, Dimension::Stress)
+            )
+        }
+    });
     temperature_line(material, line);
 }
 

@@ -5,7 +5,6 @@ use std::sync::Arc;
 
 use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
-use crate::material::Material;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::body_material::BodyMaterial;
@@ -91,7 +90,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         &plan.title,
         &(plan.material.text() + &layer),
         plan.indenter.as_ref(),
-        plan.material.series().and_then(Material::counterbody),
+        plan.material.counterbody(),
     );
     text.push_str(&history_text(&plan.drive));
     if let Some(step_s) = plan.step_s {

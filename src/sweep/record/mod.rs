@@ -7,7 +7,7 @@ pub mod warning;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::surface::PressureLine;
-use crate::cycle::{Extrema, Loop, LoopAnalysis};
+use crate::cycle::{ContactDuty, Extrema, Loop, LoopAnalysis};
 use crate::drive::Control;
 use crate::history::Work;
 use crate::sweep::plan::{AxisValues, Condition, Method};
@@ -88,11 +88,15 @@ pub struct CaseRecord {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CaseResult {
     pub analysis: LoopAnalysis,
-    /// E' and E'' (Pa) that indentation reads from the loop; `None` where the contact radius vanishes.
+    /// E' and E'' (Pa) that indentation reads from the loop; `None` where the indenter leaves the surface.
     pub storage_modulus_pa: Option<f64>,
     pub loss_modulus_pa: Option<f64>,
     pub approach_m: Extrema,
     pub contact_radius_m: Extrema,
+    pub contact_duty: ContactDuty,
+    /// Of an indenter that is attracted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tabor_parameter: Option<f64>,
     /// `None` where the indenter's shape makes the pressure unbounded.
     pub peak_pressure_pa: Option<Extrema>,
     /// Errors of the numbers above; `None` where they were not asked for or could not be estimated.

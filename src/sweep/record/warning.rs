@@ -17,6 +17,9 @@ pub const LARGEST_GLASSY_STRAIN: f64 = 0.01;
 pub const GLASSY_MODULUS_PA: f64 = 1e9;
 /// Approach over the thickness of a layer up to which its compression is small.
 pub const LARGEST_DEPTH: f64 = 0.1;
+/// Tabor's parameter up to which attraction leaves the shape of the contact alone, and from which it decides it.
+pub const LARGEST_TABOR_PARAMETER: f64 = 0.1;
+pub const JKR_TABOR_PARAMETER: f64 = 5.0;
 /// Representative strain over slope.
 pub const STRAIN_PER_SLOPE: f64 = 0.2;
 
@@ -44,6 +47,8 @@ pub enum Warning {
     SteepSlope { slope: f64, contact_radius_m: f64 },
     /// The approach is no small part of the thickness of a layer.
     DeepInLayer { part: f64 },
+    /// The attraction deforms the surfaces, which the theory of Derjaguin, Muller and Toporov neglects.
+    TaborParameter { parameter: f64 },
     /// Error bars were wanted, and there are none.
     NoErrorBars { because: NoErrorBars },
 }
@@ -75,6 +80,7 @@ impl Warning {
             Self::LargeStrain { .. } => "large-strain",
             Self::SteepSlope { .. } => "steep-slope",
             Self::DeepInLayer { .. } => "deep-in-layer",
+            Self::TaborParameter { .. } => "tabor-parameter",
             Self::NoErrorBars { .. } => "no-error-bars",
         }
     }
@@ -96,6 +102,7 @@ impl Warning {
             Self::LargeStrain { strain } => strain,
             Self::SteepSlope { slope, .. } => slope,
             Self::DeepInLayer { part } => part,
+            Self::TaborParameter { parameter } => parameter,
             Self::NoErrorBars { .. } => 0.0,
         }
     }
@@ -184,6 +191,12 @@ impl Warning {
                 f,
                 "the approach is up to {} of the layer's thickness: the model takes strains as small, up to about {LARGEST_DEPTH} of it",
                 two_digits(part)
+            ),
+            Self::TaborParameter { parameter } => write!(
+                f,
+                "Tabor's parameter is up to {}: DMT adhesion holds up to about {LARGEST_TABOR_PARAMETER}, and from about \
+                 {JKR_TABOR_PARAMETER} on that of Johnson, Kendall and Roberts, which is not solved here",
+                two_digits(parameter)
             ),
             Self::NoErrorBars {
                 because: NoErrorBars::OwnCells,
@@ -320,7 +333,7 @@ impl fmt::Display for OverCases {
 mod tests {
     use super::*;
 
-    const EVERY: [Warning; 8] = [
+    const EVERY: [Warning; 9] = [
         Warning::BelowMeasured {
             angular_frequency_rad_per_s: 1e-4,
             last_measured_s: 1000.0,
@@ -342,6 +355,7 @@ mod tests {
             slope: 361.3,
             contact_radius_m: 3.613e-6,
         },
+        Warning::TaborParameter { parameter: 12.3 },
         Warning::NoErrorBars {
             because: NoErrorBars::OwnCells,
         },
@@ -377,6 +391,7 @@ mod tests {
             "lasts 2000 s",
             "strains up to 7.3 %: a glassy material is linear up to about 1 %",
             "up to 361 at a contact radius of 3.61 µm: the model takes them as small, up to about 0.2",
+            "is up to 12: DMT adhesion holds up to about 0.1, and from about 5 on",
             "own cells",
             "no coarser result",
         ]) {

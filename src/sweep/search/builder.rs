@@ -4,10 +4,11 @@ use std::num::NonZeroUsize;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use crate::drive::HarmonicDrive;
+use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::case::{Setup, SetupError};
+use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::{Axes, Case, EngineKind, Method, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
@@ -128,6 +129,29 @@ impl Sweep {
     pub fn steps(mut self, steps: usize) -> Result<Self, PlanError> {
         self.plan.cycle.steps = steps;
         self.checked()
+    }
+
+    /// A sphere that the surface attracts, with this work of adhesion (J/m^2), by the theory of Derjaguin, Muller and Toporov: see
+    /// [`crate::sweep::plan::adhesion`].
+    ///
+    /// # Errors
+    /// A work that is not positive and finite, another indenter than a sphere, a prescribed approach, a load at which the sphere comes
+    /// off.
+    pub fn attracted(mut self, work_j_per_m2: f64) -> Result<Self, SetupError> {
+        if !(work_j_per_m2.is_finite() && work_j_per_m2 > 0.0) {
+            return Err(PlanError::WorkOfAdhesion { work_j_per_m2 }.into());
+        }
+        let adhesion = AdhesionPlan {
+            work_j_per_m2,
+            equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
+        };
+        let pull_off_n = adhesion.pull_off_n(self.plan.indenter.as_ref());
+        let is_load = self.plan.drive.control() == Control::Load;
+        let pull_off_n = pull_off_n.filter(|_| is_load);
+        let pull_off_n = pull_off_n.ok_or(PlanError::AdhesionOfOther)?;
+        self.plan.drive = self.plan.drive.attracted_by(pull_off_n)?;
+        self.plan.adhesion = Some(adhesion);
+        Ok(self.checked()?)
     }
 
     /// This cycle of a march, counted from 1 and after the hold of the drive, in place of the stabilised one.

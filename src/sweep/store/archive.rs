@@ -541,6 +541,7 @@ mod tests {
             "storage_modulus_pa": null, "loss_modulus_pa": null,
             "approach_m": {"minimum": 0.0, "maximum": 1.0},
             "contact_radius_m": {"minimum": 0.0, "maximum": 1.0},
+            "contact_duty": {"part": 1.0, "error": 0.0},
             "peak_pressure_pa": null, "errors": null, "branches": []
         });
         with.result = Some(serde_json::from_value(solved).unwrap());

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Writes the stubs of the compiled module, contact_dma/_contact_dma.pyi, from what PyO3 knows of it; with --check only compares them.
+# python/stubs.sh [--check] [OPTIONS OF maturin generate-stubs]. Wants maturin on the path.
+set -euo pipefail
+cd "$(dirname "$0")"
+check=false
+if [ "${1:-}" = --check ]; then
+    check=true
+    shift
+fi
+written=contact_dma/_contact_dma.pyi
+made=$(mktemp -d)
+trap 'rm -rf "$made"' EXIT
+maturin generate-stubs --quiet --features stubs --out "$made" "$@"
+# Arrays of NumPy are the only types that PyO3 does not know.
+{
+    echo "# Written by python/stubs.sh from the compiled module."
+    echo "from numpy import complex128, float64"
+    echo "from numpy.typing import NDArray"
+    sed 's/^from _typeshed import Incomplete, /from _typeshed import /; s/\bIncomplete\b/NDArray[float64]/g' "$made/$written"
+} > "$made/stubs.pyi"
+if $check; then
+    diff -u "$written" "$made/stubs.pyi" || { echo "$written is not what the module has: run python/stubs.sh"; exit 1; }
+else
+    cp "$made/stubs.pyi" "$written"
+fi

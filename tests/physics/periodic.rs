@@ -1,0 +1,208 @@
+//! Surfaces that repeat themselves, against closed forms of wavy ones, Hertz at their crests, refinement and invariance.
+
+use std::f64::consts::{PI, SQRT_2, TAU};
+use std::sync::Arc;
+
+use contact_dma::contact::half_space::SolverSettings;
+use contact_dma::contact::half_space::grid::Grid;
+use contact_dma::contact::half_space::periodic::{Periodic, PeriodicOperator};
+use contact_dma::contact::{Prescribed, Solution};
+use contact_dma::indenter::{MapEdge, MapQuantity};
+use contact_dma::prelude::*;
+use contact_dma::sweep::record::CaseResult;
+
+use crate::common::{first_touch, zener_material};
+
+const WAVELENGTH_M: f64 = 1e-3;
+const AMPLITUDE_M: f64 = 1e-6;
+const COMPLIANCE: f64 = 1e-9;
+
+/// Heights of one period, waves along x alone or along both.
+fn heights(cells: (usize, usize), wave: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+    let at = |k: usize, n: usize| TAU * (k as f64 + 0.5) / n as f64;
+    let height = |cell: usize| {
+        let (x, y) = (cell % cells.0, cell / cells.0);
+        AMPLITUDE_M * wave(at(x, cells.0), at(y, cells.1))
+    };
+    (0..cells.0 * cells.1).map(height).collect()
+}
+
+fn gaps(heights: &[f64]) -> Vec<f64> {
+    let highest = heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    heights.iter().map(|z| highest - z).collect()
+}
+
+/// The instant under this mean pressure (Pa): load and approach, and the pressures.
+fn pressed(
+    (cells_x, cells_y): (usize, usize),
+    sides_m: (f64, f64),
+    heights: &[f64],
+    mean_pa: f64,
+) -> (Solution, Vec<f64>) {
+    let spacing = (sides_m.0 / cells_x as f64, sides_m.1 / cells_y as f64);
+    let grid = Grid::new(cells_x, cells_y, spacing.0, spacing.1).unwrap();
+    let settings = SolverSettings {
+        tolerance: 1e-11,
+        ..SolverSettings::default()
+    };
+    let operator = Arc::new(PeriodicOperator::new(grid));
+    let mut engine = Periodic::new(operator, gaps(heights), settings);
+    let load_n = mean_pa * sides_m.0 * sides_m.1;
+    first_touch(&mut engine, COMPLIANCE, Prescribed::LoadN(load_n)).unwrap()
+}
+
+#[test]
+fn a_wave_is_in_contact_as_westergaard_has_it_up_to_full_contact() {
+    // K. L. Johnson, Contact Mechanics, 1985, section 13.2: full contact from pi E* Delta/lambda on.
+    let full_pa = PI * AMPLITUDE_M / (COMPLIANCE * WAVELENGTH_M);
+    for share in [0.02, 0.2, 0.5, 0.9] {
+        let error = |n: usize| {
+            let cells = (n, 4);
+            let sides = (WAVELENGTH_M, 4.0 * WAVELENGTH_M / n as f64);
+            let heights = heights(cells, |x, _| x.cos());
+            let (solution, pressure) = pressed(cells, sides, &heights, share * full_pa);
+            let half_width = f64::asin(share.sqrt()) / PI;
+            let touching = pressure.iter().filter(|p| **p > 0.0).count() as f64;
+            // Of the two edges, each lies within a cell.
+            let part = touching / (4 * n) as f64;
+            assert!(
+                (part - 2.0 * half_width).abs() <= 2.0 / n as f64,
+                "{share} {n}"
+            );
+            assert!((solution.load_n / (share * full_pa * sides.0 * sides.1) - 1.0).abs() < 1e-14);
+            let squares = (0..n).map(|k| {
+                let sine = (PI * (k as f64 + 0.5) / n as f64).sin();
+                let inside = share - sine * sine;
+                let cosine = (PI * (k as f64 + 0.5) / n as f64).cos().abs();
+                let exact = match inside > 0.0 {
+                    true => 2.0 * share * full_pa * cosine / share * inside.sqrt(),
+                    false => 0.0,
+                };
+                (pressure[k] - exact).powi(2)
+            });
+            (squares.sum::<f64>() / n as f64).sqrt() / full_pa
+        };
+        let (coarse, fine) = (error(128), error(1024));
+        // The pressure falls like a square root at the edge, which lies anywhere in a cell: order 3/2 of it in the mean square at best.
+        assert!(
+            fine < 3e-3 && coarse / fine > 4.0,
+            "{share}: {coarse:e} {fine:e}"
+        );
+    }
+    for share in [1.0 + 1e-9, 3.0] {
+        let cells = (64, 4);
+        let heights = heights(cells, |x, _| x.cos());
+        let (solution, pressure) = pressed(cells, (WAVELENGTH_M, 1e-4), &heights, share * full_pa);
+        for (k, p) in pressure.iter().take(64).enumerate() {
+            let exact = full_pa * (share + (TAU * (k as f64 + 0.5) / 64.0).cos());
+            assert!(
+                (p - exact).abs() < 1e-7 * full_pa,
+                "{share} {k}: {p} {exact}"
+            );
+        }
+        // The surface follows the wave, whose mean lies its amplitude below the highest cell.
+        let deepest = AMPLITUDE_M * (TAU * 0.5 / 64.0).cos();
+        assert!((solution.approach_m / deepest - 1.0).abs() < 1e-7);
+    }
+}
+
+#[test]
+fn waves_along_both_axes_are_hertz_at_their_crests_and_full_under_the_pressure_of_johnson() {
+    // K. L. Johnson, J. A. Greenwood, J. G. Higginson, Int. J. Mech. Sci. 27 (1985) 383, for Delta cos cos.
+    let full_pa = SQRT_2 * PI * AMPLITUDE_M / (COMPLIANCE * WAVELENGTH_M);
+    let square = (WAVELENGTH_M, WAVELENGTH_M);
+    let wave = |x: f64, y: f64| x.cos() * y.cos();
+    let under =
+        |n: usize, share: f64| pressed((n, n), square, &heights((n, n), wave), share * full_pa);
+    let (_, full) = under(64, 1.001);
+    let least = full.iter().copied().fold(f64::INFINITY, f64::min);
+    // Between cells the trough is a little deeper than in any.
+    let trough = (TAU * 0.5 / 64.0).cos().powi(2);
+    assert!((least / full_pa - (1.001 - trough)).abs() < 1e-6);
+    let open = under(64, 0.97).1.iter().filter(|p| **p == 0.0).count();
+    assert!(open > 0 && open < 64 * 64 / 20, "{open}");
+    // Two crests a period, of this radius, far apart.
+    let radius_m = WAVELENGTH_M.powi(2) / (TAU * TAU * AMPLITUDE_M);
+    let share = 2e-4;
+    let load_n = share * full_pa * WAVELENGTH_M.powi(2) / 2.0;
+    let contact_m = (0.75 * load_n * radius_m * COMPLIANCE).cbrt();
+    let (solution, pressure) = under(512, share);
+    let peak = pressure.iter().copied().fold(0.0, f64::max);
+    let hertz = 1.5 * load_n / (PI * contact_m * contact_m);
+    assert!((peak / hertz - 1.0).abs() < 0.01, "{peak:e} {hertz:e}");
+    assert!((solution.contact_radius_m / SQRT_2 / contact_m - 1.0).abs() < 0.02);
+}
+
+/// Heights that look random, and are the same in every run.
+fn rough(cells: (usize, usize)) -> Vec<f64> {
+    let wave = |x: f64, y: f64| {
+        let sum = (1..6).map(|k| {
+            let k = f64::from(k);
+            ((k * x + 1.3 * k * k).sin() + (k * y - 0.7 * k).cos() * (x - 2.0 * k).sin()) / k
+        });
+        sum.sum()
+    };
+    heights(cells, wave)
+}
+
+#[test]
+fn it_does_not_matter_where_a_period_begins_nor_how_many_are_taken() {
+    let cells = (48, 40);
+    let own = rough(cells);
+    let sides = (WAVELENGTH_M, 1.1 * WAVELENGTH_M);
+    for mean_pa in [3e4, 8e5, 4e6] {
+        let (solution, pressure) = pressed(cells, sides, &own, mean_pa);
+        let from = |cell: usize| (cell % 48 + 7) % 48 + (cell / 48 + 13) % 40 * 48;
+        let moved: Vec<f64> = (0..own.len()).map(|cell| own[from(cell)]).collect();
+        let (other, pressures) = pressed(cells, sides, &moved, mean_pa);
+        let scale = pressure.iter().copied().fold(0.0, f64::max);
+        assert!((other.approach_m / solution.approach_m - 1.0).abs() < 1e-9);
+        for (cell, p) in pressures.iter().enumerate() {
+            assert!((p - pressure[from(cell)]).abs() < 1e-5 * scale, "{mean_pa}");
+        }
+        let twice: Vec<f64> = own.chunks(48).flat_map(|row| [row, row].concat()).collect();
+        let (double, _) = pressed((96, 40), (2.0 * sides.0, sides.1), &twice, mean_pa);
+        assert!((double.approach_m / solution.approach_m - 1.0).abs() < 1e-9);
+        let ratio = double.contact_radius_m / solution.contact_radius_m;
+        assert!((ratio - SQRT_2).abs() < 1e-9, "{mean_pa}: {ratio}");
+    }
+}
+
+fn solved(steps: usize, march: bool) -> CaseResult {
+    let map = HeightMap::new(
+        (32, 32),
+        (WAVELENGTH_M / 32.0, WAVELENGTH_M / 32.0),
+        rough((32, 32)),
+        MapQuantity::Height,
+        MapEdge::Periodic,
+    );
+    let drive = HarmonicDrive::load(1.0, 0.5).unwrap();
+    let sweep = Sweep::new(zener_material(), map.unwrap(), drive);
+    let mut plan = sweep.steps(steps).unwrap().into_plan();
+    plan.cycle.tolerance = 1e-7;
+    if march {
+        plan.cycle.method = contact_dma::sweep::plan::Method::March;
+    }
+    let record = Sweep::from(plan).case_at_hz(0.2).unwrap();
+    assert_eq!(record.status.name(), "converged", "{:?}", record.message);
+    record.result.unwrap()
+}
+
+#[test]
+fn the_loss_under_a_rough_surface_is_what_its_branches_dissipate_in_second_order() {
+    let imbalance = |steps: usize| {
+        let result = solved(steps, false);
+        result.dissipated_j() / result.analysis.energy_loss_j - 1.0
+    };
+    let (coarse, fine) = (imbalance(50), imbalance(200));
+    // Cells come and go within a step.
+    assert!(
+        fine.abs() < 1e-3 && (coarse / fine).abs() > 6.0,
+        "{coarse:e} {fine:e}"
+    );
+    let (found, marched) = (solved(50, false), solved(50, true));
+    let ratio = found.analysis.energy_loss_j / marched.analysis.energy_loss_j;
+    assert!((ratio - 1.0).abs() < 1e-5, "{ratio}");
+    // Without an edge no modulus is read from the loop.
+    assert_eq!(found.storage_modulus_pa, None);
+}
