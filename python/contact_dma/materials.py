@@ -21,7 +21,17 @@ Quantity: TypeAlias = Union[float, str]
 ModulusKind: TypeAlias = Union[Literal["longitudinal"], Literal["shear"]]
 """Whether a modulus is Young's (E) or the shear modulus (G)."""
 
+BulkModulus: TypeAlias = Union[Quantity, tuple[Quantity, Sequence[tuple[Quantity, Quantity]]]]
+"""A bulk modulus (Pa) that is constant in time, or that at rest with the modulus (Pa) and relaxation time (s) of each branch."""
+
 Floats: TypeAlias = npt.NDArray[np.float64]
+
+
+def _bulk(given: BulkModulus | None) -> Quantity | dict[str, object] | None:
+    if not isinstance(given, tuple):
+        return given
+    equilibrium, branches = given
+    return {"equilibrium": equilibrium, "branches": [{"modulus": m, "time": t} for m, t in branches]}
 
 
 class Prony(NamedTuple):
@@ -112,7 +122,7 @@ class Material:
         branches: Sequence[tuple[Quantity, Quantity]],
         *,
         poisson_ratio: float | None = None,
-        bulk_modulus: Quantity | None = None,
+        bulk_modulus: BulkModulus | None = None,
         modulus: ModulusKind = "longitudinal",
         name: str | None = None,
         measured: tuple[Quantity, Quantity] | None = None,
@@ -123,7 +133,7 @@ class Material:
             equilibrium: modulus after all time (Pa).
             branches: modulus (Pa) and relaxation time (s) of each branch.
             poisson_ratio: Poisson ratio, constant in time.
-            bulk_modulus: in its place the bulk modulus (Pa), where that is constant.
+            bulk_modulus: in its place the bulk modulus: a constant (Pa), or (that at rest, branches), with shear moduli alone.
             modulus: whether the moduli are Young's or shear moduli.
             name: a name for tables.
             measured: first and last time (s) of the test, outside of which the series is an extrapolation.
@@ -138,7 +148,7 @@ class Material:
             "equilibrium": equilibrium,
             "branches": [{"modulus": m, "time": t} for m, t in branches],
         }
-        entries = {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus, "measured": measured}
+        entries = {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": _bulk(bulk_modulus), "measured": measured}
         return cls._block("relaxation", entries, relaxation=table)
 
     @classmethod
@@ -148,7 +158,7 @@ class Material:
         branches: Sequence[tuple[Quantity, Quantity]],
         *,
         poisson_ratio: float | None = None,
-        bulk_modulus: Quantity | None = None,
+        bulk_modulus: BulkModulus | None = None,
         viscosity: Quantity | None = None,
         compliance: ModulusKind = "longitudinal",
         name: str | None = None,
@@ -160,7 +170,7 @@ class Material:
             instantaneous: compliance at once (1/Pa).
             branches: compliance (1/Pa) and retardation time (s) of each branch.
             poisson_ratio: Poisson ratio, constant in time.
-            bulk_modulus: in its place the bulk modulus (Pa), where that is constant.
+            bulk_modulus: in its place the bulk modulus: a constant (Pa), or (that at rest, branches), with shear moduli alone.
             viscosity: of a fluid (Pa s); sweeps need a solid.
             compliance: whether the compliances are longitudinal (D) or of shear (J).
             name: a name for tables.
@@ -177,7 +187,7 @@ class Material:
             "viscosity": viscosity,
             "branches": [{"compliance": c, "time": t} for c, t in branches],
         }
-        entries = {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus, "measured": measured}
+        entries = {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": _bulk(bulk_modulus), "measured": measured}
         return cls._block("creep", entries, creep=table)
 
     @classmethod
@@ -188,7 +198,7 @@ class Material:
         time: Quantity,
         *,
         poisson_ratio: float | None = None,
-        bulk_modulus: Quantity | None = None,
+        bulk_modulus: BulkModulus | None = None,
         name: str | None = None,
     ) -> Material:
         """A spring in series with a Kelvin unit: shear moduli of both springs (Pa), and the time of the unit (s).
@@ -198,7 +208,7 @@ class Material:
             0.5
         """
         table = {"spring": spring, "kelvin_spring": kelvin_spring, "time": time}
-        return cls._block("zener", {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}, zener=table)
+        return cls._block("zener", {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": _bulk(bulk_modulus)}, zener=table)
 
     @classmethod
     def maxwell(cls, modulus: Quantity, time: Quantity, *, poisson_ratio: float, name: str | None = None) -> Material:
@@ -221,7 +231,7 @@ class Material:
         exponent: float,
         band: tuple[Quantity, Quantity],
         poisson_ratio: float | None = None,
-        bulk_modulus: Quantity | None = None,
+        bulk_modulus: BulkModulus | None = None,
         modulus: ModulusKind = "longitudinal",
         equilibrium: Quantity | None = None,
         second_exponent: float | None = None,
@@ -237,7 +247,7 @@ class Material:
             exponent: order of the derivative, above 0 and at most 1.
             band: lowest and highest angular frequency (rad/s).
             poisson_ratio: Poisson ratio, constant in time.
-            bulk_modulus: in its place the bulk modulus (Pa), where that is constant.
+            bulk_modulus: in its place the bulk modulus: a constant (Pa), or (that at rest, branches), with shear moduli alone.
             modulus: whether moduli are Young's or shear moduli.
             equilibrium: of the Zener model (Pa).
             second_exponent: of the Maxwell model.
@@ -261,7 +271,7 @@ class Material:
             "band": band,
             "accuracy": accuracy,
         }
-        return cls._block("fractional", {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}, fractional=table)
+        return cls._block("fractional", {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": _bulk(bulk_modulus)}, fractional=table)
 
     @classmethod
     def table(

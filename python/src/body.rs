@@ -67,7 +67,10 @@ impl Body {
     /// The bulk modulus (Pa), where it is constant in time in place of the Poisson ratio.
     #[getter]
     fn bulk_modulus_pa(&self) -> Option<f64> {
-        self.material.series()?.compressibility().bulk_modulus_pa()
+        self.material
+            .series()?
+            .compressibility()
+            .constant_bulk_modulus_pa()
     }
 
     #[getter]

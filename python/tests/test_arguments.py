@@ -21,9 +21,9 @@ def map_of(heights: object, **options: object) -> Callable[[], object]:
 
 WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (lambda: small_sweep(mean="10 mm"), ["drive.mean", "10 mm", "length"]),
-    (lambda: small_sweep(mean=-1.0), ["mean"]),
+    (lambda: small_sweep(mean=-100.0), ["mean"]),
     (lambda: small_sweep(amplitude=float("nan")), ["drive.amplitude"]),
-    (lambda: small_sweep(amplitude=11.0), ["amplitude"]),
+    (lambda: small_sweep(amplitude=-1.0), ["amplitude"]),
     (lambda: small_sweep(angular_frequency=[]), ["angular_frequency"]),
     (lambda: small_sweep(angular_frequency=None), ["angular_frequency"]),
     (lambda: small_sweep(angular_frequency=[0.0]), ["angular_frequency"]),

@@ -102,7 +102,7 @@ pub(super) fn material(material: &Material) -> Result<Value, Failure> {
     Ok(json!({
         "name": material.name(),
         "poisson_ratio": material.poisson_ratio(),
-        "bulk_modulus_pa": material.compressibility().bulk_modulus_pa(),
+        "bulk_modulus_pa": material.compressibility().constant_bulk_modulus_pa(),
         "modulus": material.kind().name(),
         "relaxation": material.relaxation(),
         "creep": material.creep(),

@@ -86,6 +86,24 @@ impl HarmonicDrive {
         }
     }
 
+    /// The same control and attraction with these numbers.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn with(
+        &self,
+        mean: f64,
+        amplitude: f64,
+        phase_rad: f64,
+        hold_s: f64,
+    ) -> Result<Self, DriveError> {
+        let own = Self::unattracted(self.control, mean, amplitude, phase_rad, hold_s)?;
+        match self.pull_off_n {
+            0.0 => own.touching(),
+            pull_off_n => own.attracted_by(pull_off_n),
+        }
+    }
+
     /// The same load on an indenter that is attracted by this much (N), so that it may be a pull; the indenter does not come off.
     ///
     /// # Errors

@@ -20,6 +20,24 @@ pub(super) enum Form {
     },
 }
 
+impl Form {
+    /// Adds a constant to the values.
+    pub(super) fn raise(&mut self, by: f64) {
+        match self {
+            Self::Constant(value) | Self::Sine { mean: value, .. } => *value += by,
+            Self::Linear { from, to } => {
+                *from += by;
+                *to += by;
+            }
+            Self::Polynomial(coefficients) => {
+                if let Some(constant) = coefficients.first_mut() {
+                    *constant += by;
+                }
+            }
+        }
+    }
+}
+
 /// A smooth piece of a drive history.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Piece {

@@ -79,16 +79,30 @@ pub enum SegmentProblem {
     )]
     TripleJump { time_s: f64 },
     #[error(
-        "the load falls to {} at {} of the history, {} after the segment began: a contact without adhesion cannot carry a pull",
+        "the load falls to {} at {} of the history, {} after the segment began: {}",
         format_human(*load_n, Dimension::Force, 4),
         format_human(*time_s, Dimension::Time, 6),
-        format_human(*since_s, Dimension::Time, 6)
+        format_human(*since_s, Dimension::Time, 6),
+        carried(*pull_off_n)
     )]
     Pull {
         load_n: f64,
         time_s: f64,
         since_s: f64,
+        /// The pull (N) at which the indenter comes off; 0 without an attraction.
+        pull_off_n: f64,
     },
+}
+
+/// What a contact can carry.
+fn carried(pull_off_n: f64) -> String {
+    match pull_off_n > 0.0 {
+        true => format!(
+            "the indenter comes off the surface at {}",
+            format_human(-pull_off_n, Dimension::Force, 4)
+        ),
+        false => "a contact without adhesion cannot carry a pull".to_owned(),
+    }
 }
 
 /// Where two pieces of a history meet, its beginning and its end included.
@@ -107,8 +121,10 @@ pub struct Joint {
 pub struct SegmentedDrive {
     control: Control,
     segments: Vec<Segment>,
+    /// Their values are those of the contact, which carries the attraction too.
     pieces: Vec<Piece>,
     maximum: f64,
+    pull_off_n: f64,
 }
 
 /// Below this part of what makes it up, a load is zero plus rounding.
@@ -126,13 +142,27 @@ impl SegmentedDrive {
     /// [`HistoryError`]: a number out of range, a table out of order, a load that becomes a pull, a history that never
     /// touches the body.
     pub fn new(control: Control, segments: Vec<Segment>) -> Result<Self, HistoryError> {
+        Self::attracted(control, segments, 0.0)
+    }
+
+    /// The same on an indenter that is attracted by this much (N), which a load may pull as far as that. Moments, joints and values within
+    /// steps are then of the load on the contact, which the attraction adds to.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn attracted(
+        control: Control,
+        segments: Vec<Segment>,
+        pull_off_n: f64,
+    ) -> Result<Self, HistoryError> {
         let mut pieces: Vec<Piece> = Vec::new();
         for (index, segment) in segments.iter().enumerate() {
             let (start_s, before) = pieces.last().map_or((0.0, 0.0), |last| {
                 (last.end_s(), last.value(last.duration_s))
             });
             let placed = segment.pieces(index, start_s, before).and_then(|new| {
-                new.iter().try_for_each(|piece| piece.check(control))?;
+                new.iter()
+                    .try_for_each(|piece| piece.check(control, pull_off_n))?;
                 Ok(new)
             });
             pieces.extend(placed.map_err(|problem| HistoryError::Segment {
@@ -145,15 +175,26 @@ impl SegmentedDrive {
         }
         let largest = pieces.iter().map(|piece| piece.extremes().1.value);
         let maximum = largest.fold(f64::NEG_INFINITY, f64::max);
-        if maximum <= 0.0 {
+        if maximum + pull_off_n <= 0.0 {
             return Err(HistoryError::NeverTouches { control });
+        }
+        if pull_off_n > 0.0 {
+            pieces
+                .iter_mut()
+                .for_each(|piece| piece.form.raise(pull_off_n));
         }
         Ok(Self {
             control,
             segments,
             pieces,
             maximum,
+            pull_off_n,
         })
+    }
+
+    /// The attraction (N), 0 without one.
+    pub fn pull_off_n(&self) -> f64 {
+        self.pull_off_n
     }
 
     /// What is prescribed.
@@ -178,7 +219,7 @@ impl SegmentedDrive {
         self.pieces.last().map_or(0.0, Piece::end_s)
     }
 
-    /// The largest value of the history, between joints too; above zero.
+    /// The largest value of the history, between joints too; above zero without an attraction.
     pub fn maximum(&self) -> f64 {
         self.maximum
     }
@@ -246,7 +287,7 @@ impl Piece {
     }
 
     /// Refuses values that are no numbers, and pulls.
-    fn check(&self, control: Control) -> Result<(), SegmentProblem> {
+    fn check(&self, control: Control, pull_off_n: f64) -> Result<(), SegmentProblem> {
         if !self.scale().is_finite() {
             let value = self.value(self.duration_s);
             return Err(SegmentProblem::NotFinite {
@@ -255,11 +296,14 @@ impl Piece {
             });
         }
         let (least, _) = self.extremes();
-        if control == Control::Load && least.value < -ZERO_LOAD * self.scale() {
+        if control == Control::Load
+            && least.value < -pull_off_n - ZERO_LOAD * (self.scale() + pull_off_n)
+        {
             return Err(SegmentProblem::Pull {
                 load_n: least.value,
                 time_s: self.start_s + least.time_s,
                 since_s: self.offset_s + least.time_s,
+                pull_off_n,
             });
         }
         Ok(())
@@ -580,6 +624,7 @@ mod tests {
             load_n,
             time_s,
             since_s,
+            pull_off_n: 0.0,
         } = found
         else {
             panic!("{found:?}")

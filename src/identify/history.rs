@@ -18,7 +18,7 @@ use crate::identify::data::Number;
 use crate::identify::series::Point;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan};
 use crate::indenter::Indenter;
-use crate::material::{Material, ModulusKind, Relaxation};
+use crate::material::{Creep, Relaxation};
 use crate::sweep::history::between::values_at;
 use crate::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::scenario::ScenarioPlan;
@@ -91,6 +91,8 @@ pub(super) struct LinearHistory {
     elastic: Elastic,
     /// 1 - nu^2.
     plane: f64,
+    /// Contact compliance (1/Pa) of an indenter that is not rigid.
+    counterbody: Option<Creep>,
     /// Length (s) and values at beginning and end of every step of what is convolved: load (N), or F (m^2).
     steps: Vec<(f64, f64, f64)>,
     /// For each datum how many steps lead to it.
@@ -122,33 +124,53 @@ impl LinearHistory {
             steps: steps.collect(),
             ends: schedule.requested.iter().map(|moment| moment + 1).collect(),
             plane: 1.0 - plan.poisson_ratio * plan.poisson_ratio,
+            counterbody: (plan.counterbody.as_ref())
+                .and_then(|indenter| indenter.contact_compliance().ok()),
             elastic,
         })
     }
 
     /// The number of every datum.
     pub(super) fn numbers(&self, point: &Point) -> Vec<f64> {
-        match self.control {
-            Control::Approach => {
+        let undefined = || vec![f64::NAN; self.ends.len()];
+        match (self.control, &self.counterbody) {
+            (Control::Approach, None) => {
                 let branches = point.branches_pa_s();
                 let loads = self.convolved(point.equilibrium_pa(), &branches);
                 loads.iter().map(|load| load / self.plane).collect()
             }
-            Control::Load => {
-                let Ok(creep) = point.relaxation().and_then(|series| series.to_creep()) else {
-                    return vec![f64::NAN; self.ends.len()];
+            (Control::Approach, Some(_)) => {
+                let compliance = self.compliance(point);
+                let Some(modulus) = compliance.and_then(|creep| creep.to_relaxation().ok()) else {
+                    return undefined();
                 };
-                let at_once = creep.instantaneous_compliance();
-                let branches = creep.branches().iter();
-                let branches: Vec<(f64, f64)> = branches
-                    .map(|branch| (branch.compliance_per_pa, branch.time_s))
+                let branches = modulus.branches().iter();
+                let branches: Vec<_> = branches.map(|b| (b.modulus_pa, b.time_s)).collect();
+                self.convolved(modulus.equilibrium_modulus(), &branches)
+            }
+            (Control::Load, _) => {
+                let Some(creep) = self.compliance(point) else {
+                    return undefined();
+                };
+                let branches = || creep.branches().iter();
+                let late: f64 = branches().map(|b| b.compliance_per_pa).sum();
+                let falling: Vec<_> = branches()
+                    .map(|b| (-b.compliance_per_pa, b.time_s))
                     .collect();
-                let late: f64 = branches.iter().map(|(c, _)| c).sum();
-                let falling: Vec<(f64, f64)> = branches.iter().map(|(c, t)| (-c, *t)).collect();
-                let products = self.convolved(at_once + late, &falling);
-                let approach = |product: &f64| self.elastic.approach_m(self.plane * product);
+                let products = self.convolved(creep.instantaneous_compliance() + late, &falling);
+                let approach = |product: &f64| self.elastic.approach_m(*product);
                 products.iter().map(approach).collect()
             }
+        }
+    }
+
+    /// The contact compliance (1/Pa) of the pair; `None` where it has none.
+    fn compliance(&self, point: &Point) -> Option<Creep> {
+        let creep = point.relaxation().and_then(|series| series.to_creep());
+        let own = creep.and_then(|creep| creep.scaled(self.plane)).ok()?;
+        match &self.counterbody {
+            Some(indenter) => own.beside(indenter).ok(),
+            None => Some(own),
         }
     }
 
@@ -184,10 +206,10 @@ pub(super) fn followed(
     series: &Relaxation,
     interrupt: &AtomicBool,
 ) -> Result<SimulationOutcome, IdentifyError> {
-    let kind = ModulusKind::Longitudinal;
-    let material = Material::from_relaxation(series.clone(), kind, plan.poisson_ratio)?;
+    let material = plan.material(series)?;
     let mut scenario = ScenarioPlan::new(material, Arc::clone(&plan.indenter), drive.clone());
     scenario.solver = plan.solver;
+    (scenario.layer, scenario.adhesion) = (plan.layer, plan.adhesion);
     scenario.output.error_bars = false;
     let simulation = Simulation::new(scenario);
     let simulation = simulation.map_err(|error| IdentifyError::NoHistory(error.to_string()))?;

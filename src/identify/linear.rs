@@ -13,6 +13,7 @@ use num_complex::Complex;
 use crate::drive::Control;
 use crate::identify::data::MeasuredCycle;
 use crate::indenter::Indenter;
+use crate::material::Creep;
 use crate::sweep::record::error_bars::Quantity;
 
 /// The smallest part of the mean that an oscillation leaves.
@@ -27,6 +28,8 @@ pub(super) struct LinearCycle {
     amplitude: f64,
     /// 1 - nu^2.
     plane: f64,
+    /// Contact compliance (1/Pa) of an indenter that is not rigid: at the frequency, and at rest.
+    counterbody: (Complex<f64>, f64),
     /// Logarithms of the radius (m) and of the product of load and compliance (m^2) that it belongs to, and the power.
     ln_radius: f64,
     ln_product: f64,
@@ -37,13 +40,19 @@ impl LinearCycle {
     pub(super) fn new(
         cycle: &MeasuredCycle,
         indenter: &dyn Indenter,
-        poisson_ratio: f64,
+        (poisson_ratio, counterbody): (f64, Option<&Creep>),
         equilibrium_pa: f64,
     ) -> Self {
         let plane = 1.0 - poisson_ratio * poisson_ratio;
         let drive = &cycle.drive;
-        let compliance = plane / equilibrium_pa;
-        let mean = drive.mean().max(0.5 * drive.maximum());
+        let counterbody = counterbody.map_or((0.0.into(), 0.0), |creep| {
+            let omega = cycle.angular_frequency_rad_per_s;
+            let at_rest = creep.equilibrium_compliance().unwrap_or(0.0);
+            (creep.complex_compliance(omega), at_rest)
+        });
+        let compliance = plane / equilibrium_pa + counterbody.1;
+        let attraction = drive.pull_off_n();
+        let mean = (drive.mean() + attraction).max(0.5 * (drive.maximum() + attraction));
         let (radius, product, power) = match drive.control() {
             Control::Load => {
                 let at = |load| indenter.elastic_half_width_m(load, compliance);
@@ -64,6 +73,7 @@ impl LinearCycle {
             mean,
             amplitude: drive.amplitude(),
             plane,
+            counterbody,
             ln_radius: radius.max(f64::MIN_POSITIVE).ln(),
             ln_product: product.ln(),
             power,
@@ -82,10 +92,20 @@ impl LinearCycle {
         modulus: Complex<f64>,
     ) -> f64 {
         match quantity {
-            Quantity::PhaseLag => modulus.arg(),
             Quantity::StorageModulus => modulus.re,
             Quantity::LossModulus => modulus.im,
             Quantity::Harmonic2 | Quantity::Harmonic3 => 1.0,
+            _ => self.of_pair(quantity, equilibrium_pa, modulus),
+        }
+    }
+
+    /// The same of what depends on both bodies, as if the compliance of both were one's.
+    fn of_pair(&self, quantity: Quantity, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
+        let (at_frequency, at_rest) = self.counterbody;
+        let modulus = modulus / (1.0 + modulus * at_frequency / self.plane);
+        let equilibrium_pa = equilibrium_pa / (1.0 + equilibrium_pa * at_rest / self.plane);
+        match quantity {
+            Quantity::PhaseLag => modulus.arg(),
             _ => match self.control {
                 Control::Load => self.under_load(quantity, equilibrium_pa, modulus),
                 Control::Approach => self.under_approach(quantity, equilibrium_pa, modulus),

@@ -57,8 +57,10 @@ use std::sync::Arc;
 use crate::drive::{HarmonicDrive, SegmentedDrive};
 use crate::identify::data::Measurements;
 use crate::indenter::Indenter;
-use crate::material::MaterialError;
+use crate::material::{Material, MaterialError, ModulusKind, Relaxation};
 use crate::sweep::case::SetupError;
+use crate::sweep::plan::adhesion::AdhesionPlan;
+use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::{CyclePlan, SolverPlan};
 use crate::sweep::record::error_bars::Quantity;
 
@@ -77,6 +79,12 @@ pub struct IdentifyPlan {
     pub title: String,
     pub poisson_ratio: f64,
     pub indenter: Arc<dyn Indenter>,
+    /// What the indenter is made of, where it is not rigid.
+    pub counterbody: Option<Material>,
+    /// The layer that the body is, where it is no half-space.
+    pub layer: Option<LayerPlan>,
+    /// Attraction outside the contact, where there is any; the drives then know the pull-off load.
+    pub adhesion: Option<AdhesionPlan>,
     pub drive: Driven,
     /// How many branches; `None` lets the data choose.
     pub branches: Option<usize>,
@@ -110,12 +118,25 @@ impl IdentifyPlan {
     pub const CELLS: usize = 32;
 
     /// The solver where nothing is asked for.
-    pub fn solver(indenter: &dyn Indenter) -> SolverPlan {
+    pub fn solver(indenter: &dyn Indenter, layer: Option<LayerPlan>) -> SolverPlan {
         SolverPlan {
             springs: Self::SPRINGS,
             cells: Self::CELLS,
-            ..SolverPlan::of_indenter(indenter)
+            ..SolverPlan::of(indenter, layer)
         }
+    }
+
+    /// The material of a series, in contact with the indenter.
+    ///
+    /// # Errors
+    /// As [`Material::from_relaxation`].
+    pub(crate) fn material(&self, series: &Relaxation) -> Result<Material, MaterialError> {
+        let kind = ModulusKind::Longitudinal;
+        let material = Material::from_relaxation(series.clone(), kind, self.poisson_ratio)?;
+        Ok(match &self.counterbody {
+            Some(indenter) => material.against(indenter.clone()),
+            None => material,
+        })
     }
 }
 

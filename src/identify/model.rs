@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::identify::data::Number;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan, history};
-use crate::material::{Material, ModulusKind, Relaxation};
+use crate::material::Relaxation;
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{Case, Condition, CyclePlan, SweepPlan};
 
@@ -76,14 +76,14 @@ impl<'a> Model<'a> {
     }
 
     fn setup(&self, series: &Relaxation) -> Result<Setup, IdentifyError> {
-        let kind = ModulusKind::Longitudinal;
-        let material = Material::from_relaxation(series.clone(), kind, self.plan.poisson_ratio)?;
+        let material = self.plan.material(series)?;
         let measured = self.plan.measurements.cycles();
         let none = IdentifyError::NoFit("no cycle was measured");
         let drive = measured.first().ok_or(none)?.drive;
         let mut plan = SweepPlan::new(material, Arc::clone(&self.plan.indenter), drive);
         plan.cycle = self.plan.cycle;
         plan.solver = self.plan.solver;
+        (plan.layer, plan.adhesion) = (self.plan.layer, self.plan.adhesion);
         let cycles = measured.iter();
         let mut omegas: Vec<f64> = cycles
             .map(|cycle| cycle.angular_frequency_rad_per_s)

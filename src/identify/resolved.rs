@@ -8,8 +8,13 @@ use crate::sweep::plan::scenario::history_text;
 
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &IdentifyPlan) -> String {
-    let material = format!("[material]\npoisson_ratio = {:?}\n", plan.poisson_ratio);
-    let opening = opening_text(&plan.title, &material, plan.indenter.as_ref(), None);
+    let layer = plan.layer.map_or(String::new(), |layer| layer.text());
+    let material = format!(
+        "[material]\npoisson_ratio = {:?}\n{layer}",
+        plan.poisson_ratio
+    );
+    let counterbody = plan.counterbody.as_ref();
+    let opening = opening_text(&plan.title, &material, plan.indenter.as_ref(), counterbody);
     let branches = match plan.branches {
         Some(number) => number.to_string(),
         None => "\"auto\"".to_owned(),
@@ -19,8 +24,10 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         Driven::History(drive) => history_text(drive).trim_end().to_owned(),
     };
     format!(
-        "{opening}{}\n\n[identify]\ndata = {}\nbranches = {branches}\n\n{}\n{}",
+        "{opening}{}\n{}\n[identify]\ndata = {}\nbranches = {branches}\n\n{}\n{}",
         driven,
+        plan.adhesion
+            .map_or(String::new(), |adhesion| adhesion.text()),
         toml_string(&plan.data),
         cycle_text(&plan.cycle),
         solver_text(&plan.solver, plan.indenter.as_ref())

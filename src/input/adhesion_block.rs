@@ -17,30 +17,45 @@ pub(super) fn read(mut table: TableReader<'_>) -> Option<AdhesionPlan> {
     })
 }
 
-/// The drive of an indenter that is attracted; `None` where a problem was reported.
-pub(super) fn drive(
-    adhesion: &AdhesionPlan,
-    indenter: &dyn Indenter,
-    drive: &HarmonicDrive,
-    (place, problems): (&Location, &Problems),
-) -> Option<HarmonicDrive> {
-    if drive.control() == Control::Approach {
-        problems
-            .at(place, "adhesion goes with a prescribed load only")
-            .because("the attraction of surfaces apart is not known")
-            .help("write `control = \"load\"` in [drive], or leave out [adhesion]");
-        return None;
+/// What attracts an indenter: the block, and where it stands.
+pub(super) struct Attraction<'a> {
+    pub(super) adhesion: &'a AdhesionPlan,
+    pub(super) place: &'a Location,
+    pub(super) problems: &'a Problems,
+}
+
+impl Attraction<'_> {
+    /// The pull-off load (N) of an indenter under such a control; `None` where a problem was reported.
+    pub(super) fn pull_off_n(&self, indenter: &dyn Indenter, control: Control) -> Option<f64> {
+        let (place, problems) = (self.place, self.problems);
+        if control == Control::Approach {
+            problems
+                .at(place, "adhesion goes with a prescribed load only")
+                .because("the attraction of surfaces apart is not known")
+                .help("write `control = \"load\"` in [drive], or leave out [adhesion]");
+            return None;
+        }
+        let pull_off_n = self.adhesion.pull_off_n(indenter);
+        if pull_off_n.is_none() {
+            problems
+                .at(place, "adhesion is known of a sphere only")
+                .because(format!("and the indenter is a {}", indenter.shape()))
+                .help("write `shape = \"sphere\"` in [indenter], or leave out [adhesion]");
+        }
+        pull_off_n
     }
-    let Some(pull_off_n) = adhesion.pull_off_n(indenter) else {
-        problems
-            .at(place, "adhesion is known of a sphere only")
-            .because(format!("and the indenter is a {}", indenter.shape()))
-            .help("write `shape = \"sphere\"` in [indenter], or leave out [adhesion]");
-        return None;
-    };
-    let refused = |error: DriveError| {
-        let help = "raise the mean or lower the amplitude of [drive]; the sphere comes off at -2 pi work radius";
-        problems.at(place, error.to_string()).help(help);
-    };
-    drive.attracted_by(pull_off_n).map_err(refused).ok()
+
+    /// The drive of an indenter that is attracted; `None` where a problem was reported.
+    pub(super) fn drive(
+        &self,
+        indenter: &dyn Indenter,
+        drive: &HarmonicDrive,
+    ) -> Option<HarmonicDrive> {
+        let pull_off_n = self.pull_off_n(indenter, drive.control())?;
+        let refused = |error: DriveError| {
+            let help = "raise the mean or lower the amplitude of [drive]; the sphere comes off at -2 pi work radius";
+            self.problems.at(self.place, error.to_string()).help(help);
+        };
+        drive.attracted_by(pull_off_n).map_err(refused).ok()
+    }
 }

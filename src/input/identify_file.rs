@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::bodies_block::Bodies;
 use super::data_file;
 use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use super::document::reader::TableReader;
@@ -13,10 +14,13 @@ use super::keys::identify::{
     DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE, MODEL_SOLVER,
 };
 use super::keys::material::POISSON_RATIO;
-use super::sweep_file::{cycle, solver};
-use super::{harmonic_block, measured_history, measured_table, segments_block};
+use super::sweep_file::cycle;
+use super::{
+    bodies_block, harmonic_block, layer_block, measured_history, measured_table, segments_block,
+};
 use crate::identify::data::Measurements;
 use crate::identify::{Driven, IdentifyPlan};
+use crate::indenter::Indenter;
 use crate::sweep::plan::SolverPlan;
 
 /// The table of results in a folder of a sweep or of an analysis.
@@ -39,26 +43,35 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
     let mut root = document.root(&problems);
     let title = root.value(&keys::TITLE);
     let poisson_ratio = root.table(&KNOWN_MATERIAL).and_then(known_material);
+    let bodies = bodies_block::read(&mut root, document.folder(), &problems);
     let indenter = given.indenter(&mut root, document.folder(), &problems);
-    let drive = root.table(&MEASURED_DRIVE);
-    let drive = drive.and_then(|t| driven(t, document.folder(), &problems));
+    let drive = root.table(&MEASURED_DRIVE).and_then(|t| {
+        let against = (bodies.as_ref(), indenter.as_deref());
+        driven(t, against, document.folder(), &problems)
+    });
     let measured = root.table(&IDENTIFY);
     let measured =
         measured.and_then(|t| measured_block(t, document.folder(), drive.as_ref(), &problems));
     let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, |t| cycle(t, &problems));
-    let default = indenter
-        .as_ref()
-        .map_or_else(SolverPlan::default, |indenter| {
-            IdentifyPlan::solver(indenter.as_ref())
-        });
-    let solver = root.table_or(&MODEL_SOLVER, default, |t| solver(t, default));
+    let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
+    let default = indenter.as_ref();
+    let default = default.map_or_else(SolverPlan::default, |indenter| {
+        IdentifyPlan::solver(indenter.as_ref(), layer)
+    });
+    let solver = root.table_or(&MODEL_SOLVER, default, |t| {
+        layer_block::solver_on(layer.is_some(), t, default, &problems)
+    });
     root.finish();
     let plan = (|| {
         let (data, measurements, branches) = measured?;
+        let (counterbody, adhesion) = bodies.map(|of| (of.counterbody, of.adhesion))?;
         Some(IdentifyPlan {
             title: title?,
             poisson_ratio: poisson_ratio?,
             indenter: indenter?,
+            counterbody,
+            layer,
+            adhesion,
             drive: drive?,
             branches,
             measurements,
@@ -71,11 +84,24 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
 }
 
 /// The `[drive]` block: a history where it has segments, an oscillation where not.
-fn driven(mut table: TableReader<'_>, folder: &Path, problems: &Problems) -> Option<Driven> {
-    match table.has(&SEGMENTS) {
-        true => segments_block::read(table, folder, problems).map(Driven::History),
-        false => harmonic_block::read(table, problems).map(Driven::Cycles),
+fn driven(
+    mut table: TableReader<'_>,
+    (bodies, indenter): (Option<&Bodies<'_>>, Option<&dyn Indenter>),
+    folder: &Path,
+    problems: &Problems,
+) -> Option<Driven> {
+    if table.has(&SEGMENTS) {
+        let pull_off_n = |control| bodies?.pull_off_n(indenter, control);
+        return segments_block::read(table, folder, pull_off_n, problems).map(Driven::History);
     }
+    let drive = match bodies.and_then(Bodies::attraction) {
+        Some(attraction) => {
+            let own = harmonic_block::read_attracted(table, problems)?;
+            attraction.drive(indenter?, &own)
+        }
+        None => harmonic_block::read(table, problems),
+    };
+    drive.map(Driven::Cycles)
 }
 
 fn known_material(mut table: TableReader<'_>) -> Option<f64> {

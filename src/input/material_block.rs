@@ -174,12 +174,10 @@ fn compressibility(block: &mut TableReader<'_>, problems: &Problems) -> Option<C
         problems
             .at(&place, "`bulk_modulus` takes the place of `poisson_ratio`")
             .label(&other, "given here")
-            .help("keep the one that does not depend on time");
+            .help("keep the one that you know");
         return None;
     }
-    block
-        .value(&BULK_MODULUS)
-        .map(Compressibility::BulkModulusPa)
+    block.value(&BULK_MODULUS).map(Compressibility::BulkModulus)
 }
 
 fn library(
@@ -323,7 +321,8 @@ fn with_alternatives(
     });
     let (build, others) = (build?, others?);
     Some(Box::new(move |nu| {
-        let others: Result<Vec<Material>, _> = others.into_iter().map(|other| other(nu)).collect();
+        let others = others.into_iter().map(|other| other(nu.clone()));
+        let others: Result<Vec<Material>, _> = others.collect();
         Ok(build(nu)?.with_alternatives(others?))
     }))
 }
@@ -331,7 +330,7 @@ fn with_alternatives(
 /// A series, and what the noise of its data leaves open.
 fn with_replicas(build: SeriesBuild, kind: ModulusKind, replicas: Vec<Relaxation>) -> Build {
     series(move |nu| {
-        let replica = |relaxation| Material::from_relaxation(relaxation, kind, nu);
+        let replica = |relaxation| Material::from_relaxation(relaxation, kind, nu.clone());
         let replicas: Result<_, _> = replicas.into_iter().map(replica).collect();
         Ok(build(nu)?.with_replicas(replicas?))
     })

@@ -178,13 +178,7 @@ impl Columns {
         let angular_frequency_rad_per_s = self.frequency(table, row, cell)?;
         let drive = match self.drive.map(|places| places.map(cell)) {
             Some([Some(mean), Some(amplitude)]) => {
-                let own = HarmonicDrive::new(
-                    drive.control(),
-                    mean,
-                    amplitude,
-                    drive.phase_rad(),
-                    drive.hold_s(),
-                );
+                let own = drive.with(mean, amplitude, drive.phase_rad(), drive.hold_s());
                 own.map_err(|error| Box::new(Diagnostic::at(&table.row(row), error.to_string())))?
             }
             _ => *drive,

@@ -32,6 +32,8 @@
 mod adhesion_block;
 mod assignment;
 pub(crate) mod axis;
+mod bodies_block;
+mod bulk_modulus;
 pub(crate) mod data_file;
 pub mod diagnostic;
 pub mod document;

@@ -11,7 +11,7 @@ use super::keys;
 use super::keys::settings::{FIELD_CELLS, FIELDS_AT, OUTPUT_ERROR_BARS, PROFILES_AT, TIME_STEP};
 use super::material_table::DirectSum;
 use super::sweep_file::default_solver;
-use super::{indenter_block, layer_block, material_block, segments_block};
+use super::{bodies_block, layer_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::material::Material;
 use crate::quantity::{Dimension, format_human};
@@ -46,20 +46,23 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         }),
         _ => material_block::read_body(&mut root, folder, DirectSum::Taken, &problems),
     };
-    let counterbody = indenter_block::material(&mut root, folder, &problems);
-    let layer = root.table_or(&keys::LAYER, None, |t| layer_block::read(t).map(Some));
-    let own_layer = layer.flatten();
-    layer_block::refuse_second_body(&mut root, counterbody.as_ref(), &problems);
+    let bodies = bodies_block::read(&mut root, folder, &problems);
+    let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
+    let material = material.zip(bodies.as_ref());
     let material =
-        material.and_then(|m| for_contact(&problems, m, counterbody?.map(|of| of.value)));
+        material.and_then(|(m, bodies)| for_contact(&problems, m, bodies.counterbody.clone()));
     let indenter = given.indenter(&mut root, folder, &problems);
+    let pull_off_n = |control| {
+        let bodies = bodies.as_ref()?;
+        bodies.pull_off_n(indenter.as_deref(), control)
+    };
     let drive = root
         .table(&keys::HISTORY)
-        .and_then(|t| segments_block::read(t, folder, &problems));
+        .and_then(|t| segments_block::read(t, folder, pull_off_n, &problems));
     let step_s = root.table_or(&keys::TIME, None, time);
-    let default = default_solver(indenter.as_deref(), own_layer);
+    let default = default_solver(indenter.as_deref(), layer);
     let solver = root.table_or(&keys::SOLVER, default, |t| {
-        layer_block::solver_on(own_layer.is_some(), t, default, &problems)
+        layer_block::solver_on(layer.is_some(), t, default, &problems)
     });
     let output = root.table_or(&keys::OUTPUT, OutputPlan::default(), |t| {
         output(t, &problems, drive.as_ref(), solver.as_ref())
@@ -73,7 +76,8 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         let mut plan = ScenarioPlan {
             title: title?,
             material: material?,
-            layer: layer?,
+            layer,
+            adhesion: bodies?.adhesion,
             indenter: indenter?,
             drive: drive?,
             step_s: step_s?,

@@ -21,10 +21,12 @@ struct Placed {
     place: Location,
 }
 
-/// Reads the block; `None` where a problem was reported. Files are looked for in `folder`.
+/// Reads the block; `None` where a problem was reported. Files are looked for in `folder`. `pull_off_n` is the attraction (N) of an
+/// indenter under such a control, `None` where a problem was reported.
 pub(super) fn read(
     mut table: TableReader<'_>,
     folder: &Path,
+    pull_off_n: impl FnOnce(Control) -> Option<f64>,
     problems: &Problems,
 ) -> Option<SegmentedDrive> {
     let control = table.value(&CONTROL)?;
@@ -36,10 +38,10 @@ pub(super) fn read(
     };
     let all = table.tables(&SEGMENTS, |segment| reader.segment(segment));
     table.finish();
-    let all = all?;
+    let (all, pull_off_n) = (all?, pull_off_n(control)?);
     let (segments, places): (Vec<_>, Vec<_>) =
         all.value.into_iter().map(|p| (p.segment, p.place)).unzip();
-    SegmentedDrive::new(control, segments)
+    SegmentedDrive::attracted(control, segments, pull_off_n)
         .map_err(|error| report(problems, &error, &all.location, &places))
         .ok()
 }
@@ -53,9 +55,17 @@ fn report(problems: &Problems, error: &HistoryError, whole: &Location, places: &
     };
     let place = places.get(*segment).unwrap_or(whole);
     let told = problems.at(place, format!("segment {}: {problem}", segment + 1));
-    if let SegmentProblem::Pull { .. } = problem {
-        told.because("takes the load below zero")
-            .help("a load of zero is allowed: the indenter is then out of contact");
+    match problem {
+        SegmentProblem::Pull { pull_off_n, .. } if *pull_off_n > 0.0 => {
+            told.because("pulls harder than the attraction").help(
+                "a load of the pull-off load itself is allowed: the indenter is then out of contact",
+            );
+        }
+        SegmentProblem::Pull { .. } => {
+            told.because("takes the load below zero")
+                .help("a load of zero is allowed: the indenter is then out of contact");
+        }
+        _ => {}
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::adhesion_block::Attraction;
 use super::axis::Swept;
 use super::diagnostic::{Diagnostics, Problems};
 use super::document::kind::Table;
@@ -112,9 +113,12 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         let adhesion = adhesion?;
         let attracted =
             |own: HarmonicDrive, indenter: &dyn Indenter| match (&adhesion, &adhesion_at) {
-                (Some(adhesion), Some(at)) => {
-                    adhesion_block::drive(adhesion, indenter, &own, (at, &problems))
+                (Some(adhesion), Some(place)) => Attraction {
+                    adhesion,
+                    place,
+                    problems: &problems,
                 }
+                .drive(indenter, &own),
                 _ => Some(own),
             };
         let own_drive = attracted(drive.0, indenter.0.as_ref())?;

@@ -47,9 +47,15 @@ pub enum MaterialError {
     )]
     SmallBulkModulus { bulk_pa: f64, least_pa: f64 },
 
+    /// No shear compliance need go with both.
+    #[error(
+        "a bulk modulus that relaxes goes with shear moduli or compliances, not with those of a test in tension"
+    )]
+    BulkRelaxationInTension,
+
     /// What needs a Poisson ratio that does not depend on time.
     #[error(
-        "{what} needs a Poisson ratio that does not depend on time, and the material has a constant bulk modulus"
+        "{what} needs a Poisson ratio that does not depend on time, and that of a material with a bulk modulus does"
     )]
     NoPoissonRatio {
         /// With its article.

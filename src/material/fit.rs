@@ -503,10 +503,10 @@ impl Fit {
         let (kind, compressibility) = (self.report.kind, compressibility.into());
         let material = |series: &FittedSeries| match series {
             FittedSeries::Creep(creep) => {
-                Material::from_creep(creep.clone(), kind, compressibility)
+                Material::from_creep(creep.clone(), kind, compressibility.clone())
             }
             FittedSeries::Relaxation(relaxation) => {
-                Material::from_relaxation(relaxation.clone(), kind, compressibility)
+                Material::from_relaxation(relaxation.clone(), kind, compressibility.clone())
             }
         };
         let alternatives: Result<_, _> = self.alternatives.iter().map(material).collect();

@@ -43,7 +43,7 @@ pub fn entries() -> &'static [LibraryEntry] {
     &ENTRIES
 }
 
-static ENTRIES: [LibraryEntry; 4] = [
+static ENTRIES: [LibraryEntry; 5] = [
     elastic_entry(
         "diamond",
         "diamond",
@@ -69,6 +69,13 @@ static ENTRIES: [LibraryEntry; 4] = [
         build: pmma,
     },
     elastic_entry(
+        "rubber",
+        "natural rubber",
+        "L. A. Wood, \"Modulus of Natural Rubber Cross-Linked by Dicumyl Peroxide. II. Comparison With Theory\", Journal of Research of the National Bureau of Standards 77A (1973) 171, equation G = 5.925e-3 (fp - 0.45) T + 0.0684 (fp - 0.45) + 2.70 of its abstract (Mdyn/cm2, K, parts of decomposed peroxide per hundred of rubber)",
+        "Elastic: natural rubber cross-linked by 2 parts of dicumyl peroxide per hundred, 25 °C, unfilled: shear modulus 0.554 MPa by that equation, 1.66 MPa in tension; Poisson ratio 0.5.",
+        rubber,
+    ),
+    elastic_entry(
         "steel",
         "steel",
         "EN 1993-1-1:2005, Eurocode 3: design of steel structures, part 1-1: general rules and rules for buildings, section 3.2.6",
@@ -76,6 +83,16 @@ static ENTRIES: [LibraryEntry; 4] = [
         || elastic(210e9, 0.3),
     ),
 ];
+
+/// The shear modulus of the equation, of an incompressible body.
+fn rubber() -> Result<Material, MaterialError> {
+    const PEROXIDE: f64 = 2.0;
+    const TEMPERATURE_K: f64 = 298.15;
+    const PA_PER_MDYN_PER_CM2: f64 = 1e5;
+    let beyond_gel = PEROXIDE - 0.45;
+    let shear = 5.925e-3 * beyond_gel * TEMPERATURE_K + 0.0684 * beyond_gel + 2.70;
+    elastic(3.0 * shear * PA_PER_MDYN_PER_CM2, 0.5)
+}
 
 const fn elastic_entry(
     name: &'static str,

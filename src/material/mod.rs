@@ -14,7 +14,7 @@
 //! | Phi, shear as S. Spinu (2018) writes it | (1 + nu) D | J/2 |
 //! | contact compliance C = (1 - nu) Phi | (1 - nu^2) D | (1 - nu) J/2 |
 //!
-//! With a constant bulk modulus the Poisson ratio grows as the body relaxes: [`compressibility`].
+//! With a bulk modulus in its place the Poisson ratio changes as the body relaxes: [`compressibility`].
 //!
 //! This room knows nothing of indenters, drives or contact.
 //!
@@ -109,12 +109,12 @@ impl MaterialFunction {
     }
 }
 
-/// An isotropic linear viscoelastic material of constant Poisson ratio, or of constant bulk modulus.
+/// An isotropic linear viscoelastic material of constant Poisson ratio, or of a bulk modulus, constant or relaxing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     name: Option<String>,
     compressibility: Compressibility,
-    /// Shear where the bulk modulus is constant.
+    /// Shear where a bulk modulus is given.
     kind: ModulusKind,
     given: MaterialFunction,
     creep: Creep,
@@ -141,8 +141,8 @@ impl Material {
         compressibility: impl Into<Compressibility>,
     ) -> Result<Self, MaterialError> {
         let compressibility = compressibility.into().checked()?;
-        if let (Compressibility::BulkModulusPa(_), ModulusKind::Longitudinal) =
-            (compressibility, kind)
+        if let (Compressibility::BulkModulus(_), ModulusKind::Longitudinal) =
+            (&compressibility, kind)
         {
             return Self::from_creep(relaxation.to_creep()?, kind, compressibility);
         }
@@ -176,9 +176,9 @@ impl Material {
         compressibility: impl Into<Compressibility>,
     ) -> Result<Self, MaterialError> {
         let compressibility = compressibility.into().checked()?;
-        let (creep, kind) = match (compressibility, kind) {
-            (Compressibility::BulkModulusPa(bulk_pa), ModulusKind::Longitudinal) => {
-                let shear = compressibility::shear_of_longitudinal(&creep, bulk_pa)?;
+        let (creep, kind) = match (&compressibility, kind) {
+            (Compressibility::BulkModulus(bulk), ModulusKind::Longitudinal) => {
+                let shear = compressibility::shear_of_longitudinal(&creep, bulk)?;
                 (shear, ModulusKind::Shear)
             }
             _ => (creep, kind),
@@ -363,9 +363,9 @@ impl Material {
         self.name.as_deref()
     }
 
-    /// What of the change of volume does not depend on time.
-    pub fn compressibility(&self) -> Compressibility {
-        self.compressibility
+    /// What says how the volume changes.
+    pub fn compressibility(&self) -> &Compressibility {
+        &self.compressibility
     }
 
     /// The Poisson ratio, where it is constant in time.
@@ -378,19 +378,17 @@ impl Material {
     /// # Errors
     /// [`MaterialError::NoRelaxationModulus`]; a compliance beyond the range of a double.
     pub fn poisson_ratio_at(&self, time_s: f64) -> Result<f64, MaterialError> {
-        match self.compressibility {
-            Compressibility::PoissonRatio(nu) => Ok(nu),
-            Compressibility::BulkModulusPa(bulk_pa) => {
-                let constrained = self.under_lateral_constraint(bulk_pa)?;
-                Ok(4.5 * bulk_pa * constrained.compliance(time_s) - 1.0)
+        match &self.compressibility {
+            Compressibility::PoissonRatio(nu) => Ok(*nu),
+            Compressibility::BulkModulus(bulk) => {
+                compressibility::poisson_ratio_at(self.needed_relaxation()?, bulk, time_s)
             }
         }
     }
 
-    fn under_lateral_constraint(&self, bulk_pa: f64) -> Result<Creep, MaterialError> {
-        let shear = self.relaxation.as_ref();
-        let shear = shear.ok_or(MaterialError::NoRelaxationModulus)?;
-        compressibility::under_lateral_constraint(shear, bulk_pa)
+    fn needed_relaxation(&self) -> Result<&Relaxation, MaterialError> {
+        let relaxation = self.relaxation.as_ref();
+        relaxation.ok_or(MaterialError::NoRelaxationModulus)
     }
 
     /// Whether [`creep`](Self::creep) and [`relaxation`](Self::relaxation) are shear or longitudinal.
@@ -419,13 +417,13 @@ impl Material {
     /// # Errors
     /// A compliance beyond the range of a double.
     pub fn creep_as(&self, kind: ModulusKind) -> Result<Creep, MaterialError> {
-        match (self.compressibility, kind) {
+        match (&self.compressibility, kind) {
             (Compressibility::PoissonRatio(nu), _) => {
-                self.creep.scaled(1.0 / self.modulus_factor(kind, nu))
+                self.creep.scaled(1.0 / self.modulus_factor(kind, *nu))
             }
-            (Compressibility::BulkModulusPa(_), ModulusKind::Shear) => self.creep.scaled(1.0),
-            (Compressibility::BulkModulusPa(bulk_pa), ModulusKind::Longitudinal) => {
-                compressibility::longitudinal_of_shear(&self.creep, bulk_pa)
+            (Compressibility::BulkModulus(_), ModulusKind::Shear) => self.creep.scaled(1.0),
+            (Compressibility::BulkModulus(bulk), ModulusKind::Longitudinal) => {
+                compressibility::longitudinal_of_shear(&self.creep, bulk)
             }
         }
     }
@@ -439,12 +437,12 @@ impl Material {
         let Some(relaxation) = &self.relaxation else {
             return Ok(None);
         };
-        let own = match (self.compressibility, kind) {
+        let own = match (&self.compressibility, kind) {
             (Compressibility::PoissonRatio(nu), _) => {
-                relaxation.scaled(self.modulus_factor(kind, nu))
+                relaxation.scaled(self.modulus_factor(kind, *nu))
             }
-            (Compressibility::BulkModulusPa(_), ModulusKind::Shear) => relaxation.scaled(1.0),
-            (Compressibility::BulkModulusPa(_), ModulusKind::Longitudinal) => {
+            (Compressibility::BulkModulus(_), ModulusKind::Shear) => relaxation.scaled(1.0),
+            (Compressibility::BulkModulus(_), ModulusKind::Longitudinal) => {
                 self.creep_as(kind)?.to_relaxation()
             }
         };
@@ -457,13 +455,13 @@ impl Material {
     /// # Errors
     /// A compliance beyond the range of a double.
     pub fn shear_creep_function(&self) -> Result<Creep, MaterialError> {
-        self.creep.scaled(match (self.kind, self.compressibility) {
+        self.creep.scaled(match (self.kind, &self.compressibility) {
             (ModulusKind::Longitudinal, Compressibility::PoissonRatio(nu)) => 1.0 + nu,
             _ => 0.5,
         })
     }
 
-    /// The contact compliance `C(t) = (1 - nu^2) D(t) = (1 - nu) J(t)/2`, in 1/Pa, or that of a constant bulk modulus: what takes the
+    /// The contact compliance `C(t) = (1 - nu^2) D(t) = (1 - nu) J(t)/2`, in 1/Pa, or that of a bulk modulus: what takes the
     /// place of `1/E* = (1 - nu^2)/E` of a half-space when the solid is viscoelastic (E. H. Lee
     /// and J. R. M. Radok, Journal of Applied Mechanics 27 (1960) 438). That of an indenter which is not rigid is added: both
     /// surfaces move under the same pressure (K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 4.2).
@@ -475,7 +473,7 @@ impl Material {
         if self.creep.is_instantaneously_rigid() {
             return Err(MaterialError::SingularContactPressure);
         }
-        let own = match self.compressibility {
+        let own = match &self.compressibility {
             Compressibility::PoissonRatio(nu) => {
                 let lateral = 1.0 - nu;
                 self.creep.scaled(match self.kind {
@@ -483,9 +481,12 @@ impl Material {
                     ModulusKind::Longitudinal => lateral * (1.0 + nu),
                 })?
             }
-            Compressibility::BulkModulusPa(bulk_pa) => {
-                let constrained = self.under_lateral_constraint(bulk_pa)?.scaled(0.75)?;
-                self.creep.scaled(0.25)?.beside(&constrained)?
+            Compressibility::BulkModulus(bulk) => {
+                let shear = self.needed_relaxation()?;
+                let constrained = compressibility::under_lateral_constraint(shear, bulk)?;
+                self.creep
+                    .scaled(0.25)?
+                    .beside(&constrained.scaled(0.75)?)?
             }
         };
         match &self.counterbody {
@@ -507,13 +508,14 @@ impl Material {
     /// Contact complex modulus `1/C* = E*/(1 - nu^2)`, in Pa, which a flat punch sees.
     pub fn contact_complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
         let omega = angular_frequency_rad_per_s;
-        match self.compressibility {
+        match &self.compressibility {
             Compressibility::PoissonRatio(nu) => {
                 self.longitudinal_complex_modulus(omega) / ((1.0 - nu) * (1.0 + nu))
             }
-            Compressibility::BulkModulusPa(bulk_pa) => {
-                compressibility::contact_of_shear(self.shear_complex_modulus(omega), bulk_pa)
-            }
+            Compressibility::BulkModulus(bulk) => compressibility::contact_of_shear(
+                self.shear_complex_modulus(omega),
+                bulk.complex_modulus(omega),
+            ),
         }
     }
 
@@ -533,9 +535,10 @@ impl Material {
             let of_indenter = indenter.contact_complex_modulus(angular_frequency_rad_per_s);
             lateral * (read.inv() * lateral - of_indenter.inv()).inv()
         });
-        let own = match self.compressibility {
+        let own = match &self.compressibility {
             Compressibility::PoissonRatio(_) => own.unwrap_or(read),
-            Compressibility::BulkModulusPa(bulk_pa) => {
+            Compressibility::BulkModulus(bulk) => {
+                let bulk_pa = bulk.complex_modulus(angular_frequency_rad_per_s);
                 let shear = compressibility::shear_of_contact(own.unwrap_or(read), bulk_pa);
                 compressibility::young_of_shear(shear, bulk_pa)
             }
@@ -562,11 +565,11 @@ impl Material {
             (MaterialFunction::Relaxation, Some(relaxation)) => relaxation.complex_modulus(omega),
             _ => self.creep.complex_modulus(omega),
         };
-        match (self.compressibility, kind) {
-            (Compressibility::PoissonRatio(nu), _) => own * self.modulus_factor(kind, nu),
-            (Compressibility::BulkModulusPa(_), ModulusKind::Shear) => own,
-            (Compressibility::BulkModulusPa(bulk_pa), ModulusKind::Longitudinal) => {
-                compressibility::young_of_shear(own, bulk_pa)
+        match (&self.compressibility, kind) {
+            (Compressibility::PoissonRatio(nu), _) => own * self.modulus_factor(kind, *nu),
+            (Compressibility::BulkModulus(_), ModulusKind::Shear) => own,
+            (Compressibility::BulkModulus(bulk), ModulusKind::Longitudinal) => {
+                compressibility::young_of_shear(own, bulk.complex_modulus(omega))
             }
         }
     }

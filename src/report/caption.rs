@@ -80,7 +80,8 @@ impl Setting {
             }
             _ => String::new(),
         };
-        let attraction = adhesion_line(plan).map_or(String::new(), |line| format!(", {line}"));
+        let attraction =
+            adhesion_line(plan.adhesion).map_or(String::new(), |line| format!(", {line}"));
         let swept = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
         let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
@@ -122,8 +123,10 @@ impl Setting {
             Some(series) => material(series),
             None => "a material given by its samples".to_owned(),
         };
+        let attraction =
+            adhesion_line(plan.adhesion).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
-            "{} on {body}{}, {} against time prescribed",
+            "{} on {body}{}, {} against time prescribed{attraction}",
             indenter(plan.indenter.as_ref(), &[], plan.material.counterbody()),
             layer(plan.layer, &[]),
             plan.drive.control().name()

@@ -3,8 +3,9 @@
 use super::number::{self, four_digits, plain, scientific};
 use crate::drive::HarmonicDrive;
 use crate::indenter::{Parameter, Value};
-use crate::material::{Compressibility, Material};
+use crate::material::{Compressibility, Material, Relaxation};
 use crate::quantity::{Dimension, FrequencyUnit};
+use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::plan::{EngineKind, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
@@ -53,8 +54,8 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
 }
 
 /// The attraction of the indenter, where there is any: `a work of adhesion of 0.05 J/m² (DMT)`.
-pub fn adhesion_line(plan: &SweepPlan) -> Option<String> {
-    let work = number::six_digits(plan.adhesion?.work_j_per_m2);
+pub fn adhesion_line(adhesion: Option<AdhesionPlan>) -> Option<String> {
+    let work = number::six_digits(adhesion?.work_j_per_m2);
     Some(format!("a work of adhesion of {work} J/m² (DMT)"))
 }
 
@@ -73,13 +74,24 @@ pub fn varied_line(plan: &SweepPlan) -> Option<String> {
     (!lines.is_empty()).then(|| lines.join(", "))
 }
 
-/// How a material changes its volume: `Poisson ratio 0.38`, `bulk modulus 3 GPa`.
+/// How a material changes its volume: `Poisson ratio 0.38`, `bulk modulus 3 GPa`, `bulk modulus 5 GPa relaxing to 3 GPa`.
 pub fn compressibility(material: &Material) -> String {
     match material.compressibility() {
         Compressibility::PoissonRatio(nu) => format!("Poisson ratio {nu}"),
-        Compressibility::BulkModulusPa(bulk_pa) => {
-            format!("bulk modulus {}", plain(bulk_pa, Dimension::Stress, 4))
-        }
+        Compressibility::BulkModulus(bulk) => format!("bulk modulus {}", bulk_modulus(bulk, 4)),
+    }
+}
+
+/// A bulk modulus, from where to where it relaxes, if it does.
+pub fn bulk_modulus(bulk: &Relaxation, digits: usize) -> String {
+    let modulus = |value| plain(value, Dimension::Stress, digits);
+    let at_rest = modulus(bulk.equilibrium_modulus());
+    match bulk.branches() {
+        [] => at_rest,
+        _ => format!(
+            "{} relaxing to {at_rest}",
+            modulus(bulk.instantaneous_modulus())
+        ),
     }
 }
 

@@ -1,8 +1,14 @@
 //! A sphere that is attracted, by the theory of Derjaguin, Muller and Toporov: closed forms of Hertz under the load and the attraction.
 
 use std::f64::consts::TAU;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
+use contact_dma::drive::{Control, HistoryError, Segment, SegmentedDrive};
 use contact_dma::prelude::*;
+use contact_dma::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
+use contact_dma::sweep::plan::adhesion::AdhesionPlan;
+use contact_dma::sweep::plan::scenario::ScenarioPlan;
 use contact_dma::sweep::record::CaseResult;
 use contact_dma::sweep::record::error_bars::Quantity;
 
@@ -106,4 +112,79 @@ fn a_load_below_the_pull_off_load_and_what_has_none_are_refused() {
     for work in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         assert!(of(1e-6, 1e-7).attracted(work).is_err(), "{work}");
     }
+}
+
+fn history(segments: Vec<Segment>) -> Result<SegmentedDrive, HistoryError> {
+    SegmentedDrive::attracted(Control::Load, segments, PULL_OFF_N)
+}
+
+/// Attracted from the beginning of a history on.
+fn followed(material: Material, segments: Vec<Segment>) -> SimulationOutcome {
+    let indenter = Arc::new(Sphere::new(RADIUS_M).unwrap());
+    let mut plan = ScenarioPlan::new(material, indenter, history(segments).unwrap());
+    plan.adhesion = Some(AdhesionPlan {
+        work_j_per_m2: WORK,
+        equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
+    });
+    plan.solver.springs = 800;
+    plan.output.error_bars = false;
+    let simulation = Simulation::new(plan).unwrap();
+    let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});
+    assert_eq!(outcome.ended, SimulationEnd::Done);
+    outcome
+}
+
+fn ramp(to: f64) -> Segment {
+    Segment::Ramp {
+        to,
+        duration_s: 2.0,
+    }
+}
+
+#[test]
+fn a_history_is_that_of_hertz_with_the_attraction_from_first_touch_to_pull_off() {
+    let (material, compliance) = elastic();
+    let outcome = followed(material, vec![ramp(PULL_OFF_N), ramp(-PULL_OFF_N)]);
+    let hertz_m = |load_n: f64| (0.75 * (load_n + PULL_OFF_N) * RADIUS_M * compliance).cbrt();
+    let widest_m = hertz_m(PULL_OFF_N);
+    for row in &outcome.rows {
+        let exact_m = hertz_m(row.load_n);
+        assert!((row.contact_radius_m - exact_m).abs() < 1.5 * widest_m / 800.0);
+        if let Some(approach_m) = row.approach_m {
+            let off = (approach_m - exact_m * exact_m / RADIUS_M).abs();
+            assert!(off < 1e-5 * widest_m * widest_m / RADIUS_M, "{row:?}");
+        }
+    }
+    let [first, last] = [outcome.rows.first(), outcome.rows.last()].map(Option::unwrap);
+    // It jumps into contact under no load, and under the pull it only touches.
+    assert_eq!(first.load_n, 0.0);
+    assert!(first.contact_radius_m > 0.0);
+    assert!((last.load_n + PULL_OFF_N).abs() < 1e-14 * PULL_OFF_N);
+    assert_eq!(last.contact_radius_m, 0.0);
+    assert!(last.approach_m.unwrap() < 1e-5 * widest_m * widest_m / RADIUS_M);
+    let further = history(vec![ramp(PULL_OFF_N), ramp(-1.01 * PULL_OFF_N)]);
+    let refused = further.unwrap_err().to_string();
+    assert!(refused.contains("comes off the surface at"), "{refused}");
+}
+
+#[test]
+fn cycles_of_a_history_with_attraction_are_those_of_a_sweep() {
+    let material = zener_material;
+    let (mean, amplitude) = (0.2 * PULL_OFF_N, 0.9 * PULL_OFF_N);
+    let sine = Segment::Sine {
+        mean,
+        amplitude,
+        angular_frequency_rad_per_s: 1.0,
+        phase_rad: 0.0,
+        cycles: 12.0,
+    };
+    let outcome = followed(material(), vec![sine]);
+    let last = outcome.cycles.last().unwrap().numbers.as_ref().unwrap();
+    let own = sweep(material(), (mean, amplitude)).without_error_bars();
+    let own = solved(own.springs(800).unwrap().attracted(WORK).unwrap());
+    // Both take 200 steps of a second-order rule a cycle; twelve cycles after a solid of one time have settled.
+    let off = last.analysis.energy_loss_j / own.analysis.energy_loss_j - 1.0;
+    assert!(off.abs() < 1e-4, "{off:e}");
+    let off = last.analysis.load_mean_n - own.analysis.load_mean_n;
+    assert!(off.abs() < 1e-6 * PULL_OFF_N, "{off:e}");
 }

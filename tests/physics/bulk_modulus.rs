@@ -1,4 +1,4 @@
-//! Materials of constant bulk modulus: the contact compliance against its limits and a numerical inversion of its transform, losses
+//! Materials of a bulk modulus, constant or relaxing: the contact compliance against its limits and a numerical inversion of its transform, losses
 //! against correspondence, moduli read back from loops.
 
 use std::f64::consts::PI;
@@ -18,9 +18,28 @@ fn series() -> Relaxation {
     Relaxation::new(EQUILIBRIUM_PA, BRANCHES.map(branch).to_vec()).unwrap()
 }
 
+fn constant(bulk_pa: f64) -> Compressibility {
+    Compressibility::constant_bulk_modulus(bulk_pa).unwrap()
+}
+
 fn shear(bulk_pa: f64) -> Material {
-    let bulk = Compressibility::BulkModulusPa(bulk_pa);
+    Material::from_relaxation(series(), ModulusKind::Shear, constant(bulk_pa)).unwrap()
+}
+
+/// Bulk branches (Pa, s): one at a time of the shear series, one between two of them, one slower than all.
+const BULK_BRANCHES: [(f64, f64); 3] = [(2e9, 0.1), (8e8, 1.0), (5e8, 300.0)];
+
+fn relaxing() -> Material {
+    let branch = |(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s };
+    let bulk = Relaxation::new(BULK_PA, BULK_BRANCHES.map(branch).to_vec()).unwrap();
+    let bulk = Compressibility::BulkModulus(bulk);
     Material::from_relaxation(series(), ModulusKind::Shear, bulk).unwrap()
+}
+
+/// s K(s) of the relaxing one, at any complex s.
+fn bulk_pa(s: Complex<f64>) -> Complex<f64> {
+    let branches = BULK_BRANCHES.map(|(k, tau)| k * s * tau / (1.0 + s * tau));
+    branches.into_iter().fold(BULK_PA.into(), |sum, k| sum + k)
 }
 
 /// s G(s) of the series, at any complex s.
@@ -98,7 +117,7 @@ fn the_limits_are_those_of_an_incompressible_and_of_an_elastic_body() {
         assert!((ratio - 1.0).norm() < 1e-14);
     }
     // Without branches the constant Poisson ratio is that of the two moduli.
-    let bulk = Compressibility::BulkModulusPa(BULK_PA);
+    let bulk = constant(BULK_PA);
     let elastic = Relaxation::new(1e9, vec![]).unwrap();
     let nu = (3.0 * BULK_PA - 2e9) / (2.0 * (3.0 * BULK_PA + 1e9));
     let with = |lateral| {
@@ -116,7 +135,7 @@ fn moduli_in_tension_are_the_same_solid() {
         .relaxation_as(ModulusKind::Longitudinal)
         .unwrap()
         .unwrap();
-    let bulk = Compressibility::BulkModulusPa(BULK_PA);
+    let bulk = constant(BULK_PA);
     let again =
         Material::from_relaxation(tension.clone(), ModulusKind::Longitudinal, bulk).unwrap();
     for omega in [0.0, 1e-3, 0.5, 20.0, 1e5] {
@@ -129,15 +148,70 @@ fn moduli_in_tension_are_the_same_solid() {
     // E(0) = 9K would need an infinite shear modulus.
     let least_pa = tension.instantaneous_modulus() / 9.0;
     let with = |bulk_pa| {
-        let bulk = Compressibility::BulkModulusPa(bulk_pa);
-        Material::from_relaxation(tension.clone(), ModulusKind::Longitudinal, bulk)
+        let tension = tension.clone();
+        Material::from_relaxation(tension, ModulusKind::Longitudinal, constant(bulk_pa))
     };
     assert!(with(1.001 * least_pa).is_ok());
     let refused = with(0.999 * least_pa).unwrap_err().to_string();
     assert!(refused.contains("too small"), "{refused}");
     for bulk_pa in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        assert!(with(bulk_pa).is_err(), "{bulk_pa}");
+        let made = Compressibility::constant_bulk_modulus(bulk_pa);
+        assert!(made.is_err(), "{bulk_pa}");
     }
+}
+
+#[test]
+fn a_bulk_modulus_that_relaxes_is_as_exact() {
+    let material = relaxing();
+    let compliance = material.contact_compliance().unwrap();
+    let poisson_ratio = |s: Complex<f64>| {
+        let (g, k) = (modulus_pa(s), bulk_pa(s));
+        (3.0 * k - 2.0 * g) / (2.0 * (3.0 * k + g))
+    };
+    let transform = |s: Complex<f64>| (1.0 - poisson_ratio(s)) / (2.0 * modulus_pa(s)) / s;
+    for k in 0..20 {
+        let time_s = 10_f64.powf(-5.0 + 0.5 * f64::from(k));
+        let difference = compliance.compliance(time_s) / inverted(transform, time_s) - 1.0;
+        assert!(difference.abs() < 1e-8, "{time_s:e}: {difference:e}");
+        let nu = material.poisson_ratio_at(time_s).unwrap();
+        let difference = nu - inverted(|s| poisson_ratio(s) / s, time_s);
+        assert!(difference.abs() < 1e-8, "{time_s:e}: {difference:e}");
+    }
+    for omega in [1e-3, 0.7, 40.0, 1e5] {
+        let s = Complex::new(0.0, omega);
+        let (g, k) = (modulus_pa(s), bulk_pa(s));
+        let young = 9.0 * k * g / (3.0 * k + g);
+        let contact = 2.0 * g / (1.0 - poisson_ratio(s));
+        let same = |a: Complex<f64>, b: Complex<f64>| (a / b - 1.0).norm() < 1e-13;
+        assert!(same(material.longitudinal_complex_modulus(omega), young));
+        assert!(same(material.contact_complex_modulus(omega), contact));
+        // What a loop says: the formula with a Poisson ratio of 0 reads 1/C*.
+        let (storage, loss) = material.of_loop((contact.re, contact.im), omega);
+        assert!(same(Complex::new(storage, loss), young), "{omega}");
+    }
+}
+
+#[test]
+fn a_bulk_modulus_in_proportion_to_the_shear_modulus_leaves_the_poisson_ratio_constant() {
+    // K/G = 2 (1 + nu)/(3 (1 - 2 nu)) at all times.
+    let nu = 0.3;
+    let ratio = 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu));
+    let bulk = Compressibility::BulkModulus(series().scaled(ratio).unwrap());
+    let material = Material::from_relaxation(series(), ModulusKind::Shear, bulk).unwrap();
+    let plain = Material::from_relaxation(series(), ModulusKind::Shear, nu).unwrap();
+    let [own, plain] = [&material, &plain].map(|m| m.contact_compliance().unwrap());
+    for time_s in [0.0, 1e-3, 0.2, 5.0, 1e4] {
+        let off = own.compliance(time_s) / plain.compliance(time_s) - 1.0;
+        assert!(off.abs() < 1e-12, "{time_s}: {off:e}");
+        assert!((material.poisson_ratio_at(time_s).unwrap() - nu).abs() < 1e-12);
+    }
+    let tension = Material::from_relaxation(
+        series(),
+        ModulusKind::Longitudinal,
+        Compressibility::BulkModulus(series().scaled(ratio).unwrap()),
+    );
+    let refused = tension.unwrap_err().to_string();
+    assert!(refused.contains("goes with shear moduli"), "{refused}");
 }
 
 fn solved(indenter: impl Indenter + 'static, amplitude_n: f64, omega: f64) -> CaseResult {

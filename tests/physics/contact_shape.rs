@@ -91,6 +91,7 @@ fn simulated(shape: Arc<dyn Indenter>, approach_m: f64, cells: usize) -> Simulat
         title: "ramp".into(),
         material: BodyMaterial::Series(pmma_material()),
         layer: None,
+        adhesion: None,
         indenter: shape,
         drive: SegmentedDrive::new(Control::Approach, vec![ramp]).unwrap(),
         step_s: Some(0.1),

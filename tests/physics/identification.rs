@@ -111,8 +111,11 @@ impl Experiment {
             title: String::new(),
             data: String::new(),
             poisson_ratio: POISSON,
-            solver: IdentifyPlan::solver(indenter.as_ref()),
+            solver: IdentifyPlan::solver(indenter.as_ref(), None),
             indenter,
+            counterbody: None,
+            layer: None,
+            adhesion: None,
             drive: Driven::Cycles(drive),
             branches: None,
             measurements: Measurements::new(cycles, data).unwrap(),
@@ -195,7 +198,10 @@ fn exact_cycles_give_the_solid_back() {
         let experiment = Experiment::losses_and_phases(0.0, false);
         let (indenter, drive) = sphere();
         // Computed as the model computes them, and far finer: 200 steps and springs in place of 64.
-        let own = (IdentifyPlan::CYCLE, IdentifyPlan::solver(indenter.as_ref()));
+        let own = (
+            IdentifyPlan::CYCLE,
+            IdentifyPlan::solver(indenter.as_ref(), None),
+        );
         for (resolution, within) in [(Some(own), 1e-4), (None, 3e-3)] {
             let under = (Arc::clone(&indenter), drive);
             let plan = experiment.plan(&truth, under, resolution, &mut random);
@@ -264,7 +270,7 @@ fn cells_serve_as_springs_do() {
     let solver = SolverPlan {
         engine: EngineKind::HalfSpace,
         cells: 16,
-        ..IdentifyPlan::solver(indenter.as_ref())
+        ..IdentifyPlan::solver(indenter.as_ref(), None)
     };
     let experiment = Experiment::losses_and_phases(0.0, false);
     let resolution = Some((cycle, solver));

@@ -66,7 +66,7 @@ fn plan(
     let material = Material::from_relaxation(truth.clone(), kind, POISSON).unwrap();
     let mut scenario = ScenarioPlan::new(material, Arc::clone(&indenter), drive.clone());
     scenario.output.error_bars = false;
-    let solver = IdentifyPlan::solver(indenter.as_ref());
+    let solver = IdentifyPlan::solver(indenter.as_ref(), None);
     if solver.engine == EngineKind::HalfSpace {
         scenario.solver = solver;
     }
@@ -100,6 +100,9 @@ fn plan(
         solver,
         measurements: Measurements::of_history(&drive, &readings).unwrap(),
         indenter,
+        counterbody: None,
+        layer: None,
+        adhesion: None,
         drive: Driven::History(drive),
         branches: None,
         cycle: CyclePlan::DEFAULT,
@@ -243,10 +246,13 @@ fn a_history_that_never_changes_and_one_that_no_solid_has_are_refused() {
         poisson_ratio: POISSON,
         solver: SolverPlan {
             springs: 40,
-            ..IdentifyPlan::solver(indenter.as_ref())
+            ..IdentifyPlan::solver(indenter.as_ref(), None)
         },
         measurements: Measurements::of_history(&drive, &rows(|t| 1e-6 / t)).unwrap(),
         indenter,
+        counterbody: None,
+        layer: None,
+        adhesion: None,
         drive: Driven::History(drive),
         branches: None,
         cycle: CyclePlan::DEFAULT,

@@ -12,6 +12,7 @@ mod energy_balance;
 mod error_bars;
 mod half_space_work;
 mod identification;
+mod identified_bodies;
 mod identified_histories;
 mod instant_tolerance;
 mod intermittent;

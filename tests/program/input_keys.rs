@@ -246,7 +246,13 @@ fn files() -> Vec<(FileKind, String)> {
     let of_bulk = |header: &str| {
         format!("[{header}]\nbulk_modulus = \"3 GPa\"\n[{header}.relaxation]\n{series}\n")
     };
-    let yielding = format!("{SPHERE}{}", of_bulk("indenter.material"));
+    let of_relaxing_bulk = |header: &str| {
+        format!(
+            "[{header}.bulk_modulus]\nequilibrium = \"3 GPa\"\nbranches = [{{ modulus = \"1 GPa\", time = \"2 s\" }}]\n\
+             [{header}.relaxation]\n{series}\n"
+        )
+    };
+    let relaxing = of_relaxing_bulk("material");
     let elastic = "[material]\nelastic = { modulus = \"2 GPa\", poisson_ratio = 0.3 }\n";
     let mut files: Vec<(FileKind, String)> = indenters
         .iter()
@@ -258,7 +264,14 @@ fn files() -> Vec<(FileKind, String)> {
         "[adhesion]\nwork = \"0.1 J/m^2\"\nequilibrium_distance = \"0.2 nm\"\n",
     ));
     files.push(sweep([&of_bulk("material"), SPHERE, HARMONIC, ONE], ""));
-    files.push(history(&of_bulk("material"), &yielding, step, ""));
+    files.push(sweep([&relaxing, SPHERE, HARMONIC, ONE], ""));
+    for of_indenter in [
+        of_bulk("indenter.material"),
+        of_relaxing_bulk("indenter.material"),
+    ] {
+        let yielding = format!("{SPHERE}{of_indenter}");
+        files.push(history(&of_bulk("material"), &yielding, step, ""));
+    }
     files.extend([
         sweep([LIBRARY, SPHERE, HARMONIC, ONE], ""),
         sweep(
@@ -400,12 +413,22 @@ fn files() -> Vec<(FileKind, String)> {
         ],
         "",
     ));
-    files.push((
-        FileKind::Identify,
-        format!(
-            "title = \"t\"\n[identify]\ndata = \"measured.csv\"\nbranches = 2\n[material]\npoisson_ratio = 0.4\n{SPHERE}{HARMONIC}"
-        ),
-    ));
+    let adhesion = "[adhesion]\nwork = \"0.1 J/m^2\"\nequilibrium_distance = \"0.2 nm\"\n";
+    let yielding = "material = { elastic = { modulus = \"2 GPa\", poisson_ratio = 0.3 } }\n";
+    for more in ["", adhesion, yielding, LAYER] {
+        let (inside, after) = match more == yielding {
+            true => (more, ""),
+            false => ("", more),
+        };
+        files.push((
+            FileKind::Identify,
+            format!(
+                "title = \"t\"\n[identify]\ndata = \"measured.csv\"\nbranches = 2\n[material]\npoisson_ratio = 0.4\n{SPHERE}{inside}\
+                 {HARMONIC}{after}"
+            ),
+        ));
+    }
+    files.push(history(LIBRARY, SPHERE, step, adhesion));
     files
 }
 
@@ -420,7 +443,9 @@ fn over_every_number((of, text): &(FileKind, String)) -> Vec<(FileKind, String)>
         let is_right = block == "indenter" || *of == FileKind::Sweep;
         let whole = table.get(block).filter(|_| is_right)?.as_table()?;
         let whole = Some(whole).filter(|whole| !whole.contains_key("material"))?;
-        let axis = [(key.to_owned(), Value::Array(vec![whole.get(key)?.clone()]))];
+        // The series of a bulk modulus is no number.
+        let number = whole.get(key).filter(|value| !value.is_table())?;
+        let axis = [(key.to_owned(), Value::Array(vec![number.clone()]))];
         let mut over = base.clone();
         over.insert(block.to_owned(), whole.clone().into());
         let sweep = over.get_mut("sweep")?.as_table_mut()?;

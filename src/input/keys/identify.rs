@@ -2,7 +2,7 @@
 
 use super::material::POISSON_RATIO;
 use super::rows;
-use super::{INDENTER, TITLE, drive, settings};
+use super::{ADHESION, INDENTER, LAYER, TITLE, drive, settings};
 use crate::identify::MOST_BRANCHES;
 use crate::input::document::kind::{Table, Text};
 use crate::input::document::row::{Optional, Others, Required, Row, Rows};
@@ -52,7 +52,9 @@ pub(super) static IDENTIFY_FILE: Rows = super::table(
         &TITLE,
         &IDENTIFY,
         &KNOWN_MATERIAL,
+        &LAYER,
         &INDENTER,
+        &ADHESION,
         &MEASURED_DRIVE,
         &MODEL_CYCLE,
         &MODEL_SOLVER,

@@ -1,6 +1,7 @@
 //! Keys of `[material]`: a series, a model of few elements, measured data or a material of the library.
 
 use super::rows;
+use crate::input::bulk_modulus::BulkModulus;
 use crate::input::document::kind::{
     Array, Boolean, Choice, Dependent, Integer, Scalar, Table, Tables, Text, list, number, pair,
     quantity,
@@ -61,11 +62,19 @@ rows! { MATERIAL_KEYS:
 rows! { _:
     /// Poisson ratio, constant in time.
     POISSON_RATIO: Row<Scalar, Required> = "poisson_ratio", POISSON_RATIO_VALUE, Required;
-    /// Bulk modulus, constant in time, in place of the Poisson ratio, which then grows as the body relaxes.
-    BULK_MODULUS: Row<Scalar, Required> = "bulk_modulus", quantity(Stress).above_zero(), Required;
+    /// Bulk modulus in place of the Poisson ratio, which then grows as the body relaxes: a modulus that is constant in time, or a table
+    /// with the series of one that relaxes too.
+    BULK_MODULUS: Row<BulkModulus, Required> = "bulk_modulus", BulkModulus, Required;
     /// First and last time of the test that the series was fitted to, where that is known.
     MEASURED: Row<Array<Scalar>, Optional> =
         "measured", pair(quantity(Time).above_zero().or_else(WINDOW), WINDOW), Optional;
+}
+
+rows! { BULK_KEYS:
+    /// Bulk modulus at rest.
+    BULK_EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).above_zero(), Required;
+    /// The branches of the series.
+    BULK_BRANCHES: Row<Tables, Required> = "branches", branches(&RELAXATION_BRANCH), Required;
 }
 
 rows! { LIBRARY_KEYS:

@@ -124,6 +124,7 @@ static SCENARIO_FILE: Rows = table(
         &MATERIAL,
         &LAYER,
         &INDENTER,
+        &ADHESION,
         &HISTORY,
         &TIME,
         &OUTPUT,

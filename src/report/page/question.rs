@@ -72,7 +72,7 @@ pub(super) fn sweep(plan: &SweepPlan) -> Markup {
     let mut drive = Facts::default();
     drive.add("control", plan.drive.control().name());
     drive.add("mean ± amplitude", &words::drive_line(&plan.drive, plan));
-    if let Some(attraction) = words::adhesion_line(plan) {
+    if let Some(attraction) = words::adhesion_line(plan.adhesion) {
         drive.add("attraction", &attraction);
     }
     drive.add("phase", &plain(plan.drive.phase_rad(), Dimension::Angle, 4));
@@ -118,8 +118,8 @@ pub(super) fn material(material: &Material) -> Markup {
     }
     match material.compressibility() {
         Compressibility::PoissonRatio(nu) => facts.add("Poisson ratio", &format!("{nu}")),
-        Compressibility::BulkModulusPa(bulk_pa) => {
-            facts.add("bulk modulus", &plain(bulk_pa, Dimension::Stress, 6));
+        Compressibility::BulkModulus(bulk) => {
+            facts.add("bulk modulus", &words::bulk_modulus(bulk, 6));
         }
     }
     let kind = material.kind().name();

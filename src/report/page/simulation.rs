@@ -14,6 +14,7 @@ use crate::quantity::Dimension;
 use crate::report::number::{plain, with_error};
 use crate::report::profile_lines::lines;
 use crate::report::quantities::{CYCLES, Column};
+use crate::report::words;
 use crate::sweep::history::cycles::HistoryCycle;
 use crate::sweep::history::outside_model;
 use crate::sweep::history::{HistoryRow, SimulationEnd, SimulationOutcome, SurfaceRecord};
@@ -346,6 +347,9 @@ fn question(plan: &ScenarioPlan) -> Markup {
     );
     let dimension = drive_dimension(plan.drive.control());
     drive.add("largest value", &plain(plan.drive.maximum(), dimension, 6));
+    if let Some(attraction) = words::adhesion_line(plan.adhesion) {
+        drive.add("attraction", &attraction);
+    }
     question::parts(
         html! { (material) (question::body(plan.layer)) },
         question::indenter_body(plan.indenter.as_ref(), plan.material.series()),

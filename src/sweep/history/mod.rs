@@ -177,7 +177,7 @@ impl Simulation {
         };
         let largest = LargestContact {
             control: plan.drive.control(),
-            maximum: plan.drive.maximum(),
+            maximum: plan.drive.maximum() + plan.drive.pull_off_n(),
             // A solid or fluid meets no more than its compliance at the end, and no more than the largest load.
             compliance_per_pa: compliance.largest_per_pa(plan.drive.duration_s()),
         };
@@ -345,6 +345,7 @@ impl Simulation {
     }
 
     fn outcome(&self, mut courses: Vec<Course>, ended: SimulationEnd) -> SimulationOutcome {
+        self.take_attraction_off(&mut courses);
         let mut cycles = cycles::of(&self.plan, &courses[0].rows);
         let mut errors = Vec::new();
         let mut errors_missing = self.without_errors.clone();
@@ -384,6 +385,19 @@ impl Simulation {
             domain_enlarged: growths.saturating_sub(self.halvings),
             iterations,
             ended,
+        }
+    }
+
+    /// Takes the attraction, which the contact carries too, off all loads.
+    fn take_attraction_off(&self, courses: &mut [Course]) {
+        let pull_off_n = self.plan.drive.pull_off_n();
+        if pull_off_n == 0.0 {
+            return;
+        }
+        for Course { rows, surfaces, .. } in courses {
+            let of_surfaces = surfaces.iter_mut().flatten().flatten();
+            let rows = rows.iter_mut().chain(of_surfaces.map(|s| &mut s.row));
+            rows.for_each(|row| row.load_n -= pull_off_n);
         }
     }
 
@@ -707,6 +721,7 @@ mod tests {
             title: "underrated".to_owned(),
             material: library::find("pmma").unwrap().material().unwrap().into(),
             layer: None,
+            adhesion: None,
             indenter: Arc::new(Underrated(Sphere::new(0.01).unwrap())),
             drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
             step_s: Some(0.5),
@@ -764,6 +779,7 @@ mod tests {
             title: "cap".to_owned(),
             material: library::find("pmma").unwrap().material().unwrap().into(),
             layer: None,
+            adhesion: None,
             indenter: Arc::new(Cap(Sphere::new(0.01).unwrap())),
             drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
             step_s: Some(1.0),

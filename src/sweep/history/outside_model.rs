@@ -7,7 +7,7 @@ use crate::sweep::engine::slope::{Patch, ROUNDING, of_slope, slope_of_body};
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::scenario::ScenarioPlan;
-use crate::sweep::record::warning::Warning;
+use crate::sweep::record::warning::{LARGEST_TABOR_PARAMETER, Warning};
 
 /// What is to be said of a history, as far as it came.
 pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning> {
@@ -31,7 +31,17 @@ pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning
         plan.layer,
         approach_m.fold(0.0, f64::max),
     ));
+    warnings.extend(tabor_parameter(plan));
     warnings
+}
+
+/// Tabor's parameter of an indenter that is attracted, of the body as soft as it becomes.
+fn tabor_parameter(plan: &ScenarioPlan) -> Option<Warning> {
+    let compliance = plan.material.compliance().ok()?;
+    let softest_pa = compliance.largest_per_pa(plan.drive.duration_s()).recip();
+    let pull_off_n = plan.drive.pull_off_n();
+    let parameter = plan.adhesion?.tabor_parameter(pull_off_n, softest_pa);
+    (parameter > LARGEST_TABOR_PARAMETER).then_some(Warning::TaborParameter { parameter })
 }
 
 /// The times of a drive against those in which the material was measured.

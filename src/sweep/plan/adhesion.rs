@@ -49,7 +49,7 @@ impl AdhesionPlan {
     }
 
     /// The `[adhesion]` block, with an empty line before it.
-    pub(in crate::sweep) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         format!(
             "\n[adhesion]\nwork = \"{}\"\nequilibrium_distance = \"{}\"\n",
             format_si(self.work_j_per_m2, Dimension::EnergyPerArea),

@@ -227,13 +227,7 @@ impl Varied {
         let or = |key, own| if is(key) { value } else { own };
         let (mean, amplitude) = (or("mean", drive.mean()), or("amplitude", drive.amplitude()));
         let (phase_rad, hold_s) = (or("phase", drive.phase_rad()), or("hold", drive.hold_s()));
-        match drive.pull_off_n() {
-            0.0 => HarmonicDrive::new(drive.control(), mean, amplitude, phase_rad, hold_s),
-            pull_off_n => {
-                HarmonicDrive::unattracted(drive.control(), mean, amplitude, phase_rad, hold_s)?
-                    .attracted_by(pull_off_n)
-            }
-        }
+        drive.with(mean, amplitude, phase_rad, hold_s)
     }
 }
 

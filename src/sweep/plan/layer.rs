@@ -26,7 +26,7 @@ impl LayerPlan {
     }
 
     /// The `[layer]` block, with an empty line before it.
-    pub(in crate::sweep) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         format!(
             "\n[layer]\nthickness = \"{}\"\nbase = \"{}\"\n",
             format_si(self.thickness_m, Dimension::Length),

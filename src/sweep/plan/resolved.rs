@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::{Indenter, Parameter, Value};
-use crate::material::{Compressibility, Material, MaterialFunction, Relaxation, RelaxationBranch};
+use crate::material::{Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::plan::{Axes, CyclePlan, SolverPlan, SweepPlan, Varied};
@@ -275,16 +275,23 @@ fn head_lines(material: &Material, line: &mut dyn FnMut(&str)) {
     if let Some(name) = material.name() {
         line(&format!("name = {}", toml_string(name)));
     }
-    line(&match material.compressibility() {
-        Compressibility::PoissonRatio(nu) => format!("poisson_ratio = {nu:?}"),
-        Compressibility::BulkModulusPa(bulk_pa) => {
-            format!(
-                "bulk_modulus = \"{}\"",
-                format_si(bulk_pa, Dimension::Stress)
-            )
-        }
-    });
+    if let Some(nu) = material.poisson_ratio() {
+        line(&format!("poisson_ratio = {nu:?}"));
+    }
+    if let Some(bulk_pa) = material.compressibility().constant_bulk_modulus_pa() {
+        let bulk = format_si(bulk_pa, Dimension::Stress);
+        line(&format!("bulk_modulus = \"{bulk}\""));
+    }
     temperature_line(material, line);
+}
+
+/// The bulk modulus, where it relaxes.
+fn bulk_lines(material: &Material, line: &mut dyn FnMut(&str)) {
+    let bulk = material.compressibility().bulk_modulus();
+    if let Some(bulk) = bulk.filter(|bulk| !bulk.branches().is_empty()) {
+        line("\n[material.bulk_modulus]");
+        relaxation_lines(bulk, line);
+    }
 }
 
 fn temperature_line(material: &Material, line: &mut dyn FnMut(&str)) {
@@ -320,6 +327,7 @@ fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
     }
     series_lines(material, line);
     replica_lines(material, line);
+    bulk_lines(material, line);
     for alternative in material.alternatives() {
         line("\n[[material.alternative]]");
         series_lines(alternative, line);
@@ -365,29 +373,41 @@ fn given_relaxation(material: &Material) -> Option<&Relaxation> {
 
 /// The numbers of the function that was given.
 fn series_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    let mut quantity = |key: &str, value, dimension| {
-        line(&format!("{key} = \"{}\"", format_si(value, dimension)));
-    };
-    let (key, dimension, branches): (_, _, Vec<_>) = match given_relaxation(material) {
-        Some(relaxation) => {
-            let equilibrium_pa = relaxation.equilibrium_modulus();
-            quantity("equilibrium", equilibrium_pa, Dimension::Stress);
-            let branches = relaxation.branches().iter();
-            let branches = branches.map(|b| (b.modulus_pa, b.time_s)).collect();
-            ("modulus", Dimension::Stress, branches)
-        }
-        None => {
-            let creep = material.creep();
-            let instantaneous_per_pa = creep.instantaneous_compliance();
-            quantity("instantaneous", instantaneous_per_pa, Dimension::Compliance);
-            if let Some(viscosity) = creep.viscosity_pa_s() {
-                quantity("viscosity", viscosity, Dimension::Viscosity);
-            }
-            let branches = creep.branches().iter();
-            let branches = branches.map(|b| (b.compliance_per_pa, b.time_s)).collect();
-            ("compliance", Dimension::Compliance, branches)
-        }
-    };
+    if let Some(relaxation) = given_relaxation(material) {
+        return relaxation_lines(relaxation, line);
+    }
+    let creep = material.creep();
+    let instantaneous_per_pa = creep.instantaneous_compliance();
+    quantity_line(
+        "instantaneous",
+        (instantaneous_per_pa, Dimension::Compliance),
+        line,
+    );
+    if let Some(viscosity) = creep.viscosity_pa_s() {
+        quantity_line("viscosity", (viscosity, Dimension::Viscosity), line);
+    }
+    let branches = creep.branches().iter();
+    let branches = branches.map(|b| (b.compliance_per_pa, b.time_s));
+    branch_lines(("compliance", Dimension::Compliance), branches, line);
+}
+
+fn relaxation_lines(relaxation: &Relaxation, line: &mut dyn FnMut(&str)) {
+    let equilibrium_pa = relaxation.equilibrium_modulus();
+    quantity_line("equilibrium", (equilibrium_pa, Dimension::Stress), line);
+    let branches = relaxation.branches().iter();
+    let branches = branches.map(|b| (b.modulus_pa, b.time_s));
+    branch_lines(("modulus", Dimension::Stress), branches, line);
+}
+
+fn quantity_line(key: &str, (value, dimension): (f64, Dimension), line: &mut dyn FnMut(&str)) {
+    line(&format!("{key} = \"{}\"", format_si(value, dimension)));
+}
+
+fn branch_lines(
+    (key, dimension): (&str, Dimension),
+    branches: impl Iterator<Item = (f64, f64)>,
+    line: &mut dyn FnMut(&str),
+) {
     line("branches = [");
     for (strength, time_s) in branches {
         let strength = format_si(strength, dimension);

@@ -7,6 +7,7 @@ use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::resolved;
@@ -19,6 +20,8 @@ pub struct ScenarioPlan {
     pub material: BodyMaterial,
     /// The layer that the body is, where it is no half-space.
     pub layer: Option<LayerPlan>,
+    /// Attraction outside the contact, where there is any; the drive then knows the pull-off load.
+    pub adhesion: Option<AdhesionPlan>,
     pub indenter: Arc<dyn Indenter>,
     pub drive: SegmentedDrive,
     /// Time step (s); `None`: chosen from drive and material.
@@ -40,6 +43,7 @@ impl ScenarioPlan {
             title: String::new(),
             material: material.into(),
             layer: None,
+            adhesion: None,
             solver: SolverPlan::of_indenter(indenter.as_ref()),
             indenter,
             drive,
@@ -93,6 +97,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         plan.material.counterbody(),
     );
     text.push_str(&history_text(&plan.drive));
+    text.extend(plan.adhesion.map(|adhesion| adhesion.text()));
     if let Some(step_s) = plan.step_s {
         let _ = writeln!(text, "\n[time]\nstep = {}", quoted(step_s, Dimension::Time));
     }

@@ -72,7 +72,7 @@ impl ElasticScale {
             material,
             plan.indenter.as_ref(),
             drive.control(),
-            drive.maximum(),
+            drive.maximum() + drive.pull_off_n(),
         )
     }
 
