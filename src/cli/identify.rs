@@ -48,6 +48,9 @@ pub(super) struct IdentifyFlags {
     /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
+    /// Write tables alone: no figures and no page
+    #[arg(long)]
+    pub(super) no_figures: bool,
     /// Print nothing but errors
     #[arg(long, short)]
     pub(super) quiet: bool,
@@ -84,6 +87,12 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
     };
     let folder = flags.out.as_deref().unwrap_or(&default);
     write(folder, &report, &block)?;
+    if !flags.no_figures {
+        let figures = figure::identify::figures(&report);
+        write_figures(folder, &figures, &Setting::default(), |pictures, _| {
+            page::identify::page(&report, &figures, &block, pictures)
+        })?;
+    }
     match format {
         OutputFormat::Json => {
             let mut value = summary::summary(&report);
@@ -126,7 +135,7 @@ fn block(report: &IdentifyReport<'_>, found: &Identified) -> Result<String, Fail
     Ok(format!("{comments}{}", resolved::material_text(&material)))
 }
 
-/// Every file of the folder.
+/// Every file of the folder but figures and page.
 fn write(folder: &Path, report: &IdentifyReport<'_>, block: &str) -> Result<(), Failure> {
     let put = |name: &str, bytes: &[u8]| {
         write_atomically(&folder.join(name), bytes).map_err(Failure::run)
@@ -137,9 +146,5 @@ fn write(folder: &Path, report: &IdentifyReport<'_>, block: &str) -> Result<(), 
     put("fit.csv", &tables::fit(report))?;
     put("moduli.csv", &tables::moduli(report))?;
     let summary = serde_json::to_string_pretty(&summary::summary(report)).map_err(Failure::run)?;
-    put("summary.json", format!("{summary}\n").as_bytes())?;
-    let figures = figure::identify::figures(report);
-    write_figures(folder, &figures, &Setting::default(), |pictures, _| {
-        page::identify::page(report, &figures, block, pictures)
-    })
+    put("summary.json", format!("{summary}\n").as_bytes())
 }

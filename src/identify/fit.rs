@@ -19,6 +19,12 @@ use crate::measured::statistics::{NORMAL, student};
 /// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
 const STEP: f64 = 0.02;
 
+/// Which part of a change of the factors is made, at first and where that did not lead to a solid.
+const PARTS: [f64; 3] = [1.0, 0.5, 0.25];
+
+/// Which part of the noise of a number the error of the resolution may be.
+const SEEN: f64 = 0.1;
+
 /// How often the factors between the exact and the linearised model are taken, and the change that is none.
 const ROUNDS: usize = 8;
 const SETTLED: f64 = 1e-3;
@@ -133,23 +139,86 @@ pub struct Identified {
 /// [`IdentifyError`]: too few numbers, cycles that are not found, numbers that no solid has together.
 pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identified, IdentifyError> {
     let most = most_branches(plan)?;
-    let model = Model::new(plan, interrupt);
+    let mut model = Model::new(plan, interrupt);
     let mut linearised = Linearised::new(plan)?;
-    let (candidates, chosen) = on_linearised(plan, &model, &mut linearised, most)?;
+    let mut first = None;
+    // Far from the solution the factors may overshoot: what was not found is sought again with smaller changes of them.
+    for (attempt, part) in PARTS.into_iter().enumerate() {
+        if attempt > 0 {
+            linearised.start_over(&model)?;
+        }
+        let mut found = tried(&model, &mut linearised, (most, part));
+        if let (true, Ok(near)) = (attempt > 0, &found) {
+            // What was found by another way round may be near the solution only: once more with the factors there.
+            let exact = model.numbers_where_found(&near.relaxation)?;
+            linearised.take_factors(&near.point, &exact, 1.0);
+            let again = tried(&model, &mut linearised, (most, part));
+            let is_better = |again: &Identified| again.misfit() <= near.misfit();
+            if again.as_ref().is_ok_and(is_better) {
+                found = again;
+            }
+        }
+        match found {
+            Err(
+                error @ (IdentifyError::Contradiction { .. }
+                | IdentifyError::NoFit(_)
+                | IdentifyError::NoCycle { .. }
+                | IdentifyError::NoHistory(_)),
+            ) => first = first.or(Some(error)),
+            Err(error) => return Err(error),
+            Ok(found) => return resolved(&mut model, &linearised, found),
+        }
+    }
+    Err(first.unwrap_or(IdentifyError::NoFit("nothing was tried")))
+}
+
+/// A search on the linearised contact, and what comes of it on the exact model.
+fn tried(
+    model: &Model<'_>,
+    linearised: &mut Linearised<'_>,
+    (most, part): (usize, f64),
+) -> Result<Identified, IdentifyError> {
+    let plan = linearised.plan;
+    let (candidates, chosen) = on_linearised(plan, model, linearised, (most, part))?;
     let start = candidates[chosen].ln_moduli.clone();
-    let exact = Exact {
-        model: &model,
-        linearised: &linearised,
-    };
-    let found = minimise(&exact, &start.0, EXACTLY);
+    let from = start.clone();
+    let found = on_exact(model, linearised, (candidates, start), &from)?;
+    refuse_contradiction(&plan.measurements, &found)?;
+    Ok(found)
+}
+
+/// The same without the error of the model's own resolution, where that is seen beside the noise.
+fn resolved(
+    model: &mut Model<'_>,
+    linearised: &Linearised<'_>,
+    found: Identified,
+) -> Result<Identified, IdentifyError> {
+    let noise = linearised.noise.relative.iter().copied();
+    let noise = noise.fold(f64::INFINITY, f64::min);
+    match model.learn_corrections(&found.relaxation) {
+        Ok(size) if size > SEEN * noise => {}
+        Err(IdentifyError::Interrupted) => return Err(IdentifyError::Interrupted),
+        _ => return Ok(found),
+    }
+    let of_candidates = (found.candidates.clone(), found.linearised.clone());
+    on_exact(model, linearised, of_candidates, &found.point)
+}
+
+/// Refines a candidate, which was found on the linearised contact at `start`, on the exact model.
+fn on_exact(
+    model: &Model<'_>,
+    linearised: &Linearised<'_>,
+    (candidates, start): (Vec<Candidate>, Point),
+    from: &Point,
+) -> Result<Identified, IdentifyError> {
+    let exact = Exact { model, linearised };
+    let found = minimise(&exact, &from.0, EXACTLY);
     let found = found.ok_or(IdentifyError::NoFit("the exact model failed at the start"))?;
     let derivatives = exact.derivatives(&found.unknowns);
     let derivatives = derivatives.ok_or(IdentifyError::NoFit(
         "the exact model has no derivatives there",
     ))?;
-    let identified = judged(&linearised, (candidates, start), found, &derivatives)?;
-    refuse_contradiction(&plan.measurements, &identified)?;
-    Ok(identified)
+    judged(linearised, (candidates, start), found, &derivatives)
 }
 
 /// How many branches the number of data allows.
@@ -176,7 +245,7 @@ fn on_linearised(
     plan: &IdentifyPlan,
     model: &Model<'_>,
     linearised: &mut Linearised<'_>,
-    most: usize,
+    (most, part): (usize, f64),
 ) -> Result<(Vec<Candidate>, usize), IdentifyError> {
     let mut known: Vec<Solution> = Vec::new();
     let mut last = None;
@@ -191,9 +260,9 @@ fn on_linearised(
             .get(chosen)
             .ok_or(IdentifyError::NoFit("no start could be tried"))?
             .ln_moduli;
-        let exact = model.numbers(&point.relaxation()?);
+        let exact = model.numbers_where_found(&point.relaxation()?);
         let exact = exact.map_err(|error| explained(linearised, point, error))?;
-        let change = linearised.take_factors(point, &exact);
+        let change = linearised.take_factors(point, &exact, part);
         let is_settled = change < SETTLED && last == Some(chosen);
         last = Some(chosen);
         let point = point.clone();
@@ -463,6 +532,13 @@ fn contradiction(
 }
 
 impl Identified {
+    /// The root mean square of relative differences between measured and computed numbers, times what more unknowns gain by chance.
+    fn misfit(&self) -> f64 {
+        let off = self.compared.iter().map(|c| (c.computed / c.measured).ln());
+        let squares: f64 = off.map(|off| off * off).sum();
+        (squares / self.degrees_of_freedom.max(1) as f64).sqrt()
+    }
+
     /// The moduli at a frequency, with bands. Beyond the data they are an extrapolation.
     pub fn band(&self, angular_frequency_rad_per_s: f64) -> ModulusBand {
         let own = moduli(&self.point, angular_frequency_rad_per_s);

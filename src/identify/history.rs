@@ -254,6 +254,14 @@ pub(super) fn numbers(
 }
 
 impl Driven {
+    /// What is prescribed.
+    pub fn control(&self) -> Control {
+        match self {
+            Self::Cycles(drive) => drive.control(),
+            Self::History(drive) => drive.control(),
+        }
+    }
+
     /// The drive of a history.
     pub fn history(&self) -> Option<&SegmentedDrive> {
         match self {

@@ -17,6 +17,10 @@
 //! 2. The exact model ([`model`]) is solved for the best series. Its ratio to the linearised one is a factor for each number,
 //!    which changes little with the material: with the factors the search is repeated until they stand still.
 //! 3. The series is refined on the exact model itself, with its own derivatives.
+//! 4. Where that ends far from the data, which contacts that open in every cycle may do, the search starts again with the factors of the
+//!    series of one branch that fits best by the exact model, and with smaller changes of them.
+//! 5. On springs the numbers are corrected by what twice the steps and springs change at the solution, and the series is refined
+//!    once more, where that is seen beside the noise.
 //!
 //! # How many branches
 //!

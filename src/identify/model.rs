@@ -9,17 +9,50 @@ use crate::identify::data::Number;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan, history};
 use crate::material::Relaxation;
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{Case, Condition, CyclePlan, SweepPlan};
+use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
 
 /// Numbers of the cycles of a plan's measurements, for any series.
 pub(super) struct Model<'a> {
     plan: &'a IdentifyPlan,
     interrupt: &'a AtomicBool,
+    /// What every number is multiplied by for the error of its resolution; none before that is known.
+    corrections: Vec<f64>,
 }
 
 impl<'a> Model<'a> {
     pub(super) fn new(plan: &'a IdentifyPlan, interrupt: &'a AtomicBool) -> Self {
-        Self { plan, interrupt }
+        Self {
+            plan,
+            interrupt,
+            corrections: Vec::new(),
+        }
+    }
+
+    /// Learns at a series what twice the time steps and springs change, and corrects all numbers by it from then on: the largest
+    /// relative correction. Time rule and springs are of second order where the contact is smooth, so that what is left falls fourfold.
+    /// Nothing is learnt of histories, whose steps are chosen by the solid, nor of cells, which cost too much.
+    pub(super) fn learn_corrections(&mut self, series: &Relaxation) -> Result<f64, IdentifyError> {
+        let is_springs = self.plan.solver.engine == EngineKind::Axisymmetric;
+        if self.plan.drive.history().is_some() || !is_springs {
+            return Ok(0.0);
+        }
+        self.corrections.clear();
+        let mut finer = self.plan.clone();
+        finer.cycle.steps *= 2;
+        finer.solver.springs *= 2;
+        let finer = Model::new(&finer, self.interrupt).numbers_where_found(series)?;
+        let own = self.numbers_where_found(series)?;
+        let ratio = |(fine, own): (&Option<f64>, &Option<f64>)| match (fine, own) {
+            (Some(fine), Some(own)) if fine / own > 0.5 && fine / own < 2.0 => fine / own,
+            _ => 1.0,
+        };
+        self.corrections = finer.iter().zip(&own).map(ratio).collect();
+        let sizes = self.corrections.iter().map(|ratio| (ratio - 1.0).abs());
+        Ok(sizes.fold(0.0, f64::max))
+    }
+
+    fn corrected(&self, place: usize, number: f64) -> f64 {
+        number * self.corrections.get(place).copied().unwrap_or(1.0)
     }
 
     /// The computed number of every datum, in their order.
@@ -54,12 +87,47 @@ impl<'a> Model<'a> {
             .collect()
     }
 
+    /// The computed numbers of a series on the way to the one that is sought: `None` of a cycle that is not found.
+    pub(super) fn numbers_where_found(
+        &self,
+        series: &Relaxation,
+    ) -> Result<Vec<Option<f64>>, IdentifyError> {
+        if let Driven::History(_) = &self.plan.drive {
+            let numbers = self.numbers(series)?.into_iter();
+            return Ok(numbers.map(Some).collect());
+        }
+        let setup = self.setup(series)?;
+        let cycles = self.plan.measurements.cycles().len();
+        let solved: Vec<_> = (0..cycles)
+            .into_par_iter()
+            .map(|cycle| self.cycle(&setup, cycle))
+            .collect();
+        let is_lost = |cycle: &Result<_, _>| matches!(cycle, Err(IdentifyError::NoCycle { .. }));
+        let lost = solved.iter().filter(|cycle| is_lost(cycle)).count();
+        let mut found = Vec::with_capacity(cycles);
+        for cycle in solved {
+            match cycle {
+                // Of a few it is no matter; where most are lost nothing is learnt.
+                Err(IdentifyError::NoCycle { .. }) if 2 * lost <= cycles => found.push(Vec::new()),
+                other => found.push(other?),
+            }
+        }
+        let data = self.plan.measurements.data().iter().enumerate();
+        let numbers = data.map(|(place, datum)| {
+            let own = self.data_of(datum.place).position(|other| other == place);
+            let number = own.and_then(|own| *found[datum.place].get(own)?);
+            number.map(|number| self.corrected(place, number))
+        });
+        Ok(numbers.collect())
+    }
+
     fn in_order(&self, of_cycles: &[Vec<Option<f64>>]) -> Result<Vec<f64>, IdentifyError> {
         let data = self.plan.measurements.data().iter().enumerate();
         data.map(|(place, datum)| {
             let of_cycle = &of_cycles[datum.place];
             let own = self.data_of(datum.place).position(|other| other == place);
             let number = own.and_then(|own| of_cycle.get(own).copied().flatten());
+            let number = number.map(|number| self.corrected(place, number));
             number.ok_or_else(|| IdentifyError::Undefined {
                 place: self.plan.measurements.place_in_words(datum),
                 column: datum.number.column(),

@@ -3,13 +3,16 @@
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
 
+use crate::drive::Control;
 use crate::identify::data::{Datum, Measurements, Number};
 use crate::identify::history::LinearHistory;
 use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
 use crate::identify::linear::LinearCycle;
+use crate::identify::model::Model;
 use crate::identify::noise::{Knowledge, Noise};
 use crate::identify::series::{Limits, Point};
 use crate::identify::{IdentifyError, IdentifyPlan};
+use crate::sweep::record::error_bars::Quantity;
 
 /// Step of an unknown for the derivatives of the linearised contact, which is smooth.
 const STEP: f64 = 1e-5;
@@ -23,6 +26,10 @@ const LEVELS: (i32, f64) = (39, 3.0);
 
 /// How many of the best starts are refined closely.
 const KEPT: usize = 4;
+
+/// Ratios of the branch to the equilibrium modulus, and places of its time within its limits, at which a search begins.
+const RATIOS: [f64; 5] = [0.1, 1.0, 10.0, 100.0, 1000.0];
+const PLACES: usize = 9;
 
 const ROUGHLY: Ending = Ending {
     iterations: 12,
@@ -117,42 +124,119 @@ impl Linearised<'_> {
             .collect()
     }
 
-    /// Takes the factors from the exact numbers of a series.
-    pub(super) fn take_factors(&mut self, point: &Point, exact: &[f64]) -> f64 {
+    /// Takes the factors from the exact numbers of a series, as far as they were found; `part` of the way to them. The largest change.
+    pub(super) fn take_factors(&mut self, point: &Point, exact: &[Option<f64>], part: f64) -> f64 {
         self.about(point.equilibrium_pa());
         let linear = self.ln_numbers(point);
         let mut largest = 0.0_f64;
         for ((factor, linear), exact) in self.ln_factors.iter_mut().zip(linear).zip(exact) {
-            let ln = exact.max(f64::MIN_POSITIVE).ln() - linear;
-            largest = largest.max((ln - *factor).abs());
-            *factor = ln;
+            let Some(exact) = exact else { continue };
+            let change = exact.max(f64::MIN_POSITIVE).ln() - linear - *factor;
+            largest = largest.max(change.abs());
+            *factor += part * change;
         }
         largest
     }
 
     /// Where a search begins when nothing is known: the best of a grid of series of one branch.
     fn first(&mut self) -> Vec<Point> {
-        let (low, high) = self.limits.times;
-        let (count, per_decade) = LEVELS;
-        let mut all = Vec::new();
-        for level in 0..=count {
-            let equilibrium_pa = LOWEST_PA * 10_f64.powf(f64::from(level) / per_decade);
-            self.about(equilibrium_pa);
-            for ratio in [0.1_f64, 1.0, 10.0, 100.0, 1000.0] {
-                for place in 1..10 {
-                    let time = low + (high - low) * f64::from(place) / 10.0;
-                    let unknowns = vec![equilibrium_pa.ln(), (ratio * equilibrium_pa).ln(), time];
-                    if let Some(residuals) = self.residuals(&unknowns) {
-                        all.push((residuals.norm_squared(), Point(unknowns)));
-                    }
-                }
-            }
-        }
+        let mut all: Vec<(f64, Point)> = self.grid().into_iter().flatten().collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         all.into_iter()
             .take(2 * KEPT)
             .map(|(_, point)| point)
             .collect()
+    }
+
+    /// A grid of series of one branch, and how well they fit: for every ratio and time of the branch those of all equilibrium moduli.
+    fn grid(&mut self) -> Vec<Vec<(f64, Point)>> {
+        let (low, high) = self.limits.times;
+        let (count, per_decade) = LEVELS;
+        let mut all = vec![Vec::new(); RATIOS.len() * PLACES];
+        for level in 0..=count {
+            let equilibrium_pa = LOWEST_PA * 10_f64.powf(f64::from(level) / per_decade);
+            self.about(equilibrium_pa);
+            for (k, own) in all.iter_mut().enumerate() {
+                let (ratio, place) = (RATIOS[k / PLACES], (k % PLACES + 1) as f64);
+                let time = low + (high - low) * place / (PLACES + 1) as f64;
+                let unknowns = vec![equilibrium_pa.ln(), (ratio * equilibrium_pa).ln(), time];
+                if let Some(residuals) = self.residuals(&unknowns) {
+                    own.push((residuals.norm_squared(), Point(unknowns)));
+                }
+            }
+        }
+        all
+    }
+
+    /// The factors of the one-branch series of the grid that fits best by the exact model, for contacts that are nothing like
+    /// linear. Under a prescribed approach all loads go with the moduli, which are scaled.
+    ///
+    /// # Errors
+    /// As those of the model, but for cycles that are not found.
+    pub(super) fn start_over(&mut self, model: &Model<'_>) -> Result<(), IdentifyError> {
+        self.ln_factors.fill(0.0);
+        let mut best: Option<(f64, Point, Vec<Option<f64>>)> = None;
+        for own in self.grid() {
+            let Some((_, point)) = own.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)) else {
+                continue;
+            };
+            let exact = match model.numbers_where_found(&point.relaxation()?) {
+                Err(IdentifyError::NoCycle { .. } | IdentifyError::NoHistory(_)) => continue,
+                exact => exact?,
+            };
+            let (point, exact) = self.rescaled(point, exact);
+            let squares = self.mean_square(&exact);
+            if best.as_ref().is_none_or(|(least, ..)| squares < *least) {
+                best = Some((squares, point, exact));
+            }
+        }
+        if let Some((_, point, exact)) = best {
+            self.take_factors(&point, &exact, 1.0);
+        }
+        Ok(())
+    }
+
+    /// Moduli and loads multiplied by what brings them nearest to the measured ones; as they are where the load is prescribed.
+    fn rescaled(&self, mut point: Point, mut exact: Vec<Option<f64>>) -> (Point, Vec<Option<f64>>) {
+        if self.plan.drive.control() == Control::Load {
+            return (point, exact);
+        }
+        let data = self.measured().data();
+        let goes = |datum: &Datum| match datum.number {
+            Number::OfCycle(quantity) => matches!(
+                quantity,
+                Quantity::EnergyLoss
+                    | Quantity::StorageModulus
+                    | Quantity::LossModulus
+                    | Quantity::PeakPressureMin
+                    | Quantity::PeakPressureMax
+            ),
+            Number::Load => true,
+            Number::Approach => false,
+        };
+        let offs = data.iter().zip(&exact).filter(|(datum, _)| goes(datum));
+        let offs = offs.filter_map(|(datum, exact)| Some((datum.value / (*exact)?).ln()));
+        let offs: Vec<f64> = offs.filter(|off| off.is_finite()).collect();
+        if offs.is_empty() {
+            return (point, exact);
+        }
+        let off = offs.iter().sum::<f64>() / offs.len() as f64;
+        point.scale_moduli(off);
+        for (_, exact) in data.iter().zip(&mut exact).filter(|(datum, _)| goes(datum)) {
+            *exact = exact.map(|value| value * off.exp());
+        }
+        (point, exact)
+    }
+
+    /// The mean square of the logarithms of computed over measured numbers, of those that were found.
+    fn mean_square(&self, exact: &[Option<f64>]) -> f64 {
+        let data = self.measured().data().iter().zip(exact);
+        let squares = data.filter_map(|(datum, exact)| {
+            let ratio = (*exact)?.max(1e-6 * datum.value) / datum.value;
+            Some(ratio.ln().powi(2))
+        });
+        let squares: Vec<f64> = squares.collect();
+        squares.iter().sum::<f64>() / squares.len().max(1) as f64
     }
 
     /// The best series of 1 to `most` branches, from `known` ones on where there are any.

@@ -129,6 +129,16 @@ impl Point {
         branches.map(|b| (b[0].exp(), b[1].exp())).collect()
     }
 
+    /// Multiplies all moduli by exp(`by`).
+    pub(super) fn scale_moduli(&mut self, by: f64) {
+        self.0[0] += by;
+        self.0
+            .iter_mut()
+            .skip(1)
+            .step_by(2)
+            .for_each(|ln| *ln += by);
+    }
+
     pub(super) fn relaxation(&self) -> Result<Relaxation, MaterialError> {
         let branches = self.branches_pa_s().into_iter();
         let branches = branches.map(|(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s });

@@ -153,22 +153,39 @@ fn against(truth: &Relaxation, found: &Identified) -> (usize, usize, f64) {
 
 #[test]
 fn random_solids_are_found_within_their_bands_from_losses_and_phases_with_noise() {
-    let solids = from_environment("IDENTIFY", 24);
+    found_within_their_bands(sphere(), from_environment("IDENTIFY", 24));
+}
+
+#[test]
+fn and_so_they_are_under_a_prescribed_approach() {
+    let (indenter, _) = sphere();
+    let drive = HarmonicDrive::approach(2e-5, 1e-5).unwrap();
+    found_within_their_bands((indenter, drive), from_environment("IDENTIFY", 8));
+}
+
+fn found_within_their_bands(of: (Arc<dyn Indenter>, HarmonicDrive), solids: u64) {
     let seed = from_environment("SEED", 2018);
-    let (mut inside, mut all, mut too_many, mut far) = (0, 0, 0, 0);
+    let (mut inside, mut all, mut too_many, mut far, mut failed) = (0, 0, 0, 0_u64, 0);
     for number in 0..solids {
         let mut random = Random(seed.wrapping_mul(1_000_003).wrapping_add(number));
         let truth = solid(&mut random);
         let experiment = Experiment::losses_and_phases(0.01, number % 2 == 0);
-        let plan = experiment.plan(&truth, sphere(), None, &mut random);
+        let plan = experiment.plan(&truth, of.clone(), None, &mut random);
         let start = Instant::now();
-        let found = found(&plan).unwrap();
+        let found = match found(&plan) {
+            Ok(found) => found,
+            Err(error) => {
+                println!("{number}: {error}\n{truth:?}");
+                failed += 1;
+                continue;
+            }
+        };
         let seconds = start.elapsed().as_secs_f64();
         let (within, of, worst) = against(&truth, &found);
         (inside, all) = (inside + within, all + of);
         let branches = [truth.branches().len(), found.relaxation.branches().len()];
         too_many += usize::from(branches[1] > branches[0]);
-        far += usize::from(worst > 0.03);
+        far += u64::from(worst > 0.03);
         println!(
             "{number}: {} of {} branches, {within} of {of} inside, off by {:.2} % at most, chi squared {:.2}, {seconds:.1} s",
             branches[1],
@@ -185,7 +202,9 @@ fn random_solids_are_found_within_their_bands_from_losses_and_phases_with_noise(
         inside as f64 >= 0.9 * f64::from(all as u32),
         "{inside} of {all}"
     );
-    assert_eq!(far, 0);
+    assert_eq!(failed, 0);
+    // One of fifty under a prescribed approach, whose contact opens in most cycles, has a twin that fits as well.
+    assert!(50 * far <= solids, "{far} of {solids}");
     // Where the noise has to be estimated, one solid of fifty gets a branch too many.
     assert!(50 * too_many <= solids as usize, "{too_many} of {solids}");
 }
@@ -197,12 +216,13 @@ fn exact_cycles_give_the_solid_back() {
         let truth = solid(&mut random);
         let experiment = Experiment::losses_and_phases(0.0, false);
         let (indenter, drive) = sphere();
-        // Computed as the model computes them, and far finer: 200 steps and springs in place of 64.
+        // As coarse as the model begins with, which it takes for exact: off by the error of that resolution. And far finer, 200 steps and
+        // springs in place of 64: off by what its correction of second order leaves.
         let own = (
             IdentifyPlan::CYCLE,
             IdentifyPlan::solver(indenter.as_ref(), None),
         );
-        for (resolution, within) in [(Some(own), 1e-4), (None, 3e-3)] {
+        for (resolution, within) in [(Some(own), 1e-3), (None, 2e-4)] {
             let under = (Arc::clone(&indenter), drive);
             let plan = experiment.plan(&truth, under, resolution, &mut random);
             let found = found(&plan).unwrap();
