@@ -109,7 +109,7 @@ class Material:
             name: a name for tables.
 
         Example:
-            >>> Material.elastic("210 GPa", poisson_ratio=0.3).complex_modulus(1.0).real
+            >>> float(Material.elastic("210 GPa", poisson_ratio=0.3).complex_modulus(1.0).real)
             210000000000.0
         """
         table = {"modulus": modulus, "poisson_ratio": poisson_ratio}
@@ -505,8 +505,10 @@ class Material:
 
     def __repr__(self) -> str:
         name = f"{self.name!r}, " if self.name else ""
+        if self.poisson_ratio is not None:
+            return f"Material({name}poisson_ratio={self.poisson_ratio})"
         bulk = self.bulk_modulus
-        return f"Material({name}poisson_ratio={self.poisson_ratio})" if bulk is None else f"Material({name}bulk_modulus={bulk})"
+        return f"Material({name}bulk_modulus={'relaxing' if bulk is None else bulk})"
 
     def __eq__(self, other: object) -> bool:
         return self.text == other.text if isinstance(other, Material) else NotImplemented

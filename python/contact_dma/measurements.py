@@ -20,7 +20,7 @@ from ._result import Status, Table, Warning, arrays, svg
 from ._stored import table
 from .indenters import Indenter
 from .materials import Floats, Material, Prony, Quantity, write_columns
-from .sweeps import _CYCLE_KEYS, _DRIVE_KEYS, _refuse, _solver, _chosen, _Source, _threads
+from .sweeps import _bodies, _CYCLE_KEYS, _DRIVE_KEYS, _refuse, _solver, _chosen, _Source, _threads
 
 Record: TypeAlias = Union[str, "os.PathLike[str]", Mapping[str, npt.ArrayLike]]
 """A record of load and approach: a file, or ``{"time": ..., "load": ..., "approach": ...}`` in s, N and m, shape (n,)."""
@@ -217,17 +217,22 @@ def identify(
     mean: Quantity | None = None,
     amplitude: Quantity | None = None,
     control: Literal["load", "approach"] = "load",
+    segments: Sequence[Mapping[str, Any]] | None = None,
+    indenter_material: Material | str | None = None,
+    layer: Mapping[str, Any] | None = None,
+    adhesion: Quantity | Mapping[str, Any] | None = None,
     branches: int | Literal["auto"] | None = None,
     title: str | None = None,
     threads: int | None = None,
     **options: Any,
 ) -> IdentifiedMaterial:
-    """Finds the solid, a Prony series, whose computed cycles have the measured numbers.
+    """Finds the solid, a Prony series, whose computed cycles, or whose computed history, have the measured numbers.
 
     Args:
         data: measured cycles, with columns of a sweep and their errors where they are known: ``angular_frequency_rad_per_s``,
             ``energy_loss_j``, ``energy_loss_error_j``, ``phase_lag_rad``, ``approach_max_m``...: arrays of shape (n,) by name,
-            a result of `analyse`, a CSV file, or a folder of ``contact-dma analyse``. NaN where nothing was measured.
+            a result of `analyse`, a CSV file, or a folder of ``contact-dma analyse``. NaN where nothing was measured. Of a history
+            ``time_s`` and ``approach_m``, or ``load_n`` under a prescribed approach.
         indenter: that of the measurement.
         file: an identification file in place of all these, with ``overrides``.
         overrides: changes of the file.
@@ -235,6 +240,10 @@ def identify(
         mean: mean load (N) or approach (m) of the measurement.
         amplitude: its amplitude.
         control: what the drive prescribes.
+        segments: of a measured history, as in `simulate`, in place of mean and amplitude.
+        indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
+        layer: where the body is one, as in `sweep`.
+        adhesion: where the indenter is attracted, as in `sweep`.
         branches: how many branches; the data choose where it is left out.
         title: for tables.
         threads: how many.
@@ -262,14 +271,17 @@ def identify(
     if data is None or not isinstance(indenter, Indenter):
         raise ValueError("identify(data, indenter, ...) needs measured cycles and the indenter, or file=...")
     options.update(control=control, mean=mean, amplitude=amplitude)
+    options.update(indenter_material=indenter_material, layer=layer, adhesion=adhesion)
     drive, cycle, solver = _chosen(options, _DRIVE_KEYS), _chosen(options, _CYCLE_KEYS), _solver(options)
+    drive["segments"] = segments
+    bodies = _bodies(indenter, options, False)
     _refuse("identify", options)
     with tempfile.TemporaryDirectory() as folder:
         text = f"title = {_toml.value(title or 'Measured cycles')}\n\n"
         text += _toml.table("identify", {"data": _data(data, Path(folder)), "branches": branches})
         text += (_toml.table("material", {"poisson_ratio": poisson_ratio}) or "[material]\n") + _toml.table("drive", drive)
-        text += _toml.table("cycle", cycle) + solver
-        source = _Source("identify(...)", text, (), None, indenter._core)
+        text += _toml.table("cycle", cycle) + solver + bodies
+        source = _Source("identify(...)", text, (), None, None if "[indenter]" in bodies else indenter._core)
         return IdentifiedMaterial(*_core.identify_material(source, _threads(threads)))
 
 

@@ -258,6 +258,7 @@ def sweep(
     hold: Quantity | None = None,
     indenter_material: Material | str | None = None,
     layer: Mapping[str, Any] | None = None,
+    adhesion: Quantity | Mapping[str, Any] | None = None,
     axes: Mapping[str, Sequence[Quantity]] | None = None,
     pairs: bool | None = None,
     refine: bool | None = None,
@@ -314,6 +315,7 @@ def sweep(
         hold: rest under the mean before it (s); for the march alone.
         indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
         layer: of the material on a rigid base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells.
+        adhesion: work of adhesion (J/m^2) of a small, stiff sphere that is attracted, or ``{"work": ..., "equilibrium_distance": ...}``.
         axes: other axes of the sweep, such as ``{"indenter.radius": ["5 mm", "10 mm"], "drive.amplitude": [1.0, 2.0]}``.
         pairs: whether the values of axes go together one by one, in place of all combinations.
         refine: whether frequencies are added where the curve is not resolved.
@@ -415,9 +417,12 @@ def _source_of_values(material: Material, indenter: Indenter, options: dict[str,
 
 
 def _bodies(indenter: Indenter, options: dict[str, Any], by_text: bool) -> str:
-    """The text of the indenter, where it has to be text, of what it is made of, and of a layer."""
+    """The text of the indenter, where it has to be text, of what it is made of, of a layer, and of adhesion."""
     made_of, layer = options.pop("indenter_material", None), options.pop("layer", None)
     text = _toml.table("layer", layer) if layer is not None else ""
+    adhesion = options.pop("adhesion", None)
+    if adhesion is not None:
+        text += _toml.table("adhesion", adhesion if isinstance(adhesion, Mapping) else {"work": adhesion})
     if made_of is not None and indenter._text is None:
         raise ValueError("an indenter of an array is rigid: write the array to a file and give HeightMap its path")
     if by_text or made_of is not None:

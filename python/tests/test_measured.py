@@ -5,6 +5,7 @@ from __future__ import annotations
 import pickle
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,6 +41,24 @@ def test_a_setup_gives_moduli_and_a_bad_record_says_why() -> None:
     result = cd.analyse([good, flat], frequency="3 rad/s", setup=setup)
     assert result["storage_modulus_pa"][0] > 0 and np.isnan(result["energy_loss_j"][1])
     assert result.status[0].converged and "same in all samples" in str(result.status[1])
+
+
+def test_a_solid_is_found_through_what_else_is_in_the_contact() -> None:
+    solid = cd.Material.relaxation("10 MPa", [("30 MPa", "1 s")], poisson_ratio=0.45)
+    sphere, rubber = cd.Sphere("2 mm"), cd.Material.elastic("20 MPa", poisson_ratio=0.5)
+    drive: dict[str, Any] = {"mean": "0.2 N", "amplitude": "0.1 N"}
+    for bodies in ({"indenter_material": rubber}, {"adhesion": "5 J/m^2"}):
+        cycles = cd.sweep(solid, sphere, angular_frequency=[0.1, 0.3, 1.0, 3.0, 10.0], **drive, **bodies)
+        columns = ["angular_frequency_rad_per_s", "energy_loss_j", "approach_max_m"]
+        found = cd.identify({name: cycles[name] for name in columns}, sphere, poisson_ratio=0.45, branches=1, **drive, **bodies)
+        assert abs(found.prony.equilibrium / 10e6 - 1) < 1e-3, bodies
+    segments = [{"kind": "ramp", "to": "0.2 N", "duration": "0.1 s"}, {"kind": "ramp", "to": "0.2 N", "duration": "20 s"}]
+    crept = cd.simulate(solid, sphere, segments=segments, indenter_material=rubber)
+    later = crept["time_s"] > 0.1
+    columns = ["time_s", "approach_m"]
+    data = {name: crept[name][later][::5] for name in columns}
+    found = cd.identify(data, sphere, poisson_ratio=0.45, branches=1, segments=segments, indenter_material=rubber)
+    assert abs(found.prony.equilibrium / 10e6 - 1) < 1e-3
 
 
 def test_an_identification_file_gives_what_the_program_writes(program: str, tmp_path: Path) -> None:

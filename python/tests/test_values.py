@@ -17,6 +17,7 @@ MATERIALS = [
     cd.Material.creep(1e-9, [(5e-10, 10.0)], poisson_ratio=0.3, compliance="shear"),
     cd.Material.zener("1 MPa", "2 MPa", "1 s", poisson_ratio=0.5),
     cd.Material.relaxation("2 MPa", [("8 MPa", "1 s")], bulk_modulus="30 MPa", modulus="shear"),
+    cd.Material.relaxation("2 MPa", [("8 MPa", "1 s")], bulk_modulus=(30e6, [("10 MPa", "3 s")]), modulus="shear"),
 ]
 INDENTERS = [
     cd.Sphere("10 mm"),

@@ -17,7 +17,8 @@ use crate::report::words::listed;
 const LOOPS: usize = 5;
 /// Beyond this ratio an axis is logarithmic.
 const WIDE: f64 = 8.0;
-/// What stands in the legend for what was computed.
+/// What stands in the legend for what was measured, and for what was computed.
+const MEASURED: &str = "measured";
 const COMPUTED: &str = "computed";
 /// A computed frequency belongs to a measured one within this part of it.
 const SAME: f64 = 0.01;
@@ -173,10 +174,11 @@ impl Over<'_> {
             let line =
                 line.map(|(omega, value)| shown(*value).then_some((hz(*omega), factor * value)));
             let line = Series::line(line.collect::<Vec<_>>()).color(self.color);
-            all.push(
-                line.label(format!("{}, {COMPUTED}", self.label))
-                    .style(LineStyle::Dashed),
-            );
+            let label = match self.label {
+                MEASURED => COMPUTED.to_owned(),
+                label => format!("{label}, {COMPUTED}"),
+            };
+            all.push(line.label(label).style(LineStyle::Dashed));
         }
         all
     }
@@ -223,7 +225,7 @@ fn energy_loss(rows: &[&MeasuredRow], computed: &[Computed]) -> Option<Figure> {
     }
     let (factor, unit) = units().energy(largest(measured.iter().map(|(_, m)| m.value.abs())));
     let over = [Over {
-        label: "measured",
+        label: MEASURED,
         marker: Marker::Disc,
         color: 0,
         measured,

@@ -29,12 +29,12 @@ pub fn page(
             h2 id="answer" { "The material" }
             (list(&report.lines()))
             h3 { "Moduli and times" }
-            (unknowns(report))
+            section class="scroll" tabindex="0" aria-label="Moduli and times, may be scrolled" { (unknowns(report)) }
             @for figure in figures { (shown(figure, pictures)) }
             h3 { "Number of branches" }
-            (candidates(report))
+            section class="scroll" tabindex="0" aria-label="Numbers of branches, may be scrolled" { (candidates(report)) }
             h3 { "Correlations" }
-            (correlations(report))
+            section class="scroll" tabindex="0" aria-label="Correlations, may be scrolled" { (correlations(report)) }
         }
     };
     let title = &report.plan.title;

@@ -38,7 +38,7 @@ pub fn page(
             h3 { "Loss, phase and moduli" }
             p { "After ± stands half the interval of 95 %; E′ and E″ are without the bias of the small-amplitude formula where the setup \
                  gives the shape." }
-            (table(rows))
+            section class="scroll" tabindex="0" aria-label="Records, may be scrolled" { (table(rows)) }
         }
     };
     let setup = analysis.setup.as_deref();
