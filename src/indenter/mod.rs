@@ -242,6 +242,21 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
         false
     }
 
+    /// Area (m^2) of one period of a shape that repeats itself.
+    fn period_area_m2(&self) -> Option<f64> {
+        match self.domain(1.0, 1.0) {
+            Domain::Cells {
+                cells_x,
+                cells_y,
+                spacing_x_m,
+                spacing_y_m,
+            } if self.is_periodic() => {
+                Some((cells_x as f64 * spacing_x_m) * (cells_y as f64 * spacing_y_m))
+            }
+            _ => None,
+        }
+    }
+
     /// Points along x and y at which the shape is known, where it is a map: the half-space engine has a cell on each of them.
     fn own_cells(&self) -> Option<(usize, usize)> {
         None

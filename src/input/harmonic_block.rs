@@ -3,44 +3,74 @@
 use super::diagnostic::Problems;
 use super::document::reader::TableReader;
 use super::keys::DRIVE;
-use super::keys::drive::{AMPLITUDE, CONTROL, HOLD, MEAN, PHASE};
+use super::keys::drive::{AMPLITUDE, HOLD, MEAN, PHASE, PRESCRIBES, Prescribed};
 use crate::drive::{Control, DriveError, HarmonicDrive};
-use crate::sweep::plan::resolved::drive_dimension;
 
-/// What the block controls, where it says so; what is wrong with it is told when it is read.
-pub(super) fn control(root: &mut TableReader<'_>) -> Control {
+/// What the block prescribes, where it says so; what is wrong with it is told when it is read.
+pub(super) fn prescribed(root: &mut TableReader<'_>) -> Prescribed {
     let unheard = Problems::new();
     let table = root.parsed(&DRIVE);
-    let control = table.and_then(|table| {
+    let prescribed = table.and_then(|table| {
         let place = root.as_ref().clone();
-        TableReader::new(table, place, String::new(), &unheard).value(&CONTROL)
+        TableReader::new(table, place, String::new(), &unheard).value(&PRESCRIBES)
     });
-    control.unwrap_or(Control::Load)
+    prescribed.unwrap_or(Prescribed::Load)
+}
+
+/// What a block is read for.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Pressed {
+    /// The area (m^2) over which a mean pressure is a load; `None` of what has no period.
+    pub(super) area_m2: Option<f64>,
+    /// Whether the indenter is attracted, so that the drive may pull it.
+    pub(super) is_attracted: bool,
 }
 
 /// Reads the block; `None` where a problem was reported.
 pub(crate) fn read(table: TableReader<'_>, problems: &Problems) -> Option<HarmonicDrive> {
-    read_with(table, problems, HarmonicDrive::new)
+    read_pressed(table, Pressed::default(), problems)
 }
 
-/// The same of an indenter that is attracted, which a drive may pull.
-pub(super) fn read_attracted(table: TableReader<'_>, problems: &Problems) -> Option<HarmonicDrive> {
-    read_with(table, problems, HarmonicDrive::unattracted)
-}
-
-fn read_with(
+/// The same of such an indenter.
+pub(super) fn read_pressed(
     mut table: TableReader<'_>,
+    pressed: Pressed,
     problems: &Problems,
-    make: fn(Control, f64, f64, f64, f64) -> Result<HarmonicDrive, DriveError>,
 ) -> Option<HarmonicDrive> {
-    let control = table.value(&CONTROL)?;
-    let dimension = drive_dimension(control);
+    let place = table.key_location(&PRESCRIBES);
+    let prescribed = table.value(&PRESCRIBES)?;
+    let (control, dimension) = (prescribed.control(), prescribed.dimension());
+    let make = match pressed.is_attracted {
+        true => HarmonicDrive::unattracted,
+        false => HarmonicDrive::new,
+    };
+    let factor = match (prescribed, pressed.area_m2) {
+        (Prescribed::Pressure, Some(area_m2)) => area_m2,
+        (Prescribed::Pressure, None) => {
+            let place = place.unwrap_or_else(|| table.as_ref().clone());
+            problems
+                .at(
+                    &place,
+                    "a mean pressure is that of a surface which repeats itself",
+                )
+                .because("the indenter has no area to share a load")
+                .help("write `edge = \"periodic\"` in [indenter], or give loads");
+            return None;
+        }
+        _ => 1.0,
+    };
     let mean = table.read(&MEAN.of(dimension));
     let amplitude = table.read(&AMPLITUDE.of(dimension));
     let (phase_rad, hold_s) = (table.value(&PHASE), table.value(&HOLD));
     table.finish();
     let (mean, amplitude, phase_rad, hold_s) = (mean?, amplitude?, phase_rad?, hold_s?);
-    match make(control, mean.value, amplitude.value, phase_rad, hold_s) {
+    match make(
+        control,
+        factor * mean.value,
+        factor * amplitude.value,
+        phase_rad,
+        hold_s,
+    ) {
         Ok(drive) => Some(drive),
         Err(DriveError::NoTouch { .. }) => {
             problems

@@ -8,6 +8,7 @@ use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use super::document::reader::TableReader;
 use super::document::{Document, Located};
 use super::given::Given;
+use super::harmonic_block::Pressed;
 use super::keys;
 use super::keys::drive::SEGMENTS;
 use super::keys::identify::{
@@ -96,7 +97,11 @@ fn driven(
     }
     let drive = match bodies.and_then(Bodies::attraction) {
         Some(attraction) => {
-            let own = harmonic_block::read_attracted(table, problems)?;
+            let pressed = Pressed {
+                is_attracted: true,
+                ..Pressed::default()
+            };
+            let own = harmonic_block::read_pressed(table, pressed, problems)?;
             attraction.drive(indenter?, &own)
         }
         None => harmonic_block::read(table, problems),

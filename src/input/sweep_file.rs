@@ -13,10 +13,11 @@ use super::document::row::{Required, Row};
 use super::document::{self, Document, Located};
 use super::figures_block::{self, Figures};
 use super::given::Given;
+use super::harmonic_block::Pressed;
 use super::keys;
 use super::keys::drive::{
     ANGULAR_FREQUENCY, DRIVE_AXIS, FREQUENCY, INDENTER_AXIS, LAYER_AXIS, MATERIAL_AXIS, PAIRS,
-    REFINE,
+    Prescribed, REFINE,
 };
 use super::keys::settings::{
     AT_CYCLE, CYCLE_ACCURACY, CYCLE_ERROR_BARS, CYCLE_STEPS, CYCLE_TOLERANCE, ENGINE, MAX_CYCLES,
@@ -32,9 +33,8 @@ use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::axes::MOST as MOST_AXES;
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::resolved::drive_dimension;
 use crate::sweep::plan::{
-    self, AxisValues, Block, Condition, CyclePlan, Method, SolverPlan, SweepPlan,
+    self, AxisValues, Block, Condition, CyclePlan, Method, SolverPlan, SweepPlan, Varied,
 };
 use crate::sweep::scales::elastic::ElasticScale;
 
@@ -56,10 +56,10 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let title = root.value(&keys::TITLE);
-    let controlled = drive_dimension(harmonic_block::control(&mut root));
+    let prescribed = harmonic_block::prescribed(&mut root);
     let sweep = root
         .table(&keys::SWEEP)
-        .and_then(|t| axes(t, controlled, &problems));
+        .and_then(|t| axes(t, prescribed.dimension(), &problems));
     let swept = sweep.as_ref().map_or(&[][..], |sweep| &sweep.swept);
     let pairs = sweep.as_ref().is_some_and(|sweep| sweep.pairs);
     let file = File {
@@ -67,6 +67,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         swept,
         pairs,
         conditions: conditions(swept, pairs),
+        prescribed,
         given,
         problems: &problems,
     };
@@ -84,15 +85,15 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
     let indenter = file.indenter(&mut root);
     let adhesion_at = root.key_location(&keys::ADHESION);
     let adhesion = root.table_or(&keys::ADHESION, None, |t| adhesion_block::read(t).map(Some));
-    let drive = file.block(
-        &mut root,
-        &keys::DRIVE,
-        Block::Drive,
-        |t| match adhesion_at {
-            Some(_) => harmonic_block::read_attracted(t, &problems),
-            None => harmonic_block::read(t, &problems),
-        },
-    );
+    let pressed = Pressed {
+        area_m2: indenter
+            .as_ref()
+            .and_then(|indenter| file.period_area_m2(indenter)),
+        is_attracted: adhesion_at.is_some(),
+    };
+    let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
+        harmonic_block::read_pressed(t, pressed, &problems)
+    });
     let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| cycle(t, &problems));
     let own_layer = layer.as_ref().and_then(|(own, _)| *own);
     let default = default_solver(indenter.as_ref().map(|(own, _)| own.as_ref()), own_layer);
@@ -166,6 +167,7 @@ struct File<'a> {
     pairs: bool,
     /// The values of all axes under each condition.
     conditions: Vec<Vec<f64>>,
+    prescribed: Prescribed,
     given: &'a Given,
     problems: &'a Problems,
 }
@@ -313,7 +315,14 @@ impl File<'_> {
         }
     }
 
-    /// The axes besides the frequency, where there are any.
+    /// The area (m^2) of one period of a surface that repeats itself, if it has the same under all conditions.
+    fn period_area_m2(&self, indenter: &Over<Arc<dyn Indenter>>) -> Option<f64> {
+        let own = indenter.0.period_area_m2()?;
+        let is_same = |other: &Arc<dyn Indenter>| other.period_area_m2() == Some(own);
+        indenter.1.iter().all(is_same).then_some(own)
+    }
+
+    /// The axes besides the frequency, where there are any. Pressures are told as the loads that they are.
     fn axes(
         &self,
         (material, layer, indenter, drive): Blocks<'_>,
@@ -322,10 +331,19 @@ impl File<'_> {
         if self.swept.is_empty() {
             return None;
         }
+        let is_pressure = |varied: &Varied| {
+            self.prescribed == Prescribed::Pressure && (varied.is_mean() || varied.is_amplitude())
+        };
+        let area_m2 = indenter.0.period_area_m2().unwrap_or(1.0);
+        let as_load = |(value, swept): (&f64, &Swept)| match is_pressure(&swept.varied) {
+            true => area_m2 * value,
+            false => *value,
+        };
         let conditions = self.conditions.iter().enumerate();
         let conditions = conditions.map(|(k, values)| {
+            let values: Vec<f64> = values.iter().zip(self.swept).map(as_load).collect();
             Some(Condition {
-                values: AxisValues::new(values)?,
+                values: AxisValues::new(&values)?,
                 material: Arc::clone(material.1.get(k).unwrap_or(&material.0)),
                 layer: *layer.1.get(k).unwrap_or(&layer.0),
                 indenter: Arc::clone(indenter.1.get(k).unwrap_or(&indenter.0)),
@@ -336,7 +354,13 @@ impl File<'_> {
             over: self
                 .swept
                 .iter()
-                .map(|swept| swept.varied.clone())
+                .map(|swept| match is_pressure(&swept.varied) {
+                    true => Varied {
+                        dimension: Some(Dimension::Force),
+                        ..swept.varied.clone()
+                    },
+                    false => swept.varied.clone(),
+                })
                 .collect(),
             pairs: self.pairs,
             material_block,

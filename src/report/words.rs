@@ -50,7 +50,18 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
         true => ", held at zero where that is a pull",
         false => "",
     };
-    format!("{} {mean} ± {amplitude}{held}", drive.control().name())
+    let pressure = plan
+        .indenter
+        .period_area_m2()
+        .filter(|_| plan.axes.is_none());
+    let pressure = pressure.map(|area_m2| {
+        let [mean, amplitude] = [drive.mean(), drive.amplitude()]
+            .map(|load_n| plain(load_n / area_m2, Dimension::Stress, 4));
+        format!(", a mean pressure of {mean} ± {amplitude}")
+    });
+    let pressure = pressure.unwrap_or_default();
+    let name = drive.control().name();
+    format!("{name} {mean} ± {amplitude}{held}{pressure}")
 }
 
 /// The attraction of the indenter, where there is any: `a work of adhesion of 0.05 J/m² (DMT)`.

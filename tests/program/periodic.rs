@@ -10,10 +10,12 @@ use tempfile::TempDir;
 const ROUGH: &str = "shape = \"rough\"\ncells = 32\nspacing = \"2 um\"\nhurst_exponent = 0.8\nrms_height = \"50 nm\"\n\
                      cut_off_wavelength = \"8 um\"\nseed = 3\nedge = \"periodic\"";
 
+const ONE: &str = "angular_frequency = [\"0.01 rad/s\"]";
+
 fn sweep(indenter: &str, rest: &str) -> String {
     format!(
         "title = \"t\"\n[material]\nlibrary = \"pmma\"\n[indenter]\n{indenter}\n[drive]\nmean = \"0.1 N\"\namplitude = \"0.05 N\"\n\
-         [sweep]\nangular_frequency = [\"0.01 rad/s\"]\n[cycle]\nsteps = 20\nerror_bars = false\n{rest}"
+         [sweep]\n{ONE}\n[cycle]\nsteps = 20\nerror_bars = false\n{rest}"
     )
 }
 
@@ -42,6 +44,58 @@ fn a_patch_that_repeats_itself_is_pressed_beyond_what_its_edge_would_allow() {
 }
 
 #[test]
+fn a_mean_pressure_is_the_load_over_the_area_of_a_period() {
+    let folder = TempDir::new().unwrap();
+    let load = "mean = \"0.1 N\"\namplitude = \"0.05 N\"";
+    // A patch of 64 by 64 um.
+    let area_m2 = (32.0 * 2e-6) * (32.0 * 2e-6);
+    let pressure = format!(
+        "control = \"pressure\"\nmean = {:?}\namplitude = {:?}",
+        0.1 / area_m2,
+        0.05 / area_m2
+    );
+    let text = sweep(ROUGH, "");
+    let of = |text: &str, out: &str| {
+        assert_eq!(run(&folder, text, out).status.code(), Some(0));
+        let csv = fs::read_to_string(folder.path().join(out).join("sweep.csv")).unwrap();
+        let row = csv.lines().nth(1).unwrap().to_owned();
+        let place = csv
+            .lines()
+            .next()
+            .unwrap()
+            .split(',')
+            .position(|name| name == "energy_loss_j");
+        let loss: f64 = row.split(',').nth(place.unwrap()).unwrap().parse().unwrap();
+        loss
+    };
+    let (by_load, by_pressure) = (
+        of(&text, "load"),
+        of(&text.replace(load, &pressure), "pressure"),
+    );
+    assert!(
+        (by_pressure / by_load - 1.0).abs() < 1e-12,
+        "{by_pressure} {by_load}"
+    );
+    // The resolved file tells the load, and is the same sweep again.
+    let resolved = folder.path().join("pressure/resolved.toml");
+    let resolved = fs::read_to_string(resolved).unwrap();
+    assert!(resolved.contains("control = \"load\""), "{resolved}");
+    assert_eq!(of(&resolved, "pressure"), by_pressure);
+    // As an axis too.
+    let axis = format!("{ONE}\ndrive.mean = [\"20 MPa\", \"30 MPa\"]");
+    let over = text.replace(load, &pressure).replace(ONE, &axis);
+    assert_eq!(run(&folder, &over, "over").status.code(), Some(0));
+    let csv = fs::read_to_string(folder.path().join("over/sweep.csv")).unwrap();
+    let (head, row) = (csv.lines().next().unwrap(), csv.lines().nth(1).unwrap());
+    let mean = head
+        .split(',')
+        .position(|name| name == "drive_mean")
+        .unwrap();
+    let mean_n: f64 = row.split(',').nth(mean).unwrap().parse().unwrap();
+    assert!((mean_n / (20e6 * area_m2) - 1.0).abs() < 1e-12, "{mean_n}");
+}
+
+#[test]
 fn what_a_surface_without_an_edge_cannot_have_is_refused() {
     let sphere = format!("{ROUGH}\nsphere_radius = \"1 mm\"");
     let under =
@@ -55,6 +109,13 @@ fn what_a_surface_without_an_edge_cannot_have_is_refused() {
         (
             under("control = \"approach\"\nmean = \"50 nm\"\namplitude = \"10 nm\""),
             "pressed by a load",
+        ),
+        (
+            sweep("shape = \"sphere\"\nradius = \"1 mm\"", "").replace(
+                "[drive]\nmean = \"0.1 N\"\namplitude = \"0.05 N\"",
+                "[drive]\ncontrol = \"pressure\"\nmean = \"1 MPa\"\namplitude = \"0.1 MPa\"",
+            ),
+            "a surface which repeats itself",
         ),
         (
             sweep(ROUGH, "[solver]\nengine = \"axisymmetric\"\n"),

@@ -3,7 +3,7 @@
 # requeued, the merge waits for all, and the result must be that of a single process, byte for byte. Then the same with the sweep
 # and the command that src/guide/cluster.md tells its reader to save and run.
 #
-#   tests/slurm/run.sh PROGRAM
+#   [STUDY=1] tests/slurm/run.sh PROGRAM    (STUDY=1: 20,000 cases on 16 tasks as well, with a release build)
 #
 # Everything (keys, sockets, ports, states, logs) is the script's own, in a temporary folder. Needs root and Debian's
 # slurm-wlm and munge, which are installed where that is possible. Exit code 77: they are not to be had here.
@@ -166,3 +166,52 @@ for file in sweep.csv summary.json energy-loss.png cycles.npz; do
     cmp "many/$file" "single/$file"
 done
 echo "slurm: the guide's $command: identical to a single process"
+
+# A study of 20,000 cases on an array of 16, three of whose tasks are killed, for those who ask for it: minutes.
+[ "${STUDY:-}" = 1 ] || exit 0
+cd "$work/out"
+cat >"$work/study.toml" <<'TOML'
+title = "20,000 cases"
+[material]
+library = "pmma"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+mean = "10 N"
+amplitude = "5 N"
+[sweep]
+angular_frequency = { from = "1e-3 rad/s", to = "1 rad/s", points = 100, spacing = "log" }
+drive.amplitude = { from = "0.05 N", to = "9.95 N", points = 200 }
+TOML
+begin=$SECONDS
+submitted=$("$root/sweeps/slurm/submit.sh" "$work/study.toml" "$work/study" 16)
+echo "slurm: study: $submitted"
+array=$(sed 's/array \([0-9]*\),.*/\1/' <<<"$submitted")
+for task in 2 7 12; do
+    begun() { ls "$work/study.parts/part-$task/records/"* ; }
+    patience 600 "task $task does not begin" begun
+    scontrol requeue "${array}_$task"
+done
+patience 1200 "the study does not end" gone
+echo "slurm: study: $((SECONDS - begin)) s with three tasks killed and requeued"
+for task in 2 7 12; do
+    scontrol show job "${array}_$task" | grep -q 'Restarts=1'
+done
+for part in "$work"/study.parts/part-*; do
+    python3 - "$part/run.json" <<'PYTHON'
+import json, sys
+run = json.load(open(sys.argv[1]))
+print("slurm: study:", sys.argv[1].split("/")[-2], {k: run[k] for k in run if "seconds" in k or k.endswith("_s")})
+PYTHON
+done
+begin=$SECONDS
+"$program" merge "$work"/study.parts/part-* --out "$work/again" --quiet
+echo "slurm: study: merged again in $((SECONDS - begin)) s, $(du -sm "$work/study" | cut -f1) MB, parts $(du -sm "$work/study.parts" | cut -f1) MB"
+begin=$SECONDS
+"$program" sweep "$work/study.toml" --quiet --out "$work/study-single"
+echo "slurm: study: a single process takes $((SECONDS - begin)) s"
+for file in sweep.csv summary.json energy-loss.png; do
+    cmp "$work/study/$file" "$work/study-single/$file"
+done
+echo "slurm: study: 20,000 cases on 16 tasks, three killed: identical to a single process"

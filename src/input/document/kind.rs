@@ -331,7 +331,7 @@ pub(crate) fn text_definitions() -> Vec<(String, Json)> {
 /// A quantity whose dimension another key decides: one of these.
 #[derive(Clone, Copy)]
 pub(crate) struct Dependent {
-    pub(crate) dimensions: [Dimension; 2],
+    pub(crate) dimensions: &'static [Dimension],
     pub(crate) limits: Limits,
 }
 
@@ -357,8 +357,9 @@ impl Describe for Dependent {
     }
 
     fn expected(&self) -> String {
-        let [one, other] = self.dimensions;
-        format!("{one} or {other}{}", self.limits.qualify(None))
+        let names = self.dimensions.iter().map(Dimension::to_string);
+        let names: Vec<String> = names.collect();
+        format!("{}{}", names.join(" or "), self.limits.qualify(None))
     }
 
     fn example(&self) -> String {
@@ -366,7 +367,11 @@ impl Describe for Dependent {
     }
 
     fn schema(&self) -> Json {
-        json!({ "anyOf": self.dimensions.map(|dimension| self.of(dimension).schema()) })
+        let dimensions = self.dimensions.iter();
+        let ways: Vec<Json> = dimensions
+            .map(|dimension| self.of(*dimension).schema())
+            .collect();
+        json!({ "anyOf": ways })
     }
 }
 

@@ -13,7 +13,9 @@ use crate::input::document::kind::{
 use crate::input::document::limits::Limits;
 use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
 use crate::input::points::{MOST_POINTS, Points, SPACINGS, Spacing};
-use crate::quantity::Dimension::{Angle, AngularFrequency, Force, Frequency, Length, Time};
+use crate::quantity::Dimension::{
+    self, Angle, AngularFrequency, Force, Frequency, Length, Stress, Time,
+};
 use crate::sweep::plan::Block;
 
 const CONTROLS: [(&str, Control); 2] = [
@@ -21,21 +23,64 @@ const CONTROLS: [(&str, Control); 2] = [
     (Control::Approach.name(), Control::Approach),
 ];
 
+/// What a sweep may prescribe: a load, also as a mean pressure, or an approach.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Prescribed {
+    Load,
+    Pressure,
+    Approach,
+}
+
+const PRESCRIBED: [(&str, Prescribed); 3] = [
+    (Control::Load.name(), Prescribed::Load),
+    ("pressure", Prescribed::Pressure),
+    (Control::Approach.name(), Prescribed::Approach),
+];
+
+impl Prescribed {
+    /// What is controlled, a pressure by its load.
+    pub(crate) fn control(self) -> Control {
+        match self {
+            Self::Load | Self::Pressure => Control::Load,
+            Self::Approach => Control::Approach,
+        }
+    }
+
+    /// What kind of quantity the values are.
+    pub(crate) fn dimension(self) -> Dimension {
+        match self {
+            Self::Load => Force,
+            Self::Pressure => Stress,
+            Self::Approach => Length,
+        }
+    }
+}
+
 /// A load, or an approach where that is controlled.
 const fn of_control(limits: Limits) -> Dependent {
     Dependent {
-        dimensions: [Force, Length],
+        dimensions: &[Force, Length],
+        limits,
+    }
+}
+
+/// The same, or a mean pressure.
+const fn of_prescribed(limits: Limits) -> Dependent {
+    Dependent {
+        dimensions: &[Force, Length, Stress],
         limits,
     }
 }
 
 rows! { HARMONIC_KEYS:
-    /// What is prescribed: the load, or the approach; the values below are lengths then.
-    CONTROL: Row<Choice<Control>, Or<Control>> = "control", Choice(&CONTROLS), Or(Control::Load);
-    /// Mean; of a load above zero.
-    MEAN: Row<Dependent, Required> = "mean", of_control(Limits::NONE), Required;
+    /// What is prescribed: the load; the mean pressure on a surface that repeats itself, which is the load over the area of one period;
+    /// or the approach. The values below are stresses then, or lengths.
+    PRESCRIBES: Row<Choice<Prescribed>, Or<Prescribed>> =
+        "control", Choice(&PRESCRIBED), Or(Prescribed::Load);
+    /// Mean; with the amplitude above zero.
+    MEAN: Row<Dependent, Required> = "mean", of_prescribed(Limits::NONE), Required;
     /// Amplitude; a load is held at zero where the sine is below.
-    AMPLITUDE: Row<Dependent, Required> = "amplitude", of_control(Limits::ABOVE_ZERO), Required;
+    AMPLITUDE: Row<Dependent, Required> = "amplitude", of_prescribed(Limits::ABOVE_ZERO), Required;
     /// Phase at which the oscillation begins.
     PHASE: Row<Scalar, Or<f64>> = "phase", quantity(Angle), Or(0.0);
     /// Rest under the mean before the oscillation.
@@ -48,6 +93,8 @@ pub(super) static HARMONIC: Rows = super::table(
 );
 
 rows! { _:
+    /// What is prescribed: the load, or the approach; the values below are lengths then.
+    CONTROL: Row<Choice<Control>, Or<Control>> = "control", Choice(&CONTROLS), Or(Control::Load);
     /// Angular frequencies: a list, or a range. Hz is understood.
     ANGULAR_FREQUENCY: Row<Points<Scalar>, Required> =
         "angular_frequency", Points(quantity(AngularFrequency).above_zero()), Required;

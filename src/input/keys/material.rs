@@ -441,7 +441,7 @@ rows! { _:
     TIMES: Row<Array<Scalar>, Required> = "times", list(quantity(Time)), Required;
     /// Their values.
     VALUES: Row<Array<Dependent>, Required> =
-        "values", list(Dependent { dimensions: [Compliance, Stress], limits: Limits::NONE }), Required;
+        "values", list(Dependent { dimensions: &[Compliance, Stress], limits: Limits::NONE }), Required;
 }
 
 static TABLE: Rows = Rows {
