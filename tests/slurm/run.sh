@@ -3,7 +3,8 @@
 # requeued, the merge waits for all, and the result must be that of a single process, byte for byte. Then the same with the sweep
 # and the command that src/guide/cluster.md tells its reader to save and run.
 #
-#   [STUDY=1] tests/slurm/run.sh PROGRAM    (STUDY=1: 20,000 cases on 16 tasks as well, with a release build)
+#   tests/slurm/run.sh PROGRAM
+#   STUDY=RELEASE tests/slurm/run.sh PROGRAM    20,000 cases on 16 tasks as well, by a release build
 #
 # Everything (keys, sockets, ports, states, logs) is the script's own, in a temporary folder. Needs root and Debian's
 # slurm-wlm and munge, which are installed where that is possible. Exit code 77: they are not to be had here.
@@ -168,7 +169,9 @@ done
 echo "slurm: the guide's $command: identical to a single process"
 
 # A study of 20,000 cases on an array of 16, three of whose tasks are killed, for those who ask for it: minutes.
-[ "${STUDY:-}" = 1 ] || exit 0
+[ -n "${STUDY:-}" ] || exit 0
+program=$(cd "$root" && realpath "$STUDY")
+export CONTACT_DMA=$program
 cd "$work/out"
 cat >"$work/study.toml" <<'TOML'
 title = "20,000 cases"
@@ -198,16 +201,12 @@ echo "slurm: study: $((SECONDS - begin)) s with three tasks killed and requeued"
 for task in 2 7 12; do
     scontrol show job "${array}_$task" | grep -q 'Restarts=1'
 done
-for part in "$work"/study.parts/part-*; do
-    python3 - "$part/run.json" <<'PYTHON'
-import json, sys
-run = json.load(open(sys.argv[1]))
-print("slurm: study:", sys.argv[1].split("/")[-2], {k: run[k] for k in run if "seconds" in k or k.endswith("_s")})
-PYTHON
-done
 begin=$SECONDS
 "$program" merge "$work"/study.parts/part-* --out "$work/again" --quiet
 echo "slurm: study: merged again in $((SECONDS - begin)) s, $(du -sm "$work/study" | cut -f1) MB, parts $(du -sm "$work/study.parts" | cut -f1) MB"
+begin=$SECONDS
+"$program" report "$work/again" --quiet --no-figures
+echo "slurm: study: read in $((SECONDS - begin)) s"
 begin=$SECONDS
 "$program" sweep "$work/study.toml" --quiet --out "$work/study-single"
 echo "slurm: study: a single process takes $((SECONDS - begin)) s"
