@@ -15,6 +15,7 @@ use crate::identify::uncertainty::{Directions, moduli};
 use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES, UNDETERMINED};
 use crate::material::Relaxation;
 use crate::measured::statistics::{NORMAL, student};
+use crate::sweep::plan::EngineKind;
 
 /// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
 const STEP: f64 = 0.02;
@@ -142,19 +143,25 @@ pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identifie
     let mut model = Model::new(plan, interrupt);
     let mut linearised = Linearised::new(plan)?;
     let mut first = None;
-    // Far from the solution the factors may overshoot: what was not found is sought again with smaller changes of them.
-    for (attempt, part) in PARTS.into_iter().enumerate() {
+    // Far from the solution the factors may overshoot: what was not found is sought again with smaller changes of them. On cells, whose
+    // cycles take a second each, that would be many minutes.
+    let attempts = match plan.solver.engine {
+        EngineKind::Axisymmetric => PARTS.len(),
+        _ => 1,
+    };
+    for (attempt, part) in PARTS.into_iter().take(attempts).enumerate() {
         if attempt > 0 {
             linearised.start_over(&model)?;
         }
         let mut found = tried(&model, &mut linearised, (most, part));
         if let (true, Ok(near)) = (attempt > 0, &found) {
             // What was found by another way round may be near the solution only: once more with the factors there.
-            let exact = model.numbers_where_found(&near.relaxation)?;
-            linearised.take_factors(&near.point, &exact, 1.0);
-            let again = tried(&model, &mut linearised, (most, part));
-            let is_better = |again: &Identified| again.misfit() <= near.misfit();
-            if again.as_ref().is_ok_and(is_better) {
+            let misfit = near.misfit();
+            let again = (model.numbers_where_found(&near.relaxation)).and_then(|exact| {
+                linearised.take_factors(&near.point, &exact, 1.0);
+                tried(&model, &mut linearised, (most, part))
+            });
+            if again.as_ref().is_ok_and(|again| again.misfit() <= misfit) {
                 found = again;
             }
         }
@@ -166,7 +173,7 @@ pub fn identify(plan: &IdentifyPlan, interrupt: &AtomicBool) -> Result<Identifie
                 | IdentifyError::NoHistory(_)),
             ) => first = first.or(Some(error)),
             Err(error) => return Err(error),
-            Ok(found) => return resolved(&mut model, &linearised, found),
+            Ok(found) => return at_full_resolution(&mut model, &linearised, found),
         }
     }
     Err(first.unwrap_or(IdentifyError::NoFit("nothing was tried")))
@@ -188,7 +195,7 @@ fn tried(
 }
 
 /// The same without the error of the model's own resolution, where that is seen beside the noise.
-fn resolved(
+fn at_full_resolution(
     model: &mut Model<'_>,
     linearised: &Linearised<'_>,
     found: Identified,
@@ -201,7 +208,12 @@ fn resolved(
         _ => return Ok(found),
     }
     let of_candidates = (found.candidates.clone(), found.linearised.clone());
-    on_exact(model, linearised, of_candidates, &found.point)
+    match on_exact(model, linearised, of_candidates, &found.point) {
+        Err(IdentifyError::Interrupted) => Err(IdentifyError::Interrupted),
+        // What was found holds without the correction too.
+        Err(_) => Ok(found),
+        corrected => corrected,
+    }
 }
 
 /// Refines a candidate, which was found on the linearised contact at `start`, on the exact model.
