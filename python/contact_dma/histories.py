@@ -216,7 +216,7 @@ def simulate(
             ``step``, ``ramp``, ``polynomial``, ``sine``, and ``table`` with arrays ``times`` (s) and ``values`` (N or m).
         control: whether the load is prescribed, or the approach.
         indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
-        layer: of the material on a rigid base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells.
+        layer: of the material on a base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells.
         adhesion: work of adhesion (J/m^2) of a small, stiff sphere that is attracted, or ``{"work": ..., "equilibrium_distance": ...}``.
         step: time step (s); chosen from drive and material where it is left out.
         profiles_at: times (s) of profiles.

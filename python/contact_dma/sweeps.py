@@ -314,7 +314,8 @@ def sweep(
         phase: at which the oscillation begins (rad).
         hold: rest under the mean before it (s); for the march alone.
         indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
-        layer: of the material on a rigid base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells.
+        layer: of the material on a base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells. The base
+            is rigid, or has ``base_modulus_ratio`` times the layer's shear modulus, and ``base_poisson_ratio``.
         adhesion: work of adhesion (J/m^2) of a small, stiff sphere that is attracted, or ``{"work": ..., "equilibrium_distance": ...}``.
         axes: other axes of the sweep, such as ``{"indenter.radius": ["5 mm", "10 mm"], "drive.amplitude": [1.0, 2.0]}``.
         pairs: whether the values of axes go together one by one, in place of all combinations.

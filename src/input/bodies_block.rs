@@ -29,7 +29,9 @@ pub(super) fn read<'a>(
     problems: &'a Problems,
 ) -> Option<Bodies<'a>> {
     let counterbody = indenter_block::material(root, folder, problems);
-    let layer = root.table_or(&keys::LAYER, None, |t| layer_block::read(t).map(Some));
+    let layer = root.table_or(&keys::LAYER, None, |t| {
+        layer_block::read(t, problems).map(Some)
+    });
     layer_block::refuse_second_body(root, counterbody.as_ref(), problems);
     let adhesion_at = root.key_location(&keys::ADHESION);
     let adhesion = root.table_or(&keys::ADHESION, None, |t| adhesion_block::read(t).map(Some));

@@ -309,7 +309,7 @@ impl File<'_> {
     fn layer(&self, root: &mut TableReader<'_>) -> Option<Over<Option<LayerPlan>>> {
         match root.has(&keys::LAYER) || !self.swept(Block::Layer).is_empty() {
             true => self.block(root, &keys::NEEDED_LAYER, Block::Layer, |t| {
-                layer_block::read(t).map(Some)
+                layer_block::read(t, self.problems).map(Some)
             }),
             false => Some((None, Vec::new())),
         }

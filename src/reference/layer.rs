@@ -1,4 +1,4 @@
-//! Contact of a rigid body of revolution with an elastic layer on a rigid base, by the dual integral equation.
+//! Contact of a rigid body of revolution with an elastic layer on a base, by the dual integral equation.
 //!
 //! Where the contact is a disc of radius a, its pressure is that of springs as on the half-space
 //! ([`crate::contact::axisymmetric`]), with a force phi(t) per length that obeys a Fredholm equation of the second kind (N. N. Lebedev
@@ -148,12 +148,13 @@ fn legendre(count: usize) -> Vec<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact::half_space::layer::Base;
+    use crate::contact::half_space::layer::{Base, YieldingBase};
 
     fn layer(base: Base, poisson_ratio: f64) -> Layer {
         Layer {
             thickness_m: 1e-3,
             base,
+            yielding: None,
             poisson_ratio,
         }
     }
@@ -253,6 +254,32 @@ mod tests {
                 (ten / twenty - 2.0).abs() < 0.15,
                 "{base:?} {nu} {ten} {twenty}"
             );
+        }
+    }
+
+    #[test]
+    fn on_a_base_that_yields_a_thick_layer_is_a_half_space_of_itself_and_a_thin_one_of_the_base() {
+        for (modulus_ratio, own, of_base) in [(0.1, 0.3, 0.5), (3.0, 0.5, 0.2)] {
+            let layer = Layer {
+                yielding: Some(YieldingBase {
+                    modulus_ratio,
+                    poisson_ratio: of_base,
+                }),
+                ..layer(Base::Bonded, own)
+            };
+            let stiffness = |a_over_h: f64| {
+                let contact = LayerContact::new(layer, 1e-3 * a_over_h, 200);
+                contact.punch_stiffness().unwrap()
+            };
+            // What is left falls like a/h, and like h/a with a logarithm of it.
+            let thick = [1e-3, 2e-3].map(|a_over_h| stiffness(a_over_h) - 1.0);
+            assert!(thick[0].abs() < 5e-3, "{thick:?}");
+            assert!((thick[1] / thick[0] - 2.0).abs() < 0.01, "{thick:?}");
+            let base = modulus_ratio * (1.0 - own) / (1.0 - of_base);
+            let thin = [20.0, 40.0].map(|a_over_h| stiffness(a_over_h) / base - 1.0);
+            assert!(thin[0].abs() < 0.15, "{thin:?}");
+            let fall = thin[0] / thin[1];
+            assert!((1.5..2.2).contains(&fall), "{thin:?}");
         }
     }
 }

@@ -160,12 +160,14 @@ fn material(material: &Material) -> String {
     format!("{name} ({})", compressibility(material))
 }
 
-/// The layer that the body is, with a blank before it, without a thickness that an axis varies; nothing of a half-space.
+/// The layer that the body is, with a blank before it, without what axes vary; nothing of a half-space.
 fn layer(layer: Option<LayerPlan>, swept: &[Varied]) -> String {
-    let is_swept = swept.iter().any(|varied| varied.block == Block::Layer);
-    layer.map_or(String::new(), |layer| match is_swept {
-        true => format!(" in a layer {}", layer.lies()),
-        false => format!(" {}", layer.words()),
+    let is_varied = |key: &str| {
+        let mut swept = swept.iter();
+        swept.any(|varied| varied.block == Block::Layer && varied.key == key)
+    };
+    layer.map_or(String::new(), |layer| {
+        format!(" {}", layer.words(is_varied))
     })
 }
 

@@ -219,6 +219,7 @@ fn a_layer_is_taken_out() {
     let layer = LayerPlan {
         thickness_m: 2e-4,
         base: Base::Bonded,
+        yielding: None,
     };
     let with = With {
         layer: Some(layer),

@@ -1,4 +1,4 @@
-//! A layer on a rigid base, on cells, against the dual integral equation, closed forms and correspondence.
+//! A layer on a base, rigid or not, on cells, against the dual integral equation, closed forms and correspondence.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use crate::common::{first_touch, grid, pmma_material, root_mean_square, sweep_pl
 use contact_dma::contact::Prescribed;
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
-use contact_dma::contact::half_space::layer::{Base, Layer, LayerInfluence};
+use contact_dma::contact::half_space::layer::{Base, Layer, LayerInfluence, YieldingBase};
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings};
 use contact_dma::indenter::{FlatPunch, Indenter, Sphere};
 use contact_dma::reference::layer::LayerContact;
@@ -20,20 +20,42 @@ use contact_dma::sweep::record::CaseResult;
 
 const COMPLIANCE_PER_PA: f64 = 4e-10;
 const A_OVER_H: [f64; 7] = [0.01, 0.1, 0.3, 1.0, 2.0, 4.0, 10.0];
-const KINDS: [(Base, f64); 5] = [
-    (Base::Bonded, 0.0),
-    (Base::Bonded, 0.3),
-    (Base::Bonded, 0.45),
-    (Base::Bonded, 0.5),
-    (Base::Frictionless, 0.3),
+const KINDS: [Layer; 8] = [
+    rigid(Base::Bonded, 0.0),
+    rigid(Base::Bonded, 0.3),
+    rigid(Base::Bonded, 0.45),
+    rigid(Base::Bonded, 0.5),
+    rigid(Base::Frictionless, 0.3),
+    yielding(0.05, 0.3),
+    yielding(0.5, 0.5),
+    yielding(8.0, 0.5),
 ];
 const RADIUS_M: f64 = 1e-4;
 
-fn layer(base: Base, poisson_ratio: f64, a_over_h: f64) -> Layer {
+const fn rigid(base: Base, poisson_ratio: f64) -> Layer {
+    Layer {
+        thickness_m: 1.0,
+        base,
+        yielding: None,
+        poisson_ratio,
+    }
+}
+
+/// On a base of so many times the shear modulus, and of Poisson ratio 0.2.
+const fn yielding(modulus_ratio: f64, poisson_ratio: f64) -> Layer {
+    Layer {
+        yielding: Some(YieldingBase {
+            modulus_ratio,
+            poisson_ratio: 0.2,
+        }),
+        ..rigid(Base::Bonded, poisson_ratio)
+    }
+}
+
+fn layer(kind: Layer, a_over_h: f64) -> Layer {
     Layer {
         thickness_m: RADIUS_M / a_over_h,
-        base,
-        poisson_ratio,
+        ..kind
     }
 }
 
@@ -71,9 +93,9 @@ fn load_n(mut engine: HalfSpace, approach_m: f64) -> f64 {
 fn a_sphere_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it_in_second_order() {
     let sphere = Sphere::new(0.01).unwrap();
     let mut orders = Vec::new();
-    for (base, nu) in KINDS {
+    for kind in KINDS {
         for a_over_h in A_OVER_H {
-            let layer = layer(base, nu, a_over_h);
+            let layer = layer(kind, a_over_h);
             let exact = LayerContact::new(layer, RADIUS_M, 60);
             let exact = exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap();
             let error = |cells: usize| {
@@ -86,7 +108,7 @@ fn a_sphere_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it_in_second_
                 root_mean_square(errors)
             };
             let (coarse, fine) = (error(32), error(128));
-            assert!(fine < 1.5e-4, "{base:?} {nu} {a_over_h}: {fine:e}");
+            assert!(fine < 1.5e-4, "{kind:?} {a_over_h}: {fine:e}");
             orders.push(0.5 * (coarse / fine).log2());
         }
     }
@@ -99,9 +121,9 @@ fn a_sphere_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it_in_second_
 #[test]
 fn a_punch_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it() {
     let punch = FlatPunch::new(RADIUS_M).unwrap();
-    for (base, nu) in KINDS {
+    for kind in KINDS {
         for a_over_h in A_OVER_H {
-            let layer = layer(base, nu, a_over_h);
+            let layer = layer(kind, a_over_h);
             let exact = LayerContact::new(layer, RADIUS_M, 80);
             let exact = exact.punch_stiffness().unwrap();
             let error = |cells: usize| {
@@ -112,9 +134,11 @@ fn a_punch_on_cells_is_as_stiff_as_the_dual_integral_equation_has_it() {
             let (coarse, fine) = (error(64), error(256));
             // The rim is a staircase, at which the pressure is singular: first order, and four times as much where it grows like the
             // fourth power of the radius.
+            // On a soft base the staircase makes less of the error, and its corners show.
+            let least = if kind.yielding.is_some() { 2.0 } else { 2.5 };
             assert!(
-                fine < 4e-3 && coarse / fine > 2.5,
-                "{base:?} {nu} {a_over_h}: {coarse:e} {fine:e}"
+                fine < 4e-3 && coarse / fine > least,
+                "{kind:?} {a_over_h}: {coarse:e} {fine:e}"
             );
         }
     }
@@ -135,7 +159,7 @@ fn the_numbers_of_the_guide_are_those_of_the_dual_integral_equation() {
     assert_eq!(rows.len(), 6);
     for row in rows {
         for (nu, told) in [0.0, 0.3, 0.45, 0.5].into_iter().zip(&row[1..]) {
-            let contact = LayerContact::new(layer(Base::Bonded, nu, row[0]), RADIUS_M, 60);
+            let contact = LayerContact::new(layer(rigid(Base::Bonded, nu), row[0]), RADIUS_M, 60);
             let exact = contact.punch_stiffness().unwrap();
             // Three decimals.
             assert!(
@@ -151,7 +175,7 @@ fn the_numbers_of_the_guide_are_those_of_the_dual_integral_equation() {
 fn windows_quarters_and_the_safe_way_find_the_same_contact_where_the_surface_rises() {
     let sphere = Sphere::new(0.01).unwrap();
     for a_over_h in [0.5, 3.0] {
-        let layer = layer(Base::Bonded, 0.5, a_over_h);
+        let layer = layer(rigid(Base::Bonded, 0.5), a_over_h);
         let exact = LayerContact::new(layer, RADIUS_M, 60);
         let load_n = exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap().load_n;
         let whole = grid(3.0 * RADIUS_M, 128);
@@ -179,9 +203,9 @@ fn windows_quarters_and_the_safe_way_find_the_same_contact_where_the_surface_ris
 
 #[test]
 fn the_domain_is_as_large_as_the_contact_from_far_below_its_radius_to_far_above() {
-    for (base, nu) in KINDS {
+    for kind in KINDS {
         for a_over_h in A_OVER_H {
-            let layer = layer(base, nu, a_over_h);
+            let layer = layer(kind, a_over_h);
             let exact = LayerContact::new(layer, RADIUS_M, 60);
             let exact = exact.under_sphere(0.01, COMPLIANCE_PER_PA).unwrap();
             for (control, maximum) in [
@@ -204,19 +228,16 @@ fn the_domain_is_as_large_as_the_contact_from_far_below_its_radius_to_far_above(
                 // A tenth of room, and what cells of a 24th of the radius make of the edge.
                 assert!(
                     (1.05..1.2).contains(&width),
-                    "{base:?} {nu} {a_over_h} {control:?} {width}"
+                    "{kind:?} {a_over_h} {control:?} {width}"
                 );
             }
         }
     }
 }
 
-fn on_layer(indenter: Arc<dyn Indenter>, amplitude_n: f64, thickness_m: f64) -> CaseResult {
+fn on_layer(indenter: Arc<dyn Indenter>, amplitude_n: f64, layer: LayerPlan) -> CaseResult {
     let mut plan: SweepPlan = sweep_plan(pmma_material(), indenter, 10.0, amplitude_n);
-    plan.layer = Some(LayerPlan {
-        thickness_m,
-        base: Base::Bonded,
-    });
+    plan.layer = Some(layer);
     plan.solver.engine = EngineKind::HalfSpace;
     plan.solver.cells = 48;
     plan.cycle.steps = 200;
@@ -231,14 +252,24 @@ fn on_layer(indenter: Arc<dyn Indenter>, amplitude_n: f64, thickness_m: f64) -> 
         .unwrap()
 }
 
+fn bonded(thickness_m: f64, yielding: Option<YieldingBase>) -> LayerPlan {
+    LayerPlan {
+        thickness_m,
+        base: Base::Bonded,
+        yielding,
+    }
+}
+
+const SOFT: Option<YieldingBase> = yielding(0.4, 0.3).yielding;
+
 #[test]
 fn a_punch_on_a_viscoelastic_layer_answers_by_correspondence() {
     let material = pmma_material();
     let compliance = material.contact_compliance().unwrap();
     let complex = compliance.complex_compliance(0.00844);
-    for thickness_m in [1e-4, 1e-3] {
+    for (thickness_m, yielding) in [(1e-4, None), (1e-3, None), (1e-4, SOFT), (1e-3, SOFT)] {
         let punch = FlatPunch::new(5e-4).unwrap();
-        let result = on_layer(Arc::new(punch), 5.0, thickness_m);
+        let result = on_layer(Arc::new(punch), 5.0, bonded(thickness_m, yielding));
         // The mean of the approach says how compliant layer and cells are: the load's mean at the compliance at rest.
         let approach_m = result.approach_m;
         let mean_m = 0.5 * (approach_m.minimum + approach_m.maximum);
@@ -254,9 +285,9 @@ fn a_punch_on_a_viscoelastic_layer_answers_by_correspondence() {
 fn equivalent_moduli_are_those_of_the_material_however_thin_the_layer() {
     let material = pmma_material();
     let exact = material.longitudinal_complex_modulus(0.00844);
-    for thickness_m in [5e-5, 3e-4, 3e-3] {
+    for (thickness_m, yielding) in [(5e-5, None), (3e-4, None), (3e-3, None), (1e-4, SOFT)] {
         let sphere = Sphere::new(0.01).unwrap();
-        let result = on_layer(Arc::new(sphere), 0.1, thickness_m);
+        let result = on_layer(Arc::new(sphere), 0.1, bonded(thickness_m, yielding));
         let (storage, loss) = (
             result.storage_modulus_pa.unwrap(),
             result.loss_modulus_pa.unwrap(),

@@ -206,6 +206,8 @@ const SPHERE: &str = "[indenter]\nshape = \"sphere\"\nradius = \"10 mm\"\n";
 const LIBRARY: &str = "[material]\nlibrary = \"pmma\"\npoisson_ratio = 0.4\n";
 const HARMONIC: &str = "[drive]\nmean = 10\namplitude = 5\n";
 const LAYER: &str = "[layer]\nthickness = \"1 mm\"\nbase = \"bonded\"\n";
+const LAYER_ON_BASE: &str =
+    "[layer]\nthickness = \"1 mm\"\nbase_modulus_ratio = 4\nbase_poisson_ratio = 0.3\n";
 const ONE: &str = "[sweep]\nangular_frequency = 0.01\n";
 
 fn sweep(parts: [&str; 4], rest: &str) -> (FileKind, String) {
@@ -325,7 +327,9 @@ fn files() -> Vec<(FileKind, String)> {
             "",
         ),
         sweep([LIBRARY, SPHERE, HARMONIC, ONE], LAYER),
+        sweep([LIBRARY, SPHERE, HARMONIC, ONE], LAYER_ON_BASE),
         history(LIBRARY, SPHERE, step, LAYER),
+        history(LIBRARY, SPHERE, step, LAYER_ON_BASE),
         history(
             LIBRARY,
             SPHERE,

@@ -44,3 +44,46 @@ fn springs_on_a_layer_are_refused_with_the_reason_and_cells_are_the_default() {
     // 10 N press a sphere of 10 mm in by more than a micrometre of ten.
     assert!(read("sweep.csv").contains("deep-in-layer"));
 }
+
+#[test]
+fn a_base_that_yields_is_told_whole_and_refused_in_parts() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("layer.toml");
+    let out = folder.path().join("out");
+    let sweep = |block: &str, set: &str| {
+        fs::write(&file, SWEEP.replace("base = \"frictionless\"", block)).unwrap();
+        let mut command = program();
+        command
+            .arg("sweep")
+            .arg(&file)
+            .args(["--quiet", "--set", set]);
+        command.arg("--out").arg(&out).output().unwrap()
+    };
+    for (block, told) in [
+        ("base_modulus_ratio = 4", "add `base_poisson_ratio = 0.4`"),
+        ("base_poisson_ratio = 0.4", "add `base_modulus_ratio = 4`"),
+        (
+            "base_modulus_ratio = 1e-3\nbase_poisson_ratio = 0.4",
+            "leave out base_modulus_ratio",
+        ),
+        (
+            "base = \"frictionless\"\nbase_modulus_ratio = 4\nbase_poisson_ratio = 0.4",
+            "write `base = \"bonded\"`",
+        ),
+    ] {
+        let refused = sweep(block, "solver.cells=24");
+        let said = String::from_utf8_lossy(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(2), "{said}");
+        assert!(said.contains(told), "{block}: {said}");
+        assert!(!out.exists());
+    }
+    let both = "base_modulus_ratio = 4\nbase_poisson_ratio = 0.4";
+    let done = sweep(both, "solver.cells=24");
+    assert_eq!(done.status.code(), Some(0), "{done:?}");
+    let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+    assert!(read("resolved.toml").contains("base_modulus_ratio = 4.0\nbase_poisson_ratio = 0.4\n"));
+    assert!(read("index.html").contains("bonded to a base of 4 times its shear modulus"));
+    // Other numbers of the base are another sweep.
+    let other = sweep(&both.replace('4', "5"), "solver.cells=24");
+    assert_ne!(other.status.code(), Some(0));
+}

@@ -1,13 +1,16 @@
-//! An elastic layer on a rigid base in place of the half-space, without friction under the indenter.
+//! An elastic layer on a base in place of the half-space, without friction under the indenter.
 //!
 //! A pressure that is a wave of wave number k bends the surface of a layer of thickness h into the same wave, smaller than that of
 //! a half-space of the same material by the softening S(kh). With x = kh, for a layer bonded to the base (G. Carbone and L. Mangialardi,
 //! J. Mech. Phys. Solids 56 (2008) 684), and for one that slides on it without friction (K. L. Johnson, Contact Mechanics (1985),
-//! section 5.8):
+//! section 5.8), each on a rigid base, and for one bonded to a half-space that yields (T. C. O'Sullivan and R. B. King, J. Tribology 110
+//! (1988) 235; mu the shear modulus of the layer over that of the base, nu' the Poisson ratio of the base, theta = exp(-2x)):
 //!
 //! ```text
 //! bonded        S(x) = [(3 - 4 nu) sinh 2x - 2x] / [5 + 2x^2 - 4 nu (3 - 2 nu) + (3 - 4 nu) cosh 2x]
 //! frictionless  S(x) = (cosh 2x - 1) / (sinh 2x + 2x)
+//! base yields   S(x) = [1 + 4 kappa x theta - lambda kappa theta^2] / [1 - (lambda + kappa + 4 kappa x^2) theta + lambda kappa theta^2]
+//!               lambda = 1 - 4 (1 - nu) / [1 + mu (3 - 4 nu')],   kappa = (mu - 1) / (mu + 3 - 4 nu)
 //! ```
 //!
 //! A point load P then moves the surface at the distance r by `C P / (pi h) [1/s + phi(s)]`, s = r/h, where the first term is that of the
@@ -19,8 +22,13 @@
 //! ```
 //!
 //! S - 1 decays like x^2 exp(-2x), so that phi is analytic but for a singularity at s = 2i and its like farther off: it is
-//! tabulated once by Chebyshev polynomials. Both terms together decay exponentially, with signs that change where the surface rises
-//! beside the load; beyond [`REACH`] they are less than rounding, and taken as nothing.
+//! tabulated once by Chebyshev polynomials. On a rigid base both terms together decay exponentially, with signs that change where the
+//! surface rises beside the load; beyond [`REACH`] they are less than rounding, and taken as nothing. Where the base yields, S(0) is the
+//! compliance of the base over that of the layer, and far from the load what is left are powers, from those of S of even order:
+//!
+//! ```text
+//! 1/s + phi(s) = S_0 / s - S_2 / s^3 + 9 S_4 / s^5 - 225 S_6 / s^7 + ...,   S(x) = S_0 + S_1 x + S_2 x^2 + ...
+//! ```
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -48,27 +56,50 @@ impl Base {
     }
 }
 
-/// An elastic layer on a rigid base, without end to all sides.
+/// A base that yields: a half-space that relaxes in proportion to the layer on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct YieldingBase {
+    /// Its shear modulus over that of the layer, from [`YieldingBase::SOFTEST`] to [`YieldingBase::STIFFEST`].
+    pub modulus_ratio: f64,
+    /// Above -1 and at most 0.5.
+    pub poisson_ratio: f64,
+}
+
+impl YieldingBase {
+    /// Below, the base is seen through the layer over tens of thousands of thicknesses.
+    pub const SOFTEST: f64 = 0.01;
+    /// Above, the base is as good as rigid.
+    pub const STIFFEST: f64 = 1e6;
+}
+
+/// An elastic layer on a base, without end to all sides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layer {
     /// Positive and finite, m.
     pub thickness_m: f64,
     pub base: Base,
+    /// What the base is made of, where it is not rigid; the layer is then bonded to it.
+    pub yielding: Option<YieldingBase>,
     /// Above -1 and at most 0.5. Of a layer that slides on its base nothing depends on it but the contact compliance.
     pub poisson_ratio: f64,
 }
 
 /// Where S - 1 is less than rounding.
 const LONGEST: f64 = 24.0;
-/// Distance, in thicknesses, beyond which a load does not move the surface: displacements fall like exp(-0.76 s) where they fall
-/// slowest, on a bonded layer of Poisson ratio 0.5.
+/// Distance, in thicknesses, beyond which a load does not move the surface on a rigid base: displacements fall like exp(-0.76 s) where
+/// they fall slowest, on a bonded layer of Poisson ratio 0.5.
 const REACH: f64 = 48.0;
+/// Powers of s that are left beyond it where the base yields.
+const POWERS: usize = 9;
 
 impl Layer {
-    /// S(x) at the wave number x = kh >= 0: rises from 0 to 1.
+    /// S(x) at the wave number x = kh >= 0: on a rigid base it rises from 0 to 1.
     pub fn softening(&self, x: f64) -> f64 {
         if x > LONGEST {
             return 1.0;
+        }
+        if let Some(welded) = self.welded() {
+            return welded.softening(x);
         }
         let twice = 2.0 * x;
         match self.base {
@@ -89,6 +120,9 @@ impl Layer {
 
     /// S(x) - 1, without cancellation, x > 0.
     pub fn softening_less_one(&self, x: f64) -> f64 {
+        if let Some(welded) = self.welded() {
+            return welded.softening_less_one(x);
+        }
         let small = (-2.0 * x).exp();
         match self.base {
             Base::Bonded => {
@@ -106,6 +140,152 @@ impl Layer {
     }
 }
 
+impl Layer {
+    fn welded(&self) -> Option<Welded> {
+        let base = self.yielding?;
+        let mu = base.modulus_ratio.recip();
+        let own = 4.0 * (1.0 - self.poisson_ratio);
+        let across = 1.0 + mu * (3.0 - 4.0 * base.poisson_ratio);
+        Some(Welded {
+            lambda: 1.0 - own / across,
+            kappa: (mu - 1.0) / (mu + own - 1.0),
+            one_less_lambda: own / across,
+            one_less_kappa: own / (mu + own - 1.0),
+        })
+    }
+}
+
+/// Mismatch of a layer and the base that it is bonded to: both 0 of equal materials.
+#[derive(Debug, Clone, Copy)]
+struct Welded {
+    lambda: f64,
+    kappa: f64,
+    one_less_lambda: f64,
+    one_less_kappa: f64,
+}
+
+impl Welded {
+    fn softening(&self, x: f64) -> f64 {
+        let Self { lambda, kappa, .. } = *self;
+        let small = (-2.0 * x).exp();
+        if x > 1.0 {
+            let above = 1.0 + (4.0 * x - lambda * small) * kappa * small;
+            return above / self.below(x);
+        }
+        // Without the terms that cancel where the waves are long: 1 - theta^2 = 2 theta sinh 2x.
+        let product = self.one_less_lambda + lambda * self.one_less_kappa;
+        let twice = 2.0 * x;
+        let rise = (1.0 + lambda) * twice.sinh() - sinh_less_linear(twice);
+        (product + 2.0 * kappa * small * rise) / self.below(x)
+    }
+
+    fn softening_less_one(&self, x: f64) -> f64 {
+        let Self { lambda, kappa, .. } = *self;
+        let small = (-2.0 * x).exp();
+        // lambda + kappa - 2 lambda kappa theta, which cancels on a soft base where the waves are long.
+        let mismatch = lambda * self.one_less_kappa + kappa * self.one_less_lambda
+            - 2.0 * lambda * kappa * (-2.0 * x).exp_m1();
+        (4.0 * kappa * x * (1.0 + x) + mismatch) * small / self.below(x)
+    }
+
+    /// The denominator of S.
+    fn below(&self, x: f64) -> f64 {
+        let Self { lambda, kappa, .. } = *self;
+        let small = (-2.0 * x).exp();
+        if x > 1.0 {
+            return 1.0 - (lambda + kappa + 4.0 * kappa * x * x - lambda * kappa * small) * small;
+        }
+        // (1 - lambda theta) (1 - kappa theta) - 4 kappa x^2 theta, with (1 - theta)^2 = 4 theta sinh^2 x.
+        let (lambdas, kappas) = (self.one_less_lambda, self.one_less_kappa);
+        let rise = -(-2.0 * x).exp_m1();
+        let bend = lambda * sinh_less_linear(x) * (x.sinh() + x) - lambdas * x * x;
+        lambdas * kappas + (lambdas * kappa + kappas * lambda) * rise + 4.0 * kappa * small * bend
+    }
+
+    /// S_0, S_2, S_4, ...: what S is where the waves are long.
+    fn even_powers(&self) -> [f64; POWERS] {
+        const ORDERS: usize = 2 * POWERS - 1;
+        let Self { lambda, kappa, .. } = *self;
+        let exponential = |rate: f64| {
+            let mut term = 1.0;
+            std::array::from_fn::<f64, ORDERS, _>(|n| {
+                term *= if n == 0 { 1.0 } else { rate / n as f64 };
+                term
+            })
+        };
+        let (small, squared) = (exponential(-2.0), exponential(-4.0));
+        let at = |series: &[f64; ORDERS], n: usize, lower: usize| match n.checked_sub(lower) {
+            Some(n) => series[n],
+            None => 0.0,
+        };
+        let below = |n: usize| match n {
+            0 => self.one_less_lambda * self.one_less_kappa,
+            _ => {
+                lambda * kappa * squared[n]
+                    - (lambda + kappa) * small[n]
+                    - 4.0 * kappa * at(&small, n, 2)
+            }
+        };
+        let above = |n: usize| match n {
+            0 => self.one_less_lambda + lambda * self.one_less_kappa,
+            _ => 4.0 * kappa * at(&small, n, 1) - lambda * kappa * squared[n],
+        };
+        let mut series = [0.0; ORDERS];
+        for n in 0..ORDERS {
+            let known: f64 = (1..=n).map(|j| below(j) * series[n - j]).sum();
+            series[n] = (above(n) - known) / below(0);
+        }
+        std::array::from_fn(|m| series[2 * m])
+    }
+}
+
+/// What is left of the displacement far from a load.
+#[derive(Debug, Clone, Copy)]
+struct Far {
+    /// Distance in thicknesses from which it holds.
+    reach: f64,
+    /// Of s^-1, s^-3, s^-5, ...; none on a rigid base.
+    coefficients: [f64; POWERS],
+}
+
+impl Far {
+    fn of(layer: &Layer) -> Self {
+        /// Of the displacement on the softer of the two bodies, beyond the reach.
+        const ROUNDING: f64 = 1e-12;
+        let Some(welded) = layer.welded() else {
+            return Self {
+                reach: REACH,
+                coefficients: [0.0; POWERS],
+            };
+        };
+        let powers = welded.even_powers();
+        let mut factor = 1.0;
+        let coefficients = std::array::from_fn(|m| {
+            let odd = 2.0 * m as f64 - 1.0;
+            factor *= if m == 0 { 1.0 } else { -odd * odd };
+            factor * powers[m]
+        });
+        let last = coefficients[POWERS - 1].abs() / coefficients[0].max(1.0);
+        // Where the last power is rounding; where the base is stiff, the exponential decay decides.
+        let reach = (last / ROUNDING).powf(0.5 / (POWERS - 1) as f64);
+        Self {
+            reach: reach.max(REACH).ceil(),
+            coefficients,
+        }
+    }
+
+    /// 1/s + phi(s).
+    fn at(&self, s: f64) -> f64 {
+        let square = (s * s).recip();
+        let coefficients = self.coefficients.iter().rev();
+        coefficients.fold(0.0, |sum, coefficient| sum * square + coefficient) / s
+    }
+
+    fn is_nothing(&self) -> bool {
+        self.coefficients[0] == 0.0
+    }
+}
+
 /// sinh x - x, to rounding also where x is small.
 fn sinh_less_linear(x: f64) -> f64 {
     if x > 1.0 {
@@ -120,20 +300,24 @@ fn sinh_less_linear(x: f64) -> f64 {
     x * square / 6.0 * series
 }
 
-/// A function of a variable from 0 to [`REACH`] by Chebyshev polynomials on panels of equal width.
+/// A function of a variable z >= 0 by Chebyshev polynomials of u = asinh(z/2) on panels of equal width: the nearest singularities, at
+/// z = 2i and its like, are those of u at a distance of pi/2, however far out the panel.
 #[derive(Debug, Clone)]
 struct Panels(Vec<[f64; NODES]>);
 
-/// Panels of half a thickness, four times as far from the nearest singularity as they are long: 16^-14 is left of it.
-const PANELS: usize = 2 * REACH as usize;
+/// 16^-14 is left of a function on panels an eighth of the distance of its singularity to either side.
+const PANEL: f64 = 0.4;
 const NODES: usize = 15;
 
 impl Panels {
-    fn of(function: impl Fn(f64) -> f64) -> Self {
+    /// From 0 to the reach, from what there is of the function up to the end of each panel.
+    fn of<F: Fn(f64) -> f64>(reach: f64, up_to: impl Fn(f64) -> F) -> Self {
         let angle = |node: usize| PI * (node as f64 + 0.5) / NODES as f64;
+        let place = |u: f64| 2.0 * (PANEL * u).sinh();
         let panel = |panel: usize| {
+            let function = up_to(place(panel as f64 + 1.0));
             let values: [f64; NODES] = std::array::from_fn(|node| {
-                function((panel as f64 + 0.5 + 0.5 * angle(node).cos()) / 2.0)
+                function(place(panel as f64 + 0.5 + 0.5 * angle(node).cos()))
             });
             std::array::from_fn(|order| {
                 let sum: f64 = (0..NODES)
@@ -143,13 +327,14 @@ impl Panels {
                 weight * sum / NODES as f64
             })
         };
-        Self((0..PANELS).map(panel).collect())
+        let panels = ((0.5 * reach).asinh() / PANEL).ceil();
+        Self((0..panels as usize).map(panel).collect())
     }
 
-    /// The function at a place not beyond [`REACH`].
+    /// The function at a place not beyond the reach.
     fn at(&self, place: f64) -> f64 {
-        let scaled = 2.0 * place;
-        let panel = (scaled as usize).min(PANELS - 1);
+        let scaled = (0.5 * place).asinh() / PANEL;
+        let panel = (scaled as usize).min(self.0.len() - 1);
         let x = 2.0 * (scaled - panel as f64) - 1.0;
         // Clenshaw's recurrence.
         let coefficients = &self.0[panel];
@@ -167,24 +352,30 @@ pub struct LayerInfluence {
     layer: Layer,
     /// phi(s).
     rest: Panels,
+    far: Far,
 }
 
 impl LayerInfluence {
-    /// Tabulates; a tenth of a second.
+    /// Tabulates; a hundredth of a second, and one where a stiff layer lies on a soft base.
     pub fn new(layer: Layer) -> Self {
-        let waves = waves(&layer);
-        let kappa = Panels::of(|z| {
-            let terms = waves.iter();
-            terms.map(|(x, value)| value * (x * z).cos()).sum()
+        let far = Far::of(&layer);
+        let kappa = Panels::of(far.reach, |farthest| {
+            let waves = waves(&layer, farthest);
+            move |z| {
+                let terms = waves.iter();
+                terms.map(|(x, value)| value * (x * z).cos()).sum()
+            }
         });
-        let rest = Panels::of(|s| {
-            // The integrand is periodic and even about both ends: midpoints converge exponentially, once they resolve it.
-            let count = 32 + 8 * s.ceil() as usize;
-            let angle = |k: usize| FRAC_PI_2 * (k as f64 + 0.5) / count as f64;
-            let sum: f64 = (0..count).map(|k| kappa.at(s * angle(k).sin())).sum();
-            sum / count as f64
+        let rest = Panels::of(far.reach, |_| {
+            |s: f64| {
+                // The integrand is periodic and even about both ends: midpoints converge exponentially, once they resolve it.
+                let count = 32 + 8 * s.ceil() as usize;
+                let angle = |k: usize| FRAC_PI_2 * (k as f64 + 0.5) / count as f64;
+                let sum: f64 = (0..count).map(|k| kappa.at(s * angle(k).sin())).sum();
+                sum / count as f64
+            }
         });
-        Self { layer, rest }
+        Self { layer, rest, far }
     }
 
     /// The layer.
@@ -212,15 +403,18 @@ impl LayerInfluence {
         /// Distance of the singularity from the real axis.
         const SINGULAR: f64 = 2.0;
         let near = (x.abs() - a).max(0.0).hypot((y.abs() - b).max(0.0));
-        if near >= REACH {
+        if near >= self.far.reach && self.far.is_nothing() {
             return 0.0;
         }
         let longest = 2.0 * a.max(b);
         if let Some(rule) = rule_at(near.hypot(SINGULAR) / longest) {
-            let rest = |squared: f64| match squared < REACH * REACH {
-                true => self.rest.at(squared.sqrt()),
-                // What is left of both terms there is nothing.
-                false => -squared.sqrt().recip(),
+            let reach = self.far.reach;
+            let rest = |squared: f64| {
+                let s = squared.sqrt();
+                match s < reach {
+                    true => self.rest.at(s),
+                    false => self.far.at(s) - s.recip(),
+                }
             };
             let rest = quadrature((x, y), (a, b), rule, rest);
             return rectangle_displacement_m(x, y, a, b) + rest / PI;
@@ -238,22 +432,26 @@ impl LayerInfluence {
     }
 }
 
-/// Wave numbers x, and S(x) - 1 times the weight of a quadrature over them, for integrands that oscillate up to `cos(REACH x)`.
-fn waves(layer: &Layer) -> Vec<(f64, f64)> {
-    /// The fastest integrand turns by 2.25 rad within each, of which 8 points leave 1e-18.
-    const PIECES: usize = 512;
-    let half = 0.5 * LONGEST / PIECES as f64;
-    let piece = |piece: usize| {
-        let middle = (2 * piece + 1) as f64 * half;
-        let node = move |&(node, weight): &(f64, f64)| {
-            [-node, node].map(|node| (middle + half * node, half * weight))
-        };
-        GAUSS_8.iter().flat_map(node)
-    };
-    let nodes = (0..PIECES).flat_map(piece);
-    nodes
-        .map(|(x, weight)| (x, weight * layer.softening_less_one(x)))
-        .collect()
+/// Wave numbers x, and S(x) - 1 times the weight of a quadrature over them, for integrands that oscillate up to `cos(farthest x)`.
+fn waves(layer: &Layer, farthest: f64) -> Vec<(f64, f64)> {
+    /// What the fastest integrand turns by (rad) within each piece, of which 8 points leave 1e-18.
+    const TURN: f64 = 2.25;
+    let widest = (TURN / farthest).min(0.1);
+    // On a soft base S falls within a wave number of about the stiffness of the base.
+    let first = layer.softening(0.0).max(1.0).recip();
+    let mut waves = Vec::new();
+    let mut from = 0.0;
+    while from < LONGEST {
+        let half = 0.5 * widest.min(0.25 * (from + first));
+        for &(node, weight) in &GAUSS_8 {
+            for node in [-node, node] {
+                let x = from + half * (1.0 + node);
+                waves.push((x, half * weight * layer.softening_less_one(x)));
+            }
+        }
+        from += 2.0 * half;
+    }
+    waves
 }
 
 #[cfg(test)]
@@ -264,6 +462,7 @@ mod tests {
         LayerInfluence::new(Layer {
             thickness_m,
             base,
+            yielding: None,
             poisson_ratio,
         })
     }
@@ -367,5 +566,100 @@ mod tests {
         assert_eq!(at(0.06), 0.0);
         // What is cut off there is rounding of what is nearer.
         assert!(at(0.0478).abs() < 1e-15 * at(0.0));
+    }
+
+    fn on_yielding(modulus_ratio: f64, [own, of_base]: [f64; 2]) -> Layer {
+        Layer {
+            thickness_m: 1e-3,
+            base: Base::Bonded,
+            yielding: Some(YieldingBase {
+                modulus_ratio,
+                poisson_ratio: of_base,
+            }),
+            poisson_ratio: own,
+        }
+    }
+
+    const RATIOS: [f64; 7] = [0.01, 0.06, 0.3, 1.0, 3.0, 100.0, 1e6];
+
+    #[test]
+    fn a_base_that_yields_is_the_layer_itself_where_equal_and_rigid_where_stiff() {
+        for nu in [-0.5, 0.0, 0.3, 0.5] {
+            let (equal, stiff) = (on_yielding(1.0, [nu, nu]), on_yielding(1e12, [nu, 0.3]));
+            let rigid = *influence(Base::Bonded, nu, 1e-3).layer();
+            for k in -20..=15 {
+                let x = 10_f64.powf(0.1 * f64::from(k));
+                assert!((equal.softening(x) - 1.0).abs() < 1e-15, "{nu} {x}");
+                let off = stiff.softening(x) - rigid.softening(x);
+                // The base takes a trillionth.
+                assert!(off.abs() < 1e-11, "{nu} {x} {off:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn long_waves_see_the_base_alone_and_all_forms_of_the_softening_agree() {
+        for ratio in RATIOS {
+            for nus in [[0.0, 0.5], [0.3, 0.3], [0.5, 0.2]] {
+                let layer = on_yielding(ratio, nus);
+                let base = (1.0 - nus[1]) / (1.0 - nus[0]) / ratio;
+                let off = layer.softening(0.0) - base;
+                assert!(off.abs() < 1e-14 * base.max(1.0), "{ratio} {nus:?}");
+                for k in -60..=13 {
+                    let x = 10_f64.powf(0.1 * f64::from(k));
+                    let (softening, less_one) = (layer.softening(x), layer.softening_less_one(x));
+                    let off = softening - 1.0 - less_one;
+                    // Rounding of terms of the size of the base's compliance.
+                    assert!(
+                        off.abs() < 1e-14 * base.max(1.0),
+                        "{ratio} {nus:?} {x} {off:e}"
+                    );
+                    assert!(softening > 0.0);
+                }
+                // Both sides of where one form takes over from the other.
+                let step = layer.softening(1.0) - layer.softening(1.0 + 1e-12);
+                assert!(step.abs() < 1e-10 * layer.softening(1.0), "{ratio} {nus:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn far_from_a_load_the_powers_go_on_from_the_table() {
+        for ratio in RATIOS {
+            let influence = LayerInfluence::new(on_yielding(ratio, [0.4, 0.3]));
+            let (far, reach) = (influence.far, influence.far.reach);
+            for back in [1e-6, 1.0, 3.0] {
+                let s = reach - back;
+                let table = influence.rest.at(s) + s.recip();
+                // The table holds phi, which is 1/s less: its rounding. And what the last power leaves a little nearer.
+                let off = (table - far.at(s)) * s / far.coefficients[0].max(1.0);
+                assert!(off.abs() < 1e-11, "{ratio} {back} {off:e}");
+            }
+            // Far beyond, the layer is not seen.
+            let point = far.at(1e8) * 1e8 / far.coefficients[0];
+            assert!((point - 1.0).abs() < 1e-9, "{ratio}");
+        }
+    }
+
+    #[test]
+    fn a_rectangle_on_a_yielding_base_is_the_sum_of_its_parts() {
+        for ratio in [0.01, 0.5, 20.0] {
+            let layer = LayerInfluence::new(on_yielding(ratio, [0.45, 0.3]));
+            for side_m in [1e-4, 3e-3, 0.3] {
+                for (x, y) in [(0.0, 0.0), (2.0, 3.0), (70.0, 5.0)] {
+                    let (x_m, y_m, half_m) = (x * side_m, y * side_m, 0.5 * side_m);
+                    let whole_m = layer.rectangle_displacement_m(x_m, y_m, half_m, half_m);
+                    let part_m = |part: usize| {
+                        let third = side_m / 3.0;
+                        let at = |k: usize| (k as f64 - 1.0) * third;
+                        let (dx, dy) = (at(part % 3), at(part / 3));
+                        layer.rectangle_displacement_m(x_m + dx, y_m + dy, third / 2.0, third / 2.0)
+                    };
+                    let parts_m: f64 = (0..9).map(part_m).sum();
+                    let error = (whole_m - parts_m).abs() / (side_m * ratio.recip().max(1.0));
+                    assert!(error < 1e-11, "{ratio} {side_m} {x} {error:e}");
+                }
+            }
+        }
     }
 }

@@ -113,7 +113,7 @@ rows! { SWEEP_KEYS:
     /// its block: `"material.relaxation.branches[0].time" = ["1 s", "10 s"]`, items counted from 0.
     MATERIAL_AXIS: Row<AxisOf, Optional> =
         "material", AxisOf { block: Block::Material, rows: &MATERIAL }, Optional;
-    /// The same over the thickness of the layer: `layer.thickness = ["10 um", "1 mm"]`.
+    /// The same over a number of the layer: `layer.thickness = ["10 um", "1 mm"]`.
     LAYER_AXIS: Row<AxisOf, Optional> = "layer", AxisOf { block: Block::Layer, rows: &LAYER }, Optional;
     /// Whether the values of several axes go together one by one, each axis with as many, in place of all their combinations.
     PAIRS: Row<Boolean, Or<bool>> = "pairs", Boolean, Or(false);

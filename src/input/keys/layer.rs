@@ -1,9 +1,13 @@
-//! Keys of `[layer]`: the body is a layer on a rigid base.
+//! Keys of `[layer]`: the body is a layer on a base.
 
+use std::ops::Bound;
+
+use super::material::POISSON_RATIO_VALUE;
 use super::rows;
-use crate::contact::half_space::layer::Base;
-use crate::input::document::kind::{Choice, Scalar, quantity};
-use crate::input::document::row::{Or, Required, Row, Rows};
+use crate::contact::half_space::layer::{Base, YieldingBase};
+use crate::input::document::kind::{Choice, Scalar, number, quantity};
+use crate::input::document::limits::Limits;
+use crate::input::document::row::{Optional, Or, Required, Row, Rows};
 use crate::quantity::Dimension::Length;
 
 const BASES: [(&str, Base); 2] = [
@@ -11,14 +15,26 @@ const BASES: [(&str, Base); 2] = [
     (Base::Frictionless.name(), Base::Frictionless),
 ];
 
+const MODULUS_RATIO: Scalar = number("4.0")
+    .within(Limits::new(
+        Bound::Included(YieldingBase::SOFTEST),
+        Bound::Included(YieldingBase::STIFFEST),
+    ))
+    .or_else("leave out base_modulus_ratio and base_poisson_ratio where the base is rigid beside the layer");
+
 rows! { LAYER_KEYS:
     /// Thickness of the layer.
     THICKNESS: Row<Scalar, Required> = "thickness", quantity(Length).above_zero(), Required;
-    /// How it lies on the rigid base: `bonded`, or `frictionless`, sliding along the base and never leaving it.
+    /// How it lies on the base: `bonded`, or `frictionless`, sliding along a rigid base and never leaving it.
     BASE: Row<Choice<Base>, Or<Base>> = "base", Choice(&BASES), Or(Base::Bonded);
+    /// Shear modulus of the base over that of the layer, of a base that yields: at all times the same, base and layer relaxing in
+    /// proportion. Without it the base is rigid.
+    BASE_MODULUS_RATIO: Row<Scalar, Optional> = "base_modulus_ratio", MODULUS_RATIO, Optional;
+    /// Poisson ratio of a base that yields.
+    BASE_POISSON_RATIO: Row<Scalar, Optional> = "base_poisson_ratio", POISSON_RATIO_VALUE, Optional;
 }
 
 pub(super) static LAYER: Rows = super::table(
-    " The body is a layer of the material on a rigid base, without end to all sides, in place of a half-space. Half-space engine alone.",
+    " The body is a layer of the material on a base, without end to all sides, in place of a half-space. Half-space engine alone.",
     LAYER_KEYS,
 );

@@ -34,7 +34,7 @@ pub(crate) enum Evaluation {
 const EVALUATIONS: [(&str, Evaluation); 2] =
     [("fit", Evaluation::Fit), ("direct", Evaluation::Direct)];
 
-const POISSON_RATIO_VALUE: Scalar = number("0.4")
+pub(super) const POISSON_RATIO_VALUE: Scalar = number("0.4")
     .within(Limits::new(Bound::Excluded(-1.0), Bound::Included(0.5)))
     .or_else("an incompressible material has poisson_ratio = 0.5");
 

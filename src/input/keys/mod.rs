@@ -80,7 +80,7 @@ rows! { SWEEP_KEYS:
     TITLE: Row<Text, Required> = "title", Text, Required;
     /// What the half-space is made of.
     MATERIAL: Row<Table, Required> = "material", Table(&material::MATERIAL), Required;
-    /// The body is a layer on a rigid base in place of a half-space.
+    /// The body is a layer on a base in place of a half-space.
     LAYER: Row<Table, Optional> = "layer", Table(&layer::LAYER), Optional;
     /// The indenter.
     INDENTER: Row<Table, Required> = "indenter", Table(&indenter::INDENTER), Required;

@@ -60,8 +60,10 @@ pub(super) fn line(plan: &SweepPlan) -> String {
     format!(
         "{}{}, under a {}; {}; {range}",
         plan.material.name().unwrap_or("A material of its own"),
-        plan.layer
-            .map_or(String::new(), |layer| format!(" {}", layer.words())),
+        plan.layer.map_or(String::new(), |layer| format!(
+            " {}",
+            layer.words(|_| false)
+        )),
         plan.indenter.shape(),
         words::drive_line(&plan.drive, plan)
     ) + &words::varied_line(plan).map_or(String::new(), |line| format!("; {line}"))
@@ -105,8 +107,14 @@ pub(super) fn body(layer: Option<LayerPlan>) -> Markup {
         return Markup::default();
     };
     let mut facts = Facts::default();
-    facts.add("body", &format!("a layer {}", layer.lies()));
+    facts.add("body", &format!("a layer {}", layer.lies(|_| false)));
     facts.add("thickness", &plain(layer.thickness_m, Dimension::Length, 6));
+    if let Some(base) = layer.yielding {
+        facts.add(
+            "Poisson ratio of the base",
+            &format!("{}", base.poisson_ratio),
+        );
+    }
     facts.html()
 }
 

@@ -273,8 +273,10 @@ pub(super) fn line(plan: &ScenarioPlan) -> String {
     format!(
         "{}{}, under a {}; {} over {}",
         name.unwrap_or("A material of its own"),
-        plan.layer
-            .map_or(String::new(), |layer| format!(" {}", layer.words())),
+        plan.layer.map_or(String::new(), |layer| format!(
+            " {}",
+            layer.words(|_| false)
+        )),
         plan.indenter.shape(),
         plan.drive.control().name(),
         plain(plan.drive.duration_s(), Dimension::Time, 5)

@@ -64,7 +64,7 @@ type Solids = HashMap<usize, (Arc<Material>, Arc<Solid>)>;
 
 /// What engines differ in: the indenter by its address, the largest value of the drive, the relaxed compliance and the layer bit for
 /// bit, and the number of springs or cells.
-type EngineKey = (usize, [u64; 5], usize);
+type EngineKey = (usize, [u64; 7], usize);
 
 /// Steps per cycle, and springs or cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -172,11 +172,14 @@ impl Setup {
         let relaxed_per_pa = self.solid(condition)?.relaxed_per_pa;
         let indenter = Arc::as_ptr(&condition.indenter).addr();
         let layer = condition.layer;
+        let base = layer.and_then(|layer| layer.yielding);
         let numbers = [
             condition.drive.maximum() + condition.drive.pull_off_n(),
             relaxed_per_pa,
             layer.map_or(0.0, |layer| layer.thickness_m),
             layer.map_or(0.0, |layer| f64::from(layer.base as u8)),
+            base.map_or(0.0, |base| base.modulus_ratio),
+            base.map_or(0.0, |base| base.poisson_ratio),
             condition.material.poisson_ratio().unwrap_or(f64::NAN),
         ];
         let numbers = numbers.map(f64::to_bits);

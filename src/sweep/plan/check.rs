@@ -3,6 +3,7 @@
 
 use std::ops::{Range, RangeInclusive};
 
+use crate::contact::half_space::layer::YieldingBase;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{Condition, CyclePlan, EngineKind, Method, SolverPlan, SweepPlan};
 
@@ -18,6 +19,12 @@ pub enum PlanError {
     Frequency { angular_frequency_rad_per_s: f64 },
     #[error("the layer's thickness is {thickness_m} m; it must be positive and finite")]
     Thickness { thickness_m: f64 },
+    #[error(
+        "a base that yields is bonded to its layer, has from {} to {} of its shear modulus, and a Poisson ratio above -1 and at most 0.5",
+        YieldingBase::SOFTEST,
+        YieldingBase::STIFFEST
+    )]
+    Base,
     #[error(
         "the {what} {value} does not follow {before} in ascending order; give each once, the smallest first"
     )]

@@ -1,18 +1,20 @@
-//! The `[layer]` of a plan: the body is a layer on a rigid base in place of a half-space.
+//! The `[layer]` of a plan: the body is a layer on a base in place of a half-space.
 //!
-//! Base and layer relax in proportion, since the base does not yield at all, and the Poisson ratio is constant: space and time
-//! separate as on the half-space, and everything but the influence of a load on its surroundings stays as it is.
+//! Base and layer relax in proportion, or the base does not yield at all, and Poisson ratios are constant: space and time separate as
+//! on the half-space, and everything but the influence of a load on its surroundings stays as it is.
 
-use crate::contact::half_space::layer::{Base, Layer};
+use crate::contact::half_space::layer::{Base, Layer, YieldingBase};
 use crate::quantity::{Dimension, format_human, format_si};
 use crate::sweep::plan::check::PlanError;
 
-/// A layer of the plan's material on a rigid base.
+/// A layer of the plan's material on a base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LayerPlan {
     /// m.
     pub thickness_m: f64,
     pub base: Base,
+    /// What the base is made of, where it is not rigid.
+    pub yielding: Option<YieldingBase>,
 }
 
 impl LayerPlan {
@@ -21,39 +23,70 @@ impl LayerPlan {
         Layer {
             thickness_m: self.thickness_m,
             base: self.base,
+            yielding: self.yielding,
             poisson_ratio,
         }
     }
 
     /// The `[layer]` block, with an empty line before it.
     pub(crate) fn text(&self) -> String {
+        let yielding = self.yielding.map(|base| {
+            format!(
+                "base_modulus_ratio = {:?}\nbase_poisson_ratio = {:?}\n",
+                base.modulus_ratio, base.poisson_ratio
+            )
+        });
         format!(
-            "\n[layer]\nthickness = \"{}\"\nbase = \"{}\"\n",
+            "\n[layer]\nthickness = \"{}\"\nbase = \"{}\"\n{}",
             format_si(self.thickness_m, Dimension::Length),
-            self.base.name()
+            self.base.name(),
+            yielding.unwrap_or_default()
         )
     }
 
-    /// How it lies, in words.
-    pub fn lies(&self) -> &'static str {
-        match self.base {
-            Base::Bonded => "bonded to a rigid base",
-            Base::Frictionless => "on a rigid base without friction",
+    /// How it lies, in words, without a modulus of the base that an axis varies.
+    pub fn lies(&self, is_varied: impl Fn(&str) -> bool) -> String {
+        match (self.yielding, self.base) {
+            (Some(_), _) if is_varied("base_modulus_ratio") => {
+                "bonded to a base that yields".to_owned()
+            }
+            (Some(base), _) => {
+                format!(
+                    "bonded to a base of {} times its shear modulus",
+                    base.modulus_ratio
+                )
+            }
+            (None, Base::Bonded) => "bonded to a rigid base".to_owned(),
+            (None, Base::Frictionless) => "on a rigid base without friction".to_owned(),
         }
     }
 
-    /// In words, to follow a material: `in a layer of 100 um bonded to a rigid base`.
-    pub fn words(&self) -> String {
-        let thickness = format_human(self.thickness_m, Dimension::Length, 4);
-        format!("in a layer of {thickness} {}", self.lies())
+    /// In words, to follow a material, without what axes vary: `in a layer of 100 um bonded to a rigid base`.
+    pub fn words(&self, is_varied: impl Fn(&str) -> bool) -> String {
+        let of_thickness = match is_varied("thickness") {
+            true => String::new(),
+            false => format!(
+                "of {} ",
+                format_human(self.thickness_m, Dimension::Length, 4)
+            ),
+        };
+        format!("in a layer {of_thickness}{}", self.lies(is_varied))
     }
 
     pub(in crate::sweep) fn check(&self) -> Result<(), PlanError> {
-        match self.thickness_m.is_finite() && self.thickness_m > 0.0 {
-            true => Ok(()),
-            false => Err(PlanError::Thickness {
+        if !(self.thickness_m.is_finite() && self.thickness_m > 0.0) {
+            return Err(PlanError::Thickness {
                 thickness_m: self.thickness_m,
-            }),
+            });
+        }
+        let Some(base) = self.yielding else {
+            return Ok(());
+        };
+        let is_known =
+            (YieldingBase::SOFTEST..=YieldingBase::STIFFEST).contains(&base.modulus_ratio);
+        match is_known && base.poisson_ratio > -1.0 && base.poisson_ratio <= 0.5 {
+            true if self.base == Base::Bonded => Ok(()),
+            _ => Err(PlanError::Base),
         }
     }
 }

@@ -227,7 +227,7 @@ impl ActiveSet {
                     Some(layer) => {
                         let (_, spread) = moments.centre_and_spread(step_y);
                         let radius_m = (2.0 * spread).sqrt() * grid.spacing_x_m();
-                        bound * layer.softening(layer.thickness_m / radius_m)
+                        bound * layer.softening(layer.thickness_m / radius_m).min(1.0)
                     }
                 }
             }
