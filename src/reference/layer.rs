@@ -100,18 +100,21 @@ fn waves(layer: &Layer, farthest_m: f64) -> Vec<(f64, f64)> {
     /// Wave number in thicknesses beyond which S - 1 is rounding.
     const LONGEST: f64 = 24.0;
     const NODES: usize = 16;
-    let turns = LONGEST * farthest_m / layer.thickness_m;
     // At most 4 rad within a piece, of which 16 nodes leave nothing.
-    let pieces = 64.max((turns / 4.0).ceil() as usize);
+    let widest = (4.0 * layer.thickness_m / farthest_m).min(LONGEST / 64.0);
+    // On a soft base S falls within a wave number of about the stiffness of the base.
+    let first = layer.softening(0.0).max(1.0).recip();
     let rule = legendre(NODES);
-    let half = 0.5 * LONGEST / pieces as f64;
-    let mut waves = Vec::with_capacity(pieces * NODES);
-    for piece in 0..pieces {
+    let mut waves = Vec::new();
+    let mut from = 0.0;
+    while from < LONGEST {
+        let half = 0.5 * widest.min(0.5 * (from + first));
         for (node, weight) in &rule {
-            let x = half * (2.0 * piece as f64 + 1.0 + node);
+            let x = from + half * (1.0 + node);
             let value = half * weight * layer.softening_less_one(x);
             waves.push((x / layer.thickness_m, value / layer.thickness_m));
         }
+        from += 2.0 * half;
     }
     waves
 }
