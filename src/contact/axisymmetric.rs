@@ -148,8 +148,7 @@ impl Axisymmetric {
         let mut approach_m = self.approach_m;
         let mut pass = 1;
         loop {
-            let width_m = self.width_below(approach_m);
-            let sum = self.sum_below(approach_m, |offset_m, width_m| width_m * offset_m);
+            let [width_m, sum] = sums::of_springs_below(&self.offset_m, &self.width_m, approach_m);
             let next_m = match width_m > 0.0 {
                 true => (target + sum) / width_m,
                 false => sums::least(&self.offset_m) + target / self.end_m(),
@@ -169,29 +168,9 @@ impl Axisymmetric {
 
     /// Writes the forces at an approach; the load they carry, and the width of the springs in contact.
     fn press_to(&self, approach_m: f64, compliance_per_pa: f64, force: &mut [f64]) -> (f64, f64) {
-        let stiffness_pa = compliance_per_pa.recip();
-        for (force, offset) in force.iter_mut().zip(&self.offset_m) {
-            let elastic = (approach_m - offset) * stiffness_pa;
-            *force = if *offset < approach_m { elastic } else { 0.0 };
-        }
-        let load_n = 2.0 * sums::dot(force, &self.width_m);
-        (load_n, self.width_below(approach_m))
-    }
-
-    /// Width (m) of the springs in contact at an approach.
-    fn width_below(&self, approach_m: f64) -> f64 {
-        self.sum_below(approach_m, |_, width_m| width_m)
-    }
-
-    /// The sum of a term, of offset and width, over the springs in contact at an approach. One term at a time: then the engine's
-    /// innermost loop has no branches.
-    #[inline(always)]
-    fn sum_below(&self, approach_m: f64, term: impl Fn(f64, f64) -> f64) -> f64 {
-        let [sum] = sums::sums(&self.offset_m, &self.width_m, |offset_m, width_m| {
-            let term = term(offset_m, width_m);
-            [if offset_m < approach_m { term } else { 0.0 }]
-        });
-        sum
+        let pressed = (approach_m, compliance_per_pa.recip());
+        let [sum, width_m] = sums::press(&self.offset_m, &self.width_m, pressed, force);
+        (2.0 * sum, width_m)
     }
 
     /// Contact radius: where delta - G - H, linear between springs, passes through zero.
@@ -316,9 +295,7 @@ impl Engine for Axisymmetric {
     }
 
     fn work(&self, force: &[f64], displacement: &[f64]) -> f64 {
-        2.0 * sums::sum_over_triples(&self.width_m, force, displacement, |width, f, u| {
-            width * f * u
-        })
+        2.0 * sums::sum_of_products(&self.width_m, force, displacement)
     }
 
     fn surface_density(&mut self, nodal: &[f64], radius_m: f64) -> Result<Surface, ContactError> {

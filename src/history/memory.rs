@@ -2,8 +2,11 @@
 
 use std::ops::Range;
 
+use multiversion::multiversion;
+
 use super::hereditary::Stage;
 use super::loaded::Loaded;
+use crate::contact::sums;
 use crate::material::Creep;
 
 /// How the pressure is taken to vary within a time step.
@@ -384,12 +387,8 @@ impl Memory {
             let chunks = self.branches.chunks_exact_mut(self.nodes);
             let branches = self.compliance.branches().iter().zip(&weights.branches);
             for (memory, (branch, w)) in chunks.zip(branches) {
-                let compliance = branch.compliance_per_pa;
-                let nodes = memory[block.clone()].iter_mut().zip(old_pressure);
-                for ((m, &p), h) in nodes.zip(history.iter_mut()) {
-                    *m = w.decay * *m + w.old * p;
-                    *h += compliance * *m;
-                }
+                let weights = (w.decay, w.old, branch.compliance_per_pa);
+                fade(&mut memory[block.clone()], old_pressure, weights, history);
             }
             if let Some(eta) = eta {
                 let nodes = self.flow[block].iter_mut().zip(old_pressure);
@@ -409,9 +408,7 @@ impl Memory {
             let chunks = self.branches.chunks_exact_mut(self.nodes);
             for (memory, w) in chunks.zip(&weights.branches) {
                 if w.new != 0.0 {
-                    for (m, &p) in memory[block.clone()].iter_mut().zip(new_pressure) {
-                        *m += w.new * p;
-                    }
+                    sums::add_scaled(&mut memory[block.clone()], w.new, new_pressure);
                 }
             }
             if weights.flow_new_s != 0.0 && !self.flow.is_empty() {
@@ -420,6 +417,21 @@ impl Memory {
                 }
             }
         }
+    }
+}
+
+/// Memory that decays and takes in the old pressure, and its part of the history.
+#[multiversion(targets("x86_64+avx2"))]
+fn fade(
+    memory: &mut [f64],
+    old_pressure: &[f64],
+    (decay, old, compliance): (f64, f64, f64),
+    history: &mut [f64],
+) {
+    let nodes = memory.iter_mut().zip(old_pressure);
+    for ((m, &p), h) in nodes.zip(history.iter_mut()) {
+        *m = decay * *m + old * p;
+        *h += compliance * *m;
     }
 }
 

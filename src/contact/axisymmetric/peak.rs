@@ -14,7 +14,7 @@ use super::{Axisymmetric, in_contact};
 use crate::contact::sums;
 
 /// Of the largest pressure, rows from one that is looked at first to the next: what they hide would be finer than the row of springs
-/// resolves.
+/// resolves. A power of two.
 const STRIDE: usize = 8;
 
 /// What is known of the springs of a row, and of the force that was last asked about.
@@ -60,7 +60,7 @@ impl Slopes {
         let mut beyond = f64::NEG_INFINITY;
         let parts = self.slope.chunks(STRIDE).zip(&mut self.steepest);
         for (part, steepest) in parts.rev() {
-            beyond = part.iter().fold(beyond, |fall, s| fall.max(-s));
+            beyond = beyond.max(-sums::least(part));
             *steepest = beyond;
         }
     }
@@ -70,8 +70,7 @@ impl Slopes {
         let last = self.slope.len() - 1;
         let inner = &self.slope[row..last];
         let ends_m = (&roots_m[..inner.len()], &roots_m[1..=inner.len()]);
-        let inner =
-            sums::sum_over_triples(inner, ends_m.0, ends_m.1, |s, from, to| s * (to - from));
+        let inner = sums::sum_of_spans(inner, ends_m.0, ends_m.1);
         let outer = (self.root_of_edge_m(r_m) - roots_m[last - row]).max(0.0);
         -FRAC_2_PI * (inner + self.slope[last] * outer)
     }
@@ -110,8 +109,8 @@ impl Axisymmetric {
         contact
     }
 
-    /// The largest pressure (Pa) of these line forces (N/m): sought among every eighth row, then around the best of them. Rows that
-    /// cannot be larger are passed over.
+    /// The largest pressure (Pa) of these line forces (N/m): sought among every eighth row, then uphill from the best of them in steps
+    /// that halve. Rows that cannot be larger are passed over.
     pub(super) fn largest_pressure_pa(&mut self, force: &[f64], contact_radius_m: f64) -> f64 {
         self.fill_slopes(force, contact_radius_m);
         let mut best = (0, f64::NEG_INFINITY);
@@ -127,9 +126,15 @@ impl Axisymmetric {
         for row in (0..=force.len()).step_by(STRIDE) {
             look(row, &mut best);
         }
-        let around = best.0.saturating_sub(STRIDE - 1)..=(best.0 + STRIDE - 1).min(force.len());
-        for row in around {
-            look(row, &mut best);
+        let mut step = STRIDE / 2;
+        while step > 0 {
+            let middle = best.0;
+            for row in [middle.checked_sub(step), Some(middle + step)] {
+                if let Some(row) = row.filter(|row| *row <= force.len()) {
+                    look(row, &mut best);
+                }
+            }
+            step /= 2;
         }
         best.1
     }
