@@ -214,6 +214,7 @@ def identify(
     file: str | os.PathLike[str] | None = None,
     overrides: Mapping[str, Any] | None = None,
     poisson_ratio: float | None = None,
+    bulk_modulus: Quantity | None = None,
     mean: Quantity | None = None,
     amplitude: Quantity | None = None,
     control: Literal["load", "approach"] = "load",
@@ -237,6 +238,7 @@ def identify(
         file: an identification file in place of all these, with ``overrides``.
         overrides: changes of the file.
         poisson_ratio: of the material.
+        bulk_modulus: of the material (Pa), constant in time, in place of the Poisson ratio.
         mean: mean load (N) or approach (m) of the measurement.
         amplitude: its amplitude.
         control: what the drive prescribes.
@@ -274,12 +276,14 @@ def identify(
     options.update(indenter_material=indenter_material, layer=layer, adhesion=adhesion)
     drive, cycle, solver = _chosen(options, _DRIVE_KEYS), _chosen(options, _CYCLE_KEYS), _solver(options)
     drive["segments"] = segments
+    known = {"poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}
     bodies = _bodies(indenter, options, False)
     _refuse("identify", options)
     with tempfile.TemporaryDirectory() as folder:
         text = f"title = {_toml.value(title or 'Measured cycles')}\n\n"
         text += _toml.table("identify", {"data": _data(data, Path(folder)), "branches": branches})
-        text += (_toml.table("material", {"poisson_ratio": poisson_ratio}) or "[material]\n") + _toml.table("drive", drive)
+        text += _toml.table("material", known) or "[material]\n"
+        text += _toml.table("drive", drive)
         text += _toml.table("cycle", cycle) + solver + bodies
         source = _Source("identify(...)", text, (), None, None if "[indenter]" in bodies else indenter._core)
         return IdentifiedMaterial(*_core.identify_material(source, _threads(threads)))

@@ -8,7 +8,6 @@ use contact_dma::identify::resolved::resolved_text;
 use contact_dma::identify::{IdentifyError, curves, identify};
 use contact_dma::input::document::Document;
 use contact_dma::input::{identify_file, loop_file, setup_file};
-use contact_dma::material::{Material, ModulusKind};
 use contact_dma::measured::{Options, Signal, analyse as analyse_signal};
 use contact_dma::quantity::{Dimension, parse};
 use contact_dma::report::dynamic::tables::prony;
@@ -209,9 +208,7 @@ pub fn identify_material<'py>(
         curves: &curves,
     };
     let (lowest, highest) = found.window_rad_per_s;
-    let series = found.relaxation.clone();
-    let material = Material::from_relaxation(series, ModulusKind::Longitudinal, plan.poisson_ratio);
-    let material = material.map_err(failure::of_run)?;
+    let material = plan.body(&found.relaxation).map_err(failure::of_run)?;
     let material = material.measured((1.0 / highest, 1.0 / lowest));
     let summary = identify_summary::summary(&report);
     let summary = serde_json::to_string_pretty(&summary).map_err(failure::of_run)?;

@@ -13,7 +13,6 @@ use super::{Ended, Failure, json, meant_for, open_document, print};
 use crate::identify::resolved::resolved_text;
 use crate::identify::{Identified, IdentifyError, curves, identify};
 use crate::input::identify_file;
-use crate::material::{Material, ModulusKind};
 use crate::report::caption::Setting;
 use crate::report::dynamic::tables::prony;
 use crate::report::identify::{IdentifyReport, summary, tables};
@@ -124,12 +123,7 @@ fn block(report: &IdentifyReport<'_>, found: &Identified) -> Result<String, Fail
     let text = format!("{}\n{}", report.plan.title, report.text());
     let comments: String = text.lines().map(|line| format!("# {line}\n")).collect();
     let (lowest, highest) = found.window_rad_per_s;
-    let material = Material::from_relaxation(
-        found.relaxation.clone(),
-        ModulusKind::Longitudinal,
-        report.plan.poisson_ratio,
-    );
-    let material = material
+    let material = (report.plan.body(&found.relaxation))
         .map_err(Failure::run)?
         .measured((1.0 / highest, 1.0 / lowest));
     Ok(format!("{comments}{}", resolved::material_text(&material)))

@@ -18,7 +18,7 @@ use crate::identify::data::Number;
 use crate::identify::series::Point;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan};
 use crate::indenter::Indenter;
-use crate::material::{Creep, Relaxation};
+use crate::material::{Compressibility, Creep, Material, ModulusKind, Relaxation};
 use crate::sweep::history::between::values_at;
 use crate::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::scenario::ScenarioPlan;
@@ -89,8 +89,7 @@ fn between(x: &[f64], y: &[f64], at: f64) -> f64 {
 pub(super) struct LinearHistory {
     control: Control,
     elastic: Elastic,
-    /// 1 - nu^2.
-    plane: f64,
+    compressibility: Compressibility,
     /// Contact compliance (1/Pa) of an indenter that is not rigid.
     counterbody: Option<Creep>,
     /// Length (s) and values at beginning and end of every step of what is convolved: load (N), or F (m^2).
@@ -123,7 +122,7 @@ impl LinearHistory {
             control: drive.control(),
             steps: steps.collect(),
             ends: schedule.requested.iter().map(|moment| moment + 1).collect(),
-            plane: 1.0 - plan.poisson_ratio * plan.poisson_ratio,
+            compressibility: plan.compressibility.clone(),
             counterbody: (plan.counterbody.as_ref())
                 .and_then(|indenter| indenter.contact_compliance().ok()),
             elastic,
@@ -133,13 +132,13 @@ impl LinearHistory {
     /// The number of every datum.
     pub(super) fn numbers(&self, point: &Point) -> Vec<f64> {
         let undefined = || vec![f64::NAN; self.ends.len()];
-        match (self.control, &self.counterbody) {
-            (Control::Approach, None) => {
+        match (self.control, &self.counterbody, &self.compressibility) {
+            (Control::Approach, None, Compressibility::PoissonRatio(nu)) => {
                 let branches = point.branches_pa_s();
                 let loads = self.convolved(point.equilibrium_pa(), &branches);
-                loads.iter().map(|load| load / self.plane).collect()
+                loads.iter().map(|load| load / (1.0 - nu * nu)).collect()
             }
-            (Control::Approach, Some(_)) => {
+            (Control::Approach, ..) => {
                 let compliance = self.compliance(point);
                 let Some(modulus) = compliance.and_then(|creep| creep.to_relaxation().ok()) else {
                     return undefined();
@@ -148,7 +147,7 @@ impl LinearHistory {
                 let branches: Vec<_> = branches.map(|b| (b.modulus_pa, b.time_s)).collect();
                 self.convolved(modulus.equilibrium_modulus(), &branches)
             }
-            (Control::Load, _) => {
+            (Control::Load, ..) => {
                 let Some(creep) = self.compliance(point) else {
                     return undefined();
                 };
@@ -166,8 +165,18 @@ impl LinearHistory {
 
     /// The contact compliance (1/Pa) of the pair; `None` where it has none.
     fn compliance(&self, point: &Point) -> Option<Creep> {
-        let creep = point.relaxation().and_then(|series| series.to_creep());
-        let own = creep.and_then(|creep| creep.scaled(self.plane)).ok()?;
+        let series = point.relaxation().ok()?;
+        let own = match &self.compressibility {
+            Compressibility::PoissonRatio(nu) => {
+                let creep = series.to_creep().ok()?;
+                creep.scaled(1.0 - nu * nu).ok()?
+            }
+            bulk @ Compressibility::BulkModulus(_) => {
+                let kind = ModulusKind::Longitudinal;
+                let material = Material::from_relaxation(series, kind, bulk.clone()).ok()?;
+                material.contact_compliance().ok()?
+            }
+        };
         match &self.counterbody {
             Some(indenter) => own.beside(indenter).ok(),
             None => Some(own),

@@ -13,7 +13,7 @@ use num_complex::Complex;
 use crate::drive::Control;
 use crate::identify::data::MeasuredCycle;
 use crate::indenter::Indenter;
-use crate::material::Creep;
+use crate::material::{Compressibility, Creep};
 use crate::sweep::record::error_bars::Quantity;
 
 /// The smallest part of the mean that an oscillation leaves.
@@ -21,13 +21,12 @@ const LEAST: f64 = 1e-3;
 
 /// A cycle's contact about some equilibrium modulus.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct LinearCycle {
+pub(super) struct LinearCycle<'a> {
     control: Control,
     angular_frequency_rad_per_s: f64,
     mean: f64,
     amplitude: f64,
-    /// 1 - nu^2.
-    plane: f64,
+    compressibility: &'a Compressibility,
     /// Contact compliance (1/Pa) of an indenter that is not rigid: at the frequency, and at rest.
     counterbody: (Complex<f64>, f64),
     /// Logarithms of the radius (m) and of the product of load and compliance (m^2) that it belongs to, and the power.
@@ -36,21 +35,21 @@ pub(super) struct LinearCycle {
     power: f64,
 }
 
-impl LinearCycle {
+impl<'a> LinearCycle<'a> {
     pub(super) fn new(
         cycle: &MeasuredCycle,
         indenter: &dyn Indenter,
-        (poisson_ratio, counterbody): (f64, Option<&Creep>),
+        (compressibility, counterbody): (&'a Compressibility, Option<&Creep>),
         equilibrium_pa: f64,
     ) -> Self {
-        let plane = 1.0 - poisson_ratio * poisson_ratio;
         let drive = &cycle.drive;
         let counterbody = counterbody.map_or((0.0.into(), 0.0), |creep| {
             let omega = cycle.angular_frequency_rad_per_s;
             let at_rest = creep.equilibrium_compliance().unwrap_or(0.0);
             (creep.complex_compliance(omega), at_rest)
         });
-        let compliance = plane / equilibrium_pa + counterbody.1;
+        let at_rest = compressibility.contact_modulus(equilibrium_pa.into()).re;
+        let compliance = at_rest.recip() + counterbody.1;
         let attraction = drive.pull_off_n();
         let mean = (drive.mean() + attraction).max(0.5 * (drive.maximum() + attraction));
         let (radius, product, power) = match drive.control() {
@@ -72,7 +71,7 @@ impl LinearCycle {
             angular_frequency_rad_per_s: cycle.angular_frequency_rad_per_s,
             mean,
             amplitude: drive.amplitude(),
-            plane,
+            compressibility,
             counterbody,
             ln_radius: radius.max(f64::MIN_POSITIVE).ln(),
             ln_product: product.ln(),
@@ -102,8 +101,12 @@ impl LinearCycle {
     /// The same of what depends on both bodies, as if the compliance of both were one's.
     fn of_pair(&self, quantity: Quantity, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
         let (at_frequency, at_rest) = self.counterbody;
-        let modulus = modulus / (1.0 + modulus * at_frequency / self.plane);
-        let equilibrium_pa = equilibrium_pa / (1.0 + equilibrium_pa * at_rest / self.plane);
+        let of_contact = |tensile, counterbody| {
+            let own = self.compressibility.contact_modulus(tensile);
+            own / (1.0 + own * counterbody)
+        };
+        let modulus = of_contact(modulus, at_frequency);
+        let equilibrium_pa = of_contact(equilibrium_pa.into(), at_rest.into()).re;
         match quantity {
             Quantity::PhaseLag => modulus.arg(),
             _ => match self.control {
@@ -120,8 +123,8 @@ impl LinearCycle {
 
     fn under_load(&self, quantity: Quantity, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
         let size = modulus.norm();
-        let mean = self.mean * self.plane / equilibrium_pa;
-        let swing = self.amplitude * self.plane / size;
+        let mean = self.mean / equilibrium_pa;
+        let swing = self.amplitude / size;
         let end = |sign: f64| (mean + sign * swing).max(LEAST * mean);
         let load = |sign: f64| (self.mean + sign * self.amplitude).max(LEAST * self.mean);
         let approach = |product: f64| product / (2.0 * self.radius_m(product) * (1.0 - self.power));
@@ -149,12 +152,11 @@ impl LinearCycle {
         let radius = self.radius_m(1.0);
         let force = |sign: f64| {
             let mean = self.mean * equilibrium_pa;
-            (mean + sign * self.amplitude * modulus.norm()).max(LEAST * mean) / self.plane
+            (mean + sign * self.amplitude * modulus.norm()).max(LEAST * mean)
         };
         match quantity {
             Quantity::EnergyLoss => {
                 2.0 * std::f64::consts::PI * radius * self.amplitude.powi(2) * modulus.im
-                    / self.plane
             }
             Quantity::PeakPressureMin => force(-1.0),
             Quantity::PeakPressureMax => force(1.0),

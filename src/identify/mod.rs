@@ -61,7 +61,7 @@ use std::sync::Arc;
 use crate::drive::{HarmonicDrive, SegmentedDrive};
 use crate::identify::data::Measurements;
 use crate::indenter::Indenter;
-use crate::material::{Material, MaterialError, ModulusKind, Relaxation};
+use crate::material::{Compressibility, Material, MaterialError, ModulusKind, Relaxation};
 use crate::sweep::case::SetupError;
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::layer::LayerPlan;
@@ -81,7 +81,8 @@ pub const UNDETERMINED: f64 = 2.0;
 #[derive(Debug, Clone)]
 pub struct IdentifyPlan {
     pub title: String,
-    pub poisson_ratio: f64,
+    /// A Poisson ratio, or a bulk modulus that is constant in time.
+    pub compressibility: Compressibility,
     pub indenter: Arc<dyn Indenter>,
     /// What the indenter is made of, where it is not rigid.
     pub counterbody: Option<Material>,
@@ -135,12 +136,20 @@ impl IdentifyPlan {
     /// # Errors
     /// As [`Material::from_relaxation`].
     pub(crate) fn material(&self, series: &Relaxation) -> Result<Material, MaterialError> {
-        let kind = ModulusKind::Longitudinal;
-        let material = Material::from_relaxation(series.clone(), kind, self.poisson_ratio)?;
+        let material = self.body(series)?;
         Ok(match &self.counterbody {
             Some(indenter) => material.against(indenter.clone()),
             None => material,
         })
+    }
+
+    /// The material of a series by itself.
+    ///
+    /// # Errors
+    /// As [`Material::from_relaxation`].
+    pub fn body(&self, series: &Relaxation) -> Result<Material, MaterialError> {
+        let kind = ModulusKind::Longitudinal;
+        Material::from_relaxation(series.clone(), kind, self.compressibility.clone())
     }
 }
 

@@ -43,7 +43,7 @@ const CLOSELY: Ending = Ending {
 /// The linearised contact with a factor for each number.
 pub(super) struct Linearised<'a> {
     pub(super) plan: &'a IdentifyPlan,
-    cycles: Vec<LinearCycle>,
+    cycles: Vec<LinearCycle<'a>>,
     history: Option<LinearHistory>,
     pub(super) ln_factors: Vec<f64>,
     pub(super) noise: Noise,
@@ -82,7 +82,7 @@ impl Linearised<'_> {
         let indenter = self.plan.indenter.as_ref();
         let counterbody = self.plan.counterbody.as_ref();
         let counterbody = counterbody.and_then(|material| material.contact_compliance().ok());
-        let bodies = (self.plan.poisson_ratio, counterbody.as_ref());
+        let bodies = (&self.plan.compressibility, counterbody.as_ref());
         let cycles = self.plan.measurements.cycles().iter();
         let cycles = cycles.map(|cycle| LinearCycle::new(cycle, indenter, bodies, equilibrium_pa));
         self.cycles = cycles.collect();

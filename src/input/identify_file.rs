@@ -14,14 +14,16 @@ use super::keys::drive::SEGMENTS;
 use super::keys::identify::{
     DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE, MODEL_SOLVER,
 };
-use super::keys::material::POISSON_RATIO;
+use super::keys::material::BULK_MODULUS;
 use super::sweep_file::cycle;
 use super::{
-    bodies_block, harmonic_block, layer_block, measured_history, measured_table, segments_block,
+    bodies_block, harmonic_block, layer_block, material_block, measured_history, measured_table,
+    segments_block,
 };
 use crate::identify::data::Measurements;
 use crate::identify::{Driven, IdentifyPlan};
 use crate::indenter::Indenter;
+use crate::material::{Compressibility, Relaxation};
 use crate::sweep::plan::SolverPlan;
 
 /// The table of results in a folder of a sweep or of an analysis.
@@ -43,7 +45,8 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
     let problems = Problems::new();
     let mut root = document.root(&problems);
     let title = root.value(&keys::TITLE);
-    let poisson_ratio = root.table(&KNOWN_MATERIAL).and_then(known_material);
+    let compressibility = root.table(&KNOWN_MATERIAL);
+    let compressibility = compressibility.and_then(|t| known_material(t, &problems));
     let bodies = bodies_block::read(&mut root, document.folder(), &problems);
     let indenter = given.indenter(&mut root, document.folder(), &problems);
     let drive = root.table(&MEASURED_DRIVE).and_then(|t| {
@@ -68,7 +71,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
         let (counterbody, adhesion) = bodies.map(|of| (of.counterbody, of.adhesion))?;
         Some(IdentifyPlan {
             title: title?,
-            poisson_ratio: poisson_ratio?,
+            compressibility: compressibility?,
             indenter: indenter?,
             counterbody,
             layer,
@@ -109,10 +112,21 @@ fn driven(
     drive.map(Driven::Cycles)
 }
 
-fn known_material(mut table: TableReader<'_>) -> Option<f64> {
-    let poisson_ratio = table.value(&POISSON_RATIO);
+fn known_material(mut table: TableReader<'_>, problems: &Problems) -> Option<Compressibility> {
+    let known = material_block::compressibility(&mut table, problems);
+    let place = table.key_location(&BULK_MODULUS);
     table.finish();
-    poisson_ratio
+    let is_relaxing = |bulk: &Relaxation| !bulk.branches().is_empty();
+    match (place, known?) {
+        (Some(place), Compressibility::BulkModulus(bulk)) if is_relaxing(&bulk) => {
+            problems
+                .at(&place, "an unknown material has a bulk modulus that is constant in time")
+                .because("what is sought is its modulus in tension, which says nothing beside one that relaxes too")
+                .help("write `bulk_modulus = \"3 GPa\"`");
+            None
+        }
+        (_, known) => Some(known),
+    }
 }
 
 /// The `[identify]` block: measurements, and how many branches.

@@ -165,7 +165,10 @@ fn at_one_temperature(
 }
 
 /// The Poisson ratio, or the bulk modulus in its place; `None` where a problem was reported.
-fn compressibility(block: &mut TableReader<'_>, problems: &Problems) -> Option<Compressibility> {
+pub(super) fn compressibility(
+    block: &mut TableReader<'_>,
+    problems: &Problems,
+) -> Option<Compressibility> {
     let Some(place) = block.key_location(&BULK_MODULUS) else {
         return block.value(&POISSON_RATIO).map(Compressibility::from);
     };

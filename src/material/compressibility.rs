@@ -50,6 +50,18 @@ impl Compressibility {
         }
     }
 
+    /// 1/C* (Pa) of a body of this tensile modulus (Pa) at some frequency; a bulk modulus counts at rest.
+    pub(crate) fn contact_modulus(&self, tensile_pa: Complex<f64>) -> Complex<f64> {
+        match self {
+            Self::PoissonRatio(nu) => tensile_pa / (1.0 - nu * nu),
+            Self::BulkModulus(bulk) => {
+                let bulk_pa = bulk.equilibrium_modulus();
+                let shear_pa = tensile_pa / (3.0 - tensile_pa / (3.0 * bulk_pa));
+                (0.25 / shear_pa + 0.75 / (3.0 * bulk_pa + shear_pa)).inv()
+            }
+        }
+    }
+
     /// The bulk modulus, where it is given.
     pub fn bulk_modulus(&self) -> Option<&Relaxation> {
         match self {

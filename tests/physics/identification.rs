@@ -110,7 +110,7 @@ impl Experiment {
         IdentifyPlan {
             title: String::new(),
             data: String::new(),
-            poisson_ratio: POISSON,
+            compressibility: POISSON.into(),
             solver: IdentifyPlan::solver(indenter.as_ref(), None),
             indenter,
             counterbody: None,

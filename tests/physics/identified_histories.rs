@@ -96,7 +96,7 @@ fn plan(
     IdentifyPlan {
         title: String::new(),
         data: String::new(),
-        poisson_ratio: POISSON,
+        compressibility: POISSON.into(),
         solver,
         measurements: Measurements::of_history(&drive, &readings).unwrap(),
         indenter,
@@ -243,7 +243,7 @@ fn a_history_that_never_changes_and_one_that_no_solid_has_are_refused() {
     let plan = IdentifyPlan {
         title: String::new(),
         data: String::new(),
-        poisson_ratio: POISSON,
+        compressibility: POISSON.into(),
         solver: SolverPlan {
             springs: 40,
             ..IdentifyPlan::solver(indenter.as_ref(), None)

@@ -147,6 +147,60 @@ fn a_folder_of_a_sweep_gives_its_material_back() {
     }
 }
 
+#[test]
+fn a_bulk_modulus_stands_in_place_of_the_poisson_ratio_and_goes_into_the_block() {
+    let folder = folder("");
+    let series = "[material.relaxation]\nmodulus = \"longitudinal\"\nequilibrium = \"5 MPa\"\n\
+                  branches = [{ modulus = \"60 MPa\", time = \"0.1 s\" }]\n";
+    let bulk = "bulk_modulus = \"80 MPa\"";
+    let rest = FILE.split_once("[indenter]").unwrap().1;
+    let sweep = format!(
+        "title = \"t\"\n[material]\n{bulk}\n{series}[indenter]{rest}[sweep]\n\
+         angular_frequency = {{ from = 0.1, to = 1000, points = 9 }}\n"
+    );
+    fs::write(folder.path().join("sweep.toml"), sweep).unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = program();
+        command.current_dir(folder.path()).args(arguments).assert()
+    };
+    run(&["sweep", "sweep.toml", "--quiet", "--out", "swept"]).success();
+    let identify = |set: &str| {
+        let data = [
+            "--set",
+            "identify.data=swept",
+            "--set",
+            "material.poisson_ratio=",
+        ];
+        run(&[
+            &["identify", "solid.toml", "--out", "found"],
+            &data[..],
+            &["--set", set],
+        ]
+        .concat())
+    };
+    identify("material.bulk_modulus={ equilibrium = \"80 MPa\", branches = [{ modulus = \"1 MPa\", time = \"1 s\" }] }")
+        .code(2)
+        .stderr(contains("constant in time"));
+    assert!(!folder.path().join("found").exists());
+    identify("material.bulk_modulus=80 MPa").success();
+    let read = |name: &str| fs::read_to_string(folder.path().join("found").join(name)).unwrap();
+    assert!(
+        read("resolved.toml").contains("bulk_modulus = \"80000000 Pa\""),
+        "{}",
+        read("resolved.toml")
+    );
+    assert!(read("material.toml").contains("bulk_modulus = "));
+    let found: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    assert_eq!(
+        (&found["poisson_ratio"], &found["bulk_modulus_pa"]),
+        (&serde_json::Value::Null, &80e6.into())
+    );
+    for (place, exact) in [5e6, 60e6, 0.1].into_iter().enumerate() {
+        let value = found["unknowns"][place]["value"].as_f64().unwrap();
+        assert!((value / exact - 1.0).abs() < 3e-3, "{place} {value:e}");
+    }
+}
+
 /// Second cycles after a rest, as an experiment has them, which are not the stabilised ones.
 #[test]
 fn cycles_by_their_number_give_the_material_back_and_are_not_taken_for_stabilised_ones() {

@@ -419,7 +419,14 @@ fn files() -> Vec<(FileKind, String)> {
     ));
     let adhesion = "[adhesion]\nwork = \"0.1 J/m^2\"\nequilibrium_distance = \"0.2 nm\"\n";
     let yielding = "material = { elastic = { modulus = \"2 GPa\", poisson_ratio = 0.3 } }\n";
-    for more in ["", adhesion, yielding, LAYER] {
+    let known = "poisson_ratio = 0.4\n";
+    for (known, more) in [
+        (known, ""),
+        (known, adhesion),
+        (known, yielding),
+        (known, LAYER),
+        ("bulk_modulus = \"3 GPa\"\n", ""),
+    ] {
         let (inside, after) = match more == yielding {
             true => (more, ""),
             false => ("", more),
@@ -427,7 +434,7 @@ fn files() -> Vec<(FileKind, String)> {
         files.push((
             FileKind::Identify,
             format!(
-                "title = \"t\"\n[identify]\ndata = \"measured.csv\"\nbranches = 2\n[material]\npoisson_ratio = 0.4\n{SPHERE}{inside}\
+                "title = \"t\"\n[identify]\ndata = \"measured.csv\"\nbranches = 2\n[material]\n{known}{SPHERE}{inside}\
                  {HARMONIC}{after}"
             ),
         ));

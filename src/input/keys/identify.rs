@@ -1,6 +1,6 @@
 //! Keys of an identification: what was measured, and what the result is to be.
 
-use super::material::POISSON_RATIO;
+use super::material::{BULK_MODULUS, POISSON_RATIO};
 use super::rows;
 use super::{ADHESION, INDENTER, LAYER, TITLE, drive, settings};
 use crate::identify::MOST_BRANCHES;
@@ -18,10 +18,11 @@ rows! { IDENTIFY_KEYS:
 
 static IDENTIFY_TABLE: Rows = super::table(" What was measured.", IDENTIFY_KEYS);
 
-static MATERIAL_TABLE: Rows = super::table(
-    " What is known of the material: its Poisson ratio.",
-    &[&POISSON_RATIO],
-);
+static MATERIAL_TABLE: Rows = Rows {
+    means: " What is known of the material: its Poisson ratio, or a bulk modulus that is constant in time.",
+    keys: &[],
+    others: Others::OneList(&[&[&POISSON_RATIO], &[&BULK_MODULUS]]),
+};
 
 rows! { _:
     /// What was measured.
