@@ -1,6 +1,6 @@
 //! The `[drive]` block of a sweep file: an oscillating load or approach.
 
-use super::diagnostic::Problems;
+use super::diagnostic::{Location, Problems};
 use super::document::reader::TableReader;
 use super::keys::DRIVE;
 use super::keys::drive::{AMPLITUDE, HOLD, MEAN, PHASE, PRESCRIBES, Prescribed};
@@ -26,13 +26,31 @@ pub(super) struct Pressed {
     pub(super) is_attracted: bool,
 }
 
-/// Reads the block; `None` where a problem was reported.
-pub(crate) fn read(table: TableReader<'_>, problems: &Problems) -> Option<HarmonicDrive> {
-    read_pressed(table, Pressed::default(), problems)
+/// What a value is multiplied by to be a load or an approach: the area (m^2) of the period that a mean pressure acts on, where there is
+/// one.
+pub(super) fn per_value(
+    prescribed: Prescribed,
+    area_m2: Option<f64>,
+    place: &Location,
+    problems: &Problems,
+) -> Option<f64> {
+    if prescribed != Prescribed::Pressure {
+        return Some(1.0);
+    }
+    if area_m2.is_none() {
+        problems
+            .at(
+                place,
+                "a mean pressure is that of a surface which repeats itself",
+            )
+            .because("the indenter has no area to share a load")
+            .help("write `edge = \"periodic\"` in [indenter], or give loads");
+    }
+    area_m2
 }
 
-/// The same of such an indenter.
-pub(super) fn read_pressed(
+/// Reads the block; `None` where a problem was reported.
+pub(super) fn read(
     mut table: TableReader<'_>,
     pressed: Pressed,
     problems: &Problems,
@@ -44,21 +62,8 @@ pub(super) fn read_pressed(
         true => HarmonicDrive::unattracted,
         false => HarmonicDrive::new,
     };
-    let factor = match (prescribed, pressed.area_m2) {
-        (Prescribed::Pressure, Some(area_m2)) => area_m2,
-        (Prescribed::Pressure, None) => {
-            let place = place.unwrap_or_else(|| table.as_ref().clone());
-            problems
-                .at(
-                    &place,
-                    "a mean pressure is that of a surface which repeats itself",
-                )
-                .because("the indenter has no area to share a load")
-                .help("write `edge = \"periodic\"` in [indenter], or give loads");
-            return None;
-        }
-        _ => 1.0,
-    };
+    let place = place.unwrap_or_else(|| table.as_ref().clone());
+    let factor = per_value(prescribed, pressed.area_m2, &place, problems)?;
     let mean = table.read(&MEAN.of(dimension));
     let amplitude = table.read(&AMPLITUDE.of(dimension));
     let (phase_rad, hold_s) = (table.value(&PHASE), table.value(&HOLD));

@@ -94,9 +94,11 @@ fn driven(
     folder: &Path,
     problems: &Problems,
 ) -> Option<Driven> {
+    let area_m2 = indenter.and_then(Indenter::period_area_m2);
     if table.has(&SEGMENTS) {
         let pull_off_n = |control| bodies?.pull_off_n(indenter, control);
-        return segments_block::read(table, folder, pull_off_n, problems).map(Driven::History);
+        let bodies = (pull_off_n, area_m2);
+        return segments_block::read(table, folder, bodies, problems).map(Driven::History);
     }
     let drive = match bodies.and_then(Bodies::attraction) {
         Some(attraction) => {
@@ -104,10 +106,16 @@ fn driven(
                 is_attracted: true,
                 ..Pressed::default()
             };
-            let own = harmonic_block::read_pressed(table, pressed, problems)?;
+            let own = harmonic_block::read(table, pressed, problems)?;
             attraction.drive(indenter?, &own)
         }
-        None => harmonic_block::read(table, problems),
+        None => {
+            let pressed = Pressed {
+                area_m2,
+                ..Pressed::default()
+            };
+            harmonic_block::read(table, pressed, problems)
+        }
     };
     drive.map(Driven::Cycles)
 }

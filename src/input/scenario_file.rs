@@ -13,6 +13,7 @@ use super::material_table::DirectSum;
 use super::sweep_file::default_solver;
 use super::{bodies_block, layer_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
+use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::figures::figure_plan::FigurePlan;
@@ -56,9 +57,10 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         let bodies = bodies.as_ref()?;
         bodies.pull_off_n(indenter.as_deref(), control)
     };
-    let drive = root
-        .table(&keys::HISTORY)
-        .and_then(|t| segments_block::read(t, folder, pull_off_n, &problems));
+    let drive = root.table(&keys::HISTORY).and_then(|t| {
+        let area_m2 = indenter.as_deref().and_then(Indenter::period_area_m2);
+        segments_block::read(t, folder, (pull_off_n, area_m2), &problems)
+    });
     let step_s = root.table_or(&keys::TIME, None, time);
     let default = default_solver(indenter.as_deref(), layer);
     let solver = root.table_or(&keys::SOLVER, default, |t| {

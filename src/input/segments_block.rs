@@ -7,13 +7,13 @@ use super::diagnostic::{Location, Problems};
 use super::document::plain;
 use super::document::reader::TableReader;
 use super::drive_table;
+use super::harmonic_block::per_value;
 use super::keys::drive::{
-    COEFFICIENTS, CONTROL, CYCLES, DURATION, FILE, KIND, PHASE, SEGMENTS, SINE_AMPLITUDE,
+    COEFFICIENTS, CYCLES, DURATION, FILE, KIND, PHASE, PRESCRIBES, SEGMENTS, SINE_AMPLITUDE,
     SINE_ANGULAR_FREQUENCY, SINE_FREQUENCY, SINE_MEAN, SegmentKind, TARGET, TIMES, VALUES,
 };
 use crate::drive::{Control, HistoryError, Segment, SegmentProblem, SegmentedDrive};
 use crate::quantity::Dimension;
-use crate::sweep::plan::resolved::drive_dimension;
 
 /// A segment, and where the part of it stands that most of its problems come from.
 struct Placed {
@@ -22,23 +22,28 @@ struct Placed {
 }
 
 /// Reads the block; `None` where a problem was reported. Files are looked for in `folder`. `pull_off_n` is the attraction (N) of an
-/// indenter under such a control, `None` where a problem was reported.
+/// indenter under such a control, `None` where a problem was reported; `area_m2` that of a period, where the surface repeats itself.
 pub(super) fn read(
     mut table: TableReader<'_>,
     folder: &Path,
-    pull_off_n: impl FnOnce(Control) -> Option<f64>,
+    (pull_off_n, area_m2): (impl FnOnce(Control) -> Option<f64>, Option<f64>),
     problems: &Problems,
 ) -> Option<SegmentedDrive> {
-    let control = table.value(&CONTROL)?;
+    let place = table.key_location(&PRESCRIBES);
+    let place = place.unwrap_or_else(|| table.as_ref().clone());
+    let prescribed = table.value(&PRESCRIBES)?;
+    let control = prescribed.control();
+    let factor = per_value(prescribed, area_m2, &place, problems);
     let reader = Reader {
         control,
-        dimension: drive_dimension(control),
+        dimension: prescribed.dimension(),
+        factor: factor.unwrap_or(1.0),
         folder,
         problems,
     };
     let all = table.tables(&SEGMENTS, |segment| reader.segment(segment));
     table.finish();
-    let (all, pull_off_n) = (all?, pull_off_n(control)?);
+    let (all, pull_off_n, _) = (all?, pull_off_n(control)?, factor?);
     let (segments, places): (Vec<_>, Vec<_>) =
         all.value.into_iter().map(|p| (p.segment, p.place)).unzip();
     SegmentedDrive::attracted(control, segments, pull_off_n)
@@ -73,6 +78,8 @@ struct Reader<'a> {
     control: Control,
     /// Of the drive's values.
     dimension: Dimension,
+    /// What these are multiplied by.
+    factor: f64,
     folder: &'a Path,
     problems: &'a Problems,
 }
@@ -88,7 +95,7 @@ impl Reader<'_> {
                 to,
                 duration_s,
             }),
-            SegmentKind::Polynomial => polynomial(&mut table),
+            SegmentKind::Polynomial => self.polynomial(&mut table),
             SegmentKind::Sine => self.sine(&mut table),
             SegmentKind::Table => self.table(&mut table),
         };
@@ -105,7 +112,7 @@ impl Reader<'_> {
         let duration_s = table.value(&DURATION);
         let to = to?;
         Some(Placed {
-            segment: build(to.value, duration_s?),
+            segment: build(self.factor * to.value, duration_s?),
             place: to.location,
         })
     }
@@ -126,8 +133,8 @@ impl Reader<'_> {
         let amplitude = amplitude?;
         Some(Placed {
             segment: Segment::Sine {
-                mean: mean?,
-                amplitude: amplitude.value,
+                mean: self.factor * mean?,
+                amplitude: self.factor * amplitude.value,
                 angular_frequency_rad_per_s: frequency?,
                 phase_rad: phase_rad?,
                 cycles: cycles?,
@@ -150,12 +157,13 @@ impl Reader<'_> {
         Some(Placed {
             segment: Segment::Table {
                 times_s: plain(times),
-                values: plain(values.value),
+                values: self.scaled(plain(values.value)),
             },
             place: values.location,
         })
     }
 
+    /// Those of a file are loads or approaches, as its header says.
     fn table_of_file(&self, table: &mut TableReader<'_>) -> Option<Placed> {
         let file = table.read(&FILE)?;
         let (name, bytes) = data_file::named(&file, self.folder, self.problems)?;
@@ -166,17 +174,24 @@ impl Reader<'_> {
             place: file.location,
         })
     }
-}
 
-fn polynomial(table: &mut TableReader<'_>) -> Option<Placed> {
-    let coefficients = table.read(&COEFFICIENTS);
-    let duration_s = table.value(&DURATION);
-    let coefficients = coefficients?;
-    Some(Placed {
-        segment: Segment::Polynomial {
-            coefficients: plain(coefficients.value),
-            duration_s: duration_s?,
-        },
-        place: coefficients.location,
-    })
+    fn polynomial(&self, table: &mut TableReader<'_>) -> Option<Placed> {
+        let coefficients = table.read(&COEFFICIENTS);
+        let duration_s = table.value(&DURATION);
+        let coefficients = coefficients?;
+        Some(Placed {
+            segment: Segment::Polynomial {
+                coefficients: self.scaled(plain(coefficients.value)),
+                duration_s: duration_s?,
+            },
+            place: coefficients.location,
+        })
+    }
+
+    fn scaled(&self, values: Vec<f64>) -> Vec<f64> {
+        values
+            .into_iter()
+            .map(|value| self.factor * value)
+            .collect()
+    }
 }

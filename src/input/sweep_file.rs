@@ -92,7 +92,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         is_attracted: adhesion_at.is_some(),
     };
     let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
-        harmonic_block::read_pressed(t, pressed, &problems)
+        harmonic_block::read(t, pressed, &problems)
     });
     let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| cycle(t, &problems));
     let own_layer = layer.as_ref().and_then(|(own, _)| *own);

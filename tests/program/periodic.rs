@@ -96,6 +96,59 @@ fn a_mean_pressure_is_the_load_over_the_area_of_a_period() {
 }
 
 #[test]
+fn every_kind_of_segment_may_be_a_mean_pressure() {
+    let area_m2 = (32.0 * 2e-6) * (32.0 * 2e-6);
+    let folder = TempDir::new().unwrap();
+    let of = |control: &str, one: f64, out: &str| {
+        let unit = if control == "load" { "N" } else { "Pa" };
+        let history = format!(
+            "title = \"t\"\n[material]\nlibrary = \"pmma\"\n[indenter]\n{ROUGH}\n[drive]\ncontrol = \"{control}\"\n\
+             segments = [\n{{ kind = \"ramp\", to = \"{one:?} {unit}\", duration = \"1 s\" }},\n\
+             {{ kind = \"step\", to = \"{:?} {unit}\", duration = \"1 s\" }},\n\
+             {{ kind = \"sine\", mean = {one:?}, amplitude = {:?}, frequency = 1, cycles = 1 }},\n\
+             {{ kind = \"polynomial\", coefficients = [{one:?}, {:?}], duration = \"1 s\" }},\n\
+             {{ kind = \"table\", times = [0, 1], values = [{one:?}, {:?}] }}]\n\
+             [time]\nstep = \"0.1 s\"\n[output]\nerror_bars = false\n",
+            0.5 * one,
+            0.2 * one,
+            0.1 * one,
+            0.7 * one,
+        );
+        let file = write(&folder, "history.toml", &history);
+        let mut command = program();
+        command.args(["simulate", &file, "--quiet", "--out"]);
+        let out = folder.path().join(out);
+        let done = command.arg(&out).output().unwrap();
+        assert_eq!(done.status.code(), Some(0), "{done:?}");
+        let read = |name: &str| fs::read_to_string(out.join(name)).unwrap();
+        assert!(read("resolved.toml").contains("control = \"load\""));
+        let csv = read("history.csv");
+        let place = csv
+            .lines()
+            .next()
+            .unwrap()
+            .split(',')
+            .position(|name| name == "approach_m");
+        let rows = csv.lines().skip(1);
+        let approach = |row: &str| row.split(',').nth(place.unwrap()).unwrap().parse::<f64>();
+        rows.filter_map(|row| approach(row).ok())
+            .collect::<Vec<f64>>()
+    };
+    let (by_load, by_pressure) = (
+        of("load", 0.1, "load"),
+        of("pressure", 0.1 / area_m2, "pressure"),
+    );
+    assert!(by_load.len() == by_pressure.len() && by_load.len() > 40);
+    for (load, pressure) in by_load.iter().zip(&by_pressure) {
+        // Rounding of the loads, through the tolerance of an instant.
+        assert!(
+            (load - pressure).abs() < 1e-6 * load.abs() + 1e-15,
+            "{load:e} {pressure:e}"
+        );
+    }
+}
+
+#[test]
 fn what_a_surface_without_an_edge_cannot_have_is_refused() {
     let sphere = format!("{ROUGH}\nsphere_radius = \"1 mm\"");
     let under =

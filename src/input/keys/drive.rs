@@ -18,12 +18,7 @@ use crate::quantity::Dimension::{
 };
 use crate::sweep::plan::Block;
 
-const CONTROLS: [(&str, Control); 2] = [
-    (Control::Load.name(), Control::Load),
-    (Control::Approach.name(), Control::Approach),
-];
-
-/// What a sweep may prescribe: a load, also as a mean pressure, or an approach.
+/// What may be prescribed: a load, also as a mean pressure, or an approach.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Prescribed {
     Load,
@@ -56,15 +51,7 @@ impl Prescribed {
     }
 }
 
-/// A load, or an approach where that is controlled.
-const fn of_control(limits: Limits) -> Dependent {
-    Dependent {
-        dimensions: &[Force, Length],
-        limits,
-    }
-}
-
-/// The same, or a mean pressure.
+/// A load, a mean pressure where that is prescribed, or an approach.
 const fn of_prescribed(limits: Limits) -> Dependent {
     Dependent {
         dimensions: &[Force, Length, Stress],
@@ -93,8 +80,6 @@ pub(super) static HARMONIC: Rows = super::table(
 );
 
 rows! { _:
-    /// What is prescribed: the load, or the approach; the values below are lengths then.
-    CONTROL: Row<Choice<Control>, Or<Control>> = "control", Choice(&CONTROLS), Or(Control::Load);
     /// Angular frequencies: a list, or a range. Hz is understood.
     ANGULAR_FREQUENCY: Row<Points<Scalar>, Required> =
         "angular_frequency", Points(quantity(AngularFrequency).above_zero()), Required;
@@ -184,7 +169,7 @@ rows! { _:
 
 pub(super) static HISTORY: Rows = super::table(
     " A history of load or approach, from first touch.",
-    &[&CONTROL, &SEGMENTS],
+    &[&PRESCRIBES, &SEGMENTS],
 );
 
 rows! { SEGMENT_KEYS:
@@ -204,7 +189,7 @@ static SEGMENT: Rows = Rows {
 
 rows! { _:
     /// The value that is held, or reached at the end.
-    TARGET: Row<Dependent, Required> = "to", of_control(Limits::NONE), Required;
+    TARGET: Row<Dependent, Required> = "to", of_prescribed(Limits::NONE), Required;
     /// How long the segment lasts.
     DURATION: Row<Scalar, Required> = "duration", quantity(Time).above_zero(), Required;
     /// Of 1, t, t^2, ... in SI units, t from the beginning of the segment.
@@ -220,9 +205,9 @@ static POLYNOMIAL: Rows = super::table(" A polynomial of time.", &[&COEFFICIENTS
 
 rows! { _:
     /// Mean.
-    SINE_MEAN: Row<Dependent, Required> = "mean", of_control(Limits::NONE), Required;
+    SINE_MEAN: Row<Dependent, Required> = "mean", of_prescribed(Limits::NONE), Required;
     /// Amplitude.
-    SINE_AMPLITUDE: Row<Dependent, Required> = "amplitude", of_control(Limits::ABOVE_ZERO), Required;
+    SINE_AMPLITUDE: Row<Dependent, Required> = "amplitude", of_prescribed(Limits::ABOVE_ZERO), Required;
     /// Number of cycles, whole or not.
     CYCLES: Row<Scalar, Required> = "cycles", number("4.0").above_zero(), Required;
 }
@@ -247,7 +232,7 @@ rows! { _:
     /// Times that are written out in place of a file; the first is 0 s, two equal ones are a jump.
     TIMES: Row<Array<Scalar>, Required> = "times", list(quantity(Time)), Required;
     /// Their values.
-    VALUES: Row<Array<Dependent>, Required> = "values", list(of_control(Limits::NONE)), Required;
+    VALUES: Row<Array<Dependent>, Required> = "values", list(of_prescribed(Limits::NONE)), Required;
 }
 
 static TABLE: Rows = Rows {

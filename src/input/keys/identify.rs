@@ -40,7 +40,7 @@ rows! { _:
 static DRIVEN: Rows = Rows {
     means: " Of measured cycles an oscillation; rows with `drive_mean` and `drive_amplitude` have their own. Of a measured history \
             its `segments`, as in a scenario.",
-    keys: &[&drive::CONTROL],
+    keys: &[&drive::PRESCRIBES],
     others: Others::OneList(&[
         &[&drive::MEAN, &drive::AMPLITUDE, &drive::PHASE, &drive::HOLD],
         &[&drive::SEGMENTS],
