@@ -61,6 +61,17 @@ def test_a_solid_is_found_through_what_else_is_in_the_contact() -> None:
     assert abs(found.prony.equilibrium / 10e6 - 1) < 1e-3
 
 
+def test_a_bulk_modulus_is_known_in_place_of_the_poisson_ratio() -> None:
+    solid = cd.Material.relaxation("10 MPa", [("30 MPa", "1 s")], bulk_modulus="60 MPa")
+    sphere, drive = cd.Sphere("2 mm"), {"mean": 0.2, "amplitude": 0.1}
+    cycles = cd.sweep(solid, sphere, angular_frequency=[0.1, 0.3, 1.0, 3.0, 10.0], **drive)  # type: ignore[arg-type]
+    data = {name: cycles[name] for name in ["angular_frequency_rad_per_s", "energy_loss_j", "approach_max_m"]}
+    found = cd.identify(data, sphere, bulk_modulus="60 MPa", branches=1, **drive)  # type: ignore[arg-type]
+    assert found.prony.equilibrium == pytest.approx(10e6, rel=0.005)
+    with pytest.raises(ValueError, match="takes the place of"):
+        cd.identify(data, sphere, poisson_ratio=0.4, bulk_modulus="60 MPa", **drive)  # type: ignore[arg-type]
+
+
 def test_an_identification_file_gives_what_the_program_writes(program: str, tmp_path: Path) -> None:
     file, out = ROOT / "sweeps/identify-polymer.toml", tmp_path / "program"
     arguments = [program, "identify", str(file), "--set", "identify.branches=3", "--quiet", "--out", str(out)]

@@ -4,7 +4,7 @@ use crate::identify::{Driven, IdentifyPlan};
 use crate::material::Compressibility;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::plan::resolved::{
-    cycle_text, drive_text, opening_text, solver_text, toml_string,
+    counterbody_text, cycle_text, drive_text, opening_text, solver_text, toml_string,
 };
 use crate::sweep::plan::scenario::history_text;
 
@@ -19,7 +19,7 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         }
     };
     let material = format!("[material]\n{known}\n{layer}");
-    let counterbody = plan.counterbody.as_ref();
+    let counterbody = plan.counterbody.as_ref().map(counterbody_text);
     let opening = opening_text(&plan.title, &material, plan.indenter.as_ref(), counterbody);
     let branches = match plan.branches {
         Some(number) => number.to_string(),

@@ -61,7 +61,7 @@ fn add_numbers(rows: &'static Rows, path: &str, controlled: Dimension, to: &mut 
         match (row.kind().scalar(controlled), row.kind().rows()) {
             (Some(_), _) if to.iter().any(|number| number.key == key) => {}
             (Some(scalar), _) => to.push(Number { key, row, scalar }),
-            (None, Some(rows)) if may_vary_within(row, rows) => {
+            (None, Some(rows)) if may_vary_within(rows) => {
                 let items = if row.kind().is_list() { "[]" } else { "" };
                 add_numbers(rows, &format!("{key}{items}"), controlled, to);
             }
@@ -70,11 +70,10 @@ fn add_numbers(rows: &'static Rows, path: &str, controlled: Dimension, to: &mut 
     }
 }
 
-/// Whether a number of a table within a block may vary: not where data are read from a file, which are what they are, and not of the
-/// other body, which is read once.
-fn may_vary_within(row: &dyn AnyRow, rows: &'static Rows) -> bool {
+/// Whether a number of a table within a block may vary: not where data are read from a file, which are what they are.
+fn may_vary_within(rows: &'static Rows) -> bool {
     let names_a_file = |row: &&dyn AnyRow| row.name() == "file" || row.name() == "files";
-    row.name() != "material" && !rows.all().iter().any(names_a_file)
+    !rows.all().iter().any(names_a_file)
 }
 
 /// The name of the definition of such numbers as an axis: `over-a-time-above-zero`.

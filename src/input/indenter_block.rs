@@ -4,10 +4,11 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::data_file;
-use super::diagnostic::Problems;
+use super::diagnostic::{Location, Problems};
 use super::document::kind::{Describe, Scalar};
 use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
+use super::document::tree::Table;
 use super::document::{Located, plain};
 use super::field_file;
 use super::field_file::Field;
@@ -103,10 +104,19 @@ pub(super) fn material(
     folder: &Path,
     problems: &Problems,
 ) -> Option<Option<Located<Material>>> {
-    let Some(parsed) = root.parsed(&keys::INDENTER) else {
-        return Some(None);
-    };
-    let place = root.as_ref().clone();
+    match root.parsed(&keys::INDENTER) {
+        Some(parsed) => material_of(parsed, root.as_ref().clone(), folder, problems),
+        None => Some(None),
+    }
+}
+
+/// The same of such a block.
+pub(super) fn material_of(
+    parsed: &Table,
+    place: Location,
+    folder: &Path,
+    problems: &Problems,
+) -> Option<Option<Located<Material>>> {
     let mut table = TableReader::new(parsed, place, "indenter".to_owned(), problems);
     table.table_or(&INDENTER_MATERIAL, None, |block| {
         let read = material_block::read_over(block, folder, DirectSum::Refused, None, problems);

@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use super::adhesion_block::Attraction;
 use super::axis::Swept;
-use super::diagnostic::{Diagnostics, Problems};
+use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use super::document::kind::Table;
 use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
+use super::document::tree::Value;
 use super::document::{self, Document, Located};
 use super::figures_block::{self, Figures};
 use super::given::Given;
@@ -30,7 +31,7 @@ use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::plan::axes::MOST as MOST_AXES;
+use crate::sweep::plan::axes::{GivenBlocks, MOST as MOST_AXES};
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::{
@@ -79,9 +80,10 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         other => other.map(|_| None),
     };
     let indenter_of = counterbody.as_ref().and_then(Option::as_ref);
-    let material_block = file.material_block(&mut root);
-    let material = file.material(&mut root, indenter_of);
-    let material = material.filter(|_| counterbody.is_some());
+    let given_blocks = file.given_blocks(&mut root);
+    let counterbodies = file.counterbodies(&mut root);
+    let material = file.material(&mut root, indenter_of, counterbodies.as_deref());
+    let material = material.filter(|_| counterbody.is_some() && counterbodies.is_some());
     let indenter = file.indenter(&mut root);
     let adhesion_at = root.key_location(&keys::ADHESION);
     let adhesion = root.table_or(&keys::ADHESION, None, |t| adhesion_block::read(t).map(Some));
@@ -123,7 +125,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
                 _ => Some(own),
             };
         let own_drive = attracted(drive.0, indenter.0.as_ref())?;
-        let mut axes = file.axes((&material, &layer, &indenter, &drive), material_block);
+        let mut axes = file.axes((&material, &layer, &indenter, &drive), given_blocks);
         for condition in axes.iter_mut().flat_map(|axes| &mut axes.conditions) {
             condition.drive = attracted(condition.drive, condition.indenter.as_ref())?;
         }
@@ -202,10 +204,7 @@ impl File<'_> {
             false => None,
         };
         let each = self.each(&swept, |values| {
-            let with = |table: document::tree::Table, (value, (_, swept)): (&f64, &(_, &Swept))| {
-                swept.put_into(&table, *value)
-            };
-            let table = values.iter().zip(&swept).try_fold(parsed.clone(), with);
+            let table = put_all(parsed, values, &swept);
             let table = table.map_err(|problem| self.problems.push(problem)).ok()?;
             let name = block.name().to_owned();
             read(TableReader::new(&table, place.clone(), name, self.problems))
@@ -233,7 +232,53 @@ impl File<'_> {
         self.conditions.iter().map(of_condition).collect()
     }
 
+    /// The material, beside what the indenter is made of: one, or one under each condition where there are any.
     fn material(
+        &self,
+        root: &mut TableReader<'_>,
+        counterbody: Option<&Material>,
+        counterbodies: Option<&[Arc<Material>]>,
+    ) -> Option<Over<Arc<Material>>> {
+        let counterbodies = counterbodies.unwrap_or_default();
+        if counterbodies.is_empty() {
+            return self.own_material(root, counterbody);
+        }
+        let (own, each) = self.own_material(root, None)?;
+        let mut known: HashMap<_, Arc<Material>> = HashMap::new();
+        let mut beside = |body: &Arc<Material>, counterbody: &Arc<Material>| {
+            let pair = known.entry((Arc::as_ptr(body), Arc::as_ptr(counterbody)));
+            let of_both = || Material::clone(body).against(Material::clone(counterbody));
+            Arc::clone(pair.or_insert_with(|| Arc::new(of_both())))
+        };
+        let under = counterbodies.iter().enumerate();
+        let of_each =
+            under.map(|(k, counterbody)| beside(each.get(k).unwrap_or(&own), counterbody));
+        let of_each: Vec<_> = of_each.collect();
+        let first = match counterbody {
+            Some(counterbody) => Arc::new(Material::clone(&own).against(counterbody.clone())),
+            None => Arc::clone(of_each.first()?),
+        };
+        Some((first, of_each))
+    }
+
+    /// What the indenter is made of under each condition; empty where no axis varies that.
+    fn counterbodies(&self, root: &mut TableReader<'_>) -> Option<Vec<Arc<Material>>> {
+        let mut swept = self.swept(Block::Indenter);
+        swept.retain(|(_, swept)| swept.varied.is_of_counterbody());
+        let (false, Some(parsed)) = (swept.is_empty(), root.parsed(&keys::INDENTER)) else {
+            return Some(Vec::new());
+        };
+        let place = root.as_ref().clone();
+        self.each(&swept, |values| {
+            // What the block does not have is told where the indenter is read.
+            let table = put_all(parsed, values, &swept).ok()?;
+            let body =
+                indenter_block::material_of(&table, place.clone(), self.folder, self.problems);
+            for_contact(self.problems, body??).map(Arc::new)
+        })
+    }
+
+    fn own_material(
         &self,
         root: &mut TableReader<'_>,
         counterbody: Option<&Material>,
@@ -288,12 +333,26 @@ impl File<'_> {
         }
     }
 
-    /// The text of the `[material]` block, where an axis varies a number in a table of it.
-    fn material_block(&self, root: &mut TableReader<'_>) -> Option<Arc<str>> {
-        let swept = self.swept(Block::Material);
-        let is_nested = swept.iter().any(|(_, swept)| swept.varied.is_nested());
-        let block = root.parsed(&keys::MATERIAL).filter(|_| is_nested)?;
-        Some(block.toml("material").into())
+    /// The texts of the blocks in whose tables an axis varies a number.
+    fn given_blocks(&self, root: &mut TableReader<'_>) -> GivenBlocks {
+        let varies = |of: &dyn Fn(&Varied) -> bool| self.swept.iter().any(|s| of(&s.varied));
+        let in_material = |varied: &Varied| varied.block == Block::Material && varied.is_nested();
+        let material = root
+            .parsed(&keys::MATERIAL)
+            .filter(|_| varies(&in_material));
+        let indenter = root.parsed(&keys::INDENTER);
+        let counterbody = indenter.filter(|_| varies(&Varied::is_of_counterbody));
+        let counterbody =
+            counterbody.and_then(
+                |indenter| match &indenter.entries.get("material")?.node.value {
+                    Value::Table(block) => Some(block),
+                    _ => None,
+                },
+            );
+        GivenBlocks {
+            material: material.map(|block| block.toml("material").into()),
+            counterbody: counterbody.map(|block| block.toml("indenter.material").into()),
+        }
     }
 
     fn indenter(&self, root: &mut TableReader<'_>) -> Option<Over<Arc<dyn Indenter>>> {
@@ -326,7 +385,7 @@ impl File<'_> {
     fn axes(
         &self,
         (material, layer, indenter, drive): Blocks<'_>,
-        material_block: Option<Arc<str>>,
+        given_blocks: GivenBlocks,
     ) -> Option<plan::Axes> {
         if self.swept.is_empty() {
             return None;
@@ -363,10 +422,22 @@ impl File<'_> {
                 })
                 .collect(),
             pairs: self.pairs,
-            material_block,
+            given_blocks,
             conditions: conditions.collect::<Option<_>>()?,
         })
     }
+}
+
+/// A block with a value (SI units) of each of these axes in place of its own.
+fn put_all(
+    block: &document::tree::Table,
+    values: &[f64],
+    swept: &[(usize, &Swept)],
+) -> Result<document::tree::Table, Diagnostic> {
+    let mut all = values.iter().zip(swept);
+    all.try_fold(block.clone(), |table, (value, (_, swept))| {
+        swept.put_into(&table, *value)
+    })
 }
 
 /// All combinations of the values of these axes, those of the last fastest; or the values that stand at the same place, in the order of

@@ -156,7 +156,12 @@ impl Setting {
 }
 
 fn material(material: &Material) -> String {
-    let name = material.name().unwrap_or("a viscoelastic material");
+    let is_elastic = material.creep().branches().is_empty() && !material.creep().is_fluid();
+    let unnamed = match is_elastic {
+        true => "an elastic material",
+        false => "a viscoelastic material",
+    };
+    let name = material.name().unwrap_or(unnamed);
     format!("{name} ({})", compressibility(material))
 }
 

@@ -130,7 +130,7 @@ fn over_four_axes(mut plan: SweepPlan) -> SweepPlan {
     plan.axes = Some(Axes {
         over: over.to_vec(),
         pairs: false,
-        material_block: None,
+        given_blocks: Default::default(),
         conditions: (0..16).map(condition).collect(),
     });
     plan

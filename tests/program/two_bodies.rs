@@ -162,3 +162,69 @@ fn a_slip_in_the_material_of_the_indenter_is_told_alone() {
     assert!(told.contains("write \"steel\""), "{told}");
     assert_eq!(told.matches("error:").count(), 1, "{told}");
 }
+
+#[test]
+fn what_the_indenter_is_made_of_is_an_axis_like_any_number() {
+    let pmma = "[material]\nlibrary = \"pmma\"\n";
+    let elastic = |modulus: &str| {
+        format!(
+            "[indenter.material]\nelastic = {{ modulus = \"{modulus}\", poisson_ratio = 0.3 }}\n"
+        )
+    };
+    let over = |axis: &str, indenter: &str| {
+        let text = sweep_of(pmma, indenter);
+        text.replace("[sweep]\n", &format!("[sweep]\n{axis}\n"))
+    };
+    let moduli = ["3 GPa", "70 GPa"];
+    let axis = "indenter.material.elastic.modulus = [\"3 GPa\", \"70 GPa\"]";
+    let swept = over(axis, &elastic("210 GPa"));
+    let (rows, resolved) = run(&swept);
+    assert_eq!(rows.len(), 4);
+    for (rows, modulus) in rows.chunks(2).zip(moduli) {
+        let (alone, _) = run(&sweep_of(pmma, &elastic(modulus)));
+        for (row, alone) in rows.iter().zip(&alone) {
+            for column in ["energy_loss_j", "phase_lag_rad", "storage_modulus_pa"] {
+                assert_eq!(row[column], alone[column], "{modulus} {column}");
+            }
+        }
+    }
+    let column = "indenter_material_elastic_modulus_pa";
+    assert_eq!(
+        [number(&rows[0], column), number(&rows[2], column)],
+        [3e9, 70e9]
+    );
+    let (again, resolved_again) = run(&resolved);
+    assert_eq!(again, rows);
+    assert_eq!(resolved_again, resolved);
+    // Beside an axis of the body: every pair.
+    let both = format!(
+        "{axis}\ndrive.amplitude = [\"2 N\", \"5 N\"]\nmaterial.poisson_ratio = [0.3, 0.4]"
+    );
+    let (rows, _) = run(&over(&both, &elastic("210 GPa")).replace(
+        pmma,
+        "[material]\nlibrary = \"pmma\"\npoisson_ratio = 0.38\n",
+    ));
+    assert_eq!(rows.len(), 16);
+    let losses: std::collections::HashSet<_> =
+        rows.iter().map(|row| &row["energy_loss_j"]).collect();
+    assert_eq!(losses.len(), 16);
+
+    let folder = TempDir::new().unwrap();
+    let told = |text: &str| {
+        let file = write(&folder, "two.toml", text);
+        let mut command = program();
+        let refused = command.args(["sweep", &file, "--dry-run"]).assert().code(2);
+        String::from_utf8_lossy(&refused.get_output().stderr).into_owned()
+    };
+    let missing = told(&over(axis, ""));
+    assert!(
+        missing.contains("[indenter] has no `material.elastic.modulus`"),
+        "{missing}"
+    );
+    assert_eq!(missing.matches("error").count(), 1, "{missing}");
+    let negative = told(&over(
+        "indenter.material.elastic.modulus = [\"-3 GPa\", \"1 GPa\"]",
+        &elastic("210 GPa"),
+    ));
+    assert!(negative.contains("above zero"), "{negative}");
+}

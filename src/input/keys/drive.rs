@@ -91,7 +91,7 @@ rows! { SWEEP_KEYS:
     /// Another axis: every frequency under each value of a key of `[drive]`: `drive.amplitude = ["1 N", "2 N"]`. Up to four axes may
     /// be given, and the cases are all combinations of their values.
     DRIVE_AXIS: Row<AxisOf, Optional> = "drive", AxisOf { block: Block::Drive, rows: &HARMONIC }, Optional;
-    /// The same over a number of the indenter: `indenter.radius = ["1 mm", "2 mm"]`.
+    /// The same over a number of the indenter, or of what it is made of: `indenter.radius = ["1 mm", "2 mm"]`.
     INDENTER_AXIS: Row<AxisOf, Optional> =
         "indenter", AxisOf { block: Block::Indenter, rows: &INDENTER }, Optional;
     /// The same over a number of the material: `material.temperature = ["0 °C", "25 °C"]`, and, in quotes, of a table or list within

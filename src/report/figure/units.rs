@@ -343,7 +343,7 @@ mod tests {
         assert_eq!(angle.column(), "indenter_half_angle_rad");
         let ratio = of(Block::Material, "poisson_ratio", None);
         assert_eq!(si.varied_value(&ratio, 0.4), "0.4");
-        assert_eq!(ratio.words(), "poisson ratio of the material");
+        assert_eq!(ratio.words(), "Poisson ratio of the material");
         assert_eq!(si.frequency_title(), "angular frequency ω / rad·s⁻¹");
         assert_eq!(normalised.frequency_title(), "angular frequency ω / τ⁻¹");
         assert_eq!(si.time(500.0).1, "s");

@@ -22,8 +22,16 @@ pub struct Axes {
     pub pairs: bool,
     /// In the order of the values, of the last axis fastest; the first, with the frequencies, makes the first cases.
     pub conditions: Vec<Condition>,
-    /// The `[material]` block as it was given, where an axis varies a number within it that the series of a material does not show.
-    pub material_block: Option<Arc<str>>,
+    pub given_blocks: GivenBlocks,
+}
+
+/// Blocks as they were given, where an axis varies a number within one that the series of a material does not show.
+#[derive(Debug, Clone, Default)]
+pub struct GivenBlocks {
+    /// `[material]`.
+    pub material: Option<Arc<str>>,
+    /// `[indenter.material]`.
+    pub counterbody: Option<Arc<str>>,
 }
 
 /// The key whose number differs between conditions.
@@ -161,11 +169,18 @@ impl Varied {
         }
     }
 
-    /// The key as words: `half angle`, `time of relaxation.branches[0]`.
+    /// The key as words: `half angle`, `time of relaxation.branches[0]`; of what the indenter is made of as of the body.
     pub fn name(&self) -> String {
-        match self.key.rsplit_once('.') {
-            Some((table, key)) => format!("{} of {table}", key.replace('_', " ")),
-            None => self.key.replace('_', " "),
+        let own = match self.is_of_counterbody() {
+            true => &self.key["material.".len()..],
+            false => &self.key,
+        };
+        // Of an elastic body there is one modulus.
+        let own = own.strip_prefix("elastic.").unwrap_or(own);
+        let words = |key: &str| key.replace('_', " ").replace("poisson", "Poisson");
+        match own.rsplit_once('.') {
+            Some((table, key)) => format!("{} of {table}", words(key)),
+            None => words(own),
         }
     }
 
@@ -214,6 +229,11 @@ impl Varied {
         (self.block, &*self.key) == (Block::Drive, "amplitude")
     }
 
+    /// Whether it is a number of what the indenter is made of.
+    pub fn is_of_counterbody(&self) -> bool {
+        self.block == Block::Indenter && self.key.starts_with("material.")
+    }
+
     pub fn is_temperature(&self) -> bool {
         (self.block, &*self.key) == (Block::Material, "temperature")
     }
@@ -252,7 +272,7 @@ impl Axes {
             conditions: values.into_iter().map(under).collect::<Result<_, _>>()?,
             over: vec![varied],
             pairs: false,
-            material_block: None,
+            given_blocks: GivenBlocks::default(),
         })
     }
 
@@ -304,7 +324,7 @@ impl Axes {
         Some(Self {
             over: vec![self.over.get(axis)?.clone()],
             pairs: false,
-            material_block: self.material_block.clone(),
+            given_blocks: self.given_blocks.clone(),
             conditions: conditions.map(alone).collect(),
         })
     }

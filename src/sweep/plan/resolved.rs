@@ -29,16 +29,20 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         solver,
         figures,
     } = plan;
-    let mut material = match axes {
-        Some(Axes {
-            material_block: Some(block),
-            ..
-        }) => block.to_string(),
-        Some(axes) if axes.over.iter().any(Varied::is_temperature) => material_text_over(axes),
+    let given = axes.as_ref().map(|axes| &axes.given_blocks);
+    let given_material = given.and_then(|given| given.material.as_deref());
+    let mut material = match (given_material, axes) {
+        (Some(block), _) => block.to_owned(),
+        (None, Some(axes)) if axes.over.iter().any(Varied::is_temperature) => {
+            material_text_over(axes)
+        }
         _ => material_text(material),
     };
     material.push_str(&layer.map_or(String::new(), |layer| layer.text()));
-    let counterbody = plan.material.counterbody();
+    let counterbody = match given.and_then(|given| given.counterbody.as_deref()) {
+        Some(block) => Some(block.to_owned()),
+        None => plan.material.counterbody().map(counterbody_text),
+    };
     let mut text = opening_text(title, &material, indenter.as_ref(), counterbody);
     let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
     let mut line = |content: &str| {
@@ -116,12 +120,17 @@ pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
     )
 }
 
-/// What sweeps and scenarios have in common at their beginning: title, material, indenter.
+/// The `[indenter.material]` block.
+pub(crate) fn counterbody_text(material: &Material) -> String {
+    material_text(material).replace("[material", "[indenter.material")
+}
+
+/// What sweeps and scenarios have in common at their beginning: title, material, indenter, and the block of what that is made of.
 pub(crate) fn opening_text(
     title: &str,
     material: &str,
     indenter: &dyn Indenter,
-    counterbody: Option<&Material>,
+    counterbody: Option<String>,
 ) -> String {
     let mut text = format!("title = {}\n\n{material}", toml_string(title));
     let mut line = |content: &str| {
@@ -133,10 +142,7 @@ pub(crate) fn opening_text(
     for parameter in indenter.parameters() {
         line(&format!("{} = {}", parameter.key, value(&parameter.value)));
     }
-    let of_indenter = counterbody.map(|material| {
-        let block = material_text(material).replace("[material", "[indenter.material");
-        format!("\n{block}")
-    });
+    let of_indenter = counterbody.map(|block| format!("\n{block}"));
     text + &of_indenter.unwrap_or_default()
 }
 

@@ -94,7 +94,7 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         &plan.title,
         &(plan.material.text() + &layer),
         plan.indenter.as_ref(),
-        plan.material.counterbody(),
+        plan.material.counterbody().map(resolved::counterbody_text),
     );
     text.push_str(&history_text(&plan.drive));
     text.extend(plan.adhesion.map(|adhesion| adhesion.text()));
