@@ -169,7 +169,7 @@ def simulate(
     /,
     *,
     segments: Sequence[Mapping[str, Any]],
-    control: Literal["load", "approach"] = "load",
+    control: Literal["load", "pressure", "approach"] = "load",
     indenter_material: Material | str | None = None,
     layer: Mapping[str, Any] | None = None,
     adhesion: Quantity | Mapping[str, Any] | None = None,
@@ -214,7 +214,7 @@ def simulate(
         indenter: what is pressed into it.
         segments: one after another, with the keys of the program: ``{"kind": "ramp", "to": "2 N", "duration": "5 s"}``, kinds
             ``step``, ``ramp``, ``polynomial``, ``sine``, and ``table`` with arrays ``times`` (s) and ``values`` (N or m).
-        control: whether the load is prescribed, or the approach.
+        control: whether the load is prescribed, the mean pressure on a surface that repeats itself, or the approach.
         indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
         layer: of the material on a base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells.
         adhesion: work of adhesion (J/m^2) of a small, stiff sphere that is attracted, or ``{"work": ..., "equilibrium_distance": ...}``.

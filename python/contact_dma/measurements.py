@@ -217,7 +217,7 @@ def identify(
     bulk_modulus: Quantity | None = None,
     mean: Quantity | None = None,
     amplitude: Quantity | None = None,
-    control: Literal["load", "approach"] = "load",
+    control: Literal["load", "pressure", "approach"] = "load",
     segments: Sequence[Mapping[str, Any]] | None = None,
     indenter_material: Material | str | None = None,
     layer: Mapping[str, Any] | None = None,

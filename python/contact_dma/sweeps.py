@@ -253,7 +253,7 @@ def sweep(
     amplitude: Quantity,
     angular_frequency: npt.ArrayLike | Mapping[str, Any] | None = None,
     frequency: npt.ArrayLike | Mapping[str, Any] | None = None,
-    control: Literal["load", "approach"] = "load",
+    control: Literal["load", "pressure", "approach"] = "load",
     phase: Quantity | None = None,
     hold: Quantity | None = None,
     indenter_material: Material | str | None = None,
@@ -310,7 +310,7 @@ def sweep(
         amplitude: amplitude of the load (N), or of the approach (m).
         angular_frequency: angular frequencies (rad/s), shape (n,), in any order; or a range ``{"from": ..., "to": ..., "points": ...}``.
         frequency: frequencies (Hz), in place of these.
-        control: whether the load is prescribed, or the approach.
+        control: whether the load is prescribed, the mean pressure on a surface that repeats itself, or the approach.
         phase: at which the oscillation begins (rad).
         hold: rest under the mean before it (s); for the march alone.
         indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.

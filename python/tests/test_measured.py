@@ -63,13 +63,14 @@ def test_a_solid_is_found_through_what_else_is_in_the_contact() -> None:
 
 def test_a_bulk_modulus_is_known_in_place_of_the_poisson_ratio() -> None:
     solid = cd.Material.relaxation("10 MPa", [("30 MPa", "1 s")], bulk_modulus="60 MPa")
-    sphere, drive = cd.Sphere("2 mm"), {"mean": 0.2, "amplitude": 0.1}
-    cycles = cd.sweep(solid, sphere, angular_frequency=[0.1, 0.3, 1.0, 3.0, 10.0], **drive)  # type: ignore[arg-type]
+    sphere = cd.Sphere("2 mm")
+    drive: dict[str, Any] = {"mean": 0.2, "amplitude": 0.1}
+    cycles = cd.sweep(solid, sphere, angular_frequency=[0.1, 0.3, 1.0, 3.0, 10.0], **drive)
     data = {name: cycles[name] for name in ["angular_frequency_rad_per_s", "energy_loss_j", "approach_max_m"]}
-    found = cd.identify(data, sphere, bulk_modulus="60 MPa", branches=1, **drive)  # type: ignore[arg-type]
+    found = cd.identify(data, sphere, bulk_modulus="60 MPa", branches=1, **drive)
     assert found.prony.equilibrium == pytest.approx(10e6, rel=0.005)
     with pytest.raises(ValueError, match="takes the place of"):
-        cd.identify(data, sphere, poisson_ratio=0.4, bulk_modulus="60 MPa", **drive)  # type: ignore[arg-type]
+        cd.identify(data, sphere, poisson_ratio=0.4, bulk_modulus="60 MPa", **drive)
 
 
 def test_an_identification_file_gives_what_the_program_writes(program: str, tmp_path: Path) -> None:

@@ -99,6 +99,10 @@ def test_bodies_and_cycles_are_what_the_same_keys_of_a_file_give(tmp_path: Path)
         ({"adhesion": 0.05}, '[adhesion]\nwork = "0.05 J/m^2"\n'),
         ({"adhesion": {"work": 0.05, "equilibrium_distance": "0.2 nm"}}, '[adhesion]\nwork = 0.05\nequilibrium_distance = "0.2 nm"\n'),
         ({"layer": {"thickness": "1 mm"}, "cells": 16}, '[layer]\nthickness = "1 mm"\n[solver]\ncells = 16\n'),
+        (
+            {"layer": {"thickness": "1 mm", "base_modulus_ratio": 4.0, "base_poisson_ratio": 0.3}, "cells": 16},
+            '[layer]\nthickness = "1 mm"\nbase_modulus_ratio = 4\nbase_poisson_ratio = 0.3\n[solver]\ncells = 16\n',
+        ),
         ({"method": "march", "at_cycle": 2}, '[cycle]\nmethod = "march"\nat_cycle = 2\nsteps = 16\nerror_bars = false\n'),
     ]
     for option, keys in cases:
@@ -114,6 +118,27 @@ def test_bodies_and_cycles_are_what_the_same_keys_of_a_file_give(tmp_path: Path)
         )
         assert cd.sweep(file) == result, option
         assert pickle.loads(pickle.dumps(result)) == result
+
+
+def test_the_modulus_of_the_indenter_is_an_axis() -> None:
+    glass = cd.Material.elastic("70 GPa", poisson_ratio=0.22)
+    axes = {"indenter.material.elastic.modulus": ["7 GPa", 70e9]}
+    result = small_sweep(axes=axes, indenter_material=glass, angular_frequency=[0.01])
+    alone = small_sweep(indenter_material=glass, angular_frequency=[0.01])
+    assert result["energy_loss_j"][1] == alone["energy_loss_j"][0] > result["energy_loss_j"][0]
+
+
+def test_a_mean_pressure_is_the_load_over_the_area_of_a_period() -> None:
+    x = np.arange(16) * 1e-6
+    wave = cd.HeightMap(1e-7 * np.cos(x[:, None] * np.pi / 8e-6) * np.cos(x * np.pi / 8e-6), 1e-6, edge="periodic")
+    options: dict[str, Any] = {"angular_frequency": [0.01], "steps": 16, "error_bars": False}
+    pmma, area = cd.Material.library("pmma"), (16e-6) ** 2
+    pressed = cd.sweep(pmma, wave, control="pressure", mean="20 MPa", amplitude="5 MPa", **options)
+    loaded = cd.sweep(pmma, wave, mean=20e6 * area, amplitude=5e6 * area, **options)
+    assert pressed["energy_loss_j"] == pytest.approx(loaded["energy_loss_j"], rel=1e-9)
+    segments = [{"kind": "ramp", "to": "20 MPa", "duration": "1 s"}]
+    crept = cd.simulate(pmma, wave, control="pressure", segments=segments)
+    assert crept["load_n"][-1] == pytest.approx(20e6 * area)
 
 
 def test_axes_vary_indenter_and_drive() -> None:
