@@ -18,7 +18,7 @@ use crate::identify::data::Number;
 use crate::identify::series::Point;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan};
 use crate::indenter::Indenter;
-use crate::material::{Compressibility, Creep, Material, ModulusKind, Relaxation};
+use crate::material::{Compressibility, Creep, Material, MaterialError, ModulusKind, Relaxation};
 use crate::sweep::history::between::values_at;
 use crate::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::scenario::ScenarioPlan;
@@ -215,7 +215,11 @@ pub(super) fn followed(
     series: &Relaxation,
     interrupt: &AtomicBool,
 ) -> Result<SimulationOutcome, IdentifyError> {
-    let material = plan.material(series)?;
+    // A trial that the bulk modulus does not allow.
+    let material = plan.material(series).map_err(|error| match error {
+        MaterialError::SmallBulkModulus { .. } => IdentifyError::NoHistory(error.to_string()),
+        error => error.into(),
+    })?;
     let mut scenario = ScenarioPlan::new(material, Arc::clone(&plan.indenter), drive.clone());
     scenario.solver = plan.solver;
     (scenario.layer, scenario.adhesion) = (plan.layer, plan.adhesion);

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use crate::identify::data::Number;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan, history};
-use crate::material::Relaxation;
+use crate::material::{MaterialError, Relaxation};
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
 
@@ -144,10 +144,18 @@ impl<'a> Model<'a> {
     }
 
     fn setup(&self, series: &Relaxation) -> Result<Setup, IdentifyError> {
-        let material = self.plan.material(series)?;
         let measured = self.plan.measurements.cycles();
         let none = IdentifyError::NoFit("no cycle was measured");
-        let drive = measured.first().ok_or(none)?.drive;
+        let first = measured.first().ok_or(none)?;
+        let drive = first.drive;
+        // A trial that the bulk modulus does not allow.
+        let material = self.plan.material(series).map_err(|error| match error {
+            MaterialError::SmallBulkModulus { .. } => IdentifyError::NoCycle {
+                angular_frequency_rad_per_s: first.angular_frequency_rad_per_s,
+                why: error.to_string(),
+            },
+            error => error.into(),
+        })?;
         let mut plan = SweepPlan::new(material, Arc::clone(&self.plan.indenter), drive);
         plan.cycle = self.plan.cycle;
         plan.solver = self.plan.solver;

@@ -341,13 +341,20 @@ impl DecidedAxisOf {
         let problem = Diagnostic::at(&entry.key, format!("`{path}` cannot be an axis"))
             .because(format!("no key of [{block}] that takes one number"));
         let key = path.splitn(3, '.').last().unwrap_or(path);
-        match similar(key, &names) {
-            Some(meant) => problem.help(format!("write `{meant}` instead of `{key}`")),
-            None => problem.help(format!(
-                "keys of [{block}] that can: {}",
-                in_backticks(&names)
-            )),
+        if let Some(meant) = similar(key, &names) {
+            return problem.help(format!("write `{meant}` instead of `{key}`"));
         }
+        // What the other body may be made of is as long again as the rest.
+        let is_own = |name: &&str| !name.starts_with("material.");
+        let own: Vec<&str> = names.iter().copied().filter(is_own).collect();
+        let others = match own.len() == names.len() {
+            true => "",
+            false => ", and those of its `material`",
+        };
+        problem.help(format!(
+            "keys of [{block}] that can: {}{others}",
+            in_backticks(&own)
+        ))
     }
 }
 

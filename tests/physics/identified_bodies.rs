@@ -256,6 +256,18 @@ fn a_constant_bulk_modulus_is_known_in_place_of_the_poisson_ratio() {
 }
 
 #[test]
+fn a_bulk_modulus_that_hardly_allows_the_solid_is_no_end_of_the_search() {
+    // Nine times it are 18 MPa, and the solid begins with 15 MPa: trials beyond have no cycle.
+    let with = With {
+        bulk_pa: Some(2e6),
+        ..With::default()
+    };
+    let plan = of_cycles(HarmonicDrive::load(0.2, 0.1).unwrap(), &with);
+    let error = off(&found(&plan));
+    assert!(error < 2e-3, "{error:e}");
+}
+
+#[test]
 fn a_layer_is_taken_out() {
     let layer = LayerPlan {
         thickness_m: 2e-4,

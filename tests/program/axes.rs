@@ -254,8 +254,13 @@ fn what_cannot_be_an_axis_is_shown_where_it_stands() {
         ),
         (
             "\"indenter.material.elastic.modulus\" = [1e9, 2e9]",
+            "[indenter] has no `material.elastic.modulus`",
+            "another key here",
+        ),
+        (
+            "\"indenter.material.library\" = [\"steel\"]",
             "cannot be an axis",
-            "keys of [indenter] that can",
+            "those of its `material`",
         ),
         (
             "drive.mean = [1, 2]\nindenter.radius = [1e-3]\npairs = true",
