@@ -31,8 +31,9 @@ fn yielding(
     base: Option<Base>,
     problems: &Problems,
 ) -> Option<Option<YieldingBase>> {
-    let modulus_ratio = table.value(&BASE_MODULUS_RATIO)?;
-    let poisson_ratio = table.value(&BASE_POISSON_RATIO)?;
+    let modulus_ratio = table.value(&BASE_MODULUS_RATIO);
+    let poisson_ratio = table.value(&BASE_POISSON_RATIO);
+    let (modulus_ratio, poisson_ratio) = (modulus_ratio?, poisson_ratio?);
     let place = table.key_location(&BASE_MODULUS_RATIO);
     let place = place.or_else(|| table.key_location(&BASE_POISSON_RATIO));
     let alone = |problem: &str, help: &str| {

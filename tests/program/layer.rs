@@ -63,6 +63,10 @@ fn a_base_that_yields_is_told_whole_and_refused_in_parts() {
         ("base_modulus_ratio = 4", "add `base_poisson_ratio = 0.4`"),
         ("base_poisson_ratio = 0.4", "add `base_modulus_ratio = 4`"),
         (
+            "base_modulus_ratio = \"4 GPa\"\nbase_poison_ratio = 0.4",
+            "write `base_poisson_ratio` instead of `base_poison_ratio`",
+        ),
+        (
             "base_modulus_ratio = 1e-3\nbase_poisson_ratio = 0.4",
             "leave out base_modulus_ratio",
         ),
