@@ -14,34 +14,21 @@ import sys
 import tempfile
 import time
 
-SWEEP = """title = "{cases} cases"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-mean = "10 N"
-amplitude = "5 N"
-[sweep]
-angular_frequency = {{ from = "1e-3 rad/s", to = "1 rad/s", points = {frequencies}, spacing = "log" }}
-{axis}
-"""
-AXIS = 'drive.amplitude = {{ from = "0.05 N", to = "9.95 N", points = {amplitudes} }}'
+FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "sweeps", "pmma.toml")
 COLUMNS = ["cases", "seconds", "ms_per_case", "foretold_seconds", "peak_memory_mb", "kb_per_case"]
 
 
 def measured(program, folder, cases):
     frequencies = 10 if cases < 1000 else 100
     amplitudes = cases // frequencies
-    axis = AXIS.format(amplitudes=amplitudes) if amplitudes > 1 else ""
-    file, out = os.path.join(folder, "study.toml"), os.path.join(folder, str(cases))
-    with open(file, "w") as study:
-        study.write(SWEEP.format(cases=cases, frequencies=frequencies, axis=axis))
-    plan = json.loads(subprocess.run([program, "plan", file, "--format", "json"], check=True, capture_output=True).stdout)
+    study = [FILE, "--set", f'sweep.angular_frequency={{ from = "1e-3 rad/s", to = "1 rad/s", points = {frequencies}, spacing = "log" }}']
+    if amplitudes > 1:
+        study += ["--set", f'sweep.drive.amplitude={{ from = "0.05 N", to = "9.95 N", points = {amplitudes} }}']
+    out = os.path.join(folder, str(cases))
+    plan = json.loads(subprocess.run([program, "plan", *study, "--format", "json"], check=True, capture_output=True).stdout)
     threads = os.cpu_count()
     foretold = (plan["time_on_one_thread_s"] + plan["time_of_peaks_s"]) / threads + plan["time_of_figures_s"]
-    seconds = timed([program, "sweep", file, "--quiet", "--out", out])
+    seconds = timed([program, "sweep", *study, "--quiet", "--out", out])
     memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e3
     sizes = [os.path.getsize(os.path.join(f, name)) for f, _, names in os.walk(out) for name in names]
     return [cases, seconds, 1e3 * seconds / cases, foretold, memory, sum(sizes) / cases / 1e3]

@@ -207,9 +207,7 @@ pub fn identify_material<'py>(
         found: &found,
         curves: &curves,
     };
-    let (lowest, highest) = found.window_rad_per_s;
-    let material = plan.body(&found.relaxation).map_err(failure::of_run)?;
-    let material = material.measured((1.0 / highest, 1.0 / lowest));
+    let material = plan.material_of(&found).map_err(failure::of_run)?;
     let summary = identify_summary::summary(&report);
     let summary = serde_json::to_string_pretty(&summary).map_err(failure::of_run)?;
     let block = material_text(&material);

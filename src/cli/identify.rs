@@ -122,10 +122,7 @@ fn refused(file: &Path, error: &IdentifyError) -> Failure {
 fn block(report: &IdentifyReport<'_>, found: &Identified) -> Result<String, Failure> {
     let text = format!("{}\n{}", report.plan.title, report.text());
     let comments: String = text.lines().map(|line| format!("# {line}\n")).collect();
-    let (lowest, highest) = found.window_rad_per_s;
-    let material = (report.plan.body(&found.relaxation))
-        .map_err(Failure::run)?
-        .measured((1.0 / highest, 1.0 / lowest));
+    let material = report.plan.material_of(found).map_err(Failure::run)?;
     Ok(format!("{comments}{}", resolved::material_text(&material)))
 }
 

@@ -38,12 +38,7 @@ pub(crate) fn sums<const N: usize>(
 
 /// The sum of a term over triples.
 #[inline(always)]
-pub(crate) fn sum_over_triples(
-    a: &[f64],
-    b: &[f64],
-    c: &[f64],
-    term: impl Fn(f64, f64, f64) -> f64,
-) -> f64 {
+fn sum_over_triples(a: &[f64], b: &[f64], c: &[f64], term: impl Fn(f64, f64, f64) -> f64) -> f64 {
     let mut lanes = [0.0; LANES];
     let ((whole_a, rest_a), (whole_b, rest_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
     let (whole_c, rest_c) = c.as_chunks::<LANES>();
@@ -61,10 +56,20 @@ pub(crate) fn sum_over_triples(
 #[multiversion(targets("x86_64+avx2"))]
 pub(crate) fn of_springs_below(offset: &[f64], width: &[f64], approach: f64) -> [f64; 2] {
     // One sum at a time: of two in one pass the compiler takes the lanes one by one.
-    let below = |offset: f64, term: f64| [if offset < approach { term } else { 0.0 }];
-    let [widths] = sums(offset, width, below);
-    let [moments] = sums(offset, width, |offset, width| below(offset, width * offset));
-    [widths, moments]
+    [
+        sum_below(offset, width, approach, |_, width| width),
+        sum_below(offset, width, approach, |offset, width| width * offset),
+    ]
+}
+
+/// The sum of a term, of offset and width, over the springs whose offset lies below an approach.
+#[inline(always)]
+fn sum_below(offset: &[f64], width: &[f64], approach: f64, term: impl Fn(f64, f64) -> f64) -> f64 {
+    let [sum] = sums(offset, width, |offset, width| {
+        let term = term(offset, width);
+        [if offset < approach { term } else { 0.0 }]
+    });
+    sum
 }
 
 /// How many of these, 1 where a node was in contact and 0 where not, the pressure is at odds with.
@@ -90,10 +95,7 @@ pub(crate) fn press(
         *force = if *offset < approach { elastic } else { 0.0 };
     }
     let [load] = sums(force, width, |force, width| [force * width]);
-    let [widths] = sums(offset, width, |offset, width| {
-        [if offset < approach { width } else { 0.0 }]
-    });
-    [load, widths]
+    [load, sum_below(offset, width, approach, |_, width| width)]
 }
 
 /// Adds so many times a field to another.

@@ -18,7 +18,7 @@ use crate::identify::data::Number;
 use crate::identify::series::Point;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan};
 use crate::indenter::Indenter;
-use crate::material::{Compressibility, Creep, Material, MaterialError, ModulusKind, Relaxation};
+use crate::material::{Creep, MaterialError, Relaxation};
 use crate::sweep::history::between::values_at;
 use crate::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::scenario::ScenarioPlan;
@@ -86,21 +86,19 @@ fn between(x: &[f64], y: &[f64], at: f64) -> f64 {
 }
 
 /// A history without its contact.
-pub(super) struct LinearHistory {
+pub(super) struct LinearHistory<'a> {
+    plan: &'a IdentifyPlan,
     control: Control,
     elastic: Elastic,
-    compressibility: Compressibility,
-    /// Contact compliance (1/Pa) of an indenter that is not rigid.
-    counterbody: Option<Creep>,
     /// Length (s) and values at beginning and end of every step of what is convolved: load (N), or F (m^2).
     steps: Vec<(f64, f64, f64)>,
     /// For each datum how many steps lead to it.
     ends: Vec<usize>,
 }
 
-impl LinearHistory {
+impl<'a> LinearHistory<'a> {
     /// The history of a plan; `None` where its data lie outside the drive.
-    pub(super) fn new(plan: &IdentifyPlan, drive: &SegmentedDrive) -> Option<Self> {
+    pub(super) fn new(plan: &'a IdentifyPlan, drive: &SegmentedDrive) -> Option<Self> {
         let times: Vec<f64> = (plan.measurements.data().iter())
             .map(|datum| plan.measurements.time_s(datum))
             .collect();
@@ -122,9 +120,7 @@ impl LinearHistory {
             control: drive.control(),
             steps: steps.collect(),
             ends: schedule.requested.iter().map(|moment| moment + 1).collect(),
-            compressibility: plan.compressibility.clone(),
-            counterbody: (plan.counterbody.as_ref())
-                .and_then(|indenter| indenter.contact_compliance().ok()),
+            plan,
             elastic,
         })
     }
@@ -132,13 +128,17 @@ impl LinearHistory {
     /// The number of every datum.
     pub(super) fn numbers(&self, point: &Point) -> Vec<f64> {
         let undefined = || vec![f64::NAN; self.ends.len()];
-        match (self.control, &self.counterbody, &self.compressibility) {
-            (Control::Approach, None, Compressibility::PoissonRatio(nu)) => {
+        let known = (
+            &self.plan.counterbody,
+            self.plan.compressibility.poisson_ratio(),
+        );
+        match (self.control, known) {
+            (Control::Approach, (None, Some(nu))) => {
                 let branches = point.branches_pa_s();
                 let loads = self.convolved(point.equilibrium_pa(), &branches);
                 loads.iter().map(|load| load / (1.0 - nu * nu)).collect()
             }
-            (Control::Approach, ..) => {
+            (Control::Approach, _) => {
                 let compliance = self.compliance(point);
                 let Some(modulus) = compliance.and_then(|creep| creep.to_relaxation().ok()) else {
                     return undefined();
@@ -147,7 +147,7 @@ impl LinearHistory {
                 let branches: Vec<_> = branches.map(|b| (b.modulus_pa, b.time_s)).collect();
                 self.convolved(modulus.equilibrium_modulus(), &branches)
             }
-            (Control::Load, ..) => {
+            (Control::Load, _) => {
                 let Some(creep) = self.compliance(point) else {
                     return undefined();
                 };
@@ -165,22 +165,8 @@ impl LinearHistory {
 
     /// The contact compliance (1/Pa) of the pair; `None` where it has none.
     fn compliance(&self, point: &Point) -> Option<Creep> {
-        let series = point.relaxation().ok()?;
-        let own = match &self.compressibility {
-            Compressibility::PoissonRatio(nu) => {
-                let creep = series.to_creep().ok()?;
-                creep.scaled(1.0 - nu * nu).ok()?
-            }
-            bulk @ Compressibility::BulkModulus(_) => {
-                let kind = ModulusKind::Longitudinal;
-                let material = Material::from_relaxation(series, kind, bulk.clone()).ok()?;
-                material.contact_compliance().ok()?
-            }
-        };
-        match &self.counterbody {
-            Some(indenter) => own.beside(indenter).ok(),
-            None => Some(own),
-        }
+        let pair = self.plan.material(&point.relaxation().ok()?).ok()?;
+        pair.contact_compliance().ok()
     }
 
     /// The convolution of the steps with `constant` + sum of w exp(-t/tau), at every datum.

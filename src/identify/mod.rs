@@ -143,11 +143,21 @@ impl IdentifyPlan {
         })
     }
 
+    /// The material that was found, known over the band measured.
+    ///
+    /// # Errors
+    /// As [`Material::from_relaxation`].
+    pub fn material_of(&self, found: &Identified) -> Result<Material, MaterialError> {
+        let (lowest, highest) = found.window_rad_per_s;
+        let body = self.body(&found.relaxation)?;
+        Ok(body.measured((1.0 / highest, 1.0 / lowest)))
+    }
+
     /// The material of a series by itself.
     ///
     /// # Errors
     /// As [`Material::from_relaxation`].
-    pub fn body(&self, series: &Relaxation) -> Result<Material, MaterialError> {
+    fn body(&self, series: &Relaxation) -> Result<Material, MaterialError> {
         let kind = ModulusKind::Longitudinal;
         Material::from_relaxation(series.clone(), kind, self.compressibility.clone())
     }

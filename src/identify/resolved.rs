@@ -1,23 +1,16 @@
 //! The resolved identification: every default written out, as a file that gives the same plan again.
 
 use crate::identify::{Driven, IdentifyPlan};
-use crate::material::Compressibility;
-use crate::quantity::{Dimension, format_si};
 use crate::sweep::plan::resolved::{
-    counterbody_text, cycle_text, drive_text, opening_text, solver_text, toml_string,
+    compressibility_line, counterbody_text, cycle_text, drive_text, opening_text, solver_text,
+    toml_string,
 };
 use crate::sweep::plan::scenario::history_text;
 
 /// The plan as the text of an identification file.
 pub fn resolved_text(plan: &IdentifyPlan) -> String {
     let layer = plan.layer.map_or(String::new(), |layer| layer.text());
-    let known = match &plan.compressibility {
-        Compressibility::PoissonRatio(nu) => format!("poisson_ratio = {nu:?}"),
-        Compressibility::BulkModulus(bulk) => {
-            let bulk = format_si(bulk.equilibrium_modulus(), Dimension::Stress);
-            format!("bulk_modulus = \"{bulk}\"")
-        }
-    };
+    let known = compressibility_line(&plan.compressibility).unwrap_or_default();
     let material = format!("[material]\n{known}\n{layer}");
     let counterbody = plan.counterbody.as_ref().map(counterbody_text);
     let opening = opening_text(&plan.title, &material, plan.indenter.as_ref(), counterbody);

@@ -44,7 +44,7 @@ const CLOSELY: Ending = Ending {
 pub(super) struct Linearised<'a> {
     pub(super) plan: &'a IdentifyPlan,
     cycles: Vec<LinearCycle<'a>>,
-    history: Option<LinearHistory>,
+    history: Option<LinearHistory<'a>>,
     pub(super) ln_factors: Vec<f64>,
     pub(super) noise: Noise,
     pub(super) limits: Limits,

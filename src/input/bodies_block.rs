@@ -32,7 +32,8 @@ pub(super) fn read<'a>(
     let layer = root.table_or(&keys::LAYER, None, |t| {
         layer_block::read(t, problems).map(Some)
     });
-    layer_block::refuse_second_body(root, counterbody.as_ref(), problems);
+    let has_counterbody = counterbody.as_ref().is_some_and(Option::is_some);
+    layer_block::refuse_second_body(root, has_counterbody, problems);
     let adhesion_at = root.key_location(&keys::ADHESION);
     let adhesion = root.table_or(&keys::ADHESION, None, |t| adhesion_block::read(t).map(Some));
     Some(Bodies {

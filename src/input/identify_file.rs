@@ -100,24 +100,17 @@ fn driven(
         let bodies = (pull_off_n, area_m2);
         return segments_block::read(table, folder, bodies, problems).map(Driven::History);
     }
-    let drive = match bodies.and_then(Bodies::attraction) {
-        Some(attraction) => {
-            let pressed = Pressed {
-                is_attracted: true,
-                ..Pressed::default()
-            };
-            let own = harmonic_block::read(table, pressed, problems)?;
-            attraction.drive(indenter?, &own)
-        }
-        None => {
-            let pressed = Pressed {
-                area_m2,
-                ..Pressed::default()
-            };
-            harmonic_block::read(table, pressed, problems)
-        }
+    let attraction = bodies.and_then(Bodies::attraction);
+    let pressed = Pressed {
+        area_m2,
+        is_attracted: attraction.is_some(),
     };
-    drive.map(Driven::Cycles)
+    let own = harmonic_block::read(table, pressed, problems)?;
+    let drive = match attraction {
+        Some(attraction) => attraction.drive(indenter?, &own)?,
+        None => own,
+    };
+    Some(Driven::Cycles(drive))
 }
 
 fn known_material(mut table: TableReader<'_>, problems: &Problems) -> Option<Compressibility> {

@@ -4,11 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::data_file;
-use super::diagnostic::{Location, Problems};
+use super::diagnostic::Problems;
 use super::document::kind::{Describe, Scalar};
 use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
-use super::document::tree::Table;
 use super::document::{Located, plain};
 use super::field_file;
 use super::field_file::Field;
@@ -105,19 +104,17 @@ pub(super) fn material(
     problems: &Problems,
 ) -> Option<Option<Located<Material>>> {
     match root.parsed(&keys::INDENTER) {
-        Some(parsed) => material_of(parsed, root.as_ref().clone(), folder, problems),
+        Some(_) => material_of(root.table(&keys::INDENTER)?, folder, problems),
         None => Some(None),
     }
 }
 
 /// The same of such a block.
 pub(super) fn material_of(
-    parsed: &Table,
-    place: Location,
+    mut table: TableReader<'_>,
     folder: &Path,
     problems: &Problems,
 ) -> Option<Option<Located<Material>>> {
-    let mut table = TableReader::new(parsed, place, "indenter".to_owned(), problems);
     table.table_or(&INDENTER_MATERIAL, None, |block| {
         let read = material_block::read_over(block, folder, DirectSum::Refused, None, problems);
         let material = material_block::series_of(read?.0)?;

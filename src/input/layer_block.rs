@@ -1,14 +1,12 @@
 //! The `[layer]` block: the body is a layer on a base, which springs cannot treat.
 
 use super::diagnostic::Problems;
-use super::document::Located;
 use super::document::reader::TableReader;
 use super::keys;
 use super::keys::layer::{BASE, BASE_MODULUS_RATIO, BASE_POISSON_RATIO, THICKNESS};
 use super::keys::settings::ENGINE;
 use super::sweep_file::solver;
 use crate::contact::half_space::layer::{Base, YieldingBase};
-use crate::material::Material;
 use crate::sweep::engine::EngineError;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::{EngineKind, SolverPlan};
@@ -85,10 +83,10 @@ pub(super) fn solver_on(
 /// Refuses an indenter that yields on a layer: how far each yields under one pressure is then not the same but for a factor.
 pub(super) fn refuse_second_body(
     root: &mut TableReader<'_>,
-    counterbody: Option<&Option<Located<Material>>>,
+    has_counterbody: bool,
     problems: &Problems,
 ) {
-    if let (Some(Some(_)), Some(place)) = (counterbody, root.key_location(&keys::LAYER)) {
+    if let (true, Some(place)) = (has_counterbody, root.key_location(&keys::LAYER)) {
         problems
             .at(&place, "a layer is pressed by a rigid indenter only")
             .because("and [indenter.material] makes it yield")

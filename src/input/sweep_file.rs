@@ -6,12 +6,12 @@ use std::sync::Arc;
 
 use super::adhesion_block::Attraction;
 use super::axis::Swept;
-use super::diagnostic::{Diagnostic, Diagnostics, Problems};
+use super::diagnostic::{Diagnostics, Problems};
 use super::document::kind::Table;
 use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
 use super::document::tree::Value;
-use super::document::{self, Document, Located};
+use super::document::{Document, Located};
 use super::figures_block::{self, Figures};
 use super::given::Given;
 use super::harmonic_block::Pressed;
@@ -72,18 +72,17 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         given,
         problems: &problems,
     };
-    let counterbody = indenter_block::material(&mut root, document.folder(), &problems);
+    let counterbody = file.counterbody(&mut root);
     let layer = file.layer(&mut root);
-    layer_block::refuse_second_body(&mut root, counterbody.as_ref(), &problems);
-    let counterbody = match counterbody {
-        Some(Some(body)) => for_contact(&problems, body).map(Some),
-        other => other.map(|_| None),
-    };
-    let indenter_of = counterbody.as_ref().and_then(Option::as_ref);
+    let has_counterbody = counterbody.as_ref().is_some_and(|(own, _)| own.is_some());
+    layer_block::refuse_second_body(&mut root, has_counterbody, &problems);
+    let counterbody = counterbody.filter(|(own, each)| {
+        let mut bodies = own.iter().chain(each.iter().flatten());
+        bodies.all(|body| check_contact(&problems, body))
+    });
     let given_blocks = file.given_blocks(&mut root);
-    let counterbodies = file.counterbodies(&mut root);
-    let material = file.material(&mut root, indenter_of, counterbodies.as_deref());
-    let material = material.filter(|_| counterbody.is_some() && counterbodies.is_some());
+    let material = file.material(&mut root);
+    let material = material.zip(counterbody).map(|(own, of)| beside(own, &of));
     let indenter = file.indenter(&mut root);
     let adhesion_at = root.key_location(&keys::ADHESION);
     let adhesion = root.table_or(&keys::ADHESION, None, |t| adhesion_block::read(t).map(Some));
@@ -93,7 +92,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
             .and_then(|indenter| file.period_area_m2(indenter)),
         is_attracted: adhesion_at.is_some(),
     };
-    let drive = file.block(&mut root, &keys::DRIVE, Block::Drive, |t| {
+    let drive = file.block(&mut root, &keys::DRIVE, file.swept(Block::Drive), |t| {
         harmonic_block::read(t, pressed, &problems)
     });
     let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| cycle(t, &problems));
@@ -154,6 +153,9 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
 /// What a block says, and what it says under each condition.
 type Over<T> = (T, Vec<T>);
 
+/// What the indenter is made of.
+type Body = Arc<Located<Material>>;
+
 /// Material, layer, indenter and drive.
 type Blocks<'a> = (
     &'a Over<Arc<Material>>,
@@ -177,23 +179,25 @@ struct File<'a> {
 impl File<'_> {
     /// The axes of a block, with the place of each among all.
     fn swept(&self, block: Block) -> Vec<(usize, &Swept)> {
-        let all = self.swept.iter().enumerate();
-        all.filter(|(_, swept)| swept.varied.block == block)
-            .collect()
+        self.swept_where(|varied| varied.block == block)
     }
 
-    /// Reads a block: once, and once more for each set of values that the axes give it. Where the block leaves out what an axis varies,
+    fn swept_where(&self, is_meant: impl Fn(&Varied) -> bool) -> Vec<(usize, &Swept)> {
+        let all = self.swept.iter().enumerate();
+        all.filter(|(_, swept)| is_meant(&swept.varied)).collect()
+    }
+
+    /// Reads a block: once, and once more for each set of values that these axes give it. Where the block leaves out what an axis varies,
     /// the first condition counts.
     fn block<T: Clone>(
         &self,
         root: &mut TableReader<'_>,
         row: &Row<Table, Required>,
-        block: Block,
+        swept: Vec<(usize, &Swept)>,
         read: impl Fn(TableReader<'_>) -> Option<T>,
     ) -> Option<Over<T>> {
         let parsed = root.parsed(row);
         let own = root.table(row)?;
-        let swept = self.swept(block);
         let (false, Some(parsed)) = (swept.is_empty(), parsed) else {
             return Some((read(own)?, Vec::new()));
         };
@@ -204,9 +208,12 @@ impl File<'_> {
             false => None,
         };
         let each = self.each(&swept, |values| {
-            let table = put_all(parsed, values, &swept);
+            let mut all = values.iter().zip(&swept);
+            let table = all.try_fold(parsed.clone(), |table, (value, (_, swept))| {
+                swept.put_into(&table, *value)
+            });
             let table = table.map_err(|problem| self.problems.push(problem)).ok()?;
-            let name = block.name().to_owned();
+            let name = row.name.to_owned();
             read(TableReader::new(&table, place.clone(), name, self.problems))
         })?;
         Some((given.or_else(|| each.first().cloned())?, each))
@@ -232,64 +239,22 @@ impl File<'_> {
         self.conditions.iter().map(of_condition).collect()
     }
 
-    /// The material, beside what the indenter is made of: one, or one under each condition where there are any.
-    fn material(
-        &self,
-        root: &mut TableReader<'_>,
-        counterbody: Option<&Material>,
-        counterbodies: Option<&[Arc<Material>]>,
-    ) -> Option<Over<Arc<Material>>> {
-        let counterbodies = counterbodies.unwrap_or_default();
-        if counterbodies.is_empty() {
-            return self.own_material(root, counterbody);
+    /// What the indenter is made of, where it is not rigid. What is wrong with the block itself is told where its shape is read.
+    fn counterbody(&self, root: &mut TableReader<'_>) -> Option<Over<Option<Body>>> {
+        if root.parsed(&keys::INDENTER).is_none() {
+            return Some((None, Vec::new()));
         }
-        let (own, each) = self.own_material(root, None)?;
-        let mut known: HashMap<_, Arc<Material>> = HashMap::new();
-        let mut beside = |body: &Arc<Material>, counterbody: &Arc<Material>| {
-            let pair = known.entry((Arc::as_ptr(body), Arc::as_ptr(counterbody)));
-            let of_both = || Material::clone(body).against(Material::clone(counterbody));
-            Arc::clone(pair.or_insert_with(|| Arc::new(of_both())))
-        };
-        let under = counterbodies.iter().enumerate();
-        let of_each =
-            under.map(|(k, counterbody)| beside(each.get(k).unwrap_or(&own), counterbody));
-        let of_each: Vec<_> = of_each.collect();
-        let first = match counterbody {
-            Some(counterbody) => Arc::new(Material::clone(&own).against(counterbody.clone())),
-            None => Arc::clone(of_each.first()?),
-        };
-        Some((first, of_each))
-    }
-
-    /// What the indenter is made of under each condition; empty where no axis varies that.
-    fn counterbodies(&self, root: &mut TableReader<'_>) -> Option<Vec<Arc<Material>>> {
-        let mut swept = self.swept(Block::Indenter);
-        swept.retain(|(_, swept)| swept.varied.is_of_counterbody());
-        let (false, Some(parsed)) = (swept.is_empty(), root.parsed(&keys::INDENTER)) else {
-            return Some(Vec::new());
-        };
-        let place = root.as_ref().clone();
-        self.each(&swept, |values| {
-            // What the block does not have is told where the indenter is read.
-            let table = put_all(parsed, values, &swept).ok()?;
-            let body =
-                indenter_block::material_of(&table, place.clone(), self.folder, self.problems);
-            for_contact(self.problems, body??).map(Arc::new)
+        let swept = self.swept_where(Varied::is_of_counterbody);
+        self.block(root, &keys::INDENTER, swept, |t| {
+            let body = indenter_block::material_of(t, self.folder, self.problems)?;
+            Some(body.map(Arc::new))
         })
     }
 
-    fn own_material(
-        &self,
-        root: &mut TableReader<'_>,
-        counterbody: Option<&Material>,
-    ) -> Option<Over<Arc<Material>>> {
-        let for_contact = |material: Located<Material>| {
-            let against = |own: Material| match counterbody {
-                Some(indenter) => own.against(indenter.clone()),
-                None => own,
-            };
-            for_contact(self.problems, material.map(against)).map(Arc::new)
-        };
+    /// The material, without what the indenter is made of.
+    fn material(&self, root: &mut TableReader<'_>) -> Option<Over<Arc<Material>>> {
+        let for_contact =
+            |material: Located<Material>| for_contact(self.problems, material).map(Arc::new);
         let over = |t: TableReader<'_>, axis: Option<&Located<Vec<f64>>>| {
             material_block::read_over(t, self.folder, DirectSum::Refused, axis, self.problems)
         };
@@ -327,7 +292,7 @@ impl File<'_> {
                 })?;
                 Some((of_condition.first()?.clone(), of_condition))
             }
-            _ => self.block(root, &keys::MATERIAL, Block::Material, |t| {
+            _ => self.block(root, &keys::MATERIAL, swept, |t| {
                 for_contact(material_block::series_of(over(t, None)?.0)?)
             }),
         }
@@ -359,7 +324,9 @@ impl File<'_> {
         if let (Some(given), None) = (&self.given.indenter, root.key_location(&keys::INDENTER)) {
             return Some((Arc::clone(given), Vec::new()));
         }
-        self.block(root, &keys::INDENTER, Block::Indenter, |t| {
+        let swept = self
+            .swept_where(|varied| varied.block == Block::Indenter && !varied.is_of_counterbody());
+        self.block(root, &keys::INDENTER, swept, |t| {
             indenter_block::read(t, self.folder, self.problems)
         })
     }
@@ -367,7 +334,7 @@ impl File<'_> {
     /// The layer, where the body is one; where an axis varies it, it must be.
     fn layer(&self, root: &mut TableReader<'_>) -> Option<Over<Option<LayerPlan>>> {
         match root.has(&keys::LAYER) || !self.swept(Block::Layer).is_empty() {
-            true => self.block(root, &keys::NEEDED_LAYER, Block::Layer, |t| {
+            true => self.block(root, &keys::NEEDED_LAYER, self.swept(Block::Layer), |t| {
                 layer_block::read(t, self.problems).map(Some)
             }),
             false => Some((None, Vec::new())),
@@ -428,16 +395,25 @@ impl File<'_> {
     }
 }
 
-/// A block with a value (SI units) of each of these axes in place of its own.
-fn put_all(
-    block: &document::tree::Table,
-    values: &[f64],
-    swept: &[(usize, &Swept)],
-) -> Result<document::tree::Table, Diagnostic> {
-    let mut all = values.iter().zip(swept);
-    all.try_fold(block.clone(), |table, (value, (_, swept))| {
-        swept.put_into(&table, *value)
-    })
+/// A material beside what the indenter is made of, under each condition where either varies; each pair is made once.
+fn beside(own: Over<Arc<Material>>, counterbody: &Over<Option<Body>>) -> Over<Arc<Material>> {
+    let (Some(of_indenter), of_each) = counterbody else {
+        return own;
+    };
+    let (own, each) = own;
+    let mut known: HashMap<_, Arc<Material>> = HashMap::new();
+    let mut pair = |own: &Arc<Material>, of: &Body| {
+        let known = known.entry((Arc::as_ptr(own), Arc::as_ptr(of)));
+        let both = || Arc::new(Material::clone(own).against(of.value.clone()));
+        Arc::clone(known.or_insert_with(both))
+    };
+    let first = pair(&own, of_indenter);
+    let conditions = 0..each.len().max(of_each.len());
+    let under = |k: usize| {
+        let of = of_each.get(k).and_then(Option::as_ref);
+        pair(each.get(k).unwrap_or(&own), of.unwrap_or(of_indenter))
+    };
+    (first, conditions.map(under).collect())
 }
 
 /// All combinations of the values of these axes, those of the last fastest; or the values that stand at the same place, in the order of
@@ -475,17 +451,22 @@ pub(super) fn default_solver(
     })
 }
 
-/// Refuses materials that cannot be in contact, or whose contact has no stabilised cycle.
+/// A material that has passed [`check_contact`]; `None` of others.
 fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Material> {
+    check_contact(problems, &material).then_some(material.value)
+}
+
+/// Refuses materials that cannot be in contact, or whose contact has no stabilised cycle: false of those.
+fn check_contact(problems: &Problems, material: &Located<Material>) -> bool {
     match material.value.contact_compliance() {
         Err(error) => {
-            problems.at(&material, error.to_string());
-            None
+            problems.at(material, error.to_string());
+            false
         }
         Ok(compliance) if compliance.is_fluid() => {
             problems
                 .at(
-                    &material,
+                    material,
                     "this material is a fluid, and a sweep looks for a stabilised cycle",
                 )
                 .because("creeps without end under a mean load")
@@ -500,9 +481,9 @@ fn for_contact(problems: &Problems, material: Located<Material>) -> Option<Mater
                     }
                     None => "give it an equilibrium modulus above zero, or leave out its viscosity",
                 });
-            None
+            false
         }
-        Ok(_) => Some(material.value),
+        Ok(_) => true,
     }
 }
 

@@ -166,7 +166,7 @@ fn material(material: &Material) -> String {
 }
 
 /// The layer that the body is, with a blank before it, without what axes vary; nothing of a half-space.
-fn layer(layer: Option<LayerPlan>, swept: &[Varied]) -> String {
+pub(in crate::report) fn layer(layer: Option<LayerPlan>, swept: &[Varied]) -> String {
     let is_varied = |key: &str| {
         let mut swept = swept.iter();
         swept.any(|varied| varied.block == Block::Layer && varied.key == key)

@@ -71,7 +71,7 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
         "branches_asked": report.plan.branches,
         "equilibrium_modulus_pa": found.relaxation.equilibrium_modulus(),
         "poisson_ratio": report.plan.compressibility.poisson_ratio(),
-        "bulk_modulus_pa": report.plan.compressibility.bulk_modulus().map(|bulk| bulk.equilibrium_modulus()),
+        "bulk_modulus_pa": report.plan.compressibility.constant_bulk_modulus_pa(),
         "unknowns": unknowns.collect::<Vec<_>>(),
         "correlations": found.correlations,
         "singular_values": found.singular_values,

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use crate::indenter::{Indenter, Value};
 use crate::material::{Compressibility, Material, MaterialFunction};
 use crate::quantity::Dimension;
+use crate::report::caption;
 use crate::report::number::plain;
 use crate::report::words;
 use crate::sweep::plan::SweepPlan;
@@ -60,10 +61,7 @@ pub(super) fn line(plan: &SweepPlan) -> String {
     format!(
         "{}{}, under a {}; {}; {range}",
         plan.material.name().unwrap_or("A material of its own"),
-        plan.layer.map_or(String::new(), |layer| format!(
-            " {}",
-            layer.words(|_| false)
-        )),
+        caption::layer(plan.layer, &[]),
         plan.indenter.shape(),
         words::drive_line(&plan.drive, plan)
     ) + &words::varied_line(plan).map_or(String::new(), |line| format!("; {line}"))

@@ -11,6 +11,7 @@ use super::sweep_data::MaterialData;
 use super::{Pictures, moduli, still};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
+use crate::report::caption;
 use crate::report::number::{plain, with_error};
 use crate::report::profile_lines::lines;
 use crate::report::quantities::{CYCLES, Column};
@@ -273,10 +274,7 @@ pub(super) fn line(plan: &ScenarioPlan) -> String {
     format!(
         "{}{}, under a {}; {} over {}",
         name.unwrap_or("A material of its own"),
-        plan.layer.map_or(String::new(), |layer| format!(
-            " {}",
-            layer.words(|_| false)
-        )),
+        caption::layer(plan.layer, &[]),
         plan.indenter.shape(),
         plan.drive.control().name(),
         plain(plan.drive.duration_s(), Dimension::Time, 5)

@@ -22,6 +22,7 @@ pub struct Axes {
     pub pairs: bool,
     /// In the order of the values, of the last axis fastest; the first, with the frequencies, makes the first cases.
     pub conditions: Vec<Condition>,
+    /// What the resolved file tells in place of series.
     pub given_blocks: GivenBlocks,
 }
 

@@ -7,7 +7,7 @@ use sha2::{Digest, Sha256};
 
 use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::{Indenter, Parameter, Value};
-use crate::material::{Material, MaterialFunction, Relaxation, RelaxationBranch};
+use crate::material::{Compressibility, Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
 use crate::sweep::plan::{Axes, CyclePlan, SolverPlan, SweepPlan, Varied};
@@ -281,14 +281,20 @@ fn head_lines(material: &Material, line: &mut dyn FnMut(&str)) {
     if let Some(name) = material.name() {
         line(&format!("name = {}", toml_string(name)));
     }
-    if let Some(nu) = material.poisson_ratio() {
-        line(&format!("poisson_ratio = {nu:?}"));
-    }
-    if let Some(bulk_pa) = material.compressibility().constant_bulk_modulus_pa() {
-        let bulk = format_si(bulk_pa, Dimension::Stress);
-        line(&format!("bulk_modulus = \"{bulk}\""));
+    if let Some(known) = compressibility_line(material.compressibility()) {
+        line(&known);
     }
     temperature_line(material, line);
+}
+
+/// The key of a Poisson ratio, or of a bulk modulus that is constant in time.
+pub(crate) fn compressibility_line(compressibility: &Compressibility) -> Option<String> {
+    if let Some(nu) = compressibility.poisson_ratio() {
+        return Some(format!("poisson_ratio = {nu:?}"));
+    }
+    let bulk_pa = compressibility.constant_bulk_modulus_pa()?;
+    let bulk = format_si(bulk_pa, Dimension::Stress);
+    Some(format!("bulk_modulus = \"{bulk}\""))
 }
 
 /// The bulk modulus, where it relaxes.
