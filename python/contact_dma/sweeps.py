@@ -29,7 +29,7 @@ class Peak:
         energy_loss: the loss per cycle there (J).
         angular_frequency_uncertainty: numerical uncertainty of the frequency (rad/s).
         energy_loss_error: numerical error of the loss (J); None without error bars.
-        varied: SI values of the axes besides the frequency, empty where there are none.
+        varied: SI values of the axes besides the frequency, names of materials or indenters, empty where there are none.
         drive_mean: mean of the drive (N or m), where there are several.
         drive_amplitude: amplitude of the drive (N or m), where there are several.
     """
@@ -38,7 +38,7 @@ class Peak:
     energy_loss: float
     angular_frequency_uncertainty: float
     energy_loss_error: float | None
-    varied: tuple[float, ...] = ()
+    varied: tuple[float | str, ...] = ()
     drive_mean: float | None = None
     drive_amplitude: float | None = None
 
@@ -245,8 +245,8 @@ class SweepResult(Table):
 
 @overload
 def sweep(
-    material: Material,
-    indenter: Indenter,
+    material: Material | Mapping[str, Material],
+    indenter: Indenter | Mapping[str, Indenter],
     /,
     *,
     mean: Quantity,
@@ -289,8 +289,8 @@ def sweep(
     progress: Progress | Any | None = None,
 ) -> SweepResult: ...
 def sweep(
-    material: Material | str | os.PathLike[str],
-    indenter: Indenter | None = None,
+    material: Material | Mapping[str, Material] | str | os.PathLike[str],
+    indenter: Indenter | Mapping[str, Indenter] | None = None,
     /,
     *,
     overrides: Mapping[str, Any] | None = None,
@@ -304,8 +304,8 @@ def sweep(
     program's ``--set`` and None removes a key; or of values:
 
     Args:
-        material: what the half-space is made of.
-        indenter: what is pressed into it.
+        material: what the half-space is made of; several by their names, ``{"dry": dry, "wet": wet}``, are an axis.
+        indenter: what is pressed into it; several by their names likewise.
         mean: mean load (N), or mean approach (m).
         amplitude: amplitude of the load (N), or of the approach (m).
         angular_frequency: angular frequencies (rad/s), shape (n,), in any order; or a range ``{"from": ..., "to": ..., "points": ...}``.
@@ -351,8 +351,8 @@ def sweep(
         array([ True])
     """
     told = heard(progress)
-    if isinstance(material, Material):
-        if not isinstance(indenter, Indenter):
+    if isinstance(material, (Material, Mapping)):
+        if not isinstance(indenter, (Indenter, Mapping)):
             raise ValueError("sweep(material, indenter, ...): the second argument is an indenter, such as Sphere(0.01)")
         if overrides is not None:
             raise ValueError("overrides change a file; write options as arguments: steps=48 in place of {'cycle.steps': 48}")
@@ -396,9 +396,13 @@ def _solver(options: dict[str, Any]) -> str:
     return _toml.table("solver", {**_chosen(options, _SOLVER_KEYS), "tolerance": options.pop("solver_tolerance", None)})
 
 
-def _source_of_values(material: Material, indenter: Indenter, options: dict[str, Any]) -> _Source:
+def _source_of_values(
+    material: Material | Mapping[str, Material], indenter: Indenter | Mapping[str, Indenter], options: dict[str, Any]
+) -> _Source:
     axes = options.pop("axes", None) or {}
-    title = options.pop("title", None) or f"{material.name or 'sweep'} under {indenter!r}"
+    names = [", ".join(material) if isinstance(material, Mapping) else material.name or "sweep"]
+    names.append(", ".join(indenter) if isinstance(indenter, Mapping) else repr(indenter))
+    title = options.pop("title", None) or " under ".join(names)
     text = f"title = {_toml.value(title)}\n\n"
     for kind in ("angular_frequency", "frequency"):
         if isinstance(options.get(kind), np.ndarray) or np.isscalar(options.get(kind)):
@@ -408,22 +412,56 @@ def _source_of_values(material: Material, indenter: Indenter, options: dict[str,
     text += _toml.table("cycle", _chosen(options, _CYCLE_KEYS)) + _solver(options)
     # A block that an axis varies is read for every value of it.
     varies = {str(axis).split(".")[0] for axis in axes}
-    body, shape = material._core, indenter._core
-    by_text = "material" in varies or not body.is_series
-    text += material._source + "\n" if by_text else ""
-    block = _bodies(indenter, options, "indenter" in varies)
+    text += _surroundings(options)
+    made_of = options.pop("indenter_material", None)
     _refuse("sweep", options)
-    by_block = "[indenter]" in block
-    return _Source("sweep(...)", text + block, (), None if by_text else body, None if by_block else shape)
+    body, shape, changes = None, None, []
+    if isinstance(material, Mapping):
+        for k, (name, one) in enumerate(material.items()):
+            if not isinstance(one, Material):
+                raise ValueError(f"{name!r} is no material but {one!r}: write a Material, such as Material.library('pmma')")
+            text += _listed("material", one._source)
+            changes.append(f"sweep.material.{k}.name={_toml.value(name)}")
+    elif "material" in varies or not material._core.is_series:
+        text += material._source + "\n"
+    else:
+        body = material._core
+    if isinstance(indenter, Mapping):
+        for k, (name, each) in enumerate(indenter.items()):
+            if not isinstance(each, Indenter) or each._text is None:
+                raise ValueError(f"{name!r} is {each!r}: write an Indenter, such as Sphere(0.01); a map from a file")
+            text += _listed("indenter", _indenter(each, made_of, True))
+            changes.append(f"sweep.indenter.{k}.name={_toml.value(name)}")
+    else:
+        block = _indenter(indenter, made_of, "indenter" in varies)
+        text, shape = text + block, None if "[indenter]" in block else indenter._core
+    return _Source("sweep(...)", text, changes, body, shape)
+
+
+def _listed(block: str, text: str) -> str:
+    """A block as one of a list in place of it."""
+    text = re.sub(rf"(?m)^(\[+){block}\b", rf"\1sweep.{block}", text)
+    return text.replace(f"[sweep.{block}]", f"[[sweep.{block}]]", 1) + "\n"
 
 
 def _bodies(indenter: Indenter, options: dict[str, Any], by_text: bool) -> str:
     """The text of the indenter, where it has to be text, of what it is made of, of a layer, and of adhesion."""
-    made_of, layer = options.pop("indenter_material", None), options.pop("layer", None)
+    made_of = options.pop("indenter_material", None)
+    return _surroundings(options) + _indenter(indenter, made_of, by_text)
+
+
+def _surroundings(options: dict[str, Any]) -> str:
+    """The text of a layer and of adhesion."""
+    layer, adhesion = options.pop("layer", None), options.pop("adhesion", None)
     text = _toml.table("layer", layer) if layer is not None else ""
-    adhesion = options.pop("adhesion", None)
     if adhesion is not None:
         text += _toml.table("adhesion", adhesion if isinstance(adhesion, Mapping) else {"work": adhesion})
+    return text
+
+
+def _indenter(indenter: Indenter, made_of: Material | str | None, by_text: bool) -> str:
+    """The text of the indenter, where it has to be text, and of what it is made of."""
+    text = ""
     if made_of is not None and indenter._text is None:
         raise ValueError("an indenter of an array is rigid: write the array to a file and give HeightMap its path")
     if by_text or made_of is not None:

@@ -122,7 +122,9 @@ impl Sweep {
     }
 
     fn peaks(&self) -> Vec<PeakNumbers> {
-        self.outcome.peaks.iter().map(peak).collect()
+        (self.outcome.peaks.iter())
+            .map(|one| peak(&self.plan, one))
+            .collect()
     }
 
     #[getter]
@@ -320,18 +322,32 @@ type PeakNumbers = (
     f64,
     f64,
     Option<f64>,
-    Vec<f64>,
+    Vec<AxisValue>,
     Option<f64>,
     Option<f64>,
 );
 
-fn peak(peak: &Peak) -> PeakNumbers {
+/// What an axis has for a peak: a number in SI units, or the name of a block.
+#[derive(IntoPyObject)]
+enum AxisValue {
+    Number(f64),
+    Name(String),
+}
+
+fn peak(plan: &SweepPlan, peak: &Peak) -> PeakNumbers {
+    let over = plan.axes.iter().flat_map(|axes| &axes.over);
+    let varied = over.zip(peak.varied.all());
     (
         peak.angular_frequency_rad_per_s,
         peak.energy_loss_j,
         peak.angular_frequency_uncertainty_rad_per_s,
         peak.energy_loss_error_j,
-        peak.varied.all().to_vec(),
+        varied
+            .map(|(varied, value)| match varied.block_name(*value) {
+                Some(name) => AxisValue::Name(name.to_owned()),
+                None => AxisValue::Number(*value),
+            })
+            .collect(),
         peak.drive_mean,
         peak.drive_amplitude,
     )

@@ -204,3 +204,32 @@ def test_a_saved_result_can_be_saved_elsewhere(tmp_path: Path, result: cd.SweepR
     cd.read(tmp_path / "a").save(tmp_path / "b")
     for name in TABLES:
         assert (tmp_path / "a" / name).read_bytes() == (tmp_path / "b" / name).read_bytes(), name
+
+
+def test_materials_and_indenters_by_name_are_the_cases_of_sweeps_of_their_own(tmp_path: Path) -> None:
+    materials = {
+        "pmma": cd.Material.library("pmma"),
+        "wet, 40 %": cd.Material.zener(spring="20 MPa", kelvin_spring="5 MPa", time="1 s", poisson_ratio=0.45),
+    }
+    indenters: dict[str, cd.Indenter] = {"ball": cd.Sphere("10 mm"), "cone": cd.Cone("80 deg")}
+    options: dict[str, Any] = {"mean": 1.0, "amplitude": 0.5, "steps": 16, "springs": 24, "error_bars": False}
+    frequencies, made_of = [0.1, 1.0, 10.0], "glass"
+    several = cd.sweep(materials, indenters, angular_frequency=frequencies, indenter_material=made_of, **options)
+    assert list(several["material"]) == [name for name in materials for _ in range(6)]
+    assert list(several["indenter"]) == ["ball"] * 3 + ["cone"] * 3 + ["ball"] * 3 + ["cone"] * 3
+    alone = [
+        cd.sweep(material, indenter, angular_frequency=frequencies, indenter_material=made_of, **options)
+        for material in materials.values()
+        for indenter in indenters.values()
+    ]
+    losses = np.concatenate([result["energy_loss_j"] for result in alone])
+    assert (several["energy_loss_j"] == losses).all()
+    assert {peak.varied for peak in several.peaks} <= {(m, i) for m in materials for i in indenters}
+    assert len(several.peaks) > 0
+    assert pickle.loads(pickle.dumps(several)) == several
+    several.save(tmp_path / "several")
+    assert cd.read(tmp_path / "several") == several
+    with pytest.raises(ValueError, match="is no material"):
+        cd.sweep({"pmma": "pmma"}, cd.Sphere("10 mm"), angular_frequency=[1.0], **options)  # type: ignore[dict-item]
+    with pytest.raises(ValueError, match="a map from a file"):
+        cd.sweep(materials, {"map": cd.HeightMap(np.zeros((8, 8)), spacing=1e-6, edge="rim")}, angular_frequency=[1.0], **options)

@@ -22,7 +22,8 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
         absolute: flags.absolute,
         columns: flags.tolerance.clone(),
     };
-    let (baseline, new) = (open(&flags.baseline)?, open(&flags.new)?);
+    let baseline = open(&flags.baseline, None)?;
+    let new = open(&flags.new, Some(&baseline.table))?;
     let comparison =
         Comparison::of(&baseline.table, &new.table, &tolerances).map_err(Failure::input)?;
     let mut text = comparison.text();
@@ -85,11 +86,12 @@ struct Opened {
     source: Source,
 }
 
-/// The result in a folder, with its peaks, or in a single table, without.
-fn open(path: &Path) -> Result<Opened, Failure> {
+/// The result in a folder, with its peaks, or in a single table, without; to be compared with another.
+fn open(path: &Path, other: Option<&SweepTable>) -> Result<Opened, Failure> {
     let name = path.display().to_string();
     if !path.is_dir() {
-        let table = SweepTable::parse(&name, &read(path)?, None).map_err(Failure::input)?;
+        let table =
+            SweepTable::parse_beside(other, &name, &read(path)?, None).map_err(Failure::input)?;
         let source = Source {
             name,
             ..Source::default()
@@ -102,7 +104,8 @@ fn open(path: &Path) -> Result<Opened, Failure> {
     };
     let csv = path.join("sweep.csv");
     let (bytes, summary) = (read(&csv)?, beside("summary.json")?);
-    let table = SweepTable::parse(&csv.display().to_string(), &bytes, summary.as_deref())
+    let csv_name = csv.display().to_string();
+    let table = SweepTable::parse_beside(other, &csv_name, &bytes, summary.as_deref())
         .map_err(Failure::input)?;
     let run = beside("run.json")?;
     let told = [run.as_deref(), summary.as_deref()].into_iter().flatten();

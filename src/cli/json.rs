@@ -11,7 +11,7 @@ use crate::material::fit::{Fit, FitReport};
 use crate::report::comparison::Comparison;
 use crate::report::material::MaterialReport;
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{EngineKind, resolved};
+use crate::sweep::plan::{AxisValues, EngineKind, SweepPlan, resolved};
 use crate::sweep::share::cost::Cost;
 
 /// Prints one object.
@@ -52,6 +52,20 @@ pub(super) fn file(path: &Path) -> Result<Value, Failure> {
     serde_json::from_slice(&bytes).map_err(|error| failed(error.to_string()))
 }
 
+/// The values of axes, blocks of a list by their names; of one axis alone its value, of none nothing.
+fn varied(plan: &SweepPlan, values: &AxisValues) -> Value {
+    let over = plan.axes.iter().flat_map(|axes| &axes.over);
+    let told = over.zip(values.all()).map(|(varied, value)| {
+        let name = varied.block_name(*value);
+        name.map_or_else(|| json!(value), |name| json!(name))
+    });
+    match told.collect::<Vec<_>>().as_slice() {
+        [] => Value::Null,
+        [one] => one.clone(),
+        several => json!(several),
+    }
+}
+
 /// What a sweep would compute, and what that costs.
 pub(super) fn plan(setup: &Setup, cost: &Cost) -> Value {
     let plan = setup.plan();
@@ -65,7 +79,7 @@ pub(super) fn plan(setup: &Setup, cost: &Cost) -> Value {
         json!({
             "index": case.case.index,
             "angular_frequency_rad_per_s": case.case.angular_frequency_rad_per_s,
-            "varied": case.case.condition.values,
+            "varied": varied(plan, &case.case.condition.values),
             "drive_mean": case.case.condition.drive.mean(),
             "drive_amplitude": case.case.condition.drive.amplitude(),
             "cycles": case.cycles,

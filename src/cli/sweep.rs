@@ -12,6 +12,7 @@ use crate::input::sweep_file;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
 use crate::sweep::plan::resolved;
+use crate::sweep::plan::{Block, Condition};
 use crate::sweep::search::run::{self, Options, Outcome, RunError};
 use crate::sweep::share::shard::{self, Shard};
 use crate::sweep::store::provenance::{Circumstances, Stopwatch};
@@ -220,13 +221,15 @@ fn ended(outcome: &Outcome) -> Ended {
 fn text(setup: &Setup, outcome: &Outcome, left_out: &[String], folder: &Path) -> String {
     let plan = setup.plan();
     let mut text = format!("{}\n\n", plan.title);
-    if let Some(fit) = plan.material.fit() {
-        text.push_str(&report::fit::text(fit));
-        text.push('\n');
-    }
-    if plan.material.approximation().is_some() {
-        text.push_str(&report::fit::approximation(&plan.material));
-        text.push('\n');
+    for (_, Condition { material, .. }) in plan.each_of(Block::Material) {
+        if let Some(fit) = material.fit() {
+            text.push_str(&report::fit::text(fit));
+            text.push('\n');
+        }
+        if material.approximation().is_some() {
+            text.push_str(&report::fit::approximation(&material));
+            text.push('\n');
+        }
     }
     text.push_str(&terminal::table(plan, outcome));
     for part in [

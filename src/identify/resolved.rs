@@ -2,8 +2,8 @@
 
 use crate::identify::{Driven, IdentifyPlan};
 use crate::sweep::plan::resolved::{
-    compressibility_line, counterbody_text, cycle_text, drive_text, opening_text, solver_text,
-    toml_string,
+    compressibility_line, counterbody_text, cycle_text, drive_text, indenter_text, opening_text,
+    solver_text, toml_string,
 };
 use crate::sweep::plan::scenario::history_text;
 
@@ -13,7 +13,8 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
     let known = compressibility_line(&plan.compressibility).unwrap_or_default();
     let material = format!("[material]\n{known}\n{layer}");
     let counterbody = plan.counterbody.as_ref().map(counterbody_text);
-    let opening = opening_text(&plan.title, &material, plan.indenter.as_ref(), counterbody);
+    let indenter = indenter_text(plan.indenter.as_ref(), counterbody);
+    let opening = opening_text(&plan.title, &(material + &indenter));
     let branches = match plan.branches {
         Some(number) => number.to_string(),
         None => "\"auto\"".to_owned(),

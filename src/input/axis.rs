@@ -1,4 +1,5 @@
-//! The axes of a sweep besides the frequency: any number of `[material]`, `[indenter]` or `[drive]`, by its key, as a list or a range.
+//! The axes of a sweep besides the frequency: any number of `[material]`, `[layer]`, `[indenter]` or `[drive]`, by its key, as a list or
+//! a range; and materials or indenters in the place of one another, as a list of blocks with names.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -7,11 +8,12 @@ use serde_json::{Map, Value as Json, json};
 
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use super::document::Located;
-use super::document::kind::{Array, Decided, Describe, Kind, Scalar, Spot, list};
+use super::document::kind::{Array, Decided, Describe, Kind, Scalar, Spot, Text, list};
 use super::document::reader::{in_backticks, join};
 use super::document::row::{AnyRow, Rows};
 use super::document::similar::similar;
 use super::document::tree::{Entry, Node, Table, Value};
+use super::keys::material::{LIBRARY, NAME};
 use super::points::{MOST_POINTS, Points};
 use crate::quantity::Dimension;
 use crate::sweep::plan::{Block, Varied};
@@ -21,7 +23,14 @@ use crate::sweep::plan::{Block, Varied};
 pub(crate) struct AxisOf {
     pub(crate) block: Block,
     pub(crate) rows: &'static Rows,
+    /// The keys of a block of a list, where whole blocks may vary.
+    pub(crate) listed: Option<&'static Rows>,
 }
+
+/// The key under which the list of blocks stands where numbers vary beside it.
+const WHOLE: &str = "";
+/// Characters of a name; more do not fit into a legend.
+const NAME_LENGTH: usize = 60;
 
 /// The same, once the dimension of what the drive controls is known.
 pub(crate) struct DecidedAxisOf {
@@ -36,8 +45,10 @@ pub(crate) struct DecidedAxisOf {
 pub(crate) struct Swept {
     pub(super) varied: Varied,
     pub(super) key_location: Location,
-    /// SI units, ascending but in pairs.
+    /// SI units, ascending but in pairs; of a list of blocks their places in it.
     pub(super) values: Located<Vec<f64>>,
+    /// The blocks of a list.
+    blocks: Vec<Located<Table>>,
 }
 
 /// A key that has a number.
@@ -143,7 +154,11 @@ impl AxisOf {
 
 impl Describe for AxisOf {
     fn expected(&self) -> String {
-        format!("a table with keys of [{}]", self.block.name())
+        let block = self.block.name();
+        match self.listed {
+            Some(_) => format!("a table with keys of [{block}], or a list of such blocks"),
+            None => format!("a table with keys of [{block}]"),
+        }
     }
 
     fn example(&self) -> String {
@@ -152,13 +167,19 @@ impl Describe for AxisOf {
     }
 
     fn schema(&self) -> Json {
-        json!({
+        let numbers = json!({
             "type": "object",
             "properties": self.references(),
             "patternProperties": self.patterns(""),
             "minProperties": 1,
             "additionalProperties": false,
-        })
+        });
+        let listed =
+            |rows: &'static Rows| json!({ "type": "array", "items": rows.schema(), "minItems": 1 });
+        match self.listed {
+            Some(rows) => json!({ "anyOf": [numbers, listed(rows)] }),
+            None => numbers,
+        }
     }
 
     /// What may stand under each key, whatever the drive controls.
@@ -234,9 +255,17 @@ impl Kind for DecidedAxisOf {
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Vec<Swept>, Diagnostics> {
-        let Value::Table(table) = &node.value else {
-            let help = format!("write `{}.KEY = [...]`", spot.key.unwrap_or_default());
-            return Err(self.wrong_type(node, spot).help(help).into());
+        let listed;
+        let table = match &node.value {
+            Value::Table(table) => table,
+            Value::Array(_) if self.of.listed.is_some() => {
+                listed = beside_numbers(node);
+                &listed
+            }
+            _ => {
+                let help = format!("write `{}.KEY = [...]`", spot.key.unwrap_or_default());
+                return Err(self.wrong_type(node, spot).help(help).into());
+            }
         };
         if table.entries.is_empty() {
             let problem = Diagnostic::at(&node.location, format!("`{}` is empty", spot.path));
@@ -248,7 +277,22 @@ impl Kind for DecidedAxisOf {
         for (key, entry) in &table.entries {
             self.add_swept(&numbers, key, entry, spot, &mut all)?;
         }
-        Ok(all)
+        let nested = all.iter().find(|swept| swept.varied.is_nested());
+        match nested.filter(|_| all.iter().any(|swept| swept.varied.is_whole())) {
+            Some(nested) => Err(self.number_within_listed(nested).into()),
+            None => Ok(all),
+        }
+    }
+}
+
+/// The table of axes that a list of blocks is, to which numbers may come.
+fn beside_numbers(list: &Node) -> Table {
+    let entry = Entry {
+        key: list.location.clone(),
+        node: list.clone(),
+    };
+    Table {
+        entries: [(WHOLE.to_owned(), entry)].into(),
     }
 }
 
@@ -273,6 +317,9 @@ impl DecidedAxisOf {
         let items = format!("{general}[].");
         let leads_to = |start: &str| numbers.iter().any(|n| n.key.starts_with(start));
         match (number, &entry.node.value) {
+            (_, Value::Array(items)) if key == WHOLE && self.of.listed.is_some() => {
+                to.push(self.listed(items, entry, spot)?);
+            }
             (Some(number), _) => to.push(self.swept(number, key, entry, spot)?),
             (None, Value::Table(table)) if leads_to(&below) || leads_to(&items) => {
                 for (inner, entry) in &table.entries {
@@ -317,21 +364,140 @@ impl DecidedAxisOf {
             _ => Points(*scalar).convert(&entry.node, &spot)?,
         };
         Ok(Swept {
-            varied: Varied {
-                block: self.of.block,
-                key: match number.key.contains('.') {
+            varied: Varied::number(
+                self.of.block,
+                match number.key.contains('.') {
                     true => Cow::Owned(key.to_owned()),
                     false => Cow::Borrowed(row.name()),
                 },
-                dimension: scalar.dimension(),
-            },
+                scalar.dimension(),
+            ),
             key_location: entry.key.clone(),
             values: Located {
                 value: points,
                 path: path.clone(),
                 location: entry.node.location.clone(),
             },
+            blocks: Vec::new(),
         })
+    }
+
+    /// The axis that a list of blocks is, each with a name of its own.
+    fn listed(&self, items: &[Node], entry: &Entry, spot: &Spot<'_>) -> Result<Swept, Diagnostics> {
+        let (problems, block) = (Problems::new(), self.of.block.name());
+        let mut blocks: Vec<(String, Located<Table>)> = Vec::with_capacity(items.len());
+        for (k, item) in items.iter().enumerate() {
+            let (name, table) = match self.named(item, &format!("{}[{k}]", spot.path)) {
+                Ok(named) => named,
+                Err(found) => {
+                    problems.extend(found);
+                    continue;
+                }
+            };
+            if let Some((_, other)) = blocks.iter().find(|(known, _)| *known == name) {
+                problems
+                    .at(
+                        &table,
+                        format!("two blocks of `{}` are called `{name}`", spot.path),
+                    )
+                    .label(other, "the other one")
+                    .help(format!("give every {block} a `name` of its own"));
+            }
+            blocks.push((name, table));
+        }
+        if items.is_empty() {
+            problems
+                .at(&entry.node.location, format!("`{}` is empty", spot.path))
+                .help(format!("write a `[[sweep.{block}]]` for each {block}"));
+        }
+        let (names, blocks): (Vec<String>, Vec<_>) = blocks.into_iter().unzip();
+        let swept = Swept {
+            key_location: entry.key.clone(),
+            values: Located {
+                // Cases, and so blocks, are far fewer than the integers of a float.
+                value: (0..blocks.len()).map(|place| place as f64).collect(),
+                path: spot.path.to_owned(),
+                location: entry.node.location.clone(),
+            },
+            varied: Varied::blocks(self.of.block, names),
+            blocks,
+        };
+        problems.into_result(Some(swept))
+    }
+
+    /// A block of a list with its name: what stands under `name`, else the material of the library that it is.
+    fn named(&self, item: &Node, path: &str) -> Result<(String, Located<Table>), Diagnostics> {
+        let Value::Table(table) = &item.value else {
+            let problem = Diagnostic::at(&item.location, format!("`{path}` must be a table"));
+            let problem = problem.because(format!("found {}", item.describe()));
+            return Err(match (&item.value, self.of.block) {
+                (Value::Text(name), Block::Material) => {
+                    problem.help(format!("write `{{ library = \"{name}\" }}`"))
+                }
+                _ => problem.help("write the keys of the block in braces"),
+            }
+            .into());
+        };
+        let mut table = table.clone();
+        let given = table.entries.remove(NAME.name);
+        let library = |table: &Table| match &table.entries.get(LIBRARY.name)?.node.value {
+            Value::Text(name) => Some(name.trim().to_lowercase()),
+            _ => None,
+        };
+        let name = match (&given, library(&table)) {
+            (Some(entry), _) => {
+                let path = join(path, NAME.name);
+                let spot = Spot {
+                    path: &path,
+                    key: Some(NAME.name),
+                };
+                Text.convert(&entry.node, &spot)?
+            }
+            (None, Some(library)) => library,
+            (None, None) => {
+                let problem = format!("`{path}` needs a `name`");
+                let help = "tables and figures call it by that: name = \"...\"";
+                return Err(Diagnostic::at(&item.location, problem).help(help).into());
+            }
+        };
+        let is_long = name.chars().count() > NAME_LENGTH;
+        if name.trim() != name || name.is_empty() || is_long || name.contains(char::is_control) {
+            let place = given
+                .as_ref()
+                .map_or(&item.location, |entry| &entry.node.location);
+            let problem = format!(
+                "`{path}.name` must have 1 to {NAME_LENGTH} characters, no blanks at its ends and no line ends"
+            );
+            return Err(Diagnostic::at(place, problem).into());
+        }
+        if self.of.block == Block::Material {
+            let named = Entry {
+                key: item.location.clone(),
+                node: Node {
+                    value: Value::Text(name.clone()),
+                    location: item.location.clone(),
+                },
+            };
+            let entry = given.unwrap_or(named);
+            table.entries.insert(NAME.name.to_owned(), entry);
+        }
+        let table = Located {
+            value: table,
+            path: path.to_owned(),
+            location: item.location.clone(),
+        };
+        Ok((name, table))
+    }
+
+    /// A number in a table or list of blocks that may each have others.
+    fn number_within_listed(&self, nested: &Swept) -> Diagnostic {
+        let (block, key) = (self.of.block.name(), &nested.varied.key);
+        let problem = format!("`{block}.{key}` cannot be an axis beside a list of blocks");
+        Diagnostic::at(&nested.key_location, problem)
+            .because("a number within a table of the block")
+            .help(format!(
+                "write a `[[sweep.{block}]]` for each of its values"
+            ))
     }
 
     /// A key that no number stands under.
@@ -364,11 +530,31 @@ impl Swept {
         at_key(&mut block.clone(), &self.varied.key, |_, _| {}).is_some()
     }
 
+    /// The block of a list that a value is the place of; `None` where a number varies.
+    pub(super) fn block(&self, value: f64) -> Option<&Located<Table>> {
+        self.blocks.get(value as usize)
+    }
+
+    /// Puts values in this order, and blocks with them, which are then counted in it.
+    pub(super) fn reorder(&mut self, order: &[usize]) {
+        if self.varied.is_whole() {
+            let names = order.iter().map(|&k| self.varied.names[k].clone());
+            self.varied = Varied::blocks(self.varied.block, names);
+            self.blocks = order.iter().map(|&k| self.blocks[k].clone()).collect();
+        } else {
+            let values = &mut self.values.value;
+            *values = order.iter().map(|&k| values[k]).collect();
+        }
+    }
+
     /// The table of a block with this value (SI units) in place of its own; what is wrong with it is told at the axis.
     ///
     /// # Errors
     /// A number in a table or a list that the block does not have.
     pub(super) fn put_into(&self, block: &Table, value: f64) -> Result<Table, Diagnostic> {
+        if let Some(listed) = self.block(value) {
+            return Ok(listed.value.clone());
+        }
         let mut table = block.clone();
         let entry = Entry {
             key: self.key_location.clone(),
@@ -391,6 +577,15 @@ impl Swept {
                 .help(format!("write the number into [{name}], or another key here; items of lists are counted from 0"))
         };
         put.map(|_| table).ok_or_else(missing)
+    }
+}
+
+/// Whether a `[sweep]` block has a list of blocks in place of one.
+pub(super) fn has_list(sweep: &Table, block: &str) -> bool {
+    match sweep.entries.get(block).map(|entry| &entry.node.value) {
+        Some(Value::Array(_)) => true,
+        Some(Value::Table(table)) => table.entries.contains_key(WHOLE),
+        _ => false,
     }
 }
 
@@ -437,6 +632,9 @@ pub(super) fn unquote(root: &mut Table, problems: &Problems) {
                 key: entry.key.clone(),
                 node: Node::empty_table(&entry.key),
             });
+        if let Value::Array(_) = &below.node.value {
+            below.node.value = Value::Table(beside_numbers(&below.node));
+        }
         match &mut below.node.value {
             Value::Table(table) if !table.entries.contains_key(inner) => {
                 table.entries.insert(inner.to_owned(), entry);

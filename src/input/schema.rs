@@ -6,12 +6,16 @@ use serde_json::{Map, Value as Json, json};
 
 use super::document::kind::text_definitions;
 use super::keys::FileKind;
+use super::keys::drive::LISTED;
 
 /// The schema of a kind of input file, as the text of a file.
 pub fn text(kind: FileKind) -> String {
     let mut schema = kind.rows().schema();
     schema["$schema"] = json!("https://json-schema.org/draft/2020-12/schema");
     schema["title"] = json!(kind.rows().means.trim());
+    if kind == FileKind::Sweep {
+        may_be_listed(&mut schema);
+    }
     let mut parts = Map::new();
     kind.rows()
         .visit("", &mut |_, row| parts.extend(row.kind().definitions()));
@@ -28,6 +32,19 @@ pub fn text(kind: FileKind) -> String {
         definitions.extend(repeated.definitions);
     }
     format!("{schema:#}\n")
+}
+
+/// Blocks that a list in `[sweep]` may take the place of are needed where there is none.
+fn may_be_listed(schema: &mut Json) {
+    if let Some(Json::Array(required)) = schema.get_mut("required") {
+        required.retain(|key| !LISTED.iter().any(|block| key == block));
+    }
+    let either = LISTED.map(|block| {
+        let list = json!({ "properties": { block: { "type": "array" } }, "required": [block] });
+        let listed = json!({ "properties": { "sweep": list } });
+        json!({ "anyOf": [{ "required": [block] }, listed] })
+    });
+    schema["allOf"] = json!(either);
 }
 
 /// What stands in several places of a schema, and becomes a definition.

@@ -11,7 +11,7 @@ use super::document::kind::Table;
 use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
 use super::document::tree::Value;
-use super::document::{Document, Located};
+use super::document::{self, Document, Located};
 use super::figures_block::{self, Figures};
 use super::given::Given;
 use super::harmonic_block::Pressed;
@@ -25,7 +25,7 @@ use super::keys::settings::{
     METHOD, SOLVER_CELLS, SOLVER_SPRINGS, SOLVER_TOLERANCE, TIME_RULE,
 };
 use super::material_table::DirectSum;
-use super::{adhesion_block, harmonic_block, indenter_block, layer_block, material_block};
+use super::{adhesion_block, axis, harmonic_block, indenter_block, layer_block, material_block};
 use crate::drive::HarmonicDrive;
 use crate::indenter::Indenter;
 use crate::material::Material;
@@ -70,16 +70,20 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         conditions: conditions(swept, pairs),
         prescribed,
         given,
+        sweep: root.parsed(&keys::SWEEP),
         problems: &problems,
     };
+    file.refuse_beside_lists(&mut root);
     let counterbody = file.counterbody(&mut root);
     let layer = file.layer(&mut root);
-    let has_counterbody = counterbody.as_ref().is_some_and(|(own, _)| own.is_some());
+    let bodies = |(own, each): &Over<Option<Body>>| {
+        let all = [own].into_iter().chain(each).flatten();
+        all.cloned().collect::<Vec<Body>>()
+    };
+    let has_counterbody = (counterbody.as_ref()).is_some_and(|over| !bodies(over).is_empty());
     layer_block::refuse_second_body(&mut root, has_counterbody, &problems);
-    let counterbody = counterbody.filter(|(own, each)| {
-        let mut bodies = own.iter().chain(each.iter().flatten());
-        bodies.all(|body| check_contact(&problems, body))
-    });
+    let counterbody =
+        counterbody.filter(|over| (bodies(over).iter()).all(|body| check_contact(&problems, body)));
     let given_blocks = file.given_blocks(&mut root);
     let material = file.material(&mut root);
     let material = material.zip(counterbody).map(|(own, of)| beside(own, &of));
@@ -97,7 +101,12 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
     });
     let cycle = root.table_or(&keys::CYCLE, CyclePlan::default(), |t| cycle(t, &problems));
     let own_layer = layer.as_ref().and_then(|(own, _)| *own);
-    let default = default_solver(indenter.as_ref().map(|(own, _)| own.as_ref()), own_layer);
+    // Cells can do what springs cannot.
+    let deciding = indenter.as_ref().map(|(own, each)| {
+        let mut on_cells = each.iter().filter(|other| other.axisymmetric().is_none());
+        on_cells.next().unwrap_or(own).as_ref()
+    });
+    let default = default_solver(deciding, own_layer);
     let solver = root.table_or(&keys::SOLVER, default, |t| {
         layer_block::solver_on(own_layer.is_some(), t, default, &problems)
     });
@@ -173,6 +182,8 @@ struct File<'a> {
     conditions: Vec<Vec<f64>>,
     prescribed: Prescribed,
     given: &'a Given,
+    /// The `[sweep]` block as it was parsed.
+    sweep: Option<&'a document::tree::Table>,
     problems: &'a Problems,
 }
 
@@ -187,8 +198,32 @@ impl File<'_> {
         all.filter(|(_, swept)| is_meant(&swept.varied)).collect()
     }
 
-    /// Reads a block: once, and once more for each set of values that these axes give it. Where the block leaves out what an axis varies,
-    /// the first condition counts.
+    /// The list of blocks that stands in place of one, where there is any.
+    fn listed(&self, block: Block) -> Option<&Swept> {
+        let mut all = self.swept.iter().map(|swept| (swept, &swept.varied));
+        all.find(|(_, varied)| varied.block == block && varied.is_whole())
+            .map(|(swept, _)| swept)
+    }
+
+    /// Refuses a block beside the list of those that take its place.
+    fn refuse_beside_lists(&self, root: &mut TableReader<'_>) {
+        for (block, row) in [
+            (Block::Material, &keys::MATERIAL),
+            (Block::Indenter, &keys::INDENTER),
+        ] {
+            if let Some((list, key)) = self.listed(block).zip(root.key_location(row)) {
+                let name = row.name;
+                self.problems
+                    .at(&key, format!("`[{name}]` beside `[[sweep.{name}]]`"))
+                    .because("one, where the list has several")
+                    .label(&list.key_location, "the list")
+                    .help(format!("remove `[{name}]`, or the list"));
+            }
+        }
+    }
+
+    /// Reads a block: once, and once more for each set of values that these axes give it. Where the block leaves out what an axis
+    /// varies, and of blocks in a list, the first condition counts.
     fn block<T: Clone>(
         &self,
         root: &mut TableReader<'_>,
@@ -196,55 +231,82 @@ impl File<'_> {
         swept: Vec<(usize, &Swept)>,
         read: impl Fn(TableReader<'_>) -> Option<T>,
     ) -> Option<Over<T>> {
-        let parsed = root.parsed(row);
-        let own = root.table(row)?;
-        let (false, Some(parsed)) = (swept.is_empty(), parsed) else {
-            return Some((read(own)?, Vec::new()));
+        let list = swept.iter().position(|(_, swept)| swept.varied.is_whole());
+        let has_list = || {
+            self.sweep
+                .is_some_and(|sweep| axis::has_list(sweep, row.name))
         };
-        let place = own.as_ref().clone();
-        let is_given = |(_, swept): &(usize, &Swept)| swept.is_in(parsed);
-        let given = match swept.iter().all(is_given) {
-            true => Some(read(own)?),
-            false => None,
+        let (given, base) = match list {
+            Some(_) => (None, None),
+            // What is wrong with the list is told already.
+            None if has_list() => return None,
+            None => {
+                let parsed = root.parsed(row);
+                let own = root.table(row)?;
+                let (false, Some(parsed)) = (swept.is_empty(), parsed) else {
+                    return Some((read(own)?, Vec::new()));
+                };
+                let place = own.as_ref().clone();
+                let is_given = |(_, swept): &(usize, &Swept)| swept.is_in(parsed);
+                let given = match swept.iter().all(is_given) {
+                    true => Some(read(own)?),
+                    false => None,
+                };
+                let base = Located {
+                    value: parsed.clone(),
+                    path: row.name.to_owned(),
+                    location: place,
+                };
+                (given, Some(base))
+            }
         };
         let each = self.each(&swept, |values| {
+            let base = match list {
+                Some(at) => swept.get(at)?.1.block(*values.get(at)?)?,
+                None => base.as_ref()?,
+            };
             let mut all = values.iter().zip(&swept);
-            let table = all.try_fold(parsed.clone(), |table, (value, (_, swept))| {
+            let table = all.try_fold(base.value.clone(), |table, (value, (_, swept))| {
                 swept.put_into(&table, *value)
             });
             let table = table.map_err(|problem| self.problems.push(problem)).ok()?;
-            let name = row.name.to_owned();
-            read(TableReader::new(&table, place.clone(), name, self.problems))
+            let (place, path) = (base.location.clone(), base.path.clone());
+            read(TableReader::new(&table, place, path, self.problems))
         })?;
         Some((given.or_else(|| each.first().cloned())?, each))
     }
 
-    /// What is read of the values of some axes, under each condition; each set of values is read once.
+    /// What is read of the values of some axes, under each condition; each set of values is read once. What is wrong with one value
+    /// of numbers is wrong with others too, and told once; of the blocks of a list each has mistakes of its own.
     fn each<T: Clone>(
         &self,
         swept: &[(usize, &Swept)],
         read: impl Fn(&[f64]) -> Option<T>,
     ) -> Option<Vec<T>> {
-        let mut known: HashMap<Vec<u64>, T> = HashMap::new();
+        let mut known: HashMap<Vec<u64>, Option<T>> = HashMap::new();
         let of_condition = |values: &Vec<f64>| {
             let own: Vec<f64> = swept.iter().map(|(axis, _)| values[*axis]).collect();
             let bits = own.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
-            if let Some(known) = known.get(&bits) {
-                return Some(known.clone());
-            }
-            let found = read(&own)?;
-            known.insert(bits, found.clone());
-            Some(found)
+            let known = known.entry(bits);
+            known.or_insert_with(|| read(&own)).clone()
         };
-        self.conditions.iter().map(of_condition).collect()
+        let conditions = self.conditions.iter().map(of_condition);
+        match swept.iter().all(|(_, swept)| swept.varied.is_whole()) {
+            true => conditions.collect::<Vec<_>>().into_iter().collect(),
+            false => conditions.collect(),
+        }
     }
 
     /// What the indenter is made of, where it is not rigid. What is wrong with the block itself is told where its shape is read.
     fn counterbody(&self, root: &mut TableReader<'_>) -> Option<Over<Option<Body>>> {
-        if root.parsed(&keys::INDENTER).is_none() {
+        let is_listed = self.listed(Block::Indenter).is_some();
+        if root.parsed(&keys::INDENTER).is_none() && !is_listed {
             return Some((None, Vec::new()));
         }
-        let swept = self.swept_where(Varied::is_of_counterbody);
+        let is_meant = |varied: &Varied| {
+            varied.is_of_counterbody() || (varied.block == Block::Indenter && varied.is_whole())
+        };
+        let swept = self.swept_where(is_meant);
         self.block(root, &keys::INDENTER, swept, |t| {
             let body = indenter_block::material_of(t, self.folder, self.problems)?;
             Some(body.map(Arc::new))
@@ -258,7 +320,9 @@ impl File<'_> {
         let over = |t: TableReader<'_>, axis: Option<&Located<Vec<f64>>>| {
             material_block::read_over(t, self.folder, DirectSum::Refused, axis, self.problems)
         };
-        let series = self.given.material.as_ref().and_then(BodyMaterial::series);
+        let given =
+            (self.given.material.as_ref()).filter(|_| self.listed(Block::Material).is_none());
+        let series = given.and_then(BodyMaterial::series);
         if let (Some(series), None) = (series, root.key_location(&keys::MATERIAL)) {
             let given = Located {
                 value: series.clone(),
@@ -321,14 +385,30 @@ impl File<'_> {
     }
 
     fn indenter(&self, root: &mut TableReader<'_>) -> Option<Over<Arc<dyn Indenter>>> {
-        if let (Some(given), None) = (&self.given.indenter, root.key_location(&keys::INDENTER)) {
+        let list = self.listed(Block::Indenter);
+        let given = self.given.indenter.as_ref().filter(|_| list.is_none());
+        if let (Some(given), None) = (given, root.key_location(&keys::INDENTER)) {
             return Some((Arc::clone(given), Vec::new()));
         }
         let swept = self
             .swept_where(|varied| varied.block == Block::Indenter && !varied.is_of_counterbody());
-        self.block(root, &keys::INDENTER, swept, |t| {
+        let over = self.block(root, &keys::INDENTER, swept, |t| {
             indenter_block::read(t, self.folder, self.problems)
-        })
+        })?;
+        let has_other_cells = |other: &Arc<dyn Indenter>| other.own_cells() != over.0.own_cells();
+        match list.filter(|_| over.1.iter().any(has_other_cells)) {
+            Some(list) => {
+                self.problems
+                    .at(
+                        &list.key_location,
+                        "the indenters of one sweep must be on the same cells",
+                    )
+                    .because("maps bring cells of their own")
+                    .help("make a sweep of each map, and compare their folders");
+                None
+            }
+            None => Some(over),
+        }
     }
 
     /// The layer, where the body is one; where an axis varies it, it must be.
@@ -397,12 +477,12 @@ impl File<'_> {
 
 /// A material beside what the indenter is made of, under each condition where either varies; each pair is made once.
 fn beside(own: Over<Arc<Material>>, counterbody: &Over<Option<Body>>) -> Over<Arc<Material>> {
-    let (Some(of_indenter), of_each) = counterbody else {
-        return own;
-    };
-    let (own, each) = own;
+    let ((own, each), (of_indenter, of_each)) = (own, counterbody);
     let mut known: HashMap<_, Arc<Material>> = HashMap::new();
-    let mut pair = |own: &Arc<Material>, of: &Body| {
+    let mut pair = |own: &Arc<Material>, of: &Option<Body>| {
+        let Some(of) = of else {
+            return Arc::clone(own);
+        };
         let known = known.entry((Arc::as_ptr(own), Arc::as_ptr(of)));
         let both = || Arc::new(Material::clone(own).against(of.value.clone()));
         Arc::clone(known.or_insert_with(both))
@@ -410,8 +490,8 @@ fn beside(own: Over<Arc<Material>>, counterbody: &Over<Option<Body>>) -> Over<Ar
     let first = pair(&own, of_indenter);
     let conditions = 0..each.len().max(of_each.len());
     let under = |k: usize| {
-        let of = of_each.get(k).and_then(Option::as_ref);
-        pair(each.get(k).unwrap_or(&own), of.unwrap_or(of_indenter))
+        let of = of_each.get(k).unwrap_or(of_indenter);
+        pair(each.get(k).unwrap_or(&own), of)
     };
     (first, conditions.map(under).collect())
 }
@@ -426,7 +506,6 @@ fn conditions(swept: &[Swept], pairs: bool) -> Vec<Vec<f64>> {
         let mut together: Vec<Vec<f64>> = (0..count)
             .map(|k| all.iter().map(|values| values[k]).collect())
             .collect();
-        together.sort_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal));
         together.dedup();
         return together;
     }
@@ -517,6 +596,9 @@ fn axes(mut table: TableReader<'_>, controlled: Dimension, problems: &Problems) 
     let ((frequencies, given_in), pairs) = (frequencies?, pairs?);
     check_axes(&swept, pairs, frequencies.len(), problems)?;
     is_whole.then_some(())?;
+    if pairs {
+        in_order_of_numbers(&mut swept);
+    }
     Some(Axes {
         angular_frequencies_rad_per_s: frequencies,
         given_in,
@@ -524,6 +606,20 @@ fn axes(mut table: TableReader<'_>, controlled: Dimension, problems: &Problems) 
         pairs,
         refine: refine?,
     })
+}
+
+/// Puts pairs in ascending order of their numbers, and what is listed beside them in the same order.
+fn in_order_of_numbers(swept: &mut [Swept]) {
+    let numbers = swept.iter().filter(|axis| !axis.varied.is_whole());
+    let numbers: Vec<&[f64]> = numbers.map(|axis| axis.values.value.as_slice()).collect();
+    let pairs = swept.first().map_or(0, |axis| axis.values.value.len());
+    let of_pair = |k: usize| numbers.iter().map(move |values| values[k]);
+    let mut order: Vec<usize> = (0..pairs).collect();
+    order.sort_by(|a, b| {
+        let order = of_pair(*a).partial_cmp(of_pair(*b));
+        order.unwrap_or(std::cmp::Ordering::Equal)
+    });
+    swept.iter_mut().for_each(|axis| axis.reorder(&order));
 }
 
 /// What axes must not be together.

@@ -1,7 +1,7 @@
 //! Captions: what a figure shows, of what, with which numbers, and how it was computed, as one paragraph to paste into a paper.
 
 use super::number::plain;
-use super::words::{adhesion_line, compressibility, drive_line, range, row, varied_line};
+use super::words::{self, adhesion_line, compressibility, drive_line, range, row, varied_line};
 use crate::indenter::{Indenter, Value};
 use crate::material::Material;
 use crate::quantity::Dimension;
@@ -86,8 +86,10 @@ impl Setting {
         let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
             "{} on {}{}, {} (mean ± amplitude){rest}{attraction}{varied}",
-            indenter(plan.indenter.as_ref(), swept, plan.material.counterbody()),
-            material(&plan.material),
+            words::each_of(plan, Block::Indenter, |name, c| {
+                indenter((name, c.indenter.as_ref()), swept, c.material.counterbody())
+            }),
+            words::each_of(plan, Block::Material, |_, c| material(&c.material)),
             layer(plan.layer, swept),
             drive_line(&plan.drive, plan)
         );
@@ -127,7 +129,11 @@ impl Setting {
             adhesion_line(plan.adhesion).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
             "{} on {body}{}, {} against time prescribed{attraction}",
-            indenter(plan.indenter.as_ref(), &[], plan.material.counterbody()),
+            indenter(
+                (None, plan.indenter.as_ref()),
+                &[],
+                plan.material.counterbody()
+            ),
             layer(plan.layer, &[]),
             plan.drive.control().name()
         );
@@ -176,9 +182,16 @@ pub(in crate::report) fn layer(layer: Option<LayerPlan>, swept: &[Varied]) -> St
     })
 }
 
-/// The indenter, without the numbers that axes vary.
-fn indenter(indenter: &dyn Indenter, swept: &[Varied], of: Option<&Material>) -> String {
-    let shape = indenter.shape().replace('-', " ");
+/// The indenter, of a list with its name, without the numbers that axes vary.
+fn indenter(
+    (name, indenter): (Option<&str>, &dyn Indenter),
+    swept: &[Varied],
+    of: Option<&Material>,
+) -> String {
+    let mut shape = indenter.shape().replace('-', " ");
+    if let Some(name) = name {
+        shape = format!("{shape} “{name}”");
+    }
     let shape = match of {
         Some(of) => format!("{shape} of {}", material(of)),
         None => format!("rigid {shape}"),
@@ -242,14 +255,14 @@ pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
 }
 
 /// What the band of the material means; nothing where there is none.
-pub fn material_band(material: &Material, outcome: &Outcome) -> Option<String> {
+pub fn material_band(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
     let mut records = outcome.records.iter();
     let any = records.any(|record| record.energy_loss_material_error_j().is_some());
     any.then(|| {
         format!(
             "Shaded: uncertainty of the material, apart from the numerical error: three times the root mean square difference that {} \
              series make, fitted to the same data with other noise.",
-            material.replicas().len()
+            words::replicas(plan)
         )
     })
 }

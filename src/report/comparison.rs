@@ -18,6 +18,7 @@ use result::Row;
 
 use crate::quantity::FrequencyUnit;
 use crate::report::quantities::{self, Compared};
+use crate::report::table::Cell;
 use crate::sweep::plan::AxisValues;
 use crate::sweep::search::peak::Peak;
 
@@ -69,6 +70,9 @@ pub struct Comparison {
     pub curve: Vec<CurvePoint>,
     /// Whether one of the two was measured: then cases without a counterpart are no difference.
     pub measured: bool,
+    /// What the blocks of lists are called whose places a case has, axis by axis; none of an axis over a number.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<Vec<String>>,
     /// In which the baseline has its frequencies first.
     #[serde(skip)]
     pub unit: FrequencyUnit,
@@ -159,8 +163,25 @@ impl Comparison {
             peaks: peaks(baseline, new, tolerances),
             curve: columns::curve(baseline, new)?,
             measured,
+            names: match new.names.iter().any(|names| !names.is_empty()) {
+                true => new.names.clone(),
+                false => Vec::new(),
+            },
             unit: baseline.unit(),
         })
+    }
+
+    /// What axes vary of a case: numbers in SI units, or the names of blocks.
+    pub(in crate::report) fn varied(&self, place: &Place) -> Vec<Cell> {
+        let values = place.varied.all().iter().enumerate();
+        let cell = |(axis, value): (usize, &f64)| {
+            let name = self
+                .names
+                .get(axis)
+                .and_then(|names| names.get(*value as usize));
+            name.map_or_else(|| Cell::from(*value), |name| name.clone().into())
+        };
+        values.map(cell).collect()
     }
 
     /// Whether the results differ by more than the tolerances allow. Columns that only the new result has do not count.

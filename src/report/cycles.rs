@@ -196,7 +196,7 @@ fn with_cycle(
     take(&Case {
         record,
         cycle: record.result.as_ref().map_or(&nothing, |r| &r.cycle),
-        indenter: plan.indenter.as_ref(),
+        indenter: plan.indenter_under(&record.varied),
     });
     Ok(())
 }

@@ -231,8 +231,11 @@ pub(super) fn plain(value: f64, dimension: Dimension, significant: usize) -> Str
     format!("{} {unit}", scientific(number, significant))
 }
 
-/// A value (SI units) of what a second axis varies, to be read: `5 N`, `25 °C`.
+/// A value (SI units) of what a second axis varies, to be read: `5 N`, `25 °C`; of a block its name.
 pub fn varied(varied: &Varied, value: f64) -> String {
+    if let Some(name) = varied.block_name(value) {
+        return name.to_owned();
+    }
     match varied.dimension {
         // Kelvin to degrees leaves rounding.
         Some(Dimension::Temperature) => {

@@ -174,9 +174,13 @@ pub fn of_cases(
         named[..=leading].rotate_right(1);
     }
     let own = axes.into_iter().flat_map(Axes::own_columns);
-    let own = own.map(|(axis, varied)| Named {
-        name: varied.column(),
-        cell: Box::new(move |record: &CaseRecord| record.varied.get(axis).into()),
+    let own = own.map(|(axis, varied)| {
+        let (name, varied) = (varied.column(), varied.clone());
+        let cell = move |record: &CaseRecord| Cell::of_axis(&varied, record.varied.get(axis));
+        Named {
+            name,
+            cell: Box::new(cell),
+        }
     });
     if let Some(place) = named.iter().position(|c| c.name == "drive_mean") {
         named.splice(place..place, own.collect::<Vec<_>>());

@@ -18,6 +18,9 @@ struct Summary<'a> {
     /// Retardation times (s) of the branches whose losses `sweep.csv` lists, in its order.
     retardation_times_s: Vec<f64>,
     cases: Cases,
+    /// What axes besides the frequency vary, in the order in which a peak has their values.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    axes: Vec<AxisOf<'a>>,
     /// What lies outside the model, or was not estimated, by kind.
     warnings: Vec<OverCases>,
     interrupted: bool,
@@ -25,6 +28,14 @@ struct Summary<'a> {
     program: &'a str,
     program_version: &'a str,
     sweep_hash: &'a str,
+}
+
+/// The column of `sweep.csv` with the values of an axis; where these are the places of blocks in a list, what those are called.
+#[derive(Serialize)]
+struct AxisOf<'a> {
+    column: String,
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    names: &'a [String],
 }
 
 #[derive(Serialize)]
@@ -56,6 +67,12 @@ pub fn summary(
             not_converged: outcome.count(Status::NotConverged),
             failed: outcome.count(Status::Failed),
         },
+        axes: (plan.axes.iter().flat_map(|axes| &axes.over))
+            .map(|varied| AxisOf {
+                column: varied.column(),
+                names: &varied.names,
+            })
+            .collect(),
         warnings: warning::over_cases(&outcome.records, plan.figures.frequency_unit),
         interrupted: outcome.interrupted,
         engine: plan.solver.engine.name(),

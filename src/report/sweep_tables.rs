@@ -38,7 +38,7 @@ pub fn write(
         store.write(name("loops"), &table::samples(&cycle.samples))?;
         let pressures = table::pressures(&cycle.pressures, plan.drive.control());
         store.write(name("pressures"), &pressures)?;
-        let work = WorkLine::of(&cycle.surface_loss, plan.indenter.as_ref());
+        let work = WorkLine::of(&cycle.surface_loss, plan.indenter_under(&record.varied));
         store.write(name("work"), &table::work(&work))?;
     }
     if plan.is_small() {

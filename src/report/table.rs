@@ -4,6 +4,7 @@ use super::work_line::WorkLine;
 use crate::cycle::Loop;
 use crate::drive::Control;
 use crate::quantity::FrequencyUnit;
+use crate::sweep::plan::Varied;
 use crate::sweep::record::PressureProfile;
 
 /// One cell of a table.
@@ -17,6 +18,14 @@ pub enum Cell {
 }
 
 impl Cell {
+    /// Of what an axis varies: a number, or the name of a block.
+    pub fn of_axis(varied: &Varied, value: Option<f64>) -> Self {
+        match value.and_then(|value| varied.block_name(value)) {
+            Some(name) => name.to_owned().into(),
+            None => value.into(),
+        }
+    }
+
     /// As it stands in a CSV file: `3.4737e-6`.
     pub fn text(&self) -> String {
         match self {

@@ -7,7 +7,7 @@ use crate::material::{Compressibility, Material, Relaxation};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::resolved::drive_dimension;
-use crate::sweep::plan::{EngineKind, SweepPlan, Varied};
+use crate::sweep::plan::{Block, Condition, EngineKind, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 
 /// A case by its frequency (rad/s): `ω = 0.01000 rad/s`.
@@ -70,10 +70,35 @@ pub fn adhesion_line(adhesion: Option<AdhesionPlan>) -> Option<String> {
     Some(format!("a work of adhesion of {work} J/m² (DMT)"))
 }
 
+/// Blocks of a list that are told one by one, at most.
+const TOLD: usize = 4;
+
+/// The blocks of a list in words, or the one that there is; of many only how many.
+pub fn each_of(
+    plan: &SweepPlan,
+    block: Block,
+    words: impl Fn(Option<&str>, &Condition) -> String,
+) -> String {
+    let all = plan.each_of(block);
+    if all.len() > TOLD {
+        return format!("{} {}s", all.len(), block.name());
+    }
+    let mut told: Vec<String> = all.iter().map(|(name, c)| words(*name, c)).collect();
+    told.dedup();
+    match told.pop() {
+        Some(last) if !told.is_empty() => format!("{} and {last}", told.join(", ")),
+        last => last.unwrap_or_default(),
+    }
+}
+
 /// What axes vary besides mean and amplitude, and from where to where: `radius of the indenter 1 mm to 10 mm`.
 pub fn varied_line(plan: &SweepPlan) -> Option<String> {
     let axes = plan.axes.as_ref()?;
     let line = |(axis, varied): (usize, &Varied)| {
+        // The blocks of a list are told where the block would be.
+        if varied.is_whole() {
+            return None;
+        }
         let values = axes.values_of(axis);
         let value = |value| number::varied(varied, value);
         let least = values.iter().copied().reduce(f64::min)?;
@@ -83,6 +108,13 @@ pub fn varied_line(plan: &SweepPlan) -> Option<String> {
     };
     let lines: Vec<String> = axes.own_columns().filter_map(line).collect();
     (!lines.is_empty()).then(|| lines.join(", "))
+}
+
+/// The number of replicas that the material has, of several materials the most.
+pub fn replicas(plan: &SweepPlan) -> usize {
+    let materials = plan.each_of(Block::Material).into_iter();
+    let counts = materials.map(|(_, condition)| condition.material.replicas().len());
+    counts.max().unwrap_or(0)
 }
 
 /// How a material changes its volume: `Poisson ratio 0.38`, `bulk modulus 3 GPa`, `bulk modulus 5 GPa relaxing to 3 GPa`.

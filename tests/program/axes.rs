@@ -13,8 +13,8 @@ use contact_dma::quantity::FrequencyUnit;
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::plan::{SweepPlan, Varied};
-use contact_dma::sweep::record::CaseRecord;
 use contact_dma::sweep::record::warning::{self, Warning};
+use contact_dma::sweep::record::{CaseRecord, CaseResult};
 use tempfile::TempDir;
 
 /// Two isotherms that no shift brings onto one another, and a sphere.
@@ -68,16 +68,33 @@ fn with_flag(flag: &str) -> SweepPlan {
     sweep_file::plan(&document).unwrap()
 }
 
-/// Losses of every case, bit for bit, with what the axis varies.
-fn losses(plan: SweepPlan) -> Vec<(Option<f64>, u64)> {
+fn records(plan: SweepPlan) -> Vec<CaseRecord> {
     let setup = Setup::new(plan).unwrap();
     let cases = setup.plan().cases().into_iter();
-    let loss = |case| {
-        let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
+    let record = |case| setup.run(&case, &AtomicBool::new(false)).unwrap();
+    cases.map(record).collect()
+}
+
+/// Losses of every case, bit for bit, with what the axis varies.
+fn losses(plan: SweepPlan) -> Vec<(Option<f64>, u64)> {
+    let loss = |record: CaseRecord| {
         let loss = record.energy_loss_j().unwrap();
         (record.varied.first(), loss.to_bits())
     };
-    cases.map(loss).collect()
+    records(plan).into_iter().map(loss).collect()
+}
+
+/// All results of every case with their error bars, with what the axis varies.
+fn results(mut plan: SweepPlan) -> Vec<(Option<f64>, CaseResult)> {
+    plan.cycle.error_bars = true;
+    // Coarser resolutions need so many of both.
+    (plan.cycle.steps, plan.solver.springs) = (32, 48);
+    let result = |record: CaseRecord| {
+        let result = record.result.unwrap();
+        assert!(result.errors.is_some());
+        (record.varied.first(), result)
+    };
+    records(plan).into_iter().map(result).collect()
 }
 
 #[test]
@@ -114,18 +131,48 @@ fn the_cases_over_any_number_are_those_of_separate_sweeps() {
     ] {
         let plan = read(axis).unwrap();
         let separate = values.iter().zip(flags).flat_map(|(value, flag)| {
-            let losses = losses(with_flag(flag));
-            losses.into_iter().map(|(_, bits)| (Some(*value), bits))
+            let results = results(with_flag(flag)).into_iter();
+            results.map(|(_, result)| (Some(*value), result))
         });
         let separate: Vec<_> = separate.collect();
         let text = resolved_text(&plan);
-        assert_eq!(losses(plan), separate, "{axis}");
+        assert!(results(plan) == separate, "{axis}");
         // What is resolved is the same sweep.
         let again = Document::parse("resolved.toml", &text).unwrap();
         let again = sweep_file::plan(&again).unwrap();
         assert_eq!(resolved_text(&again), text);
-        assert_eq!(losses(again), separate, "{axis}");
+        assert!(results(again) == separate, "{axis}");
     }
+}
+
+#[test]
+fn the_layer_at_the_edge_is_that_of_the_own_radius_of_a_case() {
+    // A branch that relaxes within a step makes a layer at the edge of the contact, which the error of the largest pressure counts.
+    let stiff = FILE.replace(
+        "modulus = \"9 MPa\", time = \"1 s\"",
+        "modulus = \"10 GPa\", time = \"1 ms\"",
+    );
+    let with = |rest: &str| {
+        let document = Document::parse("edge.toml", &format!("{stiff}{rest}"));
+        sweep_file::plan(&document.unwrap()).unwrap()
+    };
+    let over = results(with("indenter.radius = [\"2 mm\", \"10 mm\"]\n"));
+    let own = results(with(""));
+    assert!(
+        over[2..]
+            .iter()
+            .map(|(_, result)| result)
+            .eq(own.iter().map(|(_, result)| result))
+    );
+    let mut small = Document::parse("edge.toml", &stiff).unwrap();
+    small.set("indenter.radius=2 mm").unwrap();
+    let small = results(sweep_file::plan(&small).unwrap());
+    assert!(
+        over[..2]
+            .iter()
+            .map(|(_, result)| result)
+            .eq(small.iter().map(|(_, result)| result))
+    );
 }
 
 #[test]

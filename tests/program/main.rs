@@ -31,6 +31,7 @@ mod input_keys;
 mod large_sweep;
 mod layer;
 mod library;
+mod listed_blocks;
 mod machine_output;
 mod page;
 mod paths;

@@ -111,11 +111,7 @@ fn over_four_axes(mut plan: SweepPlan) -> SweepPlan {
         ("phase", Some(Dimension::Angle), [0.0, 1.0]),
         ("hold", Some(Dimension::Time), [0.0, 5.0]),
     ];
-    let over = keys.map(|(key, dimension, _)| Varied {
-        block: Block::Drive,
-        key: key.into(),
-        dimension,
-    });
+    let over = keys.map(|(key, dimension, _)| Varied::number(Block::Drive, key, dimension));
     let condition = |k: usize| {
         let values = [3, 2, 1, 0].map(|bit| k >> bit & 1);
         let values = [0, 1, 2, 3].map(|axis| keys[axis].2[values[axis]]);

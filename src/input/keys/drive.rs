@@ -1,6 +1,6 @@
 //! Keys of `[drive]` and `[sweep]`: an oscillation and its axes, or a history of segments.
 
-use super::indenter::INDENTER;
+use super::indenter::{INDENTER, LISTED_INDENTER};
 use super::layer::LAYER;
 use super::material::MATERIAL;
 use super::rows;
@@ -87,19 +87,28 @@ rows! { _:
     FREQUENCY: Row<Points<Scalar>, Required> = "frequency", Points(quantity(Frequency).above_zero()), Required;
 }
 
+/// Blocks of which a sweep may have a list.
+pub(in crate::input) const LISTED: [&str; 2] = [Block::Material.name(), Block::Indenter.name()];
+
 rows! { SWEEP_KEYS:
     /// Another axis: every frequency under each value of a key of `[drive]`: `drive.amplitude = ["1 N", "2 N"]`. Up to four axes may
     /// be given, and the cases are all combinations of their values.
-    DRIVE_AXIS: Row<AxisOf, Optional> = "drive", AxisOf { block: Block::Drive, rows: &HARMONIC }, Optional;
-    /// The same over a number of the indenter, or of what it is made of: `indenter.radius = ["1 mm", "2 mm"]`.
+    DRIVE_AXIS: Row<AxisOf, Optional> = "drive", AxisOf { block: Block::Drive, rows: &HARMONIC, listed: None }, Optional;
+    /// The same over a number of the indenter, or of what it is made of: `indenter.radius = ["1 mm", "2 mm"]`. Or several indenters in
+    /// place of `[indenter]`: a `[[sweep.indenter]]` for each, with its `name`.
     INDENTER_AXIS: Row<AxisOf, Optional> =
-        "indenter", AxisOf { block: Block::Indenter, rows: &INDENTER }, Optional;
+        "indenter",
+        AxisOf { block: Block::Indenter, rows: &INDENTER, listed: Some(&LISTED_INDENTER) },
+        Optional;
     /// The same over a number of the material: `material.temperature = ["0 °C", "25 °C"]`, and, in quotes, of a table or list within
-    /// its block: `"material.relaxation.branches[0].time" = ["1 s", "10 s"]`, items counted from 0.
+    /// its block: `"material.relaxation.branches[0].time" = ["1 s", "10 s"]`, items counted from 0. Or several materials in
+    /// place of `[material]`: a `[[sweep.material]]` for each, which has a `name` or is one of the library.
     MATERIAL_AXIS: Row<AxisOf, Optional> =
-        "material", AxisOf { block: Block::Material, rows: &MATERIAL }, Optional;
+        "material",
+        AxisOf { block: Block::Material, rows: &MATERIAL, listed: Some(&MATERIAL) },
+        Optional;
     /// The same over a number of the layer: `layer.thickness = ["10 um", "1 mm"]`.
-    LAYER_AXIS: Row<AxisOf, Optional> = "layer", AxisOf { block: Block::Layer, rows: &LAYER }, Optional;
+    LAYER_AXIS: Row<AxisOf, Optional> = "layer", AxisOf { block: Block::Layer, rows: &LAYER, listed: None }, Optional;
     /// Whether the values of several axes go together one by one, each axis with as many, in place of all their combinations.
     PAIRS: Row<Boolean, Or<bool>> = "pairs", Boolean, Or(false);
     /// Whether frequencies are added where the given ones do not resolve the curve of the loss.

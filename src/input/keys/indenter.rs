@@ -70,9 +70,23 @@ rows! { INDENTER_KEYS:
 pub(super) static INDENTER: Rows = Rows {
     means: " The indenter. Those that are no convex bodies of revolution go to the half-space engine.",
     keys: INDENTER_KEYS,
-    others: Others::ByWord(&SHAPE, || {
-        SHAPES.map(|(word, shape)| (word, shape.rows())).to_vec()
-    }),
+    others: BY_SHAPE,
+};
+
+const BY_SHAPE: Others = Others::ByWord(&SHAPE, || {
+    SHAPES.map(|(word, shape)| (word, shape.rows())).to_vec()
+});
+
+rows! { _:
+    /// What tables and figures call the indenter.
+    INDENTER_NAME: Row<Text, Required> = "name", Text, Required;
+}
+
+/// One of several indenters of a sweep.
+pub(super) static LISTED_INDENTER: Rows = Rows {
+    means: " One of several indenters.",
+    keys: &[&INDENTER_NAME, &SHAPE, &OFFSET, &INDENTER_MATERIAL],
+    others: BY_SHAPE,
 };
 
 rows! { _:

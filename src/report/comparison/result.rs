@@ -33,6 +33,9 @@ pub struct SweepTable {
     pub(super) columns: Vec<String>,
     /// Those of them that hold what axes vary, where they are not of every table.
     axes: Vec<String>,
+    /// What the blocks of a list are called, for each of these columns: those of the result that this one is beside, and then its own.
+    /// A place has the number of a name in here.
+    pub(super) names: Vec<Vec<String>>,
     places: HashMap<String, usize>,
     pub(super) rows: Vec<Row>,
     /// Rows by the bits of their places.
@@ -54,7 +57,19 @@ pub(super) struct Row {
 #[derive(Deserialize)]
 struct Summary {
     peaks: Vec<Peak>,
+    #[serde(default)]
+    axes: Vec<SummaryAxis>,
 }
+
+/// An axis, and what the values of a peak on it are the places of.
+#[derive(Deserialize)]
+struct SummaryAxis {
+    column: String,
+    #[serde(default)]
+    names: Vec<String>,
+}
+
+const BLOCKS: [Block; 4] = [Block::Material, Block::Layer, Block::Indenter, Block::Drive];
 
 const FREQUENCY: &str = "angular_frequency_rad_per_s";
 /// Frequencies and drives closer than this, relatively, are the same: what is left of a number written and read elsewhere.
@@ -64,12 +79,50 @@ const SAME_MEASURED: f64 = 0.01;
 
 /// Whether a column is what a second axis varies of something else than mean and amplitude.
 fn is_of_axis(column: &str) -> bool {
-    let blocks = [Block::Material, Block::Layer, Block::Indenter, Block::Drive];
     let is_of = |block: &Block| {
         let key = column.strip_prefix(block.name());
         key.is_some_and(|key| key.starts_with('_'))
     };
-    blocks.iter().any(is_of) && quantities::of_name(column).is_none()
+    let is_number = BLOCKS.iter().any(is_of) && quantities::of_name(column).is_none();
+    is_number || has_names(column)
+}
+
+/// Whether a column holds the names of blocks.
+fn has_names(column: &str) -> bool {
+    BLOCKS.iter().any(|block| block.name() == column)
+}
+
+/// The place of a name in a list, to which it comes where it is new.
+fn place_of(names: &mut Vec<String>, name: &str) -> usize {
+    let known = names.iter().position(|known| known == name);
+    known.unwrap_or_else(|| {
+        names.push(name.to_owned());
+        names.len() - 1
+    })
+}
+
+/// The names that another result has for an axis.
+fn names_of(result: Option<&SweepTable>, axis: &str) -> Vec<String> {
+    result.map_or(Vec::new(), |result| result.names(axis).to_vec())
+}
+
+impl Summary {
+    /// The peaks, with the places of names among those that are known for these axes.
+    fn peaks_among(mut self, axes: &[String], names: &mut [Vec<String>]) -> Vec<Peak> {
+        for (k, axis) in self.axes.iter().enumerate() {
+            let known = axes.iter().position(|column| *column == axis.column);
+            let Some(known) = known.and_then(|known| names.get_mut(known)) else {
+                continue;
+            };
+            let places: Vec<f64> = (axis.names.iter())
+                .map(|name| place_of(known, name) as f64)
+                .collect();
+            for peak in &mut self.peaks {
+                peak.varied = peak.varied.placed(k, &places);
+            }
+        }
+        self.peaks
+    }
 }
 
 impl SweepTable {
@@ -82,6 +135,19 @@ impl SweepTable {
         table: &[u8],
         summary: Option<&[u8]>,
     ) -> Result<Self, ComparisonError> {
+        Self::parse_beside(None, name, table, summary)
+    }
+
+    /// The same of a result that is compared with another, which has read the names of its blocks before.
+    ///
+    /// # Errors
+    /// As [`SweepTable::parse`].
+    pub fn parse_beside(
+        beside: Option<&Self>,
+        name: &str,
+        table: &[u8],
+        summary: Option<&[u8]>,
+    ) -> Result<Self, ComparisonError> {
         let wrong = |reason: String| ComparisonError::Table {
             name: name.to_owned(),
             reason,
@@ -90,21 +156,21 @@ impl SweepTable {
         let header = reader.headers().map_err(|e| wrong(e.to_string()))?;
         let columns: Vec<String> = header.iter().map(str::to_owned).collect();
         let places = columns.iter().cloned().zip(0..).collect();
+        let axes = columns.iter().filter(|name| is_of_axis(name));
+        let axes: Vec<String> = axes.cloned().collect();
+        let mut names: Vec<Vec<String>> = axes.iter().map(|axis| names_of(beside, axis)).collect();
         let peaks = match summary {
             Some(bytes) => {
                 let summary: Summary = serde_json::from_slice(bytes)
                     .map_err(|e| wrong(format!("the summary.json beside it: {e}")))?;
-                Some(summary.peaks)
+                Some(summary.peaks_among(&axes, &mut names))
             }
             None => None,
         };
         let mut result = Self {
             name: name.to_owned(),
-            axes: columns
-                .iter()
-                .filter(|name| is_of_axis(name))
-                .cloned()
-                .collect(),
+            axes,
+            names,
             columns,
             places,
             rows: Vec::new(),
@@ -134,7 +200,13 @@ impl SweepTable {
         Ok(result)
     }
 
-    fn row_of(&self, line: usize, cells: Vec<String>) -> Result<Row, ComparisonError> {
+    fn row_of(&mut self, line: usize, cells: Vec<String>) -> Result<Row, ComparisonError> {
+        let mut named = Vec::with_capacity(self.axes.len());
+        for (axis, names) in self.axes.iter().zip(&mut self.names) {
+            let cell = self.places.get(axis).and_then(|place| cells.get(*place));
+            let name = cell.filter(|_| has_names(axis));
+            named.push(name.map(|name| place_of(names, name) as f64));
+        }
         let mut row = Row {
             line,
             cells,
@@ -149,7 +221,8 @@ impl SweepTable {
         };
         let number = |column| Ok(self.number(&row, column)?.unwrap_or(0.0));
         let text = |column| self.cell(&row, column).unwrap_or_default().to_owned();
-        let varied = self.axes.iter().map(|name| number(name));
+        let varied = self.axes.iter().zip(named);
+        let varied = varied.map(|(axis, named)| named.map_or_else(|| number(axis), Ok));
         let varied: Vec<f64> = varied.collect::<Result<_, _>>()?;
         let place = Place {
             varied: AxisValues::new(&varied).ok_or_else(|| ComparisonError::Table {
@@ -164,6 +237,14 @@ impl SweepTable {
         row.place = place;
         (row.status, row.discretisation) = (status, discretisation);
         Ok(row)
+    }
+
+    /// What the blocks of a list are called whose places a column of an axis has.
+    fn names(&self, axis: &str) -> &[String] {
+        let mut known = self.axes.iter().zip(&self.names);
+        known
+            .find(|(known, _)| *known == axis)
+            .map_or(&[], |(_, names)| names)
     }
 
     /// The unit of the frequencies that come first.

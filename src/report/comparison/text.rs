@@ -16,13 +16,8 @@ impl Comparison {
     /// The whole finding, as text of at most 80 columns, or what a name takes.
     pub fn text(&self) -> String {
         let mut text = format!("{} cases in both results\n", self.compared);
-        named(
-            &mut text,
-            self.unit,
-            "missing in the new result",
-            &self.missing,
-        );
-        named(&mut text, self.unit, "only in the new result", &self.added);
+        self.name(&mut text, "missing in the new result", &self.missing);
+        self.name(&mut text, "only in the new result", &self.added);
         for (what, columns) in [
             ("missing in the new result", &self.missing_columns),
             ("only in the new result", &self.added_columns),
@@ -33,7 +28,7 @@ impl Comparison {
             }
         }
         for (place, old, new) in self.statuses.iter().take(NAMED) {
-            let _ = writeln!(text, "{}: {old} before, {new} now", words(self.unit, place));
+            let _ = writeln!(text, "{}: {old} before, {new} now", self.words(place));
         }
         text.push_str("\n column                  largest difference   beyond   within bars\n");
         for column in &self.columns {
@@ -61,6 +56,37 @@ impl Comparison {
         text
     }
 
+    /// A case in words.
+    pub(in crate::report) fn words(&self, place: &Place) -> String {
+        let varied = self.varied(place).into_iter();
+        let varied: String = varied
+            .map(|value| match value {
+                Cell::Text(name) => format!("{name}, "),
+                Cell::Number(number) => format!("axis {number}, "),
+                other => format!("axis {}, ", other.text()),
+            })
+            .collect();
+        format!(
+            "{} ({varied}mean {}, amplitude {})",
+            case(self.unit, place.angular_frequency_rad_per_s),
+            place.drive_mean,
+            place.drive_amplitude
+        )
+    }
+
+    fn name(&self, text: &mut String, what: &str, places: &[Place]) {
+        if places.is_empty() {
+            return;
+        }
+        let _ = writeln!(text, "{} cases {what}:", places.len());
+        for place in places.iter().take(NAMED) {
+            let _ = writeln!(text, "  {}", self.words(place));
+        }
+        if places.len() > NAMED {
+            let _ = writeln!(text, "  and {} more", places.len() - NAMED);
+        }
+    }
+
     /// `comparison.csv`: the curves of the energy loss and their difference.
     pub fn table(&self) -> Vec<u8> {
         let curve = self.curve.iter();
@@ -84,7 +110,8 @@ impl Comparison {
         ];
         let columns: Vec<String> = varied.chain(numbers.map(str::to_owned)).collect();
         let rows = self.curve.iter().map(|point| {
-            let varied = (0..axes).map(|axis| point.place.varied.get(axis).into());
+            let mut varied = self.varied(&point.place);
+            varied.resize(axes, Cell::Absent);
             let numbers: [Cell; 7] = cells![
                 point.place.drive_mean,
                 point.place.drive_amplitude,
@@ -94,7 +121,7 @@ impl Comparison {
                 point.relative_difference(),
                 point.error_j,
             ];
-            varied.chain(numbers).collect::<Vec<Cell>>()
+            varied.into_iter().chain(numbers).collect::<Vec<Cell>>()
         });
         csv_leading(self.unit, &columns, rows)
     }
@@ -105,31 +132,6 @@ impl super::CurvePoint {
     pub fn relative_difference(&self) -> Option<f64> {
         let (old, new) = self.baseline_j.zip(self.new_j)?;
         (old != 0.0).then(|| new / old - 1.0)
-    }
-}
-
-/// A case in words.
-pub(in crate::report) fn words(unit: FrequencyUnit, place: &Place) -> String {
-    let varied = place.varied.all().iter();
-    let varied: String = varied.map(|value| format!("axis {value}, ")).collect();
-    format!(
-        "{} ({varied}mean {}, amplitude {})",
-        case(unit, place.angular_frequency_rad_per_s),
-        place.drive_mean,
-        place.drive_amplitude
-    )
-}
-
-fn named(text: &mut String, unit: FrequencyUnit, what: &str, places: &[Place]) {
-    if places.is_empty() {
-        return;
-    }
-    let _ = writeln!(text, "{} cases {what}:", places.len());
-    for place in places.iter().take(NAMED) {
-        let _ = writeln!(text, "  {}", words(unit, place));
-    }
-    if places.len() > NAMED {
-        let _ = writeln!(text, "  and {} more", places.len() - NAMED);
     }
 }
 

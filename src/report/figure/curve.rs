@@ -34,7 +34,11 @@ fn empty<'a>(plan: &SweepPlan, condition: &Condition, units: &Units) -> Curve<'a
     let parts: Vec<(Varied, String)> = (over.iter().zip(condition.values.all()))
         .map(|(varied, value)| {
             let value = units.varied_value(varied, *value);
-            (varied.clone(), format!("{} {value}", varied.name()))
+            let words = match varied.is_whole() {
+                true => value,
+                false => format!("{} {value}", varied.name()),
+            };
+            (varied.clone(), words)
         })
         .collect();
     let words: Vec<&str> = parts.iter().map(|(_, words)| words.as_str()).collect();
@@ -69,7 +73,7 @@ pub fn place_columns(axes: Option<&Axes>) -> Vec<String> {
 /// Their cells: the varied numbers, mean and amplitude.
 pub fn place_cells(axes: Option<&Axes>, varied: AxisValues, drive: [f64; 2]) -> Vec<Cell> {
     let own = axes.into_iter().flat_map(Axes::own_columns);
-    let own = own.map(|(axis, _)| varied.get(axis).into());
+    let own = own.map(|(axis, of)| Cell::of_axis(of, varied.get(axis)));
     own.chain(drive.map(Cell::from)).collect()
 }
 

@@ -5,7 +5,6 @@ use super::curve::{Curve, chosen};
 use super::loops::LOOPS;
 use super::units::Units;
 use super::{Drawn, Figure};
-use crate::indenter::Indenter;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, Series};
 use crate::report::number::{largest, scientific};
@@ -19,16 +18,14 @@ type Profile<'a> = (&'a CaseRecord, WorkLine);
 
 /// The figure, of one curve: profiles nearest to the frequencies asked for (rad/s), or evenly spread over its cases, that of the
 /// largest loss among them.
-pub fn figure(
-    curve: &Curve<'_>,
-    indenter: &dyn Indenter,
-    asked_rad_per_s: &[f64],
-    units: &Units,
-) -> Drawn {
+pub fn figure(curve: &Curve<'_>, asked_rad_per_s: &[f64], units: &Units) -> Drawn {
     let results = curve.results();
     let profiles: Vec<Profile<'_>> = chosen(&results, asked_rad_per_s, LOOPS)
         .into_iter()
-        .map(|(record, result)| (record, WorkLine::of(&result.cycle.surface_loss, indenter)))
+        .map(|(record, result)| {
+            let indenter = curve.condition.indenter.as_ref();
+            (record, WorkLine::of(&result.cycle.surface_loss, indenter))
+        })
         .filter(|(_, line)| line.points.iter().any(|(_, density)| density.is_some()))
         .collect();
     if results.is_empty() {

@@ -162,7 +162,7 @@ fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>], units: &Un
     let parts = [
         rings,
         caption::error_bars(plan, outcome),
-        caption::material_band(&plan.material, outcome),
+        caption::material_band(plan, outcome),
         caption::absent(outcome),
     ];
     caption.say_all(parts.into_iter().flatten())

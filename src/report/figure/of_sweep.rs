@@ -60,7 +60,7 @@ fn of_first_axis(plan: &SweepPlan, outcome: &Outcome) -> Result<Vec<Drawn>, Repo
         Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)),
         Drawn::Figure(loops::figure(curve, asked, units)),
         dissipation::figure(curve, units),
-        dissipation_profile::figure(curve, plan.indenter.as_ref(), asked, units),
+        dissipation_profile::figure(curve, asked, units),
         dissipation_map::figure(curve, units),
     ];
     match Equivalent::of(curve) {
@@ -77,7 +77,8 @@ fn of_first_axis(plan: &SweepPlan, outcome: &Outcome) -> Result<Vec<Drawn>, Repo
             "no figures of the moduli: fewer than two loops have equivalent moduli",
         )),
     }
-    if let Some(axes) = &plan.axes {
+    // Names have no order to draw along.
+    if let Some(axes) = plan.axes.as_ref().filter(|axes| !axes.varied().is_whole()) {
         drawn.extend([
             loss_map::figure(plan, outcome, axes, &curves, units),
             harmonic_map::figure(plan, axes, &curves, units),
@@ -105,6 +106,11 @@ fn of_other_axis(axis: usize, line: &Line) -> Result<Vec<Drawn>, ReportError> {
     let has_results = curves.iter().any(|curve| !curve.results().is_empty());
     let drawn = match has_results {
         false => Vec::new(),
+        true if axes.varied().is_whole() => {
+            vec![Drawn::Figure(energy_loss::figure(
+                plan, outcome, &curves, units,
+            ))]
+        }
         true => vec![
             Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)),
             loss_map::figure(plan, outcome, axes, &curves, units),

@@ -186,7 +186,7 @@ impl Units {
 
     /// A value of what a second axis varies, to be read: `5 N`, `25 °C`.
     pub fn varied_value(&self, varied: &Varied, value: f64) -> String {
-        if varied.dimension == Some(Dimension::Temperature) {
+        if varied.is_whole() || varied.dimension == Some(Dimension::Temperature) {
             return number::varied(varied, value);
         }
         let unit = self.varied(varied, value.abs());
@@ -328,11 +328,7 @@ mod tests {
         assert_eq!(si.varied_value(&approach, 1.5e-6), "1.5 µm");
         assert_eq!(si.varied_value(&approach, 0.0), "0 m");
         assert_eq!(normalised.varied_value(&load, 5.0), "0.5 W₀");
-        let of = |block, key: &'static str, dimension| Varied {
-            block,
-            key: key.into(),
-            dimension,
-        };
+        let of = |block, key: &'static str, dimension| Varied::number(block, key, dimension);
         let temperature = of(Block::Material, "temperature", Some(Dimension::Temperature));
         assert_eq!(normalised.varied_value(&temperature, 298.15), "25 °C");
         let unit = si.varied(&temperature, 300.0);

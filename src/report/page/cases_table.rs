@@ -20,6 +20,8 @@ struct Column {
     factor: f64,
     /// In the unit of the heading.
     values: Vec<Option<f64>>,
+    /// In place of the values, where these are names.
+    names: Vec<String>,
 }
 
 /// How the script shows a column: its name in `sweep.csv`, the factor to the unit of its heading, and its digits.
@@ -74,6 +76,9 @@ pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> Markup {
 
 impl Column {
     fn text(&self, case: usize) -> String {
+        if let Some(name) = self.names.get(case) {
+            return name.clone();
+        }
         let value = self.values.get(case).copied().flatten();
         match self.digits {
             Some(significant) => digits(value, significant),
@@ -82,27 +87,43 @@ impl Column {
     }
 }
 
+/// A column of bare numbers, or of numbers in the unit of the heading.
+fn bare(name: &str, heading: &str, values: Vec<Option<f64>>) -> Column {
+    Column {
+        name: name.to_owned(),
+        heading: heading.to_owned(),
+        digits: None,
+        factor: 1.0,
+        values,
+        names: Vec::new(),
+    }
+}
+
 fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
     let unit = plan.figures.frequency_unit;
     // A unit that takes a prefix gets the one that suits the largest value.
     let column = |name: &str, heading: &str, si: &str, digits, values: Vec<Option<f64>>| {
         let (factor, prefix) = prefix(largest(values.iter().flatten().map(|v| v.abs())));
+        let (factor, heading) = match si {
+            "" => (1.0, heading.to_owned()),
+            si => (factor, format!("{heading} / {prefix}{si}")),
+        };
         Column {
-            name: name.to_owned(),
-            heading: format!("{heading} / {prefix}{si}"),
             digits,
             factor,
-            values: values.iter().map(|v| v.map(|v| v * factor)).collect(),
+            ..bare(
+                name,
+                &heading,
+                values.iter().map(|v| v.map(|v| v * factor)).collect(),
+            )
         }
     };
     let numbers = |value: &dyn Fn(&CaseRecord) -> Option<f64>| records.iter().map(value).collect();
-    let mut columns = vec![Column {
-        name: unit.column().to_owned(),
-        heading: format!("{} / {}", unit.symbol(), unit.name().replace("/s", "·s⁻¹")),
-        digits: None,
-        factor: 1.0,
-        values: numbers(&|r| Some(unit.of(r.angular_frequency_rad_per_s))),
-    }];
+    let mut columns = vec![bare(
+        unit.column(),
+        &format!("{} / {}", unit.symbol(), unit.name().replace("/s", "·s⁻¹")),
+        numbers(&|r| Some(unit.of(r.angular_frequency_rad_per_s))),
+    )];
     for (axis, varied) in plan
         .axes
         .iter()
@@ -111,7 +132,11 @@ fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
         let si = varied.dimension.map_or("", Dimension::si_unit);
         let (name, heading) = (varied.column(), varied.name());
         let values = numbers(&|r| r.varied.get(axis));
-        columns.push(column(&name, &heading, si, None, values));
+        let name_of = |value: &Option<f64>| Some(varied.block_name((*value)?)?.to_owned());
+        columns.push(Column {
+            names: values.iter().filter_map(name_of).collect(),
+            ..column(&name, &heading, si, None, values)
+        });
     }
     let shown = SWEEP.iter().filter_map(|c| Some((c, c.in_cases?)));
     for (known, heading) in shown {
@@ -121,22 +146,18 @@ fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
             continue;
         }
         match known.dimension {
-            None => columns.push(Column {
-                name: known.name.to_owned(),
-                heading: heading.to_owned(),
-                digits: None,
-                factor: 1.0,
-                values,
-            }),
+            None => columns.push(bare(known.name, heading, values)),
             Some(Dimension::Angle) => columns.push(Column {
-                name: known.name.to_owned(),
-                heading: format!("{heading} / °"),
                 digits: Some(5),
                 factor: 1_f64.to_degrees(),
-                values: values
-                    .into_iter()
-                    .map(|v: Option<f64>| v.map(f64::to_degrees))
-                    .collect(),
+                ..bare(
+                    known.name,
+                    &format!("{heading} / °"),
+                    values
+                        .into_iter()
+                        .map(|v: Option<f64>| v.map(f64::to_degrees))
+                        .collect(),
+                )
             }),
             Some(dimension) => {
                 columns.push(column(

@@ -12,12 +12,13 @@ use super::sweep_data::FrequencyData;
 use super::{copying, still};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::report::ReportError;
-use crate::report::comparison::text::{peak_words, words};
+use crate::report::comparison::text::peak_words;
 use crate::report::comparison::{
     Column, ColumnComparison, Comparison, PeakComparison, Place, Source, SweepTable, Tolerances,
 };
 use crate::report::number::{at_frequency, cell, scientific, with_error};
 use crate::report::quantities;
+use crate::report::table::Cell;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::store::difference;
 
@@ -173,8 +174,12 @@ fn data<'a>(compared: &Compared<'a>, csv: &'a str) -> Data<'a> {
     let unit = compared.comparison.unit;
     let places = || compared.comparison.curve.iter().map(|point| point.place);
     let drive = |place: Place| {
-        let varied = place.varied.all().iter();
-        let varied: String = varied.map(|value| format!("{value}, ")).collect();
+        let varied = compared.comparison.varied(&place).into_iter();
+        let varied = varied.map(|value| match value {
+            Cell::Number(number) => format!("{number}, "),
+            name => format!("{}, ", name.text()),
+        });
+        let varied: String = varied.collect();
         format!("{varied}{} ± {}", place.drive_mean, place.drive_amplitude)
     };
     Data {
@@ -410,14 +415,14 @@ fn cases(comparison: &Comparison) -> Markup {
     let places = |places: &[Place]| {
         places
             .iter()
-            .map(|place| words(comparison.unit, place))
+            .map(|place| comparison.words(place))
             .collect::<Vec<_>>()
     };
     add("Missing in the new result", places(&comparison.missing));
     add("Only in the new result", places(&comparison.added));
     let statuses = comparison.statuses.iter();
-    let statuses = statuses
-        .map(|(place, a, b)| format!("{}: {a} before, {b} now", words(comparison.unit, place)));
+    let statuses =
+        statuses.map(|(place, a, b)| format!("{}: {a} before, {b} now", comparison.words(place)));
     add("Of another status", statuses.collect());
     add(
         "Columns missing in the new result",

@@ -5,7 +5,7 @@ use maud::Markup;
 use super::question::Facts;
 use crate::history::TimeRule;
 use crate::indenter::Indenter;
-use crate::report::words::{case, nodes_name, range};
+use crate::report::words::{self, case, nodes_name, range};
 use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 use crate::sweep::search::run::Outcome;
@@ -63,7 +63,7 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
             &format!(
                 "{} ({} replicas)",
                 range(of_material.into_iter(), 2),
-                plan.material.replicas().len()
+                words::replicas(plan)
             ),
         );
     }

@@ -8,8 +8,8 @@ use crate::quantity::Dimension;
 use crate::report::caption;
 use crate::report::number::plain;
 use crate::report::words;
-use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::layer::LayerPlan;
+use crate::sweep::plan::{Block, Condition, SweepPlan};
 
 /// A list of names and values being written.
 #[derive(Default)]
@@ -58,11 +58,18 @@ pub(super) fn line(plan: &SweepPlan) -> String {
         ),
         _ => "no frequency".to_owned(),
     };
+    let material = |_: Option<&str>, c: &Condition| {
+        let name = c.material.name();
+        name.unwrap_or("A material of its own").to_owned()
+    };
     format!(
-        "{}{}, under a {}; {}; {range}",
-        plan.material.name().unwrap_or("A material of its own"),
+        "{}{}, under {}; {}; {range}",
+        words::each_of(plan, Block::Material, material),
         caption::layer(plan.layer, &[]),
-        plan.indenter.shape(),
+        words::each_of(plan, Block::Indenter, |_, c| format!(
+            "a {}",
+            c.indenter.shape()
+        )),
         words::drive_line(&plan.drive, plan)
     ) + &words::varied_line(plan).map_or(String::new(), |line| format!("; {line}"))
 }
@@ -84,10 +91,30 @@ pub(super) fn sweep(plan: &SweepPlan) -> Markup {
         drive.add("other axes", &line);
     }
     parts(
-        html! { (material(&plan.material)) (body(plan.layer)) },
-        indenter_body(plan.indenter.as_ref(), Some(&plan.material)),
+        html! {
+            (each_of(plan, Block::Material, |condition| material(&condition.material)))
+            (body(plan.layer))
+        },
+        each_of(plan, Block::Indenter, |condition| {
+            indenter_body(condition.indenter.as_ref(), Some(&condition.material))
+        }),
         drive.html(),
     )
+}
+
+/// Blocks of a list that are shown; all are in resolved.toml.
+const SHOWN: usize = 8;
+
+/// The blocks of a list under their names, or the one that there is.
+fn each_of(plan: &SweepPlan, block: Block, show: impl Fn(&Condition) -> Markup) -> Markup {
+    let all = plan.each_of(block);
+    html! {
+        @for (name, condition) in all.iter().take(SHOWN) {
+            @if let Some(name) = name { h4 { (name) } }
+            (show(condition))
+        }
+        @if all.len() > SHOWN { p { (all.len() - SHOWN) " more are in resolved.toml." } }
+    }
 }
 
 /// Material, indenter and drive under their headings.

@@ -12,7 +12,7 @@ function start(data) {
   const byKey = new Map(drives.map((row) => [key(row), []]));
   for (const row of rows) byKey.get(key(row)).push(row);
   const driveText = (row) => {
-    const one = ({ column, unit, zero }) => (zero ? `${trimmed(significant(row[column] - zero))} ${unit}` : trimmed(withUnit(row[column], unit)));
+    const one = ({ column, unit, zero, named }) => (named ? String(row[column]) : zero ? `${trimmed(significant(row[column] - zero))} ${unit}` : trimmed(withUnit(row[column], unit)));
     return varied.map(one).join(", ");
   };
   const branchNames = Array.from({ length: data.branches }, (_, k) => {
@@ -254,7 +254,7 @@ function start(data) {
 
   // ---- controls
   $("quantity").innerHTML = quantities.map(([column, , name], k) => (done.some((row) => row[column] !== null) || !k ? `<option value="${k}">${esc(name)}</option>` : "")).join("");
-  $("drive").innerHTML = drives.map((row) => `<option value="${key(row)}">${esc(driveText(row))}</option>`).join("");
+  $("drive").innerHTML = drives.map((row) => `<option value="${esc(key(row))}"${key(row) === state.drive ? " selected" : ""}>${esc(driveText(row))}</option>`).join("");
   $("drive-choice").hidden = drives.length < 2;
   for (const id of ["quantity", "log-x", "log-y"]) $(id).addEventListener("change", () => { drawCurve(); drawBranches(); });
   $("normalised").addEventListener("change", drawLoops);

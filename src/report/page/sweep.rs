@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::{Pictures, answer, cases_table, how, moduli, question, still};
 use crate::report::rigid_indenter;
-use crate::sweep::plan::{SweepPlan, Varied};
+use crate::sweep::plan::{Block, SweepPlan, Varied};
 use crate::sweep::record::warning;
 use crate::sweep::search::run::Outcome;
 
@@ -32,7 +32,7 @@ pub(super) fn sections(
         section aria-labelledby="asked-heading" {
             h2 id="asked-heading" { "What was asked" }
             (question::sweep(plan))
-            h3 class="live" { "Moduli of the material" }
+            h3 class="live" { "Moduli of " (of_which(plan)) }
             (moduli("live grid"))
         }
         section aria-labelledby="how-heading" {
@@ -40,6 +40,13 @@ pub(super) fn sections(
             (how::sweep(plan, outcome))
         }
     }
+}
+
+/// The material whose moduli are drawn: of a list the first.
+fn of_which(plan: &SweepPlan) -> &str {
+    let all = plan.each_of(Block::Material);
+    let first = all.first().and_then(|(name, _)| *name);
+    first.unwrap_or("the material")
 }
 
 fn curve(plan: &SweepPlan, outcome: &Outcome, pictures: &Pictures) -> Markup {

@@ -47,6 +47,8 @@ struct VariedData {
     column: String,
     unit: &'static str,
     zero: f64,
+    /// Whether its cells are names.
+    named: bool,
 }
 
 impl VariedData {
@@ -60,6 +62,7 @@ impl VariedData {
             column: varied.column(),
             unit,
             zero,
+            named: varied.is_whole(),
         }
     }
 }
@@ -193,7 +196,8 @@ fn case(plan: &SweepPlan, record: &CaseRecord, result: &CaseResult, cases: usize
     let samples = &result.cycle.samples;
     let places = spread(samples.time_s.len(), share(cases, 100, 32));
     let fineness = Fineness::of(cases);
-    let work = WorkLine::of(&result.cycle.surface_loss, plan.indenter.as_ref());
+    let indenter = plan.indenter_under(&record.varied);
+    let work = WorkLine::of(&result.cycle.surface_loss, indenter);
     let harmonics = result.analysis.harmonics.iter();
     CaseData {
         index: record.index,

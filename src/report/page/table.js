@@ -5,7 +5,7 @@ const PAGE = 50;
 /** A table whose rows are made as they are turned to; `shown` has a name, a factor and digits for each column. */
 function startPages(shown, rows, choose) {
   const table = $("cases"), body = table.tBodies[0], heads = [...table.tHead.rows[0].cells];
-  const text = (row, [name, factor, digits]) => (row[name] === null ? "" : digits ? significant(row[name] * factor, digits) : trimmed(significant(row[name] * factor, 5)));
+  const text = (row, [name, factor, digits]) => (row[name] === null ? "" : typeof row[name] === "string" ? row[name] : digits ? significant(row[name] * factor, digits) : trimmed(significant(row[name] * factor, 5)));
   let order = [...rows], page = 0;
   function turn(to) {
     const last = Math.max(0, Math.ceil(order.length / PAGE) - 1);

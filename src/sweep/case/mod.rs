@@ -520,7 +520,7 @@ impl Setup {
             on,
             on_quarter.as_ref(),
         );
-        let indenter = self.plan.indenter.as_ref();
+        let indenter = contact.condition.indenter.as_ref();
         let relaxation = contact.solid.relaxation.as_ref();
         let layer = relaxation.and_then(|relaxation| EdgeLayer::new(indenter, relaxation));
         Ok(bars.map(|bars| match layer {

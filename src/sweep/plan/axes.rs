@@ -1,4 +1,4 @@
-//! The axes of a sweep besides the frequency: which numbers vary, and the conditions that their values make.
+//! The axes of a sweep besides the frequency: which numbers or whole blocks vary, and the conditions that their values make.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -35,14 +35,17 @@ pub struct GivenBlocks {
     pub counterbody: Option<Arc<str>>,
 }
 
-/// The key whose number differs between conditions.
+/// The key whose number differs between conditions, or the block that is another one under each.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Varied {
     pub block: Block,
-    /// In the block: `amplitude`, or `relaxation.branches[0].time`.
+    /// In the block: `amplitude`, or `relaxation.branches[0].time`; empty where the whole block varies.
     pub key: Cow<'static, str>,
     /// `None` for a bare number.
     pub dimension: Option<Dimension>,
+    /// What the blocks are called that take the place of one another, of which the value is the place in this list, counted from 0;
+    /// empty where a number varies.
+    pub names: Arc<[String]>,
 }
 
 /// The block of a sweep file that a varied key belongs to.
@@ -101,6 +104,15 @@ impl AxisValues {
     #[must_use]
     pub fn alone(&self, axis: usize) -> Self {
         self.get(axis).map(Self::one).unwrap_or_default()
+    }
+
+    /// The same with other places of the blocks of a list on an axis; of numbers, which have no places, what they are.
+    #[must_use]
+    pub fn placed(mut self, axis: usize, places: &[f64]) -> Self {
+        if let Some(value) = self.values[..self.count].get_mut(axis) {
+            *value = places.get(*value as usize).copied().unwrap_or(*value);
+        }
+        self
     }
 
     /// Whether nothing varies.
@@ -163,15 +175,49 @@ impl Varied {
     }
 
     fn of_drive(key: &'static str, control: Control) -> Self {
+        Self::number(Block::Drive, key, Some(drive_dimension(control)))
+    }
+
+    /// A number of a block.
+    pub fn number(
+        block: Block,
+        key: impl Into<Cow<'static, str>>,
+        dimension: Option<Dimension>,
+    ) -> Self {
         Self {
-            block: Block::Drive,
-            key: Cow::Borrowed(key),
-            dimension: Some(drive_dimension(control)),
+            block,
+            key: key.into(),
+            dimension,
+            names: Arc::default(),
         }
     }
 
-    /// The key as words: `half angle`, `time of relaxation.branches[0]`; of what the indenter is made of as of the body.
+    /// Blocks of these names in the place of one another.
+    pub fn blocks(block: Block, names: impl IntoIterator<Item = String>) -> Self {
+        Self {
+            names: names.into_iter().collect(),
+            ..Self::number(block, "", None)
+        }
+    }
+
+    /// Whether whole blocks vary.
+    pub fn is_whole(&self) -> bool {
+        self.key.is_empty()
+    }
+
+    /// What the block of a value is called; `None` where a number varies.
+    pub fn block_name(&self, value: f64) -> Option<&str> {
+        let names = self.is_whole().then_some(&self.names)?;
+        // Places are small integers, which a float holds exactly.
+        names.get(value as usize).map(String::as_str)
+    }
+
+    /// The key as words: `half angle`, `time of relaxation.branches[0]`; of what the indenter is made of as of the body; of a whole
+    /// block its name.
     pub fn name(&self) -> String {
+        if self.is_whole() {
+            return self.block.name().to_owned();
+        }
         let own = match self.is_of_counterbody() {
             true => &self.key["material.".len()..],
             false => &self.key,
@@ -192,20 +238,22 @@ impl Varied {
 
     /// The same and what it belongs to: `half angle of the indenter`.
     pub fn words(&self) -> String {
-        format!("{} of the {}", self.name(), self.block.name())
-    }
-
-    /// The dotted key: `indenter.half_angle`; in quotes where it leads into a list.
-    pub fn path(&self) -> String {
-        let path = format!("{}.{}", self.block.name(), self.key);
-        match self.is_nested() {
-            true => format!("\"{path}\""),
-            false => path,
+        match self.is_whole() {
+            true => self.name(),
+            false => format!("{} of the {}", self.name(), self.block.name()),
         }
     }
 
-    /// The column of tables that holds it: `indenter_half_angle_rad`.
+    /// The dotted key: `indenter.half_angle`.
+    pub fn path(&self) -> String {
+        format!("{}.{}", self.block.name(), self.key)
+    }
+
+    /// The column of tables that holds it: `indenter_half_angle_rad`; `material` of whole materials.
     pub fn column(&self) -> String {
+        if self.is_whole() {
+            return self.block.name().to_owned();
+        }
         let key = self.key.replace(['.', '['], "_").replace(']', "");
         let name = format!("{}_{key}", self.block.name());
         match self.dimension {
@@ -279,11 +327,8 @@ impl Axes {
 
     /// What the first axis varies.
     pub fn varied(&self) -> Varied {
-        self.over.first().cloned().unwrap_or(Varied {
-            block: Block::Drive,
-            key: Cow::Borrowed("amplitude"),
-            dimension: None,
-        })
+        let amplitude = || Varied::number(Block::Drive, "amplitude", None);
+        self.over.first().cloned().unwrap_or_else(amplitude)
     }
 
     /// The values of the first axis, in SI units, as often as there are conditions.
@@ -300,6 +345,12 @@ impl Axes {
             values.dedup();
         }
         values
+    }
+
+    /// What whole blocks of a kind vary over, with the place of the axis.
+    pub fn whole(&self, block: Block) -> Option<(usize, &Varied)> {
+        let mut all = self.over.iter().enumerate();
+        all.find(|(_, varied)| varied.block == block && varied.is_whole())
     }
 
     /// The numbers that have a column of their own in tables, each with the place of its axis.

@@ -106,6 +106,29 @@ impl SweepPlan {
         }
     }
 
+    /// The blocks of a list, each by its name and in the first condition that has it; without a list what the plan has itself.
+    pub fn each_of(&self, block: Block) -> Vec<(Option<&str>, Condition)> {
+        let listed = (self.axes.as_ref()).and_then(|axes| Some((axes, axes.whole(block)?)));
+        let Some((axes, (axis, varied))) = listed else {
+            return vec![(None, self.condition())];
+        };
+        let names = varied.names.iter().enumerate();
+        let first = names.filter_map(|(place, name)| {
+            let mut conditions = axes.conditions.iter();
+            let first = conditions.find(|c| c.values.get(axis) == Some(place as f64));
+            Some((Some(name.as_str()), first?.clone()))
+        });
+        first.collect()
+    }
+
+    /// The indenter under the condition of these values.
+    pub fn indenter_under(&self, values: &AxisValues) -> &dyn Indenter {
+        let conditions = self.axes.iter().flat_map(|axes| &axes.conditions);
+        let mut of_values = conditions.filter(|condition| condition.values == *values);
+        let condition = of_values.next();
+        condition.map_or(&*self.indenter, |condition| &*condition.indenter)
+    }
+
     /// How many cases there are.
     pub fn count(&self) -> usize {
         let conditions = self.axes.as_ref().map_or(1, |axes| axes.conditions.len());

@@ -10,7 +10,7 @@ use crate::indenter::{Indenter, Parameter, Value};
 use crate::material::{Compressibility, Material, MaterialFunction, Relaxation, RelaxationBranch};
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::without_figures;
-use crate::sweep::plan::{Axes, CyclePlan, SolverPlan, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, Block, Condition, CyclePlan, SolverPlan, SweepPlan, Varied};
 
 /// The plan as the text of a sweep file.
 pub fn resolved_text(plan: &SweepPlan) -> String {
@@ -30,20 +30,29 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         figures,
     } = plan;
     let given = axes.as_ref().map(|axes| &axes.given_blocks);
+    let is_listed = |block| {
+        axes.as_ref()
+            .is_some_and(|axes| axes.whole(block).is_some())
+    };
     let given_material = given.and_then(|given| given.material.as_deref());
-    let mut material = match (given_material, axes) {
-        (Some(block), _) => block.to_owned(),
-        (None, Some(axes)) if axes.over.iter().any(Varied::is_temperature) => {
-            material_text_over(axes)
-        }
-        _ => material_text(material),
+    let mut blocks = match given_material {
+        _ if is_listed(Block::Material) => String::new(),
+        Some(block) => block.to_owned(),
+        None => material_of(
+            material,
+            axes.iter().flat_map(|axes| &axes.conditions),
+            axes,
+        ),
     };
-    material.push_str(&layer.map_or(String::new(), |layer| layer.text()));
-    let counterbody = match given.and_then(|given| given.counterbody.as_deref()) {
-        Some(block) => Some(block.to_owned()),
-        None => plan.material.counterbody().map(counterbody_text),
-    };
-    let mut text = opening_text(title, &material, indenter.as_ref(), counterbody);
+    blocks.push_str(&layer.map_or(String::new(), |layer| layer.text()));
+    if !is_listed(Block::Indenter) {
+        let counterbody = match given.and_then(|given| given.counterbody.as_deref()) {
+            Some(block) => Some(block.to_owned()),
+            None => material.counterbody().map(counterbody_text),
+        };
+        blocks.push_str(&indenter_text(indenter.as_ref(), counterbody));
+    }
+    let mut text = opening_text(title, &blocks);
     let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
     let mut line = |content: &str| {
         text.push_str(content);
@@ -54,14 +63,20 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         line(adhesion.text().trim_end());
     }
     line("\n[sweep]");
-    for (k, varied) in axes.iter().flat_map(|axes| axes.over.iter().enumerate()) {
+    let over = || axes.iter().flat_map(|axes| axes.over.iter().enumerate());
+    for (k, varied) in over().filter(|(_, varied)| !varied.is_whole()) {
         let number = |value: f64| match varied.dimension {
             Some(dimension) => quantity(value, dimension),
             None => format!("{value:?}"),
         };
         let values = axes.as_ref().map_or(Vec::new(), |axes| axes.values_of(k));
         let values: Vec<String> = values.into_iter().map(number).collect();
-        line(&format!("{} = [{}]", varied.path(), values.join(", ")));
+        // Beside a list of blocks the key would be one of a table in its place.
+        let path = match varied.is_nested() || is_listed(varied.block) {
+            true => format!("\"{}\"", varied.path()),
+            false => varied.path(),
+        };
+        line(&format!("{path} = [{}]", values.join(", ")));
     }
     if axes.as_ref().is_some_and(|axes| axes.pairs) {
         line("pairs = true");
@@ -77,6 +92,9 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         ));
     }
     line("]\n");
+    for (k, varied) in over() {
+        text.push_str(&listed_text(plan, k, varied));
+    }
     text.push_str(&cycle_text(cycle));
     text.push('\n');
     text.push_str(&solver_text(solver, indenter.as_ref()));
@@ -125,14 +143,67 @@ pub(crate) fn counterbody_text(material: &Material) -> String {
     material_text(material).replace("[material", "[indenter.material")
 }
 
-/// What sweeps and scenarios have in common at their beginning: title, material, indenter, and the block of what that is made of.
-pub(crate) fn opening_text(
-    title: &str,
-    material: &str,
-    indenter: &dyn Indenter,
-    counterbody: Option<String>,
+/// The material of a block under these conditions: at each temperature, where that varies.
+fn material_of<'a>(
+    own: &Material,
+    conditions: impl Iterator<Item = &'a Condition>,
+    axes: &Option<Axes>,
 ) -> String {
-    let mut text = format!("title = {}\n\n{material}", toml_string(title));
+    let mut over = axes.iter().flat_map(|axes| &axes.over);
+    match over.any(Varied::is_temperature) {
+        true => material_text_over(conditions),
+        false => material_text(own),
+    }
+}
+
+/// The blocks of a list, each under its name; nothing of an axis over a number.
+fn listed_text(plan: &SweepPlan, axis: usize, varied: &Varied) -> String {
+    let conditions = plan.conditions();
+    let mut text = String::new();
+    for (place, name) in varied.names.iter().enumerate() {
+        let is_meant = |c: &&Condition| c.values.get(axis) == Some(place as f64);
+        let under = || conditions.iter().filter(is_meant);
+        // Pairs and combinations have every block.
+        let Some(first) = under().next() else {
+            continue;
+        };
+        let (block, name_line) = match varied.block {
+            Block::Indenter => {
+                let counterbody = first.material.counterbody().map(counterbody_text);
+                let block = indenter_text(first.indenter.as_ref(), counterbody);
+                (block, format!("name = {}\n", toml_string(name)))
+            }
+            _ => (
+                material_of(&first.material, under(), &plan.axes),
+                String::new(),
+            ),
+        };
+        let own = varied.block.name();
+        for (k, line) in block.trim_start().lines().enumerate() {
+            let line = match k {
+                0 => format!("[[sweep.{own}]]\n{name_line}"),
+                _ if line.starts_with('[') => line.replacen(own, &format!("sweep.{own}"), 1) + "\n",
+                _ => format!("{line}\n"),
+            };
+            text.push_str(&line);
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// What sweeps and scenarios have in common at their beginning: title, and the blocks of material and indenter.
+pub(crate) fn opening_text(title: &str, blocks: &str) -> String {
+    let title = toml_string(title);
+    match blocks.trim_start() {
+        "" => format!("title = {title}\n"),
+        blocks => format!("title = {title}\n\n{blocks}"),
+    }
+}
+
+/// The `[indenter]` block and that of what it is made of, with an empty line before each.
+pub(crate) fn indenter_text(indenter: &dyn Indenter, counterbody: Option<String>) -> String {
+    let mut text = String::new();
     let mut line = |content: &str| {
         text.push_str(content);
         text.push('\n');
@@ -236,10 +307,10 @@ pub fn material_text(material: &Material) -> String {
     text_of(|line| material_lines(material, line))
 }
 
-/// The same of a material at every temperature of an axis, the first of which counts where none is asked for.
-fn material_text_over(axes: &Axes) -> String {
+/// The same of a material at every temperature of these conditions, the first of which counts where none is asked for.
+fn material_text_over<'a>(conditions: impl Iterator<Item = &'a Condition>) -> String {
     let mut materials: Vec<&Material> = Vec::new();
-    for condition in &axes.conditions {
+    for condition in conditions {
         let known = |other: &&Material| other.temperature_k() == condition.material.temperature_k();
         if !materials.iter().any(known) {
             materials.push(&condition.material);

@@ -90,12 +90,10 @@ pub const FIGURES: [&str; 4] = ["history", "cycle-losses", "profiles", "pressure
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
     let layer = plan.layer.map_or(String::new(), |layer| layer.text());
-    let mut text = resolved::opening_text(
-        &plan.title,
-        &(plan.material.text() + &layer),
-        plan.indenter.as_ref(),
-        plan.material.counterbody().map(resolved::counterbody_text),
-    );
+    let counterbody = plan.material.counterbody().map(resolved::counterbody_text);
+    let indenter = resolved::indenter_text(plan.indenter.as_ref(), counterbody);
+    let blocks = plan.material.text() + &layer + &indenter;
+    let mut text = resolved::opening_text(&plan.title, &blocks);
     text.push_str(&history_text(&plan.drive));
     text.extend(plan.adhesion.map(|adhesion| adhesion.text()));
     if let Some(step_s) = plan.step_s {

@@ -4,8 +4,8 @@
 use crate::drive::Control;
 use crate::indenter::Indenter;
 use crate::material::{Material, ModulusKind};
-use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::plan::{SweepPlan, Varied};
 
 /// The elastic contact at the instantaneous compliance, under the mean load (or approach) of a sweep or the largest of a
 /// history, and the time scale of the body.
@@ -28,6 +28,8 @@ pub enum NoScale {
     Shape(&'static str),
     #[error("the body is a layer, on which the elastic contact has no closed form")]
     Layer,
+    #[error("the materials or indenters of a list have each another elastic contact")]
+    Several,
     #[error("the mean approach is not above zero, and has no elastic contact")]
     NoContact,
     #[error("the material is evaluated from its samples, and has no branches to take a time from")]
@@ -48,6 +50,13 @@ impl ElasticScale {
     pub fn of_sweep(plan: &SweepPlan) -> Result<Self, NoScale> {
         if plan.layer.is_some() {
             return Err(NoScale::Layer);
+        }
+        if plan
+            .axes
+            .as_ref()
+            .is_some_and(|axes| axes.over.iter().any(Varied::is_whole))
+        {
+            return Err(NoScale::Several);
         }
         let drive = &plan.drive;
         Self::new(

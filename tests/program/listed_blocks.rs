@@ -1,0 +1,283 @@
+//! Several materials or indenters by name in one sweep: the cases are those of sweeps of their own, to the last bit.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::sync::atomic::AtomicBool;
+
+use crate::program::{program, write};
+use contact_dma::input::diagnostic::Styling;
+use contact_dma::input::document::Document;
+use contact_dma::input::sweep_file;
+use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::plan::resolved::resolved_text;
+use contact_dma::sweep::plan::{EngineKind, SweepPlan};
+use contact_dma::sweep::record::CaseResult;
+use tempfile::TempDir;
+
+/// What all sweeps of this file have in common; `[sweep]` is open at its end.
+const COMMON: &str = r#"
+title = "several"
+
+[drive]
+mean = "1 N"
+amplitude = "0.5 N"
+
+[cycle]
+steps = 32
+
+[solver]
+springs = 48
+cells = 24
+
+[sweep]
+angular_frequency = ["0.3 rad/s", "3 rad/s"]
+"#;
+
+/// Materials by name: a header for each key, `HEAD` being where the block stands.
+const MATERIALS: [(&str, &str); 3] = [
+    ("pmma", "library = \"pmma\"\n"),
+    (
+        "dry, \"as made\"",
+        "poisson_ratio = 0.4\n[HEAD.zener]\nspring = \"1 GPa\"\nkelvin_spring = \"0.5 GPa\"\ntime = \"1 s\"\n",
+    ),
+    (
+        "warm",
+        "poisson_ratio = 0.4\ntemperature = \"20 °C\"\n[[HEAD.isotherm]]\ntemperature = \"20 °C\"\nwlf = [8.86, 101.6]\n\
+         modulus = \"shear\"\nequilibrium = \"1 MPa\"\nbranches = [{ modulus = \"9 MPa\", time = \"1 s\" }]\n",
+    ),
+];
+
+const INDENTERS: [(&str, &str); 3] = [
+    ("ball", "shape = \"sphere\"\nradius = \"10 mm\"\n"),
+    (
+        "glass cone",
+        "shape = \"cone\"\nhalf_angle = \"80 deg\"\n[HEAD.material]\nlibrary = \"glass\"\n",
+    ),
+    (
+        "lens",
+        "shape = \"ellipsoid\"\nradius_x = \"10 mm\"\nradius_y = \"20 mm\"\n",
+    ),
+];
+
+/// A block by itself.
+fn alone(block: &str, (_, text): (&str, &str)) -> String {
+    format!("[{block}]\n{}", text.replace("HEAD", block))
+}
+
+/// Blocks in a list.
+fn listed(block: &str, all: &[(&str, &str)]) -> String {
+    let one = |(name, text): &(&str, &str)| {
+        // One of the library has a name already.
+        let name = match text.starts_with("library") {
+            true => String::new(),
+            false => format!("name = '{name}'\n"),
+        };
+        let text = text.replace("HEAD", &format!("sweep.{block}"));
+        format!("[[sweep.{block}]]\n{name}{text}")
+    };
+    all.iter().map(one).collect()
+}
+
+fn read(text: &str) -> Result<SweepPlan, String> {
+    let document = Document::parse("several.toml", text).unwrap();
+    sweep_file::plan(&document).map_err(|why| why.render(Styling::Plain))
+}
+
+/// Results of every case, with their error bars.
+fn results(plan: SweepPlan) -> Vec<CaseResult> {
+    let setup = Setup::new(plan).unwrap();
+    let cases = setup.plan().cases().into_iter();
+    let result = |case| {
+        let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
+        let result = record.result.unwrap();
+        assert!(result.errors.is_some());
+        result
+    };
+    cases.map(result).collect()
+}
+
+/// Holds a sweep to the separate ones that it is made of, and so what its resolved text gives.
+fn assert_is_all_of(text: &str, separate: &[String]) {
+    let expected: Vec<CaseResult> = (separate.iter())
+        .flat_map(|text| results(read(text).unwrap()))
+        .collect();
+    let plan = read(text).unwrap();
+    let resolved = resolved_text(&plan);
+    assert!(results(plan) == expected, "{text}");
+    let again = read(&resolved).unwrap();
+    assert_eq!(resolved_text(&again), resolved);
+    assert!(results(again) == expected, "{resolved}");
+}
+
+#[test]
+fn the_cases_are_those_of_every_material_under_every_indenter() {
+    let indenters = &INDENTERS[..2];
+    let text = format!(
+        "{COMMON}{}{}",
+        listed("material", &MATERIALS),
+        listed("indenter", indenters)
+    );
+    let separate = MATERIALS.iter().flat_map(|material| {
+        let under = |indenter: &(&str, &str)| {
+            let (material, indenter) = (alone("material", *material), alone("indenter", *indenter));
+            format!("{COMMON}{material}{indenter}")
+        };
+        indenters.iter().map(under)
+    });
+    assert_is_all_of(&text, &separate.collect::<Vec<_>>());
+}
+
+#[test]
+fn numbers_vary_beside_a_list_all_combined_or_in_pairs() {
+    let sphere = alone("indenter", INDENTERS[0]);
+    let warm = [MATERIALS[2], ("warmer", MATERIALS[2].1)];
+    let at = |celsius: &str| {
+        let material = alone("material", warm[0]);
+        let other = format!("temperature = \"{celsius} °C\"\n[[material.");
+        material.replacen("temperature = \"20 °C\"\n[[material.", &other, 1)
+    };
+    let with_sphere = |material: String| format!("{COMMON}{material}{sphere}");
+    let list = listed("material", &warm);
+    let temperatures = "\"material.temperature\" = [\"40 °C\", \"25 °C\"]\n";
+    let separate = ["25", "40", "25", "40"].map(at).map(with_sphere);
+    assert_is_all_of(&format!("{COMMON}{temperatures}{list}{sphere}"), &separate);
+    // Pairs are in the order of their numbers.
+    let balls = [
+        ("small", INDENTERS[0].1),
+        ("large", "shape = \"sphere\"\nradius = \"20 mm\"\n"),
+    ];
+    let pairs = format!(
+        "{COMMON}pairs = true\n\"drive.amplitude\" = [0.7, 0.2]\n{}{}",
+        alone("material", MATERIALS[0]),
+        listed("indenter", &balls)
+    );
+    let under = |(amplitude, ball): (&str, (&str, &str))| {
+        let common = COMMON.replace("0.5 N", amplitude);
+        format!(
+            "{common}{}{}",
+            alone("material", MATERIALS[0]),
+            alone("indenter", ball)
+        )
+    };
+    assert_is_all_of(
+        &pairs,
+        &[("0.2 N", balls[1]), ("0.7 N", balls[0])].map(under),
+    );
+    let plan = read(&pairs).unwrap();
+    let names = plan.axes.unwrap().over[0].names.clone();
+    assert_eq!(names.to_vec(), ["large", "small"]);
+}
+
+#[test]
+fn where_one_indenter_needs_cells_all_are_on_cells() {
+    let pmma = alone("material", MATERIALS[0]);
+    let lenses = [INDENTERS[0], INDENTERS[2]];
+    let text = format!("{COMMON}{pmma}{}", listed("indenter", &lenses));
+    assert_eq!(read(&text).unwrap().solver.engine, EngineKind::HalfSpace);
+    let on_cells = COMMON.replace("[solver]", "[solver]\nengine = \"half-space\"");
+    let under = |indenter| format!("{on_cells}{pmma}{}", alone("indenter", indenter));
+    assert_is_all_of(&text, &lenses.map(under));
+}
+
+/// Runs a sweep file into a folder of this name.
+fn run(folder: &TempDir, name: &str, text: &str) {
+    let file = write(folder, &format!("{name}.toml"), text);
+    let mut command = program();
+    command.args(["sweep", &file, "--quiet", "--out"]);
+    command.arg(folder.path().join(name)).assert().success();
+}
+
+#[test]
+fn tables_figures_and_comparisons_go_by_the_names() {
+    let folder = TempDir::new().unwrap();
+    let sphere = alone("indenter", INDENTERS[0]);
+    let [pmma, dry, _] = MATERIALS;
+    run(
+        &folder,
+        "one",
+        &format!("{COMMON}{sphere}{}", listed("material", &[pmma, dry])),
+    );
+    run(
+        &folder,
+        "other",
+        &format!("{COMMON}{sphere}{}", listed("material", &[dry, pmma])),
+    );
+    let path = |file: &str| folder.path().join(file);
+    let mut table = csv::Reader::from_path(path("one/sweep.csv")).unwrap();
+    let column = table
+        .headers()
+        .unwrap()
+        .iter()
+        .position(|name| name == "material");
+    let rows = table
+        .records()
+        .map(|row| row.unwrap()[column.unwrap()].to_owned());
+    assert_eq!(rows.collect::<Vec<_>>(), [pmma.0, pmma.0, dry.0, dry.0]);
+    let caption = fs::read_to_string(path("one/energy-loss.caption.txt")).unwrap();
+    assert!(caption.contains("2 curves, one per material"), "{caption}");
+    // Names have no order to draw along.
+    assert!(!path("one/loss-map.svg").exists() && !path("one/peaks.svg").exists());
+    let mut compare = program();
+    compare.arg("compare").args([path("one"), path("other")]);
+    let same = compare.assert().success();
+    let told = String::from_utf8_lossy(&same.get_output().stdout).into_owned();
+    assert!(told.contains("4 cases in both results"), "{told}");
+    run(
+        &folder,
+        "less",
+        &format!("{COMMON}{sphere}{}", listed("material", &[dry])),
+    );
+    let mut compare = program();
+    compare.arg("compare").args([path("one"), path("less")]);
+    let differs = compare.assert().code(4);
+    let told = String::from_utf8_lossy(&differs.get_output().stdout).into_owned();
+    assert!(told.contains("(pmma, mean 1, amplitude 0.5)"), "{told}");
+}
+
+#[test]
+fn what_a_list_lacks_is_told_where_it_stands() {
+    let sphere = alone("indenter", INDENTERS[0]);
+    let told = |rest: &str| read(&format!("{COMMON}{rest}")).unwrap_err();
+    for (rest, message) in [
+        (
+            "[[sweep.material]]\npoisson_ratio = 0.3\n[sweep.material.elastic]\nmodulus = 1e9\n",
+            "`sweep.material[0]` needs a `name`",
+        ),
+        (
+            "[[sweep.material]]\nlibrary = \"pmma\"\n[[sweep.material]]\nlibrary = \"PMMA\"\n",
+            "two blocks of `sweep.material` are called `pmma`",
+        ),
+        (
+            "[[sweep.material]]\nlibrary = \"pmma\"\n[material]\nlibrary = \"pmma\"\n",
+            "`[material]` beside `[[sweep.material]]`",
+        ),
+        (
+            "material = [\"pmma\", \"glass\"]\n",
+            "write `{ library = \"glass\" }`",
+        ),
+        ("material = []\n", "`sweep.material` is empty"),
+        (
+            "\"material.zener.time\" = [1, 2]\n[[sweep.material]]\nlibrary = \"pmma\"\n",
+            "`material.zener.time` cannot be an axis beside a list of blocks",
+        ),
+        (
+            "[[sweep.material]]\nname = \" pmma\"\nlibrary = \"pmma\"\n",
+            "`sweep.material[0].name` must have 1 to 60 characters",
+        ),
+        (
+            "[[sweep.material]]\nlibrary = \"pmmma\"\n[[sweep.material]]\nname = \"b\"\nlibrary = \"pma\"\n",
+            "no material \"pma\" in the library",
+        ),
+    ] {
+        let told = told(&format!("{rest}{sphere}"));
+        assert!(told.contains(message), "{told}");
+        // A list with mistakes is no block that is missing.
+        assert!(!told.contains("missing table"), "{told}");
+    }
+    let rough = "shape = \"rough\"\ncells = 16\nspacing = \"1 um\"\nhurst_exponent = 0.8\nrms_height = \"10 nm\"\nseed = 1\n\
+                 roll_off_wavelength = \"10 um\"\ncut_off_wavelength = \"4 um\"\n";
+    let indenters = listed("indenter", &[INDENTERS[0], ("rough", rough)]);
+    let told = told(&format!("{}{indenters}", alone("material", MATERIALS[0])));
+    assert!(told.contains("must be on the same cells"), "{told}");
+}
