@@ -43,11 +43,8 @@ fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
             } else {
                 Method::Direct
             },
-            tolerance: 1e-4,
-            max_cycles: 1000,
-            at_cycle: None,
             error_bars: false,
-            accuracy: None,
+            ..CyclePlan::DEFAULT
         },
         solver: SolverPlan {
             engine: EngineKind::HalfSpace,
