@@ -5,6 +5,7 @@
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use crate::program::{pmma_sweep, program};
 use contact_dma::identify;
@@ -81,9 +82,18 @@ fn the_fuzzer_knows_every_key_and_word() {
     );
 }
 
-fn validator(kind: FileKind) -> jsonschema::Validator {
-    let schema = serde_json::from_str(&schema::text(kind)).unwrap();
-    jsonschema::draft202012::new(&schema).unwrap()
+/// The validator of a kind of file; to make one takes longer than what it then has to do.
+fn validator(kind: FileKind) -> &'static jsonschema::Validator {
+    static MADE: OnceLock<Vec<(FileKind, jsonschema::Validator)>> = OnceLock::new();
+    let made = MADE.get_or_init(|| {
+        let make = |(_, kind)| {
+            let schema = serde_json::from_str(&schema::text(kind)).unwrap();
+            (kind, jsonschema::draft202012::new(&schema).unwrap())
+        };
+        FileKind::NAMES.map(make).into()
+    });
+    let (_, validator) = made.iter().find(|(known, _)| *known == kind).unwrap();
+    validator
 }
 
 fn json(text: &str) -> serde_json::Value {

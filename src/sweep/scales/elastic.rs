@@ -28,7 +28,7 @@ pub enum NoScale {
     Shape(&'static str),
     #[error("the body is a layer, on which the elastic contact has no closed form")]
     Layer,
-    #[error("the materials or indenters of a list have each another elastic contact")]
+    #[error("each material or indenter of a list has an elastic contact of its own")]
     Several,
     #[error("the mean approach is not above zero, and has no elastic contact")]
     NoContact,
