@@ -53,6 +53,33 @@ fn column(out: &Path, name: &str) -> Vec<f64> {
 }
 
 #[test]
+fn page_and_pictures_stay_small_where_the_curves_have_many_cases() {
+    let folder = TempDir::new().unwrap();
+    let many = LARGE
+        .replace("1e-3 rad/s", "1e-4 rad/s")
+        .replace("points = 20", "points = 800")
+        .replace("points = 11", "points = 13");
+    let file = write(&folder, "many.toml", &pmma_sweep(&many));
+    let out = folder.path().join("out");
+    let mut command = program();
+    command.args(["sweep", &file, "--quiet", "--out"]).arg(&out);
+    command.assert().success();
+    let bytes = |name: &str| fs::metadata(out.join(name)).unwrap().len();
+    assert!(bytes("index.html") < 3_000_000, "{}", bytes("index.html"));
+    // A symbol or a dot for every case takes ten times as much.
+    for name in ["energy-loss.svg", "loss-map.svg", "harmonic-2-map.svg"] {
+        assert!(bytes(name) < 500_000, "{name}: {}", bytes(name));
+    }
+    let losses = column(&out, "energy_loss_j");
+    assert_eq!(losses.len(), 13 * 800);
+    // What is told of the cases is told of all, whatever the page shows of them.
+    let page = fs::read_to_string(out.join("index.html")).unwrap();
+    assert!(page.contains("of 10400 cases, ω = "));
+    let told = fs::read_to_string(out.join("energy-loss.caption.txt")).unwrap();
+    assert!(told.contains("symbols at some"), "{told}");
+}
+
+#[test]
 fn a_large_sweep_leaves_few_files_and_all_its_cycles_where_they_are_asked_for() {
     let folder = TempDir::new().unwrap();
     let file = write(&folder, "large.toml", &pmma_sweep(LARGE));

@@ -41,11 +41,7 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
     // A point on the frame must not be lost to rounding.
     let reach = frame.grown(0.01);
     let mut curve = Curve::default();
-    let points = match series.spaced {
-        true => &spaced(&series.points, layout),
-        false => &series.points,
-    };
-    for run in points.split(Option::is_none) {
+    for run in series.points.split(Option::is_none) {
         let line: Vec<Point> = run
             .iter()
             .flatten()
@@ -54,10 +50,10 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
         if series.line.is_some() {
             curve.parts.extend(clip(&line, &reach));
         }
-        if series.marker.is_some() || (series.line.is_some() && line.len() == 1) {
-            curve
-                .points
-                .extend(line.iter().copied().filter(|&point| reach.contains(point)));
+        // A point alone has no line.
+        if series.marker.is_none() && series.line.is_some() && line.len() == 1 {
+            let there = line.iter().copied().filter(|&point| reach.contains(point));
+            curve.points.extend(there);
         }
         if series.closed {
             curve.fills.push(frame.clip_polygon(&line));
@@ -72,8 +68,18 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
             curve.fills.push(frame.clip_polygon(&outline));
         }
     }
+    let marked = match series.spaced {
+        true => &spaced(&series.points, layout),
+        false => &series.points,
+    };
+    if series.marker.is_some() {
+        let markers = marked.iter().flatten().map(|&point| layout.px(point));
+        curve
+            .points
+            .extend(markers.filter(|&point| reach.contains(point)));
+    }
     if let Some(errors) = &series.error {
-        let bars = points
+        let bars = marked
             .iter()
             .zip(errors)
             .filter_map(|(point, error)| {

@@ -209,7 +209,7 @@ pub struct Series {
     pub closed: bool,
     /// Whether the area is filled with the full colour, as in a stack of areas, or with a tint that shows what lies behind.
     pub solid_fill: bool,
-    /// Whether markers that crowd are left out, for a series without a line: see [`Series::spaced`].
+    /// Whether markers that crowd are left out: see [`Series::spaced`].
     pub spaced: bool,
     /// Symmetric error bars in units of y, one entry per entry of `points`.
     pub error: Option<Vec<Option<f64>>>,
@@ -300,7 +300,7 @@ impl Series {
     }
 
     /// Leaves out markers, and their error bars, that stand within a few marker widths of the one before, so that they do not hide
-    /// a line they are compared with.
+    /// a line they are compared with; a line of the series itself goes through all points.
     #[must_use]
     pub fn spaced(mut self) -> Self {
         self.spaced = true;

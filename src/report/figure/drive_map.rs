@@ -14,6 +14,8 @@ const HEIGHT_PX: u32 = 600;
 /// Cells that are coloured.
 const COLUMNS: usize = 128;
 const ROWS: usize = 96;
+/// Cases that are dots, at most; more would hide the colours.
+const DOTS: usize = 6000;
 /// Values that vary by more than this have colours on a logarithmic scale.
 const WIDE_COLOURS: f64 = 30.0;
 
@@ -90,7 +92,10 @@ pub fn map(
         value_range: None,
         value_scale,
         contours: true,
-        points: points.collect(),
+        points: match records().count() > DOTS {
+            true => Vec::new(),
+            false => points.collect(),
+        },
         rings: mapped
             .rings
             .iter()
@@ -99,6 +104,15 @@ pub fn map(
         width_px: WIDTH_PX,
         shape: MapShape::HeightPx(HEIGHT_PX),
     })
+}
+
+/// What a map shows of these cases: dots, where they have room.
+pub fn words(curves: &[Curve<'_>]) -> &'static str {
+    let cases: usize = curves.iter().map(|curve| curve.records.len()).sum();
+    match cases > DOTS {
+        true => "Coloured linearly between the computed cases",
+        false => "Dots: computed cases, coloured linearly between",
+    }
 }
 
 fn scale((least, largest): (f64, f64), wide: f64) -> Scale {

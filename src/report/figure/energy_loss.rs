@@ -14,6 +14,8 @@ use crate::sweep::search::run::Outcome;
 
 /// Curves in one figure; more cannot be told apart.
 const CURVES: usize = 8;
+/// Points of a curve that each have their symbol; more would cover its line.
+const SYMBOLS: usize = 200;
 /// Peaks further apart than this need a logarithmic axis to be seen both.
 const WIDE: f64 = 20.0;
 
@@ -117,6 +119,10 @@ fn of_curve(curve: &Curve<'_>, (to_omega, factor): (f64, f64), log: bool) -> Ser
         .iter()
         .map(|record| Some(factor * record.energy_loss_error_j()?));
     let series = Series::line(points).marker(Marker::Disc);
+    let series = match curve.records.len() > SYMBOLS {
+        true => series.spaced(),
+        false => series,
+    };
     if curve
         .records
         .iter()
@@ -159,7 +165,10 @@ fn caption(plan: &SweepPlan, outcome: &Outcome, shown: &[&Curve<'_>], units: &Un
     }
     let rings = (!outcome.peaks.is_empty())
         .then(|| "Rings: peaks, located between the samples by further computations.".to_owned());
+    let crowded = shown.iter().any(|curve| curve.records.len() > SYMBOLS);
+    let symbols = crowded.then(|| "Lines through all cases, symbols at some.".to_owned());
     let parts = [
+        symbols,
         rings,
         caption::error_bars(plan, outcome),
         caption::material_band(plan, outcome),

@@ -45,6 +45,9 @@ fn caption(axis: &Axes, curves: &[Curve<'_>], units: &Units) -> Caption {
     let values = values.filter_map(|record| second(record));
     let largest = scientific(100.0 * largest(values), 3);
     Caption::new(title)
-        .say("Dots: computed cases, coloured linearly between; lines: the values labelled at the colour bar.")
+        .say(format!(
+            "{}; lines: the values labelled at the colour bar.",
+            drive_map::words(curves)
+        ))
         .say(format!("Largest computed: {largest} %."))
 }

@@ -46,12 +46,13 @@ pub fn figure(
     Drawn::Figure(Figure {
         name: "loss-map",
         picture: map.into(),
-        caption: caption(outcome, axis, units),
+        caption: caption(outcome, axis, curves, units),
         data,
     })
 }
 
-fn caption(outcome: &Outcome, axis: &Axes, units: &Units) -> Caption {
+fn caption(outcome: &Outcome, axis: &Axes, curves: &[Curve<'_>], units: &Units) -> Caption {
+    let cases = drive_map::words(curves);
     let (over, varied) = (units.frequency_words(), axis.varied().words());
     let title = format!("Energy loss per cycle over {over} and {varied}");
     let losses = outcome.records.iter().filter_map(|record| {
@@ -65,6 +66,8 @@ fn caption(outcome: &Outcome, axis: &Axes, units: &Units) -> Caption {
             format!("Largest computed loss: {loss}.")
         });
     Caption::new(title)
-        .say("Dots: computed cases, coloured linearly between; lines: the values labelled at the colour bar; rings: peaks over frequency.")
+        .say(format!(
+            "{cases}; lines: the values labelled at the colour bar; rings: peaks over frequency."
+        ))
         .say_all(largest.into_iter().chain(caption::absent(outcome)))
 }

@@ -50,16 +50,14 @@ pub fn sweep(
     pictures: &Pictures,
     hash: &str,
 ) -> Result<String, ReportError> {
-    let all = outcome.records.len();
     let (shown, table) = thinned::of_page(plan, outcome)?;
-    let outcome = shown.as_ref();
     let csv = String::from_utf8_lossy(&table);
-    let data = sweep_data::SweepData::new(plan, outcome, &csv);
+    let data = sweep_data::SweepData::new(plan, &shown, &csv);
     let text = resolved::resolved_text(plan);
     let frame = Frame {
         title: &plan.title,
         asked: question::line(plan),
-        main: sweep::sections(plan, (outcome, all), pictures),
+        main: sweep::sections(plan, (outcome, &shown), pictures),
         input: Input {
             hashes: vec![("exactly this input", hash.to_owned())],
             files: vec![InputFile {

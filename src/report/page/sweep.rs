@@ -10,10 +10,10 @@ use crate::sweep::search::run::Outcome;
 
 const NOTHING: &str = "No case has a result: there is nothing to draw.";
 
-/// Of the cases that the page shows, out of so many.
+/// Of a result, and of what of its cases the page shows.
 pub(super) fn sections(
     plan: &SweepPlan,
-    (outcome, all): (&Outcome, usize),
+    (outcome, shown): (&Outcome, &Outcome),
     pictures: &Pictures,
 ) -> Markup {
     html! {
@@ -28,7 +28,7 @@ pub(super) fn sections(
             }
             div id="branches" class="plot tall" {}
         }
-        (all_frequencies(plan, outcome, all))
+        (all_frequencies(plan, shown, outcome.records.len()))
         section aria-labelledby="asked-heading" {
             h2 id="asked-heading" { "What was asked" }
             (question::sweep(plan))

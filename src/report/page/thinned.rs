@@ -1,21 +1,22 @@
 //! What of a large sweep its page shows, so that the page stays small whatever the sweep: all curves or some of them, evenly spread,
-//! with the columns it draws in as many digits as can be read; and the cycles of a few cases of each.
+//! all their cases or some, with the columns it draws in as many digits as can be read; and the cycles of a few cases of each.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
 
 use super::compact::digits;
 use crate::report::ReportError;
-use crate::report::figure::curve::{Curve, curves, evenly, largest};
+use crate::report::figure::curve::{Curve, curves, evenly, largest, with_the_largest};
 use crate::report::figure::of_sweep::cycles_of;
 use crate::report::figure::units::Units;
 use crate::report::quantities;
 use crate::report::table::{Cell, csv};
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseRecord;
+use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
 
-/// Bytes of the table of cases, at most, and curves with cycles on the page.
+/// Bytes of the table of cases, half as many again at most, and curves with cycles on the page.
 const TABLE_BYTES: usize = 1_200_000;
 const CURVES_WITH_CYCLES: usize = 12;
 /// Digits of a value, and of an error or what else is only looked at.
@@ -64,18 +65,40 @@ pub(super) fn of_page<'a>(
             chosen.insert(k);
         }
     }
+    // Those with cycles may be more curves than the table has room for.
+    let most = 3 * rows / (2 * chosen.len().max(1));
     let records = chosen.iter().filter_map(|k| all.get(*k));
     let records: Vec<CaseRecord> = records
-        .flat_map(|curve| curve.records.iter().map(|record| (*record).clone()))
+        .flat_map(|curve| of_curve(curve, most, &with_cycles))
+        .cloned()
         .collect();
     let table = small_table(plan, branches, &records.iter().collect::<Vec<_>>());
+    let is_shown = |peak: &&Peak| {
+        let mut curves = chosen.iter().filter_map(|k| all.get(*k));
+        curves.any(|curve| peak.is_of(&curve.condition))
+    };
     let thinned = Outcome {
         records,
-        peaks: outcome.peaks.clone(),
+        peaks: outcome.peaks.iter().filter(is_shown).copied().collect(),
         peak_problems: outcome.peak_problems.clone(),
         interrupted: outcome.interrupted,
     };
     Ok((Cow::Owned(thinned), table))
+}
+
+/// So many cases of a curve or all, evenly spread, those of the largest loss and with cycles among them.
+fn of_curve<'a>(
+    curve: &Curve<'a>,
+    most: usize,
+    with_cycles: &BTreeSet<usize>,
+) -> Vec<&'a CaseRecord> {
+    let loss = |record: &CaseRecord| record.energy_loss_j().unwrap_or(f64::NEG_INFINITY);
+    let losses: Vec<f64> = curve.records.iter().map(|record| loss(record)).collect();
+    let kept: BTreeSet<usize> = with_the_largest(&losses, most).into_iter().collect();
+    let records = curve.records.iter().enumerate();
+    let kept =
+        records.filter(|(k, record)| kept.contains(k) || with_cycles.contains(&record.index));
+    kept.map(|(_, record)| *record).collect()
 }
 
 /// Some cases that stand for all.
