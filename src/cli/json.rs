@@ -99,6 +99,7 @@ pub(super) fn plan(setup: &Setup, cost: &Cost) -> Value {
         "disk_bytes": cost.disk_bytes,
         "time_per_step_s": cost.step_s,
         "memory_per_thread_bytes": cost.memory_bytes,
+        "memory_of_results_bytes": cost.results_bytes,
         "useful_shards": cost.shards(),
     })
 }

@@ -87,7 +87,7 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         "\n{} on {} ({} engine), {} steps per cycle.\n\
          Time: about {} on one thread, about {} on {processors}, peaks and figures included{refined};\n\
          from cases tried here, {} per step.\n\
-         Memory: about {memory} for every thread{free}. Disk: about {}.\n\
+         Memory: about {} on {processors}{free}. Disk: about {}.\n\
          Shards: {} (below about ten minutes each, more of them gain little).\n",
         match cost.cases.len() {
             1 => "1 case".to_owned(),
@@ -99,6 +99,7 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         spoken(cost.on_threads_s(1)),
         spoken(cost.on_threads_s(processors)),
         spoken(cost.step_s),
+        megabytes(cost.on_threads_bytes(processors)),
         megabytes(cost.disk_bytes),
         cost.shards(),
     );

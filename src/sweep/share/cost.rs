@@ -18,8 +18,10 @@ pub struct Cost {
     pub peaks_s: f64,
     /// Time (s) of tables, figures and page, which is the same on any number of threads.
     pub report_s: f64,
-    /// Memory (bytes) of a case under way; every thread has one.
+    /// Memory (bytes) of the program and a case under way; every thread more has a case.
     pub memory_bytes: u64,
+    /// Memory (bytes) of the results of all cases, which are held until tables and figures are made of them.
+    pub results_bytes: u64,
     /// What the folder will take (bytes).
     pub disk_bytes: u64,
     /// Time (s) of one step of the full number of nodes, as measured.
@@ -36,12 +38,17 @@ pub struct CaseCost {
 }
 
 /// Drawing figures and page takes this long (s), and every row of their tables this much more: both measured on one machine.
-const FIGURES_S: f64 = 0.2;
+const FIGURES_S: f64 = 0.3;
 const ROW_S: f64 = 1.2e-4;
 /// What figures and page take (bytes), a row of tables, and the tables of one cycle per step.
 const FIGURES_BYTES: u64 = 6_000_000;
 const ROW_BYTES: u64 = 1_700;
 const TABLE_BYTES: u64 = 450;
+/// What a result takes in memory (bytes), with its row in tables, and a step of a cycle that is held.
+const RESULT_BYTES: u64 = 6_300;
+const STEP_BYTES: u64 = 100;
+/// What making figures and page takes (bytes), fonts and pictures.
+const DRAWING_BYTES: u64 = 18_000_000;
 /// Cases of a large sweep that have tables of their cycles.
 const TABLES_OF_LARGE: usize = 6;
 /// Cells of the grid on which steps are taken, at most: larger ones are foretold from it.
@@ -75,12 +82,16 @@ impl Cost {
             true => cases.len(),
             false => TABLES_OF_LARGE,
         };
-        let of_tables = TABLE_BYTES * (tables * plan.cycle.steps) as u64;
+        let steps_told = (tables * plan.cycle.steps) as u64;
+        let of_tables = TABLE_BYTES * steps_told;
         let of_records = cases.len() as u64 * (trial.record_bytes + ROW_BYTES);
         Ok(Self {
             peaks_s: trial::losses_of_peaks(setup) * trial.loss * mean_s,
             report_s: FIGURES_S + ROW_S * count,
             memory_bytes: setup.predicted_memory_bytes(),
+            results_bytes: RESULT_BYTES * cases.len() as u64
+                + STEP_BYTES * steps_told
+                + DRAWING_BYTES,
             disk_bytes: FIGURES_BYTES + of_tables + of_records,
             cases,
             step_s,
@@ -91,6 +102,13 @@ impl Cost {
     pub fn on_threads_s(&self, threads: usize) -> f64 {
         let threads = threads.clamp(1, self.cases.len().max(1)) as f64;
         (self.time_s() + self.peaks_s) / threads + self.report_s
+    }
+
+    /// Memory (bytes) of the whole on this number of threads.
+    pub fn on_threads_bytes(&self, threads: usize) -> u64 {
+        let more = threads.clamp(1, self.cases.len().max(1)) as u64 - 1;
+        let case = self.memory_bytes.saturating_sub(PROGRAM_BYTES);
+        self.memory_bytes + more * case + self.results_bytes
     }
 
     /// Time (s) of all cases on one thread.

@@ -13,7 +13,7 @@ use crate::sweep::store::packed_record;
 /// Trials end after this time, whole cases each.
 const LONGEST: Duration = Duration::from_millis(1500);
 /// Cases that are tried, evenly spread over the sweep.
-const CASES: usize = 9;
+const CASES: usize = 25;
 /// A case that is foretold to take longer (s) is tried on fewer cells.
 const LONG_S: f64 = 0.4;
 /// Cells on which it is then tried.
