@@ -85,18 +85,23 @@ class Material:
         return cls._of(f"Material.{call}(...)", text + _toml.table(f"material.{kind}", table), keep=keep)
 
     @classmethod
-    def library(cls, name: str, *, poisson_ratio: float | None = None) -> Material:
+    def library(
+        cls, name: str, *, poisson_ratio: float | None = None, temperature: Quantity | None = None
+    ) -> Material:
         """A material with published constants.
 
         Args:
             name: its name, such as ``"pmma"``; `contact_dma.library_materials()` lists all with their sources.
             poisson_ratio: another Poisson ratio than the published one.
+            temperature: another temperature (K) than that of the published series, for materials that have a published shift.
 
         Example:
             >>> Material.library("pmma").poisson_ratio
             0.38
+            >>> Material.library("pvb", temperature="30 °C").temperature
+            303.15
         """
-        entries = {"library": name, "poisson_ratio": poisson_ratio}
+        entries = {"library": name, "poisson_ratio": poisson_ratio, "temperature": temperature}
         return cls._of("Material.library(...)", _toml.table("material", entries))
 
     @classmethod

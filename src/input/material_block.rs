@@ -20,6 +20,7 @@ use super::material_fractional;
 use super::material_table::{self, DirectSum, TableMaterial};
 use super::{material_dynamic, material_temperature};
 use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
+use crate::material::library::LibraryEntry;
 use crate::material::sampled::Sampled;
 use crate::material::{
     Compressibility, Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, library,
@@ -108,9 +109,11 @@ pub(super) fn read_over(
                 _ => (block.table(&DYNAMIC))
                     .and_then(|table| material_dynamic::read(table, folder, problems)),
             };
-            material_temperature::read(&mut block, known, axis, &place, problems)
+            let nu = block.value(&POISSON_RATIO);
+            material_temperature::read(&mut block, known, nu, axis, &place, problems)
                 .map(|(material, each)| (material.into(), each))
         }
+        Form::Library => library(&mut block, axis, &place, problems),
         _ => {
             let body = at_one_temperature(&mut block, folder, direct_sum, problems, (form, &place));
             let none_asked = material_temperature::refuse(&mut block, axis, problems);
@@ -143,7 +146,6 @@ fn at_one_temperature(
         problems.at(place, error.to_string());
     };
     let body = match form {
-        Form::Library => library(block, problems, refused),
         Form::Elastic => block.table(&ELASTIC_BODY).and_then(|mut table| {
             let (modulus_pa, nu) = (table.value(&YOUNG), table.value(&ELASTIC_POISSON_RATIO));
             table.finish();
@@ -183,25 +185,31 @@ pub(super) fn compressibility(
     block.value(&BULK_MODULUS).map(Compressibility::BulkModulus)
 }
 
+/// A material of the library, at each temperature of an axis where it knows several.
 fn library(
     block: &mut TableReader<'_>,
+    axis: Option<&Located<Vec<f64>>>,
+    place: &Location,
     problems: &Problems,
-    refused: impl Fn(MaterialError),
-) -> Option<BodyMaterial> {
+) -> Option<(BodyMaterial, Vec<Material>)> {
+    let entry = library_entry(block, problems);
     let poisson_ratio = block.value(&LIBRARY_POISSON_RATIO);
-    let (name, poisson_ratio) = (block.read(&LIBRARY)?, poisson_ratio?);
-    let Some(entry) = library::find(&name.value) else {
-        let report = problems.at(
-            &name,
-            format!("no material \"{}\" in the library", name.value),
-        );
-        match library::suggest(&name.value) {
-            Some(near) => report.help(format!("write \"{near}\"")),
-            None => report.help("`contact-dma material list` names all of them"),
-        };
-        return None;
+    let untimed = measured(block, problems, Form::Library);
+    let refused = |error: MaterialError| {
+        problems.at(place, error.to_string());
     };
-    let material = entry.material().map_err(&refused).ok()?;
+    let (entry, poisson_ratio, _) = (entry?, poisson_ratio?, untimed?);
+    let material = entry.material().map_err(refused).ok()?;
+    let poisson_ratio = poisson_ratio.or(material.poisson_ratio());
+    if let Some(known) = material_temperature::shifting(&material) {
+        let read =
+            material_temperature::read(block, Some(known), poisson_ratio, axis, place, problems);
+        let named = |material: Material| material.named(entry.title);
+        return read.map(|(own, each)| (named(own).into(), each.into_iter().map(named).collect()));
+    }
+    if !material_temperature::refuse(block, axis, problems) {
+        return None;
+    }
     let material = match (poisson_ratio, material.relaxation()) {
         (Some(nu), Some(relaxation)) => {
             let other = Material::from_relaxation(relaxation.clone(), material.kind(), nu);
@@ -209,7 +217,24 @@ fn library(
         }
         _ => material,
     };
-    Some(material.into())
+    Some((material.into(), Vec::new()))
+}
+
+fn library_entry(
+    block: &mut TableReader<'_>,
+    problems: &Problems,
+) -> Option<&'static LibraryEntry> {
+    let name = block.read(&LIBRARY)?;
+    let entry = library::find(&name.value);
+    if entry.is_none() {
+        let unknown = format!("no material \"{}\" in the library", name.value);
+        let report = problems.at(&name, unknown);
+        match library::suggest(&name.value) {
+            Some(near) => report.help(format!("write \"{near}\"")),
+            None => report.help("`contact-dma material list` names all of them"),
+        };
+    }
+    entry
 }
 
 /// The times between which a user's own series was measured; `None` where a problem was reported.

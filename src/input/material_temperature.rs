@@ -5,8 +5,8 @@ use super::document::Located;
 use super::document::reader::TableReader;
 use super::keys::material::{
     BRANCH_MODULUS, EQUILIBRIUM, ISOTHERM_ACTIVATION_ENERGY, ISOTHERM_TEMPERATURE, ISOTHERM_WLF,
-    ISOTHERMS, MODULUS, POISSON_RATIO, RELAXATION_BRANCHES, REPLICA_EQUILIBRIUM, REPLICA_MODULI,
-    REPLICA_TIMES, REPLICAS, TEMPERATURE,
+    ISOTHERMS, MODULUS, RELAXATION_BRANCHES, REPLICA_EQUILIBRIUM, REPLICA_MODULI, REPLICA_TIMES,
+    REPLICAS, TEMPERATURE,
 };
 use super::material_block::{branches, measured_window};
 use crate::material::dynamic::shift_law::{Arrhenius, Wlf};
@@ -22,16 +22,17 @@ pub(super) trait AtTemperature {
 /// The material of a file, and those of the temperatures of an axis.
 pub(super) type OverTemperature = (Material, Vec<Material>);
 
-/// Reads temperature and Poisson ratio of `[material]`, and gives the material at this temperature and at those of an axis, where
-/// there is one; the first of these is then the material of the file.
+/// Reads the temperature of `[material]`, and gives the material at this temperature and at those of an axis, where there is one;
+/// the first of these is then the material of the file.
 pub(super) fn read(
     block: &mut TableReader<'_>,
     known: Option<Box<dyn AtTemperature>>,
+    poisson_ratio: Option<f64>,
     axis: Option<&Located<Vec<f64>>>,
     place: &Location,
     problems: &Problems,
 ) -> Option<OverTemperature> {
-    let (poisson_ratio, own) = (block.value(&POISSON_RATIO), block.read(&TEMPERATURE));
+    let own = block.read(&TEMPERATURE);
     let (known, poisson_ratio, own) = (known?, poisson_ratio?, own?);
     let material = |temperature_k: Option<f64>, place: &Location| {
         let material = known.material(temperature_k, poisson_ratio);
@@ -166,6 +167,20 @@ pub(super) fn isotherms(
         return None;
     }
     Some(Box::new(Isotherms(all.value)))
+}
+
+/// What a material knows of temperatures that says itself at which its series holds, and how it shifts; `None` for one that does not.
+pub(super) fn shifting(material: &Material) -> Option<Box<dyn AtTemperature>> {
+    Some(Box::new(Isotherms(vec![Isotherm {
+        temperature_k: material.temperature_k()?,
+        law: Some(*material.shift()?),
+        measured_window_s: material.measured_window_s(),
+        series: Series {
+            kind: material.kind(),
+            relaxation: material.relaxation()?.clone(),
+            replicas: Vec::new(),
+        },
+    }])))
 }
 
 /// The law by which a series at this temperature (K) shifts.

@@ -245,6 +245,44 @@ fn an_isotherm_with_a_shift_law_is_a_material_at_other_temperatures() {
 }
 
 #[test]
+fn a_material_of_the_library_that_shifts_is_known_at_other_temperatures() {
+    let rest = FILE.split_once("[indenter]").unwrap().1;
+    let of = |material: &str, axis: &str| {
+        let text = format!("title = \"t\"\n{material}[indenter]{rest}{axis}");
+        let document = Document::parse("library.toml", &text).unwrap();
+        sweep_file::plan(&document).map_err(|why| why.render(Styling::Plain))
+    };
+    let pvb = "[material]\nlibrary = \"pvb\"\n";
+    let over = of(pvb, "material.temperature = [\"10 °C\", \"20 °C\"]\n").unwrap();
+    let again = Document::parse("resolved.toml", &resolved_text(&over)).unwrap();
+    let each = losses(over);
+    assert_eq!(losses(sweep_file::plan(&again).unwrap()), each);
+    for (temperature, expected) in [("10 °C", &each[..2]), ("20 °C", &each[2..])] {
+        let own = of(&format!("{pvb}temperature = \"{temperature}\"\n"), "").unwrap();
+        let own = losses(own).into_iter().map(|(_, loss)| loss);
+        assert!(
+            own.eq(expected.iter().map(|(_, loss)| *loss)),
+            "{temperature}"
+        );
+    }
+    // Its own is that of the published series.
+    let own: Vec<u64> = losses(of(pvb, "").unwrap())
+        .into_iter()
+        .map(|(_, loss)| loss)
+        .collect();
+    assert_eq!(own, [each[2].1, each[3].1]);
+    let refused = of(
+        "[material]\nlibrary = \"pmma\"\ntemperature = \"20 °C\"\n",
+        "",
+    );
+    assert!(
+        refused
+            .unwrap_err()
+            .contains("this material is known at one temperature alone")
+    );
+}
+
+#[test]
 fn a_number_that_an_axis_varies_need_not_stand_in_its_block() {
     let given = read("indenter.radius = [\"5 mm\", \"20 mm\"]").unwrap();
     let text = FILE.replace("radius = \"10 mm\"\n", "");

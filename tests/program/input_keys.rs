@@ -254,6 +254,14 @@ fn files() -> Vec<(FileKind, String)> {
         of(
             "poisson_ratio = 0.4\n[indenter.material.zener]\nspring = \"1 MPa\"\nkelvin_spring = \"1 MPa\"\ntime = \"2 s\"",
         ),
+        of(&format!(
+            "poisson_ratio = 0.4\ntemperature = \"20 °C\"\n[[indenter.material.isotherm]]\ntemperature = \"10 °C\"\nwlf = [8.86, 101.6]\n\
+             measured = [\"1 s\", \"9 s\"]\n{series}"
+        )),
+        of(&format!(
+            "poisson_ratio = 0.4\ntemperature = \"20 °C\"\n[[indenter.material.isotherm]]\ntemperature = \"10 °C\"\n\
+             activation_energy = 120e3\n{series}"
+        )),
     ];
     let of_bulk = |header: &str| {
         format!("[{header}]\nbulk_modulus = \"3 GPa\"\n[{header}.relaxation]\n{series}\n")

@@ -77,7 +77,7 @@ rows! { BULK_KEYS:
     BULK_BRANCHES: Row<Tables, Required> = "branches", branches(&RELAXATION_BRANCH), Required;
 }
 
-rows! { LIBRARY_KEYS:
+rows! { _:
     /// A material that comes with the program; `contact-dma material list` names all.
     LIBRARY: Row<Text, Required> = "library", Text, Required;
     /// Another Poisson ratio than that of the library.
@@ -106,7 +106,7 @@ rows! { _:
     ISOTHERMS: Row<Tables, Required> =
         "isotherm", Tables { rows: &ISOTHERM, most: MOST_ISOTHERMS, instead: "" }, Required;
     /// Temperature of the body, where the material knows several; left out: the reference temperature of dynamic data, or that of
-    /// the only isotherm. A sweep over `material.temperature` takes its own.
+    /// the only isotherm or of the library. A sweep over `material.temperature` takes its own.
     TEMPERATURE: Row<Scalar, Optional> = "temperature", quantity(Temperature).above_zero(), Optional;
     /// Measured creep compliance or relaxation modulus.
     MEASURED_TABLE: Row<Table, Required> = "table", Table(&TABLE), Required;
@@ -142,6 +142,25 @@ rows! { _:
     INDENTER_RELAXATION: Row<Table, Required> = "relaxation", Table(&INDENTER_RELAXATION_TABLE), Required;
 }
 
+rows! { _:
+    /// Series of the relaxation modulus at one temperature or at several.
+    INDENTER_ISOTHERMS: Row<Tables, Required> =
+        "isotherm", Tables { rows: &INDENTER_ISOTHERM, most: MOST_ISOTHERMS, instead: "" }, Required;
+}
+
+static INDENTER_ISOTHERM: Rows = super::table(
+    " The series at one temperature.",
+    &[
+        &ISOTHERM_TEMPERATURE,
+        &ISOTHERM_WLF,
+        &ISOTHERM_ACTIVATION_ENERGY,
+        &MEASURED,
+        &MODULUS,
+        &EQUILIBRIUM,
+        &RELAXATION_BRANCHES,
+    ],
+);
+
 static INDENTER_RELAXATION_TABLE: Rows = super::table(
     " E(t) = equilibrium + sum of modulus exp(-t / time).",
     &[&MODULUS, &EQUILIBRIUM, &RELAXATION_BRANCHES],
@@ -151,14 +170,15 @@ static ELASTIC_TABLE: Rows = super::table(" An elastic body.", ELASTIC_KEYS);
 
 /// What an indenter may be made of.
 pub(super) static INDENTER_MATERIAL: Rows = Rows {
-    means: " What the indenter is made of, where it is not rigid: exactly one of `library`, `elastic`, `relaxation`, `creep` and `zener`.",
+    means: " What the indenter is made of, where it is not rigid: exactly one of `library`, `elastic`, `relaxation`, `creep`, `zener` and `isotherm`.",
     keys: MATERIAL_KEYS,
     others: Others::OneList(&[
-        LIBRARY_KEYS,
+        &[&LIBRARY, &LIBRARY_POISSON_RATIO, &TEMPERATURE],
         &[&ELASTIC_BODY],
         &[&INDENTER_RELAXATION, &POISSON_RATIO, &MEASURED],
         &[&CREEP, &POISSON_RATIO, &MEASURED],
         &[&ZENER, &POISSON_RATIO, &MEASURED],
+        &[&INDENTER_ISOTHERMS, &POISSON_RATIO, &TEMPERATURE],
         &[&INDENTER_RELAXATION, &BULK_MODULUS, &MEASURED],
         &[&CREEP, &BULK_MODULUS, &MEASURED],
         &[&ZENER, &BULK_MODULUS, &MEASURED],
@@ -170,7 +190,7 @@ pub(super) static MATERIAL: Rows = Rows {
             `fractional`, `isotherm`, `dynamic` and `table`.",
     keys: MATERIAL_KEYS,
     others: Others::OneList(&[
-        LIBRARY_KEYS,
+        &[&LIBRARY, &LIBRARY_POISSON_RATIO, &TEMPERATURE],
         &[&ELASTIC_BODY],
         &[
             &RELAXATION,
