@@ -46,13 +46,20 @@ pub fn entries() -> &'static [LibraryEntry] {
     &ENTRIES
 }
 
-static ENTRIES: [LibraryEntry; 7] = [
+static ENTRIES: [LibraryEntry; 9] = [
     elastic_entry(
         "diamond",
         "diamond",
         "W. C. Oliver and G. M. Pharr, \"An improved technique for determining hardness and elastic modulus using load and displacement sensing indentation experiments\", Journal of Materials Research 7 (1992) 1564, doi:10.1557/JMR.1992.1564",
         "Elastic: the indenter of instrumented indentation, 1141 GPa, Poisson ratio 0.07.",
         || elastic(1141e9, 0.07),
+    ),
+    elastic_entry(
+        "epoxy",
+        "epoxy resin 3501-6",
+        "P. D. Soden, M. J. Hinton and A. S. Kaddour, \"Lamina properties, lay-up configurations and loading conditions for a range of fibre-reinforced composite laminates\", Composites Science and Technology 58 (1998) 1011",
+        "Elastic: a cured resin of carbon-fibre composites at room temperature, 4.2 GPa, Poisson ratio 0.34. What it loses in a cycle is not in these numbers.",
+        || elastic(4.2e9, 0.34),
     ),
     elastic_entry(
         "glass",
@@ -69,6 +76,13 @@ static ENTRIES: [LibraryEntry; 7] = [
         measured_window_s: Some((1.0 / (TAU * 62.5), 1.0 / (TAU * 25.0))),
         build: liver,
     },
+    elastic_entry(
+        "pdms",
+        "PDMS (Sylgard 184)",
+        "I. D. Johnston, D. K. McCluskey, C. K. L. Tan and M. C. Tracey, \"Mechanical characterization of bulk Sylgard 184 for microfluidics and microengineering\", Journal of Micromechanics and Microengineering 24 (2014) 035017, doi:10.1088/0960-1317/24/3/035017",
+        "Elastic: cured at 25 °C, 1.32 MPa in tension (2.97 MPa where it is cured at 200 °C); Poisson ratio 0.5. What it loses in a cycle is not in these numbers.",
+        || elastic(1.32e6, 0.5),
+    ),
     LibraryEntry {
         name: "pmma",
         title: "PMMA",
