@@ -138,10 +138,13 @@ pub fn export(
     let (low, high) = band_rad_per_s;
     let mut remarks = series.remarks();
     remarks.extend(draft.remarks);
-    remarks.push(format!(
-        "Error of the conversion: E* of the digits below is within {conversion_error:.1e} of the material's from {low:.3e} to \
-         {high:.3e} rad/s."
-    ));
+    remarks.push(match conversion_error == 0.0 {
+        true => "Error of the conversion: none; the digits below are the material's own.".to_owned(),
+        false => format!(
+            "Error of the conversion: E* of the digits below is within {conversion_error:.1e} of the material's from {low:.3e} to \
+             {high:.3e} rad/s."
+        ),
+    });
     let comments = draft.comment.map_or_else(String::new, |mark| {
         let lines = remarks
             .iter()
