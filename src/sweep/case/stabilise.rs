@@ -517,10 +517,16 @@ impl<'a> Cycles<'a> {
     fn ended(self, method: Method, march: &March<'_>, result: Option<CaseResult>) -> Stabilised {
         let message = match (&result, self.distance) {
             (Some(_), _) => None,
-            (None, Some(distance)) => Some(format!(
-                "after {} cycles the estimated distance to the stabilised cycle is {distance:.1e}, above the tolerance {:.1e}",
-                self.count, self.contact.cycle.tolerance
-            )),
+            (None, Some(distance)) => {
+                let instead = match self.contact.cycle.method {
+                    Method::March => "; method = \"direct\" in [cycle] needs a few cycles alone",
+                    Method::Direct => "",
+                };
+                Some(format!(
+                    "after {} cycles the estimated distance to the stabilised cycle is {distance:.1e}, above the tolerance {:.1e}{instead}",
+                    self.count, self.contact.cycle.tolerance
+                ))
+            }
             (None, None) => Some(self.without_pressure()),
         };
         Stabilised {
