@@ -21,11 +21,12 @@ use crate::contact::half_space::layer::Layer;
 
 /// The equation for contacts of one radius, on nodes of a Gauss-Legendre rule.
 pub struct LayerContact {
-    layer: Layer,
     radius_m: f64,
     /// Places (m) and weights (m).
     nodes: Vec<(f64, f64)>,
     equation: nalgebra::LU<f64, nalgebra::Dyn, nalgebra::Dyn>,
+    /// The kernel (1/m) between the edge and every node.
+    edge: Vec<f64>,
 }
 
 /// An elastic contact.
@@ -42,15 +43,17 @@ impl LayerContact {
             .into_iter()
             .map(|(x, weight)| (0.5 * radius_m * (1.0 + x), 0.5 * radius_m * weight))
             .collect();
-        let waves = waves(&layer, 2.0 * radius_m);
+        let mut places: Vec<f64> = nodes.iter().map(|node| node.0).collect();
+        places.push(radius_m);
+        let kernel = kernel(&waves(&layer, 2.0 * radius_m), &places);
         let matrix = DMatrix::from_fn(nodes.len(), nodes.len(), |row, column| {
             let own = if row == column { 1.0 } else { 0.0 };
-            own + kernel(&waves, nodes[row].0, nodes[column].0) * nodes[column].1
+            own + kernel[(row, column)] * nodes[column].1
         });
         Self {
-            layer,
             radius_m,
             equation: matrix.lu(),
+            edge: (0..nodes.len()).map(|i| kernel[(nodes.len(), i)]).collect(),
             nodes,
         }
     }
@@ -60,9 +63,8 @@ impl LayerContact {
         let values =
             DVector::from_iterator(self.nodes.len(), self.nodes.iter().map(|n| right(n.0)));
         let phi: Vec<f64> = self.equation.solve(&values)?.iter().copied().collect();
-        let waves = waves(&self.layer, 2.0 * self.radius_m);
-        let nodes = self.nodes.iter().zip(&phi);
-        let coupled = nodes.map(|(node, phi)| kernel(&waves, self.radius_m, node.0) * node.1 * phi);
+        let nodes = self.nodes.iter().zip(&phi).zip(&self.edge);
+        let coupled = nodes.map(|((node, phi), kernel)| kernel * node.1 * phi);
         let edge = right(self.radius_m) - coupled.sum::<f64>();
         Some((phi, edge))
     }
@@ -119,12 +121,13 @@ fn waves(layer: &Layer, farthest_m: f64) -> Vec<(f64, f64)> {
     waves
 }
 
-/// (1/pi) [kappa(t - s) + kappa(t + s)], 1/m.
-fn kernel(waves: &[(f64, f64)], t_m: f64, s_m: f64) -> f64 {
-    let terms = waves
-        .iter()
-        .map(|(k, value)| value * (k * t_m).cos() * (k * s_m).cos());
-    2.0 / PI * terms.sum::<f64>()
+/// (1/pi) [kappa(t - s) + kappa(t + s)], 1/m, between each two of these places (m): cosines of the sum and of the difference are a
+/// product of cosines, each of which is needed once.
+fn kernel(waves: &[(f64, f64)], places_m: &[f64]) -> DMatrix<f64> {
+    let (count, all) = (places_m.len(), waves.len());
+    let cosines = DMatrix::from_fn(count, all, |i, q| (waves[q].0 * places_m[i]).cos());
+    let weighted = DMatrix::from_fn(all, count, |q, i| 2.0 / PI * waves[q].1 * cosines[(i, q)]);
+    cosines * weighted
 }
 
 /// Nodes on [-1, 1] and weights of the Gauss-Legendre rule of so many points, by Newton's method.
