@@ -19,8 +19,7 @@ use contact_dma::history::{March, TimeRule};
 use contact_dma::indenter::Sphere;
 use contact_dma::material::library;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::figures::figure_plan::FigurePlan;
-use contact_dma::sweep::plan::{CyclePlan, EngineKind, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::{EngineKind, SweepPlan};
 
 /// Width (m) of a domain of four radii of the largest contact under this load.
 fn width_m(load_n: f64) -> f64 {
@@ -85,27 +84,14 @@ fn steps(engine: &mut HalfSpace, count: usize, step_s: f64, share: f64) -> (f64,
 /// CPU seconds of one case of a sweep of the half-space engine.
 fn case_s(cells: usize) -> f64 {
     let entry = library::find("pmma").expect("in the library");
-    let plan = SweepPlan {
-        title: "bench".into(),
-        material: Arc::new(entry.material().expect("a tested entry")),
-        layer: None,
-        adhesion: None,
-        indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
-        drive: HarmonicDrive::load(LOAD_N, 0.5 * LOAD_N).expect("a valid drive"),
-        axes: None,
-        angular_frequencies_rad_per_s: vec![0.01],
-        refine: false,
-        cycle: CyclePlan {
-            error_bars: false,
-            ..CyclePlan::default()
-        },
-        solver: SolverPlan {
-            engine: EngineKind::HalfSpace,
-            cells,
-            ..SolverPlan::default()
-        },
-        figures: FigurePlan::default(),
-    };
+    let sphere = Sphere::new(RADIUS_M).expect("a positive radius");
+    let drive = HarmonicDrive::load(LOAD_N, 0.5 * LOAD_N).expect("a valid drive");
+    let pmma = entry.material().expect("a tested entry");
+    let mut plan = SweepPlan::new(pmma, Arc::new(sphere), drive);
+    plan.angular_frequencies_rad_per_s = vec![0.01];
+    plan.cycle.error_bars = false;
+    plan.contact.solver.engine = EngineKind::HalfSpace;
+    plan.contact.solver.cells = cells;
     let setup = Setup::new(plan).expect("a valid plan");
     let [case] = &setup.plan().cases()[..] else {
         panic!("one frequency")

@@ -11,13 +11,12 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use common::{LOAD_N, RADIUS_M, numbers, peak_mib, timed};
-use contact_dma::drive::{Control, HarmonicDrive};
+use contact_dma::drive::HarmonicDrive;
 use contact_dma::history::TimeRule;
 use contact_dma::indenter::Sphere;
 use contact_dma::material::library;
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::figures::figure_plan::FigurePlan;
-use contact_dma::sweep::plan::{CyclePlan, EngineKind, Method, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 
 const OMEGA_RAD_PER_S: f64 = 0.01;
@@ -25,39 +24,20 @@ const OMEGA_RAD_PER_S: f64 = 0.01;
 /// The plan, whose cycle and solver are those of the half-space engine.
 fn plan(cells: usize, steps: usize, constant: bool) -> SweepPlan {
     let entry = library::find("pmma").expect("in the library");
-    SweepPlan {
-        title: String::new(),
-        material: Arc::new(entry.material().expect("a tested entry")),
-        layer: None,
-        adhesion: None,
-        indenter: Arc::new(Sphere::new(RADIUS_M).expect("a positive radius")),
-        drive: HarmonicDrive::new(Control::Load, LOAD_N, 0.5 * LOAD_N, 0.0, 0.0)
-            .expect("a valid drive"),
-        axes: None,
-        angular_frequencies_rad_per_s: vec![OMEGA_RAD_PER_S],
-        refine: false,
-        cycle: CyclePlan {
-            steps,
-            method: if constant {
-                Method::March
-            } else {
-                Method::Direct
-            },
-            error_bars: false,
-            ..CyclePlan::DEFAULT
-        },
-        solver: SolverPlan {
-            engine: EngineKind::HalfSpace,
-            time_rule: match constant {
-                true => TimeRule::Constant,
-                false => TimeRule::Linear,
-            },
-            springs: 0,
-            cells,
-            tolerance: None,
-        },
-        figures: FigurePlan::default(),
+    let sphere = Sphere::new(RADIUS_M).expect("a positive radius");
+    let drive = HarmonicDrive::load(LOAD_N, 0.5 * LOAD_N).expect("a valid drive");
+    let pmma = entry.material().expect("a tested entry");
+    let mut plan = SweepPlan::new(pmma, Arc::new(sphere), drive);
+    plan.angular_frequencies_rad_per_s = vec![OMEGA_RAD_PER_S];
+    plan.cycle.steps = steps;
+    plan.cycle.error_bars = false;
+    if constant {
+        plan.cycle.method = Method::March;
+        plan.contact.solver.time_rule = TimeRule::Constant;
     }
+    plan.contact.solver.engine = EngineKind::HalfSpace;
+    plan.contact.solver.cells = cells;
+    plan
 }
 
 fn solved(plan: SweepPlan) -> CaseRecord {
@@ -75,7 +55,7 @@ fn main() {
     let (cpu_s, record) = timed(|| solved(plan(cells, steps, constant)));
     let peak_mib = peak_mib();
     let mut exact = plan(0, 2000, false);
-    (exact.solver.engine, exact.solver.springs) = (EngineKind::Axisymmetric, 4000);
+    (exact.contact.solver.engine, exact.contact.solver.springs) = (EngineKind::Axisymmetric, 4000);
     let exact_j = solved(exact).energy_loss_j().expect("converged");
     let loss_j = record.energy_loss_j().expect("converged");
     println!(

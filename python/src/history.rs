@@ -179,7 +179,7 @@ impl History {
             let map = self.shape.as_ref().and_then(|shape| shape.get().map());
             let map = map.map(|map| MapFile::of(map, &folder)).transpose()?;
             if let Some(map) = &map {
-                plan.indenter = Arc::clone(&map.indenter);
+                plan.contact.indenter = Arc::clone(&map.indenter);
             }
             let stored = |error| failure::of_store(&error);
             let store = Store::open(&folder, &resolved_text(&plan), force).map_err(stored)?;

@@ -10,7 +10,6 @@
 //! Both are exact for a body of revolution as long as the contact does not shrink, and close to it afterwards: what is missing is in
 //! the factors that the exact model gives.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use crate::drive::{Control, Schedule, SegmentedDrive, Steps};
@@ -106,7 +105,7 @@ impl<'a> LinearHistory<'a> {
             shortest_time_s: None,
         };
         let schedule = Schedule::new(drive, chosen, &times).ok()?;
-        let elastic = Elastic::new(plan.indenter.as_ref());
+        let elastic = Elastic::new(plan.contact.indenter.as_ref());
         let convolved = |value: f64| match drive.control() {
             Control::Load => value,
             Control::Approach => elastic.load(value),
@@ -129,8 +128,8 @@ impl<'a> LinearHistory<'a> {
     pub(super) fn numbers(&self, point: &Point) -> Vec<f64> {
         let undefined = || vec![f64::NAN; self.ends.len()];
         let known = (
-            &self.plan.counterbody,
-            self.plan.compressibility.poisson_ratio(),
+            &self.plan.contact.material.counterbody,
+            self.plan.contact.material.compressibility.poisson_ratio(),
         );
         match (self.control, known) {
             (Control::Approach, (None, Some(nu))) => {
@@ -206,9 +205,7 @@ pub(super) fn followed(
         MaterialError::SmallBulkModulus { .. } => IdentifyError::NoHistory(error.to_string()),
         error => error.into(),
     })?;
-    let mut scenario = ScenarioPlan::new(material, Arc::clone(&plan.indenter), drive.clone());
-    scenario.solver = plan.solver;
-    (scenario.layer, scenario.adhesion) = (plan.layer, plan.adhesion);
+    let mut scenario = ScenarioPlan::of(plan.contact.with_material(material.into()), drive.clone());
     scenario.output.error_bars = false;
     let simulation = Simulation::new(scenario);
     let simulation = simulation.map_err(|error| IdentifyError::NoHistory(error.to_string()))?;

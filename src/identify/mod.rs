@@ -63,7 +63,7 @@ use crate::identify::data::Measurements;
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Material, MaterialError, ModulusKind, Relaxation};
 use crate::sweep::case::SetupError;
-use crate::sweep::plan::adhesion::AdhesionPlan;
+use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::{CyclePlan, SolverPlan};
 use crate::sweep::record::error_bars::Quantity;
@@ -81,15 +81,7 @@ pub const UNDETERMINED: f64 = 2.0;
 #[derive(Debug, Clone)]
 pub struct IdentifyPlan {
     pub title: String,
-    /// A Poisson ratio, or a bulk modulus that is constant in time.
-    pub compressibility: Compressibility,
-    pub indenter: Arc<dyn Indenter>,
-    /// What the indenter is made of, where it is not rigid.
-    pub counterbody: Option<Material>,
-    /// The layer that the body is, where it is no half-space.
-    pub layer: Option<LayerPlan>,
-    /// Attraction outside the contact, where there is any; the drives then know the pull-off load.
-    pub adhesion: Option<AdhesionPlan>,
+    pub contact: ContactPlan<Sought>,
     pub drive: Driven,
     /// How many branches; `None` lets the data choose.
     pub branches: Option<usize>,
@@ -97,7 +89,15 @@ pub struct IdentifyPlan {
     /// The file that they come from, as the plan names it.
     pub data: String,
     pub cycle: CyclePlan,
-    pub solver: SolverPlan,
+}
+
+/// What is known of the bodies before anything is identified.
+#[derive(Debug, Clone)]
+pub struct Sought {
+    /// A Poisson ratio, or a bulk modulus that is constant in time.
+    pub compressibility: Compressibility,
+    /// What the indenter is made of, where it is not rigid.
+    pub counterbody: Option<Material>,
 }
 
 /// What drove the contact.
@@ -122,6 +122,32 @@ impl IdentifyPlan {
     pub const SPRINGS: usize = 64;
     pub const CELLS: usize = 32;
 
+    /// A rigid indenter on a half-space of this Poisson ratio or bulk modulus, everything else at its default: as many branches as
+    /// the data ask for.
+    pub fn new(
+        compressibility: impl Into<Compressibility>,
+        indenter: Arc<dyn Indenter>,
+        drive: Driven,
+        measurements: Measurements,
+    ) -> Self {
+        let material = Sought {
+            compressibility: compressibility.into(),
+            counterbody: None,
+        };
+        Self {
+            title: String::new(),
+            contact: ContactPlan {
+                solver: Self::solver(indenter.as_ref(), None),
+                ..ContactPlan::new(material, indenter)
+            },
+            drive,
+            branches: None,
+            measurements,
+            data: String::new(),
+            cycle: Self::CYCLE,
+        }
+    }
+
     /// The solver where nothing is asked for.
     pub fn solver(indenter: &dyn Indenter, layer: Option<LayerPlan>) -> SolverPlan {
         SolverPlan {
@@ -137,7 +163,7 @@ impl IdentifyPlan {
     /// As [`Material::from_relaxation`].
     pub(crate) fn material(&self, series: &Relaxation) -> Result<Material, MaterialError> {
         let material = self.body(series)?;
-        Ok(match &self.counterbody {
+        Ok(match &self.contact.material.counterbody {
             Some(indenter) => material.against(indenter.clone()),
             None => material,
         })
@@ -159,7 +185,8 @@ impl IdentifyPlan {
     /// As [`Material::from_relaxation`].
     fn body(&self, series: &Relaxation) -> Result<Material, MaterialError> {
         let kind = ModulusKind::Longitudinal;
-        Material::from_relaxation(series.clone(), kind, self.compressibility.clone())
+        let known = self.contact.material.compressibility.clone();
+        Material::from_relaxation(series.clone(), kind, known)
     }
 }
 

@@ -32,14 +32,14 @@ impl<'a> Model<'a> {
     /// relative correction. Time rule and springs are of second order where the contact is smooth, so that what is left falls fourfold.
     /// Nothing is learnt of histories, whose steps are chosen by the solid, nor of cells, which cost too much.
     pub(super) fn learn_corrections(&mut self, series: &Relaxation) -> Result<f64, IdentifyError> {
-        let is_springs = self.plan.solver.engine == EngineKind::Axisymmetric;
+        let is_springs = self.plan.contact.solver.engine == EngineKind::Axisymmetric;
         if self.plan.drive.history().is_some() || !is_springs {
             return Ok(0.0);
         }
         self.corrections.clear();
         let mut finer = self.plan.clone();
         finer.cycle.steps *= 2;
-        finer.solver.springs *= 2;
+        finer.contact.solver.springs *= 2;
         let finer = Model::new(&finer, self.interrupt).numbers_where_found(series)?;
         let own = self.numbers_where_found(series)?;
         let ratio = |(fine, own): (&Option<f64>, &Option<f64>)| match (fine, own) {
@@ -156,10 +156,9 @@ impl<'a> Model<'a> {
             },
             error => error.into(),
         })?;
-        let mut plan = SweepPlan::new(material, Arc::clone(&self.plan.indenter), drive);
+        let contact = self.plan.contact.with_material(Arc::new(material));
+        let mut plan = SweepPlan::of(contact, drive);
         plan.cycle = self.plan.cycle;
-        plan.solver = self.plan.solver;
-        (plan.layer, plan.adhesion) = (self.plan.layer, self.plan.adhesion);
         let cycles = measured.iter();
         let mut omegas: Vec<f64> = cycles
             .map(|cycle| cycle.angular_frequency_rad_per_s)

@@ -21,10 +21,11 @@ use super::{
     segments_block,
 };
 use crate::identify::data::Measurements;
-use crate::identify::{Driven, IdentifyPlan};
+use crate::identify::{Driven, IdentifyPlan, Sought};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Relaxation};
 use crate::sweep::plan::SolverPlan;
+use crate::sweep::plan::contact::ContactPlan;
 
 /// The table of results in a folder of a sweep or of an analysis.
 const TABLE: &str = "sweep.csv";
@@ -71,17 +72,21 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
         let (counterbody, adhesion) = bodies.map(|of| (of.counterbody, of.adhesion))?;
         Some(IdentifyPlan {
             title: title?,
-            compressibility: compressibility?,
-            indenter: indenter?,
-            counterbody,
-            layer,
-            adhesion,
+            contact: ContactPlan {
+                material: Sought {
+                    compressibility: compressibility?,
+                    counterbody,
+                },
+                layer,
+                indenter: indenter?,
+                adhesion,
+                solver: solver?,
+            },
             drive: drive?,
             branches,
             measurements,
             data,
             cycle: cycle?,
-            solver: solver?,
         })
     })();
     problems.into_result(plan)

@@ -18,6 +18,7 @@ use crate::material::Material;
 use crate::quantity::{Dimension, format_human};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::scenario::{OutputPlan, ScenarioPlan};
 use crate::sweep::plan::{EngineKind, SolverPlan};
 use crate::sweep::scales::elastic::ElasticScale;
@@ -77,14 +78,16 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
         let figures = figures?;
         let mut plan = ScenarioPlan {
             title: title?,
-            material: material?,
-            layer,
-            adhesion: bodies?.adhesion,
-            indenter: indenter?,
+            contact: ContactPlan {
+                material: material?,
+                layer,
+                indenter: indenter?,
+                adhesion: bodies?.adhesion,
+                solver: solver?,
+            },
             drive: drive?,
             step_s: step_s?,
             output: output?,
-            solver: solver?,
             figures: FigurePlan::default(),
         };
         let scale = || ElasticScale::of_scenario(&plan).map(drop);

@@ -33,6 +33,7 @@ use crate::quantity::{Dimension, FrequencyUnit};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::axes::{GivenBlocks, MOST as MOST_AXES};
 use crate::sweep::plan::body_material::BodyMaterial;
+use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::{
     self, AxisValues, Block, Condition, CyclePlan, Method, SolverPlan, SweepPlan, Varied,
@@ -140,16 +141,18 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<SweepPlan, Diagno
         let sweep = sweep.as_ref()?;
         let mut plan = SweepPlan {
             title: title?,
-            material: material.0,
-            layer: layer.0,
-            indenter: indenter.0,
+            contact: ContactPlan {
+                material: material.0,
+                layer: layer.0,
+                indenter: indenter.0,
+                adhesion,
+                solver,
+            },
             drive: own_drive,
-            adhesion,
             angular_frequencies_rad_per_s: sweep.angular_frequencies_rad_per_s.clone(),
             axes,
             refine: sweep.refine,
             cycle,
-            solver,
             figures: FigurePlan::default(),
         };
         let scale = || ElasticScale::of_sweep(&plan).map(drop);

@@ -6,9 +6,10 @@ use crate::indenter::{Indenter, Value};
 use crate::material::Material;
 use crate::quantity::Dimension;
 use crate::sweep::history::SimulationOutcome;
+use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
-use crate::sweep::plan::{Block, EngineKind, SolverPlan, SweepPlan, Varied};
+use crate::sweep::plan::{Block, EngineKind, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 
 /// What a figure itself has to say.
@@ -81,7 +82,7 @@ impl Setting {
             _ => String::new(),
         };
         let attraction =
-            adhesion_line(plan.adhesion).map_or(String::new(), |line| format!(", {line}"));
+            adhesion_line(plan.contact.adhesion).map_or(String::new(), |line| format!(", {line}"));
         let swept = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
         let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
@@ -90,7 +91,7 @@ impl Setting {
                 indenter((name, c.indenter.as_ref()), swept, c.material.counterbody())
             }),
             words::each_of(plan, Block::Material, |_, c| material(&c.material)),
-            layer(plan.layer, swept),
+            layer(plan.contact.layer, swept),
             drive_line(&plan.drive, plan)
         );
         let records = &outcome.records;
@@ -107,7 +108,7 @@ impl Setting {
         };
         let computed = format!(
             "{cycles}, {steps} time steps per cycle, computed by {}.",
-            engine(&plan.solver, plan.indenter.as_ref(), &nodes)
+            engine(&plan.contact, &nodes)
         );
         Self {
             of,
@@ -121,30 +122,27 @@ impl Setting {
         outcome: &SimulationOutcome,
         units: Option<String>,
     ) -> Self {
-        let body = match plan.material.series() {
+        let contact = &plan.contact;
+        let body = match contact.material.series() {
             Some(series) => material(series),
             None => "a material given by its samples".to_owned(),
         };
         let attraction =
-            adhesion_line(plan.adhesion).map_or(String::new(), |line| format!(", {line}"));
+            adhesion_line(contact.adhesion).map_or(String::new(), |line| format!(", {line}"));
         let of = format!(
             "{} on {body}{}, {} against time prescribed{attraction}",
             indenter(
-                (None, plan.indenter.as_ref()),
+                (None, contact.indenter.as_ref()),
                 &[],
-                plan.material.counterbody()
+                contact.material.counterbody()
             ),
-            layer(plan.layer, &[]),
+            layer(contact.layer, &[]),
             plan.drive.control().name()
         );
         let computed = format!(
             "{} time steps, computed by {}.",
             outcome.rows.len(),
-            engine(
-                &plan.solver,
-                plan.indenter.as_ref(),
-                &plan.solver.nodes().to_string()
-            )
+            engine(contact, &contact.solver.nodes().to_string())
         );
         Self {
             of,
@@ -218,8 +216,8 @@ fn indenter(
     }
 }
 
-fn engine(solver: &SolverPlan, indenter: &dyn Indenter, nodes: &str) -> String {
-    match (solver.engine, indenter.own_cells()) {
+fn engine<M>(contact: &ContactPlan<M>, nodes: &str) -> String {
+    match (contact.solver.engine, contact.indenter.own_cells()) {
         (EngineKind::Axisymmetric, _) => {
             format!("the axisymmetric engine of contact-dma on {nodes} springs")
         }
@@ -234,7 +232,7 @@ fn engine(solver: &SolverPlan, indenter: &dyn Indenter, nodes: &str) -> String {
 
 /// What error bars mean; nothing where there are none.
 pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
-    let nodes = match plan.solver.engine {
+    let nodes = match plan.contact.solver.engine {
         EngineKind::Axisymmetric => "springs",
         EngineKind::HalfSpace => "cells",
     };

@@ -195,8 +195,8 @@ fn summary(
         end_time_s: outcome.rows.last().map(|row| row.time_s),
         largest_contact_radius_m: radii.fold(0.0, f64::max),
         largest_peak_pressure_pa: peaks.map(|peaks| peaks.into_iter().fold(0.0, f64::max)),
-        engine: plan.solver.engine.name(),
-        hereditary_integral: match &plan.material {
+        engine: plan.contact.solver.engine.name(),
+        hereditary_integral: match &plan.contact.material {
             BodyMaterial::Series(material) if material.fit().is_some() => "fitted series",
             BodyMaterial::Series(_) => "series",
             BodyMaterial::Samples(_) => "direct sum",

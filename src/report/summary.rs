@@ -75,7 +75,7 @@ pub fn summary(
             .collect(),
         warnings: warning::over_cases(&outcome.records, plan.figures.frequency_unit),
         interrupted: outcome.interrupted,
-        engine: plan.solver.engine.name(),
+        engine: plan.contact.solver.engine.name(),
         program: env!("CARGO_PKG_NAME"),
         program_version: env!("CARGO_PKG_VERSION"),
         sweep_hash,

@@ -17,7 +17,7 @@ use crate::sweep::plan::scenario::ScenarioPlan;
 /// Title, material where it comes from a table, extent of the history, its largest contact and its end, with errors.
 pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
     let mut text = format!("{}\n\n", plan.title);
-    let material = match &plan.material {
+    let material = match &plan.contact.material {
         BodyMaterial::Series(material) if material.approximation().is_some() => {
             Some(fit::approximation(material))
         }
@@ -57,7 +57,7 @@ pub fn text(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> String {
         text,
         "\n{} time steps, {} engine{}",
         outcome.rows.len(),
-        plan.solver.engine.name(),
+        plan.contact.solver.engine.name(),
         match outcome.domain_enlarged {
             0 => String::new(),
             n => format!(", domain enlarged {n} times"),

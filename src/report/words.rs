@@ -51,6 +51,7 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
         false => "",
     };
     let pressure = plan
+        .contact
         .indenter
         .period_area_m2()
         .filter(|_| plan.axes.is_none());

@@ -46,7 +46,7 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
     .series(seen.springs(spread(&springs, 60)).label(SPRINGS))
     .series(
         seen.cells(spread(&cells, 34))
-            .label(cells_label(plan.solver.cells)),
+            .label(cells_label(plan.contact.solver.cells)),
     )
     .legend(LegendPlace::TopRight);
     let caption = "Relaxation modulus of PMMA. Line: the Prony series. Symbols: read from the load under a flat punch that is \

@@ -143,7 +143,7 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
 fn compute(case: &Case, plans: &Plans, interrupt: &AtomicBool) -> Result<Computed> {
     let plan = plans.scenario(case.file)?;
     let load_n = plan.drive.maximum();
-    let scale = Scale::new(series_of(plan)?, plan.indenter.as_ref(), load_n)?;
+    let scale = Scale::new(series_of(plan)?, plan.contact.indenter.as_ref(), load_n)?;
     let hertz_m = scale.contact_radius_m;
     let signal = |by| -> Result<(Signal, f64)> {
         let outcome = simulate(plan, by, interrupt)?;
@@ -157,7 +157,7 @@ fn compute(case: &Case, plans: &Plans, interrupt: &AtomicBool) -> Result<Compute
         Exact::ClosedForm(radius) => springs.iter().map(|(t, _)| (*t, radius(*t))).collect(),
         Exact::Refined => signal(By::RefinedSprings)?.0,
     };
-    let cells = plan.solver.cells;
+    let cells = plan.contact.solver.cells;
     Ok(Computed {
         signals: ByEngine::of(exact, [springs, on_cells]),
         cells,

@@ -21,7 +21,7 @@ struct History {
 fn history(plan: &ScenarioPlan, interrupt: &AtomicBool) -> Result<History> {
     Ok(History {
         computed: both(plan, interrupt)?,
-        side: plan.solver.cells,
+        side: plan.contact.solver.cells,
     })
 }
 

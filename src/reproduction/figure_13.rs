@@ -72,7 +72,12 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
             }
         }
     }
-    let panels = panels(&closed, &touched, plan.solver.cells, scenario.solver.cells);
+    let panels = panels(
+        &closed,
+        &touched,
+        plan.contact.solver.cells,
+        scenario.contact.solver.cells,
+    );
     let claims = [claims_of_loops(&loops), claims_of_work(&work)].concat();
     Ok(vec![Figure::new(13, CAPTION, panels, data, claims)])
 }

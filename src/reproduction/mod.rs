@@ -213,7 +213,7 @@ impl Plans {
 /// The material of a scenario as the series that the closed forms need.
 fn series_of(plan: &ScenarioPlan) -> Result<&Material> {
     let unfit = || ReproductionError::Unfit("the scenario's material is no series".to_owned());
-    plan.material.series().ok_or_else(unfit)
+    plan.contact.material.series().ok_or_else(unfit)
 }
 
 /// What makes figures: one of them, or several from the same computations.

@@ -35,10 +35,10 @@ pub(super) fn by_sweep(
     interrupt: &AtomicBool,
 ) -> Result<CaseResult> {
     let mut plan = plan.clone();
-    plan.solver.engine = EngineKind::Axisymmetric;
+    plan.contact.solver.engine = EngineKind::Axisymmetric;
     plan.cycle.steps *= finer;
     if finer > 1 {
-        plan.solver.springs *= 2;
+        plan.contact.solver.springs *= 2;
         plan.cycle.tolerance *= 0.1;
     }
     plan.cycle.error_bars = false;
@@ -63,14 +63,14 @@ pub(super) fn stabilised(
     interrupt: &AtomicBool,
 ) -> Result<Stabilised> {
     let mut plan = plan.clone();
-    plan.solver.engine = engine;
+    plan.contact.solver.engine = engine;
     let cycle = Cycle {
         setup: Setup::new(plan)?,
         omega,
         steps,
         interrupt,
     };
-    let SweepPlan { solver, .. } = cycle.setup.plan();
+    let solver = &cycle.setup.plan().contact.solver;
     let condition = cycle.setup.plan().condition();
     let engines = cycle.setup.engines(&condition, solver.nodes())?;
     let mut fine = engines.engine(0)?;
@@ -110,8 +110,12 @@ impl Cycle<'_> {
 
     fn march<'e>(&self, engine: &'e mut dyn Engine) -> Result<March<'e>> {
         let plan = self.setup.plan();
-        let compliance = plan.material.contact_compliance()?;
-        Ok(March::new(engine, compliance, plan.solver.time_rule))
+        let compliance = plan.contact.material.contact_compliance()?;
+        Ok(March::new(
+            engine,
+            compliance,
+            plan.contact.solver.time_rule,
+        ))
     }
 
     fn is_interrupted(&self) -> bool {

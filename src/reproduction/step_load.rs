@@ -42,7 +42,7 @@ const UNLOADED: f64 = 2.0;
 impl<'a> Held<'a> {
     fn new(plan: &'a ScenarioPlan, reach: f64, interrupt: &AtomicBool) -> Result<Self> {
         let load_n = plan.drive.maximum();
-        let scale = Scale::new(series_of(plan)?, plan.indenter.as_ref(), load_n)?;
+        let scale = Scale::new(series_of(plan)?, plan.contact.indenter.as_ref(), load_n)?;
         let compliance = scale.contact_compliance.clone();
         Ok(Self {
             plan,
@@ -57,7 +57,7 @@ impl<'a> Held<'a> {
     /// Side of a cell in Hertz radii.
     fn cell(&self) -> f64 {
         let [_, on_cells] = &self.computed;
-        let side_m = 2.0 * on_cells.domain_half_width_m / self.plan.solver.cells as f64;
+        let side_m = 2.0 * on_cells.domain_half_width_m / self.plan.contact.solver.cells as f64;
         side_m / self.scale.contact_radius_m
     }
 
@@ -114,8 +114,11 @@ impl<'a> Held<'a> {
             points.map(|(x, y)| Some((x, y.into()?))).collect()
         });
         let line = member.line(drawn.exact).label(label);
-        let [springs, cells] =
-            member.engines(drawn.axisymmetric, drawn.half_space, self.plan.solver.cells);
+        let [springs, cells] = member.engines(
+            drawn.axisymmetric,
+            drawn.half_space,
+            self.plan.contact.solver.cells,
+        );
         [line, springs, cells]
     }
 }
@@ -169,9 +172,9 @@ fn driven_back(
         maximum: plan.drive.maximum(),
         compliance_per_pa: compliance.compliance(plan.drive.duration_s()),
     };
-    let mut solver = plan.solver;
+    let mut solver = plan.contact.solver;
     solver.engine = engine;
-    let engines = EngineBuilder::new(plan.indenter.clone(), solver, largest_contact)?;
+    let engines = EngineBuilder::new(plan.contact.indenter.clone(), solver, largest_contact)?;
     let mut engine = engines.engine(0)?;
     let mut march = March::new(engine.as_mut(), compliance, solver.time_rule);
     let (mut time_s, mut from_m, mut differences) = (0.0, 0.0, Vec::new());

@@ -17,7 +17,6 @@ use contact_dma::indenter::Indenter;
 use contact_dma::material::classical::{Maxwell, Zener};
 use contact_dma::material::{Creep, Material, library};
 use contact_dma::sweep::case::Setup;
-use contact_dma::sweep::figures::figure_plan::FigurePlan;
 use contact_dma::sweep::plan::{Case, CyclePlan, EngineKind, SolverPlan, SweepPlan};
 use contact_dma::sweep::record::CaseRecord;
 
@@ -136,24 +135,14 @@ pub fn sweep_plan(
     mean_n: f64,
     amplitude_n: f64,
 ) -> SweepPlan {
-    SweepPlan {
-        title: "integration test".into(),
-        material: Arc::new(material),
-        layer: None,
-        indenter,
-        drive: HarmonicDrive::load(mean_n, amplitude_n).unwrap(),
-        adhesion: None,
-        axes: None,
-        angular_frequencies_rad_per_s: vec![1.0],
-        refine: false,
-        // Tests that look at error bars ask for them.
-        cycle: CyclePlan {
-            error_bars: false,
-            ..CyclePlan::default()
-        },
-        solver: SolverPlan::default(),
-        figures: FigurePlan::default(),
-    }
+    let drive = HarmonicDrive::load(mean_n, amplitude_n).unwrap();
+    let mut plan = SweepPlan::new(material, indenter, drive);
+    plan.title = "integration test".into();
+    plan.contact.solver = SolverPlan::default();
+    plan.angular_frequencies_rad_per_s = vec![1.0];
+    // Tests that look at error bars ask for them.
+    plan.cycle.error_bars = false;
+    plan
 }
 
 /// One case of a sweep.
@@ -207,7 +196,7 @@ pub fn on_cells(mut plan: SweepPlan, cells: usize, steps: usize) -> SweepPlan {
         error_bars: false,
         ..CyclePlan::default()
     };
-    plan.solver = SolverPlan {
+    plan.contact.solver = SolverPlan {
         engine: EngineKind::HalfSpace,
         cells,
         ..SolverPlan::default()

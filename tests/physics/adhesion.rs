@@ -122,11 +122,11 @@ fn history(segments: Vec<Segment>) -> Result<SegmentedDrive, HistoryError> {
 fn followed(material: Material, segments: Vec<Segment>) -> SimulationOutcome {
     let indenter = Arc::new(Sphere::new(RADIUS_M).unwrap());
     let mut plan = ScenarioPlan::new(material, indenter, history(segments).unwrap());
-    plan.adhesion = Some(AdhesionPlan {
+    plan.contact.adhesion = Some(AdhesionPlan {
         work_j_per_m2: WORK,
         equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
     });
-    plan.solver.springs = 800;
+    plan.contact.solver.springs = 800;
     plan.output.error_bars = false;
     let simulation = Simulation::new(plan).unwrap();
     let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});

@@ -8,11 +8,9 @@ use crate::common::{on_cells, pmma_material, run_case, springs, sweep_plan};
 use contact_dma::contact::{Engine, Instant, Prescribed};
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
 use contact_dma::indenter::{Asperities, Asperity, Ellipsoid, Indenter, Profile, Shifted, Sphere};
-use contact_dma::sweep::figures::figure_plan::FigurePlan;
 use contact_dma::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
-use contact_dma::sweep::plan::body_material::BodyMaterial;
-use contact_dma::sweep::plan::scenario::{OutputPlan, ScenarioPlan};
-use contact_dma::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
+use contact_dma::sweep::plan::scenario::ScenarioPlan;
+use contact_dma::sweep::plan::{EngineKind, SweepPlan};
 
 fn bump(center_x_m: f64) -> Asperity {
     Asperity {
@@ -87,22 +85,11 @@ fn simulated(shape: Arc<dyn Indenter>, approach_m: f64, cells: usize) -> Simulat
         to: approach_m,
         duration_s: 1.0,
     };
-    let plan = ScenarioPlan {
-        title: "ramp".into(),
-        material: BodyMaterial::Series(pmma_material()),
-        layer: None,
-        adhesion: None,
-        indenter: shape,
-        drive: SegmentedDrive::new(Control::Approach, vec![ramp]).unwrap(),
-        step_s: Some(0.1),
-        solver: SolverPlan {
-            engine: EngineKind::HalfSpace,
-            cells,
-            ..SolverPlan::default()
-        },
-        output: OutputPlan::default(),
-        figures: FigurePlan::default(),
-    };
+    let drive = SegmentedDrive::new(Control::Approach, vec![ramp]).unwrap();
+    let mut plan = ScenarioPlan::new(pmma_material(), shape, drive);
+    plan.step_s = Some(0.1);
+    plan.contact.solver.engine = EngineKind::HalfSpace;
+    plan.contact.solver.cells = cells;
     let simulation = Simulation::new(plan).unwrap();
     simulation.run(&AtomicBool::new(false), &|_, _| {})
 }

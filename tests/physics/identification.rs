@@ -79,11 +79,11 @@ impl Experiment {
         (
             sweep.cycle.steps,
             sweep.cycle.tolerance,
-            sweep.solver.springs,
+            sweep.contact.solver.springs,
         ) = (200, 1e-6, 200);
         sweep.cycle.error_bars = false;
         if let Some((cycle, solver)) = resolution {
-            (sweep.cycle, sweep.solver) = (cycle, solver);
+            (sweep.cycle, sweep.contact.solver) = (cycle, solver);
         }
         let sweep = Sweep::from(sweep)
             .angular_frequencies_rad_per_s(frequencies())
@@ -107,20 +107,8 @@ impl Experiment {
                 });
             }
         }
-        IdentifyPlan {
-            title: String::new(),
-            data: String::new(),
-            compressibility: POISSON.into(),
-            solver: IdentifyPlan::solver(indenter.as_ref(), None),
-            indenter,
-            counterbody: None,
-            layer: None,
-            adhesion: None,
-            drive: Driven::Cycles(drive),
-            branches: None,
-            measurements: Measurements::new(cycles, data).unwrap(),
-            cycle: IdentifyPlan::CYCLE,
-        }
+        let measurements = Measurements::new(cycles, data).unwrap();
+        IdentifyPlan::new(POISSON, indenter, Driven::Cycles(drive), measurements)
     }
 }
 
@@ -295,7 +283,7 @@ fn cells_serve_as_springs_do() {
     let experiment = Experiment::losses_and_phases(0.0, false);
     let resolution = Some((cycle, solver));
     let mut plan = experiment.plan(&truth, (indenter, drive), resolution, &mut Random(1));
-    (plan.cycle, plan.solver, plan.branches) = (cycle, solver, Some(1));
+    (plan.cycle, plan.contact.solver, plan.branches) = (cycle, solver, Some(1));
     let found = found(&plan).unwrap();
     let (_, _, worst) = against(&truth, &found);
     println!("cells: off by {worst:.1e}");

@@ -66,20 +66,14 @@ impl With {
     }
 
     fn plan(self, drive: Driven, measurements: Measurements, cycle: CyclePlan) -> IdentifyPlan {
-        IdentifyPlan {
-            title: String::new(),
-            data: String::new(),
-            compressibility: self.compressibility(),
-            solver: self.solver(),
-            indenter: self.indenter(),
-            counterbody: self.counterbody,
-            layer: self.layer,
-            adhesion: self.adhesion,
-            drive,
-            branches: Some(2),
-            measurements,
-            cycle,
-        }
+        let known = self.compressibility();
+        let mut plan = IdentifyPlan::new(known, self.indenter(), drive, measurements);
+        plan.contact.solver = self.solver();
+        plan.contact.material.counterbody = self.counterbody;
+        (plan.contact.layer, plan.contact.adhesion) = (self.layer, self.adhesion);
+        plan.branches = Some(2);
+        plan.cycle = cycle;
+        plan
     }
 }
 
@@ -89,8 +83,8 @@ fn of_cycles(drive: HarmonicDrive, with: &With) -> IdentifyPlan {
         .map(|k| 10_f64.powf(0.8 * f64::from(k) - 2.0))
         .collect();
     let mut sweep = SweepPlan::new(with.truth(), with.indenter(), drive);
-    (sweep.layer, sweep.adhesion) = (with.layer, with.adhesion);
-    (sweep.cycle, sweep.solver) = (IdentifyPlan::CYCLE, with.solver());
+    (sweep.contact.layer, sweep.contact.adhesion) = (with.layer, with.adhesion);
+    (sweep.cycle, sweep.contact.solver) = (IdentifyPlan::CYCLE, with.solver());
     let sweep = Sweep::from(sweep).angular_frequencies_rad_per_s(omegas);
     let records = sweep.unwrap().solve().unwrap().records;
     let quantities = [
@@ -121,8 +115,8 @@ fn of_cycles(drive: HarmonicDrive, with: &With) -> IdentifyPlan {
 /// What a ramp and a hold leave, at forty times over three decades.
 fn of_history(drive: SegmentedDrive, with: &With) -> IdentifyPlan {
     let mut scenario = ScenarioPlan::new(with.truth(), with.indenter(), drive.clone());
-    (scenario.layer, scenario.adhesion) = (with.layer, with.adhesion);
-    (scenario.solver, scenario.output.error_bars) = (with.solver(), false);
+    (scenario.contact.layer, scenario.contact.adhesion) = (with.layer, with.adhesion);
+    (scenario.contact.solver, scenario.output.error_bars) = (with.solver(), false);
     let simulation = Simulation::new(scenario).unwrap();
     let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});
     let times: Vec<f64> = (0..40)
@@ -190,11 +184,9 @@ fn an_indenter_that_yields_as_much_as_the_body_is_taken_out() {
         let error = off(&found(&plan));
         // The tolerance of the cycles of the model, 1e-6, reaches the moduli a hundredfold; the histories of the model have its steps.
         assert!(error < 2e-3, "{name}: {error:e}");
-        let rigid = IdentifyPlan {
-            counterbody: None,
-            branches: None,
-            ..plan
-        };
+        let mut rigid = plan;
+        rigid.contact.material.counterbody = None;
+        rigid.branches = None;
         let missed = identify(&rigid, &AtomicBool::new(false)).map_or(1.0, |found| off(&found));
         assert!(missed > 0.1, "{name}: {missed:e}");
     }
@@ -245,10 +237,8 @@ fn a_constant_bulk_modulus_is_known_in_place_of_the_poisson_ratio() {
     ] {
         let error = off(&found(&plan));
         assert!(error < 2e-3, "{name}: {error:e}");
-        let constant = IdentifyPlan {
-            compressibility: 0.375.into(),
-            ..plan
-        };
+        let mut constant = plan;
+        constant.contact.material.compressibility = 0.375.into();
         // (1 - 0.475^2) / (1 - 0.375^2) at rest.
         let missed = off(&found(&constant));
         assert!(missed > 0.05, "{name}: {missed:e}");

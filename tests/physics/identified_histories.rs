@@ -10,7 +10,7 @@ use contact_dma::identify::data::{Measurements, Reading};
 use contact_dma::identify::{Driven, Identified, IdentifyError, IdentifyPlan, identify};
 use contact_dma::prelude::*;
 use contact_dma::sweep::history::between::values_at;
-use contact_dma::sweep::plan::{CyclePlan, EngineKind, SolverPlan};
+use contact_dma::sweep::plan::EngineKind;
 
 const POISSON: f64 = 0.4;
 /// Times measured, first and last, and how many, spread evenly over their logarithms.
@@ -68,7 +68,7 @@ fn plan(
     scenario.output.error_bars = false;
     let solver = IdentifyPlan::solver(indenter.as_ref(), None);
     if solver.engine == EngineKind::HalfSpace {
-        scenario.solver = solver;
+        scenario.contact.solver = solver;
     }
     let outcome = Simulation::new(scenario).unwrap();
     let outcome = outcome.run(&AtomicBool::new(false), &|_, _| {});
@@ -93,20 +93,8 @@ fn plan(
             }
         });
     let readings: Vec<Reading> = readings.collect();
-    IdentifyPlan {
-        title: String::new(),
-        data: String::new(),
-        compressibility: POISSON.into(),
-        solver,
-        measurements: Measurements::of_history(&drive, &readings).unwrap(),
-        indenter,
-        counterbody: None,
-        layer: None,
-        adhesion: None,
-        drive: Driven::History(drive),
-        branches: None,
-        cycle: CyclePlan::DEFAULT,
-    }
+    let measurements = Measurements::of_history(&drive, &readings).unwrap();
+    IdentifyPlan::new(POISSON, indenter, Driven::History(drive), measurements)
 }
 
 fn found(plan: &IdentifyPlan) -> Result<Identified, IdentifyError> {
@@ -240,23 +228,9 @@ fn a_history_that_never_changes_and_one_that_no_solid_has_are_refused() {
     assert!(matches!(flat, Err(IdentifyError::Flat { .. })));
     // A surface that comes up under a constant load.
     let indenter: Arc<dyn Indenter> = Arc::new(Sphere::new(1e-3).unwrap());
-    let plan = IdentifyPlan {
-        title: String::new(),
-        data: String::new(),
-        compressibility: POISSON.into(),
-        solver: SolverPlan {
-            springs: 40,
-            ..IdentifyPlan::solver(indenter.as_ref(), None)
-        },
-        measurements: Measurements::of_history(&drive, &rows(|t| 1e-6 / t)).unwrap(),
-        indenter,
-        counterbody: None,
-        layer: None,
-        adhesion: None,
-        drive: Driven::History(drive),
-        branches: None,
-        cycle: CyclePlan::DEFAULT,
-    };
+    let measurements = Measurements::of_history(&drive, &rows(|t| 1e-6 / t)).unwrap();
+    let mut plan = IdentifyPlan::new(POISSON, indenter, Driven::History(drive), measurements);
+    plan.contact.solver.springs = 40;
     assert!(matches!(
         found(&plan),
         Err(IdentifyError::Contradiction { .. })

@@ -30,8 +30,8 @@ fn plan(indenter: Arc<dyn Indenter>) -> SweepPlan {
 
 fn on_cells(indenter: Arc<dyn Indenter>, cells: usize) -> SweepPlan {
     let mut plan = plan(indenter);
-    plan.solver.engine = EngineKind::HalfSpace;
-    plan.solver.cells = cells;
+    plan.contact.solver.engine = EngineKind::HalfSpace;
+    plan.contact.solver.cells = cells;
     plan
 }
 
@@ -224,8 +224,12 @@ fn a_marched_cycle_has_the_pressures_of_the_one_found_directly_and_a_record_keep
 
 #[test]
 fn both_engines_have_one_line_of_work_density_under_a_sphere() {
-    let line =
-        |plan: &SweepPlan| WorkLine::of(&result(plan).cycle.surface_loss, plan.indenter.as_ref());
+    let line = |plan: &SweepPlan| {
+        WorkLine::of(
+            &result(plan).cycle.surface_loss,
+            plan.contact.indenter.as_ref(),
+        )
+    };
     let springs = line(&plan(sphere()));
     assert_eq!(springs.along, WorkAlong::Radius);
     let exact: Vec<(f64, f64)> = springs.points.iter().map(|p| (p.0, p.1.unwrap())).collect();

@@ -8,11 +8,10 @@ use crate::common::solids::Random;
 use contact_dma::drive::{Control, Fineness, Segment, SegmentedDrive};
 use contact_dma::indenter::{Cone, Indenter, PowerLaw, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
-use contact_dma::sweep::figures::figure_plan::FigurePlan;
 use contact_dma::sweep::history::errors::RowErrors;
 use contact_dma::sweep::history::{HistoryRow, Simulation, SimulationEnd, SimulationOutcome};
-use contact_dma::sweep::plan::scenario::{OutputPlan, ScenarioPlan};
-use contact_dma::sweep::plan::{EngineKind, SolverPlan};
+use contact_dma::sweep::plan::EngineKind;
+use contact_dma::sweep::plan::scenario::ScenarioPlan;
 use rayon::prelude::*;
 
 /// One to four branches, whose moduli add up to a third to a hundred thousand times the equilibrium modulus, over up to six
@@ -77,21 +76,10 @@ fn scenario(random: &mut Random, springs: usize) -> ScenarioPlan {
     let drive = drive(random);
     // A third of them with steps as given.
     let step_s = (random.unit() < 0.33).then(|| drive.duration_s() / random.between(30.0, 300.0));
-    ScenarioPlan {
-        title: "random".to_owned(),
-        material: material(random).into(),
-        layer: None,
-        adhesion: None,
-        indenter: shape(random),
-        drive,
-        step_s,
-        output: OutputPlan::default(),
-        solver: SolverPlan {
-            springs,
-            ..SolverPlan::default()
-        },
-        figures: FigurePlan::default(),
-    }
+    let mut plan = ScenarioPlan::new(material(random), shape(random), drive);
+    plan.step_s = step_s;
+    plan.contact.solver.springs = springs;
+    plan
 }
 
 fn run(simulation: &Simulation) -> SimulationOutcome {
@@ -103,8 +91,8 @@ fn run(simulation: &Simulation) -> SimulationOutcome {
 /// The rows of the history with so many times the steps, on springs, so many of them.
 fn refined(plan: &ScenarioPlan, steps: usize, springs: usize) -> Vec<HistoryRow> {
     let mut plan = plan.clone();
-    plan.solver.engine = EngineKind::Axisymmetric;
-    plan.solver.springs = springs;
+    plan.contact.solver.engine = EngineKind::Axisymmetric;
+    plan.contact.solver.springs = springs;
     let simulation = Simulation::of_fineness(plan, Fineness::Split(steps)).unwrap();
     let rows = run(&simulation).rows;
     let in_full = simulation.schedule().in_full.iter();
@@ -210,10 +198,10 @@ fn the_true_error_lies_inside_the_bar_on_cells() {
     let mut plans = Vec::new();
     while plans.len() < count as usize {
         let mut plan = scenario(&mut random, 400);
-        plan.solver.engine = EngineKind::HalfSpace;
-        plan.solver.cells = asked("CONTACT_DMA_CELLS", 40) as usize;
+        plan.contact.solver.engine = EngineKind::HalfSpace;
+        plan.contact.solver.cells = asked("CONTACT_DMA_CELLS", 40) as usize;
         // The largest pressure of cells is a mean over a cell: no bar holds where it grows beyond all bounds.
-        if plan.indenter.pressure_is_bounded() {
+        if plan.contact.indenter.pressure_is_bounded() {
             plans.push(plan);
         }
     }
@@ -239,22 +227,11 @@ fn cells_follow_a_contact_that_grows_fifty_times() {
         to: 1.0,
         duration_s: 3e6,
     };
-    let plan = ScenarioPlan {
-        title: "grows".to_owned(),
-        material: material.into(),
-        layer: None,
-        adhesion: None,
-        indenter: Arc::new(Sphere::new(0.01).unwrap()),
-        drive: SegmentedDrive::new(Control::Load, vec![step]).unwrap(),
-        step_s: None,
-        output: OutputPlan::default(),
-        solver: SolverPlan {
-            engine: EngineKind::HalfSpace,
-            cells: 40,
-            ..SolverPlan::default()
-        },
-        figures: FigurePlan::default(),
-    };
+    let sphere = Arc::new(Sphere::new(0.01).unwrap());
+    let drive = SegmentedDrive::new(Control::Load, vec![step]).unwrap();
+    let mut plan = ScenarioPlan::new(material, sphere, drive);
+    plan.contact.solver.engine = EngineKind::HalfSpace;
+    plan.contact.solver.cells = 40;
     let exact = refined(&plan, 8, 800);
     let outcome = run(&Simulation::new(plan.clone()).unwrap());
     let growth = exact[exact.len() - 1].contact_radius_m / exact[0].contact_radius_m;

@@ -48,7 +48,7 @@ fn closed(mut plan: SweepPlan, steps: usize, springs: usize) -> SweepPlan {
     plan.cycle.steps = steps;
     plan.cycle.tolerance = 1e-9;
     plan.cycle.max_cycles = 10_000;
-    plan.solver.springs = springs;
+    plan.contact.solver.springs = springs;
     plan
 }
 
@@ -111,11 +111,15 @@ fn a_flat_punch_on_cells_is_the_flat_punch_on_springs_times_the_stiffness_of_its
     let springs = result(&marched, omega).analysis;
     for cells in [16, 17, 32] {
         let mut plan = marched.clone();
-        plan.solver.engine = EngineKind::HalfSpace;
-        plan.solver.cells = cells;
-        plan.solver.tolerance = Some(1e-10);
+        plan.contact.solver.engine = EngineKind::HalfSpace;
+        plan.contact.solver.cells = cells;
+        plan.contact.solver.tolerance = Some(1e-10);
         let record = run_case(&plan, omega);
-        let mut engine = half_space(plan.indenter.as_ref(), record.domain_half_width_m, cells);
+        let mut engine = half_space(
+            plan.contact.indenter.as_ref(),
+            record.domain_half_width_m,
+            cells,
+        );
         let (elastic, _) = first_touch(&mut engine, 1e-10, Prescribed::LoadN(1.0)).unwrap();
         let staircase = elastic.approach_m / flat_punch_approach_m(PUNCH_RADIUS_M, 1.0, 1e-10);
         let found = record.result.unwrap().analysis;
@@ -324,8 +328,8 @@ fn the_loss_scales_exactly_with_the_load() {
                     MEAN_N * factor,
                     5.0 * factor,
                 );
-                plan.solver.engine = engine;
-                plan.solver.cells = 24;
+                plan.contact.solver.engine = engine;
+                plan.contact.solver.cells = 24;
                 let record = run_case(&plan, 0.01);
                 (record.energy_loss_j().unwrap(), record.cycles)
             };
@@ -363,7 +367,7 @@ fn the_loss_converges_with_second_order_under_the_linear_rule_and_first_under_th
     ] {
         let errors = STEPS.map(|steps| {
             let mut plan = closed(pmma_plan(sphere(), 5.0), steps, 1600);
-            plan.solver.time_rule = rule;
+            plan.contact.solver.time_rule = rule;
             relative(result(&plan, omega).analysis.energy_loss_j, exact_j)
         });
         let found = observed_order(&STEPS[..3], &errors[..3]);
@@ -513,11 +517,11 @@ fn a_load_that_falls_to_zero_between_two_samples_is_followed_on_odd_grids_too() 
     // The contact shrinks to the one cell in the middle and grows again from there.
     let mut plan = pmma_plan(sphere(), MEAN_N);
     plan.cycle.steps = 201;
-    plan.solver.engine = EngineKind::HalfSpace;
-    plan.solver.cells = 33;
+    plan.contact.solver.engine = EngineKind::HalfSpace;
+    plan.contact.solver.cells = 33;
     let found = run_case(&plan, 0.01);
     assert_eq!(found.status, Status::Converged, "{:?}", found.message);
-    plan.solver.engine = EngineKind::Axisymmetric;
+    plan.contact.solver.engine = EngineKind::Axisymmetric;
     let expected = run_case(&plan, 0.01);
     // 33 cells: 1.4e-5 was seen; the luck of the edge cells allows a few times that.
     let error = relative(

@@ -140,7 +140,7 @@ fn a_history_with_values_that_cannot_be_is_refused() {
         assert!(Simulation::new(plan).is_err(), "{step_s}");
     }
     let mut coarse = plan.clone();
-    coarse.solver.springs = 1;
+    coarse.contact.solver.springs = 1;
     assert!(Simulation::new(coarse).is_err());
     assert!(Simulation::new(plan).is_ok());
 }

@@ -208,19 +208,19 @@ fn imposing_the_approach_of_a_step_load_gives_its_pressure_history_back_at_every
     let solver = "[solver]\ncells = 32\nsprings = 200\ntolerance = 1e-11\n";
     let simulation = simulation(&[ZENER, &step, solver].concat());
     let plan = simulation.plan();
-    let material = plan.material.series().unwrap();
+    let material = plan.contact.material.series().unwrap();
     let compliance = material.contact_compliance().unwrap();
     for engine in [EngineKind::Axisymmetric, EngineKind::HalfSpace] {
         let solver = SolverPlan {
             engine,
-            ..plan.solver
+            ..plan.contact.solver
         };
         let largest = LargestContact {
             control: Control::Load,
             maximum: 1.0,
             compliance_per_pa: compliance.compliance(20.0),
         };
-        let builder = EngineBuilder::new(plan.indenter.clone(), solver, largest).unwrap();
+        let builder = EngineBuilder::new(plan.contact.indenter.clone(), solver, largest).unwrap();
         let mut engine = builder.engine(0).unwrap();
         let moments = &simulation.schedule().moments;
         let off = displacement_driven_difference(engine.as_mut(), &compliance, moments);

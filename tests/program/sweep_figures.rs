@@ -91,7 +91,7 @@ fn pmma(angular_frequencies_rad_per_s: &[f64]) -> SweepPlan {
     let mut plan = sweep_plan(pmma_material(), Arc::new(sphere), 10.0, 5.0);
     plan.angular_frequencies_rad_per_s = angular_frequencies_rad_per_s.to_vec();
     plan.cycle.steps = 60;
-    plan.solver.springs = 120;
+    plan.contact.solver.springs = 120;
     plan
 }
 
@@ -182,8 +182,8 @@ fn integral(swept: &Swept) -> f64 {
 fn the_work_over_the_surface_adds_up_to_the_energy_loss_with_both_engines() {
     let springs = swept(pmma(&[0.00844]));
     let mut plan = pmma(&[0.00844]);
-    plan.solver.engine = EngineKind::HalfSpace;
-    plan.solver.cells = 64;
+    plan.contact.solver.engine = EngineKind::HalfSpace;
+    plan.contact.solver.cells = 64;
     let cells = swept(plan);
     for (swept, tolerance) in [
         // Trapezia over 120 springs, with steps of the contact's edge across them.
@@ -235,7 +235,7 @@ fn the_indentation_formula_is_exact_for_a_punch_and_the_worse_the_larger_the_amp
  {
     let omegas = [0.004, 0.008, 0.02];
     let mut plan = pmma(&omegas);
-    plan.indenter = Arc::new(FlatPunch::new(1e-3).unwrap());
+    plan.contact.indenter = Arc::new(FlatPunch::new(1e-3).unwrap());
     let punch = swept(plan);
     let differences = |swept: &Swept, of: &str| swept.column("moduli.csv", of);
     for of in ["storage_relative_difference", "loss_relative_difference"] {
@@ -263,7 +263,7 @@ fn figures_that_do_not_apply_are_left_out_and_said() {
 
     let mut elastic = pmma(&[0.004, 0.008, 0.02]);
     let relaxation = Relaxation::new(2e9, Vec::new()).unwrap();
-    elastic.material =
+    elastic.contact.material =
         Arc::new(Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap());
     let elastic = swept(elastic);
     assert!(elastic.left_out.iter().any(|why| why.contains("branches")));
@@ -313,8 +313,8 @@ fn a_map_is_told_by_its_own_cells_whatever_the_plan_asks_for() {
     let mut plan = sweep_plan(pmma_material(), Arc::new(map.unwrap()), 1.0, 0.5);
     plan.angular_frequencies_rad_per_s = vec![0.008];
     plan.cycle.steps = 32;
-    plan.solver.engine = EngineKind::HalfSpace;
-    assert_eq!(plan.solver.cells, 128);
+    plan.contact.solver.engine = EngineKind::HalfSpace;
+    assert_eq!(plan.contact.solver.cells, 128);
     let swept = swept(plan);
     assert_eq!(swept.outcome.records[0].nodes, 20);
     let caption = fs::read_to_string(swept.folder.path().join("loops.caption.txt")).unwrap();
@@ -328,10 +328,10 @@ fn an_elastic_body_loses_nothing_and_is_not_asked_for_a_wider_sweep() {
         let relaxation = Relaxation::new(1e9, Vec::new()).unwrap();
         let body = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.3).unwrap();
         let mut plan = pmma(&[0.01, 0.1, 1.0]);
-        plan.material = Arc::new(body);
+        plan.contact.material = Arc::new(body);
         plan.cycle.steps = 32;
-        plan.solver.engine = engine;
-        plan.solver.cells = 32;
+        plan.contact.solver.engine = engine;
+        plan.contact.solver.cells = 32;
         let told = report::terminal::peaks(&plan, &swept(plan.clone()).outcome);
         assert!(told.contains("an elastic body loses nothing"), "{told}");
         for record in &swept(plan).outcome.records {

@@ -130,9 +130,9 @@ fn the_printed_block_is_a_material_block_with_exact_numbers() {
             Tabulated::new(face, pmma().kind(), times, values).unwrap()
         };
         let expected = fit(&table, None).unwrap().material(0.38).unwrap();
-        assert_eq!(plan.material.creep(), expected.creep());
-        assert_eq!(plan.material.relaxation(), expected.relaxation());
-        assert_eq!(plan.material.poisson_ratio(), Some(0.38));
+        assert_eq!(plan.contact.material.creep(), expected.creep());
+        assert_eq!(plan.contact.material.relaxation(), expected.relaxation());
+        assert_eq!(plan.contact.material.poisson_ratio(), Some(0.38));
         for name in [
             "fit.svg",
             "fit.png",
@@ -339,16 +339,22 @@ fn the_window_and_the_alternatives_of_a_fit_survive_the_resolved_file() {
     write(folder.path(), "sweep.toml", &text);
     let document = Document::read(&folder.path().join("sweep.toml")).unwrap();
     let plan = sweep_file::plan(&document).unwrap();
-    let material = &plan.material;
+    let material = &plan.contact.material;
     let (first_s, last_s) = material.measured_window_s().unwrap();
     assert!((first_s - 0.1).abs() < 1e-12 && (last_s - 100.0).abs() < 1e-9);
     assert!(material.alternatives().len() >= 2);
     let resolved = resolved_text(&plan);
     assert!(resolved.contains("measured = [") && resolved.contains("[[material.alternative]]"));
     let again = sweep_file::plan(&Document::parse("resolved.toml", &resolved).unwrap()).unwrap();
-    assert_eq!(again.material.alternatives(), material.alternatives());
-    assert_eq!(again.material.measured_window_s(), Some((first_s, last_s)));
-    assert_eq!(again.material.relaxation(), material.relaxation());
+    assert_eq!(
+        again.contact.material.alternatives(),
+        material.alternatives()
+    );
+    assert_eq!(
+        again.contact.material.measured_window_s(),
+        Some((first_s, last_s))
+    );
+    assert_eq!(again.contact.material.relaxation(), material.relaxation());
     assert_eq!(resolved_text(&again), resolved);
 }
 
@@ -706,17 +712,26 @@ fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
     let plan = |sets: &[&str]| dynamic_plan(folder.path(), sets).unwrap();
     let identity = |sets: &[&str]| resolved::hash(&resolved_text(&plan(sets)));
     let own = plan(&[]);
-    assert_eq!(own.material.temperature_k(), Some(293.15));
-    assert_eq!(own.material.replicas().len(), 10);
+    assert_eq!(own.contact.material.temperature_k(), Some(293.15));
+    assert_eq!(own.contact.material.replicas().len(), 10);
     let text = resolved_text(&own);
     let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
     assert_eq!(resolved_text(&again), text);
     // The law of the shift alone, which exports take along, is no part of a sweep.
-    assert_eq!(again.material.relaxation(), own.material.relaxation());
-    assert_eq!(again.material.replicas(), own.material.replicas());
+    assert_eq!(
+        again.contact.material.relaxation(),
+        own.contact.material.relaxation()
+    );
+    assert_eq!(
+        again.contact.material.replicas(),
+        own.contact.material.replicas()
+    );
     // Colder by 40 K, two decades and two thirds: by so much slower, and measured at lower frequencies.
-    let cold = plan(&["material.temperature=-20 °C"]).material;
-    let (warm_s, cold_s) = (own.material.measured_window_s(), cold.measured_window_s());
+    let cold = plan(&["material.temperature=-20 °C"]).contact.material;
+    let (warm_s, cold_s) = (
+        own.contact.material.measured_window_s(),
+        cold.measured_window_s(),
+    );
     let decades = (cold_s.unwrap().0 / warm_s.unwrap().0).log10();
     assert!((decades - 8.0 * 40.0 / 60.0).abs() < 0.1, "{decades}");
     let hash = identity(&[]);

@@ -4,9 +4,9 @@ use maud::Markup;
 
 use super::question::Facts;
 use crate::history::TimeRule;
-use crate::indenter::Indenter;
 use crate::report::words::{self, case, nodes_name, range};
-use crate::sweep::plan::{EngineKind, SolverPlan, SweepPlan};
+use crate::sweep::plan::contact::ContactPlan;
+use crate::sweep::plan::{EngineKind, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 use crate::sweep::search::run::Outcome;
 
@@ -25,7 +25,8 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
             outcome.count(Status::Failed)
         ),
     );
-    solver(&mut facts, &plan.solver);
+    let integer = |value: fn(&CaseRecord) -> f64| range(records.iter().map(value), 0);
+    engine(&mut facts, &plan.contact, &integer(|r| r.nodes as f64));
     match plan.cycle.at_cycle {
         Some(number) => facts.add(
             "cycle",
@@ -40,10 +41,7 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
             ),
         ),
     }
-    let integer = |value: fn(&CaseRecord) -> f64| range(records.iter().map(value), 0);
     facts.add("time steps per cycle", &integer(|r| r.steps as f64));
-    let nodes = integer(|r| r.nodes as f64);
-    add_nodes(&mut facts, &plan.solver, plan.indenter.as_ref(), &nodes);
     facts.add("cycles solved per case", &integer(|r| r.cycles as f64));
     facts.add(
         "distance to the stabilised cycle",
@@ -92,8 +90,9 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     facts.html()
 }
 
-/// What is told of a solver.
-pub(super) fn solver(facts: &mut Facts, solver: &SolverPlan) {
+/// Adds which engine solved a contact, and on how many nodes: those of a map, or so many.
+pub(super) fn engine<M>(facts: &mut Facts, contact: &ContactPlan<M>, nodes: &str) {
+    let solver = &contact.solver;
     facts.add(
         "engine",
         match solver.engine {
@@ -112,16 +111,7 @@ pub(super) fn solver(facts: &mut Facts, solver: &SolverPlan) {
             TimeRule::Constant => "constant over a time step, first order",
         },
     );
-}
-
-/// Adds how many nodes there were: those of a map, or so many.
-pub(super) fn add_nodes(
-    facts: &mut Facts,
-    solver: &SolverPlan,
-    indenter: &dyn Indenter,
-    nodes: &str,
-) {
-    match indenter.own_cells() {
+    match contact.indenter.own_cells() {
         Some((x, y)) => facts.add("cells of the map", &format!("{x} × {y}")),
         None => facts.add(nodes_name(solver.engine), nodes),
     }

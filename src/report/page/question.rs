@@ -65,7 +65,7 @@ pub(super) fn line(plan: &SweepPlan) -> String {
     format!(
         "{}{}, under {}; {}; {range}",
         words::each_of(plan, Block::Material, material),
-        caption::layer(plan.layer, &[]),
+        caption::layer(plan.contact.layer, &[]),
         words::each_of(plan, Block::Indenter, |_, c| format!(
             "a {}",
             c.indenter.shape()
@@ -79,7 +79,7 @@ pub(super) fn sweep(plan: &SweepPlan) -> Markup {
     let mut drive = Facts::default();
     drive.add("control", plan.drive.control().name());
     drive.add("mean ± amplitude", &words::drive_line(&plan.drive, plan));
-    if let Some(attraction) = words::adhesion_line(plan.adhesion) {
+    if let Some(attraction) = words::adhesion_line(plan.contact.adhesion) {
         drive.add("attraction", &attraction);
     }
     drive.add("phase", &plain(plan.drive.phase_rad(), Dimension::Angle, 4));
@@ -93,7 +93,7 @@ pub(super) fn sweep(plan: &SweepPlan) -> Markup {
     parts(
         html! {
             (each_of(plan, Block::Material, |condition| material(&condition.material)))
-            (body(plan.layer))
+            (body(plan.contact.layer))
         },
         each_of(plan, Block::Indenter, |condition| {
             indenter_body(condition.indenter.as_ref(), Some(&condition.material))

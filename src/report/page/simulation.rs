@@ -86,7 +86,7 @@ impl SimulationData {
                 .unwrap_or("r"),
             profiles: outcome.profiles.iter().filter_map(profile).collect(),
             fields: fields.iter().filter_map(|f| field(f, cells)).collect(),
-            material: plan.material.series().map(MaterialData::of),
+            material: plan.contact.material.series().map(MaterialData::of),
         }
     }
 }
@@ -270,12 +270,13 @@ fn surface() -> Markup {
 
 /// One line: material, indenter, drive.
 pub(super) fn line(plan: &ScenarioPlan) -> String {
-    let name = plan.material.series().and_then(|material| material.name());
+    let material = plan.contact.material.series();
+    let name = material.and_then(|material| material.name());
     format!(
         "{}{}, under a {}; {} over {}",
         name.unwrap_or("A material of its own"),
-        caption::layer(plan.layer, &[]),
-        plan.indenter.shape(),
+        caption::layer(plan.contact.layer, &[]),
+        plan.contact.indenter.shape(),
         plan.drive.control().name(),
         plain(plan.drive.duration_s(), Dimension::Time, 5)
     )
@@ -332,7 +333,8 @@ fn problems(outcome: &SimulationOutcome) -> Markup {
 
 /// What was asked.
 fn question(plan: &ScenarioPlan) -> Markup {
-    let material = match &plan.material {
+    let contact = &plan.contact;
+    let material = match &contact.material {
         BodyMaterial::Series(material) => question::material(material),
         BodyMaterial::Samples(_) => {
             html! { p { "Samples of a measured function, taken as they are: see the input below." } }
@@ -347,12 +349,12 @@ fn question(plan: &ScenarioPlan) -> Markup {
     );
     let dimension = drive_dimension(plan.drive.control());
     drive.add("largest value", &plain(plan.drive.maximum(), dimension, 6));
-    if let Some(attraction) = words::adhesion_line(plan.adhesion) {
+    if let Some(attraction) = words::adhesion_line(contact.adhesion) {
         drive.add("attraction", &attraction);
     }
     question::parts(
-        html! { (material) (question::body(plan.layer)) },
-        question::indenter_body(plan.indenter.as_ref(), plan.material.series()),
+        html! { (material) (question::body(contact.layer)) },
+        question::indenter_body(contact.indenter.as_ref(), contact.material.series()),
         drive.html(),
     )
 }
@@ -360,9 +362,8 @@ fn question(plan: &ScenarioPlan) -> Markup {
 /// How the numbers were obtained.
 fn how(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Markup {
     let mut facts = Facts::default();
-    how::solver(&mut facts, &plan.solver);
-    let nodes = plan.solver.nodes().to_string();
-    how::add_nodes(&mut facts, &plan.solver, plan.indenter.as_ref(), &nodes);
+    let nodes = plan.contact.solver.nodes().to_string();
+    how::engine(&mut facts, &plan.contact, &nodes);
     facts.add("time steps", &outcome.rows.len().to_string());
     facts.add("contact iterations", &outcome.iterations.to_string());
     facts.add(

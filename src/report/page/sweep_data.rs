@@ -136,11 +136,11 @@ impl<'a> SweepData<'a> {
                 None => Vec::new(),
             },
             drive_unit: plan.drive.control().unit(),
-            node_name: match plan.indenter.own_cells() {
+            node_name: match plan.contact.indenter.own_cells() {
                 Some(_) => "cells along the longer side of the map",
-                None => nodes_name(plan.solver.engine),
+                None => nodes_name(plan.contact.solver.engine),
             },
-            material: MaterialData::over(&plan.material, plan.figures.frequency_unit),
+            material: MaterialData::over(&plan.contact.material, plan.figures.frequency_unit),
             table: match plan.is_small() {
                 true => Vec::new(),
                 false => cases_table::shown(plan, outcome),

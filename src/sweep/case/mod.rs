@@ -119,7 +119,7 @@ impl Setup {
     /// indenter.
     pub fn new(mut plan: SweepPlan) -> Result<Self, SetupError> {
         plan.check()?;
-        plan.solver = plan.solver.on_own_cells(plan.indenter.as_ref());
+        plan.contact = plan.contact.on_own_cells();
         let setup = Self {
             solids: Mutex::default(),
             engines: Mutex::default(),
@@ -127,7 +127,7 @@ impl Setup {
             plan,
         };
         for condition in setup.plan.conditions().iter() {
-            setup.engines(condition, setup.plan.solver.nodes())?;
+            setup.engines(condition, setup.plan.contact.solver.nodes())?;
         }
         Ok(setup)
     }
@@ -203,7 +203,7 @@ impl Setup {
     ) -> f64 {
         let omega = angular_frequency_rad_per_s;
         let needed = || instant_tolerance::of_a_cycle(compliance, drive, omega, cycle_tolerance);
-        self.plan.solver.tolerance.unwrap_or_else(needed)
+        self.plan.contact.solver.tolerance.unwrap_or_else(needed)
     }
 
     fn new_engines(
@@ -218,7 +218,7 @@ impl Setup {
             maximum: condition.drive.maximum() + condition.drive.pull_off_n(),
             compliance_per_pa: relaxed_per_pa,
         };
-        let solver = self.plan.solver.with_nodes(nodes);
+        let solver = self.plan.contact.solver.with_nodes(nodes);
         let layer = condition.layer.map(|layer| {
             let poisson_ratio = condition.material.poisson_ratio();
             let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfConstantBulkModulus)?;
@@ -237,7 +237,7 @@ impl Setup {
         let drive = &contact.condition.drive;
         // On the way to the stabilised cycle the contact may be smaller than it ever is in that.
         let is_transient = contact.cycle.at_cycle.is_some();
-        if is_transient || self.plan.solver.engine == EngineKind::HalfSpace {
+        if is_transient || self.plan.contact.solver.engine == EngineKind::HalfSpace {
             return self.engines(contact.condition, nodes);
         }
         let of_drive = |maximum: f64, compliance_per_pa| LargestContact {
@@ -314,7 +314,7 @@ impl Setup {
         interrupt: &AtomicBool,
     ) -> Option<CaseRecord> {
         let mut cycle = self.plan.cycle;
-        let mut nodes = self.plan.solver.nodes();
+        let mut nodes = self.plan.contact.solver.nodes();
         if let Some(accuracy) = cycle.accuracy {
             cycle.tolerance = cycle.tolerance.min(0.1 * accuracy);
         }
@@ -356,7 +356,7 @@ impl Setup {
                 record.message = Some(error.to_string());
             }
         }
-        if let (Some(adhesion), Some(result)) = (&self.plan.adhesion, &mut record.result)
+        if let (Some(adhesion), Some(result)) = (&self.plan.contact.adhesion, &mut record.result)
             && let Ok(solid) = self.solid(&case.condition)
         {
             let omega = case.angular_frequency_rad_per_s;
@@ -364,7 +364,7 @@ impl Setup {
             let pull_off_n = case.condition.drive.pull_off_n();
             result.tabor_parameter = Some(adhesion.tabor_parameter(pull_off_n, modulus_pa));
         }
-        let solver = &self.plan.solver;
+        let solver = &self.plan.contact.solver;
         record.warnings =
             outside_model::warnings(solver, &case.condition, &record, cycle.error_bars);
         if let (Some(result), false) = (&mut record.result, self.plan.is_small()) {
@@ -388,7 +388,7 @@ impl Setup {
             compliance: &solid.compliance,
             condition,
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
-            time_rule: self.plan.solver.time_rule,
+            time_rule: self.plan.contact.solver.time_rule,
             cycle,
             interrupt,
             checkpoints,
@@ -424,7 +424,7 @@ impl Setup {
         if bars {
             // From coarse to fine: each number of steps starts the next from its memory.
             steps.insert(0, fine.steps / 2);
-            if self.plan.solver.engine == EngineKind::Axisymmetric {
+            if self.plan.contact.solver.engine == EngineKind::Axisymmetric {
                 steps.insert(0, fine.steps / 4);
             }
         }
@@ -502,12 +502,12 @@ impl Setup {
         let of_stabilised = contact.cycle.at_cycle.is_none();
         let distance = record.steady_distance.filter(|_| of_stabilised);
         let mut distance = distance.unwrap_or(0.0);
-        if self.plan.solver.engine == EngineKind::HalfSpace {
+        if self.plan.contact.solver.engine == EngineKind::HalfSpace {
             distance += instant_tolerance::SHARE * contact.cycle.tolerance;
         }
         let on = [&*solved, &on_half];
         let of_cycle = (distance, others.as_slice());
-        let in_nodes = match self.plan.solver.engine {
+        let in_nodes = match self.plan.contact.solver.engine {
             EngineKind::Axisymmetric => InNodes::SPRINGS,
             EngineKind::HalfSpace => {
                 InNodes::cells(2.0 * record.domain_half_width_m / record.nodes as f64)
@@ -576,7 +576,7 @@ impl Setup {
     /// Numbers of nodes coarser than this one. On cells, ratios that put the edge of the contact elsewhere between two of them
     /// each time; springs end where the edge turns, whatever their number.
     fn coarser_nodes(&self, nodes: usize) -> [usize; 2] {
-        match self.plan.solver.engine {
+        match self.plan.contact.solver.engine {
             EngineKind::Axisymmetric => [nodes / 2, nodes / 4],
             EngineKind::HalfSpace => [5 * nodes / 9, 3 * nodes / 10],
         }
@@ -585,7 +585,7 @@ impl Setup {
     /// Steps on fewer nodes: as many as the difference between the two needs, and those that tell the order in the steps
     /// where the full number of nodes is too dear for it.
     fn steps_of_coarse(&self, steps: usize, middle: usize) -> Vec<usize> {
-        match self.plan.solver.engine {
+        match self.plan.contact.solver.engine {
             EngineKind::HalfSpace if middle == steps / 2 => vec![steps / 4, middle],
             _ => vec![middle],
         }
@@ -612,7 +612,7 @@ impl Setup {
     ) -> Result<(), CaseError> {
         /// Each refinement is foretold from the last one's error; where an error falls more slowly than foretold, it takes more.
         const ROUNDS: usize = 8;
-        (record.steps, record.nodes) = match self.plan.solver.engine {
+        (record.steps, record.nodes) = match self.plan.contact.solver.engine {
             EngineKind::Axisymmetric => (64, 64),
             EngineKind::HalfSpace => (48, 64),
         };
@@ -683,7 +683,7 @@ impl Setup {
 
     /// Beyond this an accuracy counts as out of reach.
     fn finest(&self) -> Resolution {
-        match self.plan.solver.engine {
+        match self.plan.contact.solver.engine {
             EngineKind::Axisymmetric => Resolution {
                 steps: 20_000,
                 nodes: 6_400,
@@ -724,8 +724,8 @@ impl Setup {
                     contact.cycle.tolerance,
                 );
                 engine.tolerate(needed);
-                if self.plan.solver.engine == EngineKind::HalfSpace
-                    && self.plan.solver.tolerance.is_none()
+                if self.plan.contact.solver.engine == EngineKind::HalfSpace
+                    && self.plan.contact.solver.tolerance.is_none()
                     && let Some(tighter) = instant_tolerance::tighter(needed)
                 {
                     match contact.searching_alone().in_steps(engine, steps) {

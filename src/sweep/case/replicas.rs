@@ -75,14 +75,17 @@ impl Setup {
 
     /// Steps and nodes on which the replicas are solved. A map has its own cells and no others.
     fn coarse_for_replicas(&self) -> Resolution {
-        let nodes = match (self.plan.solver.engine, self.plan.indenter.own_cells()) {
+        let nodes = match (
+            self.plan.contact.solver.engine,
+            self.plan.contact.indenter.own_cells(),
+        ) {
             (EngineKind::Axisymmetric, _) => 48,
             (EngineKind::HalfSpace, None) => 32,
             (EngineKind::HalfSpace, Some(_)) => usize::MAX,
         };
         Resolution {
             steps: self.plan.cycle.steps.min(48),
-            nodes: self.plan.solver.nodes().min(nodes),
+            nodes: self.plan.contact.solver.nodes().min(nodes),
         }
     }
 }

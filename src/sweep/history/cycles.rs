@@ -150,11 +150,11 @@ fn numbers(
     let mean_contact_radius_m = radii.iter().skip(1).sum::<f64>() / SAMPLES as f64;
     let change = |samples: &[f64]| samples[SAMPLES] - samples[0];
     // Only of a disk the radius by its area is the one by its stiffness.
-    let is_disk = plan.indenter.axisymmetric().is_some();
+    let is_disk = plan.contact.indenter.axisymmetric().is_some();
     let moduli_pa = is_disk.then(|| {
-        let nu = plan.material.poisson_ratio().unwrap_or(0.0);
+        let nu = plan.contact.material.poisson_ratio().unwrap_or(0.0);
         let moduli = analysis.equivalent_moduli_pa(mean_contact_radius_m, nu)?;
-        Some(match plan.material.series() {
+        Some(match plan.contact.material.series() {
             Some(material) => material.of_loop(moduli, TAU / period_s),
             None => moduli,
         })

@@ -245,7 +245,7 @@ impl Following<'_> {
     }
 
     fn surface_record(&self, row: HistoryRow, surface: Surface) -> SurfaceRecord {
-        let indenter = self.plan.indenter.as_ref();
+        let indenter = self.plan.contact.indenter.as_ref();
         let gap_m = row.approach_m.map(|approach_m| match &surface {
             Surface::Radial(radial) => {
                 let points = radial.radius_m.iter().zip(&radial.displacement_m);

@@ -167,12 +167,12 @@ impl Simulation {
         fineness: Fineness,
     ) -> Result<Self, SimulationError> {
         plan.check()?;
-        plan.solver = plan.solver.on_own_cells(plan.indenter.as_ref());
-        let compliance = plan.material.compliance()?;
+        plan.contact = plan.contact.on_own_cells();
+        let compliance = plan.contact.material.compliance()?;
         let steps = match plan.step_s {
             Some(step_s) => Steps::Given { step_s },
             None => Steps::Chosen {
-                shortest_time_s: plan.material.shortest_time_s(),
+                shortest_time_s: plan.contact.material.shortest_time_s(),
             },
         };
         let largest = LargestContact {
@@ -181,28 +181,28 @@ impl Simulation {
             // A solid or fluid meets no more than its compliance at the end, and no more than the largest load.
             compliance_per_pa: compliance.largest_per_pa(plan.drive.duration_s()),
         };
-        let layer = plan.layer.map(|layer| {
-            let poisson_ratio = plan.material.poisson_ratio();
+        let layer = plan.contact.layer.map(|layer| {
+            let poisson_ratio = plan.contact.material.poisson_ratio();
             let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfConstantBulkModulus)?;
             Ok::<_, EngineError>(layer.of_material(poisson_ratio))
         });
         let layer = layer.transpose()?;
         let level = |fineness, nodes| -> Result<Level, SimulationError> {
             let schedule = schedule(&plan, steps, fineness)?;
-            let solver = plan.solver.with_nodes(nodes);
+            let solver = plan.contact.solver.with_nodes(nodes);
             Ok(Level {
                 floating: floating(plan.drive.control(), &schedule.moments),
                 schedule,
-                engines: EngineBuilder::on(layer, plan.indenter.clone(), solver, largest)?,
+                engines: EngineBuilder::on(layer, plan.contact.indenter.clone(), solver, largest)?,
             })
         };
-        let full = level(fineness, plan.solver.nodes())?;
+        let full = level(fineness, plan.contact.solver.nodes())?;
         let (moments, nodes) = (full.schedule.moments.len(), full.engines.nodes());
         if matches!(compliance, Compliance::Samples(_)) && !direct_sum_fits(moments, nodes) {
             let steps = moments;
             return Err(SimulationError::DirectSum { steps, nodes });
         }
-        let nodes = plan.solver.nodes();
+        let nodes = plan.contact.solver.nodes();
         let wanted = plan.output.error_bars && fineness == Fineness::FULL;
         let error_plan = || error_plan(&plan, &compliance, &full).map_err(Some);
         let (errors, without_errors) = match wanted.then(error_plan).unwrap_or(Err(None)) {
@@ -474,7 +474,7 @@ impl Simulation {
         step: Option<&StepState>,
         course: &mut Course,
     ) -> Result<(), MarchError> {
-        let rule = self.plan.solver.time_rule;
+        let rule = self.plan.contact.solver.time_rule;
         match &self.compliance {
             Compliance::Series(creep) => {
                 let march = March::new(engine, creep.clone(), rule);
@@ -520,11 +520,11 @@ fn error_plan(plan: &ScenarioPlan, compliance: &Compliance, full: &Level) -> Res
         return Err(why.to_owned());
     }
     // An even number of cells keeps the symmetry of a quarter.
-    let multiple = match plan.solver.engine {
+    let multiple = match plan.contact.solver.engine {
         EngineKind::Axisymmetric => 1,
         EngineKind::HalfSpace => 2,
     };
-    let nodes = errors::coarser_nodes(plan.solver.nodes(), multiple)
+    let nodes = errors::coarser_nodes(plan.contact.solver.nodes(), multiple)
         .ok_or_else(|| "there are too few nodes to leave any out".to_owned())?;
     let can_be_coarser = full.schedule.can_be_coarser;
     let doubled = 2 * full.schedule.moments.len();
@@ -536,7 +536,11 @@ fn error_plan(plan: &ScenarioPlan, compliance: &Compliance, full: &Level) -> Res
         let why = "there are no steps to leave out, and too many to be halved";
         return Err(why.to_owned());
     }
-    Ok(Plan::with_errors(can_be_coarser, plan.solver.engine, nodes))
+    Ok(Plan::with_errors(
+        can_be_coarser,
+        plan.contact.solver.engine,
+        nodes,
+    ))
 }
 
 /// How often the domain of the largest contact can be halved for the first.
@@ -600,9 +604,9 @@ mod tests {
     use crate::drive::{Segment, SegmentedDrive};
     use crate::indenter::{Axisymmetric, Indenter, Parameter, Sphere};
     use crate::material::library;
-    use crate::sweep::figures::figure_plan::FigurePlan;
+
     use crate::sweep::history::checkpoint::Found;
-    use crate::sweep::plan::SolverPlan;
+
     use crate::sweep::plan::scenario::OutputPlan;
     use crate::sweep::store::Store;
 
@@ -719,11 +723,6 @@ mod tests {
         let segments = vec![ramp(10.0, 6.0), ramp(2.0, 6.0)];
         let plan = ScenarioPlan {
             title: "underrated".to_owned(),
-            material: library::find("pmma").unwrap().material().unwrap().into(),
-            layer: None,
-            adhesion: None,
-            indenter: Arc::new(Underrated(Sphere::new(0.01).unwrap())),
-            drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
             step_s: Some(0.5),
             output: OutputPlan {
                 profiles_at_s: vec![9.0, 1.0],
@@ -731,8 +730,11 @@ mod tests {
                 field_cells: 8,
                 error_bars: true,
             },
-            solver: SolverPlan::default(),
-            figures: FigurePlan::default(),
+            ..ScenarioPlan::new(
+                library::find("pmma").unwrap().material().unwrap(),
+                Arc::new(Underrated(Sphere::new(0.01).unwrap())),
+                SegmentedDrive::new(Control::Load, segments).unwrap(),
+            )
         };
         let simulation = Simulation::new(plan).unwrap();
         let whole = simulation.run(&AtomicBool::new(false), &|_, _| {});
@@ -777,15 +779,13 @@ mod tests {
         ];
         let plan = ScenarioPlan {
             title: "cap".to_owned(),
-            material: library::find("pmma").unwrap().material().unwrap().into(),
-            layer: None,
-            adhesion: None,
-            indenter: Arc::new(Cap(Sphere::new(0.01).unwrap())),
-            drive: SegmentedDrive::new(Control::Load, segments).unwrap(),
             step_s: Some(1.0),
             output: OutputPlan::default(),
-            solver: SolverPlan::default(),
-            figures: FigurePlan::default(),
+            ..ScenarioPlan::new(
+                library::find("pmma").unwrap().material().unwrap(),
+                Arc::new(Cap(Sphere::new(0.01).unwrap())),
+                SegmentedDrive::new(Control::Load, segments).unwrap(),
+            )
         };
         let simulation = Simulation::new(plan).unwrap();
         let outcome = simulation.run(&AtomicBool::new(false), &|_, _| {});

@@ -11,7 +11,7 @@ use crate::sweep::record::warning::{LARGEST_TABOR_PARAMETER, Warning};
 
 /// What is to be said of a history, as far as it came.
 pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning> {
-    let window = measured_window_s(&plan.material);
+    let window = plan.contact.material.measured_window_s();
     let mut warnings = of_times(window, &plan.drive);
     let wider = |a, b| {
         let (a, b): (&HistoryRow, &HistoryRow) = (a, b);
@@ -21,14 +21,14 @@ pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning
         }
     };
     if let Some(widest) = outcome.rows.iter().reduce(wider)
-        && let Some(modulus_pa) = creep_modulus_pa(&plan.material, widest.time_s)
+        && let Some(modulus_pa) = creep_modulus_pa(&plan.contact.material, widest.time_s)
     {
         let slope = slope_of_history(plan, outcome, widest);
         warnings.extend(of_slope(slope, widest.contact_radius_m, modulus_pa));
     }
     let approach_m = outcome.rows.iter().filter_map(|row| row.approach_m);
     warnings.extend(Warning::of_depth(
-        plan.layer,
+        plan.contact.layer,
         approach_m.fold(0.0, f64::max),
     ));
     warnings.extend(tabor_parameter(plan));
@@ -37,10 +37,13 @@ pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning
 
 /// Tabor's parameter of an indenter that is attracted, of the body as soft as it becomes.
 fn tabor_parameter(plan: &ScenarioPlan) -> Option<Warning> {
-    let compliance = plan.material.compliance().ok()?;
+    let compliance = plan.contact.material.compliance().ok()?;
     let softest_pa = compliance.largest_per_pa(plan.drive.duration_s()).recip();
     let pull_off_n = plan.drive.pull_off_n();
-    let parameter = plan.adhesion?.tabor_parameter(pull_off_n, softest_pa);
+    let parameter = plan
+        .contact
+        .adhesion?
+        .tabor_parameter(pull_off_n, softest_pa);
     (parameter > LARGEST_TABOR_PARAMETER).then_some(Warning::TaborParameter { parameter })
 }
 
@@ -88,17 +91,6 @@ fn shortest_s(drive: &SegmentedDrive) -> f64 {
     times_s.fold(f64::INFINITY, f64::min)
 }
 
-/// First and last time (s) at which the material of a history was measured, where that is known.
-fn measured_window_s(material: &BodyMaterial) -> Option<(f64, f64)> {
-    match material {
-        BodyMaterial::Series(material) => material.measured_window_s(),
-        BodyMaterial::Samples(sampled) => {
-            let times_s = sampled.table().times_s();
-            Some((*times_s.first()?, *times_s.last()?))
-        }
-    }
-}
-
 /// One over the longitudinal creep compliance (Pa) after this time.
 fn creep_modulus_pa(material: &BodyMaterial, time_s: f64) -> Option<f64> {
     match material.poisson_ratio() {
@@ -122,14 +114,14 @@ fn slope_of_history(
 ) -> Option<f64> {
     /// Cells along the longer side of the domain, where the shape has none of its own.
     const CELLS: usize = 128;
-    let indenter = plan.indenter.as_ref();
+    let indenter = plan.contact.indenter.as_ref();
     if let Some(body) = indenter.axisymmetric() {
         let approach_m = outcome.rows.iter().filter_map(|row| row.approach_m);
         let approach_m = approach_m.fold(0.0, f64::max);
         return slope_of_body(body, widest.contact_radius_m, approach_m);
     }
     let load_n = outcome.rows.iter().fold(0.0, |a, row| row.load_n.max(a));
-    let compliance = plan.material.compliance().ok()?;
+    let compliance = plan.contact.material.compliance().ok()?;
     let compliance_per_pa = compliance.largest_per_pa(plan.drive.duration_s());
     let grid = domain::grid(&indenter.domain(load_n, compliance_per_pa), CELLS, 0).ok()?;
     Patch::lowest(indenter, &grid, widest.contact_area_m2()).steepest()

@@ -107,7 +107,7 @@ impl SweepPlan {
             layer.check()?;
         }
         self.cycle.check()?;
-        self.solver.check()
+        self.contact.check()
     }
 }
 
@@ -139,7 +139,7 @@ impl SolverPlan {
     pub const CELLS: RangeInclusive<usize> = 8..=4096;
     pub const TOLERANCE: Range<f64> = CyclePlan::TOLERANCE;
 
-    fn check(&self) -> Result<(), PlanError> {
+    pub(super) fn check(&self) -> Result<(), PlanError> {
         match self.engine {
             EngineKind::Axisymmetric => check_count("springs", self.springs, &Self::SPRINGS)?,
             EngineKind::HalfSpace => check_count("cells", self.cells, &Self::CELLS)?,
@@ -158,8 +158,7 @@ impl ScenarioPlan {
     pub fn check(&self) -> Result<(), PlanError> {
         let cells = self.output.field_cells;
         check_count("cells of a field", cells, &SolverPlan::CELLS)?;
-        self.layer.map_or(Ok(()), |layer| layer.check())?;
-        self.solver.check()
+        self.contact.check()
     }
 }
 
@@ -252,10 +251,10 @@ mod tests {
         assert!(refused(|plan| plan.cycle.max_cycles = 0).is_some());
         assert!(refused(|plan| plan.cycle.tolerance = f64::NAN).is_some());
         assert!(refused(|plan| plan.cycle.accuracy = Some(1.0)).is_some());
-        assert!(refused(|plan| plan.solver.springs = 9).is_some());
-        assert!(refused(|plan| plan.solver.tolerance = Some(0.0)).is_some());
+        assert!(refused(|plan| plan.contact.solver.springs = 9).is_some());
+        assert!(refused(|plan| plan.contact.solver.tolerance = Some(0.0)).is_some());
         // Cells of an engine that has none say nothing.
-        assert_eq!(refused(|plan| plan.solver.cells = 0), None);
+        assert_eq!(refused(|plan| plan.contact.solver.cells = 0), None);
         let axis = |amplitudes: &[f64]| {
             let varied = Varied::amplitude(Control::Load);
             refused(|plan| {

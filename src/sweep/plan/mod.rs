@@ -4,6 +4,7 @@ pub mod adhesion;
 pub mod axes;
 pub mod body_material;
 pub mod check;
+pub mod contact;
 pub mod instant_tolerance;
 pub mod layer;
 pub mod resolved;
@@ -19,7 +20,7 @@ use crate::history::TimeRule;
 use crate::indenter::Indenter;
 use crate::material::Material;
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::plan::adhesion::AdhesionPlan;
+use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
 
 /// Cases of a small sweep, at most.
@@ -29,13 +30,8 @@ pub const SMALL: usize = 200;
 #[derive(Debug, Clone)]
 pub struct SweepPlan {
     pub title: String,
-    pub material: Arc<Material>,
-    /// The layer that the body is, where it is no half-space.
-    pub layer: Option<LayerPlan>,
-    pub indenter: Arc<dyn Indenter>,
+    pub contact: ContactPlan<Arc<Material>>,
     pub drive: HarmonicDrive,
-    /// Attraction outside the contact, where there is any; the drive then knows the pull-off load.
-    pub adhesion: Option<AdhesionPlan>,
     /// Other axes than the frequency, where there are any: every frequency is then solved under each of their conditions.
     pub axes: Option<Axes>,
     /// Ascending, in rad/s.
@@ -43,7 +39,6 @@ pub struct SweepPlan {
     /// Whether frequencies are added where these do not resolve the curve of the loss.
     pub refine: bool,
     pub cycle: CyclePlan,
-    pub solver: SolverPlan,
     /// How the figures look; no part of the results.
     pub figures: FigurePlan,
 }
@@ -71,14 +66,15 @@ pub struct Case {
 impl SweepPlan {
     /// A sweep without frequencies and title, everything else at its default.
     pub fn new(material: Material, indenter: Arc<dyn Indenter>, drive: HarmonicDrive) -> Self {
+        Self::of(ContactPlan::new(Arc::new(material), indenter), drive)
+    }
+
+    /// The same of a contact that is known.
+    pub fn of(contact: ContactPlan<Arc<Material>>, drive: HarmonicDrive) -> Self {
         Self {
             title: String::new(),
-            material: Arc::new(material),
-            layer: None,
-            solver: SolverPlan::of_indenter(indenter.as_ref()),
-            indenter,
+            contact,
             drive,
-            adhesion: None,
             axes: None,
             angular_frequencies_rad_per_s: Vec::new(),
             refine: false,
@@ -91,9 +87,9 @@ impl SweepPlan {
     pub fn condition(&self) -> Condition {
         Condition {
             values: AxisValues::default(),
-            material: Arc::clone(&self.material),
-            layer: self.layer,
-            indenter: Arc::clone(&self.indenter),
+            material: Arc::clone(&self.contact.material),
+            layer: self.contact.layer,
+            indenter: Arc::clone(&self.contact.indenter),
             drive: self.drive,
         }
     }
@@ -126,7 +122,7 @@ impl SweepPlan {
         let conditions = self.axes.iter().flat_map(|axes| &axes.conditions);
         let mut of_values = conditions.filter(|condition| condition.values == *values);
         let condition = of_values.next();
-        condition.map_or(&*self.indenter, |condition| &*condition.indenter)
+        condition.map_or(&*self.contact.indenter, |condition| &*condition.indenter)
     }
 
     /// How many cases there are.

@@ -17,16 +17,12 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     // By name, so that what is added to a plan and not written here, and so not hashed, does not compile.
     let SweepPlan {
         title,
-        material,
-        layer,
-        indenter,
+        contact,
         drive,
-        adhesion,
         axes,
         angular_frequencies_rad_per_s,
         refine,
         cycle,
-        solver,
         figures,
     } = plan;
     let given = axes.as_ref().map(|axes| &axes.given_blocks);
@@ -39,18 +35,19 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         _ if is_listed(Block::Material) => String::new(),
         Some(block) => block.to_owned(),
         None => material_of(
-            material,
+            &contact.material,
             axes.iter().flat_map(|axes| &axes.conditions),
             axes,
         ),
     };
-    blocks.push_str(&layer.map_or(String::new(), |layer| layer.text()));
+    let counterbody = match given.and_then(|given| given.counterbody.as_deref()) {
+        Some(block) => Some(block.to_owned()),
+        None => contact.material.counterbody().map(counterbody_text),
+    };
+    let contact = contact.blocks(counterbody);
+    blocks.push_str(&contact.layer);
     if !is_listed(Block::Indenter) {
-        let counterbody = match given.and_then(|given| given.counterbody.as_deref()) {
-            Some(block) => Some(block.to_owned()),
-            None => material.counterbody().map(counterbody_text),
-        };
-        blocks.push_str(&indenter_text(indenter.as_ref(), counterbody));
+        blocks.push_str(&contact.indenter);
     }
     let mut text = opening_text(title, &blocks);
     let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
@@ -59,8 +56,8 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         text.push('\n');
     };
     line(&drive_text(drive));
-    if let Some(adhesion) = adhesion {
-        line(adhesion.text().trim_end());
+    if !contact.adhesion.is_empty() {
+        line(contact.adhesion.trim_end());
     }
     line("\n[sweep]");
     let over = || axes.iter().flat_map(|axes| axes.over.iter().enumerate());
@@ -97,7 +94,7 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     }
     text.push_str(&cycle_text(cycle));
     text.push('\n');
-    text.push_str(&solver_text(solver, indenter.as_ref()));
+    text.push_str(&contact.solver);
     text.push_str(&figures.text());
     text
 }

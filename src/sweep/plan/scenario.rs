@@ -7,27 +7,19 @@ use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
 use crate::quantity::{Dimension, format_si};
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::body_material::BodyMaterial;
-use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::plan::resolved;
-use crate::sweep::plan::{EngineKind, SolverPlan};
+use crate::sweep::plan::contact::ContactPlan;
+use crate::sweep::plan::{EngineKind, resolved};
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
 pub struct ScenarioPlan {
     pub title: String,
-    pub material: BodyMaterial,
-    /// The layer that the body is, where it is no half-space.
-    pub layer: Option<LayerPlan>,
-    /// Attraction outside the contact, where there is any; the drive then knows the pull-off load.
-    pub adhesion: Option<AdhesionPlan>,
-    pub indenter: Arc<dyn Indenter>,
+    pub contact: ContactPlan<BodyMaterial>,
     pub drive: SegmentedDrive,
     /// Time step (s); `None`: chosen from drive and material.
     pub step_s: Option<f64>,
     pub output: OutputPlan,
-    pub solver: SolverPlan,
     /// How the figures look; no part of the results.
     pub figures: FigurePlan,
 }
@@ -39,13 +31,14 @@ impl ScenarioPlan {
         indenter: Arc<dyn Indenter>,
         drive: SegmentedDrive,
     ) -> Self {
+        Self::of(ContactPlan::new(material.into(), indenter), drive)
+    }
+
+    /// The same of a contact that is known.
+    pub fn of(contact: ContactPlan<BodyMaterial>, drive: SegmentedDrive) -> Self {
         Self {
             title: String::new(),
-            material: material.into(),
-            layer: None,
-            adhesion: None,
-            solver: SolverPlan::of_indenter(indenter.as_ref()),
-            indenter,
+            contact,
             drive,
             step_s: None,
             output: OutputPlan::default(),
@@ -89,13 +82,12 @@ pub const FIGURES: [&str; 4] = ["history", "cycle-losses", "profiles", "pressure
 
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
-    let layer = plan.layer.map_or(String::new(), |layer| layer.text());
-    let counterbody = plan.material.counterbody().map(resolved::counterbody_text);
-    let indenter = resolved::indenter_text(plan.indenter.as_ref(), counterbody);
-    let blocks = plan.material.text() + &layer + &indenter;
+    let material = &plan.contact.material;
+    let contact = (plan.contact).blocks(material.counterbody().map(resolved::counterbody_text));
+    let blocks = material.text() + &contact.layer + &contact.indenter;
     let mut text = resolved::opening_text(&plan.title, &blocks);
     text.push_str(&history_text(&plan.drive));
-    text.extend(plan.adhesion.map(|adhesion| adhesion.text()));
+    text.push_str(&contact.adhesion);
     if let Some(step_s) = plan.step_s {
         let _ = writeln!(text, "\n[time]\nstep = {}", quoted(step_s, Dimension::Time));
     }
@@ -108,11 +100,11 @@ pub fn resolved_text(plan: &ScenarioPlan) -> String {
         let _ = writeln!(text, "{key} = [{}]", times.join(", "));
     }
     let _ = writeln!(text, "error_bars = {}", plan.output.error_bars);
-    if plan.solver.engine == EngineKind::Axisymmetric {
+    if plan.contact.solver.engine == EngineKind::Axisymmetric {
         let _ = writeln!(text, "field_cells = {}", plan.output.field_cells);
     }
     text.push('\n');
-    text.push_str(&resolved::solver_text(&plan.solver, plan.indenter.as_ref()));
+    text.push_str(&contact.solver);
     text.push_str(&plan.figures.text());
     text
 }

@@ -4,6 +4,7 @@
 use crate::drive::Control;
 use crate::indenter::Indenter;
 use crate::material::{Material, ModulusKind};
+use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{SweepPlan, Varied};
 
@@ -48,22 +49,16 @@ impl ElasticScale {
     /// # Errors
     /// [`NoScale`].
     pub fn of_sweep(plan: &SweepPlan) -> Result<Self, NoScale> {
-        if plan.layer.is_some() {
-            return Err(NoScale::Layer);
-        }
-        if plan
-            .axes
-            .as_ref()
-            .is_some_and(|axes| axes.over.iter().any(Varied::is_whole))
-        {
+        let mut axes = plan.axes.iter().flat_map(|axes| &axes.over);
+        if axes.any(Varied::is_whole) {
             return Err(NoScale::Several);
         }
-        let drive = &plan.drive;
+        let contact = &plan.contact;
         Self::new(
-            &plan.material,
-            plan.indenter.as_ref(),
-            drive.control(),
-            drive.mean(),
+            contact,
+            &contact.material,
+            plan.drive.control(),
+            plan.drive.mean(),
         )
     }
 
@@ -72,25 +67,21 @@ impl ElasticScale {
     /// # Errors
     /// [`NoScale`].
     pub fn of_scenario(plan: &ScenarioPlan) -> Result<Self, NoScale> {
-        if plan.layer.is_some() {
-            return Err(NoScale::Layer);
-        }
-        let material = plan.material.series().ok_or(NoScale::Samples)?;
-        let drive = &plan.drive;
-        Self::new(
-            material,
-            plan.indenter.as_ref(),
-            drive.control(),
-            drive.maximum() + drive.pull_off_n(),
-        )
+        let contact = &plan.contact;
+        let material = contact.material.series().ok_or(NoScale::Samples)?;
+        let largest = plan.drive.maximum() + plan.drive.pull_off_n();
+        Self::new(contact, material, plan.drive.control(), largest)
     }
 
-    fn new(
+    fn new<M>(
+        of: &ContactPlan<M>,
         material: &Material,
-        indenter: &dyn Indenter,
         control: Control,
         value: f64,
     ) -> Result<Self, NoScale> {
+        if of.layer.is_some() {
+            return Err(NoScale::Layer);
+        }
         let failed = |error: crate::material::MaterialError| NoScale::Material(error.to_string());
         let compliance = material.contact_compliance().map_err(failed)?;
         let longitudinal = material
@@ -98,7 +89,7 @@ impl ElasticScale {
             .map_err(failed)?;
         let compliance_per_pa = compliance.instantaneous_compliance();
         let (load_n, approach_m, contact_radius_m) =
-            contact(indenter, control, value, compliance_per_pa)?;
+            contact(of.indenter.as_ref(), control, value, compliance_per_pa)?;
         let branches = compliance.branches().iter();
         let largest = branches.max_by(|a, b| a.compliance_per_pa.total_cmp(&b.compliance_per_pa));
         Ok(Self {

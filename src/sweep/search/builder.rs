@@ -145,12 +145,12 @@ impl Sweep {
             work_j_per_m2,
             equilibrium_distance_m: AdhesionPlan::EQUILIBRIUM_DISTANCE_M,
         };
-        let pull_off_n = adhesion.pull_off_n(self.plan.indenter.as_ref());
+        let pull_off_n = adhesion.pull_off_n(self.plan.contact.indenter.as_ref());
         let is_load = self.plan.drive.control() == Control::Load;
         let pull_off_n = pull_off_n.filter(|_| is_load);
         let pull_off_n = pull_off_n.ok_or(PlanError::AdhesionOfOther)?;
         self.plan.drive = self.plan.drive.attracted_by(pull_off_n)?;
-        self.plan.adhesion = Some(adhesion);
+        self.plan.contact.adhesion = Some(adhesion);
         Ok(self.checked()?)
     }
 
@@ -169,8 +169,8 @@ impl Sweep {
     /// # Errors
     /// [`PlanError`] where the number is not in [`crate::sweep::plan::SolverPlan::SPRINGS`].
     pub fn springs(mut self, springs: usize) -> Result<Self, PlanError> {
-        self.plan.solver.engine = EngineKind::Axisymmetric;
-        self.plan.solver.springs = springs;
+        self.plan.contact.solver.engine = EngineKind::Axisymmetric;
+        self.plan.contact.solver.springs = springs;
         self.checked()
     }
 
@@ -179,8 +179,8 @@ impl Sweep {
     /// # Errors
     /// [`PlanError`] where the number is not in [`crate::sweep::plan::SolverPlan::CELLS`].
     pub fn cells(mut self, cells: usize) -> Result<Self, PlanError> {
-        self.plan.solver.engine = EngineKind::HalfSpace;
-        self.plan.solver.cells = cells;
+        self.plan.contact.solver.engine = EngineKind::HalfSpace;
+        self.plan.contact.solver.cells = cells;
         self.checked()
     }
 

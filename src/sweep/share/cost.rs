@@ -173,13 +173,13 @@ struct Level {
 
 /// The levels of a case: its own resolution, and coarser ones for the error bars, each started from the one before.
 fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
-    let (nodes, steps) = (plan.solver.nodes(), plan.cycle.steps);
+    let (nodes, steps) = (plan.contact.solver.nodes(), plan.cycle.steps);
     let level = |coarser_nodes, coarser_steps, cycles| Level {
         nodes: nodes / coarser_nodes,
         steps: steps / coarser_steps,
         cycles,
     };
-    let has_bars = plan.cycle.error_bars && plan.indenter.own_cells().is_none();
+    let has_bars = plan.cycle.error_bars && plan.contact.indenter.own_cells().is_none();
     if !has_bars && plan.cycle.accuracy.is_none() {
         return vec![level(1, 1, cycles)];
     }
@@ -189,7 +189,7 @@ fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
         Method::March => cycles,
     };
     let mut levels = vec![level(1, 1, again), level(1, 2, again)];
-    levels.push(match plan.solver.engine {
+    levels.push(match plan.contact.solver.engine {
         EngineKind::Axisymmetric => level(1, 4, cycles),
         EngineKind::HalfSpace => level(2, 4, cycles),
     });
@@ -199,8 +199,8 @@ fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
 
 /// Time of a step on so many nodes, relative to one on the full number.
 fn relative_step(plan: &SweepPlan, nodes: usize) -> f64 {
-    let ratio = nodes as f64 / plan.solver.nodes() as f64;
-    match plan.solver.engine {
+    let ratio = nodes as f64 / plan.contact.solver.nodes() as f64;
+    match plan.contact.solver.engine {
         EngineKind::Axisymmetric => ratio,
         EngineKind::HalfSpace => ratio * ratio,
     }
@@ -209,10 +209,12 @@ fn relative_step(plan: &SweepPlan, nodes: usize) -> f64 {
 /// Time (s) of one step, from steps of the middle frequency after the body was relaxed under the mean.
 fn step_s(setup: &Setup) -> Result<f64, SetupError> {
     let plan = setup.plan();
-    let nodes = match plan.solver.engine {
-        EngineKind::Axisymmetric => plan.solver.nodes(),
-        EngineKind::HalfSpace if plan.indenter.own_cells().is_some() => plan.solver.nodes(),
-        EngineKind::HalfSpace => plan.solver.nodes().min(CELLS_MEASURED),
+    let nodes = match plan.contact.solver.engine {
+        EngineKind::Axisymmetric => plan.contact.solver.nodes(),
+        EngineKind::HalfSpace if plan.contact.indenter.own_cells().is_some() => {
+            plan.contact.solver.nodes()
+        }
+        EngineKind::HalfSpace => plan.contact.solver.nodes().min(CELLS_MEASURED),
     };
     let first = plan.conditions().first().cloned();
     let condition = &first.unwrap_or_else(|| plan.condition());
@@ -222,7 +224,7 @@ fn step_s(setup: &Setup) -> Result<f64, SetupError> {
     let mut engine = setup.engine(condition, nodes)?;
     let compliance = solid.compliance.clone();
     engine.tolerate(setup.instant_tolerance(&compliance, drive, omega, plan.cycle.tolerance));
-    let mut march = March::new(engine.as_mut(), compliance, plan.solver.time_rule);
+    let mut march = March::new(engine.as_mut(), compliance, plan.contact.solver.time_rule);
     let steps = plan.cycle.steps as f64;
     let stages = march.stages(std::f64::consts::TAU / omega / steps);
     let value = |value| prescribed(drive.control(), value);
@@ -257,7 +259,7 @@ impl Setup {
         let conditions = plan.conditions();
         let of_engine = |condition| {
             let branches = self.solid(condition).ok()?.compliance.branches().len();
-            let engines = self.engines(condition, plan.solver.nodes()).ok()?;
+            let engines = self.engines(condition, plan.contact.solver.nodes()).ok()?;
             let told = TOLD_BYTES * engines.surface_cells();
             let engine = engines.predicted_memory_bytes(branches) + told as u64;
             Some((engine, engines.nodes(), branches))

@@ -50,14 +50,14 @@ impl Trial {
             return Ok(Self::run(setup, foretold_s));
         }
         let plan = setup.plan();
-        let has_fewer = plan.solver.engine == EngineKind::HalfSpace
-            && plan.indenter.own_cells().is_none()
-            && plan.solver.cells > FEW_CELLS;
+        let has_fewer = plan.contact.solver.engine == EngineKind::HalfSpace
+            && plan.contact.indenter.own_cells().is_none()
+            && plan.contact.solver.cells > FEW_CELLS;
         if !has_fewer {
             return Ok(Self::NONE);
         }
         let mut fewer = plan.clone();
-        fewer.solver.cells = FEW_CELLS;
+        fewer.contact.solver.cells = FEW_CELLS;
         let fewer = Setup::new(fewer)?;
         let foretold_s = cost::foretold(&fewer)?.1;
         Ok(Self::run(&fewer, &foretold_s))

@@ -383,7 +383,7 @@ mod tests {
         );
         let mut plan = plan;
         plan.angular_frequencies_rad_per_s = vec![0.1 + 0.2];
-        (plan.cycle.steps, plan.solver.springs) = (32, 40);
+        (plan.cycle.steps, plan.contact.solver.springs) = (32, 40);
         let setup = crate::sweep::case::Setup::new(plan).unwrap();
         let case = Case {
             condition: setup.plan().condition(),

@@ -1,0 +1,85 @@
+//! What presses on what, and how that is solved: what the plans of a sweep, of a history and of an identification have in common.
+
+use std::sync::Arc;
+
+use crate::indenter::Indenter;
+use crate::sweep::plan::adhesion::AdhesionPlan;
+use crate::sweep::plan::check::PlanError;
+use crate::sweep::plan::layer::LayerPlan;
+use crate::sweep::plan::{SolverPlan, resolved};
+
+/// A contact of bodies of which so much is known as `M` says: a [`crate::material::Material`] of a sweep, a
+/// [`crate::sweep::plan::body_material::BodyMaterial`] of a history, [`crate::identify::Sought`] of an identification.
+#[derive(Debug, Clone)]
+pub struct ContactPlan<M> {
+    pub material: M,
+    /// The layer that the body is, where it is no half-space.
+    pub layer: Option<LayerPlan>,
+    pub indenter: Arc<dyn Indenter>,
+    /// Attraction outside the contact, where there is any; the drive then knows the pull-off load.
+    pub adhesion: Option<AdhesionPlan>,
+    pub solver: SolverPlan,
+}
+
+impl<M> ContactPlan<M> {
+    /// The contact with a half-space, without attraction, on the engine that this indenter asks for.
+    pub fn new(material: M, indenter: Arc<dyn Indenter>) -> Self {
+        Self {
+            material,
+            layer: None,
+            solver: SolverPlan::of_indenter(indenter.as_ref()),
+            indenter,
+            adhesion: None,
+        }
+    }
+
+    /// The same contact of another material.
+    pub fn with_material<N>(&self, material: N) -> ContactPlan<N> {
+        ContactPlan {
+            material,
+            layer: self.layer,
+            indenter: Arc::clone(&self.indenter),
+            adhesion: self.adhesion,
+            solver: self.solver,
+        }
+    }
+
+    /// The same with the cells that the indenter brings, where it brings any.
+    #[must_use]
+    pub(in crate::sweep) fn on_own_cells(mut self) -> Self {
+        self.solver = self.solver.on_own_cells(self.indenter.as_ref());
+        self
+    }
+
+    /// Checks every value that is not checked where it is made.
+    pub(in crate::sweep) fn check(&self) -> Result<(), PlanError> {
+        self.layer.map_or(Ok(()), |layer| layer.check())?;
+        self.solver.check()
+    }
+
+    /// The blocks of a resolved file, but for the material's, where this is the one of what the indenter is made of.
+    pub(crate) fn blocks(&self, counterbody: Option<String>) -> ContactBlocks {
+        // By name, so that what is added to a contact and not written here, and so not hashed, does not compile.
+        let Self {
+            material: _,
+            layer,
+            indenter,
+            adhesion,
+            solver,
+        } = self;
+        ContactBlocks {
+            layer: layer.map_or(String::new(), |layer| layer.text()),
+            indenter: resolved::indenter_text(indenter.as_ref(), counterbody),
+            adhesion: adhesion.map_or(String::new(), |adhesion| adhesion.text()),
+            solver: resolved::solver_text(solver, indenter.as_ref()),
+        }
+    }
+}
+
+/// Blocks of a resolved file; empty where a contact has none.
+pub(crate) struct ContactBlocks {
+    pub(crate) layer: String,
+    pub(crate) indenter: String,
+    pub(crate) adhesion: String,
+    pub(crate) solver: String,
+}
