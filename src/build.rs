@@ -1,7 +1,7 @@
 //! Gives the program an identity: a hash of everything that its numbers come from, and of a release the commit, where there is
 //! a repository.
 //!
-//! Hashed are the sources of the rooms that make numbers, without comments, blank lines and unit tests and whatever their line
+//! Hashed are the sources of the modules that make numbers, without comments, blank lines and unit tests and whatever their line
 //! ends, and the versions of the crates whose arithmetic they rest on. Two builds with the same hash compute the same records,
 //! so that a change of tables, figures, documentation or command line throws no record away. What flags and files mean is in
 //! the resolved sweep, which has a hash of its own.
@@ -14,8 +14,8 @@ use std::{env, fs, io};
 
 use sha2::{Digest, Sha256};
 
-/// The rooms that make numbers.
-const ROOMS: [&str; 9] = [
+/// The modules that make numbers.
+const MODULES: [&str; 9] = [
     "quantity", "material", "indenter", "drive", "contact", "history", "cycle", "steady", "sweep",
 ];
 
@@ -89,11 +89,11 @@ fn commit(root: &Path) -> Option<String> {
 pub fn identity(root: &Path) -> io::Result<String> {
     let src = root.join("src");
     let mut sources = Vec::new();
-    for room in ROOMS {
-        collect(&src.join(room), room, &mut sources)?;
-        let file = src.join(room).with_extension("rs");
+    for module in MODULES {
+        collect(&src.join(module), module, &mut sources)?;
+        let file = src.join(module).with_extension("rs");
         if file.exists() {
-            sources.push((format!("{room}.rs"), file));
+            sources.push((format!("{module}.rs"), file));
         }
     }
     sources.retain(|(name, _)| !ASIDE.iter().any(|folder| name.starts_with(folder)));

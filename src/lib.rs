@@ -1,11 +1,10 @@
 //! `contact-dma`: dynamic mechanical analysis by contact.
 //!
-//! A rigid indenter is pressed into a linear viscoelastic half-space under a load that oscillates about a mean. This crate
-//! computes the stabilised cycle at many load frequencies and says what it dissipates: energy loss per cycle, hysteresis
-//! loops, phase, harmonics, equivalent storage and loss modulus. It implements S. Spinu, *Viscoelastic Contact Simulation
-//! under Harmonic Cyclic Load*, Advances in Tribology 2018, 9432894, and goes on from there: an exact axisymmetric engine
-//! beside the half-space engine of the paper, second-order time steps, and a stabilisation that is judged by the estimated
-//! distance to the stabilised cycle rather than by the last change.
+//! An indenter is pressed into a linear viscoelastic half-space under a load that oscillates about a mean. This crate computes the
+//! stabilised cycle at many load frequencies and what it dissipates: energy loss per cycle, hysteresis loops, phase, harmonics,
+//! equivalent storage and loss modulus. It implements S. Spinu, *Viscoelastic Contact Simulation under Harmonic Cyclic Load*, Advances in
+//! Tribology 2018, 9432894, and extends it with an exact axisymmetric engine beside the half-space engine of the paper, second-order time
+//! steps, and a stabilisation criterion based on the estimated distance to the stabilised cycle rather than on the last change.
 //!
 //! # Model
 //!
@@ -16,8 +15,8 @@
 //! u(x,y,t) = integral over area of q / (pi r),       q(x,y,t) = integral from 0 to t of C(t-s) dp(x,y,s)
 //! ```
 //!
-//! Frictionless, quasi-static, small slopes; no adhesion but that of small, stiff spheres ([`sweep::plan::adhesion`]); a constant Poisson
-//! ratio, or a constant bulk modulus ([`material::compressibility`]). C(t) is the contact compliance: with a constant Poisson ratio
+//! Frictionless, quasi-static, small slopes; adhesion only of small, stiff spheres ([`sweep::plan::adhesion`]); a constant Poisson
+//! ratio, or a bulk modulus, constant or relaxing ([`material::compressibility`]). C(t) is the contact compliance: with a constant Poisson ratio
 //! (1 - nu^2) D(t) of the longitudinal creep compliance D, or (1 - nu) J(t)/2 of the shear creep compliance J.
 //!
 //! # Conventions
@@ -44,35 +43,35 @@
 //! # }
 //! ```
 //!
-//! [`Sweep`](sweep::Sweep) has the whole of it; `examples/` has programs. Nothing is written to disk.
+//! See [`Sweep`](sweep::Sweep) for all options and `examples/` for programs. Nothing is written to disk.
 //!
 //! # Map
 //!
-//! A room may use those above it, never those below; a test holds it to that.
+//! A module may use those above it, never those below; a test enforces this.
 //!
-//! | room | what it knows |
+//! | module | what it knows |
 //! |---|---|
 //! | [`quantity`] | quantities with units |
 //! | [`material`] | relaxation modulus, creep compliance, complex modulus; models, conversion, library |
 //! | [`indenter`] | gap functions |
 //! | [`drive`] | load or approach against time, time steps; nothing of contact |
-//! | [`contact`] | one instant, by two engines; a gap field and a compliance number, nothing else |
+//! | [`contact`] | one instant of contact, by two engines; a gap field and a compliance number, nothing else |
 //! | [`history`] | viscoelastic memory and time marching |
-//! | [`cycle`] | signals of one cycle; a measured loop is as good as a computed one |
+//! | [`cycle`] | signals of one cycle, measured or computed |
 //! | [`steady`] | the stabilised cycle found directly |
-//! | [`mod@reference`] | closed forms and slow independent solvers; no production room imports it, but for `reproduction` |
+//! | [`mod@reference`] | closed forms and slow independent solvers; of the production modules only `reproduction` uses it |
 //! | [`sweep`] | plans, cases in parallel, records on disk, peaks; single histories |
-//! | [`measured`] | measured loops: frequency, drift, cycles, corrections, moduli; signals, and the exact model for the bias of a formula |
+//! | [`measured`] | measured loops: frequency, drift, cycles, corrections, moduli; uses the exact model for the bias of the small-amplitude formula |
 //! | [`identify`] | a material from measured cycles: the sweep as a forward model |
 //! | [`input`] | sweep, scenario and identification files, and the data files they name, to plans |
 //! | [`report`] | tables and figures, from records alone |
 //! | [`reproduction`] | the base paper, figure by figure; knows `reference` too, to draw closed forms and compare with them |
 //! | [`cli`] | flags to plans, outcomes to text and exit codes |
-//! | [`guide`] | how to use the program; text alone |
+//! | [`guide`] | how to use the program; text only |
 //!
-//! [`report`] and [`reproduction`] are there with the feature `report`, [`cli`] with the feature `cli`; both are on by default. Of
-//! [`report`] the feature `tables` is all that makes columns and tables, without figures and their dependencies.
-//! With `default-features = false` everything above them is built without their dependencies.
+//! [`report`] and [`reproduction`] need the feature `report`, [`cli`] the feature `cli`; both are on by default. The feature `tables`
+//! builds the part of [`report`] that makes columns and tables, without figures and their dependencies. With `default-features = false`
+//! only the modules above them are built, without these dependencies.
 //!
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
 //! bit for bit.
@@ -102,7 +101,7 @@ pub mod reproduction;
 pub mod steady;
 pub mod sweep;
 
-/// What a program that uses the library most often needs: `use contact_dma::prelude::*`.
+/// The most frequently used types: `use contact_dma::prelude::*`.
 pub mod prelude {
     pub use crate::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
     pub use crate::indenter::{Asperities, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter};

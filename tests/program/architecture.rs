@@ -1,10 +1,10 @@
-//! The map of rooms in the crate documentation, held to: a room uses those above it, never those below.
+//! The map of modules in the crate documentation, enforced: a module uses those above it, never those below.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Rooms from top to bottom.
-const ROOMS: [&str; 17] = [
+/// Top-level modules from top to bottom.
+const MODULES: [&str; 17] = [
     "quantity",
     "material",
     "indenter",
@@ -24,12 +24,12 @@ const ROOMS: [&str; 17] = [
     "guide",
 ];
 
-/// Folders of the room `sweep` from top to bottom.
+/// Folders of the module `sweep` from top to bottom.
 const SWEEP: [&str; 10] = [
     "figures", "plan", "record", "engine", "store", "case", "history", "scales", "share", "search",
 ];
 
-/// Parts of the room `report` from top to bottom.
+/// Parts of the module `report` from top to bottom.
 const REPORT: [&str; 33] = [
     "number",
     "words",
@@ -66,7 +66,7 @@ const REPORT: [&str; 33] = [
     "mod",
 ];
 
-/// Rooms that do not know one another, although one stands above the other.
+/// Modules that do not know one another, although one stands above the other.
 const STRANGERS: [&str; 5] = ["material", "indenter", "drive", "contact", "cycle"];
 
 fn sources(folder: &Path) -> Vec<PathBuf> {
@@ -89,9 +89,9 @@ fn production(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Rooms named as `crate::room` in the code.
-fn rooms_used(code: &str) -> Vec<&'static str> {
-    used(code, "crate::", &ROOMS)
+/// Modules named as `crate::module` in the code.
+fn modules_used(code: &str) -> Vec<&'static str> {
+    used(code, "crate::", &MODULES)
 }
 
 /// Those of these names that the code has behind this prefix.
@@ -106,16 +106,16 @@ fn used(code: &str, prefix: &str, names: &[&'static str]) -> Vec<&'static str> {
     names.iter().filter(named).copied().collect()
 }
 
-fn rooms() -> Vec<(usize, PathBuf, Vec<&'static str>)> {
+fn modules() -> Vec<(usize, PathBuf, Vec<&'static str>)> {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut all = Vec::new();
     for path in sources(&src) {
         let inside = path.strip_prefix(&src).unwrap();
         let first = inside.components().next().unwrap().as_os_str();
         let name = first.to_str().unwrap().trim_end_matches(".rs");
-        if let Some(room) = ROOMS.iter().position(|r| *r == name) {
+        if let Some(module) = MODULES.iter().position(|r| *r == name) {
             let code = production(&fs::read_to_string(&path).unwrap());
-            all.push((room, inside.to_path_buf(), rooms_used(&code)));
+            all.push((module, inside.to_path_buf(), modules_used(&code)));
         } else {
             assert!(
                 ["build", "lib", "main"].contains(&name),
@@ -128,12 +128,12 @@ fn rooms() -> Vec<(usize, PathBuf, Vec<&'static str>)> {
 }
 
 #[test]
-fn a_room_uses_only_rooms_above_it() {
-    for (room, file, used) in rooms() {
+fn a_module_uses_only_modules_above_it() {
+    for (module, file, used) in modules() {
         for name in used {
-            let other = ROOMS.iter().position(|r| *r == name).unwrap();
+            let other = MODULES.iter().position(|r| *r == name).unwrap();
             assert!(
-                other <= room,
+                other <= module,
                 "{} uses {name}, which is below it",
                 file.display()
             );
@@ -202,10 +202,10 @@ fn a_part_of_the_report_uses_only_parts_above_it() {
 
 #[test]
 fn material_indenter_drive_contact_and_cycle_do_not_know_one_another() {
-    for (room, file, used) in rooms() {
-        if STRANGERS.contains(&ROOMS[room]) {
+    for (module, file, used) in modules() {
+        if STRANGERS.contains(&MODULES[module]) {
             for name in used {
-                let stranger = STRANGERS.contains(&name) && name != ROOMS[room];
+                let stranger = STRANGERS.contains(&name) && name != MODULES[module];
                 assert!(!stranger, "{} uses {name}", file.display());
             }
         }
@@ -214,9 +214,9 @@ fn material_indenter_drive_contact_and_cycle_do_not_know_one_another() {
 
 #[test]
 fn no_production_code_rests_on_the_reference_solutions() {
-    for (room, file, used) in rooms() {
+    for (module, file, used) in modules() {
         // The reproduction of the base paper draws closed forms as lines and compares with them.
-        let own = ["reference", "reproduction"].contains(&ROOMS[room]);
+        let own = ["reference", "reproduction"].contains(&MODULES[module]);
         assert!(own || !used.contains(&"reference"), "{}", file.display());
     }
 }
