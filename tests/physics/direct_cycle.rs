@@ -60,7 +60,7 @@ fn springs(indenter: &dyn Indenter, largest_load_n: f64, compliance: &Creep) -> 
 
 /// The same contact on 40 cells a side, of which a quarter is solved.
 fn cells(indenter: &dyn Indenter, largest_load_n: f64, compliance: &Creep) -> HalfSpace {
-    const CELLS: usize = 40;
+    const CELLS: usize = 32;
     let relaxed = compliance.equilibrium_compliance().unwrap();
     let half_width_m = 1.1 * indenter.elastic_half_width_m(largest_load_n, relaxed);
     let grid = Grid::square(CELLS, 2.0 * half_width_m / CELLS as f64);

@@ -64,9 +64,16 @@ fn every_example_runs_to_its_end() {
         let text = fs::read_to_string(&path).unwrap();
         let command = command(&text);
         let out = folder.path().join(path.file_stem().unwrap());
-        let mut coarse = vec!["--set", "solver.springs=100"];
+        // An identification is coarse by itself, and a periodic surface brings its own cells.
+        let mut coarse = match command {
+            "identify" => Vec::new(),
+            _ => vec!["--set", "solver.springs=100"],
+        };
         if command == "sweep" {
             coarse.extend(["--set", "cycle.steps=40"]);
+        }
+        if text.contains("edge = \"periodic\"") {
+            coarse.extend(["--set", "indenter.cells=32"]);
         }
         if text.contains("\nreplicas = ") {
             coarse.extend(["--set", "material.dynamic.replicas=2"]);
