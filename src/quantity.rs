@@ -14,13 +14,13 @@
 //! # Ok::<(), contact_dma::quantity::QuantityError>(())
 //! ```
 
+mod error;
 mod frequency;
 mod units;
 
 use std::fmt;
 
-use thiserror::Error;
-
+pub use error::QuantityError;
 pub use frequency::FrequencyUnit;
 use units::{Exponents, Unit, UnitProblem};
 
@@ -71,7 +71,6 @@ struct Profile {
     name: &'static str,
     si_unit: &'static str,
     example: &'static str,
-    exponents: Exponents,
     /// Powers of ten whose prefixes look natural before the SI unit.
     prefixes: (i32, i32),
 }
@@ -109,80 +108,45 @@ impl Dimension {
         self.profile().example
     }
 
-    /// Exponents are those of m, kg, s, rad, cycles and K.
+    /// The unit of the example.
+    pub(crate) fn common_unit(self) -> &'static str {
+        let unit = self.example().split_once(' ');
+        unit.map_or(self.si_unit(), |(_, unit)| unit)
+    }
+
+    fn exponents(self) -> Exponents {
+        // Every SI unit can be read.
+        Unit::read(self.si_unit()).map_or(Exponents::NONE, |unit| unit.exponents)
+    }
+
     fn profile(self) -> Profile {
-        let profile = |name, si_unit, example, exponents, prefixes| Profile {
+        let (name, si_unit, example, prefixes) = match self {
+            Self::Length => ("a length", "m", "10 mm", (-15, 3)),
+            Self::Area => ("an area", "m^2", "2 mm^2", (0, 0)),
+            Self::Force => ("a force", "N", "10 N", (-15, 12)),
+            Self::Stress => ("a stress or modulus", "Pa", "1973 MPa", (-15, 12)),
+            Self::Compliance => ("a compliance", "1/Pa", "1e-4 1/MPa", (0, 0)),
+            Self::Viscosity => ("a viscosity", "Pa s", "2 GPa s", (-15, 12)),
+            // Long times stay in seconds: nobody reads kiloseconds.
+            Self::Time => ("a time", "s", "8.93 s", (-15, 0)),
+            Self::Angle => ("an angle", "rad", "90 deg", (0, 0)),
+            Self::AngularFrequency => ("an angular frequency", "rad/s", "0.5 rad/s", (0, 0)),
+            // As angular frequencies: those of a sweep are read beside one another.
+            Self::Frequency => ("a frequency", "Hz", "10 Hz", (0, 12)),
+            Self::Energy => ("an energy", "J", "3.5 µJ", (-15, 12)),
+            Self::Temperature => ("a temperature", "K", "25 °C", (0, 0)),
+            Self::Mass => ("a mass", "kg", "200 mg", (0, 0)),
+            Self::Stiffness => ("a stiffness", "N/m", "150 N/m", (0, 0)),
+            Self::EnergyPerArea => ("an energy per area", "J/m^2", "0.05 J/m^2", (0, 0)),
+            Self::FrameCompliance => ("a frame compliance", "m/N", "0.5 um/N", (0, 0)),
+            Self::Damping => ("a damping", "N s/m", "0.02 N s/m", (0, 0)),
+            Self::Speed => ("a speed", "m/s", "0.05 nm/s", (0, 0)),
+        };
+        Profile {
             name,
             si_unit,
             example,
-            exponents: Exponents(exponents),
             prefixes,
-        };
-        match self {
-            Self::Length => profile("a length", "m", "10 mm", [1, 0, 0, 0, 0, 0], (-15, 3)),
-            Self::Area => profile("an area", "m^2", "2 mm^2", [2, 0, 0, 0, 0, 0], (0, 0)),
-            Self::Force => profile("a force", "N", "10 N", [1, 1, -2, 0, 0, 0], (-15, 12)),
-            Self::Stress => profile(
-                "a stress or modulus",
-                "Pa",
-                "1973 MPa",
-                [-1, 1, -2, 0, 0, 0],
-                (-15, 12),
-            ),
-            Self::Compliance => profile(
-                "a compliance",
-                "1/Pa",
-                "1e-4 1/MPa",
-                [1, -1, 2, 0, 0, 0],
-                (0, 0),
-            ),
-            Self::Viscosity => profile(
-                "a viscosity",
-                "Pa s",
-                "2 GPa s",
-                [-1, 1, -1, 0, 0, 0],
-                (-15, 12),
-            ),
-            // Long times stay in seconds: nobody reads kiloseconds.
-            Self::Time => profile("a time", "s", "8.93 s", [0, 0, 1, 0, 0, 0], (-15, 0)),
-            Self::Angle => profile("an angle", "rad", "90 deg", [0, 0, 0, 1, 0, 0], (0, 0)),
-            Self::AngularFrequency => profile(
-                "an angular frequency",
-                "rad/s",
-                "0.5 rad/s",
-                [0, 0, -1, 1, 0, 0],
-                (0, 0),
-            ),
-            // As angular frequencies: those of a sweep are read beside one another.
-            Self::Frequency => profile("a frequency", "Hz", "10 Hz", [0, 0, -1, 0, 1, 0], (0, 12)),
-            Self::Energy => profile("an energy", "J", "3.5 µJ", [2, 1, -2, 0, 0, 0], (-15, 12)),
-            Self::Temperature => profile("a temperature", "K", "25 °C", [0, 0, 0, 0, 0, 1], (0, 0)),
-            Self::Mass => profile("a mass", "kg", "200 mg", [0, 1, 0, 0, 0, 0], (0, 0)),
-            Self::Stiffness => {
-                profile("a stiffness", "N/m", "150 N/m", [0, 1, -2, 0, 0, 0], (0, 0))
-            }
-            Self::EnergyPerArea => profile(
-                "an energy per area",
-                "J/m^2",
-                "0.05 J/m^2",
-                [0, 1, -2, 0, 0, 0],
-                (0, 0),
-            ),
-            Self::FrameCompliance => profile(
-                "a frame compliance",
-                "m/N",
-                "0.5 um/N",
-                [0, -1, 2, 0, 0, 0],
-                (0, 0),
-            ),
-            Self::Damping => profile(
-                "a damping",
-                "N s/m",
-                "0.02 N s/m",
-                [0, 1, -1, 0, 0, 0],
-                (0, 0),
-            ),
-            Self::Speed => profile("a speed", "m/s", "0.05 nm/s", [1, 0, -1, 0, 0, 0], (0, 0)),
         }
     }
 }
@@ -192,130 +156,6 @@ impl fmt::Display for Dimension {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.profile().name)
     }
-}
-
-/// Why a text is not a quantity of the expected dimension.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[non_exhaustive]
-pub enum QuantityError {
-    /// Nothing that begins like a number.
-    #[error(
-        "'{text}' does not begin with a number; {expected} is expected, for example \"{}\"",
-        expected.example()
-    )]
-    NotANumber {
-        /// What was read.
-        text: String,
-        /// What was wanted.
-        expected: Dimension,
-    },
-
-    /// A comma where the point belongs.
-    #[error(
-        "'{text}' has a comma in its number: write a decimal point, and no thousands separator"
-    )]
-    Comma {
-        /// What was read.
-        text: String,
-    },
-
-    /// A number in quotes without a unit.
-    #[error(
-        "'{number}' has no unit: write \"{number} {common_unit}\", or the bare number {number} without quotes for SI ({})",
-        expected.si_unit()
-    )]
-    MissingUnit {
-        /// The number, as read.
-        number: String,
-        /// The unit that is usual for the dimension.
-        common_unit: &'static str,
-        /// What was wanted.
-        expected: Dimension,
-    },
-
-    /// A unit that does not exist.
-    #[error(
-        "'{text}' has the unknown unit '{unit}'{}; {expected} is written for example \"{}\"",
-        instead(unit, suggestions),
-        expected.example()
-    )]
-    UnknownUnit {
-        /// What was read.
-        text: String,
-        /// The part that is not a unit.
-        unit: String,
-        /// Units that look like it, the likeliest first.
-        suggestions: Vec<String>,
-        /// What was wanted.
-        expected: Dimension,
-    },
-
-    /// A product after a division sign, which may be read in two ways.
-    #[error(
-        "the unit of '{text}' can be read in two ways, because a product follows a '/': use negative exponents, for example \"Pa^-1 s\""
-    )]
-    AmbiguousUnit {
-        /// What was read.
-        text: String,
-    },
-
-    /// A unit of another dimension.
-    #[error("'{text}' is {found}, {expected} is expected, for example \"{}\"", expected.example())]
-    WrongDimension {
-        /// What was read.
-        text: String,
-        /// What that is, with its article.
-        found: String,
-        /// What was wanted.
-        expected: Dimension,
-    },
-
-    /// An infinity or a NaN.
-    #[error("'{text}' is not a finite number; {expected} is expected, for example \"{}\"", expected.example())]
-    NotFinite {
-        /// What was read.
-        text: String,
-        /// What was wanted.
-        expected: Dimension,
-    },
-
-    /// Too large for a double.
-    #[error("'{text}' is too large: in {} it exceeds 1.8e308", expected.si_unit())]
-    TooLarge {
-        /// What was read.
-        text: String,
-        /// What was wanted.
-        expected: Dimension,
-    },
-
-    /// Not zero, but too small for a double.
-    #[error("'{text}' is too small: in {} it is below 5e-324, yet not zero", expected.si_unit())]
-    TooSmall {
-        /// What was read.
-        text: String,
-        /// What was wanted.
-        expected: Dimension,
-    },
-}
-
-/// `: did you mean "MPa" or "mPa"?`, or nothing.
-/// What to write instead of an unknown unit, in brackets: what it is in known units, else the units that look like it.
-fn instead(unit: &str, suggestions: &[String]) -> String {
-    match units::conversion(unit) {
-        Some(equal) => format!(" (1 {unit} is {equal})"),
-        None => did_you_mean(suggestions),
-    }
-}
-
-fn did_you_mean(suggestions: &[String]) -> String {
-    if suggestions.is_empty() {
-        return String::new();
-    }
-    let quoted: Vec<String> = suggestions
-        .iter()
-        .map(|unit| format!("\"{unit}\""))
-        .collect();
-    format!(" (did you mean {}?)", quoted.join(" or "))
 }
 
 /// Reads a number with a unit, such as `10 mm`, `1973 MPa`, `1e-4 1/MPa`, `2 GPa s` or `90 deg`,
@@ -339,7 +179,7 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, QuantityError> {
     if rest.trim().is_empty() {
         return Err(QuantityError::MissingUnit {
             number: quoted(),
-            common_unit: common_unit(expected),
+            common_unit: expected.common_unit(),
             expected,
         });
     }
@@ -347,12 +187,12 @@ pub fn parse(text: &str, expected: Dimension) -> Result<f64, QuantityError> {
         UnitProblem::Ambiguous => QuantityError::AmbiguousUnit { text: quoted() },
         UnitProblem::Unknown(unit) => QuantityError::UnknownUnit {
             text: quoted(),
-            suggestions: units::suggestions(&unit, expected.profile().exponents),
+            suggestions: units::suggestions(&unit, expected.exponents()),
             unit,
             expected,
         },
     })?;
-    if unit.exponents != expected.profile().exponents {
+    if unit.exponents != expected.exponents() {
         let found = describe(unit.exponents);
         return Err(QuantityError::WrongDimension {
             text: quoted(),
@@ -383,7 +223,7 @@ pub fn pattern(dimension: Dimension, allow_negative: bool) -> String {
         true => "[-+\u{2212}]?",
         false => "\\+?",
     };
-    let alone = units::alone(dimension.profile().exponents).join("|");
+    let alone = units::alone(dimension.exponents()).join("|");
     // Behind the exponent of the number, so that `e-3 N` counts as no product.
     let product = "(?![eE][-+\u{2212}]?[0-9])[^\\s0-9.].*[/^*·⋅×⁻¹²³⁴⁵⁶⁷⁸⁹0-9 ].*|/.*|1\\s*/.*";
     format!(
@@ -440,23 +280,17 @@ pub fn celsius(temperature_k: f64) -> String {
 
 /// `mantissa` (one digit before the point) times ten to the power `shift`, in fixed notation.
 fn shifted(mantissa: &str, shift: i32) -> String {
-    let (sign, magnitude) = mantissa
-        .strip_prefix('-')
-        .map_or(("", mantissa), |rest| ("-", rest));
-    let digits: String = magnitude.chars().filter(char::is_ascii_digit).collect();
-    let shift_right = usize::try_from(shift.saturating_neg()).unwrap_or(0);
-    let shift_left = usize::try_from(shift).unwrap_or(0);
-    if shift_right > 0 {
-        return format!("{sign}0.{}{digits}", "0".repeat(shift_right - 1));
+    let (sign, magnitude) = mantissa.split_at(usize::from(mantissa.starts_with('-')));
+    let digits = magnitude.replace('.', "");
+    let Ok(places) = usize::try_from(shift) else {
+        let zeros = "0".repeat(shift.unsigned_abs() as usize - 1);
+        return format!("{sign}0.{zeros}{digits}");
+    };
+    let digits = format!("{digits:0<width$}", width = places + 1);
+    match digits.split_at(places + 1) {
+        (whole, "") => format!("{sign}{whole}"),
+        (whole, fraction) => format!("{sign}{whole}.{fraction}"),
     }
-    let whole: String = digits
-        .chars()
-        .chain(std::iter::repeat('0'))
-        .take(shift_left + 1)
-        .collect();
-    let fraction: String = digits.chars().skip(shift_left + 1).collect();
-    let point = if fraction.is_empty() { "" } else { "." };
-    format!("{sign}{whole}{point}{fraction}")
 }
 
 /// A decimal number in two texts, so that a power of ten can be added before it is rounded.
@@ -469,28 +303,16 @@ struct Number {
 impl Number {
     /// The number at the beginning of a text, and what follows it.
     fn read(text: &str) -> Option<(Number, &str)> {
-        let (negative, unsigned) = match text.strip_prefix(['-', '\u{2212}']) {
-            Some(rest) => (true, rest),
-            None => (false, text.strip_prefix('+').unwrap_or(text)),
-        };
-        let unsigned = unsigned.trim_start();
-        let end = unsigned
-            .find(|character: char| !character.is_ascii_digit() && character != '.')
-            .unwrap_or(unsigned.len());
-        let (digits, rest) = unsigned.split_at(end);
+        let (sign, unsigned) = sign_of(text);
+        let is_part = |character: char| character.is_ascii_digit() || character == '.';
+        let (digits, rest) = units::leading(unsigned.trim_start(), is_part);
         let points = digits.matches('.').count();
         if points > 1 || digits.len() == points {
             return None;
         }
         let (exponent, rest) = read_exponent(rest);
-        let sign = if negative { "-" } else { "" };
-        Some((
-            Number {
-                mantissa: format!("{sign}{digits}"),
-                exponent,
-            },
-            rest,
-        ))
+        let mantissa = format!("{sign}{digits}");
+        Some((Number { mantissa, exponent }, rest))
     }
 
     fn is_zero(&self) -> bool {
@@ -512,25 +334,32 @@ impl Number {
     }
 }
 
+/// The sign at the beginning of a text, in ASCII and without a plus, and what follows it.
+fn sign_of(text: &str) -> (&'static str, &str) {
+    match text.strip_prefix(['-', '\u{2212}']) {
+        Some(rest) => ("-", rest),
+        None => ("", text.strip_prefix('+').unwrap_or(text)),
+    }
+}
+
 /// An exponent such as `e-4` at the beginning of a text, zero if there is none.
 fn read_exponent(text: &str) -> (i64, &str) {
-    let Some(after_e) = text.strip_prefix(['e', 'E']) else {
-        return (0, text);
-    };
-    let (negative, unsigned) = match after_e.strip_prefix(['-', '\u{2212}']) {
-        Some(rest) => (true, rest),
-        None => (false, after_e.strip_prefix('+').unwrap_or(after_e)),
-    };
-    let end = unsigned
-        .find(|character: char| !character.is_ascii_digit())
-        .unwrap_or(unsigned.len());
-    let (digits, rest) = unsigned.split_at(end);
-    if digits.is_empty() {
-        return (0, text);
+    let (sign, unsigned) = sign_of(text.strip_prefix(['e', 'E']).unwrap_or_default());
+    match units::leading(unsigned, |character| character.is_ascii_digit()) {
+        ("", _) => (0, text),
+        (digits, rest) => {
+            // Beyond eighteen digits any number is infinite or zero, whatever its mantissa.
+            let magnitude = digits.parse().unwrap_or(i64::MAX / 2);
+            (
+                if sign.is_empty() {
+                    magnitude
+                } else {
+                    -magnitude
+                },
+                rest,
+            )
+        }
     }
-    // Beyond eighteen digits any number is infinite or zero, whatever its mantissa.
-    let magnitude = digits.parse().unwrap_or(i64::MAX / 2);
-    (if negative { -magnitude } else { magnitude }, rest)
 }
 
 /// The error for a text that begins with no number.
@@ -546,26 +375,16 @@ fn no_number(text: &str, expected: Dimension) -> QuantityError {
     }
 }
 
-/// The unit in the example of a dimension.
-fn common_unit(dimension: Dimension) -> &'static str {
-    let example = dimension.example();
-    example
-        .split_once(' ')
-        .map_or(dimension.si_unit(), |(_, unit)| unit)
-}
-
 /// What a quantity with these exponents is, with its article.
 fn describe(exponents: Exponents) -> String {
     const INVERSE_TIME: Exponents = Exponents([0, 0, -1, 0, 0, 0]);
-    if let Some(known) = Dimension::ALL
-        .into_iter()
-        .find(|dimension| dimension.profile().exponents == exponents)
-    {
-        return known.to_string();
-    }
-    match exponents {
-        INVERSE_TIME => "an inverse time, which may mean rad/s or Hz".to_owned(),
-        _ => "no quantity that is used here".to_owned(),
+    let mut all = Dimension::ALL.into_iter();
+    match all.find(|dimension| dimension.exponents() == exponents) {
+        Some(known) => known.to_string(),
+        None if exponents == INVERSE_TIME => {
+            "an inverse time, which may mean rad/s or Hz".to_owned()
+        }
+        None => "no quantity that is used here".to_owned(),
     }
 }
 

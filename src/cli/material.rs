@@ -134,7 +134,7 @@ pub(super) fn load(name: &str) -> Result<(Material, String), Failure> {
     let document = read_document(path)?;
     let problems = Problems::new();
     let mut root = document.root(&problems);
-    let material = material_block::read(&mut root, document.folder(), DirectSum::Fitted, &problems);
+    let material = material_block::read(&mut root, DirectSum::Fitted);
     let material = problems.into_result(material)?.value;
     let title = material.name().unwrap_or("Material").to_owned();
     let fit = material.fit().map(report::fit::text).unwrap_or_default();

@@ -9,7 +9,6 @@ use clap::Args;
 use super::arguments::{OutputFormat, folder, threads};
 use super::sweep::interrupt_flag;
 use super::{Ended, Failure, json, print};
-use crate::input::diagnostic::Problems;
 use crate::input::document::Document;
 use crate::input::figures_block::{self, Figures};
 use crate::input::keys;
@@ -111,15 +110,12 @@ fn figures(set: &[String]) -> Result<FigurePlan, Failure> {
     for assignment in set {
         document.set(assignment)?;
     }
-    let problems = Problems::new();
-    let mut root = document.root(&problems);
-    let figures = root.table_or(&keys::SCENARIO_FIGURES, Figures::default(), |table| {
-        figures_block::read(table, &problems)
-    });
-    root.finish();
-    let in_units_of_the_paper = || Err("each is in units of the paper already");
-    let plan = figures.and_then(|figures| figures.checked(in_units_of_the_paper, &problems));
-    Ok(problems.into_result(plan)?)
+    Ok(document.read_whole(|root| {
+        let default = Figures::default();
+        let figures = root.table_or(&keys::SCENARIO_FIGURES, default, figures_block::read)?;
+        let in_units_of_the_paper = || Err("each is in units of the paper already");
+        figures.checked(in_units_of_the_paper, root.problems())
+    })?)
 }
 
 /// The plans of the files built into the program.

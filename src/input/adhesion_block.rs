@@ -2,32 +2,41 @@
 
 use super::diagnostic::{Location, Problems};
 use super::document::reader::TableReader;
+use super::keys;
 use super::keys::adhesion::{EQUILIBRIUM_DISTANCE, WORK};
 use crate::drive::{Control, DriveError, HarmonicDrive};
 use crate::indenter::Indenter;
 use crate::sweep::plan::adhesion::AdhesionPlan;
 
-/// Reads the block; `None` where a problem was reported.
-pub(super) fn read(mut table: TableReader<'_>) -> Option<AdhesionPlan> {
-    let (work, distance) = (table.value(&WORK), table.value(&EQUILIBRIUM_DISTANCE));
-    table.finish();
-    Some(AdhesionPlan {
-        work_j_per_m2: work?,
-        equilibrium_distance_m: distance?,
-    })
-}
-
 /// What attracts an indenter: the block, and where it stands.
 pub(super) struct Attraction<'a> {
-    pub(super) adhesion: &'a AdhesionPlan,
-    pub(super) place: &'a Location,
-    pub(super) problems: &'a Problems,
+    pub(super) adhesion: AdhesionPlan,
+    place: Location,
+    problems: &'a Problems,
+}
+
+/// Reads the block, where there is one; `None` where a problem was reported.
+pub(super) fn read<'a>(root: &mut TableReader<'a>) -> Option<Option<Attraction<'a>>> {
+    let (place, problems) = (root.key_location(&keys::ADHESION), root.problems());
+    root.table_or(&keys::ADHESION, None, |mut table| {
+        let (work, distance) = (table.value(&WORK), table.value(&EQUILIBRIUM_DISTANCE));
+        table.finish();
+        let adhesion = AdhesionPlan {
+            work_j_per_m2: work?,
+            equilibrium_distance_m: distance?,
+        };
+        Some(Some(Attraction {
+            adhesion,
+            place: place?,
+            problems,
+        }))
+    })
 }
 
 impl Attraction<'_> {
     /// The pull-off load (N) of an indenter under such a control; `None` where a problem was reported.
     pub(super) fn pull_off_n(&self, indenter: &dyn Indenter, control: Control) -> Option<f64> {
-        let (place, problems) = (self.place, self.problems);
+        let (place, problems) = (&self.place, self.problems);
         if control == Control::Approach {
             problems
                 .at(place, "adhesion goes with a prescribed load only")
@@ -54,7 +63,7 @@ impl Attraction<'_> {
         let pull_off_n = self.pull_off_n(indenter, drive.control())?;
         let refused = |error: DriveError| {
             let help = "raise the mean or lower the amplitude of [drive]; the sphere comes off at -2 pi work radius";
-            self.problems.at(self.place, error.to_string()).help(help);
+            self.problems.at(&self.place, error.to_string()).help(help);
         };
         drive.attracted_by(pull_off_n).map_err(refused).ok()
     }

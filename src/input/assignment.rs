@@ -10,7 +10,7 @@ use toml::de::DeValue;
 
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Source};
 use super::document::Document;
-use super::document::reader::join;
+use super::document::reader::{in_backticks, join};
 use super::document::syntax;
 use super::document::tree::{Entry, Node, Table, Value};
 use super::keys::tables_at;
@@ -127,26 +127,49 @@ fn change(
         return Ok(());
     };
     let found = value.describe();
+    let refused = |message: String, because: &str, label: String| {
+        Diagnostic::at(key, message)
+            .because(because)
+            .label(place, label)
+            .help(format!("set it whole: `--set {path}=VALUE`"))
+    };
     match value {
         Value::Table(table) => change_in_table(table, path, (key, below), new),
-        Value::Array(items) => match item_number(key, items.len(), new.is_some()) {
-            Some(index) => {
-                change_item(items, &format!("{path}[{index}]"), (index, key, below), new)
+        Value::Array(items) => {
+            let Some(index) = item_number(key, items.len(), new.is_some()) else {
+                let message = format!("`{path}` is an array of {}", items.len());
+                let because = "expected the number of an item, from 0";
+                return Err(refused(message, because, "the array".to_owned()));
+            };
+            if index == items.len() {
+                items.push(Node::empty_table(key));
             }
-            None => Err(
-                Diagnostic::at(key, format!("`{path}` is an array of {}", items.len()))
-                    .because("expected the number of an item, from 0")
-                    .label(place, "the array")
-                    .help(format!("set it whole: `--set {path}=VALUE`")),
-            ),
-        },
-        _ => Err(
-            Diagnostic::at(key, format!("`{path}` is {found}, with no keys below it"))
-                .because("a key below this was to be set")
-                .label(place, format!("{found} is given here"))
-                .help(format!("set it whole: `--set {path}=VALUE`")),
-        ),
+            match (below, new) {
+                ([], None) => drop(items.remove(index)),
+                ([], Some(node)) => items[index] = node,
+                (_, new) => {
+                    change_below(&mut items[index], &format!("{path}[{index}]"), below, new)?;
+                }
+            }
+            Ok(())
+        }
+        _ => Err(refused(
+            format!("`{path}` is {found}, with no keys below it"),
+            "a key below this was to be set",
+            format!("{found} is given here"),
+        )),
     }
+}
+
+/// The same of what stands at a node.
+fn change_below(
+    node: &mut Node,
+    path: &str,
+    keys: &[Location],
+    new: Option<Node>,
+) -> Result<(), Diagnostic> {
+    let place = node.location.clone();
+    change(&mut node.value, &place, path, keys, new)
 }
 
 fn change_in_table(
@@ -164,59 +187,24 @@ fn change_in_table(
             Diagnostic::at(key, format!("`{full}` is not set")).because("nothing to remove");
         return Err(match given.as_slice() {
             [] => problem,
-            _ => problem.help(format!("set here: `{}`", given.join("`, `"))),
+            _ => problem.help(format!("set here: {}", in_backticks(&given))),
         });
     }
-    match new {
-        None if below.is_empty() => {
-            table.entries.remove(name);
-        }
-        Some(node) if below.is_empty() => {
-            let entry = Entry {
-                key: key.clone(),
-                node,
-            };
-            table.entries.insert(name.to_owned(), entry);
-        }
-        new => {
-            let made = || Entry {
-                key: key.clone(),
-                node: Node::empty_table(key),
-            };
-            let entry = table.entries.entry(name.to_owned()).or_insert_with(made);
-            let place = entry.node.location.clone();
-            change(&mut entry.node.value, &place, &full, below, new)?;
+    let entry = |node| Entry {
+        key: key.clone(),
+        node,
+    };
+    match (below, new) {
+        ([], None) => drop(table.entries.remove(name)),
+        ([], Some(node)) => drop(table.entries.insert(name.to_owned(), entry(node))),
+        (_, new) => {
+            let empty = || entry(Node::empty_table(key));
+            let entry = table.entries.entry(name.to_owned()).or_insert_with(empty);
+            change_below(&mut entry.node, &full, below, new)?;
         }
     }
     if is_set {
         remove_excluded(table, path, name);
-    }
-    Ok(())
-}
-
-fn change_item(
-    items: &mut Vec<Node>,
-    path: &str,
-    (index, key, below): (usize, &Location, &[Location]),
-    new: Option<Node>,
-) -> Result<(), Diagnostic> {
-    match new {
-        None if below.is_empty() => {
-            items.remove(index);
-        }
-        new => {
-            if index == items.len() {
-                items.push(Node::empty_table(key));
-            }
-            let item = &mut items[index];
-            match new {
-                Some(node) if below.is_empty() => *item = node,
-                new => {
-                    let place = item.location.clone();
-                    change(&mut item.value, &place, path, below, new)?;
-                }
-            }
-        }
     }
     Ok(())
 }

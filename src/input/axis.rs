@@ -1,14 +1,16 @@
 //! The axes of a sweep besides the frequency: any number of `[material]`, `[layer]`, `[indenter]` or `[drive]`, by its key, as a list or
 //! a range; and materials or indenters in the place of one another, as a list of blocks with names.
 
+mod swept;
+
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde_json::{Map, Value as Json, json};
 
-use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
+use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use super::document::Located;
-use super::document::kind::{Array, Decided, Describe, Kind, Scalar, Spot, Text, list};
+use super::document::kind::{Array, Describe, Kind, Scalar, Spot, Text, list};
 use super::document::reader::{in_backticks, join};
 use super::document::row::{AnyRow, Rows};
 use super::document::similar::similar;
@@ -17,39 +19,24 @@ use super::keys::material::{LIBRARY, NAME};
 use super::points::{MOST_POINTS, Points};
 use crate::quantity::Dimension;
 use crate::sweep::plan::{Block, Varied};
+pub(in crate::input) use swept::{Swept, has_list, unquote};
+use swept::{WHOLE, beside_numbers};
 
 /// One key of a block that has a number, with the values that it takes.
 #[derive(Clone, Copy)]
 pub(crate) struct AxisOf {
-    pub(crate) block: Block,
-    pub(crate) rows: &'static Rows,
+    block: Block,
+    rows: &'static Rows,
     /// The keys of a block of a list, where whole blocks may vary.
-    pub(crate) listed: Option<&'static Rows>,
-}
-
-/// The key under which the list of blocks stands where numbers vary beside it.
-const WHOLE: &str = "";
-/// Characters of a name; more do not fit into a legend.
-const NAME_LENGTH: usize = 60;
-
-/// The same, once the dimension of what the drive controls is known.
-pub(crate) struct DecidedAxisOf {
-    of: AxisOf,
+    listed: Option<&'static Rows>,
+    /// The dimension of what the drive controls.
     controlled: Dimension,
     /// Whether the values are taken in their order, repeats and all.
     in_order: bool,
 }
 
-/// What the key varies.
-#[derive(Debug, Clone)]
-pub(crate) struct Swept {
-    pub(super) varied: Varied,
-    pub(super) key_location: Location,
-    /// SI units, ascending but in pairs; of a list of blocks their places in it.
-    pub(super) values: Located<Vec<f64>>,
-    /// The blocks of a list.
-    blocks: Vec<Located<Table>>,
-}
+/// Characters of a name; more do not fit into a legend.
+const NAME_LENGTH: usize = 60;
 
 /// A key that has a number.
 struct Number {
@@ -108,8 +95,34 @@ fn without_places(key: &str) -> String {
 }
 
 impl AxisOf {
+    /// Numbers of a block.
+    pub(crate) const fn new(block: Block, rows: &'static Rows) -> Self {
+        Self {
+            block,
+            rows,
+            listed: None,
+            controlled: Dimension::Force,
+            in_order: false,
+        }
+    }
+
+    /// The same, or whole blocks with these keys.
+    pub(crate) const fn or_blocks(self, rows: &'static Rows) -> Self {
+        let listed = Some(rows);
+        Self { listed, ..self }
+    }
+
+    /// The same once it is known what the drive controls, and whether the values go with those of other axes one by one.
+    pub(super) fn of(self, controlled: Dimension, in_order: bool) -> Self {
+        Self {
+            controlled,
+            in_order,
+            ..self
+        }
+    }
+
     /// References to what may stand under each key of the block itself.
-    fn references(&self) -> Map<String, Json> {
+    pub(super) fn references(&self) -> Map<String, Json> {
         let keys = self.names().into_iter();
         let keys = keys.filter(|key| !key.contains('.'));
         keys.map(|key| (key.clone(), self.reference(&key)))
@@ -132,10 +145,9 @@ impl AxisOf {
         keys.into_iter().map(pattern).collect()
     }
 
-    fn nested(&self) -> Vec<Number> {
-        let mut numbers = numbers(self.rows, Dimension::Force);
-        numbers.retain(|number| number.key.contains('.'));
-        numbers
+    fn nested(&self) -> impl Iterator<Item = Number> {
+        let numbers = numbers(self.rows, self.controlled).into_iter();
+        numbers.filter(|number| number.key.contains('.'))
     }
 
     fn reference(&self, key: &str) -> Json {
@@ -147,8 +159,41 @@ impl AxisOf {
     }
 
     fn names(&self) -> Vec<String> {
-        let numbers = numbers(self.rows, Dimension::Force).into_iter();
+        let numbers = numbers(self.rows, self.controlled).into_iter();
         numbers.map(|number| number.key).collect()
+    }
+
+    /// What a JSON Schema says of each key, by the name that it is referred to; whatever the drive controls.
+    pub(super) fn definitions(&self) -> Map<String, Json> {
+        let [load, approach] = [Dimension::Force, Dimension::Length].map(|controlled| {
+            let numbers = numbers(self.rows, controlled).into_iter();
+            let own = numbers.filter(|number| !number.key.contains('.'));
+            own.map(|number| (number.key, number.row, Points(number.scalar).schema()))
+        });
+        let both = load.zip(approach).map(|((key, row, one), (_, _, other))| {
+            let mut schema = match one == other {
+                true => one,
+                false => json!({ "anyOf": [one, other] }),
+            };
+            schema["description"] = json!(row.means());
+            (self.definition(&key), schema)
+        });
+        let own: Map<String, Json> = both.collect();
+        let nested = self.nested();
+        let nested = nested.map(|n| (of_kind(&n.scalar), Points(n.scalar).schema()));
+        own.into_iter().chain(nested).collect()
+    }
+
+    /// Keys with dots that may be written, in quotes, in place of the table, and what a JSON Schema says of each.
+    pub(super) fn dotted(&self) -> Map<String, Json> {
+        let keys = self.references().into_iter();
+        keys.map(|(key, schema)| (format!("{}.{key}", self.block.name()), schema))
+            .collect()
+    }
+
+    /// The same of keys that lead into tables and lists, by the pattern of each.
+    pub(super) fn dotted_patterns(&self) -> Map<String, Json> {
+        self.patterns(&format!("{}.", self.block.name()))
     }
 }
 
@@ -182,69 +227,12 @@ impl Describe for AxisOf {
         }
     }
 
-    /// What may stand under each key, whatever the drive controls.
-    fn definitions(&self) -> Map<String, Json> {
-        let [load, approach] = [Dimension::Force, Dimension::Length].map(|controlled| {
-            let numbers = numbers(self.rows, controlled).into_iter();
-            let own = numbers.filter(|number| !number.key.contains('.'));
-            own.map(|number| (number.key, number.row, Points(number.scalar).schema()))
-        });
-        let both = load.zip(approach).map(|((key, row, one), (_, _, other))| {
-            let mut schema = match one == other {
-                true => one,
-                false => json!({ "anyOf": [one, other] }),
-            };
-            schema["description"] = json!(row.means());
-            (self.definition(&key), schema)
-        });
-        let own: Map<String, Json> = both.collect();
-        let nested = self.nested().into_iter();
-        let nested = nested.map(|n| (of_kind(&n.scalar), Points(n.scalar).schema()));
-        own.into_iter().chain(nested).collect()
-    }
-
-    fn dotted(&self) -> Map<String, Json> {
-        let keys = self.references().into_iter();
-        keys.map(|(key, schema)| (format!("{}.{key}", self.block.name()), schema))
-            .collect()
-    }
-
-    fn dotted_patterns(&self) -> Map<String, Json> {
-        self.patterns(&format!("{}.", self.block.name()))
-    }
-
-    fn has_dotted_keys(&self) -> bool {
-        true
+    fn axes(&self) -> Option<&AxisOf> {
+        Some(self)
     }
 }
 
-impl Decided for AxisOf {
-    type Kind = DecidedAxisOf;
-
-    fn of(&self, controlled: Dimension) -> DecidedAxisOf {
-        DecidedAxisOf {
-            of: *self,
-            controlled,
-            in_order: false,
-        }
-    }
-}
-
-impl Describe for DecidedAxisOf {
-    fn expected(&self) -> String {
-        self.of.expected()
-    }
-
-    fn example(&self) -> String {
-        self.of.example()
-    }
-
-    fn schema(&self) -> Json {
-        self.of.schema()
-    }
-}
-
-impl Kind for DecidedAxisOf {
+impl Kind for AxisOf {
     type Value = Vec<Swept>;
 
     fn written(&self, all: &Vec<Swept>) -> Json {
@@ -258,7 +246,7 @@ impl Kind for DecidedAxisOf {
         let listed;
         let table = match &node.value {
             Value::Table(table) => table,
-            Value::Array(_) if self.of.listed.is_some() => {
+            Value::Array(_) if self.listed.is_some() => {
                 listed = beside_numbers(node);
                 &listed
             }
@@ -269,10 +257,10 @@ impl Kind for DecidedAxisOf {
         };
         if table.entries.is_empty() {
             let problem = Diagnostic::at(&node.location, format!("`{}` is empty", spot.path));
-            let help = format!("write the key of [{}] that varies", self.of.block.name());
+            let help = format!("write the key of [{}] that varies", self.block.name());
             return Err(problem.help(help).into());
         }
-        let numbers = numbers(self.of.rows, self.controlled);
+        let numbers = numbers(self.rows, self.controlled);
         let mut all = Vec::new();
         for (key, entry) in &table.entries {
             self.add_swept(&numbers, key, entry, spot, &mut all)?;
@@ -285,23 +273,7 @@ impl Kind for DecidedAxisOf {
     }
 }
 
-/// The table of axes that a list of blocks is, to which numbers may come.
-fn beside_numbers(list: &Node) -> Table {
-    let entry = Entry {
-        key: list.location.clone(),
-        node: list.clone(),
-    };
-    Table {
-        entries: [(WHOLE.to_owned(), entry)].into(),
-    }
-}
-
-impl DecidedAxisOf {
-    /// The same, whose values go with those of other axes one by one.
-    pub(super) fn in_order(self, in_order: bool) -> Self {
-        Self { in_order, ..self }
-    }
-
+impl AxisOf {
     /// The axis of a key, or those of the keys of the table that is given there: `zener = { time = [...] }` is `zener.time = [...]`.
     fn add_swept(
         &self,
@@ -317,7 +289,7 @@ impl DecidedAxisOf {
         let items = format!("{general}[].");
         let leads_to = |start: &str| numbers.iter().any(|n| n.key.starts_with(start));
         match (number, &entry.node.value) {
-            (_, Value::Array(items)) if key == WHOLE && self.of.listed.is_some() => {
+            (_, Value::Array(items)) if key == WHOLE && self.listed.is_some() => {
                 to.push(self.listed(items, entry, spot)?);
             }
             (Some(number), _) => to.push(self.swept(number, key, entry, spot)?),
@@ -365,7 +337,7 @@ impl DecidedAxisOf {
         };
         Ok(Swept {
             varied: Varied::number(
-                self.of.block,
+                self.block,
                 match number.key.contains('.') {
                     true => Cow::Owned(key.to_owned()),
                     false => Cow::Borrowed(row.name()),
@@ -373,18 +345,14 @@ impl DecidedAxisOf {
                 scalar.dimension(),
             ),
             key_location: entry.key.clone(),
-            values: Located {
-                value: points,
-                path: path.clone(),
-                location: entry.node.location.clone(),
-            },
+            values: spot.located(points, &entry.node),
             blocks: Vec::new(),
         })
     }
 
     /// The axis that a list of blocks is, each with a name of its own.
     fn listed(&self, items: &[Node], entry: &Entry, spot: &Spot<'_>) -> Result<Swept, Diagnostics> {
-        let (problems, block) = (Problems::new(), self.of.block.name());
+        let (problems, block) = (Problems::new(), self.block.name());
         let mut blocks: Vec<(String, Located<Table>)> = Vec::with_capacity(items.len());
         for (k, item) in items.iter().enumerate() {
             let (name, table) = match self.named(item, &format!("{}[{k}]", spot.path)) {
@@ -411,15 +379,12 @@ impl DecidedAxisOf {
                 .help(format!("write a `[[sweep.{block}]]` for each {block}"));
         }
         let (names, blocks): (Vec<String>, Vec<_>) = blocks.into_iter().unzip();
+        // Cases, and so blocks, are far fewer than the integers of a float.
+        let places = (0..blocks.len()).map(|place| place as f64);
         let swept = Swept {
             key_location: entry.key.clone(),
-            values: Located {
-                // Cases, and so blocks, are far fewer than the integers of a float.
-                value: (0..blocks.len()).map(|place| place as f64).collect(),
-                path: spot.path.to_owned(),
-                location: entry.node.location.clone(),
-            },
-            varied: Varied::blocks(self.of.block, names),
+            values: spot.located(places.collect(), &entry.node),
+            varied: Varied::blocks(self.block, names),
             blocks,
         };
         problems.into_result(Some(swept))
@@ -430,7 +395,7 @@ impl DecidedAxisOf {
         let Value::Table(table) = &item.value else {
             let problem = Diagnostic::at(&item.location, format!("`{path}` must be a table"));
             let problem = problem.because(format!("found {}", item.describe()));
-            return Err(match (&item.value, self.of.block) {
+            return Err(match (&item.value, self.block) {
                 (Value::Text(name), Block::Material) => {
                     problem.help(format!("write `{{ library = \"{name}\" }}`"))
                 }
@@ -470,7 +435,7 @@ impl DecidedAxisOf {
             );
             return Err(Diagnostic::at(place, problem).into());
         }
-        if self.of.block == Block::Material {
+        if self.block == Block::Material {
             let named = Entry {
                 key: item.location.clone(),
                 node: Node {
@@ -491,7 +456,7 @@ impl DecidedAxisOf {
 
     /// A number in a table or list of blocks that may each have others.
     fn number_within_listed(&self, nested: &Swept) -> Diagnostic {
-        let (block, key) = (self.of.block.name(), &nested.varied.key);
+        let (block, key) = (self.block.name(), &nested.varied.key);
         let problem = format!("`{block}.{key}` cannot be an axis beside a list of blocks");
         Diagnostic::at(&nested.key_location, problem)
             .because("a number within a table of the block")
@@ -503,7 +468,7 @@ impl DecidedAxisOf {
     /// A key that no number stands under.
     fn no_number(&self, path: &str, entry: &Entry, numbers: &[Number]) -> Diagnostic {
         let names: Vec<&str> = numbers.iter().map(|number| number.key.as_str()).collect();
-        let block = self.of.block.name();
+        let block = self.block.name();
         let problem = Diagnostic::at(&entry.key, format!("`{path}` cannot be an axis"))
             .because(format!("no key of [{block}] that takes one number"));
         let key = path.splitn(3, '.').last().unwrap_or(path);
@@ -521,129 +486,5 @@ impl DecidedAxisOf {
             "keys of [{block}] that can: {}{others}",
             in_backticks(&own)
         ))
-    }
-}
-
-impl Swept {
-    /// Whether the block has what varies.
-    pub(super) fn is_in(&self, block: &Table) -> bool {
-        at_key(&mut block.clone(), &self.varied.key, |_, _| {}).is_some()
-    }
-
-    /// The block of a list that a value is the place of; `None` where a number varies.
-    pub(super) fn block(&self, value: f64) -> Option<&Located<Table>> {
-        self.blocks.get(value as usize)
-    }
-
-    /// Puts values in this order, and blocks with them, which are then counted in it.
-    pub(super) fn reorder(&mut self, order: &[usize]) {
-        if self.varied.is_whole() {
-            let names = order.iter().map(|&k| self.varied.names[k].clone());
-            self.varied = Varied::blocks(self.varied.block, names);
-            self.blocks = order.iter().map(|&k| self.blocks[k].clone()).collect();
-        } else {
-            let values = &mut self.values.value;
-            *values = order.iter().map(|&k| values[k]).collect();
-        }
-    }
-
-    /// The table of a block with this value (SI units) in place of its own; what is wrong with it is told at the axis.
-    ///
-    /// # Errors
-    /// A number in a table or a list that the block does not have.
-    pub(super) fn put_into(&self, block: &Table, value: f64) -> Result<Table, Diagnostic> {
-        if let Some(listed) = self.block(value) {
-            return Ok(listed.value.clone());
-        }
-        let mut table = block.clone();
-        let entry = Entry {
-            key: self.key_location.clone(),
-            node: Node {
-                value: Value::Float(Ok(value)),
-                location: self.values.location.clone(),
-            },
-        };
-        let key = &self.varied.key;
-        let put = match self.varied.is_nested() {
-            true => at_key(&mut table, key, |table, key| {
-                table.entries.insert(key.to_owned(), entry)
-            }),
-            false => Some(table.entries.insert(key.to_string(), entry)),
-        };
-        let name = self.varied.block.name();
-        let missing = || {
-            Diagnostic::at(&self.key_location, format!("[{name}] has no `{key}`"))
-                .because("varies what the block does not have")
-                .help(format!("write the number into [{name}], or another key here; items of lists are counted from 0"))
-        };
-        put.map(|_| table).ok_or_else(missing)
-    }
-}
-
-/// Whether a `[sweep]` block has a list of blocks in place of one.
-pub(super) fn has_list(sweep: &Table, block: &str) -> bool {
-    match sweep.entries.get(block).map(|entry| &entry.node.value) {
-        Some(Value::Array(_)) => true,
-        Some(Value::Table(table)) => table.entries.contains_key(WHOLE),
-        _ => false,
-    }
-}
-
-/// What `then` makes of the table that has the last part of a key, which is there.
-fn at_key<T>(table: &mut Table, key: &str, then: impl FnOnce(&mut Table, &str) -> T) -> Option<T> {
-    let Some((first, rest)) = key.split_once('.') else {
-        return table.entries.contains_key(key).then(|| then(table, key));
-    };
-    let (name, place) = match first.split_once('[') {
-        Some((name, place)) => (name, Some(place.strip_suffix(']')?.parse::<usize>().ok()?)),
-        None => (first, None),
-    };
-    match (&mut table.entries.get_mut(name)?.node.value, place) {
-        (Value::Table(below), None) => at_key(below, rest, then),
-        (Value::Array(items), Some(place)) => match &mut items.get_mut(place)?.value {
-            Value::Table(below) => at_key(below, rest, then),
-            _ => None,
-        },
-        _ => None,
-    }
-}
-
-/// Takes the quotes off the keys of `[sweep]`: `"material.temperature" = [...]` is the same as `material.temperature = [...]`.
-pub(super) fn unquote(root: &mut Table, problems: &Problems) {
-    let Some(Entry { node, .. }) = root.entries.get_mut("sweep") else {
-        return;
-    };
-    let Value::Table(sweep) = &mut node.value else {
-        return;
-    };
-    let quoted: Vec<String> = (sweep.entries.keys())
-        .filter(|key| key.contains('.'))
-        .cloned()
-        .collect();
-    for key in quoted {
-        let (Some((block, inner)), Some(entry)) = (key.split_once('.'), sweep.entries.remove(&key))
-        else {
-            continue;
-        };
-        let below = sweep
-            .entries
-            .entry(block.to_owned())
-            .or_insert_with(|| Entry {
-                key: entry.key.clone(),
-                node: Node::empty_table(&entry.key),
-            });
-        if let Value::Array(_) = &below.node.value {
-            below.node.value = Value::Table(beside_numbers(&below.node));
-        }
-        match &mut below.node.value {
-            Value::Table(table) if !table.entries.contains_key(inner) => {
-                table.entries.insert(inner.to_owned(), entry);
-            }
-            _ => {
-                problems
-                    .at(&entry.key, format!("`sweep.{key}` is given twice"))
-                    .help("keep one of them");
-            }
-        }
     }
 }

@@ -1,9 +1,6 @@
 //! What makes a contact besides material, shape and drive, in files without axes: what the indenter is made of, a layer, adhesion.
 
-use std::path::Path;
-
 use super::adhesion_block::{self, Attraction};
-use super::diagnostic::{Location, Problems};
 use super::document::reader::TableReader;
 use super::{indenter_block, keys, layer_block};
 use crate::drive::Control;
@@ -17,42 +14,29 @@ pub(super) struct Bodies<'a> {
     /// Of the indenter, where it is not rigid.
     pub(super) counterbody: Option<Material>,
     pub(super) layer: Option<LayerPlan>,
-    pub(super) adhesion: Option<AdhesionPlan>,
-    adhesion_at: Option<Location>,
-    problems: &'a Problems,
+    /// What attracts the indenter, where anything does.
+    pub(super) attraction: Option<Attraction<'a>>,
 }
 
 /// Reads the blocks; `None` where a problem was reported.
-pub(super) fn read<'a>(
-    root: &mut TableReader<'_>,
-    folder: &Path,
-    problems: &'a Problems,
-) -> Option<Bodies<'a>> {
-    let counterbody = indenter_block::material(root, folder, problems);
-    let layer = root.table_or(&keys::LAYER, None, |t| {
-        layer_block::read(t, problems).map(Some)
-    });
+pub(super) fn read<'a>(root: &mut TableReader<'a>) -> Option<Bodies<'a>> {
+    let counterbody = indenter_block::material(root);
+    let layer = root.table_or(&keys::LAYER, None, |t| layer_block::read(t).map(Some));
     let has_counterbody = counterbody.as_ref().is_some_and(Option::is_some);
-    layer_block::refuse_second_body(root, has_counterbody, problems);
-    let adhesion_at = root.key_location(&keys::ADHESION);
-    let adhesion = root.table_or(&keys::ADHESION, None, |t| adhesion_block::read(t).map(Some));
+    layer_block::refuse_second_body(root, has_counterbody);
+    let attraction = adhesion_block::read(root);
     Some(Bodies {
         counterbody: counterbody?.map(|body| body.value),
         layer: layer?,
-        adhesion: adhesion?,
-        adhesion_at,
-        problems,
+        attraction: attraction?,
     })
 }
 
 impl Bodies<'_> {
-    /// What attracts the indenter, where anything does.
-    pub(super) fn attraction(&self) -> Option<Attraction<'_>> {
-        Some(Attraction {
-            adhesion: self.adhesion.as_ref()?,
-            place: self.adhesion_at.as_ref()?,
-            problems: self.problems,
-        })
+    pub(super) fn adhesion(&self) -> Option<AdhesionPlan> {
+        self.attraction
+            .as_ref()
+            .map(|attraction| attraction.adhesion)
     }
 
     /// Its pull-off load (N) of an indenter under such a control, 0 without one; `None` where a problem was reported.
@@ -61,7 +45,7 @@ impl Bodies<'_> {
         indenter: Option<&dyn Indenter>,
         control: Control,
     ) -> Option<f64> {
-        match self.attraction() {
+        match &self.attraction {
             Some(attraction) => attraction.pull_off_n(indenter?, control),
             None => Some(0.0),
         }

@@ -2,16 +2,15 @@
 
 use serde_json::{Value as Json, json};
 
-use super::diagnostic::{Diagnostic, Diagnostics, Problems};
+use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::kind::{Describe, Kind, Scalar, Spot, quantity};
-use super::document::reader::TableReader;
 use super::document::row::Rows;
 use super::document::tree::{Node, Value};
 use super::keys::material::{BRANCH_MODULUS, BULK_BRANCHES, BULK_EQUILIBRIUM, BULK_KEYS};
 use super::keys::table;
 use super::material_block::branches;
 use super::material_temperature::prony;
-use crate::material::Relaxation;
+use crate::material::{MaterialError, Relaxation, RelaxationBranch};
 use crate::quantity::Dimension;
 
 const CONSTANT: Scalar = quantity(Dimension::Stress).above_zero();
@@ -56,26 +55,25 @@ impl Kind for BulkModulus {
         if bulk.branches().is_empty() {
             return equilibrium;
         }
-        let branch = |b: &crate::material::RelaxationBranch| json!({ "modulus": modulus(b.modulus_pa), "time": time.written(&b.time_s) });
+        let branch = |b: &RelaxationBranch| json!({ "modulus": modulus(b.modulus_pa), "time": time.written(&b.time_s) });
         let branches: Vec<Json> = bulk.branches().iter().map(branch).collect();
         json!({ "equilibrium": equilibrium, "branches": branches })
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Relaxation, Diagnostics> {
-        let refused = |error: crate::material::MaterialError| {
+        let refused = |error: MaterialError| {
             Diagnostics::from(Diagnostic::at(&node.location, error.to_string()))
         };
         let Value::Table(table) = &node.value else {
             let bulk_pa = CONSTANT.convert(node, spot)?;
             return prony(bulk_pa, []).map_err(refused);
         };
-        let problems = Problems::new();
-        let path = spot.path.to_owned();
-        let mut table = TableReader::new(table, node.location.clone(), path, &problems);
-        let equilibrium = table.value(&BULK_EQUILIBRIUM);
-        let branches = branches(&mut table, &BULK_BRANCHES, &BRANCH_MODULUS);
-        table.finish();
-        let (equilibrium_pa, branches) = problems.into_result(equilibrium.zip(branches))?;
+        let (equilibrium_pa, branches) = spot.read_table(table, node, |mut table| {
+            let equilibrium = table.value(&BULK_EQUILIBRIUM);
+            let branches = branches(&mut table, &BULK_BRANCHES, &BRANCH_MODULUS);
+            table.finish();
+            equilibrium.zip(branches)
+        })?;
         prony(equilibrium_pa, branches).map_err(refused)
     }
 }

@@ -10,15 +10,19 @@
 //! Every problem is shown at its place, all of a file at once.
 
 pub(crate) mod grid;
+mod header;
+mod rows;
 mod text;
 
-use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
 use super::document::{Located, cannot_read, read_limited};
 use crate::quantity::{self, Dimension, QuantityError};
+use header::{Found, Header};
+pub(crate) use rows::Table;
+use rows::{Rows, line_at, plain_number};
 use text::{DELIMITERS, Lines};
 
 /// Largest file read, bytes: a map of 4096 x 4096 points with 30 characters each.
@@ -153,6 +157,17 @@ pub(super) fn named(
     }
 }
 
+/// What is made of the file that a key names, from what messages call it and its bytes. `None` where a problem was reported.
+pub(super) fn made_of<T>(
+    file: &Located<String>,
+    folder: &Path,
+    problems: &Problems,
+    make: impl FnOnce(&str, &[u8]) -> Result<T, Diagnostics>,
+) -> Option<T> {
+    let (name, bytes) = named(file, folder, problems)?;
+    accepted(make(&name, &bytes), file, problems)
+}
+
 /// What was made of a data file; where it was refused, that is reported, with the place where the file is named.
 pub(super) fn accepted<T>(
     made: Result<T, Diagnostics>,
@@ -255,10 +270,8 @@ impl DataFile {
                 .help(format!("begin it with a line of column names: `{example}`"))
                 .into());
         };
-        let found: Vec<Found> = wanted
-            .iter()
-            .map(|column| header.find(column))
-            .collect::<Result<_, _>>()?;
+        let found = wanted.iter().map(|column| header.find(column));
+        let found: Vec<Found> = found.collect::<Result<_, _>>()?;
         let mut lines = header.after.clone();
         let units = header.units_row(&mut lines, &found);
         let mut rows = Rows::new(&header, found.iter().map(|found| found.place).collect());
@@ -281,13 +294,9 @@ impl DataFile {
     /// Nothing but comments, rows of different length, cells that are no numbers.
     pub(crate) fn matrix(&self, without_number: &str) -> Result<Table, Diagnostics> {
         let is_numeric = |first: &Header<'_>| {
-            let number = |cell: &&str| plain_number(cell, first.delimiter).is_some();
-            usize::from(
-                first
-                    .texts()
-                    .iter()
-                    .all(|cell| cell.is_empty() || number(cell)),
-            )
+            let number = |cell: &str| plain_number(cell, first.delimiter).is_some();
+            let mut cells = first.texts().into_iter();
+            usize::from(cells.all(|cell| cell.is_empty() || number(cell)))
         };
         let Some(first) = self.first(is_numeric) else {
             let help = "give one line of numbers per row, or per point";
@@ -331,389 +340,9 @@ impl DataFile {
     fn first(&self, score: impl Fn(&Header<'_>) -> usize) -> Option<Header<'_>> {
         let start = self.lines().start()?;
         let cut = DELIMITERS.map(|(delimiter, _)| Header::new(&self.source, start, delimiter));
-        cut.into_iter()
-            .rev()
-            .max_by_key(|line| (score(line), line.cells.len() > 1))
+        let cut = cut.into_iter().rev();
+        cut.max_by_key(|line| (score(line), line.cells.len() > 1))
     }
-}
-
-/// A line cut into cells, the names of columns in most files.
-struct Header<'a> {
-    source: &'a Arc<Source>,
-    delimiter: char,
-    start: usize,
-    cells: Vec<Range<usize>>,
-    /// The lines below it.
-    after: Lines<'a>,
-}
-
-/// A column that was found.
-struct Found {
-    place: usize,
-    /// As the header gives it.
-    unit: Option<String>,
-}
-
-impl<'a> Header<'a> {
-    fn new(source: &'a Arc<Source>, start: usize, delimiter: char) -> Self {
-        let (text, mut cells) = (source.text(), Vec::new());
-        let position = text::cells_from(text, start, delimiter, &mut cells);
-        Self {
-            source,
-            delimiter,
-            start,
-            cells,
-            after: Lines { text, position },
-        }
-    }
-
-    fn texts(&self) -> Vec<&'a str> {
-        let text = self.source.text();
-        self.cells.iter().map(|cell| &text[cell.clone()]).collect()
-    }
-
-    fn location(&self, place: usize) -> Location {
-        Location::new(
-            self.source,
-            self.cells.get(place).cloned().unwrap_or_default(),
-        )
-    }
-
-    /// The one column of these names.
-    fn find(&self, column: &Column) -> Result<Found, Diagnostic> {
-        let cells = self.texts().into_iter().enumerate();
-        let mut found = cells.filter_map(|(place, cell)| {
-            let unit = column.unit_in(cell)?;
-            Some(Found { place, unit })
-        });
-        match (found.next(), found.next()) {
-            (Some(found), None) => Ok(found),
-            (None, _) => Err(self.missing(column)),
-            (Some(first), Some(second)) => {
-                let message = format!("the table has two columns of {}", column.what);
-                Err(Diagnostic::at(&self.location(second.place), message)
-                    .label(&self.location(first.place), "the other one")
-                    .help("keep one of them"))
-            }
-        }
-    }
-
-    fn missing(&self, column: &Column) -> Diagnostic {
-        let line = line_at(self.source, self.start);
-        let name = column.name_in_si();
-        let problem = Diagnostic::at(&line, format!("no column `{name}`"));
-        if self
-            .texts()
-            .iter()
-            .any(|cell| plain_number(cell, self.delimiter).is_some())
-        {
-            return problem
-                .because("numbers")
-                .help("begin the table with a line of column names");
-        }
-        let by = DELIMITERS
-            .iter()
-            .find(|(delimiter, _)| *delimiter == self.delimiter);
-        let because = match (self.cells.len(), by) {
-            (1, _) | (_, None) => "one column".to_owned(),
-            (count, Some((_, by))) => format!("{count} columns, separated by {by}"),
-        };
-        let example = column.dimension.example();
-        let unit = example.split_once(' ').map_or("", |(_, unit)| unit);
-        problem.because(because).help(format!(
-            "name the column of {} with its unit, such as `{name}` or `{} [{unit}]`",
-            column.what,
-            column.names.first().unwrap_or(&""),
-        ))
-    }
-
-    /// The units of the columns in the line below, where that is a row of units; `lines` then stands behind it.
-    fn units_row(&self, lines: &mut Lines<'_>, found: &[Found]) -> Vec<Option<(String, Location)>> {
-        let (text, mut ahead, mut cells) = (self.source.text(), lines.clone(), Vec::new());
-        ahead.cells(self.delimiter, &mut cells);
-        let unit = |found: &Found| {
-            let span = cells.get(found.place)?.clone();
-            let unit = text[span.clone()].trim_matches(['[', ']', '(', ')', ' ']);
-            Some((unit.to_owned(), Location::new(self.source, span)))
-        };
-        let units: Vec<Option<(String, Location)>> = found.iter().map(unit).collect();
-        let is_unit = |unit: &str| {
-            let read = factor(unit, Dimension::Time);
-            matches!(read, Ok(_) | Err(QuantityError::WrongDimension { .. }))
-        };
-        let some = || units.iter().flatten().map(|(unit, _)| unit.as_str());
-        let is_row = some().any(is_unit) && !some().any(|unit| unit.parse::<f64>().is_ok());
-        if !is_row || cells.len() != self.cells.len() {
-            return found.iter().map(|_| None).collect();
-        }
-        *lines = ahead;
-        let is_given = |unit: &(String, Location)| !["", "-"].contains(&unit.0.as_str());
-        units
-            .into_iter()
-            .map(|unit| unit.filter(is_given))
-            .collect()
-    }
-
-    /// What the numbers of a column are multiplied by.
-    fn factor(
-        &self,
-        column: &Column,
-        found: &Found,
-        below: Option<&(String, Location)>,
-    ) -> Result<f64, Diagnostic> {
-        let name = self.location(found.place);
-        let read = |unit: &str, place: &Location| {
-            factor(unit, column.dimension).map_err(|error| {
-                let message = format!("`{unit}` is no unit of the column of {}", column.what);
-                Diagnostic::at(place, message).because(error.to_string())
-            })
-        };
-        match (found.unit.as_deref(), below) {
-            (Some(unit), None) => read(unit, &name),
-            (None, Some((unit, place))) => read(unit, place),
-            (Some(above), Some((unit, place))) => {
-                let (factor, other) = (read(above, &name)?, read(unit, place)?);
-                match factor == other {
-                    true => Ok(factor),
-                    false => Err(Diagnostic::at(place, "the header gives another unit")
-                        .label(&name, "this one")
-                        .help("keep one of the two")),
-                }
-            }
-            (None, None) if column.unit_may_be_absent => Ok(1.0),
-            (None, None) => {
-                let message = format!("the column of {} has no unit", column.what);
-                let written = name.text();
-                let si = column.dimension.si_unit();
-                Err(Diagnostic::at(&name, message).help(format!("write `{written} [{si}]`")))
-            }
-        }
-    }
-}
-
-/// Numbers in rows, every one with its place.
-pub(crate) struct Table {
-    source: Arc<Source>,
-    delimiter: char,
-    /// Place in a line of every column.
-    places: Vec<usize>,
-    /// Row by row.
-    pub(crate) values: Vec<f64>,
-    /// Where the lines begin.
-    starts: Vec<usize>,
-}
-
-impl Table {
-    /// Numbers in a row.
-    pub(crate) fn width(&self) -> usize {
-        self.places.len()
-    }
-
-    /// Rows.
-    pub(crate) fn len(&self) -> usize {
-        self.starts.len()
-    }
-
-    /// One column, by its place among those asked for.
-    pub(crate) fn column(&self, which: usize) -> Vec<f64> {
-        let column = self.values.iter().skip(which).step_by(self.width());
-        column.copied().collect()
-    }
-
-    /// The line of a row.
-    pub(crate) fn row(&self, row: usize) -> Location {
-        match self.starts.get(row) {
-            Some(start) => line_at(&self.source, *start),
-            None => Location::whole(&self.source),
-        }
-    }
-
-    /// The cell of a row in one of the columns.
-    pub(crate) fn cell(&self, row: usize, which: usize) -> Location {
-        let (Some(start), Some(place)) = (self.starts.get(row), self.places.get(which)) else {
-            return Location::whole(&self.source);
-        };
-        let mut cells = Vec::new();
-        text::cells_from(self.source.text(), *start, self.delimiter, &mut cells);
-        Location::new(&self.source, cells.get(*place).cloned().unwrap_or_default())
-    }
-
-    /// The file as a whole.
-    pub(crate) fn whole(&self) -> Location {
-        Location::whole(&self.source)
-    }
-}
-
-/// The line that begins at `start`.
-fn line_at(source: &Arc<Source>, start: usize) -> Location {
-    let rest = source.text().get(start..).unwrap_or_default();
-    let line = rest.split('\n').next().unwrap_or_default();
-    Location::new(source, start..start + line.trim_end().len())
-}
-
-/// Reads rows, and remembers how their numbers separate decimals.
-struct Rows<'a> {
-    header: &'a Header<'a>,
-    table: Table,
-    problems: Problems,
-    signs: DecimalSigns,
-    /// Whether a cell without a number is read as a NaN.
-    may_have_holes: bool,
-}
-
-impl<'a> Rows<'a> {
-    fn new(header: &'a Header<'a>, places: Vec<usize>) -> Self {
-        let table = Table {
-            source: Arc::clone(header.source),
-            delimiter: header.delimiter,
-            places,
-            values: Vec::new(),
-            starts: Vec::new(),
-        };
-        Self {
-            header,
-            table,
-            problems: Problems::new(),
-            signs: DecimalSigns::default(),
-            may_have_holes: false,
-        }
-    }
-
-    fn read(&mut self, mut lines: Lines<'_>, without_number: &str) -> Result<(), Diagnostics> {
-        let (text, expected) = (lines.text, self.header.cells.len());
-        let mut cells = Vec::with_capacity(expected);
-        while let Some(start) = lines.cells(self.header.delimiter, &mut cells) {
-            if cells.len() != expected {
-                let found = cells.len();
-                let s = if found == 1 { "" } else { "s" };
-                self.problems
-                    .at(
-                        &line_at(self.header.source, start),
-                        format!("a row of {found} cell{s} in a table of {expected} columns"),
-                    )
-                    .help(
-                        "give every row one cell per column; where commas separate cells, numbers have a decimal point",
-                    );
-                continue;
-            }
-            self.table.starts.push(start);
-            for which in 0..self.table.places.len() {
-                let span = cells[self.table.places[which]].clone();
-                match self.number(&text[span.clone()], &span) {
-                    Ok(number) => self.table.values.push(number),
-                    Err(why) => self.no_number(which, span, why, without_number),
-                }
-            }
-        }
-        self.signs.check(self.header.source, &self.problems);
-        std::mem::take(&mut self.problems).into_result(Some(()))
-    }
-
-    /// The number in a cell, or why there is none.
-    fn number(&mut self, cell: &str, span: &Range<usize>) -> Result<f64, &'static str> {
-        let delimiter = self.header.delimiter;
-        if self.may_have_holes && is_hole(cell) {
-            return Ok(f64::NAN);
-        }
-        let number = match plain_number(cell, delimiter) {
-            Some(number) => number,
-            None if cell.is_empty() => return Err("empty"),
-            None => return Err("not a number"),
-        };
-        if delimiter != ',' {
-            self.signs.see(cell, span);
-        }
-        match number.is_finite() {
-            true => Ok(number),
-            false => Err("not a finite number"),
-        }
-    }
-
-    fn no_number(&self, which: usize, span: Range<usize>, why: &str, without_number: &str) {
-        let place = self.table.places[which];
-        let cell = Location::new(self.header.source, span);
-        // In a matrix the first line is one of numbers.
-        let column = match self.table.starts.first() == Some(&self.header.start) {
-            true => format!("column {}", place + 1),
-            false => format!("the column `{}`", self.header.location(place).text()),
-        };
-        let message = format!("a cell of {column} must be a number");
-        self.problems
-            .at(&cell, message)
-            .because(why)
-            .help(without_number);
-    }
-}
-
-/// How the numbers of a file separate decimals.
-#[derive(Debug, Default)]
-struct DecimalSigns {
-    /// The first number with a decimal point, where a comma could stand for it.
-    point: Option<Range<usize>>,
-    /// The first number with a comma.
-    comma: Option<Range<usize>>,
-    /// Whether some comma separates no thousands.
-    is_decimal: bool,
-}
-
-impl DecimalSigns {
-    fn see(&mut self, cell: &str, span: &Range<usize>) {
-        if self.point.is_none() && cell.contains('.') {
-            self.point = Some(span.clone());
-        }
-        if !self.is_decimal && cell.contains(',') {
-            self.comma.get_or_insert_with(|| span.clone());
-            self.is_decimal = !is_like_thousands(cell);
-        }
-    }
-
-    /// Commas must separate decimals, and do it everywhere.
-    fn check(&self, source: &Arc<Source>, problems: &Problems) {
-        let Some(comma) = &self.comma else {
-            return;
-        };
-        let comma = Location::new(source, comma.clone());
-        if let Some(point) = &self.point {
-            problems
-                .at(&comma, "a decimal comma in a file with decimal points")
-                .label(&Location::new(source, point.clone()), "a decimal point")
-                .help("write decimal points, and nothing between thousands");
-        } else if !self.is_decimal {
-            let (point, none) = (
-                comma.text().replace(',', "."),
-                comma.text().replace(',', ""),
-            );
-            problems
-                .at(&comma, "this comma may separate decimals or thousands")
-                .help(format!("write `{point}` or `{none}`"));
-        }
-    }
-}
-
-/// A number with a decimal point, or with a decimal comma where commas do not separate cells.
-fn plain_number(cell: &str, delimiter: char) -> Option<f64> {
-    let with_comma = || match delimiter {
-        ',' => None,
-        _ => cell.replacen(',', ".", 1).parse().ok(),
-    };
-    cell.parse().ok().or_else(with_comma)
-}
-
-/// Whether a cell says that there is no number.
-fn is_hole(cell: &str) -> bool {
-    let words = ["nan", "na", "n/a", "-", "--", "---"];
-    cell.is_empty() || words.iter().any(|word| cell.eq_ignore_ascii_case(word))
-}
-
-/// Whether a number with a comma could be an integer with its thousands apart: `1,234`.
-fn is_like_thousands(number: &str) -> bool {
-    let number = number.trim_start_matches(['+', '-']);
-    number.split_once(',').is_some_and(|(before, after)| {
-        (1..=3).contains(&before.len())
-            && !before.starts_with('0')
-            && after.len() == 3
-            && after.bytes().all(|byte| byte.is_ascii_digit())
-    })
 }
 
 #[cfg(test)]

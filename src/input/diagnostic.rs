@@ -356,6 +356,15 @@ impl Problems {
         }
     }
 
+    /// What was made, or `None` where its refusal is reported at this place.
+    pub fn accept<T>(
+        &self,
+        place: &impl AsRef<Location>,
+        made: Result<T, impl fmt::Display>,
+    ) -> Option<T> {
+        made.map_err(|error| self.at(place, error.to_string())).ok()
+    }
+
     /// Takes over problems collected elsewhere.
     pub fn extend(&self, diagnostics: Diagnostics) {
         for diagnostic in diagnostics.list {

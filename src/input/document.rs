@@ -168,7 +168,22 @@ impl Document {
     /// Starts reading at the top of the file.
     pub(crate) fn root<'a>(&'a self, problems: &'a Problems) -> TableReader<'a> {
         let location = Location::whole(&self.source);
-        TableReader::new(&self.root, location, String::new(), problems)
+        TableReader::new(&self.root, location, String::new(), problems).in_folder(&self.folder)
+    }
+
+    /// What is read of the whole file, which may have no other keys than those asked for.
+    ///
+    /// # Errors
+    /// Every problem reported.
+    pub(crate) fn read_whole<T>(
+        &self,
+        read: impl FnOnce(&mut TableReader<'_>) -> Option<T>,
+    ) -> Result<T, Diagnostics> {
+        let problems = Problems::new();
+        let mut root = self.root(&problems);
+        let value = read(&mut root);
+        root.finish();
+        problems.into_result(value)
     }
 
     /// The file as parsed, without the flags.

@@ -19,11 +19,10 @@ const MOST_PIXELS: f64 = 16_000.0;
 pub(crate) fn of_sweep(
     mut table: TableReader<'_>,
     (frequencies_rad_per_s, given_in): (Option<&[f64]>, FrequencyUnit),
-    problems: &Problems,
 ) -> Option<Figures> {
-    let loops = loops(&mut table, frequencies_rad_per_s, problems);
+    let loops = loops(&mut table, frequencies_rad_per_s);
     let unit = table.value(&FREQUENCY_UNIT);
-    let figures = read(table, problems);
+    let figures = read(table);
     let (loops_rad_per_s, unit, mut figures) = (loops?, unit?, figures?);
     figures.plan.loops_rad_per_s = loops_rad_per_s;
     figures.plan.frequency_unit = unit.unwrap_or(given_in);
@@ -65,7 +64,8 @@ impl Figures {
 }
 
 /// Reads the keys that sweeps and scenarios share; `None` where a problem was reported.
-pub(crate) fn read(mut table: TableReader<'_>, problems: &Problems) -> Option<Figures> {
+pub(crate) fn read(mut table: TableReader<'_>) -> Option<Figures> {
+    let problems = table.problems();
     let default = FigurePlan::default();
     let width = match table.has(&WIDTH) && table.has(&COLUMN) {
         true => table.one_of(&[(&WIDTH, ()), (&COLUMN, ())]).map(|()| None),
@@ -91,73 +91,58 @@ pub(crate) fn read(mut table: TableReader<'_>, problems: &Problems) -> Option<Fi
         frequency_unit: default.frequency_unit,
         titles: titles?.unwrap_or(default.titles),
     };
-    let asked = Asked { width, height, dpi };
-    asked
-        .fits(&plan, problems)
-        .then_some(Figures { plan, axes })
+    let fits = fits(&plan, [&width, &height], dpi.as_ref(), problems);
+    fits.then_some(Figures { plan, axes })
 }
 
-/// What a problem with the size can point at.
-struct Asked {
-    width: Option<Located<f64>>,
-    height: Option<Located<f64>>,
-    dpi: Option<Located<usize>>,
-}
-
-impl Asked {
-    /// Whether a figure of this size has room for its text, and a PNG of it a sensible number of pixels.
-    fn fits(&self, plan: &FigurePlan, problems: &Problems) -> bool {
-        let Some(paper) = plan.paper() else {
-            return true;
-        };
-        let longest_m = paper
-            .height_m
-            .map_or(paper.width_m, |height_m| height_m.max(paper.width_m));
-        let dpi = plan.resolution().unwrap_or_default();
-        let pixels = longest_m / 0.0254 * dpi as f64;
-        let mut fine = true;
-        if pixels > MOST_PIXELS && plan.formats.contains(&Format::Png) {
-            let most = (MOST_PIXELS * 0.0254 / longest_m).floor();
-            let message = format!("a PNG would be {pixels:.0} pixels long");
-            let help = format!("at this size write a `dpi` of at most {most}");
-            if let Some(dpi) = &self.dpi {
-                problems.at(dpi, message).because("too many").help(help);
-            } else if let Some(side) = self.width.as_ref().or(self.height.as_ref()) {
-                problems.at(side, message).because("too large").help(help);
-            }
+/// Whether a figure of this size has room for its text, and a PNG of it a sensible number of pixels.
+fn fits(
+    plan: &FigurePlan,
+    [width, height]: [&Option<Located<f64>>; 2],
+    dpi: Option<&Located<usize>>,
+    problems: &Problems,
+) -> bool {
+    let Some(paper) = plan.paper() else {
+        return true;
+    };
+    let height_m = paper.height_m;
+    let longest_m = height_m.map_or(paper.width_m, |height_m| height_m.max(paper.width_m));
+    let pixels = longest_m / 0.0254 * plan.resolution().unwrap_or_default() as f64;
+    let mut fine = true;
+    if pixels > MOST_PIXELS && plan.formats.contains(&Format::Png) {
+        let most = (MOST_PIXELS * 0.0254 / longest_m).floor();
+        let message = format!("a PNG would be {pixels:.0} pixels long");
+        let help = format!("at this size write a `dpi` of at most {most}");
+        if let Some(dpi) = dpi {
+            problems.at(dpi, message).because("too many").help(help);
+        } else if let Some(side) = width.as_ref().or(height.as_ref()) {
+            problems.at(side, message).because("too large").help(help);
+        }
+        fine = false;
+    }
+    let sides = [
+        (width, Some(paper.width_m), LEAST_WIDTH_PX),
+        (height, height_m, LEAST_HEIGHT_PX),
+    ];
+    for (side, length_m, least_px) in sides {
+        let least_m = least_px * paper.px_m;
+        let is_small = length_m.is_some_and(|length_m| length_m < least_m);
+        if let Some(side) = side.as_ref().filter(|_| is_small) {
+            let least = format!("{:.0} mm", (1e3 * least_m).ceil());
+            problems
+                .at(side, "a figure of this size has no room for its text")
+                .because(format!("with this text it takes {least}"))
+                .help(format!(
+                    "write at least \"{least}\", or a smaller `font_size`"
+                ));
             fine = false;
         }
-        let sides = [
-            (&self.width, paper.width_m, LEAST_WIDTH_PX),
-            (
-                &self.height,
-                paper.height_m.unwrap_or(f64::INFINITY),
-                LEAST_HEIGHT_PX,
-            ),
-        ];
-        for (side, length_m, least_px) in sides {
-            let least_m = least_px * paper.px_m;
-            if let Some(side) = side.as_ref().filter(|_| length_m < least_m) {
-                let least = format!("{:.0} mm", (1e3 * least_m).ceil());
-                problems
-                    .at(side, "a figure of this size has no room for its text")
-                    .because(format!("with this text it takes {least}"))
-                    .help(format!(
-                        "write at least \"{least}\", or a smaller `font_size`"
-                    ));
-                fine = false;
-            }
-        }
-        fine
     }
+    fine
 }
 
 /// The frequencies (rad/s) whose loops are drawn, each within the sweep.
-fn loops(
-    table: &mut TableReader<'_>,
-    frequencies_rad_per_s: Option<&[f64]>,
-    problems: &Problems,
-) -> Option<Vec<f64>> {
+fn loops(table: &mut TableReader<'_>, frequencies_rad_per_s: Option<&[f64]>) -> Option<Vec<f64>> {
     let Some(list) = table.read(&LOOPS)? else {
         return Some(Vec::new());
     };
@@ -169,7 +154,7 @@ fn loops(
     let within = (first * (1.0 - 1e-9))..=(last * (1.0 + 1e-9));
     for loop_ in list.value.iter().filter(|w| !within.contains(&w.value)) {
         let human = |omega| format_human(omega, Dimension::AngularFrequency, 4);
-        problems
+        (table.problems())
             .at(loop_, "this frequency is outside the sweep")
             .because(format!(
                 "the sweep runs from {} to {}",

@@ -1,11 +1,10 @@
 //! Blocks that are values already: materials and indenters that a program holds, in place of text.
 
-use std::path::Path;
 use std::sync::Arc;
 
-use super::diagnostic::{Diagnostic, Diagnostics, Problems};
+use super::diagnostic::{Diagnostic, Diagnostics};
+use super::document::Document;
 use super::document::reader::TableReader;
-use super::document::{Document, Located};
 use super::field_file::Field;
 use super::keys;
 use super::material_table::DirectSum;
@@ -22,18 +21,10 @@ pub struct Given {
 
 impl Given {
     /// The indenter of a document without axes: that of its block, or the one given.
-    pub(super) fn indenter(
-        &self,
-        root: &mut TableReader<'_>,
-        folder: &Path,
-        problems: &Problems,
-    ) -> Option<Arc<dyn Indenter>> {
+    pub(super) fn indenter(&self, root: &mut TableReader<'_>) -> Option<Arc<dyn Indenter>> {
         match (&self.indenter, root.key_location(&keys::INDENTER)) {
             (Some(given), None) => Some(Arc::clone(given)),
-            _ => {
-                let table = root.table(&keys::INDENTER)?;
-                indenter_block::read(table, folder, problems)
-            }
+            _ => indenter_block::read(root.table(&keys::INDENTER)?),
         }
     }
 }
@@ -43,11 +34,7 @@ impl Given {
 /// # Errors
 /// Everything that is wrong with the block.
 pub fn material(document: &Document) -> Result<BodyMaterial, Diagnostics> {
-    let problems = Problems::new();
-    let mut root = document.root(&problems);
-    let read = material_block::read_body(&mut root, document.folder(), DirectSum::Taken, &problems);
-    root.finish();
-    problems.into_result(read.map(|material| material.value))
+    document.read_whole(|root| Some(material_block::read_body(root, DirectSum::Taken)?.value))
 }
 
 /// The indenter of a document that has this block alone.
@@ -55,11 +42,7 @@ pub fn material(document: &Document) -> Result<BodyMaterial, Diagnostics> {
 /// # Errors
 /// Everything that is wrong with the block.
 pub fn indenter(document: &Document) -> Result<Arc<dyn Indenter>, Diagnostics> {
-    let problems = Problems::new();
-    let mut root = document.root(&problems);
-    let read = Given::default().indenter(&mut root, document.folder(), &problems);
-    root.finish();
-    problems.into_result(read)
+    document.read_whole(|root| Given::default().indenter(root))
 }
 
 /// A height map of these values, in the unit and with the spacing that the document says: its `[indenter]` block is that of a map
@@ -76,19 +59,7 @@ pub fn height_map(document: &Document, field: Field) -> Result<HeightMap, Diagno
             .help("fill holes before, by interpolation say")
             .into());
     }
-    let problems = Problems::new();
-    let mut root = document.root(&problems);
-    let table = root.table(&keys::INDENTER);
-    let read = table.and_then(|table| {
-        let place = Located {
-            value: String::new(),
-            path: "indenter".to_owned(),
-            location: table.as_ref().clone(),
-        };
-        indenter_block::map_of(table, document.folder(), &problems, (place, field))
-    });
-    root.finish();
-    problems.into_result(read)
+    document.read_whole(|root| indenter_block::map_of(root.table(&keys::INDENTER)?, field))
 }
 
 #[cfg(test)]

@@ -26,71 +26,57 @@ pub(super) struct Pressed {
     pub(super) is_attracted: bool,
 }
 
-/// What a value is multiplied by to be a load or an approach: the area (m^2) of the period that a mean pressure acts on, where there is
-/// one.
-pub(super) fn per_value(
-    prescribed: Prescribed,
+/// What is prescribed, and what a value is multiplied by to be a load or an approach: the area (m^2) of the period that a mean pressure
+/// acts on, where there is one; `None` where there should be, which is reported.
+pub(super) fn scaled(
+    table: &mut TableReader<'_>,
     area_m2: Option<f64>,
-    place: &Location,
-    problems: &Problems,
-) -> Option<f64> {
+) -> Option<(Prescribed, Option<f64>)> {
+    let place = table.key_location(&PRESCRIBES);
+    let place: &Location = place.as_ref().unwrap_or(table.as_ref());
+    let (place, problems) = (place.clone(), table.problems());
+    let prescribed = table.value(&PRESCRIBES)?;
     if prescribed != Prescribed::Pressure {
-        return Some(1.0);
+        return Some((prescribed, Some(1.0)));
     }
     if area_m2.is_none() {
         problems
             .at(
-                place,
+                &place,
                 "a mean pressure is that of a surface which repeats itself",
             )
             .because("the indenter has no area to share a load")
             .help("write `edge = \"periodic\"` in [indenter], or give loads");
     }
-    area_m2
+    Some((prescribed, area_m2))
 }
 
 /// Reads the block; `None` where a problem was reported.
-pub(super) fn read(
-    mut table: TableReader<'_>,
-    pressed: Pressed,
-    problems: &Problems,
-) -> Option<HarmonicDrive> {
-    let place = table.key_location(&PRESCRIBES);
-    let prescribed = table.value(&PRESCRIBES)?;
-    let (control, dimension) = (prescribed.control(), prescribed.dimension());
+pub(super) fn read(mut table: TableReader<'_>, pressed: Pressed) -> Option<HarmonicDrive> {
+    let problems = table.problems();
+    let (prescribed, factor) = scaled(&mut table, pressed.area_m2)?;
+    let (control, dimension, factor) = (prescribed.control(), prescribed.dimension(), factor?);
     let make = match pressed.is_attracted {
         true => HarmonicDrive::unattracted,
         false => HarmonicDrive::new,
     };
-    let place = place.unwrap_or_else(|| table.as_ref().clone());
-    let factor = per_value(prescribed, pressed.area_m2, &place, problems)?;
     let mean = table.read(&MEAN.of(dimension));
     let amplitude = table.read(&AMPLITUDE.of(dimension));
     let (phase_rad, hold_s) = (table.value(&PHASE), table.value(&HOLD));
     table.finish();
-    let (mean, amplitude, phase_rad, hold_s) = (mean?, amplitude?, phase_rad?, hold_s?);
-    match make(
-        control,
-        factor * mean.value,
-        factor * amplitude.value,
-        phase_rad,
-        hold_s,
-    ) {
-        Ok(drive) => Some(drive),
-        Err(DriveError::NoTouch { .. }) => {
-            problems
-                .at(&mean, "the indenter never touches the surface")
-                .because("with the amplitude not above zero")
-                .label(&amplitude, "the amplitude")
-                .help(match control {
-                    Control::Load => "a load is positive where the indenter is pressed down; mean and amplitude together must be, too",
-                    Control::Approach => "an approach is positive into the body and zero at first touch",
-                });
-            None
-        }
-        Err(error) => {
-            problems.at(&mean, error.to_string());
-            None
-        }
+    let (mean, amplitude) = (mean?, amplitude?);
+    let (scaled_mean, scaled_amplitude) = (factor * mean.value, factor * amplitude.value);
+    let made = make(control, scaled_mean, scaled_amplitude, phase_rad?, hold_s?);
+    if let Err(DriveError::NoTouch { .. }) = made {
+        problems
+            .at(&mean, "the indenter never touches the surface")
+            .because("with the amplitude not above zero")
+            .label(&amplitude, "the amplitude")
+            .help(match control {
+                Control::Load => "a load is positive where the indenter is pressed down; mean and amplitude together must be, too",
+                Control::Approach => "an approach is positive into the body and zero at first touch",
+            });
+        return None;
     }
+    problems.accept(&mean, made)
 }

@@ -4,15 +4,15 @@ use std::path::Path;
 
 use super::bodies_block::Bodies;
 use super::data_file;
-use super::diagnostic::{Diagnostic, Diagnostics, Problems};
+use super::diagnostic::Diagnostics;
+use super::document::Document;
 use super::document::reader::TableReader;
-use super::document::{Document, Located};
 use super::given::Given;
 use super::harmonic_block::Pressed;
 use super::keys;
 use super::keys::drive::SEGMENTS;
 use super::keys::identify::{
-    DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE, MODEL_SOLVER,
+    DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE,
 };
 use super::keys::material::BULK_MODULUS;
 use super::sweep_file::cycle;
@@ -24,7 +24,6 @@ use crate::identify::data::Measurements;
 use crate::identify::{Driven, IdentifyPlan, Sought};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Relaxation};
-use crate::sweep::plan::SolverPlan;
 use crate::sweep::plan::contact::ContactPlan;
 
 /// The table of results in a folder of a sweep or of an analysis.
@@ -43,44 +42,33 @@ pub fn plan(document: &Document) -> Result<IdentifyPlan, Diagnostics> {
 /// # Errors
 /// As [`plan`].
 pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Diagnostics> {
-    let problems = Problems::new();
-    let mut root = document.root(&problems);
-    let title = root.value(&keys::TITLE);
-    let compressibility = root.table(&KNOWN_MATERIAL);
-    let compressibility = compressibility.and_then(|t| known_material(t, &problems));
-    let bodies = bodies_block::read(&mut root, document.folder(), &problems);
-    let indenter = given.indenter(&mut root, document.folder(), &problems);
-    let drive = root.table(&MEASURED_DRIVE).and_then(|t| {
-        let against = (bodies.as_ref(), indenter.as_deref());
-        driven(t, against, document.folder(), &problems)
-    });
-    let measured = root.table(&IDENTIFY);
-    let measured =
-        measured.and_then(|t| measured_block(t, document.folder(), drive.as_ref(), &problems));
-    let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, |t| cycle(t, &problems));
-    let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
-    let default = indenter.as_ref();
-    let default = default.map_or_else(SolverPlan::default, |indenter| {
-        IdentifyPlan::solver(indenter.as_ref(), layer)
-    });
-    let solver = root.table_or(&MODEL_SOLVER, default, |t| {
-        layer_block::solver_on(layer.is_some(), t, default, &problems)
-    });
-    root.finish();
-    let plan = (|| {
+    document.read_whole(|root| {
+        let title = root.value(&keys::TITLE);
+        let compressibility = root.table(&KNOWN_MATERIAL).and_then(known_material);
+        let bodies = bodies_block::read(root);
+        let indenter = given.indenter(root);
+        let drive = root.table(&MEASURED_DRIVE);
+        let drive = drive.and_then(|t| driven(t, bodies.as_ref(), indenter.as_deref()));
+        let measured = root.table(&IDENTIFY);
+        let measured = measured.and_then(|t| measured_block(t, drive.as_ref()));
+        let cycle = root.table_or(&MODEL_CYCLE, IdentifyPlan::CYCLE, cycle);
+        let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
+        let default = indenter.as_deref();
+        let default = default.map(|indenter| IdentifyPlan::solver(indenter, layer));
+        let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
         let (data, measurements, branches) = measured?;
-        let (counterbody, adhesion) = bodies.map(|of| (of.counterbody, of.adhesion))?;
+        let bodies = bodies?;
         Some(IdentifyPlan {
             title: title?,
             contact: ContactPlan {
-                material: Sought {
-                    compressibility: compressibility?,
-                    counterbody,
-                },
                 layer,
                 indenter: indenter?,
-                adhesion,
+                adhesion: bodies.adhesion(),
                 solver: solver?,
+                material: Sought {
+                    compressibility: compressibility?,
+                    counterbody: bodies.counterbody,
+                },
             },
             drive: drive?,
             branches,
@@ -88,29 +76,26 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
             data,
             cycle: cycle?,
         })
-    })();
-    problems.into_result(plan)
+    })
 }
 
 /// The `[drive]` block: a history where it has segments, an oscillation where not.
 fn driven(
     mut table: TableReader<'_>,
-    (bodies, indenter): (Option<&Bodies<'_>>, Option<&dyn Indenter>),
-    folder: &Path,
-    problems: &Problems,
+    bodies: Option<&Bodies<'_>>,
+    indenter: Option<&dyn Indenter>,
 ) -> Option<Driven> {
     let area_m2 = indenter.and_then(Indenter::period_area_m2);
     if table.has(&SEGMENTS) {
         let pull_off_n = |control| bodies?.pull_off_n(indenter, control);
-        let bodies = (pull_off_n, area_m2);
-        return segments_block::read(table, folder, bodies, problems).map(Driven::History);
+        return segments_block::read(table, pull_off_n, area_m2).map(Driven::History);
     }
-    let attraction = bodies.and_then(Bodies::attraction);
+    let attraction = bodies.and_then(|bodies| bodies.attraction.as_ref());
     let pressed = Pressed {
         area_m2,
         is_attracted: attraction.is_some(),
     };
-    let own = harmonic_block::read(table, pressed, problems)?;
+    let own = harmonic_block::read(table, pressed)?;
     let drive = match attraction {
         Some(attraction) => attraction.drive(indenter?, &own)?,
         None => own,
@@ -118,8 +103,9 @@ fn driven(
     Some(Driven::Cycles(drive))
 }
 
-fn known_material(mut table: TableReader<'_>, problems: &Problems) -> Option<Compressibility> {
-    let known = material_block::compressibility(&mut table, problems);
+fn known_material(mut table: TableReader<'_>) -> Option<Compressibility> {
+    let problems = table.problems();
+    let known = material_block::compressibility(&mut table);
     let place = table.key_location(&BULK_MODULUS);
     table.finish();
     let is_relaxing = |bulk: &Relaxation| !bulk.branches().is_empty();
@@ -138,20 +124,15 @@ fn known_material(mut table: TableReader<'_>, problems: &Problems) -> Option<Com
 /// The `[identify]` block: measurements, and how many branches.
 fn measured_block(
     mut table: TableReader<'_>,
-    folder: &Path,
     drive: Option<&Driven>,
-    problems: &Problems,
 ) -> Option<(String, Measurements, Option<usize>)> {
+    let (folder, problems) = (table.folder(), table.problems());
     let data = table.read(&DATA);
     let branches = table.value(&IDENTIFY_BRANCHES);
     table.finish();
     let data = data?;
     let file = match data.path_from(folder).is_dir() {
-        true => Located {
-            value: Path::new(&data.value).join(TABLE).display().to_string(),
-            path: data.path,
-            location: data.location,
-        },
+        true => data.map(|folder| Path::new(&folder).join(TABLE).display().to_string()),
         false => data,
     };
     let (name, bytes) = data_file::named(&file, folder, problems)?;
@@ -168,9 +149,6 @@ fn measured_block(
             Measurements::of_history(drive, &rows)
         }
     };
-    let measurements = found.map_err(|error| {
-        let refused = Diagnostic::at(&file.location, format!("{name}: {error}"));
-        problems.extend(refused.into());
-    });
-    Some((name, measurements.ok()?, branches?.flatten()))
+    let measurements = problems.accept(&file, found.map_err(|error| format!("{name}: {error}")))?;
+    Some((name, measurements, branches?.flatten()))
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::data_file;
-use super::diagnostic::Problems;
+use super::diagnostic::Diagnostics;
 use super::document::kind::{Describe, Scalar};
 use super::document::reader::TableReader;
 use super::document::row::{Required, Row};
@@ -36,17 +36,13 @@ const STEEPEST_MAP: f64 = 1.0;
 /// A shape, or nothing where a problem was reported.
 type Made = Option<Arc<dyn Indenter>>;
 
-/// Reads the block; files are looked for in `folder`. `None` where a problem was reported.
-pub(super) fn read(table: TableReader<'_>, folder: &Path, problems: &Problems) -> Made {
-    let mut block = Block {
-        table,
-        folder,
-        problems,
-    };
-    let shape = block.table.read(&SHAPE)?;
-    let offset = block.table.value(&OFFSET);
+/// Reads the block; `None` where a problem was reported.
+pub(super) fn read(table: TableReader<'_>) -> Made {
+    let mut block = Block(table);
+    let shape = block.0.read(&SHAPE)?;
+    let offset = block.0.value(&OFFSET);
     // Read by itself, with the material that it is pressed against.
-    block.table.has(&INDENTER_MATERIAL);
+    block.0.has(&INDENTER_MATERIAL);
     let made = match shape.value {
         Shape::Sphere => block.single(&RADIUS, Sphere::new),
         Shape::Cone => block.single(&HALF_ANGLE, Cone::new),
@@ -58,69 +54,53 @@ pub(super) fn read(table: TableReader<'_>, folder: &Path, problems: &Problems) -
         Shape::Asperities => block.asperities(),
         Shape::Rough => block.rough(&shape),
     };
-    block.table.finish();
+    let problems = block.0.problems();
+    block.0.finish();
     let (made, offset) = (made?, offset?);
     match offset.map(plain).as_deref() {
         Some(&[x_m, y_m]) => {
-            let shifted = Shifted::new(made, x_m, y_m);
-            let shifted = shifted.map_err(|error| problems.at(&shape, error.to_string()));
-            Some(Arc::new(shifted.ok()?))
+            let shifted = problems.accept(&shape, Shifted::new(made, x_m, y_m))?;
+            Some(Arc::new(shifted))
         }
         _ => Some(made),
     }
 }
 
 /// A height map of values in memory, which are called by their place; the table has the other keys of the block.
-pub(super) fn map_of(
-    table: TableReader<'_>,
-    folder: &Path,
-    problems: &Problems,
-    (place, field): (Located<String>, Field),
-) -> Option<HeightMap> {
-    let mut block = Block {
-        table,
-        folder,
-        problems,
+pub(super) fn map_of(table: TableReader<'_>, field: Field) -> Option<HeightMap> {
+    let place = Located {
+        value: String::new(),
+        path: "indenter".to_owned(),
+        location: table.as_ref().clone(),
     };
-    block.table.read(&SHAPE)?;
-    let data = DataOf {
-        data: field,
-        source: None,
+    let mut block = Block(table);
+    block.0.read(&SHAPE)?;
+    let named = Named {
         place,
         name: "array".to_owned(),
+        source: None,
     };
-    let (place, map) = block.map(|_| Some(data))?;
-    block.table.finish();
-    let refused = |error: IndenterError| {
-        problems.at(&place, error.to_string());
-    };
-    map.map_err(refused).ok()
+    let (place, map) = block.map(|_| Some((field, named)))?;
+    let problems = block.0.problems();
+    block.0.finish();
+    problems.accept(&place, map)
 }
 
 /// What the indenter of a document is made of, where it is not rigid; `None` where a problem was reported.
-pub(super) fn material(
-    root: &mut TableReader<'_>,
-    folder: &Path,
-    problems: &Problems,
-) -> Option<Option<Located<Material>>> {
+pub(super) fn material(root: &mut TableReader<'_>) -> Option<Option<Located<Material>>> {
     match root.parsed(&keys::INDENTER) {
-        Some(_) => material_of(root.table(&keys::INDENTER)?, folder, problems),
+        Some(_) => material_of(root.table(&keys::INDENTER)?),
         None => Some(None),
     }
 }
 
 /// The same of such a block.
-pub(super) fn material_of(
-    mut table: TableReader<'_>,
-    folder: &Path,
-    problems: &Problems,
-) -> Option<Option<Located<Material>>> {
+pub(super) fn material_of(mut table: TableReader<'_>) -> Option<Option<Located<Material>>> {
+    let problems = table.problems();
     table.table_or(&INDENTER_MATERIAL, None, |block| {
-        let read = material_block::read_over(block, folder, DirectSum::Refused, None, problems);
+        let read = material_block::read_over(block, DirectSum::Refused, None);
         let material = material_block::series_of(read?.0)?;
-        let checked = material.value.contact_compliance().map_err(|error| {
-            problems.at(&material, error.to_string());
-        });
+        let checked = problems.accept(&material, material.value.contact_compliance());
         if !(material.value.replicas().is_empty() && material.value.alternatives().is_empty()) {
             problems
                 .at(
@@ -130,15 +110,12 @@ pub(super) fn material_of(
                 .help("leave out `replicas` and `alternative`");
             return None;
         }
-        checked.ok().map(|_| Some(material))
+        checked.map(|_| Some(material))
     })
 }
 
-struct Block<'a> {
-    table: TableReader<'a>,
-    folder: &'a Path,
-    problems: &'a Problems,
-}
+/// The block of a shape.
+struct Block<'a>(TableReader<'a>);
 
 impl Block<'_> {
     /// A shape made of one number.
@@ -147,9 +124,9 @@ impl Block<'_> {
         row: &Row<Scalar, Required>,
         make: fn(f64) -> Result<S, IndenterError>,
     ) -> Made {
-        let size = self.table.read(row)?;
+        let size = self.0.read(row)?;
         let made = make(size.value).map_err(|error| {
-            let report = self.problems.at(&size, error.to_string());
+            let report = self.0.problems().at(&size, error.to_string());
             report.help(format!("for example {} = {}", row.name, row.kind.example()));
         });
         Some(Arc::new(made.ok()?))
@@ -161,23 +138,17 @@ impl Block<'_> {
         place: &Located<P>,
         shape: Result<S, IndenterError>,
     ) -> Made {
-        match shape {
-            Ok(shape) => Some(Arc::new(shape)),
-            Err(error) => {
-                self.problems.at(place, error.to_string());
-                None
-            }
-        }
+        Some(Arc::new(self.0.problems().accept(place, shape)?))
     }
 
     fn ellipsoid(&mut self, shape: &Located<Shape>) -> Made {
-        let (x_m, y_m) = (self.table.value(&RADIUS_X), self.table.value(&RADIUS_Y));
+        let (x_m, y_m) = (self.0.value(&RADIUS_X), self.0.value(&RADIUS_Y));
         self.made(shape, Ellipsoid::new(x_m?, y_m?))
     }
 
     fn power_law(&mut self, shape: &Located<Shape>) -> Made {
-        let exponent = self.table.read(&EXPONENT);
-        let (radius_m, height_m) = (self.table.value(&GAP_RADIUS), self.table.value(&GAP_HEIGHT));
+        let exponent = self.0.read(&EXPONENT);
+        let (radius_m, height_m) = (self.0.value(&GAP_RADIUS), self.0.value(&GAP_HEIGHT));
         let (exponent, radius_m, height_m) = (exponent?, radius_m?, height_m?);
         match PowerLaw::new(exponent.value, radius_m, height_m) {
             refused @ Err(IndenterError::Exponent { .. }) => self.made(&exponent, refused),
@@ -186,7 +157,7 @@ impl Block<'_> {
     }
 
     fn asperities(&mut self) -> Made {
-        let all = self.table.tables(&ASPERITY_LIST, |mut table| {
+        let all = self.0.tables(&ASPERITY_LIST, |mut table| {
             let (center, radius_m) = (table.value(&CENTER), table.value(&ASPERITY_RADIUS));
             let height_m = table.value(&ASPERITY_HEIGHT);
             table.finish();
@@ -203,7 +174,7 @@ impl Block<'_> {
     }
 
     fn rough(&mut self, shape: &Located<Shape>) -> Made {
-        let table = &mut self.table;
+        let table = &mut self.0;
         let (cells, spacing_m) = (table.value(&ROUGH_SIDE), table.value(&ROUGH_SPACING));
         let (hurst, rms_height_m) = (table.read(&HURST_EXPONENT), table.value(&RMS_HEIGHT));
         let roll_off = table.value(&ROLL_OFF_WAVELENGTH);
@@ -228,45 +199,49 @@ impl Block<'_> {
         }
     }
 
-    /// The bytes under `file`, once they are known to be those of `sha256`.
-    fn file(&mut self) -> Option<DataOf<Vec<u8>>> {
-        let (file, sha256) = (self.table.read(&FILE), self.table.read(&SHA256));
-        let (file, sha256) = (file?, sha256?);
-        let path = file.path_from(self.folder);
-        let (name, bytes) = data_file::named(&file, self.folder, self.problems)?;
+    /// What is made of the bytes under `file`, once they are known to be those of `sha256`.
+    fn of_file<T>(
+        &mut self,
+        make: impl FnOnce(&str, &[u8]) -> Result<T, Diagnostics>,
+    ) -> Option<(T, Named)> {
+        let (file, sha256) = (self.0.read(&FILE), self.0.read(&SHA256));
+        let (place, sha256) = (file?, sha256?);
+        let problems = self.0.problems();
+        let path = place.path_from(self.0.folder());
+        let (name, bytes) = data_file::named(&place, self.0.folder(), problems)?;
         let hash = resolved::hash_of_bytes(&bytes);
         if let Some(expected) = sha256
             && !expected.value.eq_ignore_ascii_case(&hash)
         {
             let message = format!("`{name}` is not the file it was");
-            self.problems
+            problems
                 .at(&expected, message)
                 .because(format!("its SHA-256 now is {hash}"))
-                .label(&file, "the file")
+                .label(&place, "the file")
                 .help("bring the old file back, or remove `sha256` to use the new one");
             return None;
         }
         let absolute = std::path::absolute(&path).ok();
         let Some(absolute) = absolute.as_deref().and_then(Path::to_str) else {
             let message = format!("the path of `{name}` is not UTF-8, and cannot be written down");
-            self.problems.at(&file, message).help("rename the folder");
+            problems.at(&place, message).help("rename the folder");
             return None;
         };
-        Some(DataOf {
-            source: Some(DataFile {
-                file: absolute.to_owned(),
-                sha256: hash,
-            }),
-            place: file,
+        let source = Some(DataFile {
+            file: absolute.to_owned(),
+            sha256: hash,
+        });
+        let made = data_file::accepted(make(&name, &bytes), &place, problems)?;
+        let named = Named {
+            place,
             name,
-            data: bytes,
-        })
+            source,
+        };
+        Some((made, named))
     }
 
     fn profile(&mut self) -> Made {
-        let file = self.file()?;
-        let points = field_file::profile(&file.name, &file.data);
-        let points = data_file::accepted(points, &file.place, self.problems)?;
+        let (points, file) = self.of_file(field_file::profile)?;
         let profile = Profile::new(&points).map(|profile| match file.source {
             Some(source) => profile.with_source(source),
             None => profile,
@@ -275,54 +250,39 @@ impl Block<'_> {
     }
 
     fn height_map(&mut self) -> Made {
-        let (place, map) = self.map(|block| {
-            let file = block.file()?;
-            let field = field_file::field(&file.name, &file.data);
-            let data = data_file::accepted(field, &file.place, block.problems)?;
-            Some(DataOf {
-                data,
-                source: file.source,
-                place: file.place,
-                name: file.name,
-            })
-        })?;
+        let (place, map) = self.map(|block| block.of_file(field_file::field))?;
         self.made(&place, map)
     }
 
     /// A map of these data, and where they are named.
     fn map(
         &mut self,
-        data: impl FnOnce(&mut Self) -> Option<DataOf<Field>>,
+        data: impl FnOnce(&mut Self) -> Option<(Field, Named)>,
     ) -> Option<(Located<String>, Result<HeightMap, IndenterError>)> {
-        let quantity = self.table.value(&MAP_QUANTITY);
-        let (unit, level) = (self.table.value(&HEIGHT_UNIT), self.table.value(&LEVEL));
-        let edge = self.table.value(&EDGE);
-        let given = self.table.key_location(&MAP_SPACING);
-        let unit_given = self.table.key_location(&HEIGHT_UNIT);
-        let (spacing, data) = (self.table.value(&MAP_SPACING), data(self));
-        let DataOf {
-            data: mut field,
-            source: file,
-            place,
-            name,
-        } = data?;
+        let problems = self.0.problems();
+        let quantity = self.0.value(&MAP_QUANTITY);
+        let (unit, level) = (self.0.value(&HEIGHT_UNIT), self.0.value(&LEVEL));
+        let edge = self.0.value(&EDGE);
+        let given = self.0.key_location(&MAP_SPACING);
+        let unit_given = self.0.key_location(&HEIGHT_UNIT);
+        let (spacing, data) = (self.0.value(&MAP_SPACING), data(self));
+        let (mut field, named) = data?;
         let spacing_m = match (field.spacing_m, spacing?) {
             (Some(spacing_m), None) => spacing_m,
             (None, Some(each)) => (each.first()?.value, each.last()?.value),
             (None, None) => {
-                self.table.report_absent(&MAP_SPACING);
+                self.0.report_absent(&MAP_SPACING);
                 return None;
             }
             (Some(_), Some(_)) => {
                 let message = "the file gives the place of every point, and with it the spacing";
-                let report = self.problems.at(&given?, message);
-                report.help("remove `spacing`");
+                problems.at(&given?, message).help("remove `spacing`");
                 return None;
             }
         };
-        let is_file = file.is_some();
+        let is_file = named.source.is_some();
         let source = MapSource {
-            data: file.unwrap_or_else(|| DataFile {
+            data: named.source.clone().unwrap_or_else(|| DataFile {
                 file: String::new(),
                 sha256: String::new(),
             }),
@@ -332,8 +292,7 @@ impl Block<'_> {
         };
         if let (true, Some(unit)) = (source.gives_places, unit_given) {
             let message = "the file names its columns, and with them their unit";
-            let report = self.problems.at(&unit, message);
-            report.help("remove `height_unit`");
+            problems.at(&unit, message).help("remove `height_unit`");
             return None;
         }
         let per_m = source.height_unit.per_m;
@@ -342,87 +301,82 @@ impl Block<'_> {
         let cells = (field.cells_x, field.cells_y);
         let map = HeightMap::new(cells, spacing_m, field.values_m, quantity?, edge?);
         if let Ok(map) = &map {
-            self.check_slopes(map, &source, &place, &name)?;
-            self.check_border(map, &source, &place, &name)?;
+            let refused = too_steep(map, &source, &named.name)
+                .or_else(|| at_border(map, &source, &named.name));
+            if let Some((message, because, help)) = refused {
+                let report = problems.at(&named.place, message);
+                report.because(because).help(help);
+                return None;
+            }
         }
         let map = match is_file {
             true => map.map(|map| map.with_source(source)),
             false => map,
         };
-        Some((place, map))
-    }
-
-    /// Refuses a map that is steep all over: its heights are in another unit than they are read in, or it is tilted.
-    fn check_slopes(
-        &self,
-        map: &HeightMap,
-        source: &MapSource,
-        place: &Located<String>,
-        name: &str,
-    ) -> Option<()> {
-        let slope = map.median_slope();
-        if slope <= STEEPEST_MAP {
-            return Some(());
-        }
-        let message = format!("`{name}`: half of the map is steeper than {slope:.1e}");
-        let read_in = source.height_unit;
-        let because = format!(
-            "contact is computed for slopes far below 1; heights are read in {}",
-            read_in.name
-        );
-        let is_cure = |unit: &HeightUnit| slope * read_in.per_m / unit.per_m <= STEEPEST_MAP;
-        let named = HEIGHT_UNITS.iter().filter(|(key, unit)| *key == unit.name);
-        let units: Vec<String> = named
-            .filter(|(_, unit)| is_cure(unit))
-            .map(|(key, _)| format!("height_unit = \"{key}\""))
-            .collect();
-        let tilted = map.without_plane().median_slope() <= STEEPEST_MAP;
-        let help = match (tilted, source.gives_places) {
-            (true, _) => "if the map is tilted, write level = \"plane\"".to_owned(),
-            (_, true) => "convert the column z_m to metres".to_owned(),
-            _ if units.is_empty() => "check heights and `spacing`".to_owned(),
-            _ => format!(
-                "write the unit that the heights are in, {}, and check `spacing`",
-                units.join(" or ")
-            ),
-        };
-        self.problems.at(place, message).because(because).help(help);
-        None
-    }
-
-    /// Refuses a map whose contact begins where its data end.
-    fn check_border(
-        &self,
-        map: &HeightMap,
-        source: &MapSource,
-        place: &Located<String>,
-        name: &str,
-    ) -> Option<()> {
-        let (MapEdge::Unknown, Some((column, row))) = (map.edge(), map.touches_at_border()) else {
-            return Some(());
-        };
-        let message =
-            format!("`{name}`: the map touches first on its border, at column {column}, row {row}");
-        let tilted =
-            source.level != MapLevel::Plane && map.without_plane().touches_at_border().is_none();
-        let help = match tilted {
-            true => "if the map is tilted, write level = \"plane\"",
-            false => {
-                "give a map that reaches further, or edge = \"rim\" where the indenter ends there"
-            }
-        };
-        let because = "beyond the border the shape is not known";
-        self.problems.at(place, message).because(because).help(help);
-        None
+        Some((named.place, map))
     }
 }
 
-/// Data with the file they came from, where there is one.
-struct DataOf<T> {
-    data: T,
-    source: Option<DataFile>,
-    /// Where the sweep file names it.
+/// Why a map is refused: the message, what is said at its place, and what to write instead.
+type Refusal = (String, String, String);
+
+/// Refuses a map that is steep all over: its heights are in another unit than they are read in, or it is tilted.
+fn too_steep(map: &HeightMap, source: &MapSource, name: &str) -> Option<Refusal> {
+    let slope = map.median_slope();
+    if slope <= STEEPEST_MAP {
+        return None;
+    }
+    let read_in = source.height_unit;
+    let is_cure = |unit: &HeightUnit| slope * read_in.per_m / unit.per_m <= STEEPEST_MAP;
+    let named = HEIGHT_UNITS.iter().filter(|(key, unit)| *key == unit.name);
+    let units: Vec<String> = named
+        .filter(|(_, unit)| is_cure(unit))
+        .map(|(key, _)| format!("height_unit = \"{key}\""))
+        .collect();
+    let tilted = map.without_plane().median_slope() <= STEEPEST_MAP;
+    let help = match (tilted, source.gives_places) {
+        (true, _) => "if the map is tilted, write level = \"plane\"".to_owned(),
+        (_, true) => "convert the column z_m to metres".to_owned(),
+        _ if units.is_empty() => "check heights and `spacing`".to_owned(),
+        _ => format!(
+            "write the unit that the heights are in, {}, and check `spacing`",
+            units.join(" or ")
+        ),
+    };
+    Some((
+        format!("`{name}`: half of the map is steeper than {slope:.1e}"),
+        format!(
+            "contact is computed for slopes far below 1; heights are read in {}",
+            read_in.name
+        ),
+        help,
+    ))
+}
+
+/// Refuses a map whose contact begins where its data end.
+fn at_border(map: &HeightMap, source: &MapSource, name: &str) -> Option<Refusal> {
+    let (MapEdge::Unknown, Some((column, row))) = (map.edge(), map.touches_at_border()) else {
+        return None;
+    };
+    let tilted =
+        source.level != MapLevel::Plane && map.without_plane().touches_at_border().is_none();
+    let help = match tilted {
+        true => "if the map is tilted, write level = \"plane\"",
+        false => "give a map that reaches further, or edge = \"rim\" where the indenter ends there",
+    };
+    Some((
+        format!("`{name}`: the map touches first on its border, at column {column}, row {row}"),
+        "beyond the border the shape is not known".to_owned(),
+        help.to_owned(),
+    ))
+}
+
+/// Where data come from.
+struct Named {
+    /// Where the sweep file names them.
     place: Located<String>,
-    /// What messages call it.
+    /// What messages call them.
     name: String,
+    /// The file, where they are from one.
+    source: Option<DataFile>,
 }

@@ -1,10 +1,8 @@
 //! The `[material]` block of a sweep file.
 
-use std::path::Path;
-
-use super::diagnostic::{Location, Problems};
+use super::diagnostic::Location;
 use super::document::Located;
-use super::document::kind::{Scalar, Tables};
+use super::document::kind::{Scalar, Table, Tables};
 use super::document::reader::TableReader;
 use super::document::row::{AnyRow, Optional, Required, Row};
 use super::keys;
@@ -23,7 +21,7 @@ use crate::material::classical::{KelvinVoigt, Maxwell, Zener};
 use crate::material::library::LibraryEntry;
 use crate::material::sampled::Sampled;
 use crate::material::{
-    Compressibility, Creep, CreepBranch, Material, MaterialError, ModulusKind, Relaxation, library,
+    Compressibility, Creep, CreepBranch, Material, MaterialError, Relaxation, library,
 };
 use crate::sweep::plan::body_material::BodyMaterial;
 
@@ -58,15 +56,9 @@ static FORMS: [(&dyn AnyRow, Form); 11] = [
     (&MEASURED_TABLE, Form::Measured),
 ];
 
-/// Reads the block as a series, which every material but samples used directly is; files are looked for in `folder`. `None`
-/// where a problem was reported.
-pub(crate) fn read(
-    root: &mut TableReader<'_>,
-    folder: &Path,
-    direct_sum: DirectSum,
-    problems: &Problems,
-) -> Option<Located<Material>> {
-    read_body(root, folder, direct_sum, problems).and_then(series_of)
+/// Reads the block as a series, which every material but samples used directly is. `None` where a problem was reported.
+pub(crate) fn read(root: &mut TableReader<'_>, direct_sum: DirectSum) -> Option<Located<Material>> {
+    read_body(root, direct_sum).and_then(series_of)
 }
 
 /// A material as the series that it is; `None` for samples.
@@ -75,24 +67,20 @@ pub(super) fn series_of(body: Located<BodyMaterial>) -> Option<Located<Material>
     Some(body.map(|_| series))
 }
 
-/// Reads the block; files are looked for in `folder`. `None` where a problem was reported.
+/// Reads the block. `None` where a problem was reported.
 pub(crate) fn read_body(
     root: &mut TableReader<'_>,
-    folder: &Path,
     direct_sum: DirectSum,
-    problems: &Problems,
 ) -> Option<Located<BodyMaterial>> {
     let block = root.table(&keys::MATERIAL)?;
-    read_over(block, folder, direct_sum, None, problems).map(|(body, _)| body)
+    read_over(block, direct_sum, None).map(|(body, _)| body)
 }
 
 /// The same of the block alone, with the material at each temperature (K) of an axis, where there is one.
 pub(super) fn read_over(
     mut block: TableReader<'_>,
-    folder: &Path,
     direct_sum: DirectSum,
     axis: Option<&Located<Vec<f64>>>,
-    problems: &Problems,
 ) -> Option<(Located<BodyMaterial>, Vec<Material>)> {
     let name = block.value(&NAME);
     let Some(form) = block.one_of(&FORMS) else {
@@ -105,18 +93,17 @@ pub(super) fn read_over(
     let read = match form {
         Form::Isotherms | Form::Dynamic => {
             let known = match form {
-                Form::Isotherms => material_temperature::isotherms(&mut block, problems),
-                _ => (block.table(&DYNAMIC))
-                    .and_then(|table| material_dynamic::read(table, folder, problems)),
+                Form::Isotherms => material_temperature::isotherms(&mut block),
+                _ => block.table(&DYNAMIC).and_then(material_dynamic::read),
             };
             let nu = block.value(&POISSON_RATIO);
-            material_temperature::read(&mut block, known, nu, axis, &place, problems)
+            material_temperature::read(&mut block, known, nu, axis, &place)
                 .map(|(material, each)| (material.into(), each))
         }
-        Form::Library => library(&mut block, axis, &place, problems),
+        Form::Library => library(&mut block, axis, &place),
         _ => {
-            let body = at_one_temperature(&mut block, folder, direct_sum, problems, (form, &place));
-            let none_asked = material_temperature::refuse(&mut block, axis, problems);
+            let body = at_one_temperature(&mut block, direct_sum, (form, &place));
+            let none_asked = material_temperature::refuse(&mut block, axis);
             body.filter(|_| none_asked).map(|body| (body, Vec::new()))
         }
     };
@@ -137,28 +124,19 @@ pub(super) fn read_over(
 /// A material that does not depend on the temperature.
 fn at_one_temperature(
     block: &mut TableReader<'_>,
-    folder: &Path,
     direct_sum: DirectSum,
-    problems: &Problems,
     (form, place): (Form, &Location),
 ) -> Option<BodyMaterial> {
-    let refused = |error: MaterialError| {
-        problems.at(place, error.to_string());
-    };
+    let problems = block.problems();
     let body = match form {
-        Form::Elastic => block.table(&ELASTIC_BODY).and_then(|mut table| {
+        Form::Elastic => table_of(block, &ELASTIC_BODY, |table| {
             let (modulus_pa, nu) = (table.value(&YOUNG), table.value(&ELASTIC_POISSON_RATIO));
-            table.finish();
-            let made = library::elastic(modulus_pa?, nu?).map_err(refused);
-            Some(made.ok()?.into())
+            Some(library::elastic(modulus_pa?, nu?).map(BodyMaterial::from))
         }),
-        _ => {
-            let build = from_block(block, folder, direct_sum, problems, form);
-            let compressibility = compressibility(block, problems);
-            build.and_then(|build| build(compressibility?).map_err(refused).ok())
-        }
+        _ => from_block(block, direct_sum, form),
     };
-    let measured = measured(block, problems, form);
+    let body = body.and_then(|made| problems.accept(place, made));
+    let measured = measured(block, form);
     let body = body?;
     Some(match measured? {
         Some(window_s) => body.measured(window_s),
@@ -167,17 +145,15 @@ fn at_one_temperature(
 }
 
 /// The Poisson ratio, or the bulk modulus in its place; `None` where a problem was reported.
-pub(super) fn compressibility(
-    block: &mut TableReader<'_>,
-    problems: &Problems,
-) -> Option<Compressibility> {
+pub(super) fn compressibility(block: &mut TableReader<'_>) -> Option<Compressibility> {
     let Some(place) = block.key_location(&BULK_MODULUS) else {
         return block.value(&POISSON_RATIO).map(Compressibility::from);
     };
     if let Some(other) = block.key_location(&POISSON_RATIO) {
         block.value(&POISSON_RATIO);
-        problems
-            .at(&place, "`bulk_modulus` takes the place of `poisson_ratio`")
+        let report =
+            (block.problems()).at(&place, "`bulk_modulus` takes the place of `poisson_ratio`");
+        report
             .label(&other, "given here")
             .help("keep the one that you know");
         return None;
@@ -190,45 +166,38 @@ fn library(
     block: &mut TableReader<'_>,
     axis: Option<&Located<Vec<f64>>>,
     place: &Location,
-    problems: &Problems,
 ) -> Option<(BodyMaterial, Vec<Material>)> {
-    let entry = library_entry(block, problems);
+    let problems = block.problems();
+    let entry = library_entry(block);
     let poisson_ratio = block.value(&LIBRARY_POISSON_RATIO);
-    let untimed = measured(block, problems, Form::Library);
-    let refused = |error: MaterialError| {
-        problems.at(place, error.to_string());
-    };
+    let untimed = measured(block, Form::Library);
     let (entry, poisson_ratio, _) = (entry?, poisson_ratio?, untimed?);
-    let material = entry.material().map_err(refused).ok()?;
+    let material = problems.accept(place, entry.material())?;
     let poisson_ratio = poisson_ratio.or(material.poisson_ratio());
     if let Some(known) = material_temperature::shifting(&material) {
-        let read =
-            material_temperature::read(block, Some(known), poisson_ratio, axis, place, problems);
+        let read = material_temperature::read(block, Some(known), poisson_ratio, axis, place);
         let named = |material: Material| material.named(entry.title);
         return read.map(|(own, each)| (named(own).into(), each.into_iter().map(named).collect()));
     }
-    if !material_temperature::refuse(block, axis, problems) {
+    if !material_temperature::refuse(block, axis) {
         return None;
     }
     let material = match (poisson_ratio, material.relaxation()) {
         (Some(nu), Some(relaxation)) => {
             let other = Material::from_relaxation(relaxation.clone(), material.kind(), nu);
-            entry.describe(other.map_err(refused).ok()?)
+            entry.describe(problems.accept(place, other)?)
         }
         _ => material,
     };
     Some((material.into(), Vec::new()))
 }
 
-fn library_entry(
-    block: &mut TableReader<'_>,
-    problems: &Problems,
-) -> Option<&'static LibraryEntry> {
+fn library_entry(block: &mut TableReader<'_>) -> Option<&'static LibraryEntry> {
     let name = block.read(&LIBRARY)?;
     let entry = library::find(&name.value);
     if entry.is_none() {
         let unknown = format!("no material \"{}\" in the library", name.value);
-        let report = problems.at(&name, unknown);
+        let report = block.problems().at(&name, unknown);
         match library::suggest(&name.value) {
             Some(near) => report.help(format!("write \"{near}\"")),
             None => report.help("`contact-dma material list` names all of them"),
@@ -238,29 +207,23 @@ fn library_entry(
 }
 
 /// The times between which a user's own series was measured; `None` where a problem was reported.
-fn measured(
-    block: &mut TableReader<'_>,
-    problems: &Problems,
-    form: Form,
-) -> Option<Option<(f64, f64)>> {
+fn measured(block: &mut TableReader<'_>, form: Form) -> Option<Option<(f64, f64)>> {
     let says_itself = matches!(
         form,
         Form::Library | Form::Elastic | Form::Fractional | Form::Measured
     );
     if let (true, Some(place)) = (says_itself, block.key_location(&MEASURED)) {
-        problems
+        block
+            .problems()
             .at(&place, "this material says itself when it was measured")
             .help("leave out `measured`");
         return None;
     }
-    measured_window(block, problems)
+    measured_window(block)
 }
 
 /// The times of a `measured`, where there is one; `None` where a problem was reported.
-pub(super) fn measured_window(
-    table: &mut TableReader<'_>,
-    problems: &Problems,
-) -> Option<Option<(f64, f64)>> {
+pub(super) fn measured_window(table: &mut TableReader<'_>) -> Option<Option<(f64, f64)>> {
     let Some(times) = table.read(&MEASURED)? else {
         return Some(None);
     };
@@ -269,118 +232,126 @@ pub(super) fn measured_window(
     {
         return Some(Some((first.value, last.value)));
     }
-    problems
-        .at(
-            &times,
-            "`measured` takes the first and the last time of the test",
-        )
-        .help("write measured = [\"0.1 s\", \"1000 s\"]");
+    let what = "`measured` takes the first and the last time of the test";
+    let report = table.problems().at(&times, what);
+    report.help("write measured = [\"0.1 s\", \"1000 s\"]");
     None
 }
 
-/// A material but for its Poisson ratio or bulk modulus.
-type Build = Box<dyn FnOnce(Compressibility) -> Result<BodyMaterial, MaterialError>>;
-
-/// The same of a series.
-type SeriesBuild = Box<dyn FnOnce(Compressibility) -> Result<Material, MaterialError>>;
-
-fn from_block(
+/// What is read of a table below, which has no other keys.
+fn table_of<T>(
     block: &mut TableReader<'_>,
-    folder: &Path,
-    direct_sum: DirectSum,
-    problems: &Problems,
-    form: Form,
-) -> Option<Build> {
-    let mut table = block.table(match form {
-        Form::Library | Form::Elastic | Form::Isotherms | Form::Dynamic => return None,
-        Form::Relaxation => &RELAXATION,
-        Form::Creep => &CREEP,
-        Form::Maxwell => &MAXWELL,
-        Form::Zener => &ZENER,
-        Form::KelvinVoigt => &KELVIN_VOIGT,
-        Form::Fractional => &FRACTIONAL,
-        Form::Measured => &MEASURED_TABLE,
-    })?;
-    let build: Option<Build> = match form {
-        Form::Library | Form::Elastic | Form::Isotherms | Form::Dynamic => None,
-        Form::Relaxation => {
-            let kind = table.value(&MODULUS);
-            let replicas = material_temperature::replicas(&mut table, problems);
-            let read = |table: &mut TableReader<'_>| relaxation(table, kind);
-            let build = with_alternatives(block, &mut table, &RELAXATION_ALTERNATIVE, read);
-            build.and_then(|build| Some(with_replicas(build, kind?, replicas?)))
-        }
-        Form::Creep => {
-            let kind = table.value(&COMPLIANCE);
-            let read = |table: &mut TableReader<'_>| creep(table, kind);
-            with_alternatives(block, &mut table, &CREEP_ALTERNATIVE, read).map(series)
-        }
-        Form::Measured => {
-            material_table::read(&mut table, folder, direct_sum, problems).map(of_table)
-        }
-        Form::Fractional => material_fractional::read(&mut table, problems).map(series),
-        Form::Maxwell => element(&mut table, &MAXWELL_MODULUS)
-            .map(|(modulus, time)| series(move |nu| Maxwell::new(modulus, time)?.material(nu))),
-        Form::KelvinVoigt => element(&mut table, &SPRING)
-            .map(|(spring, time)| series(move |nu| KelvinVoigt::new(spring, time)?.material(nu))),
-        Form::Zener => {
-            let (spring, unit) = (table.value(&SPRING), element(&mut table, &KELVIN_SPRING));
-            spring.zip(unit).map(|(spring, (kelvin_spring, time))| {
-                series(move |nu| Zener::new(spring, kelvin_spring, time)?.material(nu))
-            })
-        }
-    };
+    row: &Row<Table, Required>,
+    read: impl FnOnce(&mut TableReader<'_>) -> Option<T>,
+) -> Option<T> {
+    let mut table = block.table(row)?;
+    let made = read(&mut table);
     table.finish();
-    build
+    made
 }
 
-/// A series, and the others beside it that fit the same data.
-fn with_alternatives(
+/// A material that has a Poisson ratio or a bulk modulus beside its table.
+fn from_block(
     block: &mut TableReader<'_>,
-    own: &mut TableReader<'_>,
-    alternatives: &Row<Tables, Optional>,
-    read: impl Fn(&mut TableReader<'_>) -> Option<SeriesBuild>,
-) -> Option<SeriesBuild> {
-    let build = read(own);
-    let others = block.optional_tables(alternatives, |mut table| {
+    direct_sum: DirectSum,
+    form: Form,
+) -> Option<Result<BodyMaterial, MaterialError>> {
+    if matches!(form, Form::Relaxation | Form::Creep) {
+        // Messages list it before those that are read first.
+        block.has(&RELAXATION_ALTERNATIVE);
+    }
+    let nu = compressibility(block);
+    let made = match form {
+        Form::Library | Form::Elastic | Form::Isotherms | Form::Dynamic => return None,
+        Form::Relaxation => {
+            return of_relaxation(block, nu).map(|made| made.map(BodyMaterial::from));
+        }
+        Form::Creep => {
+            let own = table_of(block, &CREEP, |table| {
+                let kind = table.value(&COMPLIANCE);
+                creep(table).zip(kind)
+            });
+            let others = alternatives(block, &CREEP_ALTERNATIVE, creep);
+            let ((own, kind), others, nu) = (own?, others?, nu?);
+            let material =
+                |series: Result<Creep, _>| Material::from_creep(series?, kind, nu.clone());
+            let others = others.into_iter().map(material).collect::<Result<_, _>>();
+            material(own).and_then(|own| Ok(own.with_alternatives(others?)))
+        }
+        Form::Measured => {
+            let table = table_of(block, &MEASURED_TABLE, |table| {
+                material_table::read(table, direct_sum)
+            });
+            match (table?, nu?) {
+                (TableMaterial::Fitted(fit), nu) => fit.material(nu),
+                (TableMaterial::Direct(data), nu) => {
+                    let what = "a table with evaluation = \"direct\"";
+                    let nu = nu.poisson_ratio();
+                    let nu = nu.ok_or(MaterialError::NoPoissonRatio { what });
+                    let sampled = nu.and_then(|nu| Sampled::new(data, nu));
+                    return Some(sampled.map(BodyMaterial::from));
+                }
+            }
+        }
+        Form::Fractional => {
+            let build = table_of(block, &FRACTIONAL, material_fractional::read);
+            build?(nu?)
+        }
+        Form::Maxwell => {
+            let unit = table_of(block, &MAXWELL, |table| element(table, &MAXWELL_MODULUS));
+            let ((modulus_pa, time_s), nu) = (unit?, nu?);
+            Maxwell::new(modulus_pa, time_s).and_then(|body| body.material(nu))
+        }
+        Form::KelvinVoigt => {
+            let unit = table_of(block, &KELVIN_VOIGT, |table| element(table, &SPRING));
+            let ((spring_pa, time_s), nu) = (unit?, nu?);
+            KelvinVoigt::new(spring_pa, time_s).and_then(|body| body.material(nu))
+        }
+        Form::Zener => {
+            let body = table_of(block, &ZENER, |table| {
+                let spring = table.value(&SPRING);
+                spring.zip(element(table, &KELVIN_SPRING))
+            });
+            let ((spring_pa, (kelvin_pa, time_s)), nu) = (body?, nu?);
+            Zener::new(spring_pa, kelvin_pa, time_s).and_then(|body| body.material(nu))
+        }
+    };
+    Some(made.map(BodyMaterial::from))
+}
+
+/// A relaxation series, with what the noise of its data leaves open and the others that fit the same data.
+fn of_relaxation(
+    block: &mut TableReader<'_>,
+    nu: Option<Compressibility>,
+) -> Option<Result<Material, MaterialError>> {
+    let own = table_of(block, &RELAXATION, |table| {
+        let kind = table.value(&MODULUS);
+        let replicas = material_temperature::replicas(table);
+        let own = relaxation(table);
+        Some((own?, kind?, replicas?))
+    });
+    let others = alternatives(block, &RELAXATION_ALTERNATIVE, relaxation);
+    let ((own, kind, replicas), others, nu) = (own?, others?, nu?);
+    let material = |series: Result<Relaxation, MaterialError>| {
+        Material::from_relaxation(series?, kind, nu.clone())
+    };
+    let others = others.into_iter().map(material).collect::<Result<_, _>>();
+    let replicas = replicas.into_iter().map(|replica| material(Ok(replica)));
+    let replicas = replicas.collect::<Result<_, _>>();
+    Some(material(own).and_then(|own| Ok(own.with_alternatives(others?).with_replicas(replicas?))))
+}
+
+/// The series beside another that fit the same data.
+fn alternatives<T>(
+    block: &mut TableReader<'_>,
+    row: &Row<Tables, Optional>,
+    read: fn(&mut TableReader<'_>) -> Option<T>,
+) -> Option<Vec<T>> {
+    block.optional_tables(row, |mut table| {
         let other = read(&mut table);
         table.finish();
         other
-    });
-    let (build, others) = (build?, others?);
-    Some(Box::new(move |nu| {
-        let others = others.into_iter().map(|other| other(nu.clone()));
-        let others: Result<Vec<Material>, _> = others.collect();
-        Ok(build(nu)?.with_alternatives(others?))
-    }))
-}
-
-/// A series, and what the noise of its data leaves open.
-fn with_replicas(build: SeriesBuild, kind: ModulusKind, replicas: Vec<Relaxation>) -> Build {
-    series(move |nu| {
-        let replica = |relaxation| Material::from_relaxation(relaxation, kind, nu.clone());
-        let replicas: Result<_, _> = replicas.into_iter().map(replica).collect();
-        Ok(build(nu)?.with_replicas(replicas?))
     })
-}
-
-fn series(
-    build: impl FnOnce(Compressibility) -> Result<Material, MaterialError> + 'static,
-) -> Build {
-    Box::new(move |nu| build(nu).map(BodyMaterial::from))
-}
-
-fn of_table(table: TableMaterial) -> Build {
-    match table {
-        TableMaterial::Fitted(fit) => series(move |nu| fit.material(nu)),
-        TableMaterial::Direct(data) => Box::new(move |compressibility: Compressibility| {
-            let nu = compressibility.poisson_ratio();
-            let nu = nu.ok_or(MaterialError::NoPoissonRatio {
-                what: "a table with evaluation = \"direct\"",
-            })?;
-            Sampled::new(data, nu).map(BodyMaterial::from)
-        }),
-    }
 }
 
 /// A modulus and a time.
@@ -389,30 +360,22 @@ fn element(table: &mut TableReader<'_>, modulus: &Row<Scalar, Required>) -> Opti
     modulus_pa.zip(time_s)
 }
 
-fn relaxation(table: &mut TableReader<'_>, kind: Option<ModulusKind>) -> Option<SeriesBuild> {
+fn relaxation(table: &mut TableReader<'_>) -> Option<Result<Relaxation, MaterialError>> {
     let equilibrium = table.value(&EQUILIBRIUM);
     let branches = branches(table, &RELAXATION_BRANCHES, &BRANCH_MODULUS);
-    let (kind, equilibrium, branches) = (kind?, equilibrium?, branches?);
-    Some(Box::new(move |nu| {
-        let relaxation = material_temperature::prony(equilibrium, branches)?;
-        Material::from_relaxation(relaxation, kind, nu)
-    }))
+    Some(material_temperature::prony(equilibrium?, branches?))
 }
 
-fn creep(table: &mut TableReader<'_>, kind: Option<ModulusKind>) -> Option<SeriesBuild> {
+fn creep(table: &mut TableReader<'_>) -> Option<Result<Creep, MaterialError>> {
     let instantaneous = table.value(&INSTANTANEOUS);
     let viscosity = table.value(&VISCOSITY);
     let branches = branches(table, &CREEP_BRANCHES, &BRANCH_COMPLIANCE);
-    let (instantaneous, viscosity) = (instantaneous?, viscosity?);
-    let (kind, branches) = (kind?, branches?);
-    Some(Box::new(move |nu| {
-        let branch = |(compliance_per_pa, time_s)| CreepBranch {
-            compliance_per_pa,
-            time_s,
-        };
-        let branches = branches.into_iter().map(branch).collect();
-        Material::from_creep(Creep::new(instantaneous, branches, viscosity)?, kind, nu)
-    }))
+    let branch = |(compliance_per_pa, time_s)| CreepBranch {
+        compliance_per_pa,
+        time_s,
+    };
+    let branches = branches?.into_iter().map(branch).collect();
+    Some(Creep::new(instantaneous?, branches, viscosity?))
 }
 
 /// The branches of a series: (modulus or compliance, time).

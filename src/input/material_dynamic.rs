@@ -1,18 +1,17 @@
 //! The `[material.dynamic]` block: measured storage and loss modulus, made a material at any temperature that they reach.
 
 use std::ops::RangeInclusive;
-use std::path::Path;
 
 use serde_json::{Value as Json, json};
 
 use super::data_file;
-use super::diagnostic::{Diagnostics, Problems};
+use super::diagnostic::Diagnostics;
 use super::document::Located;
 use super::document::kind::{Choice, Describe, Integer, Kind, Spot, Text};
 use super::document::reader::TableReader;
 use super::document::row::Rows;
 use super::document::tree::{Node, Value};
-use super::dynamic::{self, DynamicFormat, shift_factors_from_bytes};
+use super::dynamic::{self, shift_factors_from_bytes};
 use super::keys::material::{
     DYNAMIC_BRANCHES, DYNAMIC_FILE, DYNAMIC_FILES, DYNAMIC_MODULUS, DYNAMIC_REPLICAS, FORMAT,
     REFERENCE_TEMPERATURE, SEED, SHIFT, SHIFT_FILE, SHIFT_KEYS, VERTICAL_SHIFT,
@@ -20,67 +19,43 @@ use super::keys::material::{
 use super::keys::table;
 use super::material_temperature::AtTemperature;
 use crate::material::dynamic::master_curve::ShiftChoice;
-use crate::material::dynamic::{Characterisation, Choices, DynamicData, characterise};
-use crate::material::{Material, ModulusKind};
+use crate::material::dynamic::{Choices, characterise};
 
-/// Reads the block and makes master curve, series and replicas of its data; files are looked for in `folder`. `None` where a problem
-/// was reported.
-pub(super) fn read(
-    mut table: TableReader<'_>,
-    folder: &Path,
-    problems: &Problems,
-) -> Option<Box<dyn AtTemperature>> {
+/// Reads the block and makes master curve, series and replicas of its data. `None` where a problem was reported.
+pub(super) fn read(mut table: TableReader<'_>) -> Option<AtTemperature> {
     let files = match table.one_of(&[(&DYNAMIC_FILE as _, true), (&DYNAMIC_FILES as _, false)]) {
         Some(true) => table.read(&DYNAMIC_FILE).map(|file| vec![file]),
         Some(false) => table.value(&DYNAMIC_FILES),
         None => None,
     };
     let (format, kind) = (table.value(&FORMAT), table.value(&DYNAMIC_MODULUS));
-    let choices = choices(&mut table, folder, problems);
-    let place = table.as_ref().clone();
+    let choices = choices(&mut table);
+    let (place, folder, problems) = (table.as_ref().clone(), table.folder(), table.problems());
     table.finish();
     let (files, format, kind, choices) = (files?, format?, kind?, choices?);
-    let data = data(&files, format, kind, folder, problems)?;
-    let made = characterise(&data, &choices);
-    let made = made
-        .map_err(|error| problems.at(&place, error.to_string()))
-        .ok()?;
-    Some(Box::new(made))
-}
-
-/// The isotherms of all files.
-fn data(
-    files: &[Located<String>],
-    format: Option<DynamicFormat>,
-    kind: ModulusKind,
-    folder: &Path,
-    problems: &Problems,
-) -> Option<DynamicData> {
-    let named = files
-        .iter()
-        .map(|file| data_file::named(file, folder, problems));
+    let named = files.iter();
+    let named = named.map(|file| data_file::named(file, folder, problems));
     let named = named.collect::<Option<Vec<_>>>()?;
-    match (dynamic::from_files(&named, format, kind), files.first()) {
-        (Ok(found), _) => Some(found.data),
-        (refused, Some(first)) => {
-            data_file::accepted(refused, first, problems).map(|found| found.data)
-        }
-        (Err(refused), None) => {
-            problems.extend(refused);
-            None
-        }
-    }
+    let data = match (dynamic::from_files(&named, format, kind), files.first()) {
+        (found, Some(first)) => data_file::accepted(found, first, problems)?.data,
+        (found, None) => found.map_err(|refused| problems.extend(refused)).ok()?.data,
+    };
+    let made = problems.accept(&place, characterise(&data, &choices))?;
+    Some(Box::new(move |temperature_k, poisson_ratio| {
+        let material = made.whole_material(temperature_k, poisson_ratio);
+        material.map_err(|error| error.to_string())
+    }))
 }
 
-fn choices(table: &mut TableReader<'_>, folder: &Path, problems: &Problems) -> Option<Choices> {
+fn choices(table: &mut TableReader<'_>) -> Option<Choices> {
     let reference = table.value(&REFERENCE_TEMPERATURE);
     let shift = table.value(&SHIFT).and_then(|shift| match shift {
         None => Some(ShiftChoice::Free),
         Some(ShiftValue::Word(choice)) => Some(choice),
         Some(ShiftValue::File(file)) => {
-            let (name, bytes) = data_file::named(&file, folder, problems)?;
-            let factors = shift_factors_from_bytes(&name, &bytes);
-            data_file::accepted(factors, &file, problems).map(ShiftChoice::Given)
+            let (folder, problems) = (table.folder(), table.problems());
+            let factors = data_file::made_of(&file, folder, problems, shift_factors_from_bytes);
+            factors.map(ShiftChoice::Given)
         }
     });
     let vertical = table.value(&VERTICAL_SHIFT);
@@ -94,13 +69,6 @@ fn choices(table: &mut TableReader<'_>, folder: &Path, problems: &Problems) -> O
         replicas: replicas?,
         seed: seed? as u64,
     })
-}
-
-impl AtTemperature for Characterisation {
-    fn material(&self, temperature_k: Option<f64>, poisson_ratio: f64) -> Result<Material, String> {
-        let material = self.whole_material(temperature_k, poisson_ratio);
-        material.map_err(|error| error.to_string())
-    }
 }
 
 const SHIFT_WORDS: Choice<ShiftChoice> = Choice(ShiftChoice::WORDS);
@@ -153,12 +121,11 @@ impl Kind for Shift {
         let Value::Table(table) = &node.value else {
             return SHIFT_WORDS.convert(node, spot).map(ShiftValue::Word);
         };
-        let problems = Problems::new();
-        let path = spot.path.to_owned();
-        let mut table = TableReader::new(table, node.location.clone(), path, &problems);
-        let file = table.read(&SHIFT_FILE);
-        table.finish();
-        problems.into_result(file.map(ShiftValue::File))
+        spot.read_table(table, node, |mut table| {
+            let file = table.read(&SHIFT_FILE);
+            table.finish();
+            file.map(ShiftValue::File)
+        })
     }
 }
 

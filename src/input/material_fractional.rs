@@ -3,17 +3,17 @@
 use super::diagnostic::Problems;
 use super::document::Located;
 use super::document::reader::TableReader;
-use super::keys::material::{
-    BAND, EQUILIBRIUM, FRACTIONAL_ACCURACY_KEY, FRACTIONAL_EXPONENT, FRACTIONAL_KIND,
-    FRACTIONAL_MODEL, FRACTIONAL_TIME, FractionalModel, SECOND_EXPONENT, STIFFNESS,
+use super::keys::fractional::{
+    BAND, FRACTIONAL_ACCURACY_KEY, FRACTIONAL_EXPONENT, FRACTIONAL_KIND, FRACTIONAL_MODEL,
+    FRACTIONAL_TIME, FractionalModel, SECOND_EXPONENT, STIFFNESS,
 };
+use super::keys::material::EQUILIBRIUM;
 use crate::material::fractional::{Fractional, FractionalError, Represented};
 use crate::material::{Compressibility, Material, MaterialError};
 
 /// Reads the table: the material but for its Poisson ratio. `None` where a problem was reported.
 pub(super) fn read(
     table: &mut TableReader<'_>,
-    problems: &Problems,
 ) -> Option<impl FnOnce(Compressibility) -> Result<Material, MaterialError> + use<>> {
     let model = table.read(&FRACTIONAL_MODEL);
     let kind = table.value(&FRACTIONAL_KIND);
@@ -36,10 +36,8 @@ pub(super) fn read(
             Fractional::maxwell(stiffness, time, exponent.value, second_exponent?)
         }
     };
-    let made = made.map_err(|error| {
-        problems.at(&exponent, error.to_string());
-    });
-    let (made, kind) = (made.ok()?, kind?);
+    let problems = table.problems();
+    let (made, kind) = (problems.accept(&exponent, made)?, kind?);
     let represented = represent(&made, &band?, accuracy?, problems)?;
     let (low, high) = represented.approximation.band_rad_per_s;
     Some(move |nu| {

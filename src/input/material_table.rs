@@ -1,9 +1,6 @@
 //! The `[material.table]` block: measured data, from a CSV file or written out.
 
-use std::path::Path;
-
 use super::data_file;
-use super::diagnostic::Problems;
 use super::document::reader::TableReader;
 use super::document::{Located, plain};
 use super::keys::material::{
@@ -34,13 +31,9 @@ pub(crate) enum TableMaterial {
     Direct(Tabulated),
 }
 
-/// Reads the block; files are looked for in `folder`. `None` where a problem was reported.
-pub(crate) fn read(
-    table: &mut TableReader<'_>,
-    folder: &Path,
-    direct_sum: DirectSum,
-    problems: &Problems,
-) -> Option<TableMaterial> {
+/// Reads the block. `None` where a problem was reported.
+pub(crate) fn read(table: &mut TableReader<'_>, direct_sum: DirectSum) -> Option<TableMaterial> {
+    let problems = table.problems();
     let source = table.one_of(&[(&FILE, true), (&TIMES, false)]);
     let (face, kind) = (table.value(&QUANTITY), table.value(&TABLE_MODULUS));
     let (evaluation, flow) = (table.read(&EVALUATION), table.read(&FLOW));
@@ -62,8 +55,8 @@ pub(crate) fn read(
         table.has(&VALUES);
     }
     let data = match source? {
-        true => from_file(table, folder, face, kind, problems),
-        false => written_out(table, face, kind, problems),
+        true => from_file(table, face, kind),
+        false => written_out(table, face, kind),
     };
     // A problem with one of them was reported.
     let (data, evaluation, flow) = (data?, evaluation?.value, flow?);
@@ -89,25 +82,19 @@ pub(crate) fn read(
                 .help("write flow = false, or leave it out");
             None
         }
-        Err(error) => {
-            problems.at(&data, error.to_string());
-            None
-        }
+        Err(error) => problems.accept(&data, Err(error)),
     }
 }
 
 fn from_file(
     table: &mut TableReader<'_>,
-    folder: &Path,
     face: Option<MaterialFunction>,
     kind: Option<ModulusKind>,
-    problems: &Problems,
 ) -> Option<Located<Tabulated>> {
     let file = table.read(&FILE);
     let (file, face, kind) = (file?, face?, kind?);
-    let (name, bytes) = data_file::named(&file, folder, problems)?;
-    let data = table_file::parse(&name, &bytes, face, kind);
-    let data = data_file::accepted(data, &file, problems)?;
+    let parse = |name: &str, bytes: &[u8]| table_file::parse(name, bytes, face, kind);
+    let data = data_file::made_of(&file, table.folder(), table.problems(), parse)?;
     Some(file.map(|_| data))
 }
 
@@ -116,7 +103,6 @@ fn written_out(
     table: &mut TableReader<'_>,
     face: Option<MaterialFunction>,
     kind: Option<ModulusKind>,
-    problems: &Problems,
 ) -> Option<Located<Tabulated>> {
     let times = table.read(&TIMES);
     let Some(face) = face else {
@@ -145,7 +131,8 @@ fn written_out(
                 };
                 list.value.get(row - 1).map(|entry| &entry.location)
             });
-            problems.at(place.unwrap_or(&values.location), error.to_string());
+            let place = place.unwrap_or(&values.location);
+            table.problems().at(place, error.to_string());
             None
         }
     }

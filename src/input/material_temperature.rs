@@ -1,8 +1,8 @@
 //! Materials that know temperatures, and which of them a file asks for: `[material] temperature`, or the axis of a sweep.
 
-use super::diagnostic::{Location, Problems};
-use super::document::Located;
+use super::diagnostic::Location;
 use super::document::reader::TableReader;
+use super::document::{Located, plain};
 use super::keys::material::{
     BRANCH_MODULUS, EQUILIBRIUM, ISOTHERM_ACTIVATION_ENERGY, ISOTHERM_TEMPERATURE, ISOTHERM_WLF,
     ISOTHERMS, MODULUS, RELAXATION_BRANCHES, REPLICA_EQUILIBRIUM, REPLICA_MODULI, REPLICA_TIMES,
@@ -13,30 +13,22 @@ use crate::material::dynamic::shift_law::{Arrhenius, Wlf};
 use crate::material::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
 use crate::quantity::celsius;
 
-/// A material at any temperature it knows, but for its Poisson ratio.
-pub(super) trait AtTemperature {
-    /// The material at a temperature (K), or at the one that counts where none is asked for; else why there is none.
-    fn material(&self, temperature_k: Option<f64>, poisson_ratio: f64) -> Result<Material, String>;
-}
-
-/// The material of a file, and those of the temperatures of an axis.
-pub(super) type OverTemperature = (Material, Vec<Material>);
+/// A material at a temperature (K), or at the one that counts where none is asked for, with this Poisson ratio; else why there is none.
+pub(super) type AtTemperature = Box<dyn Fn(Option<f64>, f64) -> Result<Material, String>>;
 
 /// Reads the temperature of `[material]`, and gives the material at this temperature and at those of an axis, where there is one;
 /// the first of these is then the material of the file.
 pub(super) fn read(
     block: &mut TableReader<'_>,
-    known: Option<Box<dyn AtTemperature>>,
+    known: Option<AtTemperature>,
     poisson_ratio: Option<f64>,
     axis: Option<&Located<Vec<f64>>>,
     place: &Location,
-    problems: &Problems,
-) -> Option<OverTemperature> {
-    let own = block.read(&TEMPERATURE);
+) -> Option<(Material, Vec<Material>)> {
+    let (own, problems) = (block.read(&TEMPERATURE), block.problems());
     let (known, poisson_ratio, own) = (known?, poisson_ratio?, own?);
     let material = |temperature_k: Option<f64>, place: &Location| {
-        let material = known.material(temperature_k, poisson_ratio);
-        material.map_err(|why| problems.at(place, why)).ok()
+        problems.accept(place, known(temperature_k, poisson_ratio))
     };
     if let Some(axis) = axis {
         let each = axis.value.iter();
@@ -45,43 +37,20 @@ pub(super) fn read(
         return Some((each.first()?.clone(), each));
     }
     let place = own.as_ref().map_or(place, |own| &own.location);
-    Some((
-        material(own.as_ref().map(|own| own.value), place)?,
-        Vec::new(),
-    ))
+    let own = material(own.as_ref().map(|own| own.value), place)?;
+    Some((own, Vec::new()))
 }
 
 /// Refuses temperatures of a material that knows none; false where there were any.
-pub(super) fn refuse(
-    block: &mut TableReader<'_>,
-    axis: Option<&Located<Vec<f64>>>,
-    problems: &Problems,
-) -> bool {
+pub(super) fn refuse(block: &mut TableReader<'_>, axis: Option<&Located<Vec<f64>>>) -> bool {
     let own = block.key_location(&TEMPERATURE);
     let Some(place) = own.as_ref().or(axis.map(|axis| &axis.location)) else {
         return true;
     };
-    problems
+    block.problems()
         .at(place, "this material is known at one temperature alone, and does not say at which")
         .help("give dynamic data measured at several temperatures in [material.dynamic], or a series for each in [[material.isotherm]]");
     false
-}
-
-/// A series with its replicas, but for the Poisson ratio.
-pub(super) struct Series {
-    pub(super) kind: ModulusKind,
-    pub(super) relaxation: Relaxation,
-    pub(super) replicas: Vec<Relaxation>,
-}
-
-impl Series {
-    pub(super) fn material(&self, poisson_ratio: f64) -> Result<Material, MaterialError> {
-        let of = |relaxation: &Relaxation| {
-            Material::from_relaxation(relaxation.clone(), self.kind, poisson_ratio)
-        };
-        let replicas: Result<_, _> = self.replicas.iter().map(of).collect();
-        Ok(of(&self.relaxation)?.with_replicas(replicas?))
-    }
 }
 
 /// A Prony series.
@@ -94,12 +63,9 @@ pub(super) fn prony(
 }
 
 /// The replicas of a series.
-pub(super) fn replicas(
-    table: &mut TableReader<'_>,
-    problems: &Problems,
-) -> Option<Vec<Relaxation>> {
+pub(super) fn replicas(table: &mut TableReader<'_>) -> Option<Vec<Relaxation>> {
     table.optional_tables(&REPLICAS, |mut table| {
-        let place = table.as_ref().clone();
+        let (place, problems) = (table.as_ref().clone(), table.problems());
         let equilibrium = table.value(&REPLICA_EQUILIBRIUM);
         let (moduli, times) = (table.read(&REPLICA_MODULI), table.read(&REPLICA_TIMES));
         table.finish();
@@ -111,92 +77,76 @@ pub(super) fn replicas(
                 .help("give one time for each modulus");
             return None;
         }
-        let pairs = moduli.value.iter().zip(&times.value);
-        let series = prony(
-            equilibrium,
-            pairs.map(|(modulus, time)| (modulus.value, time.value)),
-        );
-        series
-            .map_err(|error| problems.at(&place, error.to_string()))
-            .ok()
+        let branches = plain(moduli.value).into_iter().zip(plain(times.value));
+        problems.accept(&place, prony(equilibrium, branches))
     })
 }
 
-/// A series that holds at a temperature, and by its law at others.
+/// A series with its replicas that holds at a temperature, and by its law at others.
 struct Isotherm {
     temperature_k: f64,
     law: Option<Wlf>,
     measured_window_s: Option<(f64, f64)>,
-    series: Series,
+    kind: ModulusKind,
+    relaxation: Relaxation,
+    replicas: Vec<Relaxation>,
 }
 
-/// Series at some temperatures, and at no others.
-struct Isotherms(Vec<Isotherm>);
-
 /// Reads `[[material.isotherm]]`.
-pub(super) fn isotherms(
-    block: &mut TableReader<'_>,
-    problems: &Problems,
-) -> Option<Box<dyn AtTemperature>> {
+pub(super) fn isotherms(block: &mut TableReader<'_>) -> Option<AtTemperature> {
     let all = block.tables(&ISOTHERMS, |mut table| {
-        let place = table.as_ref().clone();
+        let (place, problems) = (table.as_ref().clone(), table.problems());
         let temperature = table.value(&ISOTHERM_TEMPERATURE);
-        let law = law(&mut table, temperature, problems);
-        let measured = measured_window(&mut table, problems);
+        let law = law(&mut table, temperature);
+        let measured = measured_window(&mut table);
         let (kind, equilibrium) = (table.value(&MODULUS), table.value(&EQUILIBRIUM));
         let branches = branches(&mut table, &RELAXATION_BRANCHES, &BRANCH_MODULUS);
-        let replicas = replicas(&mut table, problems);
+        let replicas = replicas(&mut table);
         table.finish();
-        let relaxation = prony(equilibrium?, branches?);
-        let relaxation = relaxation.map_err(|error| problems.at(&place, error.to_string()));
+        let relaxation = problems.accept(&place, prony(equilibrium?, branches?));
         Some(Isotherm {
             temperature_k: temperature?,
             law: law?,
             measured_window_s: measured?,
-            series: Series {
-                kind: kind?,
-                relaxation: relaxation.ok()?,
-                replicas: replicas?,
-            },
+            kind: kind?,
+            relaxation: relaxation?,
+            replicas: replicas?,
         })
     })?;
     if all.value.is_empty() {
-        problems
+        (block.problems())
             .at(&all, "there is no isotherm")
             .help("give at least one [[material.isotherm]]");
         return None;
     }
-    Some(Box::new(Isotherms(all.value)))
+    Some(Box::new(move |temperature_k, nu| {
+        of_isotherms(&all.value, temperature_k, nu)
+    }))
 }
 
 /// What a material knows of temperatures that says itself at which its series holds, and how it shifts; `None` for one that does not.
-pub(super) fn shifting(material: &Material) -> Option<Box<dyn AtTemperature>> {
-    Some(Box::new(Isotherms(vec![Isotherm {
+pub(super) fn shifting(material: &Material) -> Option<AtTemperature> {
+    let isotherm = Isotherm {
         temperature_k: material.temperature_k()?,
         law: Some(*material.shift()?),
         measured_window_s: material.measured_window_s(),
-        series: Series {
-            kind: material.kind(),
-            relaxation: material.relaxation()?.clone(),
-            replicas: Vec::new(),
-        },
-    }])))
+        kind: material.kind(),
+        relaxation: material.relaxation()?.clone(),
+        replicas: Vec::new(),
+    };
+    Some(Box::new(move |temperature_k, nu| {
+        isotherm.material(temperature_k.unwrap_or(isotherm.temperature_k), nu)
+    }))
 }
 
 /// The law by which a series at this temperature (K) shifts.
-fn law(
-    table: &mut TableReader<'_>,
-    temperature_k: Option<f64>,
-    problems: &Problems,
-) -> Option<Option<Wlf>> {
-    let (wlf, energy) = (
-        table.read(&ISOTHERM_WLF),
-        table.read(&ISOTHERM_ACTIVATION_ENERGY),
-    );
+fn law(table: &mut TableReader<'_>, temperature_k: Option<f64>) -> Option<Option<Wlf>> {
+    let wlf = table.read(&ISOTHERM_WLF);
+    let energy = table.read(&ISOTHERM_ACTIVATION_ENERGY);
     let reference_temperature_k = temperature_k?;
     Some(match (wlf?, energy?) {
         (Some(wlf), Some(energy)) => {
-            problems
+            (table.problems())
                 .at(&energy, "a series shifts by one law")
                 .label(&wlf, "another")
                 .help("keep one of them");
@@ -228,37 +178,27 @@ fn law(
 impl Isotherm {
     /// The material at a temperature (K), its own or one that its law reaches.
     fn material(&self, temperature_k: f64, poisson_ratio: f64) -> Result<Material, String> {
-        let law = self
-            .law
-            .and_then(|law| Some((law, law.referred_to(temperature_k)?)));
-        let log10_a_t = match (&law, temperature_k == self.temperature_k) {
-            (_, true) => 0.0,
-            (Some((law, _)), false) => law.log10_a_t(temperature_k).unwrap_or(f64::NAN),
-            (None, false) => f64::NAN,
-        };
-        let a_t = 10_f64.powf(log10_a_t);
+        let is_own = temperature_k == self.temperature_k;
+        let law = (self.law).and_then(|law| Some((law, law.referred_to(temperature_k)?)));
+        let shifted = law.and_then(|(law, _)| law.log10_a_t(temperature_k));
+        let log10_a_t = if is_own { Some(0.0) } else { shifted };
+        let a_t = 10_f64.powf(log10_a_t.unwrap_or(f64::NAN));
         if !(a_t.is_normal() && a_t > 0.0) {
-            let at = celsius(temperature_k);
             return Err(format!(
-                "the series at {} has no shift to {at}",
-                celsius(self.temperature_k)
+                "the series at {} has no shift to {}",
+                celsius(self.temperature_k),
+                celsius(temperature_k)
             ));
         }
         let shifted = |series: &Relaxation| {
-            let branches = series
-                .branches()
-                .iter()
-                .map(|b| (b.modulus_pa, a_t * b.time_s));
-            prony(series.equilibrium_modulus(), branches)
+            let branches = series.branches().iter();
+            let branches = branches.map(|b| (b.modulus_pa, a_t * b.time_s));
+            let shifted = prony(series.equilibrium_modulus(), branches);
+            shifted.and_then(|series| Material::from_relaxation(series, self.kind, poisson_ratio))
         };
-        let told = |error: MaterialError| error.to_string();
-        let replicas = self.series.replicas.iter().map(shifted);
-        let series = Series {
-            kind: self.series.kind,
-            relaxation: shifted(&self.series.relaxation).map_err(told)?,
-            replicas: replicas.collect::<Result<_, _>>().map_err(told)?,
-        };
-        let mut material = series.material(poisson_ratio).map_err(told)?;
+        let replicas: Result<_, _> = self.replicas.iter().map(shifted).collect();
+        let own = shifted(&self.relaxation).and_then(|own| Ok(own.with_replicas(replicas?)));
+        let mut material = own.map_err(|error| error.to_string())?;
         material = material.at_temperature(temperature_k);
         if let Some((_, law)) = law {
             material = material.shifting(law);
@@ -270,29 +210,33 @@ impl Isotherm {
     }
 }
 
-impl AtTemperature for Isotherms {
-    fn material(&self, temperature_k: Option<f64>, poisson_ratio: f64) -> Result<Material, String> {
-        let several =
-            "there are several isotherms: write `temperature` with that of one of them".to_owned();
-        let Some(wanted_k) = temperature_k else {
-            return match self.0.as_slice() {
-                [only] => only.material(only.temperature_k, poisson_ratio),
-                _ => Err(several),
-            };
-        };
-        let at = |isotherm: &&Isotherm| isotherm.temperature_k == wanted_k;
-        // Where there is no isotherm of its own, the nearest that shifts.
-        let away = |isotherm: &&Isotherm| (isotherm.temperature_k - wanted_k).abs();
-        let shifting = self.0.iter().filter(|isotherm| isotherm.law.is_some());
-        let nearest = shifting.min_by(|a, b| away(a).total_cmp(&away(b)));
-        let isotherm = self.0.iter().find(at).or(nearest).ok_or_else(|| {
-            let known: Vec<String> = self.0.iter().map(|i| celsius(i.temperature_k)).collect();
-            let wanted = celsius(wanted_k);
-            format!(
-                "no isotherm at {wanted}: there are {}, and none has a shift law (`wlf` or `activation_energy`)",
-                known.join(", ")
-            )
-        })?;
-        isotherm.material(wanted_k, poisson_ratio)
-    }
+/// The material of series at some temperatures, at the one asked for.
+fn of_isotherms(
+    isotherms: &[Isotherm],
+    temperature_k: Option<f64>,
+    poisson_ratio: f64,
+) -> Result<Material, String> {
+    let wanted_k = match (temperature_k, isotherms) {
+        (Some(temperature_k), _) => temperature_k,
+        (None, [only]) => only.temperature_k,
+        (None, _) => {
+            let several =
+                "there are several isotherms: write `temperature` with that of one of them";
+            return Err(several.to_owned());
+        }
+    };
+    let at = |isotherm: &&Isotherm| isotherm.temperature_k == wanted_k;
+    // Where there is no isotherm of its own, the nearest that shifts.
+    let away = |isotherm: &&Isotherm| (isotherm.temperature_k - wanted_k).abs();
+    let shifting = isotherms.iter().filter(|isotherm| isotherm.law.is_some());
+    let nearest = shifting.min_by(|a, b| away(a).total_cmp(&away(b)));
+    let isotherm = isotherms.iter().find(at).or(nearest).ok_or_else(|| {
+        let known: Vec<String> = isotherms.iter().map(|i| celsius(i.temperature_k)).collect();
+        let wanted = celsius(wanted_k);
+        format!(
+            "no isotherm at {wanted}: there are {}, and none has a shift law (`wlf` or `activation_energy`)",
+            known.join(", ")
+        )
+    })?;
+    isotherm.material(wanted_k, poisson_ratio)
 }

@@ -1,7 +1,7 @@
 //! Tables of measured cycles: columns of `sweep.csv` under their names, one row a cycle, cells empty where nothing was measured.
 
 use super::data_file::{Column, DataFile, Table};
-use super::diagnostic::{Diagnostic, Diagnostics, Problems};
+use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use crate::drive::{Control, HarmonicDrive};
 use crate::identify::data::{Datum, MeasuredCycle, Number};
 use crate::quantity::Dimension::{
@@ -66,166 +66,167 @@ pub(super) fn parse(
     drive: HarmonicDrive,
 ) -> Result<Measured, Diagnostics> {
     let file = DataFile::from_bytes(name, bytes)?;
-    let columns = Columns::of(&file, drive.control())?;
-    let table = file.columns_with_holes(&columns.wanted, EMPTY)?;
-    let (mut cycles, mut data) = (Vec::new(), Vec::new());
+    let wanted = wanted(&file, drive.control())?;
     let problems = Problems::new();
-    for row in 0..table.len() {
-        match columns.row(&table, row, &drive) {
-            Ok(None) => {}
-            Ok(Some((mut cycle, of_cycle))) => {
-                cycle.row = row + 1;
-                let cycle_place = cycles.len();
-                cycles.push(cycle);
-                data.extend(of_cycle.into_iter().map(|(quantity, value, error)| Datum {
-                    place: cycle_place,
-                    number: Number::OfCycle(quantity),
-                    value,
-                    error,
-                }));
-            }
-            Err(problem) => problems.extend((*problem).into()),
-        }
+    let rows = Rows {
+        table: file.columns_with_holes(&wanted, EMPTY)?,
+        wanted,
+        drive,
+        problems: &problems,
+    };
+    let (mut cycles, mut data) = (Vec::new(), Vec::new());
+    for row in 0..rows.table.len() {
+        let numbers = rows.numbers(row).filter(|numbers| !numbers.is_empty());
+        let Some((cycle, numbers)) = numbers.and_then(|all| Some((rows.cycle(row)?, all))) else {
+            continue;
+        };
+        data.extend(numbers.into_iter().map(|(quantity, value, error)| Datum {
+            place: cycles.len(),
+            number: Number::OfCycle(quantity),
+            value,
+            error,
+        }));
+        cycles.push(cycle);
     }
-    if let Some(problem) = another_drive(&table, &columns, &cycles, &drive) {
-        problems.extend(problem.into());
-    }
+    rows.refuse_another_drive(&cycles);
     problems.into_result(Some((cycles, data)))
 }
 
-/// The columns that a table has.
-struct Columns {
-    wanted: Vec<Column>,
-    angular: Option<usize>,
-    hertz: Option<usize>,
-    drive: Option<[usize; 2]>,
-    quantities: Vec<(Quantity, usize, Option<usize>)>,
+/// The columns that a table has: frequencies, mean and amplitude of the drive, quantities, and the errors of these.
+fn wanted(file: &DataFile, control: Control) -> Result<Vec<Column>, Diagnostic> {
+    let is_there = |column: &Column| file.has_any(&[*column]);
+    let lacks = |what: &str| Diagnostic::at(&file.first_line(), what);
+    let mut wanted = vec![ANGULAR, HERTZ];
+    wanted.retain(is_there);
+    if wanted.is_empty() {
+        return Err(lacks("no column of frequencies")
+            .help("name it `angular_frequency_rad_per_s` or `frequency_hz`"));
+    }
+    let of_drive = drive_columns(control);
+    if of_drive.iter().all(is_there) {
+        wanted.extend(of_drive);
+    }
+    let quantities = MEASURED.iter().filter(|(_, value, _)| is_there(value));
+    let quantities = quantities.flat_map(|(_, value, error)| [*value, *error]);
+    let quantities: Vec<Column> = quantities.filter(is_there).collect();
+    if quantities.is_empty() {
+        let names = MEASURED.map(|(_, value, _)| value.name_in_si()).join(", ");
+        return Err(lacks("no column that shows the material")
+            .help(format!("give at least one of {names}")));
+    }
+    wanted.extend(quantities);
+    Ok(wanted)
 }
 
-impl Columns {
-    fn of(file: &DataFile, control: Control) -> Result<Self, Diagnostic> {
-        let mut wanted: Vec<Column> = Vec::new();
-        let mut place_of = |column: Column| {
-            let place = wanted.len();
-            file.has_any(&[column]).then(|| {
-                wanted.push(column);
-                place
-            })
-        };
-        let (angular, hertz) = (place_of(ANGULAR), place_of(HERTZ));
-        let of_drive = drive_columns(control);
-        let drive = match of_drive.iter().all(|column| file.has_any(&[*column])) {
-            true => place_of(of_drive[0]).zip(place_of(of_drive[1])),
-            false => None,
-        };
-        let mut quantities = Vec::new();
-        for (quantity, value, error) in MEASURED {
-            if let Some(place) = place_of(value) {
-                quantities.push((quantity, place, place_of(error)));
-            }
-        }
-        if angular.is_none() && hertz.is_none() {
-            return Err(
-                Diagnostic::at(&file.first_line(), "no column of frequencies")
-                    .help("name it `angular_frequency_rad_per_s` or `frequency_hz`"),
-            );
-        }
-        if quantities.is_empty() {
-            let names = MEASURED.map(|(_, value, _)| value.name_in_si()).join(", ");
-            return Err(
-                Diagnostic::at(&file.first_line(), "no column that shows the material")
-                    .help(format!("give at least one of {names}")),
-            );
-        }
-        Ok(Self {
-            wanted,
-            angular,
-            hertz,
-            drive: drive.map(|(mean, amplitude)| [mean, amplitude]),
-            quantities,
-        })
+/// The rows of a table.
+struct Rows<'a> {
+    table: Table,
+    wanted: Vec<Column>,
+    drive: HarmonicDrive,
+    problems: &'a Problems,
+}
+
+impl Rows<'_> {
+    /// The place of a column, where the table has it.
+    fn place_of(&self, column: &Column) -> Option<usize> {
+        self.wanted.iter().position(|of| of.names == column.names)
     }
 
-    /// A row: its cycle, and what was measured of it; `None` where that is nothing.
-    #[allow(clippy::type_complexity)]
-    fn row(
-        &self,
-        table: &Table,
-        row: usize,
-        drive: &HarmonicDrive,
-    ) -> Result<Option<(MeasuredCycle, Vec<(Quantity, f64, Option<f64>)>)>, Box<Diagnostic>> {
-        let cell = |which: usize| {
-            let value = table.values[row * table.width() + which];
-            (!value.is_nan()).then_some(value)
-        };
+    /// The number in a cell, with its place; `None` where there is none.
+    fn cell(&self, row: usize, column: &Column) -> Option<(f64, Location)> {
+        let place = self.place_of(column)?;
+        let value = self.table.values[row * self.table.width() + place];
+        (!value.is_nan()).then(|| (value, self.table.cell(row, place)))
+    }
+
+    fn number(&self, row: usize, column: &Column) -> Option<f64> {
+        self.cell(row, column).map(|(value, _)| value)
+    }
+
+    /// What was measured in a row, with its errors where they are known; `None` where a problem was reported.
+    fn numbers(&self, row: usize) -> Option<Vec<(Quantity, f64, Option<f64>)>> {
         let mut found = Vec::new();
-        for (quantity, value, error) in &self.quantities {
-            let Some(number) = cell(*value) else {
+        for (quantity, value, error) in &MEASURED {
+            let Some(value) = self.number(row, value) else {
                 continue;
             };
-            let known = error.and_then(cell);
-            if let Some(place) = error.filter(|_| known.is_some_and(|known| known <= 0.0)) {
-                let problem =
-                    Diagnostic::at(&table.cell(row, place), "an error must be above zero");
-                let help = "write a standard deviation, or leave the cell empty: the noise is then estimated";
-                return Err(Box::new(problem.help(help)));
+            let error = self.cell(row, error);
+            if let Some((_, place)) = error.as_ref().filter(|(error, _)| *error <= 0.0) {
+                self.problems
+                    .at(place, "an error must be above zero")
+                    .help("write a standard deviation, or leave the cell empty: the noise is then estimated");
+                return None;
             }
-            found.push((*quantity, number, known));
+            found.push((*quantity, value, error.map(|(error, _)| error)));
         }
-        if found.is_empty() {
-            return Ok(None);
-        }
-        let angular_frequency_rad_per_s = self.frequency(table, row, cell)?;
-        let drive = match self.drive.map(|places| places.map(cell)) {
-            Some([Some(mean), Some(amplitude)]) => {
-                let own = drive.with(mean, amplitude, drive.phase_rad(), drive.hold_s());
-                own.map_err(|error| Box::new(Diagnostic::at(&table.row(row), error.to_string())))?
+        Some(found)
+    }
+
+    /// The cycle of a row; `None` where a problem was reported.
+    fn cycle(&self, row: usize) -> Option<MeasuredCycle> {
+        let angular_frequency_rad_per_s = self.frequency(row)?;
+        let own = drive_columns(self.drive.control()).map(|column| self.number(row, &column));
+        let drive = match own {
+            [Some(mean), Some(amplitude)] => {
+                let (phase_rad, hold_s) = (self.drive.phase_rad(), self.drive.hold_s());
+                let own = self.drive.with(mean, amplitude, phase_rad, hold_s);
+                self.problems.accept(&self.table.row(row), own)?
             }
-            _ => *drive,
+            _ => self.drive,
         };
-        let cycle = MeasuredCycle {
+        Some(MeasuredCycle {
             angular_frequency_rad_per_s,
             drive,
             row: row + 1,
-        };
-        Ok(Some((cycle, found)))
+        })
     }
 
     /// The angular frequency (rad/s) of a row.
-    fn frequency(
-        &self,
-        table: &Table,
-        row: usize,
-        cell: impl Fn(usize) -> Option<f64>,
-    ) -> Result<f64, Box<Diagnostic>> {
-        let angular = self.angular.and_then(&cell);
-        let hertz = self
-            .hertz
-            .and_then(&cell)
-            .map(|f| f * std::f64::consts::TAU);
-        if let (Some(angular), Some(hertz), Some(place)) = (angular, hertz, self.hertz)
+    fn frequency(&self, row: usize) -> Option<f64> {
+        let angular = self.cell(row, &ANGULAR);
+        let hertz = self.cell(row, &HERTZ);
+        let hertz = hertz.map(|(value, place)| (value * std::f64::consts::TAU, place));
+        if let (Some((angular, also)), Some((hertz, place))) = (&angular, &hertz)
             && (hertz / angular - 1.0).abs() > SAME_FREQUENCY
         {
-            let problem = Diagnostic::at(
-                &table.cell(row, place),
-                "two frequencies of one row contradict one another",
-            );
-            let also = self.angular.map(|place| table.cell(row, place));
-            let problem = match &also {
-                Some(also) => {
-                    problem.label(also, "the angular frequency, 2 pi times the frequency")
-                }
-                None => problem,
-            };
-            return Err(Box::new(problem.help("keep one of the two columns")));
+            self.problems
+                .at(place, "two frequencies of one row contradict one another")
+                .label(also, "the angular frequency, 2 pi times the frequency")
+                .help("keep one of the two columns");
+            return None;
         }
-        match angular.or(hertz) {
-            Some(omega) if omega > 0.0 => Ok(omega),
-            _ => Err(Box::new(
-                Diagnostic::at(&table.row(row), "a row without a frequency above zero")
-                    .help("write its frequency, or leave the whole row out"),
-            )),
+        let omega = angular.or(hertz).map(|(value, _)| value);
+        let omega = omega.filter(|omega| *omega > 0.0);
+        if omega.is_none() {
+            let what = "a row without a frequency above zero";
+            let report = self.problems.at(&self.table.row(row), what);
+            report.help("write its frequency, or leave the whole row out");
         }
+        omega
+    }
+
+    /// Refuses drives that are nothing like the one of the file.
+    fn refuse_another_drive(&self, cycles: &[MeasuredCycle]) {
+        let [mean, _] = drive_columns(self.drive.control());
+        let is_like = |cycle: &MeasuredCycle| {
+            let ratio = cycle.drive.mean() / self.drive.mean();
+            (ANOTHER_DRIVE.recip()..=ANOTHER_DRIVE).contains(&ratio)
+        };
+        let (Some(first), Some(mean)) = (cycles.first(), self.place_of(&mean)) else {
+            return;
+        };
+        if cycles.iter().any(is_like) || self.drive.mean() == 0.0 {
+            return;
+        }
+        let message = format!(
+            "the table was measured under a mean of {:e}, and [drive] has {:e} (SI units)",
+            first.drive.mean(),
+            self.drive.mean()
+        );
+        let report = self
+            .problems
+            .at(&self.table.cell(first.row - 1, mean), message);
+        report.help("give [drive] the mean and amplitude of the measurement");
     }
 }
 
@@ -245,30 +246,6 @@ fn drive_columns(control: Control) -> [Column; 2] {
         column(&["drive_mean"], "means of the drive"),
         column(&["drive_amplitude"], "amplitudes of the drive"),
     ]
-}
-
-/// The drives of the table are nothing like the one of the file.
-fn another_drive(
-    table: &Table,
-    columns: &Columns,
-    cycles: &[MeasuredCycle],
-    drive: &HarmonicDrive,
-) -> Option<Diagnostic> {
-    let [mean, _] = columns.drive?;
-    let is_like = |cycle: &MeasuredCycle| {
-        let ratio = cycle.drive.mean() / drive.mean();
-        (ANOTHER_DRIVE.recip()..=ANOTHER_DRIVE).contains(&ratio)
-    };
-    if cycles.is_empty() || cycles.iter().any(is_like) || drive.mean() == 0.0 {
-        return None;
-    }
-    let message = format!(
-        "the table was measured under a mean of {:e}, and [drive] has {:e} (SI units)",
-        cycles[0].drive.mean(),
-        drive.mean()
-    );
-    let problem = Diagnostic::at(&table.cell(cycles[0].row - 1, mean), message);
-    Some(problem.help("give [drive] the mean and amplitude of the measurement"))
 }
 
 #[cfg(test)]

@@ -2,14 +2,14 @@
 
 use serde_json::{Value as Json, json};
 
-use super::diagnostic::{Diagnostics, Problems};
-use super::document::kind::{Array, Decided, Dependent, Describe, Kind, Scalar, Spot, list};
+use super::diagnostic::{Diagnostic, Diagnostics};
+use super::document::kind::{Array, Describe, Kind, Scalar, Spot, list};
+use super::document::plain;
 use super::document::reader::TableReader;
 use super::document::row::{Row, Rows};
 use super::document::tree::{Node, Value};
 use super::keys::drive::{FROM, POINTS, RANGE_KEYS, SPACING, TO};
 use super::keys::table;
-use crate::quantity::Dimension;
 use crate::sweep::plan::SweepPlan;
 
 pub(super) const MOST_POINTS: usize = SweepPlan::MAX_POINTS;
@@ -29,9 +29,9 @@ static RANGE: Rows = table(
 );
 
 /// Points of this kind, ascending, each once.
-pub(crate) struct Points<K>(pub(crate) K);
+pub(crate) struct Points(pub(crate) Scalar);
 
-impl<K: Describe> Describe for Points<K> {
+impl Describe for Points {
     fn expected(&self) -> String {
         format!("a list or a range, each {}", self.0.expected())
     }
@@ -56,15 +56,7 @@ impl<K: Describe> Describe for Points<K> {
     }
 }
 
-impl Decided for Points<Dependent> {
-    type Kind = Points<Scalar>;
-
-    fn of(&self, dimension: Dimension) -> Points<Scalar> {
-        Points(self.0.of(dimension))
-    }
-}
-
-impl Kind for Points<Scalar> {
+impl Kind for Points {
     type Value = Vec<f64>;
 
     fn written(&self, values: &Vec<f64>) -> Json {
@@ -72,19 +64,13 @@ impl Kind for Points<Scalar> {
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Vec<f64>, Diagnostics> {
-        let problems = Problems::new();
-        let points = match &node.value {
-            Value::Table(table) => {
-                let path = spot.path.to_owned();
-                let table = TableReader::new(table, node.location.clone(), path, &problems);
-                self.range(table, &problems)
-            }
+        match &node.value {
+            Value::Table(table) => spot.read_table(table, node, |table| self.range(table)),
             Value::Array(items) if items.is_empty() => {
                 let example = format!("{} = {}", spot.key.unwrap_or_default(), self.example());
-                problems
-                    .at(&node.location, "the sweep is empty")
-                    .help(format!("give at least one point, for example {example}"));
-                None
+                let problem = Diagnostic::at(&node.location, "the sweep is empty");
+                let help = format!("give at least one point, for example {example}");
+                Err(problem.help(help).into())
             }
             _ => {
                 let distinct = Array {
@@ -92,17 +78,17 @@ impl Kind for Points<Scalar> {
                     repeats: false,
                     ..list(self.0)
                 };
-                let mut points = distinct.convert(node, spot)?;
-                points.sort_by(|a, b| a.value.total_cmp(&b.value));
-                Some(points.into_iter().map(|point| point.value).collect())
+                let mut points = plain(distinct.convert(node, spot)?);
+                points.sort_by(f64::total_cmp);
+                Ok(points)
             }
-        };
-        problems.into_result(points)
+        }
     }
 }
 
-impl Points<Scalar> {
-    fn range(&self, mut table: TableReader<'_>, problems: &Problems) -> Option<Vec<f64>> {
+impl Points {
+    fn range(&self, mut table: TableReader<'_>) -> Option<Vec<f64>> {
+        let problems = table.problems();
         let end = |row: &Row<Scalar, _>| Row {
             kind: self.0,
             ..*row

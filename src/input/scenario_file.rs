@@ -10,7 +10,6 @@ use super::given::Given;
 use super::keys;
 use super::keys::settings::{FIELD_CELLS, FIELDS_AT, OUTPUT_ERROR_BARS, PROFILES_AT, TIME_STEP};
 use super::material_table::DirectSum;
-use super::sweep_file::default_solver;
 use super::{bodies_block, layer_block, material_block, segments_block};
 use crate::drive::SegmentedDrive;
 use crate::indenter::Indenter;
@@ -36,53 +35,41 @@ pub fn plan(document: &Document) -> Result<ScenarioPlan, Diagnostics> {
 /// # Errors
 /// As [`plan`].
 pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Diagnostics> {
-    let problems = Problems::new();
-    let mut root = document.root(&problems);
-    let folder = document.folder();
-    let title = root.value(&keys::TITLE);
-    let material = match (&given.material, root.key_location(&keys::MATERIAL)) {
-        (Some(given), None) => Some(Located {
-            value: given.clone(),
-            path: "material".to_owned(),
-            location: root.as_ref().clone(),
-        }),
-        _ => material_block::read_body(&mut root, folder, DirectSum::Taken, &problems),
-    };
-    let bodies = bodies_block::read(&mut root, folder, &problems);
-    let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
-    let material = material.zip(bodies.as_ref());
-    let material =
-        material.and_then(|(m, bodies)| for_contact(&problems, m, bodies.counterbody.clone()));
-    let indenter = given.indenter(&mut root, folder, &problems);
-    let pull_off_n = |control| {
-        let bodies = bodies.as_ref()?;
-        bodies.pull_off_n(indenter.as_deref(), control)
-    };
-    let drive = root.table(&keys::HISTORY).and_then(|t| {
-        let area_m2 = indenter.as_deref().and_then(Indenter::period_area_m2);
-        segments_block::read(t, folder, (pull_off_n, area_m2), &problems)
-    });
-    let step_s = root.table_or(&keys::TIME, None, time);
-    let default = default_solver(indenter.as_deref(), layer);
-    let solver = root.table_or(&keys::SOLVER, default, |t| {
-        layer_block::solver_on(layer.is_some(), t, default, &problems)
-    });
-    let output = root.table_or(&keys::OUTPUT, OutputPlan::default(), |t| {
-        output(t, &problems, drive.as_ref(), solver.as_ref())
-    });
-    let figures = root.table_or(&keys::SCENARIO_FIGURES, Figures::default(), |t| {
-        figures_block::read(t, &problems)
-    });
-    root.finish();
-    let plan = (|| {
-        let figures = figures?;
+    document.read_whole(|root| {
+        let problems = root.problems();
+        let title = root.value(&keys::TITLE);
+        let material = match (&given.material, root.key_location(&keys::MATERIAL)) {
+            (Some(given), None) => Some(root.in_place_of("material", given.clone())),
+            _ => material_block::read_body(root, DirectSum::Taken),
+        };
+        let bodies = bodies_block::read(root);
+        let layer = bodies.as_ref().and_then(|bodies| bodies.layer);
+        let material = material.zip(bodies.as_ref());
+        let material =
+            material.and_then(|(m, bodies)| for_contact(problems, m, bodies.counterbody.clone()));
+        let indenter = given.indenter(root);
+        let drive = root.table(&keys::HISTORY).and_then(|t| {
+            let pull_off_n = |control| bodies.as_ref()?.pull_off_n(indenter.as_deref(), control);
+            let area_m2 = indenter.as_deref().and_then(Indenter::period_area_m2);
+            segments_block::read(t, pull_off_n, area_m2)
+        });
+        let step_s = root.table_or(&keys::TIME, None, time);
+        let default = indenter
+            .as_deref()
+            .map(|indenter| SolverPlan::of(indenter, layer));
+        let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
+        let output = root.table_or(&keys::OUTPUT, OutputPlan::default(), |t| {
+            output(t, drive.as_ref(), solver.as_ref())
+        });
+        let default = Figures::default();
+        let figures = root.table_or(&keys::SCENARIO_FIGURES, default, figures_block::read)?;
         let mut plan = ScenarioPlan {
             title: title?,
             contact: ContactPlan {
                 material: material?,
                 layer,
                 indenter: indenter?,
-                adhesion: bodies?.adhesion,
+                adhesion: bodies?.adhesion(),
                 solver: solver?,
             },
             drive: drive?,
@@ -91,10 +78,9 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<ScenarioPlan, Dia
             figures: FigurePlan::default(),
         };
         let scale = || ElasticScale::of_scenario(&plan).map(drop);
-        plan.figures = figures.checked(scale, &problems)?;
+        plan.figures = figures.checked(scale, problems)?;
         Some(plan)
-    })();
-    problems.into_result(plan)
+    })
 }
 
 /// Refuses materials that cannot be in contact. A fluid can: a history ends before its creep does.
@@ -103,22 +89,15 @@ fn for_contact(
     material: Located<BodyMaterial>,
     counterbody: Option<Material>,
 ) -> Option<BodyMaterial> {
-    match (material.value.check_contact(), counterbody, &material.value) {
-        (Ok(()), None, _) => Some(material.value),
-        (Ok(()), Some(indenter), BodyMaterial::Series(own)) => {
-            Some(own.clone().against(indenter).into())
-        }
-        (Ok(()), Some(_), BodyMaterial::Samples(_)) => {
+    problems.accept(&material, material.value.check_contact())?;
+    match (counterbody, &material.value) {
+        (None, _) => Some(material.value),
+        (Some(indenter), BodyMaterial::Series(own)) => Some(own.clone().against(indenter).into()),
+        (Some(_), BodyMaterial::Samples(_)) => {
+            let what = "samples taken as they are press a rigid indenter only";
             problems
-                .at(
-                    &material,
-                    "samples taken as they are press a rigid indenter only",
-                )
+                .at(&material, what)
                 .help("leave out [indenter.material], or set material.table.evaluation = \"fit\"");
-            None
-        }
-        (Err(error), ..) => {
-            problems.at(&material, error.to_string());
             None
         }
     }
@@ -133,12 +112,12 @@ fn time(mut table: TableReader<'_>) -> Option<Option<f64>> {
 
 fn output(
     mut table: TableReader<'_>,
-    problems: &Problems,
     drive: Option<&SegmentedDrive>,
     solver: Option<&SolverPlan>,
 ) -> Option<OutputPlan> {
-    let profiles = times(&mut table, problems, &PROFILES_AT, drive);
-    let fields = times(&mut table, problems, &FIELDS_AT, drive);
+    let problems = table.problems();
+    let profiles = times(&mut table, &PROFILES_AT, drive);
+    let fields = times(&mut table, &FIELDS_AT, drive);
     let place = table.key_location(&FIELD_CELLS);
     let field_cells = table.value(&FIELD_CELLS);
     let error_bars = table.value(&OUTPUT_ERROR_BARS);
@@ -165,7 +144,6 @@ fn output(
 /// Times within the history, in the order in which they are written.
 fn times(
     table: &mut TableReader<'_>,
-    problems: &Problems,
     row: &Row<Array<Scalar>, Optional>,
     drive: Option<&SegmentedDrive>,
 ) -> Option<Vec<f64>> {
@@ -178,7 +156,7 @@ fn times(
         let outside = |t: &&Located<f64>| !(0.0..=end_s * (1.0 + 1e-12)).contains(&t.value);
         for time in list.iter().filter(outside) {
             let end = format_human(end_s, Dimension::Time, 6);
-            problems
+            (table.problems())
                 .at(time, "this time is not within the drive's history")
                 .because(format!("the history lasts from 0 s to {end}"));
             fine = false;

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use serde_json::{Map, Value as Json, json};
 
+use super::axis::AxisOf;
 use super::document::kind::text_definitions;
 use super::keys::FileKind;
 use super::keys::drive::LISTED;
@@ -17,8 +18,9 @@ pub fn text(kind: FileKind) -> String {
         may_be_listed(&mut schema);
     }
     let mut parts = Map::new();
-    kind.rows()
-        .visit("", &mut |_, row| parts.extend(row.kind().definitions()));
+    kind.rows().visit("", &mut |_, row| {
+        parts.extend(row.kind().axes().into_iter().flat_map(AxisOf::definitions));
+    });
     let referring = format!("{schema}{}", Json::Object(parts.clone()));
     let is_used = |name: &str| referring.contains(&format!("#/$defs/{name}\""));
     let definitions = text_definitions().into_iter();

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::diagnostic::{Diagnostics, Problems};
+use super::diagnostic::Diagnostics;
 use super::document::reader::TableReader;
 use super::document::{Document, plain};
 use super::indenter_block;
@@ -29,30 +29,26 @@ pub struct Setup {
 /// # Errors
 /// Everything that is wrong with the file, at once, each problem with its place and what to write instead.
 pub fn setup(document: &Document) -> Result<Setup, Diagnostics> {
-    let problems = Problems::new();
-    let mut root = document.root(&problems);
-    let title = root.value(&SETUP_TITLE);
-    let corrections = root.table_or(&INSTRUMENT, Corrections::default(), instrument);
-    let has_indenter = root.has(&SETUP_INDENTER);
-    let indenter = root.table_or(&SETUP_INDENTER, None, |table| {
-        indenter_block::read(table, document.folder(), &problems).map(Some)
-    });
-    let has_contact = root.has(&CONTACT);
-    if let (true, false, Some(place)) = (
-        has_indenter,
-        has_contact,
-        root.key_location(&SETUP_INDENTER),
-    ) {
-        problems
-            .at(&place, "an indenter without a table `[contact]`")
-            .because("asks for moduli")
-            .help("add `[contact]` with the Poisson ratio of the specimen: poisson_ratio = 0.4");
-    }
-    let contact = root.table_or(&CONTACT, None, |table| {
-        contact(table, indenter.clone().flatten(), has_indenter, &problems).map(Some)
-    });
-    root.finish();
-    let setup = (|| {
+    document.read_whole(|root| {
+        let title = root.value(&SETUP_TITLE);
+        let corrections = root.table_or(&INSTRUMENT, Corrections::default(), instrument);
+        let indenter_at = root.key_location(&SETUP_INDENTER);
+        let indenter = root.table_or(&SETUP_INDENTER, None, |table| {
+            indenter_block::read(table).map(Some)
+        });
+        if let (Some(place), false) = (&indenter_at, root.has(&CONTACT)) {
+            root.problems()
+                .at(place, "an indenter without a table `[contact]`")
+                .because("asks for moduli")
+                .help(
+                    "add `[contact]` with the Poisson ratio of the specimen: poisson_ratio = 0.4",
+                );
+        }
+        let contact = root.table_or(&CONTACT, None, |table| {
+            contact(table, indenter.clone().flatten(), indenter_at.is_some()).map(Some)
+        });
+        // An indenter that was refused has been reported.
+        indenter?;
         Some(Setup {
             title: title?,
             options: Options {
@@ -61,9 +57,7 @@ pub fn setup(document: &Document) -> Result<Setup, Diagnostics> {
                 contact: contact?,
             },
         })
-    })();
-    // An indenter that was refused has been reported.
-    problems.into_result(indenter.and(setup))
+    })
 }
 
 fn instrument(mut table: TableReader<'_>) -> Option<Corrections> {
@@ -87,8 +81,8 @@ fn contact(
     mut table: TableReader<'_>,
     indenter: Option<Arc<dyn Indenter>>,
     has_indenter: bool,
-    problems: &Problems,
 ) -> Option<Contact> {
+    let problems = table.problems();
     let poisson_ratio = table.value(&POISSON_RATIO);
     let (from, terms) = (table.read(&RADIUS_FROM), table.read(&AREA_FUNCTION));
     let (epsilon, bias) = (table.value(&EPSILON), table.value(&BIAS));

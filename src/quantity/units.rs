@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use super::ZERO_CELSIUS_K;
+
 /// Exponents of metre, kilogram, second, radian, cycle and kelvin.
 ///
 /// Radian and cycle are kept apart from a pure number, so that rad/s and Hz are not confused.
@@ -9,14 +11,10 @@ use std::f64::consts::PI;
 pub(super) struct Exponents(pub(super) [i32; 6]);
 
 impl Exponents {
-    const NONE: Exponents = Exponents([0; 6]);
+    pub(super) const NONE: Exponents = Exponents([0; 6]);
 
     fn plus(self, other: Exponents, times: i32) -> Exponents {
-        let mut sum = self.0;
-        for (left, right) in sum.iter_mut().zip(other.0) {
-            *left += right * times;
-        }
-        Exponents(sum)
+        Exponents(std::array::from_fn(|k| self.0[k] + other.0[k] * times))
     }
 }
 
@@ -45,92 +43,81 @@ pub(super) enum UnitProblem {
 /// A unit symbol that stands for itself.
 struct Symbol {
     text: &'static str,
-    exponents: Exponents,
-    decimal_exponent: i32,
-    multiplier: f64,
-    degrees: i32,
-    zero_k: f64,
+    unit: Unit,
     takes_prefix: bool,
 }
 
-const fn prefixable(text: &'static str, exponents: [i32; 6], decimal_exponent: i32) -> Symbol {
-    let exponents = Exponents(exponents);
+const fn prefixable(text: &'static str, exponents: [i32; 6]) -> Symbol {
     Symbol {
         text,
-        exponents,
-        decimal_exponent,
-        multiplier: 1.0,
-        degrees: 0,
-        zero_k: 0.0,
+        unit: Unit::of(exponents),
         takes_prefix: true,
     }
 }
 
+const fn without_prefix(text: &'static str, unit: Unit) -> Symbol {
+    Symbol {
+        text,
+        unit,
+        takes_prefix: false,
+    }
+}
+
 const fn time(text: &'static str, seconds: f64) -> Symbol {
-    let exponents = Exponents([0, 0, 1, 0, 0, 0]);
-    Symbol {
-        text,
-        exponents,
-        decimal_exponent: 0,
-        multiplier: seconds,
-        degrees: 0,
-        zero_k: 0.0,
-        takes_prefix: false,
-    }
+    let mut unit = Unit::of([0, 0, 1, 0, 0, 0]);
+    unit.multiplier = seconds;
+    without_prefix(text, unit)
 }
 
-const fn degree(text: &'static str) -> Symbol {
-    let exponents = Exponents([0, 0, 0, 1, 0, 0]);
-    Symbol {
-        text,
-        exponents,
-        decimal_exponent: 0,
-        multiplier: 1.0,
-        degrees: 1,
-        zero_k: 0.0,
-        takes_prefix: false,
-    }
-}
-
-const fn celsius(text: &'static str) -> Symbol {
-    Symbol {
-        text,
-        exponents: Exponents([0, 0, 0, 0, 0, 1]),
-        decimal_exponent: 0,
-        multiplier: 1.0,
-        degrees: 0,
-        zero_k: 273.15,
-        takes_prefix: false,
-    }
-}
+const GRAM: Unit = Unit {
+    decimal_exponent: -3,
+    ..Unit::of([0, 1, 0, 0, 0, 0])
+};
+const ANGSTROM: Unit = Unit {
+    decimal_exponent: -10,
+    ..Unit::of([1, 0, 0, 0, 0, 0])
+};
+const DEGREE: Unit = Unit {
+    degrees: 1,
+    ..Unit::of([0, 0, 0, 1, 0, 0])
+};
+const CELSIUS: Unit = Unit {
+    zero_k: ZERO_CELSIUS_K,
+    ..Unit::of([0, 0, 0, 0, 0, 1])
+};
 
 const SYMBOLS: [Symbol; 17] = [
-    prefixable("m", [1, 0, 0, 0, 0, 0], 0),
-    prefixable("N", [1, 1, -2, 0, 0, 0], 0),
-    prefixable("Pa", [-1, 1, -2, 0, 0, 0], 0),
-    prefixable("s", [0, 0, 1, 0, 0, 0], 0),
-    prefixable("J", [2, 1, -2, 0, 0, 0], 0),
-    prefixable("Hz", [0, 0, -1, 0, 1, 0], 0),
-    prefixable("rad", [0, 0, 0, 1, 0, 0], 0),
-    prefixable("g", [0, 1, 0, 0, 0, 0], -3),
+    prefixable("m", [1, 0, 0, 0, 0, 0]),
+    prefixable("N", [1, 1, -2, 0, 0, 0]),
+    prefixable("Pa", [-1, 1, -2, 0, 0, 0]),
+    prefixable("s", [0, 0, 1, 0, 0, 0]),
+    prefixable("J", [2, 1, -2, 0, 0, 0]),
+    prefixable("Hz", [0, 0, -1, 0, 1, 0]),
+    prefixable("rad", [0, 0, 0, 1, 0, 0]),
     Symbol {
-        text: "Å",
-        exponents: Exponents([1, 0, 0, 0, 0, 0]),
-        decimal_exponent: -10,
-        multiplier: 1.0,
-        degrees: 0,
-        zero_k: 0.0,
-        takes_prefix: false,
+        text: "g",
+        unit: GRAM,
+        takes_prefix: true,
     },
+    without_prefix("Å", ANGSTROM),
     time("min", 60.0),
     time("h", 3600.0),
     time("d", 86400.0),
-    degree("deg"),
-    degree("°"),
-    prefixable("K", [0, 0, 0, 0, 0, 1], 0),
-    celsius("°C"),
-    celsius("degC"),
+    without_prefix("deg", DEGREE),
+    without_prefix("°", DEGREE),
+    prefixable("K", [0, 0, 0, 0, 0, 1]),
+    without_prefix("°C", CELSIUS),
+    without_prefix("degC", CELSIUS),
 ];
+
+impl Symbol {
+    /// The symbol with every prefix that it takes, each as it is spelt.
+    fn spellings(&self) -> impl Iterator<Item = (&'static str, String)> {
+        let prefixes = PREFIXES.iter().map(|(prefix, _)| *prefix);
+        let taken = prefixes.filter(|prefix| self.takes_prefix || prefix.is_empty());
+        taken.map(|prefix| (prefix, format!("{prefix}{}", self.text)))
+    }
+}
 
 /// SI prefixes from femto to tera; the first of two spellings is the one that is written.
 const PREFIXES: [(&str, i32); 15] = [
@@ -195,36 +182,39 @@ pub(super) fn conversion(unknown: &str) -> Option<&'static str> {
 
 /// Every symbol of a unit with these exponents, with every prefix that it takes.
 pub(super) fn alone(exponents: Exponents) -> Vec<String> {
-    let symbols = SYMBOLS.iter().filter(|s| s.exponents == exponents);
-    let spellings = symbols.flat_map(|symbol| {
-        let prefixes = PREFIXES.iter().map(|(prefix, _)| *prefix);
-        prefixes
-            .chain(["\u{03BC}"])
-            .filter(|prefix| symbol.takes_prefix || prefix.is_empty())
-            .map(|prefix| format!("{prefix}{}", symbol.text))
-    });
-    spellings
-        .chain((exponents == Exponents([1, 0, 0, 0, 0, 0])).then(|| "\u{212B}".to_owned()))
-        .collect()
+    let symbols = SYMBOLS.iter().filter(|s| s.unit.exponents == exponents);
+    let mut all = Vec::new();
+    for symbol in symbols {
+        all.extend(symbol.spellings().map(|(_, spelling)| spelling));
+        if symbol.takes_prefix {
+            all.push(format!("\u{03BC}{}", symbol.text));
+        }
+    }
+    if exponents == ANGSTROM.exponents {
+        all.push("\u{212B}".to_owned());
+    }
+    all
 }
 
 /// The prefix of a power of ten, empty for one that has none.
 pub(super) fn prefix_symbol(power: i32) -> &'static str {
-    PREFIXES
-        .iter()
-        .find(|(_, exponent)| *exponent == power)
-        .map_or("", |(symbol, _)| symbol)
+    let known = PREFIXES.iter().find(|(_, exponent)| *exponent == power);
+    known.map_or("", |(symbol, _)| symbol)
 }
 
 impl Unit {
-    const ONE: Unit = Unit {
-        exponents: Exponents::NONE,
-        decimal_exponent: 0,
-        multiplier: 1.0,
-        divisor: 1.0,
-        degrees: 0,
-        zero_k: 0.0,
-    };
+    const ONE: Unit = Unit::of([0; 6]);
+
+    const fn of(exponents: [i32; 6]) -> Unit {
+        Unit {
+            exponents: Exponents(exponents),
+            decimal_exponent: 0,
+            multiplier: 1.0,
+            divisor: 1.0,
+            degrees: 0,
+            zero_k: 0.0,
+        }
+    }
 
     /// Reads a unit such as `mm`, `1/MPa`, `GPa s`, `rad/s`, `N/mm^2` or `Pa⁻¹`.
     pub(super) fn read(text: &str) -> Result<Unit, UnitProblem> {
@@ -254,27 +244,18 @@ impl Unit {
 
     /// One symbol with or without prefix.
     fn from_symbol(text: &str) -> Option<Unit> {
-        let exact = SYMBOLS
-            .iter()
-            .find(|symbol| symbol.text == text)
-            .map(|symbol| (symbol, 0));
-        let (symbol, power) = exact.or_else(|| {
-            SYMBOLS
-                .iter()
-                .filter(|symbol| symbol.takes_prefix)
-                .find_map(|symbol| {
-                    let prefix = text.strip_suffix(symbol.text)?;
-                    let known = PREFIXES.iter().find(|(spelling, _)| *spelling == prefix)?;
-                    Some((symbol, known.1))
-                })
-        })?;
+        let prefixed = |symbol: &Symbol| {
+            let prefix = text.strip_suffix(symbol.text)?;
+            let known = PREFIXES.iter().find(|(spelling, _)| *spelling == prefix)?;
+            Some((symbol.unit, known.1))
+        };
+        let exact = SYMBOLS.iter().find(|symbol| symbol.text == text);
+        let mut prefixable = SYMBOLS.iter().filter(|symbol| symbol.takes_prefix);
+        let (unit, power) =
+            (exact.map(|symbol| (symbol.unit, 0))).or_else(|| prefixable.find_map(prefixed))?;
         Some(Unit {
-            exponents: symbol.exponents,
-            decimal_exponent: symbol.decimal_exponent + power,
-            multiplier: symbol.multiplier,
-            divisor: 1.0,
-            degrees: symbol.degrees,
-            zero_k: symbol.zero_k,
+            decimal_exponent: unit.decimal_exponent + power,
+            ..unit
         })
     }
 
@@ -324,41 +305,33 @@ fn read_factor(text: &str) -> Result<Option<(Unit, i32, &str)>, UnitProblem> {
         return Ok(Some((Unit::ONE, 1, after)));
     }
     let is_symbol = |character: char| character.is_alphabetic() || character == '°';
-    let end = text
-        .find(|character| !is_symbol(character))
-        .unwrap_or(text.len());
-    let (symbol, after) = text.split_at(end);
+    let (symbol, after) = leading(text, is_symbol);
     if symbol.is_empty() {
         return Ok(None);
     }
     let unit = Unit::from_symbol(symbol).ok_or_else(|| UnitProblem::Unknown(symbol.to_owned()))?;
-    let Some((power, rest)) = read_power(after) else {
-        return Ok(None);
-    };
-    Ok(Some((unit, power, rest)))
+    Ok(read_power(after).map(|(power, rest)| (unit, power, rest)))
 }
 
 /// The exponent after a symbol, one if there is none; `None` if it is broken or beyond one digit.
 fn read_power(text: &str) -> Option<(i32, &str)> {
-    let (caret, after) = text
-        .strip_prefix('^')
-        .map_or((false, text), |after| (true, after));
+    let after = text.strip_prefix('^').unwrap_or(text);
     let (sign, unsigned) = match after.strip_prefix('-') {
         Some(unsigned) => (-1, unsigned),
         None => (1, after),
     };
-    let end = unsigned
-        .find(|character: char| !character.is_ascii_digit())
-        .unwrap_or(unsigned.len());
-    let (digits, rest) = unsigned.split_at(end);
+    let (digits, rest) = leading(unsigned, |character| character.is_ascii_digit());
     if digits.is_empty() {
-        return (!caret && sign == 1).then_some((1, text));
+        return (unsigned == text).then_some((1, text));
     }
-    let power = digits
-        .parse::<i32>()
-        .ok()
-        .filter(|power| (1..=9).contains(power))?;
-    Some((sign * power, rest))
+    let power: i32 = digits.parse().ok()?;
+    (1..=9).contains(&power).then_some((sign * power, rest))
+}
+
+/// The characters at the beginning of a text that are such a part, and what follows them.
+pub(super) fn leading(text: &str, is_part: impl Fn(char) -> bool) -> (&str, &str) {
+    let end = text.find(|character| !is_part(character));
+    text.split_at(end.unwrap_or(text.len()))
 }
 
 /// One spelling for everything that has several: micro, ångström, minus, dots and superscripts.
@@ -397,15 +370,11 @@ pub(super) fn suggestions(unknown: &str, expected: Exponents) -> Vec<String> {
     }
     let mut ranked: Vec<(bool, bool, String)> = Vec::new();
     for symbol in &SYMBOLS {
-        let prefixes = PREFIXES
-            .iter()
-            .filter(|(prefix, _)| symbol.takes_prefix || prefix.is_empty());
-        for (prefix, _) in prefixes.filter(|(prefix, _)| *prefix != "u") {
-            let candidate = format!("{prefix}{}", symbol.text);
+        for (_, candidate) in symbol.spellings().filter(|(prefix, _)| *prefix != "u") {
             let distance = strsim::damerau_levenshtein(&candidate.to_lowercase(), &lower);
             // One slip in three letters or more; in shorter words only the case may differ.
             if distance <= usize::from(lower.chars().count() >= 3) {
-                ranked.push((distance > 0, symbol.exponents != expected, candidate));
+                ranked.push((distance > 0, symbol.unit.exponents != expected, candidate));
             }
         }
     }

@@ -4,8 +4,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::rows::{DecimalSigns, line_at, plain_number};
 use super::text::{self, DELIMITERS};
-use super::{DecimalSigns, line_at, plain_number};
 use crate::input::diagnostic::{Diagnostics, Location, Problems, Source};
 
 /// How instruments write that a number is missing, in lower case.

@@ -1,17 +1,22 @@
 //! The kinds of value a key can have: how each is read, what messages call it, and an example of it.
 
-use std::collections::HashMap;
+mod array;
+mod scalar;
+
 use std::ops::RangeInclusive;
 
 use serde_json::{Value as Json, json};
 
 use super::Located;
-use super::limits::Limits;
+use super::reader::TableReader;
 use super::row::Rows;
 use super::similar::similar;
-use super::tree::{Node, NumberFault, Value};
+use super::tree::{Node, Table as TomlTable, Value};
+use crate::input::axis::AxisOf;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
-use crate::quantity::{self, Dimension, QuantityError};
+use crate::quantity::Dimension;
+pub(crate) use array::{Array, list, pair};
+pub(crate) use scalar::{Decided, Dependent, Scalar, number, quantity, text_definitions};
 
 /// Characters of the user's text repeated in a message.
 const MAX_QUOTED: usize = 32;
@@ -43,6 +48,32 @@ impl Spot<'_> {
             }
             Some(key) => format!("`{key} = {value}`"),
         }
+    }
+
+    /// A value with the place of the one at `node`.
+    pub(crate) fn located<T>(&self, value: T, node: &Node) -> Located<T> {
+        Located {
+            value,
+            path: self.path.to_owned(),
+            location: node.location.clone(),
+        }
+    }
+
+    /// What is read of the table that the value at `node` is, or everything that is wrong with it.
+    pub(crate) fn read_table<T>(
+        &self,
+        table: &TomlTable,
+        node: &Node,
+        read: impl FnOnce(TableReader<'_>) -> Option<T>,
+    ) -> Result<T, Diagnostics> {
+        let (problems, place) = (Problems::new(), node.location.clone());
+        let value = read(TableReader::new(
+            table,
+            place,
+            self.path.to_owned(),
+            &problems,
+        ));
+        problems.into_result(value)
     }
 }
 
@@ -77,24 +108,9 @@ pub(crate) trait Describe: Sync {
         None
     }
 
-    /// Whether its keys are written behind a dot, those of [`Self::dotted`].
-    fn has_dotted_keys(&self) -> bool {
-        false
-    }
-
-    /// Parts of its JSON Schema that are referred to by these names.
-    fn definitions(&self) -> serde_json::Map<String, Json> {
-        serde_json::Map::new()
-    }
-
-    /// Keys with dots that may be written, in quotes, in place of a table below, and what a JSON Schema says of each.
-    fn dotted(&self) -> serde_json::Map<String, Json> {
-        serde_json::Map::new()
-    }
-
-    /// The same of keys that lead into tables and lists, by the pattern of each.
-    fn dotted_patterns(&self) -> serde_json::Map<String, Json> {
-        serde_json::Map::new()
+    /// The axes of a sweep over numbers of a block, where the value is those.
+    fn axes(&self) -> Option<&AxisOf> {
+        None
     }
 }
 
@@ -112,6 +128,18 @@ pub(crate) trait Kind: Describe {
     fn wrong_type(&self, node: &Node, spot: &Spot<'_>) -> Diagnostic {
         must_be(spot, &self.expected(), node).because(format!("found {}", node.describe()))
     }
+
+    /// What to write, with an example.
+    fn advice(&self, node: &Node, spot: &Spot<'_>) -> String {
+        let written = spot.write(&node.location, &self.example());
+        format!("write {}, such as {written}", self.expected())
+    }
+
+    /// The same of a value of another type, with what to write.
+    fn refused(&self, node: &Node, spot: &Spot<'_>) -> Diagnostics {
+        let help = self.advice(node, spot);
+        self.wrong_type(node, spot).help(help).into()
+    }
 }
 
 fn must_be(spot: &Spot<'_>, expected: &str, node: &Node) -> Diagnostic {
@@ -126,297 +154,6 @@ fn quoted(text: &str) -> String {
         shown.push('…');
     }
     format!("\"{}\"", shown.escape_debug())
-}
-
-/// A number: bare, or a quantity, which is a string with a unit or a bare number in SI units and is read as its SI value.
-#[derive(Clone, Copy)]
-pub(crate) struct Scalar {
-    dimension: Option<Dimension>,
-    limits: Limits,
-    /// In place of that of the dimension, as TOML.
-    example: Option<&'static str>,
-}
-
-/// A quantity of any size.
-pub(crate) const fn quantity(dimension: Dimension) -> Scalar {
-    Scalar {
-        dimension: Some(dimension),
-        limits: Limits::NONE,
-        example: None,
-    }
-}
-
-/// A bare number of any size, with an example.
-pub(crate) const fn number(example: &'static str) -> Scalar {
-    Scalar {
-        dimension: None,
-        limits: Limits::NONE,
-        example: Some(example),
-    }
-}
-
-impl Scalar {
-    /// The same within limits.
-    pub(crate) const fn within(self, limits: Limits) -> Self {
-        Self { limits, ..self }
-    }
-
-    pub(crate) const fn above_zero(self) -> Self {
-        self.within(Limits::ABOVE_ZERO)
-    }
-
-    pub(crate) const fn not_negative(self) -> Self {
-        self.within(Limits::NOT_NEGATIVE)
-    }
-
-    /// The same with what to write in place of a value beyond the limits.
-    pub(crate) const fn or_else(self, instead: &'static str) -> Self {
-        self.within(self.limits.or_else(instead))
-    }
-
-    /// The same with another example than that of the dimension, as TOML.
-    pub(crate) const fn such_as(self, example: &'static str) -> Self {
-        Self {
-            example: Some(example),
-            ..self
-        }
-    }
-
-    /// `None` for a bare number.
-    pub(crate) fn dimension(&self) -> Option<Dimension> {
-        self.dimension
-    }
-
-    fn help(&self, node: &Node, spot: &Spot<'_>) -> String {
-        if self.dimension.is_none() {
-            return such_as(self, node, spot);
-        }
-        let written = spot.write(&node.location, &self.example());
-        format!("write a quantity with its unit, such as {written}")
-    }
-
-    fn number(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostic> {
-        match (&node.value, self.dimension) {
-            (Value::Integer(_) | Value::Float(_), _) => finite(self, node, spot),
-            (Value::Text(text), Some(dimension)) => parse(text, dimension).map_err(|error| {
-                must_be(spot, &self.expected(), node)
-                    .because(error.to_string())
-                    .help(self.help(node, spot))
-            }),
-            (Value::Text(text), None) => {
-                let diagnostic = self.wrong_type(node, spot);
-                Err(match text.trim().parse::<f64>() {
-                    Ok(number) if number.is_finite() => {
-                        let written = spot.write(&node.location, &shortest(number));
-                        diagnostic.help(format!("write it without quotes: {written}"))
-                    }
-                    _ => diagnostic.help(self.help(node, spot)),
-                })
-            }
-            _ => Err(self.wrong_type(node, spot).help(self.help(node, spot))),
-        }
-    }
-}
-
-/// A quantity with its unit. An angular frequency may be given in Hz and a frequency in rad/s: the unit tells which is meant.
-fn parse(text: &str, dimension: Dimension) -> Result<f64, QuantityError> {
-    use std::f64::consts::TAU;
-    quantity::parse(text, dimension).or_else(|error| match dimension {
-        Dimension::AngularFrequency => quantity::parse(text, Dimension::Frequency)
-            .map(|hertz| hertz * TAU)
-            .map_err(|_| error),
-        Dimension::Frequency => quantity::parse(text, Dimension::AngularFrequency)
-            .map(|angular| angular / TAU)
-            .map_err(|_| error),
-        _ => Err(error),
-    })
-}
-
-impl Describe for Scalar {
-    fn scalar(&self, _controlled: Dimension) -> Option<Scalar> {
-        Some(*self)
-    }
-
-    fn expected(&self) -> String {
-        let limits = self.limits.qualify(self.dimension);
-        match self.dimension {
-            Some(dimension) => format!("{dimension}{limits}"),
-            None => format!("a number{limits}"),
-        }
-    }
-
-    fn example(&self) -> String {
-        match (self.example, self.dimension) {
-            (Some(example), _) => example.to_owned(),
-            (None, Some(dimension)) => format!("\"{}\"", dimension.example()),
-            (None, None) => "1.0".to_owned(),
-        }
-    }
-
-    fn schema(&self) -> Json {
-        let mut number = self.limits.schema();
-        number["type"] = json!("number");
-        let Some(dimension) = self.dimension else {
-            return number;
-        };
-        let mut texts = vec![dimension];
-        texts.extend(match dimension {
-            Dimension::AngularFrequency => Some(Dimension::Frequency),
-            Dimension::Frequency => Some(Dimension::AngularFrequency),
-            _ => None,
-        });
-        let text = |dimension: Dimension| {
-            let name = text_name(dimension, self.limits.allow_negative());
-            json!({ "$ref": format!("#/$defs/{name}") })
-        };
-        let mut any: Vec<Json> = texts.into_iter().map(text).collect();
-        any.push(number);
-        json!({ "anyOf": any })
-    }
-}
-
-impl Kind for Scalar {
-    type Value = f64;
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostics> {
-        let value = self.number(node, spot)?;
-        if self.limits.contains(value) {
-            return Ok(value);
-        }
-        let message = format!("`{}` {}", spot.path, self.limits.rule(self.dimension));
-        let help = match self.limits.instead() {
-            "" => such_as(self, node, spot),
-            instead => instead.to_owned(),
-        };
-        Err(Diagnostic::at(&node.location, message).help(help).into())
-    }
-
-    fn written(&self, value: &f64) -> Json {
-        match self.dimension {
-            Some(dimension) => json!(quantity::format_si(*value, dimension)),
-            None => json!(value),
-        }
-    }
-}
-
-/// What a JSON Schema calls the texts of a dimension.
-fn text_name(dimension: Dimension, allow_negative: bool) -> String {
-    let words = dimension.to_string();
-    let name = words
-        .split_once(' ')
-        .map_or("", |(_, name)| name)
-        .replace(' ', "-");
-    match allow_negative {
-        true => name,
-        false => format!("{name}-not-negative"),
-    }
-}
-
-/// Definitions of the texts of every dimension, for a JSON Schema that refers to them.
-pub(crate) fn text_definitions() -> Vec<(String, Json)> {
-    let all = Dimension::ALL
-        .into_iter()
-        .flat_map(|d| [(d, true), (d, false)]);
-    all.map(|(dimension, allow_negative)| {
-        let definition = json!({
-            "type": "string",
-            "pattern": quantity::pattern(dimension, allow_negative),
-            "description": format!("{dimension} with its unit, such as \"{}\"", dimension.example()),
-        });
-        (text_name(dimension, allow_negative), definition)
-    })
-    .collect()
-}
-
-/// A quantity whose dimension another key decides: one of these.
-#[derive(Clone, Copy)]
-pub(crate) struct Dependent {
-    pub(crate) dimensions: &'static [Dimension],
-    pub(crate) limits: Limits,
-}
-
-/// A kind of which a part is decided by another key.
-pub(crate) trait Decided {
-    type Kind: Kind;
-
-    /// The kind, once the dimension is known.
-    fn of(&self, dimension: Dimension) -> Self::Kind;
-}
-
-impl Decided for Dependent {
-    type Kind = Scalar;
-
-    fn of(&self, dimension: Dimension) -> Scalar {
-        quantity(dimension).within(self.limits)
-    }
-}
-
-impl Describe for Dependent {
-    fn scalar(&self, controlled: Dimension) -> Option<Scalar> {
-        Some(self.of(controlled))
-    }
-
-    fn expected(&self) -> String {
-        let names = self.dimensions.iter().map(Dimension::to_string);
-        let names: Vec<String> = names.collect();
-        format!("{}{}", names.join(" or "), self.limits.qualify(None))
-    }
-
-    fn example(&self) -> String {
-        self.of(self.dimensions[0]).example()
-    }
-
-    fn schema(&self) -> Json {
-        let dimensions = self.dimensions.iter();
-        let ways: Vec<Json> = dimensions
-            .map(|dimension| self.of(*dimension).schema())
-            .collect();
-        json!({ "anyOf": ways })
-    }
-}
-
-fn such_as(kind: &impl Kind, node: &Node, spot: &Spot<'_>) -> String {
-    let written = spot.write(&node.location, &kind.example());
-    format!("write {}, such as {written}", kind.expected())
-}
-
-/// A number as TOML reads it back.
-fn shortest(number: f64) -> String {
-    // Debug keeps the decimal point and switches to an exponent where Display would write out zeros.
-    format!("{number:?}")
-}
-
-/// The number at `node`, which holds an integer or a float.
-fn finite(kind: &impl Kind, node: &Node, spot: &Spot<'_>) -> Result<f64, Diagnostic> {
-    let number = match &node.value {
-        Value::Integer(integer) => integer.map(|integer| integer as f64),
-        Value::Float(float) => *float,
-        _ => return Err(kind.wrong_type(node, spot)),
-    };
-    number.map_err(|fault| number_fault(fault, kind, node, spot))
-}
-
-fn number_fault(fault: NumberFault, kind: &impl Kind, node: &Node, spot: &Spot<'_>) -> Diagnostic {
-    let example = such_as(kind, node, spot);
-    let (because, help) = match fault {
-        NumberFault::NotANumber => ("`nan` is not a number", example),
-        NumberFault::Infinite => ("not finite", example),
-        NumberFault::TooLarge => (
-            "beyond the largest number, 1.8e308",
-            format!("check the exponent; {example}"),
-        ),
-        NumberFault::TooSmall => (
-            "below the smallest number, 4.9e-324",
-            format!("check the exponent, or write `0.0`; {example}"),
-        ),
-        NumberFault::TooManyDigits => (
-            "an integer of more than 64 bits",
-            format!("write it with an exponent; {example}"),
-        ),
-    };
-    must_be(spot, &kind.expected(), node)
-        .because(because)
-        .help(help)
 }
 
 /// An integer within a range.
@@ -453,18 +190,16 @@ impl Kind for Integer {
     }
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<usize, Diagnostics> {
-        let probably = match &node.value {
+        let fits = |integer: &usize| self.0.contains(integer);
+        let probably: Option<usize> = match &node.value {
             Value::Integer(integer) => {
-                let within = integer
-                    .ok()
-                    .and_then(|integer| usize::try_from(integer).ok());
-                return match within.filter(|integer| self.0.contains(integer)) {
-                    Some(integer) => Ok(integer),
-                    None => Err(must_be(spot, &self.expected(), node)
+                let integer = integer.ok().and_then(|integer| integer.try_into().ok());
+                return integer.filter(fits).ok_or_else(|| {
+                    must_be(spot, &self.expected(), node)
                         .because("out of this range")
-                        .help(such_as(self, node, spot))
-                        .into()),
-                };
+                        .help(self.advice(node, spot))
+                        .into()
+                });
             }
             // 2^53: up to here every integer is a float, so the cast keeps the value.
             Value::Float(Ok(float)) if float.fract() == 0.0 && (0.0..9e15).contains(float) => {
@@ -473,15 +208,14 @@ impl Kind for Integer {
             Value::Text(text) => text.trim().parse().ok(),
             _ => None,
         };
-        let diagnostic = self.wrong_type(node, spot);
-        let help = match probably.filter(|integer| self.0.contains(integer)) {
+        let help = match probably.filter(fits) {
             Some(integer) => {
                 let written = spot.write(&node.location, &integer.to_string());
                 format!("write {written}")
             }
-            None => such_as(self, node, spot),
+            None => self.advice(node, spot),
         };
-        Err(diagnostic.help(help).into())
+        Err(self.wrong_type(node, spot).help(help).into())
     }
 }
 
@@ -561,7 +295,7 @@ impl Kind for Text {
                 let in_quotes = spot.write(&node.location, &format!("\"{written}\""));
                 format!("write it in quotes: {in_quotes}")
             }
-            _ => such_as(self, node, spot),
+            _ => self.advice(node, spot),
         };
         Err(self.wrong_type(node, spot).help(help).into())
     }
@@ -608,8 +342,7 @@ impl<T: Clone + PartialEq + Sync> Kind for Choice<T> {
 
     fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<T, Diagnostics> {
         let Value::Text(text) = &node.value else {
-            let help = such_as(self, node, spot);
-            return Err(self.wrong_type(node, spot).help(help).into());
+            return Err(self.refused(node, spot));
         };
         if let Some((_, value)) = self.0.iter().find(|(word, _)| word == text) {
             return Ok(value.clone());
@@ -630,169 +363,6 @@ impl<T: Clone + PartialEq + Sync> Kind for Choice<T> {
             }
         };
         Err(diagnostic.into())
-    }
-}
-
-/// A list of values of one kind, each with its own place; a single value is a list of one.
-#[derive(Clone)]
-pub(crate) struct Array<K> {
-    pub(crate) item: K,
-    pub(crate) entries: RangeInclusive<usize>,
-    /// Whether an entry may be there twice.
-    pub(crate) repeats: bool,
-    /// What to do about entries too few or too many.
-    pub(crate) instead: &'static str,
-}
-
-/// A list of any length.
-pub(crate) const fn list<K>(item: K) -> Array<K> {
-    Array {
-        item,
-        entries: 0..=usize::MAX,
-        repeats: true,
-        instead: "",
-    }
-}
-
-/// Exactly two values, and what to write in place of another number of them.
-pub(crate) const fn pair<K: Copy>(item: K, instead: &'static str) -> Array<K> {
-    Array {
-        item,
-        entries: 2..=2,
-        repeats: true,
-        instead,
-    }
-}
-
-impl<K: Kind> Array<K> {
-    fn check(&self, values: &[Located<K::Value>], node: &Node, spot: &Spot<'_>, found: &Problems) {
-        let (least, most) = (*self.entries.start(), *self.entries.end());
-        if !self.entries.contains(&values.len()) {
-            let allowed = match (least, most) {
-                (least, usize::MAX) => format!("at least {least}"),
-                (least, most) if least == most => format!("exactly {most}"),
-                (0, most) => format!("at most {most}"),
-                (least, most) => format!("{least} to {most}"),
-            };
-            let message = format!(
-                "`{}` has {} entries, where {allowed} are allowed",
-                spot.path,
-                values.len()
-            );
-            let problem = found.at(&node.location, message);
-            if !self.instead.is_empty() {
-                problem.help(self.instead);
-            }
-        }
-        if self.repeats {
-            return;
-        }
-        let mut known: HashMap<String, &Located<K::Value>> = HashMap::new();
-        for value in values {
-            let written = self.item.written(&value.value).to_string();
-            if let Some(other) = known.insert(written, value) {
-                found
-                    .at(value, format!("`{}` is listed twice", value.path))
-                    .label(other, "the other one")
-                    .help("write every entry once");
-            }
-        }
-    }
-}
-
-impl<K: Describe> Describe for Array<K> {
-    fn expected(&self) -> String {
-        match *self.entries.end() {
-            2 => format!("an array of two, each {}", self.item.expected()),
-            _ => format!("an array, each item {}", self.item.expected()),
-        }
-    }
-
-    fn example(&self) -> String {
-        let item = self.item.example();
-        match *self.entries.end() {
-            2 => format!("[{item}, {item}]"),
-            _ => format!("[{item}]"),
-        }
-    }
-
-    fn schema(&self) -> Json {
-        let mut array = json!({ "type": "array", "items": self.item.schema() });
-        array["minItems"] = json!(self.entries.start());
-        if *self.entries.end() < usize::MAX {
-            array["maxItems"] = json!(self.entries.end());
-        }
-        if !self.repeats {
-            array["uniqueItems"] = json!(true);
-        }
-        match self.entries.contains(&1) {
-            true => json!({ "anyOf": [array, self.item.schema()] }),
-            false => array,
-        }
-    }
-
-    fn words(&self) -> Vec<&'static str> {
-        self.item.words()
-    }
-}
-
-impl<K: Kind> Kind for Array<K> {
-    type Value = Vec<Located<K::Value>>;
-
-    fn written(&self, values: &Self::Value) -> Json {
-        let items = values
-            .iter()
-            .map(|located| self.item.written(&located.value));
-        items.collect()
-    }
-
-    fn convert(&self, node: &Node, spot: &Spot<'_>) -> Result<Self::Value, Diagnostics> {
-        let (found, mut values) = (Problems::new(), Vec::new());
-        match &node.value {
-            Value::Array(items) => {
-                for (index, item) in items.iter().enumerate() {
-                    let path = format!("{}[{index}]", spot.path);
-                    let spot = Spot {
-                        path: &path,
-                        key: None,
-                    };
-                    match self.item.convert(item, &spot) {
-                        Ok(value) => values.push(Located {
-                            value,
-                            location: item.location.clone(),
-                            path,
-                        }),
-                        Err(diagnostics) => found.extend(diagnostics),
-                    }
-                }
-            }
-            Value::Text(_) | Value::Integer(_) | Value::Float(_) => values.push(Located {
-                value: self.item.convert(node, spot)?,
-                path: spot.path.to_owned(),
-                location: node.location.clone(),
-            }),
-            _ => {
-                let help = such_as(self, node, spot);
-                return Err(self.wrong_type(node, spot).help(help).into());
-            }
-        }
-        if found.is_empty() {
-            self.check(&values, node, spot, &found);
-        }
-        found.into_result(Some(values))
-    }
-}
-
-impl Decided for Array<Dependent> {
-    type Kind = Array<Scalar>;
-
-    fn of(&self, dimension: Dimension) -> Array<Scalar> {
-        Array {
-            item: self.item.of(dimension),
-            entries: self.entries.clone(),
-            repeats: self.repeats,
-            instead: self.instead,
-        }
     }
 }
 

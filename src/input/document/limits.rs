@@ -1,6 +1,6 @@
 //! The limits of a number, and how they are said.
 
-use std::ops::{Bound, RangeBounds};
+use std::ops::{Bound, Range, RangeBounds};
 
 use serde_json::{Value as Json, json};
 
@@ -31,6 +31,11 @@ impl Limits {
     /// From `low` to `high`, both allowed.
     pub(crate) const fn between(low: f64, high: f64) -> Self {
         Self::new(Bound::Included(low), Bound::Included(high))
+    }
+
+    /// Those of a range.
+    pub(crate) const fn of(range: Range<f64>) -> Self {
+        Self::new(Bound::Included(range.start), Bound::Excluded(range.end))
     }
 
     pub(crate) const fn or_else(self, instead: &'static str) -> Self {

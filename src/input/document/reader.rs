@@ -1,5 +1,7 @@
 //! Reading a table key by key: typed values, and a report of everything that is wrong.
 
+use std::path::Path;
+
 use super::Located;
 use super::kind::{self, Describe, Kind, Spot, Tables};
 use super::row::{AnyRow, Optional, Read, Required, Row};
@@ -16,16 +18,12 @@ pub(crate) struct TableReader<'a> {
     location: Location,
     /// Full dotted key, empty at the top of the file.
     path: String,
+    /// Where paths to files start from.
+    folder: &'a Path,
     problems: &'a Problems,
     asked: Vec<String>,
-    missing: Vec<Missing<'a>>,
-}
-
-/// A report of absent keys: taken back when an unknown key turns out to be one of them, misspelt.
-#[derive(Debug)]
-struct Missing<'a> {
-    keys: Vec<String>,
-    reported: Reported<'a>,
+    /// Reports of absent keys: taken back when an unknown key turns out to be one of them, misspelt.
+    missing: Vec<(Vec<String>, Reported<'a>)>,
 }
 
 impl AsRef<Location> for TableReader<'_> {
@@ -46,10 +44,26 @@ impl<'a> TableReader<'a> {
             table,
             location,
             path,
+            folder: Path::new(""),
             problems,
             asked: Vec::new(),
             missing: Vec::new(),
         }
+    }
+
+    /// The same, in whose document paths to files start from this folder.
+    pub(crate) fn in_folder(self, folder: &'a Path) -> Self {
+        Self { folder, ..self }
+    }
+
+    /// Where paths to files start from.
+    pub(crate) fn folder(&self) -> &'a Path {
+        self.folder
+    }
+
+    /// Where problems are reported.
+    pub(crate) fn problems(&self) -> &'a Problems {
+        self.problems
     }
 
     /// Whether a key is present, with a right value or a wrong one. Counts as asking for it.
@@ -102,10 +116,10 @@ impl<'a> TableReader<'a> {
             }
             let meant = similar(key, &asked);
             self.problems.push(self.unknown(key, entry, meant, &asked));
-            let explains =
-                |missing: &Missing| missing.keys.iter().any(|absent| meant == Some(absent));
-            if let Some(index) = self.missing.iter().position(explains) {
-                self.missing.swap_remove(index).reported.retract();
+            let is_meant = |absent: &String| meant == Some(absent);
+            let mut missing = self.missing.iter();
+            if let Some(index) = missing.position(|(keys, _)| keys.iter().any(is_meant)) {
+                self.missing.swap_remove(index).1.retract();
             }
         }
     }
@@ -141,11 +155,8 @@ impl<'a> TableReader<'a> {
     }
 
     fn report_missing(&mut self, keys: &[&str], problem: Diagnostic) {
-        let missing = Missing {
-            keys: keys.iter().map(|key| (*key).to_owned()).collect(),
-            reported: self.problems.push(problem),
-        };
-        self.missing.push(missing);
+        let keys = keys.iter().map(|key| (*key).to_owned()).collect();
+        self.missing.push((keys, self.problems.push(problem)));
     }
 }
 
@@ -176,10 +187,8 @@ impl<'a> TableReader<'a> {
 
     /// The table under a key as it was parsed, where there is one. Counts as asking for it.
     pub(crate) fn parsed(&mut self, row: &Row<kind::Table, Required>) -> Option<&'a Table> {
-        match &self.find(row.name)?.node.value {
-            Value::Table(table) => Some(table),
-            _ => None,
-        }
+        self.find(row.name)?;
+        self.table.table(row.name)
     }
 
     /// What a table that may be left out holds, or what counts without it.
@@ -199,16 +208,21 @@ impl<'a> TableReader<'a> {
     fn below(&mut self, key: &str) -> Option<TableReader<'a>> {
         let node = &self.find(key)?.node;
         let path = join(&self.path, key);
+        let header = header(&path);
+        let help = format!("write `{header}` on a line of its own, with its keys below");
+        self.as_table(node, path, &help)
+    }
+
+    /// A reader of what stands here, which must be a table.
+    fn as_table(&self, node: &'a Node, path: String, help: &str) -> Option<TableReader<'a>> {
         if let Value::Table(table) = &node.value {
-            return Some(Self::new(table, node.location.clone(), path, self.problems));
+            let reader = Self::new(table, node.location.clone(), path, self.problems);
+            return Some(reader.in_folder(self.folder));
         }
         self.problems
             .at(&node.location, format!("`{path}` must be a table"))
             .because(format!("found {}", node.describe()))
-            .help(format!(
-                "write `{}` on a line of its own, with its keys below",
-                header(&path)
-            ));
+            .help(help);
         None
     }
 
@@ -270,26 +284,15 @@ impl<'a> TableReader<'a> {
                 .help(format!("give at most {}{}", kind.most, kind.instead));
             return None;
         }
-        let readers = items.iter().enumerate();
-        let readers = readers.map(|(index, item)| self.item(item, format!("{path}[{index}]")));
+        let readers = items.iter().enumerate().map(|(index, item)| {
+            self.as_table(item, format!("{path}[{index}]"), "write `{ key = value }`")
+        });
         let read: Vec<Option<T>> = readers.map(|reader| reader.and_then(&mut read)).collect();
         Some(Located {
             value: read.into_iter().collect::<Option<_>>()?,
             path,
             location: node.location.clone(),
         })
-    }
-
-    /// A reader of one item of an array, which must be a table.
-    fn item(&self, item: &'a Node, path: String) -> Option<TableReader<'a>> {
-        if let Value::Table(table) = &item.value {
-            return Some(Self::new(table, item.location.clone(), path, self.problems));
-        }
-        self.problems
-            .at(&item.location, format!("`{path}` must be a table"))
-            .because(format!("found {}", item.describe()))
-            .help("write `{ key = value }`");
-        None
     }
 
     /// Reports a key that must be there and is not.
@@ -322,11 +325,7 @@ impl<'a> TableReader<'a> {
             key: Some(row.name),
         };
         match row.kind.convert(&entry.node, &spot) {
-            Ok(value) => Some(Some(Located {
-                value,
-                path,
-                location: entry.node.location.clone(),
-            })),
+            Ok(value) => Some(Some(spot.located(value, &entry.node))),
             Err(diagnostics) => {
                 self.problems.extend(diagnostics);
                 None
@@ -335,7 +334,7 @@ impl<'a> TableReader<'a> {
     }
 
     /// A value that counts because the key is absent: its place is the table.
-    pub(super) fn in_place_of<T>(&self, key: &str, value: T) -> Located<T> {
+    pub(in crate::input) fn in_place_of<T>(&self, key: &str, value: T) -> Located<T> {
         Located {
             value,
             path: join(&self.path, key),

@@ -176,7 +176,7 @@ pub(crate) enum Others {
     /// Those that belong to the word under a key.
     ByWord(
         &'static dyn AnyRow,
-        fn() -> Vec<(&'static str, &'static Rows)>,
+        &'static [(&'static str, &'static Rows)],
     ),
 }
 
@@ -203,7 +203,7 @@ impl Rows {
                 lists.iter().map(branch).collect()
             }
             Others::ByWord(row, words) => {
-                let with = |(word, rows): (&'static str, &'static Rows)| {
+                let with = |(word, rows): &(&'static str, &'static Rows)| {
                     let mut inner = rows.branches();
                     if inner.is_empty() {
                         inner.push(Branch {
@@ -213,13 +213,13 @@ impl Rows {
                         });
                     }
                     for branch in &mut inner {
-                        branch.decided_by.insert(0, (row.name(), Some(word)));
+                        branch.decided_by.insert(0, (row.name(), Some(*word)));
                         branch.means = rows.means;
                         branch.keys.splice(0..0, rows.keys.iter().copied());
                     }
                     inner
                 };
-                words().into_iter().flat_map(with).collect()
+                words.iter().flat_map(with).collect()
             }
         }
     }
@@ -325,8 +325,10 @@ fn object(keys: &[&dyn AnyRow], decided_by: &[(&str, Option<&str>)]) -> Json {
             required.push(row.name());
         }
         properties.insert(row.name().to_owned(), schema);
-        properties.extend(row.kind().dotted());
-        patterns.extend(row.kind().dotted_patterns());
+        if let Some(axes) = row.kind().axes() {
+            properties.extend(axes.dotted());
+            patterns.extend(axes.dotted_patterns());
+        }
     }
     for (key, word) in decided_by {
         if let Some(word) = word {

@@ -4,20 +4,19 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use toml::de::Error;
+use toml_parser::lexer::Token;
+use toml_parser::parser::{
+    Event, EventKind, EventReceiver, RecursionGuard, parse_document, parse_value,
+};
+use toml_parser::{ErrorSink, Span};
 
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Location, MAX_SHOWN, Source};
 
 /// Bytes of a value up to which it is repeated in quotes as help.
 const MAX_MENDED: usize = 60;
 
-/// What `toml` says of a key that is already there.
-const DUPLICATE: &str = "duplicate key";
-
-/// What `toml` says of a value that is a bare word, or of none at all.
-const UNQUOTED: &str = "string values must be quoted";
-
-/// What `toml` says of a bare word that begins like `nan` or `inf`.
-const NO_FLOAT: &str = "invalid float";
+/// Tables and arrays within one another that `toml` follows.
+const MAX_DEPTH: u32 = 80;
 
 /// Quotation marks of text processors, which TOML does not know.
 pub(in crate::input) const CURLY: [char; 8] = ['“', '”', '„', '‟', '‘', '’', '«', '»'];
@@ -25,38 +24,100 @@ pub(in crate::input) const CURLY: [char; 8] = ['“', '”', '„', '‟', '‘'
 /// What other languages write where there is no value.
 const NO_VALUE: [&str; 5] = ["none", "null", "nil", "na", "undefined"];
 
-/// One error of `toml`, as far as it is needed here.
-struct Fault<'a> {
-    description: &'a str,
-    expected: Option<&'a str>,
-    /// Absent for the error that keys are too deep.
-    span: Option<Range<usize>>,
+/// A text as the grammar of TOML cuts it, whatever is wrong with it.
+struct Pieces(Vec<Event>);
+
+/// What stands at the place of an error.
+#[derive(Clone, Copy, PartialEq)]
+enum At {
+    /// A key in itself right, which is there already.
+    Key,
+    /// A value left out.
+    NoValue,
+    /// A value that is a bare word.
+    Word,
+    Other,
 }
 
-impl Fault<'_> {
-    fn start(&self) -> usize {
-        self.span.as_ref().map_or(0, |span| span.start)
+/// An array or inline table around a place.
+struct Container {
+    is_array: bool,
+    /// Whether it is closed nowhere, so that what follows is read wrongly.
+    is_left_open: bool,
+}
+
+impl Pieces {
+    fn of(text: &str, parse: fn(&[Token], &mut dyn EventReceiver, &mut dyn ErrorSink)) -> Self {
+        let tokens = toml_parser::Source::new(text).lex().into_vec();
+        let mut events = Vec::new();
+        let mut receiver = RecursionGuard::new(&mut events, MAX_DEPTH);
+        parse(&tokens, &mut receiver, &mut ());
+        Self(events)
+    }
+
+    fn at(&self, span: &Range<usize>, written: &str) -> At {
+        let first = (self.0).partition_point(|event| event.span().start() < span.start);
+        let here = self.0.iter().skip(first);
+        let mut here = here.take_while(|event| event.span().start() == span.start);
+        let is_whole = |of: Span| of.end() == span.end;
+        let is_sign = |c: char| c.is_ascii_digit() || "+-_.:".contains(c);
+        let bare = |c: char| c.is_ascii_alphanumeric() || "-_".contains(c);
+        match here.find_map(|event| is_whole(event.span()).then_some(event.kind())) {
+            Some(EventKind::SimpleKey) if written.starts_with(['"', '\'']) => At::Key,
+            Some(EventKind::SimpleKey) if written.chars().all(bare) => At::Key,
+            Some(EventKind::Scalar) if written.is_empty() => At::NoValue,
+            Some(EventKind::Scalar) => match written.to_ascii_lowercase().as_str() {
+                "true" | "false" => At::Other,
+                number if number.chars().all(is_sign) => At::Other,
+                _ => At::Word,
+            },
+            _ => At::Other,
+        }
+    }
+
+    /// The innermost array or inline table around a place.
+    fn around(&self, position: usize) -> Option<Container> {
+        let mut open: Vec<&Event> = Vec::new();
+        for event in &self.0 {
+            match event.kind() {
+                EventKind::ArrayOpen | EventKind::InlineTableOpen => open.push(event),
+                EventKind::ArrayClose | EventKind::InlineTableClose => {
+                    let opened = open.pop()?;
+                    if opened.span().start() < position && event.span().end() >= position {
+                        return Some(Container {
+                            is_array: opened.kind() == EventKind::ArrayOpen,
+                            is_left_open: event.span().is_empty(),
+                        });
+                    }
+                }
+                _ => {}
+            }
+        }
+        None
     }
 }
 
 /// Every error that stands for itself: one for a line, none that only follow from an earlier one.
 pub(super) fn explain_all(source: &Arc<Source>, errors: &[Error]) -> Diagnostics {
     let text = source.text();
-    let mut faults: Vec<Fault> = errors.iter().map(|error| fault(error, 0)).collect();
-    faults.sort_by_key(Fault::start);
+    let pieces = Pieces::of(text, parse_document);
+    let mut errors: Vec<(&Error, Range<usize>)> = (errors.iter())
+        .map(|error| (error, error.span().unwrap_or_default()))
+        .collect();
+    errors.sort_by_key(|(_, span)| span.start);
     let mut told = Vec::new();
     let mut omitted = 0;
     let mut line = 0..0;
     let mut told_line = None;
     let mut in_repeated_table = false;
-    for fault in &faults {
-        if told.is_empty() || fault.start() > line.end {
-            line = line_around(text, fault.start());
+    for (error, span) in errors {
+        if told.is_empty() || span.start > line.end {
+            line = line_around(text, span.start);
         }
+        let at = pieces.at(&span, text.get(span.clone()).unwrap_or_default());
         let is_header = text[line.clone()].trim_start().starts_with('[');
-        let is_duplicate = fault.description == DUPLICATE;
-        if is_header || !is_duplicate {
-            in_repeated_table = is_header && is_duplicate;
+        if is_header || at != At::Key {
+            in_repeated_table = is_header && at == At::Key;
         }
         // Keys written again below a header written again follow from the header.
         if told_line == Some(line.end) || (in_repeated_table && !is_header) {
@@ -64,12 +125,13 @@ pub(super) fn explain_all(source: &Arc<Source>, errors: &[Error]) -> Diagnostics
         }
         told_line = Some(line.end);
         // Explaining looks through the file, which would take long for a great many errors.
-        if told.len() < MAX_SHOWN {
-            told.push(explain(source, fault));
-        } else {
+        if told.len() >= MAX_SHOWN {
             omitted += 1;
+            continue;
         }
-        if leads_astray(fault) {
+        told.push(explain(source, error, &pieces, 0));
+        let around = pieces.around(span.start);
+        if at == At::Other && around.is_some_and(|around| around.is_left_open) {
             break;
         }
     }
@@ -82,53 +144,55 @@ pub(in crate::input) fn explain_value(
     error: &Error,
     offset: usize,
 ) -> Diagnostic {
-    explain(source, &fault(error, offset))
+    let value = source.text().get(offset..).unwrap_or_default();
+    let pieces = Pieces::of(value, parse_value);
+    explain(source, error, &pieces, offset)
 }
 
-fn fault(error: &Error, offset: usize) -> Fault<'_> {
-    let (description, expected) = match error.message().split_once(", expected ") {
-        Some((description, "nothing")) => (description, None),
-        Some((description, expected)) => (description, Some(expected)),
+/// One error of the text that begins at `offset`, and of which these are the pieces.
+fn explain(source: &Arc<Source>, error: &Error, pieces: &Pieces, offset: usize) -> Diagnostic {
+    let (what, expected) = match error.message().split_once(", expected ") {
+        Some((what, "nothing")) => (what, None),
+        Some((what, expected)) => (what, Some(expected)),
         None => (error.message(), None),
     };
-    Fault {
-        description,
-        expected,
-        span: error
-            .span()
-            .map(|span| span.start + offset..span.end + offset),
-    }
-}
-
-/// Whether what follows is read wrongly because of this error: an array or string left open.
-fn leads_astray(fault: &Fault<'_>) -> bool {
-    ["array", "inline table", "multi-line"]
-        .iter()
-        .any(|word| fault.description.contains(word))
-}
-
-fn explain(source: &Arc<Source>, fault: &Fault<'_>) -> Diagnostic {
-    let Some(span) = fault.span.clone() else {
-        let message = format!("invalid TOML: {}", fault.description);
-        return Diagnostic::at(&Location::whole(source), message);
+    let what = format!("invalid TOML: {what}");
+    // Keys that are too deep are at no place.
+    let Some(own) = error.span() else {
+        return Diagnostic::at(&Location::whole(source), what);
     };
+    let (text, span) = (source.text(), own.start + offset..own.end + offset);
     let place = Location::new(source, span.clone());
     let written = place.text();
-    match fault.description {
-        DUPLICATE => given_twice(source, &place, &span),
-        UNQUOTED | "invalid literal string" if written.is_empty() => {
-            Diagnostic::at(&place, "a value is missing").because("expected a value here")
+    match pieces.at(&own, written) {
+        At::Key => return given_twice(source, &place, &span),
+        At::NoValue => {
+            return Diagnostic::at(&place, "a value is missing").because("expected a value here");
         }
-        UNQUOTED | NO_FLOAT if NO_VALUE.contains(&written.to_ascii_lowercase().as_str()) => {
-            Diagnostic::at(&place, format!("`{written}` is no value"))
+        At::Word if NO_VALUE.contains(&written.to_ascii_lowercase().as_str()) => {
+            return Diagnostic::at(&place, format!("`{written}` is no value"))
                 .because("TOML has no empty value")
-                .help("leave the key out where it has no value")
+                .help("leave the key out where it has no value");
         }
-        UNQUOTED => unquoted(source.text(), &place, &span),
-        NO_FLOAT if written.starts_with(char::is_alphabetic) => {
-            unquoted(source.text(), &place, &span)
+        At::Word => return unquoted(text, &place, &span),
+        At::Other => {}
+    }
+    let problem = Diagnostic::at(&place, what);
+    let problem = match expected {
+        Some(expected) => problem.because(format!("expected {expected}")),
+        None => problem,
+    };
+    let line = line_around(text, span.start);
+    let before = text.get(line.start..span.start).unwrap_or_default();
+    let opens_line = line.start > 0 && before.trim().is_empty();
+    if let Some(mended) = decimal_comma(&text[line]) {
+        return problem.help(format!("write `{mended}`"));
+    }
+    match pieces.around(own.start) {
+        Some(around) if around.is_array && opens_line => {
+            problem.help("close the array that was opened above with `]`, or add a comma")
         }
-        _ => other(source.text(), fault, &place, &span),
+        _ => problem,
     }
 }
 
@@ -142,25 +206,6 @@ fn unquoted(text: &str, place: &Location, span: &Range<usize>) -> Diagnostic {
     match quoted_assignment(text, span, place.text()) {
         Some(mended) => problem.help(format!("write `{mended}`")),
         None => problem,
-    }
-}
-
-/// An error told in the words of `toml`, with help where it has a usual cause.
-fn other(text: &str, fault: &Fault<'_>, place: &Location, span: &Range<usize>) -> Diagnostic {
-    let mut problem = Diagnostic::at(place, format!("invalid TOML: {}", fault.description));
-    if let Some(expected) = fault.expected {
-        problem = problem.because(format!("expected {expected}"));
-    }
-    let line_start = line_around(text, span.start).start;
-    let opens_line = text
-        .get(line_start..span.start)
-        .is_some_and(|before| before.trim().is_empty());
-    if let Some(mended) = decimal_comma(text, span) {
-        problem.help(format!("write `{mended}`"))
-    } else if fault.description.contains("array") && opens_line && line_start > 0 {
-        problem.help("close the array that was opened above with `]`, or add a comma")
-    } else {
-        problem
     }
 }
 
@@ -192,8 +237,8 @@ fn quoted_assignment(text: &str, span: &Range<usize>, value: &str) -> Option<Str
 }
 
 /// The line with a decimal point, when it is `key = 1,5`.
-fn decimal_comma(text: &str, span: &Range<usize>) -> Option<String> {
-    let (key, value) = text[line_around(text, span.start)].split_once('=')?;
+fn decimal_comma(line: &str) -> Option<String> {
+    let (key, value) = line.split_once('=')?;
     let (whole, fraction) = value.trim().split_once(',')?;
     let digits = |part: &str| !part.is_empty() && part.bytes().all(|byte| byte.is_ascii_digit());
     let whole_digits = whole.trim_start_matches(['+', '-']);
@@ -238,15 +283,12 @@ fn key(line: &str) -> &str {
 
 /// The line that holds `position`, without its line end.
 fn line_around(text: &str, position: usize) -> Range<usize> {
-    let position = position.min(text.len());
-    let bytes = text.as_bytes();
-    let is_end = |byte: &u8| *byte == b'\n';
-    let start = bytes[..position]
-        .iter()
-        .rposition(is_end)
-        .map_or(0, |found| found + 1);
-    let length = bytes[position..].iter().position(is_end);
-    start..length.map_or(text.len(), |length| position + length)
+    let (before, after) = text.split_at(text.floor_char_boundary(position));
+    let start = before.rfind('\n').map_or(0, |found| found + 1);
+    start
+        ..after
+            .find('\n')
+            .map_or(text.len(), |length| before.len() + length)
 }
 
 #[cfg(test)]

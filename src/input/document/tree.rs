@@ -72,9 +72,15 @@ impl Table {
             .collect();
         Self { entries }
     }
-}
 
-impl Table {
+    /// The table below that stands under a key.
+    pub(in crate::input) fn table(&self, key: &str) -> Option<&Table> {
+        match &self.entries.get(key)?.node.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
     /// The table as TOML under this header, its tables inline.
     pub(in crate::input) fn toml(&self, header: &str) -> String {
         let entries = self.entries.iter();

@@ -81,10 +81,10 @@ pub(super) static HARMONIC: Rows = super::table(
 
 rows! { _:
     /// Angular frequencies: a list, or a range. Hz is understood.
-    ANGULAR_FREQUENCY: Row<Points<Scalar>, Required> =
+    ANGULAR_FREQUENCY: Row<Points, Required> =
         "angular_frequency", Points(quantity(AngularFrequency).above_zero()), Required;
     /// Frequencies: a list, or a range. rad/s is understood.
-    FREQUENCY: Row<Points<Scalar>, Required> = "frequency", Points(quantity(Frequency).above_zero()), Required;
+    FREQUENCY: Row<Points, Required> = "frequency", Points(quantity(Frequency).above_zero()), Required;
 }
 
 /// Blocks of which a sweep may have a list.
@@ -93,22 +93,18 @@ pub(in crate::input) const LISTED: [&str; 2] = [Block::Material.name(), Block::I
 rows! { SWEEP_KEYS:
     /// Another axis: every frequency under each value of a key of `[drive]`: `drive.amplitude = ["1 N", "2 N"]`. Up to four axes may
     /// be given, and the cases are all combinations of their values.
-    DRIVE_AXIS: Row<AxisOf, Optional> = "drive", AxisOf { block: Block::Drive, rows: &HARMONIC, listed: None }, Optional;
+    DRIVE_AXIS: Row<AxisOf, Optional> = "drive", AxisOf::new(Block::Drive, &HARMONIC), Optional;
     /// The same over a number of the indenter, or of what it is made of: `indenter.radius = ["1 mm", "2 mm"]`. Or several indenters in
     /// place of `[indenter]`: a `[[sweep.indenter]]` for each, with its `name`.
     INDENTER_AXIS: Row<AxisOf, Optional> =
-        "indenter",
-        AxisOf { block: Block::Indenter, rows: &INDENTER, listed: Some(&LISTED_INDENTER) },
-        Optional;
+        "indenter", AxisOf::new(Block::Indenter, &INDENTER).or_blocks(&LISTED_INDENTER), Optional;
     /// The same over a number of the material: `material.temperature = ["0 °C", "25 °C"]`, and, in quotes, of a table or list within
     /// its block: `"material.relaxation.branches[0].time" = ["1 s", "10 s"]`, items counted from 0. Or several materials in
     /// place of `[material]`: a `[[sweep.material]]` for each, which has a `name` or is one of the library.
     MATERIAL_AXIS: Row<AxisOf, Optional> =
-        "material",
-        AxisOf { block: Block::Material, rows: &MATERIAL, listed: Some(&MATERIAL) },
-        Optional;
+        "material", AxisOf::new(Block::Material, &MATERIAL).or_blocks(&MATERIAL), Optional;
     /// The same over a number of the layer: `layer.thickness = ["10 um", "1 mm"]`.
-    LAYER_AXIS: Row<AxisOf, Optional> = "layer", AxisOf { block: Block::Layer, rows: &LAYER, listed: None }, Optional;
+    LAYER_AXIS: Row<AxisOf, Optional> = "layer", AxisOf::new(Block::Layer, &LAYER), Optional;
     /// Whether the values of several axes go together one by one, each axis with as many, in place of all their combinations.
     PAIRS: Row<Boolean, Or<bool>> = "pairs", Boolean, Or(false);
     /// Whether frequencies are added where the given ones do not resolve the curve of the loss.
@@ -149,18 +145,6 @@ const SEGMENT_KINDS: [(&str, SegmentKind); 5] = [
     ("table", SegmentKind::Table),
 ];
 
-impl SegmentKind {
-    fn rows(self) -> &'static Rows {
-        match self {
-            Self::Step => &STEP,
-            Self::Ramp => &RAMP,
-            Self::Polynomial => &POLYNOMIAL,
-            Self::Sine => &SINE,
-            Self::Table => &TABLE,
-        }
-    }
-}
-
 /// More segments than this belong into a table.
 const MOST_SEGMENTS: usize = 10_000;
 
@@ -189,11 +173,16 @@ rows! { SEGMENT_KEYS:
 static SEGMENT: Rows = Rows {
     means: " A part of the history.",
     keys: SEGMENT_KEYS,
-    others: Others::ByWord(&KIND, || {
-        SEGMENT_KINDS
-            .map(|(word, kind)| (word, kind.rows()))
-            .to_vec()
-    }),
+    others: Others::ByWord(
+        &KIND,
+        &[
+            ("step", &STEP),
+            ("ramp", &RAMP),
+            ("polynomial", &POLYNOMIAL),
+            ("sine", &SINE),
+            ("table", &TABLE),
+        ],
+    ),
 };
 
 rows! { _:

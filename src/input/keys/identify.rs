@@ -2,7 +2,7 @@
 
 use super::material::{BULK_MODULUS, POISSON_RATIO};
 use super::rows;
-use super::{ADHESION, INDENTER, LAYER, TITLE, drive, settings};
+use super::{ADHESION, INDENTER, LAYER, SOLVER, TITLE, drive, settings};
 use crate::identify::MOST_BRANCHES;
 use crate::input::document::kind::{Table, Text};
 use crate::input::document::row::{Optional, Others, Required, Row, Rows};
@@ -33,8 +33,6 @@ rows! { _:
     MEASURED_DRIVE: Row<Table, Required> = "drive", Table(&DRIVEN), Required;
     /// How the cycles of the model are resolved.
     MODEL_CYCLE: Row<Table, Optional> = "cycle", Table(&settings::CYCLE), Optional;
-    /// Which contact engine, and how fine.
-    MODEL_SOLVER: Row<Table, Optional> = "solver", Table(&settings::SOLVER), Optional;
 }
 
 static DRIVEN: Rows = Rows {
@@ -58,6 +56,6 @@ pub(super) static IDENTIFY_FILE: Rows = super::table(
         &ADHESION,
         &MEASURED_DRIVE,
         &MODEL_CYCLE,
-        &MODEL_SOLVER,
+        &SOLVER,
     ],
 );

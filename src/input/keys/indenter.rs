@@ -35,22 +35,6 @@ const SHAPES: [(&str, Shape); 9] = [
     ("rough", Shape::Rough),
 ];
 
-impl Shape {
-    fn rows(self) -> &'static Rows {
-        match self {
-            Self::Sphere => &SPHERE,
-            Self::Cone => &CONE,
-            Self::FlatPunch => &FLAT_PUNCH,
-            Self::Ellipsoid => &ELLIPSOID,
-            Self::PowerLaw => &POWER_LAW,
-            Self::Profile => &PROFILE,
-            Self::HeightMap => &HEIGHT_MAP,
-            Self::Asperities => &ASPERITIES,
-            Self::Rough => &ROUGH,
-        }
-    }
-}
-
 /// Cells per side of a rough surface.
 const ROUGH_CELLS: RangeInclusive<usize> = 8..=4096;
 /// TOML has signed integers of 64 bits.
@@ -73,9 +57,20 @@ pub(super) static INDENTER: Rows = Rows {
     others: BY_SHAPE,
 };
 
-const BY_SHAPE: Others = Others::ByWord(&SHAPE, || {
-    SHAPES.map(|(word, shape)| (word, shape.rows())).to_vec()
-});
+const BY_SHAPE: Others = Others::ByWord(
+    &SHAPE,
+    &[
+        ("sphere", &SPHERE),
+        ("cone", &CONE),
+        ("flat-punch", &FLAT_PUNCH),
+        ("ellipsoid", &ELLIPSOID),
+        ("power-law", &POWER_LAW),
+        ("profile", &PROFILE),
+        ("height-map", &HEIGHT_MAP),
+        ("asperities", &ASPERITIES),
+        ("rough", &ROUGH),
+    ],
+);
 
 rows! { _:
     /// What tables and figures call the indenter.

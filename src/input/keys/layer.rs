@@ -1,7 +1,5 @@
 //! Keys of `[layer]`: the body is a layer on a base.
 
-use std::ops::Bound;
-
 use super::material::POISSON_RATIO_VALUE;
 use super::rows;
 use crate::contact::half_space::layer::{Base, YieldingBase};
@@ -16,10 +14,7 @@ const BASES: [(&str, Base); 2] = [
 ];
 
 const MODULUS_RATIO: Scalar = number("4.0")
-    .within(Limits::new(
-        Bound::Included(YieldingBase::SOFTEST),
-        Bound::Included(YieldingBase::STIFFEST),
-    ))
+    .within(Limits::between(YieldingBase::SOFTEST, YieldingBase::STIFFEST))
     .or_else("leave out base_modulus_ratio and base_poisson_ratio where the base is rigid beside the layer");
 
 rows! { LAYER_KEYS:

@@ -1,6 +1,6 @@
 //! Keys of `[material]`: a series, a model of few elements, measured data or a material of the library.
 
-use super::rows;
+use super::{fractional, rows};
 use crate::input::bulk_modulus::BulkModulus;
 use crate::input::document::kind::{
     Array, Boolean, Choice, Dependent, Integer, Scalar, Table, Tables, Text, list, number, pair,
@@ -11,11 +11,8 @@ use crate::input::document::row::{Optional, Or, Others, Required, Row, Rows};
 use crate::input::dynamic::{DynamicFormat, FORMATS};
 use crate::input::material_dynamic::{Branches, Shift};
 use crate::input::table_file::QUANTITIES;
-use crate::material::fractional;
 use crate::material::{MaterialFunction, ModulusKind};
-use crate::quantity::Dimension::{
-    AngularFrequency, Compliance, Stress, Temperature, Time, Viscosity,
-};
+use crate::quantity::Dimension::{Compliance, Stress, Temperature, Time, Viscosity};
 use std::ops::Bound;
 
 /// What a modulus or a compliance is of.
@@ -98,7 +95,7 @@ rows! { _:
     /// A spring: a body that answers at once and loses nothing.
     ELASTIC_BODY: Row<Table, Required> = "elastic", Table(&ELASTIC_TABLE), Required;
     /// Springpot, fractional Zener or fractional Maxwell model, represented by a Prony series over a band.
-    FRACTIONAL: Row<Table, Required> = "fractional", Table(&FRACTIONAL_TABLE), Required;
+    FRACTIONAL: Row<Table, Required> = "fractional", Table(&fractional::TABLE), Required;
     /// Storage and loss modulus over frequency, measured at one temperature or at several: a master curve is made of them, and a
     /// series fitted to it.
     DYNAMIC: Row<Table, Required> = "dynamic", Table(&DYNAMIC_TABLE), Required;
@@ -359,88 +356,6 @@ static KELVIN_VOIGT_TABLE: Rows = super::table(
     " Spring and dashpot in parallel.",
     &[&SPRING, &ELEMENT_TIME],
 );
-
-/// A fractional model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum FractionalModel {
-    Springpot,
-    Zener,
-    Maxwell,
-}
-
-const FRACTIONAL_MODELS: [(&str, FractionalModel); 3] = [
-    ("springpot", FractionalModel::Springpot),
-    ("zener", FractionalModel::Zener),
-    ("maxwell", FractionalModel::Maxwell),
-];
-
-const BAND_PAIR: &str = "write the lowest and the highest frequency that you compute at, above zero: \
-                         band = [\"1e-3 rad/s\", \"1e5 rad/s\"]";
-const BETWEEN: &str =
-    "1 is the classical model, 0 a spring: write an exponent above 0 and at most 1";
-const FRACTIONAL_ACCURACY: Limits = Limits::new(
-    Bound::Included(fractional::ACCURACY.0),
-    Bound::Included(fractional::ACCURACY.1),
-);
-
-rows! { FRACTIONAL_KEYS:
-    /// `springpot`: E* = stiffness (i omega time)^exponent. `zener`: E* = equilibrium + stiffness (i omega time)^exponent /
-    /// (1 + (i omega time)^exponent). `maxwell`: E* = stiffness (i omega time)^exponent / (1 + (i omega time)^(exponent -
-    /// second_exponent)), two springpots in line. Springpot and Maxwell are fluids, for single histories.
-    FRACTIONAL_MODEL: Row<Choice<FractionalModel>, Required> = "model", Choice(&FRACTIONAL_MODELS), Required;
-    /// Whether the stiffnesses are Young's or shear moduli.
-    FRACTIONAL_KIND: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
-    /// Modulus of the fractional element.
-    STIFFNESS: Row<Scalar, Required> = "stiffness", quantity(Stress).above_zero(), Required;
-    /// Time of the fractional element.
-    FRACTIONAL_TIME: Row<Scalar, Required> = "time", quantity(Time).above_zero(), Required;
-    /// Exponent alpha of the fractional element, above 0 and at most 1 (springpot: below 1).
-    FRACTIONAL_EXPONENT: Row<Scalar, Required> =
-        "exponent",
-        number("0.5").within(Limits::new(Bound::Excluded(0.0), Bound::Included(1.0))).or_else(BETWEEN),
-        Required;
-    /// Lowest and highest angular frequency over which a series represents the model; outside, results are extrapolations.
-    BAND: Row<Array<Scalar>, Required> =
-        "band", pair(quantity(AngularFrequency).above_zero().or_else(BAND_PAIR), BAND_PAIR), Required;
-    /// Largest relative difference of E* between series and model over the band.
-    FRACTIONAL_ACCURACY_KEY: Row<Scalar, Or<f64>> =
-        "accuracy", number("1e-3").within(FRACTIONAL_ACCURACY), Or(1e-3);
-}
-
-rows! { _:
-    /// Exponent beta of the second springpot, below `exponent`; zero is a spring.
-    SECOND_EXPONENT: Row<Scalar, Or<f64>> =
-        "second_exponent",
-        number("0.2").within(Limits::new(Bound::Included(0.0), Bound::Excluded(1.0))),
-        Or(0.0);
-}
-
-static FRACTIONAL_TABLE: Rows = Rows {
-    means: " A model with derivatives of fractional order.",
-    keys: FRACTIONAL_KEYS,
-    others: Others::ByWord(&FRACTIONAL_MODEL, || {
-        FRACTIONAL_MODELS
-            .map(|(word, model)| (word, model.rows()))
-            .to_vec()
-    }),
-};
-
-impl FractionalModel {
-    fn rows(self) -> &'static Rows {
-        match self {
-            Self::Springpot => &FRACTIONAL_SPRINGPOT,
-            Self::Zener => &FRACTIONAL_ZENER,
-            Self::Maxwell => &FRACTIONAL_MAXWELL,
-        }
-    }
-}
-
-static FRACTIONAL_SPRINGPOT: Rows = super::table(" A springpot alone.", &[]);
-static FRACTIONAL_ZENER: Rows = super::table(
-    " A spring beside a spring and a springpot in line.",
-    &[&EQUILIBRIUM],
-);
-static FRACTIONAL_MAXWELL: Rows = super::table(" Two springpots in line.", &[&SECOND_EXPONENT]);
 
 rows! { TABLE_KEYS:
     /// What the data are of.

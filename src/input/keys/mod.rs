@@ -3,6 +3,7 @@
 
 pub(crate) mod adhesion;
 pub(crate) mod drive;
+pub(super) mod fractional;
 pub(crate) mod identify;
 pub(super) mod indenter;
 pub(super) mod layer;
@@ -162,17 +163,12 @@ pub fn words() -> Vec<&'static str> {
 /// The dotted path of every key of a kind of file that no table stands under, without the places in lists. Sorted.
 pub fn paths(kind: FileKind) -> Vec<String> {
     let mut paths = Vec::new();
-    kind.rows().visit("", &mut |path, row| {
-        let kind = row.kind();
-        match kind.has_dotted_keys() {
-            true => paths.extend(kind.dotted().keys().map(|key| {
-                let key = key.rsplit('.').next().unwrap_or(key);
-                format!("{path}.{key}")
-            })),
-            false if kind.rows().is_none() => paths.push(path.to_owned()),
-            false => {}
-        }
-    });
+    kind.rows()
+        .visit("", &mut |path, row| match row.kind().axes() {
+            Some(axes) => paths.extend(axes.references().keys().map(|key| format!("{path}.{key}"))),
+            None if row.kind().rows().is_none() => paths.push(path.to_owned()),
+            None => {}
+        });
     paths.sort_unstable();
     paths.dedup();
     paths

@@ -1,6 +1,6 @@
 //! Keys of what may be left out: `[cycle]`, `[solver]`, `[time]`, `[output]` and `[figures]`.
 
-use std::ops::{Bound, RangeInclusive};
+use std::ops::RangeInclusive;
 
 use super::rows;
 use crate::history::TimeRule;
@@ -16,15 +16,9 @@ use crate::sweep::plan::scenario::OutputPlan;
 use crate::sweep::plan::{CyclePlan, EngineKind, Method, SolverPlan};
 
 /// Rounding leaves less than the first.
-const TOLERANCE: Limits = Limits::new(
-    Bound::Included(CyclePlan::TOLERANCE.start),
-    Bound::Excluded(CyclePlan::TOLERANCE.end),
-);
+const TOLERANCE: Limits = Limits::of(CyclePlan::TOLERANCE);
 /// The finest resolution could reach the first.
-const ACCURACY: Limits = Limits::new(
-    Bound::Included(CyclePlan::ACCURACY.start),
-    Bound::Excluded(CyclePlan::ACCURACY.end),
-);
+const ACCURACY: Limits = Limits::of(CyclePlan::ACCURACY);
 
 const METHODS: [(&str, Method); 2] = [
     (Method::Direct.name(), Method::Direct),

@@ -1,7 +1,5 @@
 //! Keys of a setup file: the instrument and the contact of measured loops.
 
-use std::ops::Bound;
-
 use super::material::POISSON_RATIO;
 use super::rows;
 use crate::input::document::kind::{
@@ -48,7 +46,7 @@ const RADII: [(&str, RadiusFrom); 3] = [
 ];
 
 /// Of the contact depth: 0 to 1, a flat punch having the latter.
-const EPSILON_LIMITS: Limits = Limits::new(Bound::Included(0.0), Bound::Included(1.0));
+const EPSILON_LIMITS: Limits = Limits::between(0.0, 1.0);
 /// More terms than instruments fit.
 const MOST_TERMS: usize = 9;
 

@@ -135,7 +135,7 @@ impl FigurePlan {
         if *self == default {
             return String::new();
         }
-        let mut text = format!("\n{TABLE}\n");
+        let mut text = "\n[figures]\n".to_owned();
         let mut line = |key: &str, value: Option<String>| {
             if let Some(value) = value {
                 // Writing to a String cannot fail.
@@ -181,24 +181,6 @@ impl FigurePlan {
     }
 }
 
-const TABLE: &str = "[figures]";
-
-/// A resolved file without its `[figures]` table, which is the last and has one line per key.
-pub fn without_figures(resolved: &str) -> &str {
-    let header = format!("\n{TABLE}\n");
-    match resolved.rfind(&header) {
-        // A title may hold any line; no table follows that of the figures.
-        Some(at)
-            if !resolved[at + header.len()..]
-                .lines()
-                .any(|l| l.starts_with('[')) =>
-        {
-            &resolved[..at]
-        }
-        _ => resolved,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -218,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_is_written_line_by_line_and_taken_off_again() {
+    fn a_table_is_written_line_by_line() {
         assert_eq!(FigurePlan::default().text(), "");
         let sweep = "title = \"a\"\n\n[solver]\ncells = 3\n";
         let whole = format!("{sweep}{}", everything().text());
@@ -227,11 +209,6 @@ mod tests {
             "\n[figures]\nloops = [\"0.001 rad/s\", \"0.1 rad/s\"]\nwidth = \"0.085 m\"\nheight = \"0.06 m\"\nfont_size = 7.0\n\
              formats = [\"png\", \"pdf\"]\ndpi = 600\naxes = \"normalised\"\nfrequency_unit = \"Hz\"\ntitles = false\n"
         );
-        assert_eq!(without_figures(&whole), sweep);
-        assert_eq!(without_figures(sweep), sweep);
-        // A title that looks like the table is none.
-        let title = "title = \"\"\"a\n[figures]\nb\"\"\"\n\n[solver]\ncells = 3\n";
-        assert_eq!(without_figures(title), title);
     }
 
     #[test]

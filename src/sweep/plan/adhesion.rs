@@ -15,7 +15,8 @@
 use std::f64::consts::TAU;
 
 use crate::indenter::{Indenter, Value};
-use crate::quantity::{Dimension, format_si};
+use crate::quantity::Dimension;
+use crate::sweep::plan::resolved::quoted;
 
 /// Work of adhesion, and how near the surfaces come.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,10 +51,14 @@ impl AdhesionPlan {
 
     /// The `[adhesion]` block, with an empty line before it.
     pub(crate) fn text(&self) -> String {
+        let Self {
+            work_j_per_m2,
+            equilibrium_distance_m,
+        } = *self;
         format!(
-            "\n[adhesion]\nwork = \"{}\"\nequilibrium_distance = \"{}\"\n",
-            format_si(self.work_j_per_m2, Dimension::EnergyPerArea),
-            format_si(self.equilibrium_distance_m, Dimension::Length)
+            "\n[adhesion]\nwork = {}\nequilibrium_distance = {}\n",
+            quoted(work_j_per_m2, Dimension::EnergyPerArea),
+            quoted(equilibrium_distance_m, Dimension::Length)
         )
     }
 }

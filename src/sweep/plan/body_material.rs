@@ -1,8 +1,6 @@
 //! What the half-space of a single history is made of, and with it how its past is kept: a series, by a recursion, or samples,
 //! by the direct sum over all that came before.
 
-use std::fmt::Write;
-
 use crate::history::ComplianceFunction;
 use crate::material::interpolant::Interpolant;
 use crate::material::sampled::Sampled;
@@ -139,27 +137,16 @@ impl BodyMaterial {
 
 fn samples_text(sampled: &Sampled) -> String {
     let table = sampled.table();
-    let quantity = table.face().name();
-    let kind = table.kind().name();
-    // `{:?}` writes a float as TOML reads it, with a point or an exponent, and loses no bit.
-    let list = |values: &[f64]| {
-        let numbers: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
-        numbers.join(", ")
-    };
-    let mut text = "[material]\n".to_owned();
-    if let Some(name) = sampled.name() {
-        text.push_str(&format!("name = {}\n", resolved::toml_string(name)));
-    }
-    // Writing to a String cannot fail.
-    let _ = write!(
-        text,
-        "poisson_ratio = {:?}\n\n[material.table]\nquantity = \"{quantity}\"\nmodulus = \"{kind}\"\n\
-         evaluation = \"direct\"\ntimes = [{}]\nvalues = [{}]\n",
+    format!(
+        "[material]\n{}poisson_ratio = {:?}\n\n[material.table]\nquantity = \"{}\"\nmodulus = \"{}\"\n\
+         evaluation = \"direct\"\ntimes = {}\nvalues = {}\n",
+        resolved::entry("name", sampled.name().map(resolved::toml_string)),
         sampled.poisson_ratio(),
-        list(table.times_s()),
-        list(table.values())
-    );
-    text
+        table.face().name(),
+        table.kind().name(),
+        resolved::numbers(table.times_s().iter().copied()),
+        resolved::numbers(table.values().iter().copied())
+    )
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ impl<M> ContactPlan<M> {
         Self {
             material,
             layer: None,
-            solver: SolverPlan::of_indenter(indenter.as_ref()),
+            solver: SolverPlan::of(indenter.as_ref(), None),
             indenter,
             adhesion: None,
         }

@@ -4,8 +4,9 @@
 //! on the half-space, and everything but the influence of a load on its surroundings stays as it is.
 
 use crate::contact::half_space::layer::{Base, Layer, YieldingBase};
-use crate::quantity::{Dimension, format_human, format_si};
+use crate::quantity::{Dimension, format_human};
 use crate::sweep::plan::check::PlanError;
+use crate::sweep::plan::resolved::{entry, quoted};
 
 /// A layer of the plan's material on a base.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,17 +31,18 @@ impl LayerPlan {
 
     /// The `[layer]` block, with an empty line before it.
     pub(crate) fn text(&self) -> String {
-        let yielding = self.yielding.map(|base| {
-            format!(
-                "base_modulus_ratio = {:?}\nbase_poisson_ratio = {:?}\n",
-                base.modulus_ratio, base.poisson_ratio
-            )
-        });
+        let Self {
+            thickness_m,
+            base,
+            yielding,
+        } = self;
+        let ratio = |of: fn(YieldingBase) -> f64| yielding.map(|base| format!("{:?}", of(base)));
         format!(
-            "\n[layer]\nthickness = \"{}\"\nbase = \"{}\"\n{}",
-            format_si(self.thickness_m, Dimension::Length),
-            self.base.name(),
-            yielding.unwrap_or_default()
+            "\n[layer]\nthickness = {}\nbase = \"{}\"\n{}{}",
+            quoted(*thickness_m, Dimension::Length),
+            base.name(),
+            entry("base_modulus_ratio", ratio(|base| base.modulus_ratio)),
+            entry("base_poisson_ratio", ratio(|base| base.poisson_ratio))
         )
     }
 

@@ -7,6 +7,7 @@ pub mod check;
 pub mod contact;
 pub mod instant_tolerance;
 pub mod layer;
+mod material_text;
 pub mod resolved;
 pub mod scenario;
 
@@ -138,19 +139,17 @@ impl SweepPlan {
 
     /// Every case, in order.
     pub fn cases(&self) -> Vec<Case> {
-        let omegas = &self.angular_frequencies_rad_per_s;
-        let conditions = self.conditions();
-        let pairs = conditions
-            .iter()
-            .flat_map(|condition| omegas.iter().map(move |omega| (condition, *omega)));
-        pairs
-            .enumerate()
-            .map(|(index, (condition, angular_frequency_rad_per_s))| Case {
-                index,
-                angular_frequency_rad_per_s,
-                condition: condition.clone(),
-            })
-            .collect()
+        let mut cases = Vec::with_capacity(self.count());
+        for condition in self.conditions().iter() {
+            for angular_frequency_rad_per_s in &self.angular_frequencies_rad_per_s {
+                cases.push(Case {
+                    index: cases.len(),
+                    angular_frequency_rad_per_s: *angular_frequency_rad_per_s,
+                    condition: condition.clone(),
+                });
+            }
+        }
+        cases
     }
 }
 
@@ -230,24 +229,13 @@ impl EngineKind {
 impl SolverPlan {
     /// Everything at its default, on a layer where there is one: springs where indenter and body allow them, cells elsewhere.
     pub fn of(indenter: &dyn Indenter, layer: Option<LayerPlan>) -> Self {
-        match layer {
-            Some(_) => Self {
-                engine: EngineKind::HalfSpace,
-                ..Self::default()
-            },
-            None => Self::of_indenter(indenter),
-        }
-    }
-
-    /// Everything at its default on a half-space: springs where the indenter allows them, cells elsewhere.
-    pub fn of_indenter(indenter: &dyn Indenter) -> Self {
-        let engine = match indenter.axisymmetric() {
-            Some(_) => EngineKind::Axisymmetric,
-            None => EngineKind::HalfSpace,
+        let engine = match (indenter.axisymmetric(), layer) {
+            (Some(_), None) => EngineKind::Axisymmetric,
+            _ => EngineKind::HalfSpace,
         };
         Self {
             engine,
-            ..Self::default()
+            ..Self::DEFAULT
         }
     }
 
@@ -261,29 +249,21 @@ impl SolverPlan {
 
     /// The same with the cells that an indenter brings, where it brings any.
     #[must_use]
-    pub fn on_own_cells(self, indenter: &dyn Indenter) -> Self {
-        match indenter.own_cells() {
-            Some((cells_x, cells_y)) => Self {
-                cells: cells_x.max(cells_y),
-                ..self
-            },
-            None => self,
+    pub fn on_own_cells(mut self, indenter: &dyn Indenter) -> Self {
+        if let Some((cells_x, cells_y)) = indenter.own_cells() {
+            self.cells = cells_x.max(cells_y);
         }
+        self
     }
 
     /// The same engine with another number of them.
     #[must_use]
-    pub fn with_nodes(self, nodes: usize) -> Self {
+    pub fn with_nodes(mut self, nodes: usize) -> Self {
         match self.engine {
-            EngineKind::Axisymmetric => Self {
-                springs: nodes,
-                ..self
-            },
-            EngineKind::HalfSpace => Self {
-                cells: nodes,
-                ..self
-            },
+            EngineKind::Axisymmetric => self.springs = nodes,
+            EngineKind::HalfSpace => self.cells = nodes,
         }
+        self
     }
 }
 

@@ -1,5 +1,5 @@
-//! The resolved sweep: every default written out, with units, as a sweep file that gives the same plan again; and its hash,
-//! which neither the `[figures]` table at its end enters nor the place where a data file lies.
+//! The resolved sweep: every default written out, with units, as a sweep file that gives the same plan again; and its hash, which
+//! neither the `[figures]` table enters nor the place where a data file lies.
 
 use std::fmt::Write;
 
@@ -7,9 +7,11 @@ use sha2::{Digest, Sha256};
 
 use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::{Indenter, Parameter, Value};
-use crate::material::{Compressibility, Material, MaterialFunction, Relaxation, RelaxationBranch};
+use crate::material::Material;
 use crate::quantity::{Dimension, format_si};
-use crate::sweep::figures::figure_plan::without_figures;
+pub(crate) use crate::sweep::plan::material_text::compressibility_line;
+use crate::sweep::plan::material_text::text_over_temperatures;
+pub use crate::sweep::plan::material_text::{material_text, material_text_without_poisson_ratio};
 use crate::sweep::plan::{Axes, Block, Condition, CyclePlan, SolverPlan, SweepPlan, Varied};
 
 /// The plan as the text of a sweep file.
@@ -25,20 +27,16 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
         cycle,
         figures,
     } = plan;
-    let given = axes.as_ref().map(|axes| &axes.given_blocks);
-    let is_listed = |block| {
-        axes.as_ref()
-            .is_some_and(|axes| axes.whole(block).is_some())
-    };
-    let given_material = given.and_then(|given| given.material.as_deref());
-    let mut blocks = match given_material {
+    let axes = axes.as_ref();
+    let given = axes.map(|axes| &axes.given_blocks);
+    let is_listed = |block| axes.is_some_and(|axes| axes.whole(block).is_some());
+    let mut blocks = match given.and_then(|given| given.material.as_deref()) {
         _ if is_listed(Block::Material) => String::new(),
         Some(block) => block.to_owned(),
-        None => material_of(
-            &contact.material,
-            axes.iter().flat_map(|axes| &axes.conditions),
-            axes,
-        ),
+        None => {
+            let conditions = axes.iter().flat_map(|axes| &axes.conditions);
+            material_of(&contact.material, conditions, axes)
+        }
     };
     let counterbody = match given.and_then(|given| given.counterbody.as_deref()) {
         Some(block) => Some(block.to_owned()),
@@ -49,67 +47,60 @@ pub fn resolved_text(plan: &SweepPlan) -> String {
     if !is_listed(Block::Indenter) {
         blocks.push_str(&contact.indenter);
     }
-    let mut text = opening_text(title, &blocks);
-    let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
-    let mut line = |content: &str| {
-        text.push_str(content);
-        text.push('\n');
-    };
-    line(&drive_text(drive));
-    if !contact.adhesion.is_empty() {
-        line(contact.adhesion.trim_end());
-    }
-    line("\n[sweep]");
-    let over = || axes.iter().flat_map(|axes| axes.over.iter().enumerate());
-    for (k, varied) in over().filter(|(_, varied)| !varied.is_whole()) {
+    let each = angular_frequencies_rad_per_s.iter();
+    let each = each.map(|omega| quoted(*omega, Dimension::AngularFrequency));
+    let frequencies: String = each.map(|omega| format!("    {omega},\n")).collect();
+    let listed = axes.iter().flat_map(|axes| axes.over.iter().enumerate());
+    let listed = listed.map(|(axis, varied)| listed_text(plan, axis, varied));
+    [
+        opening_text(title, &blocks),
+        drive_text(drive),
+        format!("\n{}\n[sweep]\n", contact.adhesion),
+        axes.map(numbers_text).unwrap_or_default(),
+        entry("refine", refine.then(|| "true".to_owned())),
+        format!("angular_frequency = [\n{frequencies}]\n\n"),
+        listed.collect(),
+        cycle_text(cycle),
+        format!("\n{}", contact.solver),
+        figures.text(),
+    ]
+    .concat()
+}
+
+/// The axes over numbers, as keys of `[sweep]`.
+fn numbers_text(axes: &Axes) -> String {
+    let over = axes.over.iter().enumerate();
+    let over = over.filter(|(_, varied)| !varied.is_whole());
+    let lines = over.map(|(axis, varied)| {
         let number = |value: f64| match varied.dimension {
-            Some(dimension) => quantity(value, dimension),
+            Some(dimension) => quoted(value, dimension),
             None => format!("{value:?}"),
         };
-        let values = axes.as_ref().map_or(Vec::new(), |axes| axes.values_of(k));
-        let values: Vec<String> = values.into_iter().map(number).collect();
+        let values: Vec<String> = axes.values_of(axis).into_iter().map(number).collect();
         // Beside a list of blocks the key would be one of a table in its place.
-        let path = match varied.is_nested() || is_listed(varied.block) {
-            true => format!("\"{}\"", varied.path()),
-            false => varied.path(),
+        let quote = match varied.is_nested() || axes.whole(varied.block).is_some() {
+            true => "\"",
+            false => "",
         };
-        line(&format!("{path} = [{}]", values.join(", ")));
-    }
-    if axes.as_ref().is_some_and(|axes| axes.pairs) {
-        line("pairs = true");
-    }
-    if *refine {
-        line("refine = true");
-    }
-    line("angular_frequency = [");
-    for &omega in angular_frequencies_rad_per_s {
-        line(&format!(
-            "    {},",
-            quantity(omega, Dimension::AngularFrequency)
-        ));
-    }
-    line("]\n");
-    for (k, varied) in over() {
-        text.push_str(&listed_text(plan, k, varied));
-    }
-    text.push_str(&cycle_text(cycle));
-    text.push('\n');
-    text.push_str(&contact.solver);
-    text.push_str(&figures.text());
-    text
+        format!(
+            "{quote}{}{quote} = [{}]\n",
+            varied.path(),
+            values.join(", ")
+        )
+    });
+    lines.collect::<String>() + &entry("pairs", axes.pairs.then(|| "true".to_owned()))
 }
 
 /// The `[drive]` block of an oscillation, with an empty line before it and no line end behind it.
 pub(crate) fn drive_text(drive: &HarmonicDrive) -> String {
-    let quantity = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
     let dimension = drive_dimension(drive.control());
     format!(
         "\n[drive]\ncontrol = \"{}\"\nmean = {}\namplitude = {}\nphase = {}\nhold = {}",
         drive.control().name(),
-        quantity(drive.mean(), dimension),
-        quantity(drive.amplitude(), dimension),
-        quantity(drive.phase_rad(), Dimension::Angle),
-        quantity(drive.hold_s(), Dimension::Time)
+        quoted(drive.mean(), dimension),
+        quoted(drive.amplitude(), dimension),
+        quoted(drive.phase_rad(), Dimension::Angle),
+        quoted(drive.hold_s(), Dimension::Time)
     )
 }
 
@@ -124,14 +115,12 @@ pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
         error_bars,
         accuracy,
     } = cycle;
-    let at_cycle = at_cycle.map(|cycle| format!("at_cycle = {cycle}\n"));
-    let accuracy = accuracy.map(|accuracy| format!("accuracy = {accuracy:e}\n"));
     format!(
         "[cycle]\nsteps = {steps}\nmethod = \"{}\"\ntolerance = {tolerance:e}\nmax_cycles = {max_cycles}\n{}error_bars = \
          {error_bars}\n{}",
         method.name(),
-        at_cycle.unwrap_or_default(),
-        accuracy.unwrap_or_default()
+        entry("at_cycle", at_cycle.map(|cycle| cycle.to_string())),
+        entry("accuracy", accuracy.map(|accuracy| format!("{accuracy:e}")))
     )
 }
 
@@ -144,11 +133,10 @@ pub(crate) fn counterbody_text(material: &Material) -> String {
 fn material_of<'a>(
     own: &Material,
     conditions: impl Iterator<Item = &'a Condition>,
-    axes: &Option<Axes>,
+    axes: Option<&Axes>,
 ) -> String {
-    let mut over = axes.iter().flat_map(|axes| &axes.over);
-    match over.any(Varied::is_temperature) {
-        true => material_text_over(conditions),
+    match axes.is_some_and(|axes| axes.over.iter().any(Varied::is_temperature)) {
+        true => text_over_temperatures(conditions.map(|condition| &*condition.material)),
         false => material_text(own),
     }
 }
@@ -164,27 +152,25 @@ fn listed_text(plan: &SweepPlan, axis: usize, varied: &Varied) -> String {
         let Some(first) = under().next() else {
             continue;
         };
-        let (block, name_line) = match varied.block {
+        let (block, name) = match varied.block {
             Block::Indenter => {
                 let counterbody = first.material.counterbody().map(counterbody_text);
                 let block = indenter_text(first.indenter.as_ref(), counterbody);
-                (block, format!("name = {}\n", toml_string(name)))
+                (block, Some(toml_string(name)))
             }
             _ => (
-                material_of(&first.material, under(), &plan.axes),
-                String::new(),
+                material_of(&first.material, under(), plan.axes.as_ref()),
+                None,
             ),
         };
         let own = varied.block.name();
-        for (k, line) in block.trim_start().lines().enumerate() {
-            let line = match k {
-                0 => format!("[[sweep.{own}]]\n{name_line}"),
-                _ if line.starts_with('[') => line.replacen(own, &format!("sweep.{own}"), 1) + "\n",
-                _ => format!("{line}\n"),
-            };
-            text.push_str(&line);
-        }
-        text.push('\n');
+        let lines = block.trim_start().lines().skip(1);
+        let lines = lines.map(|line| match line.starts_with('[') {
+            true => line.replacen(own, &format!("sweep.{own}"), 1) + "\n",
+            false => format!("{line}\n"),
+        });
+        let lines: String = lines.collect();
+        text += &format!("[[sweep.{own}]]\n{}{lines}\n", entry("name", name));
     }
     text
 }
@@ -200,18 +186,17 @@ pub(crate) fn opening_text(title: &str, blocks: &str) -> String {
 
 /// The `[indenter]` block and that of what it is made of, with an empty line before each.
 pub(crate) fn indenter_text(indenter: &dyn Indenter, counterbody: Option<String>) -> String {
-    let mut text = String::new();
-    let mut line = |content: &str| {
-        text.push_str(content);
-        text.push('\n');
-    };
-    line("\n[indenter]");
-    line(&format!("shape = \"{}\"", indenter.shape()));
-    for parameter in indenter.parameters() {
-        line(&format!("{} = {}", parameter.key, value(&parameter.value)));
-    }
+    let parameters = indenter.parameters();
+    let parameters = parameters
+        .iter()
+        .map(|p| format!("{}\n", parameter_text(p)));
     let of_indenter = counterbody.map(|block| format!("\n{block}"));
-    text + &of_indenter.unwrap_or_default()
+    format!(
+        "\n[indenter]\nshape = \"{}\"\n{}{}",
+        indenter.shape(),
+        parameters.collect::<String>(),
+        of_indenter.unwrap_or_default()
+    )
 }
 
 /// The `[solver]` block, at the end of both.
@@ -223,15 +208,13 @@ pub(crate) fn solver_text(solver: &SolverPlan, indenter: &dyn Indenter) -> Strin
         time_rule,
         tolerance,
     } = solver;
-    let cells = match indenter.own_cells() {
-        Some(_) => String::new(),
-        None => format!("cells = {cells}\n"),
-    };
-    let (engine, rule) = (engine.name(), time_rule.name());
-    let tolerance = tolerance.map(|t| format!("tolerance = {t:e}\n"));
+    let cells = indenter.own_cells().is_none().then(|| cells.to_string());
     format!(
-        "[solver]\nengine = \"{engine}\"\n{cells}springs = {springs}\n{}time_rule = \"{rule}\"\n",
-        tolerance.unwrap_or_default(),
+        "[solver]\nengine = \"{}\"\n{}springs = {springs}\n{}time_rule = \"{}\"\n",
+        engine.name(),
+        entry("cells", cells),
+        entry("tolerance", tolerance.map(|t| format!("{t:e}"))),
+        time_rule.name()
     )
 }
 
@@ -244,49 +227,62 @@ pub fn drive_dimension(control: Control) -> Dimension {
 }
 
 /// A setting of the indenter as TOML.
-fn value(value: &Value) -> String {
-    let list = |items: Vec<String>| format!("[{}]", items.join(", "));
-    let quoted = |value: f64, dimension| format!("\"{}\"", format_si(value, dimension));
-    match value {
+fn parameter_text(parameter: &Parameter) -> String {
+    let value = match &parameter.value {
         Value::Quantity(value, dimension) => quoted(*value, *dimension),
         Value::Quantities(values, dimension) => {
-            list(values.iter().map(|&v| quoted(v, *dimension)).collect())
+            let values: Vec<String> = values.iter().map(|&v| quoted(v, *dimension)).collect();
+            format!("[{}]", values.join(", "))
         }
         // Debug keeps the decimal point that TOML asks of a float.
         Value::Number(number) => format!("{number:?}"),
         Value::Integer(integer) => integer.to_string(),
         Value::Text(text) => toml_string(text),
         Value::Tables(tables) => {
-            let rows: Vec<String> = tables.iter().map(|t| inline_table(t)).collect();
-            format!("[\n{}]", rows.concat())
+            let row = |table: &Vec<Parameter>| {
+                let entries: Vec<String> = table.iter().map(parameter_text).collect();
+                format!("    {{ {} }},\n", entries.join(", "))
+            };
+            format!("[\n{}]", tables.iter().map(row).collect::<String>())
+        }
+    };
+    format!("{} = {value}", parameter.key)
+}
+
+/// SHA-256 of the values of a resolved file that make it the one that it is, in hexadecimal; of what is no TOML that of its text.
+pub fn hash(resolved: &str) -> String {
+    let values = values(resolved).and_then(|values| serde_json::to_vec(&values).ok());
+    hash_of_bytes(values.as_deref().unwrap_or(resolved.as_bytes()))
+}
+
+/// What makes a resolved sweep or scenario the one that it is, as TOML with its keys in alphabetical order.
+pub fn identity(resolved: &str) -> String {
+    let text = values(resolved).and_then(|values| toml::to_string_pretty(&values).ok());
+    text.unwrap_or_else(|| resolved.to_owned())
+}
+
+/// The values of a resolved file without how its figures look, and without the place of data files, whose content is known by the hash
+/// beside it.
+fn values(resolved: &str) -> Option<toml::Value> {
+    fn without_places(value: &mut toml::Value) {
+        match value {
+            toml::Value::Table(table) => {
+                if table.contains_key("sha256") {
+                    table.remove("file");
+                }
+                table
+                    .iter_mut()
+                    .for_each(|(_, below)| without_places(below));
+            }
+            toml::Value::Array(items) => items.iter_mut().for_each(without_places),
+            _ => {}
         }
     }
-}
-
-/// One line of an array of tables.
-fn inline_table(table: &[Parameter]) -> String {
-    let entries: Vec<String> = table
-        .iter()
-        .map(|parameter| format!("{} = {}", parameter.key, value(&parameter.value)))
-        .collect();
-    format!("    {{ {} }},\n", entries.join(", "))
-}
-
-/// SHA-256 of the [`identity`], in hexadecimal.
-pub fn hash(resolved: &str) -> String {
-    hash_of_bytes(identity(resolved).as_bytes())
-}
-
-/// What makes a resolved sweep or scenario the one that it is: its text without how its figures look, and without the path of a
-/// data file, whose content stands in the line below.
-pub fn identity(resolved: &str) -> String {
-    let lines: Vec<&str> = without_figures(resolved).split_inclusive('\n').collect();
-    let is_place = |k: usize| {
-        let next = lines.get(k + 1).copied().unwrap_or_default();
-        lines[k].starts_with("file = ") && next.starts_with("sha256 = ")
-    };
-    let kept = (0..lines.len()).filter(|&k| !is_place(k));
-    kept.map(|k| lines[k]).collect()
+    let mut values: toml::Table = resolved.parse().ok()?;
+    values.remove("figures");
+    let mut values = toml::Value::Table(values);
+    without_places(&mut values);
+    Some(values)
 }
 
 /// SHA-256 of any bytes, in hexadecimal.
@@ -299,207 +295,56 @@ pub fn hash_of_bytes(bytes: &[u8]) -> String {
     hash
 }
 
-/// The material as the block of a sweep file that gives the same material again.
-pub fn material_text(material: &Material) -> String {
-    text_of(|line| material_lines(material, line))
+/// A line with a key, where there is a value.
+pub(super) fn entry(key: &str, value: Option<String>) -> String {
+    value.map_or(String::new(), |value| format!("{key} = {value}\n"))
 }
 
-/// The same of a material at every temperature of these conditions, the first of which counts where none is asked for.
-fn material_text_over<'a>(conditions: impl Iterator<Item = &'a Condition>) -> String {
-    let mut materials: Vec<&Material> = Vec::new();
-    for condition in conditions {
-        let known = |other: &&Material| other.temperature_k() == condition.material.temperature_k();
-        if !materials.iter().any(known) {
-            materials.push(&condition.material);
-        }
-    }
-    let materials = || materials.iter().copied();
-    text_of(|line| {
-        if let Some(first) = materials().next() {
-            head_lines(first, line);
-        }
-        for material in materials() {
-            isotherm_lines(material, line);
-        }
-    })
+/// A quantity as TOML.
+pub(super) fn quoted(value: f64, dimension: Dimension) -> String {
+    format!("\"{}\"", format_si(value, dimension))
 }
 
-fn text_of(write: impl FnOnce(&mut dyn FnMut(&str))) -> String {
-    let mut text = String::new();
-    write(&mut |line| {
-        text.push_str(line);
-        text.push('\n');
-    });
-    text
-}
-
-/// The same of a material whose Poisson ratio is not known: a comment in its place says what to write.
-pub fn material_text_without_poisson_ratio(material: &Material) -> String {
-    let lines = material_text(material);
-    let lines = lines.lines().map(|line| match line.starts_with("poisson_ratio = ") {
-        true => "# poisson_ratio = 0.4   # not known: write that of the material before the block goes into a sweep\n".to_owned(),
-        false => format!("{line}\n"),
-    });
-    lines.collect()
-}
-
-/// What stands above the numbers: name, Poisson ratio and temperature.
-fn head_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    line("[material]");
-    if let Some(name) = material.name() {
-        line(&format!("name = {}", toml_string(name)));
-    }
-    if let Some(known) = compressibility_line(material.compressibility()) {
-        line(&known);
-    }
-    temperature_line(material, line);
-}
-
-/// The key of a Poisson ratio, or of a bulk modulus that is constant in time.
-pub(crate) fn compressibility_line(compressibility: &Compressibility) -> Option<String> {
-    if let Some(nu) = compressibility.poisson_ratio() {
-        return Some(format!("poisson_ratio = {nu:?}"));
-    }
-    let bulk_pa = compressibility.constant_bulk_modulus_pa()?;
-    let bulk = format_si(bulk_pa, Dimension::Stress);
-    Some(format!("bulk_modulus = \"{bulk}\""))
-}
-
-/// The bulk modulus, where it relaxes.
-fn bulk_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    let bulk = material.compressibility().bulk_modulus();
-    if let Some(bulk) = bulk.filter(|bulk| !bulk.branches().is_empty()) {
-        line("\n[material.bulk_modulus]");
-        relaxation_lines(bulk, line);
-    }
-}
-
-fn temperature_line(material: &Material, line: &mut dyn FnMut(&str)) {
-    if let Some(temperature_k) = material.temperature_k() {
-        let temperature = format_si(temperature_k, Dimension::Temperature);
-        line(&format!("temperature = \"{temperature}\""));
-    }
-}
-
-fn isotherm_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    line("\n[[material.isotherm]]");
-    temperature_line(material, line);
-    if let Some(law) = material.shift() {
-        line(&format!("wlf = [{:?}, {:?}]", law.c1, law.c2_k));
-    }
-    measured_line(material, line);
-    line(&format!("modulus = \"{}\"", material.kind().name()));
-    series_lines(material, line);
-    replica_lines(material, line);
-}
-
-fn material_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    let kind = material.kind().name();
-    head_lines(material, line);
-    if material.temperature_k().is_some() {
-        isotherm_lines(material, line);
-        return;
-    }
-    measured_line(material, line);
-    match given_relaxation(material) {
-        Some(_) => line(&format!("\n[material.relaxation]\nmodulus = \"{kind}\"")),
-        None => line(&format!("\n[material.creep]\ncompliance = \"{kind}\"")),
-    }
-    series_lines(material, line);
-    replica_lines(material, line);
-    bulk_lines(material, line);
-    for alternative in material.alternatives() {
-        line("\n[[material.alternative]]");
-        series_lines(alternative, line);
-    }
-}
-
-fn measured_line(material: &Material, line: &mut dyn FnMut(&str)) {
-    if let Some((first_s, last_s)) = material.measured_window_s() {
-        let [first, last] = [first_s, last_s].map(|time_s| format_si(time_s, Dimension::Time));
-        line(&format!("measured = [\"{first}\", \"{last}\"]"));
-    }
-}
-
-/// The replicas, as bare numbers: there may be hundreds.
-fn replica_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    let replicas = material.replicas().iter().filter_map(Material::relaxation);
-    let rows: Vec<String> = replicas.map(replica_row).collect();
-    if !rows.is_empty() {
-        line(&format!("replicas = [\n{}]", rows.concat()));
-    }
-}
-
-fn replica_row(replica: &Relaxation) -> String {
-    // Debug keeps the decimal point that TOML asks of a float, and loses no bit.
-    let list = |value: fn(&RelaxationBranch) -> f64| {
-        let values = replica.branches().iter().map(value);
-        let values: Vec<String> = values.map(|value| format!("{value:?}")).collect();
-        values.join(", ")
-    };
-    format!(
-        "    {{ equilibrium = {:?}, moduli = [{}], times = [{}] }},\n",
-        replica.equilibrium_modulus(),
-        list(|branch| branch.modulus_pa),
-        list(|branch| branch.time_s)
-    )
-}
-
-/// The relaxation modulus of a material that was given by it.
-fn given_relaxation(material: &Material) -> Option<&Relaxation> {
-    let given = material.given() == MaterialFunction::Relaxation;
-    material.relaxation().filter(|_| given)
-}
-
-/// The numbers of the function that was given.
-fn series_lines(material: &Material, line: &mut dyn FnMut(&str)) {
-    if let Some(relaxation) = given_relaxation(material) {
-        return relaxation_lines(relaxation, line);
-    }
-    let creep = material.creep();
-    let instantaneous_per_pa = creep.instantaneous_compliance();
-    quantity_line(
-        "instantaneous",
-        (instantaneous_per_pa, Dimension::Compliance),
-        line,
-    );
-    if let Some(viscosity) = creep.viscosity_pa_s() {
-        quantity_line("viscosity", (viscosity, Dimension::Viscosity), line);
-    }
-    let branches = creep.branches().iter();
-    let branches = branches.map(|b| (b.compliance_per_pa, b.time_s));
-    branch_lines(("compliance", Dimension::Compliance), branches, line);
-}
-
-fn relaxation_lines(relaxation: &Relaxation, line: &mut dyn FnMut(&str)) {
-    let equilibrium_pa = relaxation.equilibrium_modulus();
-    quantity_line("equilibrium", (equilibrium_pa, Dimension::Stress), line);
-    let branches = relaxation.branches().iter();
-    let branches = branches.map(|b| (b.modulus_pa, b.time_s));
-    branch_lines(("modulus", Dimension::Stress), branches, line);
-}
-
-fn quantity_line(key: &str, (value, dimension): (f64, Dimension), line: &mut dyn FnMut(&str)) {
-    line(&format!("{key} = \"{}\"", format_si(value, dimension)));
-}
-
-fn branch_lines(
-    (key, dimension): (&str, Dimension),
-    branches: impl Iterator<Item = (f64, f64)>,
-    line: &mut dyn FnMut(&str),
-) {
-    line("branches = [");
-    for (strength, time_s) in branches {
-        let strength = format_si(strength, dimension);
-        let time = format_si(time_s, Dimension::Time);
-        line(&format!(
-            "    {{ {key} = \"{strength}\", time = \"{time}\" }},"
-        ));
-    }
-    line("]");
+/// A list of bare numbers as TOML.
+pub(super) fn numbers(values: impl Iterator<Item = f64>) -> String {
+    // `{:?}` writes a float as TOML reads it, with a point or an exponent, and loses no bit.
+    let values: Vec<String> = values.map(|value| format!("{value:?}")).collect();
+    format!("[{}]", values.join(", "))
 }
 
 /// A TOML basic string.
 pub(crate) fn toml_string(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sweep::figures::figure_plan::FigurePlan;
+
+    #[test]
+    fn how_figures_look_is_no_part_of_what_a_sweep_is() {
+        let sweep = "title = \"a\"\n\n[solver]\ncells = 3\n";
+        let figures = FigurePlan {
+            width_m: Some(0.085),
+            titles: false,
+            ..FigurePlan::default()
+        };
+        let whole = format!("{sweep}{}", figures.text());
+        assert!(whole.contains("[figures]"));
+        assert_eq!(identity(&whole), identity(sweep));
+        assert_eq!(hash(&whole), hash(sweep));
+        // A title that looks like the table is none.
+        let title = "title = \"\"\"a\n[figures]\nb\"\"\"\n\n[solver]\ncells = 3\n";
+        assert!(identity(title).contains("[figures]"));
+        assert_ne!(hash(title), hash(sweep));
+    }
+
+    #[test]
+    fn the_order_and_the_layout_of_keys_make_no_other_sweep() {
+        let one = "title = \"a\"\n[solver]\ncells = 3\nsprings = 4\n";
+        let other = "title='a' # the same\n[solver]\nsprings=4\ncells =   3\n";
+        assert_eq!(hash(one), hash(other));
+        assert_ne!(hash(one), hash(&one.replace('4', "5")));
+    }
 }

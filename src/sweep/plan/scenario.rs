@@ -1,15 +1,15 @@
 //! A scenario as it will be run: one drive history, every default filled in, every value checked; and its resolved text.
 
-use std::fmt::Write;
 use std::sync::Arc;
 
 use crate::drive::{Control, Segment, SegmentedDrive};
 use crate::indenter::Indenter;
-use crate::quantity::{Dimension, format_si};
+use crate::quantity::Dimension;
 use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::EngineKind;
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::contact::ContactPlan;
-use crate::sweep::plan::{EngineKind, resolved};
+use crate::sweep::plan::resolved::{self, entry, numbers, quoted};
 
 /// Everything a simulation needs to know. Two equal plans give equal results, bit for bit.
 #[derive(Debug, Clone)]
@@ -82,59 +82,69 @@ pub const FIGURES: [&str; 4] = ["history", "cycle-losses", "profiles", "pressure
 
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
-    let material = &plan.contact.material;
-    let contact = (plan.contact).blocks(material.counterbody().map(resolved::counterbody_text));
+    // By name, so that what is added to a plan and not written here, and so not hashed, does not compile.
+    let ScenarioPlan {
+        title,
+        contact,
+        drive,
+        step_s,
+        output,
+        figures,
+    } = plan;
+    let OutputPlan {
+        profiles_at_s,
+        fields_at_s,
+        field_cells,
+        error_bars,
+    } = output;
+    let (material, engine) = (&contact.material, contact.solver.engine);
+    let contact = contact.blocks(material.counterbody().map(resolved::counterbody_text));
     let blocks = material.text() + &contact.layer + &contact.indenter;
-    let mut text = resolved::opening_text(&plan.title, &blocks);
-    text.push_str(&history_text(&plan.drive));
-    text.push_str(&contact.adhesion);
-    if let Some(step_s) = plan.step_s {
-        let _ = writeln!(text, "\n[time]\nstep = {}", quoted(step_s, Dimension::Time));
-    }
-    text.push_str("\n[output]\n");
-    for (key, times) in [
-        ("profiles_at", &plan.output.profiles_at_s),
-        ("fields_at", &plan.output.fields_at_s),
-    ] {
-        let times: Vec<String> = times.iter().map(|t| quoted(*t, Dimension::Time)).collect();
-        let _ = writeln!(text, "{key} = [{}]", times.join(", "));
-    }
-    let _ = writeln!(text, "error_bars = {}", plan.output.error_bars);
-    if plan.contact.solver.engine == EngineKind::Axisymmetric {
-        let _ = writeln!(text, "field_cells = {}", plan.output.field_cells);
-    }
-    text.push('\n');
-    text.push_str(&contact.solver);
-    text.push_str(&plan.figures.text());
-    text
+    let step =
+        step_s.map(|step_s| format!("\n[time]\nstep = {}\n", quoted(step_s, Dimension::Time)));
+    let times = |times_s: &[f64]| {
+        let times: Vec<String> = times_s
+            .iter()
+            .map(|t| quoted(*t, Dimension::Time))
+            .collect();
+        format!("[{}]", times.join(", "))
+    };
+    let cells = (engine == EngineKind::Axisymmetric).then(|| field_cells.to_string());
+    [
+        resolved::opening_text(title, &blocks),
+        history_text(drive),
+        contact.adhesion,
+        step.unwrap_or_default(),
+        format!(
+            "\n[output]\nprofiles_at = {}\nfields_at = {}\nerror_bars = {error_bars}\n{}\n",
+            times(profiles_at_s),
+            times(fields_at_s),
+            entry("field_cells", cells)
+        ),
+        contact.solver,
+        figures.text(),
+    ]
+    .concat()
 }
 
 /// The `[drive]` block of a history, with an empty line before it.
 pub(crate) fn history_text(drive: &SegmentedDrive) -> String {
     let control = drive.control();
     let segments = drive.segments().iter();
-    let segments: String = segments
-        .map(|segment| format!("    {{ {} }},\n", segment_text(segment, control)))
-        .collect();
+    let segments =
+        segments.map(|segment| format!("    {{ {} }},\n", segment_text(segment, control)));
     format!(
-        "\n[drive]\ncontrol = \"{}\"\nsegments = [\n{segments}]\n",
-        control.name()
+        "\n[drive]\ncontrol = \"{}\"\nsegments = [\n{}]\n",
+        control.name(),
+        segments.collect::<String>()
     )
-}
-
-fn quoted(value: f64, dimension: Dimension) -> String {
-    format!("\"{}\"", format_si(value, dimension))
 }
 
 /// The keys of a segment as they stand within the braces of an inline table.
 fn segment_text(segment: &Segment, control: Control) -> String {
     let value = |value: f64| quoted(value, resolved::drive_dimension(control));
     let time = |time_s: f64| quoted(time_s, Dimension::Time);
-    // `{:?}` writes a float as TOML reads it, with a point or an exponent, and loses no bit.
-    let list = |values: &[f64]| {
-        let numbers: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
-        format!("[{}]", numbers.join(", "))
-    };
+    let list = |values: &[f64]| numbers(values.iter().copied());
     match segment {
         Segment::Step { to, duration_s } => format!(
             "kind = \"step\", to = {}, duration = {}",

@@ -1,0 +1,230 @@
+//! The rows of a data file as numbers, each with its place.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::header::Header;
+use super::text::{self, Lines};
+use crate::input::diagnostic::{Diagnostics, Location, Problems, Source};
+
+/// Numbers in rows, every one with its place.
+pub(crate) struct Table {
+    source: Arc<Source>,
+    delimiter: char,
+    /// Place in a line of every column.
+    places: Vec<usize>,
+    /// Row by row.
+    pub(crate) values: Vec<f64>,
+    /// Where the lines begin.
+    starts: Vec<usize>,
+}
+
+impl Table {
+    /// Numbers in a row.
+    pub(crate) fn width(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Rows.
+    pub(crate) fn len(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// One column, by its place among those asked for.
+    pub(crate) fn column(&self, which: usize) -> Vec<f64> {
+        let column = self.values.iter().skip(which).step_by(self.width());
+        column.copied().collect()
+    }
+
+    /// The line of a row.
+    pub(crate) fn row(&self, row: usize) -> Location {
+        match self.starts.get(row) {
+            Some(start) => line_at(&self.source, *start),
+            None => Location::whole(&self.source),
+        }
+    }
+
+    /// The cell of a row in one of the columns.
+    pub(crate) fn cell(&self, row: usize, which: usize) -> Location {
+        let (Some(start), Some(place)) = (self.starts.get(row), self.places.get(which)) else {
+            return Location::whole(&self.source);
+        };
+        let mut cells = Vec::new();
+        text::cells_from(self.source.text(), *start, self.delimiter, &mut cells);
+        Location::new(&self.source, cells.get(*place).cloned().unwrap_or_default())
+    }
+
+    /// The file as a whole.
+    pub(crate) fn whole(&self) -> Location {
+        Location::whole(&self.source)
+    }
+}
+
+/// The line that begins at `start`.
+pub(super) fn line_at(source: &Arc<Source>, start: usize) -> Location {
+    let rest = source.text().get(start..).unwrap_or_default();
+    let line = rest.split('\n').next().unwrap_or_default();
+    Location::new(source, start..start + line.trim_end().len())
+}
+
+/// Reads rows, and remembers how their numbers separate decimals.
+pub(super) struct Rows<'a> {
+    header: &'a Header<'a>,
+    pub(super) table: Table,
+    problems: Problems,
+    signs: DecimalSigns,
+    /// Whether a cell without a number is read as a NaN.
+    pub(super) may_have_holes: bool,
+}
+
+impl<'a> Rows<'a> {
+    pub(super) fn new(header: &'a Header<'a>, places: Vec<usize>) -> Self {
+        let table = Table {
+            source: Arc::clone(header.source),
+            delimiter: header.delimiter,
+            places,
+            values: Vec::new(),
+            starts: Vec::new(),
+        };
+        Self {
+            header,
+            table,
+            problems: Problems::new(),
+            signs: DecimalSigns::default(),
+            may_have_holes: false,
+        }
+    }
+
+    pub(super) fn read(
+        &mut self,
+        mut lines: Lines<'_>,
+        without_number: &str,
+    ) -> Result<(), Diagnostics> {
+        let (text, expected) = (lines.text, self.header.cells.len());
+        let mut cells = Vec::with_capacity(expected);
+        while let Some(start) = lines.cells(self.header.delimiter, &mut cells) {
+            if cells.len() != expected {
+                let found = cells.len();
+                let s = if found == 1 { "" } else { "s" };
+                let message = format!("a row of {found} cell{s} in a table of {expected} columns");
+                let report = (self.problems).at(&line_at(self.header.source, start), message);
+                report.help(
+                    "give every row one cell per column; where commas separate cells, numbers have a decimal point",
+                );
+                continue;
+            }
+            self.table.starts.push(start);
+            for which in 0..self.table.places.len() {
+                let span = cells[self.table.places[which]].clone();
+                match self.number(&text[span.clone()], &span) {
+                    Ok(number) => self.table.values.push(number),
+                    Err(why) => self.no_number(which, span, why, without_number),
+                }
+            }
+        }
+        self.signs.check(self.header.source, &self.problems);
+        std::mem::take(&mut self.problems).into_result(Some(()))
+    }
+
+    /// The number in a cell, or why there is none.
+    fn number(&mut self, cell: &str, span: &Range<usize>) -> Result<f64, &'static str> {
+        let delimiter = self.header.delimiter;
+        if self.may_have_holes && is_hole(cell) {
+            return Ok(f64::NAN);
+        }
+        let why = if cell.is_empty() {
+            "empty"
+        } else {
+            "not a number"
+        };
+        let number = plain_number(cell, delimiter).ok_or(why)?;
+        if delimiter != ',' {
+            self.signs.see(cell, span);
+        }
+        match number.is_finite() {
+            true => Ok(number),
+            false => Err("not a finite number"),
+        }
+    }
+
+    fn no_number(&self, which: usize, span: Range<usize>, why: &str, without_number: &str) {
+        let place = self.table.places[which];
+        let cell = Location::new(self.header.source, span);
+        // In a matrix the first line is one of numbers.
+        let column = match self.table.starts.first() == Some(&self.header.start) {
+            true => format!("column {}", place + 1),
+            false => format!("the column `{}`", self.header.location(place).text()),
+        };
+        let message = format!("a cell of {column} must be a number");
+        let report = self.problems.at(&cell, message);
+        report.because(why).help(without_number);
+    }
+}
+
+/// How the numbers of a file separate decimals.
+#[derive(Debug, Default)]
+pub(super) struct DecimalSigns {
+    /// The first number with a decimal point, where a comma could stand for it.
+    point: Option<Range<usize>>,
+    /// The first number with a comma.
+    comma: Option<Range<usize>>,
+    /// Whether some comma separates no thousands.
+    is_decimal: bool,
+}
+
+impl DecimalSigns {
+    pub(super) fn see(&mut self, cell: &str, span: &Range<usize>) {
+        if self.point.is_none() && cell.contains('.') {
+            self.point = Some(span.clone());
+        }
+        if !self.is_decimal && cell.contains(',') {
+            self.comma.get_or_insert_with(|| span.clone());
+            self.is_decimal = !is_like_thousands(cell);
+        }
+    }
+
+    /// Commas must separate decimals, and do it everywhere.
+    pub(super) fn check(&self, source: &Arc<Source>, problems: &Problems) {
+        let Some(comma) = &self.comma else {
+            return;
+        };
+        let comma = Location::new(source, comma.clone());
+        if let Some(point) = &self.point {
+            problems
+                .at(&comma, "a decimal comma in a file with decimal points")
+                .label(&Location::new(source, point.clone()), "a decimal point")
+                .help("write decimal points, and nothing between thousands");
+        } else if !self.is_decimal {
+            let [point, none] = [".", ""].map(|sign| comma.text().replace(',', sign));
+            problems
+                .at(&comma, "this comma may separate decimals or thousands")
+                .help(format!("write `{point}` or `{none}`"));
+        }
+    }
+}
+
+/// A number with a decimal point, or with a decimal comma where commas do not separate cells.
+pub(super) fn plain_number(cell: &str, delimiter: char) -> Option<f64> {
+    let with_comma = || match delimiter {
+        ',' => None,
+        _ => cell.replacen(',', ".", 1).parse().ok(),
+    };
+    cell.parse().ok().or_else(with_comma)
+}
+
+/// Whether a cell says that there is no number.
+fn is_hole(cell: &str) -> bool {
+    let words = ["nan", "na", "n/a", "-", "--", "---"];
+    cell.is_empty() || words.iter().any(|word| cell.eq_ignore_ascii_case(word))
+}
+
+/// Whether a number with a comma could be an integer with its thousands apart: `1,234`.
+fn is_like_thousands(number: &str) -> bool {
+    let number = number.trim_start_matches(['+', '-']);
+    number.split_once(',').is_some_and(|(before, after)| {
+        (1..=3).contains(&before.len())
+            && !before.starts_with('0')
+            && after.len() == 3
+            && after.bytes().all(|byte| byte.is_ascii_digit())
+    })
+}

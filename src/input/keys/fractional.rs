@@ -1,0 +1,83 @@
+//! Keys of `[material.fractional]`: a model with derivatives of fractional order.
+
+use std::ops::Bound;
+
+use super::material::{EQUILIBRIUM, MODULUS_KINDS};
+use super::rows;
+use crate::input::document::kind::{Array, Choice, Scalar, number, pair, quantity};
+use crate::input::document::limits::Limits;
+use crate::input::document::row::{Or, Others, Required, Row, Rows};
+use crate::material::{ModulusKind, fractional};
+use crate::quantity::Dimension::{AngularFrequency, Stress, Time};
+
+/// A fractional model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FractionalModel {
+    Springpot,
+    Zener,
+    Maxwell,
+}
+
+const FRACTIONAL_MODELS: [(&str, FractionalModel); 3] = [
+    ("springpot", FractionalModel::Springpot),
+    ("zener", FractionalModel::Zener),
+    ("maxwell", FractionalModel::Maxwell),
+];
+
+const BAND_PAIR: &str = "write the lowest and the highest frequency that you compute at, above zero: \
+                         band = [\"1e-3 rad/s\", \"1e5 rad/s\"]";
+const BETWEEN: &str =
+    "1 is the classical model, 0 a spring: write an exponent above 0 and at most 1";
+const FRACTIONAL_ACCURACY: Limits = Limits::between(fractional::ACCURACY.0, fractional::ACCURACY.1);
+
+rows! { FRACTIONAL_KEYS:
+    /// `springpot`: E* = stiffness (i omega time)^exponent. `zener`: E* = equilibrium + stiffness (i omega time)^exponent /
+    /// (1 + (i omega time)^exponent). `maxwell`: E* = stiffness (i omega time)^exponent / (1 + (i omega time)^(exponent -
+    /// second_exponent)), two springpots in line. Springpot and Maxwell are fluids, for single histories.
+    FRACTIONAL_MODEL: Row<Choice<FractionalModel>, Required> = "model", Choice(&FRACTIONAL_MODELS), Required;
+    /// Whether the stiffnesses are Young's or shear moduli.
+    FRACTIONAL_KIND: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
+    /// Modulus of the fractional element.
+    STIFFNESS: Row<Scalar, Required> = "stiffness", quantity(Stress).above_zero(), Required;
+    /// Time of the fractional element.
+    FRACTIONAL_TIME: Row<Scalar, Required> = "time", quantity(Time).above_zero(), Required;
+    /// Exponent alpha of the fractional element, above 0 and at most 1 (springpot: below 1).
+    FRACTIONAL_EXPONENT: Row<Scalar, Required> =
+        "exponent",
+        number("0.5").within(Limits::new(Bound::Excluded(0.0), Bound::Included(1.0))).or_else(BETWEEN),
+        Required;
+    /// Lowest and highest angular frequency over which a series represents the model; outside, results are extrapolations.
+    BAND: Row<Array<Scalar>, Required> =
+        "band", pair(quantity(AngularFrequency).above_zero().or_else(BAND_PAIR), BAND_PAIR), Required;
+    /// Largest relative difference of E* between series and model over the band.
+    FRACTIONAL_ACCURACY_KEY: Row<Scalar, Or<f64>> =
+        "accuracy", number("1e-3").within(FRACTIONAL_ACCURACY), Or(1e-3);
+}
+
+rows! { _:
+    /// Exponent beta of the second springpot, below `exponent`; zero is a spring.
+    SECOND_EXPONENT: Row<Scalar, Or<f64>> =
+        "second_exponent",
+        number("0.2").within(Limits::of(0.0..1.0)),
+        Or(0.0);
+}
+
+pub(super) static TABLE: Rows = Rows {
+    means: " A model with derivatives of fractional order.",
+    keys: FRACTIONAL_KEYS,
+    others: Others::ByWord(
+        &FRACTIONAL_MODEL,
+        &[
+            ("springpot", &FRACTIONAL_SPRINGPOT),
+            ("zener", &FRACTIONAL_ZENER),
+            ("maxwell", &FRACTIONAL_MAXWELL),
+        ],
+    ),
+};
+
+static FRACTIONAL_SPRINGPOT: Rows = super::table(" A springpot alone.", &[]);
+static FRACTIONAL_ZENER: Rows = super::table(
+    " A spring beside a spring and a springpot in line.",
+    &[&EQUILIBRIUM],
+);
+static FRACTIONAL_MAXWELL: Rows = super::table(" Two springpots in line.", &[&SECOND_EXPONENT]);
