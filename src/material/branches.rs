@@ -13,8 +13,25 @@ pub(super) const MANY: usize = 8;
 /// Branches are taken away one by one; this many ways are tried to the end, the likeliest first.
 pub(super) const TRIED: usize = 3;
 
+/// Branches sorted by time, those of equal times added together.
+pub(super) fn merged<B>(
+    mut branches: Vec<B>,
+    time_s: fn(&B) -> f64,
+    add: fn(&mut B, &B),
+) -> Vec<B> {
+    branches.sort_by(|left, right| time_s(left).total_cmp(&time_s(right)));
+    branches.dedup_by(|next, kept| {
+        let same = time_s(next) == time_s(kept);
+        if same {
+            add(kept, next);
+        }
+        same
+    });
+    branches
+}
+
 /// Two branches as one: strengths added, times averaged as logarithms with the strengths as weights.
-fn merged(left: Branch, right: Branch) -> Branch {
+fn joined(left: Branch, right: Branch) -> Branch {
     let strength = left.strength + right.strength;
     let share = right.strength / strength;
     Branch {
@@ -30,7 +47,7 @@ pub(super) fn merge_runs(gridded: &[Branch], per_decade: f64) -> Vec<Branch> {
     let mut last_s = 0.0;
     for &branch in gridded {
         match branches.last_mut() {
-            Some(run) if branch.time_s <= last_s * adjacent => *run = merged(*run, branch),
+            Some(run) if branch.time_s <= last_s * adjacent => *run = joined(*run, branch),
             _ => branches.push(branch),
         }
         last_s = branch.time_s;
@@ -42,16 +59,16 @@ pub(super) fn merge_runs(gridded: &[Branch], per_decade: f64) -> Vec<Branch> {
 pub(super) fn halved(branches: &[Branch]) -> Vec<Branch> {
     let pairs = branches.chunks(2);
     pairs
-        .filter_map(|pair| pair.iter().copied().reduce(merged))
+        .filter_map(|pair| pair.iter().copied().reduce(joined))
         .collect()
 }
 
 /// Every list with one branch less: two neighbours merged, or one left out.
 pub(super) fn fewer(branches: &[Branch]) -> impl Iterator<Item = Vec<Branch>> {
-    let joined = (1..branches.len()).map(|right| {
+    let with_two_as_one = (1..branches.len()).map(|right| {
         let mut rest = branches.to_vec();
         let branch = rest.remove(right);
-        rest[right - 1] = merged(rest[right - 1], branch);
+        rest[right - 1] = joined(rest[right - 1], branch);
         rest
     });
     let without = (0..branches.len()).map(|left_out| {
@@ -59,5 +76,5 @@ pub(super) fn fewer(branches: &[Branch]) -> impl Iterator<Item = Vec<Branch>> {
         rest.remove(left_out);
         rest
     });
-    joined.chain(without)
+    with_two_as_one.chain(without)
 }

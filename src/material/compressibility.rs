@@ -13,7 +13,7 @@
 use num_complex::Complex;
 
 use super::creep::Creep;
-use super::error::{MaterialError, positive};
+use super::error::{MaterialError, positive, refused};
 use super::relaxation::{Relaxation, RelaxationBranch};
 
 /// What says how the volume changes.
@@ -81,11 +81,10 @@ impl Compressibility {
     pub(super) fn checked(self) -> Result<Self, MaterialError> {
         match self {
             Self::PoissonRatio(nu) if nu > -1.0 && nu <= 0.5 => Ok(self),
-            Self::PoissonRatio(nu) => Err(MaterialError::Parameter {
-                parameter: "Poisson ratio".to_owned(),
-                value: nu,
-                requirement: "greater than -1 and at most 0.5",
-            }),
+            Self::PoissonRatio(nu) => {
+                let requirement = "greater than -1 and at most 0.5";
+                Err(refused("Poisson ratio", nu, requirement))
+            }
             Self::BulkModulus(bulk) => {
                 positive("bulk modulus at rest (Pa)", bulk.equilibrium_modulus())?;
                 Ok(Self::BulkModulus(bulk))
@@ -115,7 +114,8 @@ pub(super) fn shear_of_longitudinal(
             least_pa: 1.0 / (9.0 * creep.instantaneous_compliance()),
         });
     }
-    shear.with_instantaneous(instantaneous.max(0.0))
+    let branches = shear.branches().to_vec();
+    Creep::new(instantaneous.max(0.0), branches, shear.viscosity_pa_s())
 }
 
 /// The uniaxial creep compliance D = J/3 + 1/(9K) of a shear compliance.

@@ -22,6 +22,7 @@
 //! Journal on Matrix Analysis and Applications 15 (1994) 1266), which make the result the exact
 //! reciprocal of a model whose times differ from the given ones only by rounding.
 
+use super::branches::Branch;
 use super::creep::{Creep, CreepBranch};
 use super::error::{MaterialError, in_range};
 use super::relaxation::{Relaxation, RelaxationBranch};
@@ -52,22 +53,14 @@ pub(super) fn relaxation_to_creep(relaxation: &Relaxation) -> Result<Creep, Mate
         poles: times,
         weights,
     };
-    let zeros = secular.zeros();
-    let mut branches = Vec::with_capacity(zeros.len());
-    for (index, zero) in zeros.iter().enumerate() {
-        let share = secular.compliance_share(&zeros, index);
-        let compliance_per_pa = in_range(WHAT, share / instantaneous_pa)?;
-        let time_s = in_range(WHAT, secular.position(zero))?;
-        if compliance_per_pa > 0.0 {
-            branches.push(CreepBranch {
-                compliance_per_pa,
-                time_s,
-            });
-        }
-    }
+    let branches = secular.branches(WHAT, Secular::compliance_share, instantaneous_pa)?;
+    let branches = branches.into_iter().map(|branch| CreepBranch {
+        compliance_per_pa: branch.strength,
+        time_s: branch.time_s,
+    });
     Creep::new(
         1.0 / instantaneous_pa,
-        branches,
+        branches.collect(),
         relaxation.viscosity_pa_s(),
     )
 }
@@ -101,20 +94,15 @@ pub(super) fn creep_to_relaxation(creep: &Creep) -> Result<Relaxation, MaterialE
         poles: poles.collect(),
         weights: weights.collect(),
     };
-    let zeros = secular.zeros();
-    let mut branches = Vec::with_capacity(zeros.len());
-    for (index, zero) in zeros.iter().enumerate() {
-        let share = secular.modulus_share(&zeros, index);
-        let modulus_pa = in_range(WHAT, share / instantaneous_per_pa)?;
-        let time_s = in_range(WHAT, secular.position(zero))?;
-        if modulus_pa > 0.0 {
-            branches.push(RelaxationBranch { modulus_pa, time_s });
-        }
-    }
+    let branches = secular.branches(WHAT, Secular::modulus_share, instantaneous_per_pa)?;
+    let branches = branches.into_iter().map(|branch| RelaxationBranch {
+        modulus_pa: branch.strength,
+        time_s: branch.time_s,
+    });
     let equilibrium_pa = creep
         .equilibrium_compliance()
         .map_or(0.0, |compliance| 1.0 / compliance);
-    Relaxation::new(equilibrium_pa, branches)
+    Relaxation::new(equilibrium_pa, branches.collect())
 }
 
 /// Accepts a ratio that is finite and has not underflown: only a zero numerator may give zero,
@@ -142,6 +130,26 @@ struct Zero {
 }
 
 impl Secular {
+    /// A branch at every zero, its strength this share over the instantaneous value; none where that underflows.
+    fn branches(
+        &self,
+        what: &'static str,
+        share: fn(&Self, &[Zero], usize) -> f64,
+        instantaneous: f64,
+    ) -> Result<Vec<Branch>, MaterialError> {
+        let zeros = self.zeros();
+        let branch = |(index, zero): (usize, &Zero)| {
+            Ok(Branch {
+                strength: in_range(what, share(self, &zeros, index) / instantaneous)?,
+                time_s: in_range(what, self.position(zero))?,
+            })
+        };
+        let branches = zeros.iter().enumerate().map(branch);
+        let mut branches = branches.collect::<Result<Vec<_>, _>>()?;
+        branches.retain(|branch| branch.strength > 0.0);
+        Ok(branches)
+    }
+
     /// The zeros, ascending: one in each gap, and one above the last pole if the constant is positive.
     fn zeros(&self) -> Vec<Zero> {
         let gaps = self.poles.len().saturating_sub(1);

@@ -12,6 +12,7 @@
 
 use num_complex::Complex;
 
+use super::branches::merged;
 use super::conversion;
 use super::error::{MaterialError, in_range, non_negative, positive};
 use super::harmonic::{Debye, reciprocal};
@@ -65,7 +66,11 @@ impl Creep {
         }
         let creep = Creep {
             instantaneous_per_pa,
-            branches: merged(branches),
+            branches: merged(
+                branches,
+                |branch| branch.time_s,
+                |kept, next| kept.compliance_per_pa += next.compliance_per_pa,
+            ),
             viscosity_pa_s,
         };
         let retarded = creep.retarded_compliance();
@@ -167,28 +172,12 @@ impl Creep {
     /// A factor that is not positive and finite, or takes a compliance out of range.
     pub fn scaled(&self, factor: f64) -> Result<Self, MaterialError> {
         positive("factor on the creep compliance", factor)?;
-        let branches = self
-            .branches
-            .iter()
-            .map(|branch| CreepBranch {
-                compliance_per_pa: branch.compliance_per_pa * factor,
-                ..*branch
-            })
-            .collect();
+        let mut branches = self.branches.clone();
+        for branch in &mut branches {
+            branch.compliance_per_pa *= factor;
+        }
         let viscosity_pa_s = self.viscosity_pa_s.map(|viscosity| viscosity / factor);
         Creep::new(self.instantaneous_per_pa * factor, branches, viscosity_pa_s)
-    }
-
-    /// The same with another instantaneous compliance (1/Pa).
-    ///
-    /// # Errors
-    /// As [`Creep::new`].
-    pub(super) fn with_instantaneous(&self, compliance_per_pa: f64) -> Result<Self, MaterialError> {
-        Creep::new(
-            compliance_per_pa,
-            self.branches.clone(),
-            self.viscosity_pa_s,
-        )
     }
 
     /// Two compliances under the same stress: their sum.
@@ -233,19 +222,6 @@ impl Creep {
             1.0 / viscosity / angular_frequency_rad_per_s
         })
     }
-}
-
-/// Sorted by time, equal times added together.
-fn merged(mut branches: Vec<CreepBranch>) -> Vec<CreepBranch> {
-    branches.sort_by(|left, right| left.time_s.total_cmp(&right.time_s));
-    branches.dedup_by(|next, kept| {
-        let same = next.time_s == kept.time_s;
-        if same {
-            kept.compliance_per_pa += next.compliance_per_pa;
-        }
-        same
-    });
-    branches
 }
 
 #[cfg(test)]

@@ -77,11 +77,7 @@ pub(super) fn positive(parameter: impl Into<String>, value: f64) -> Result<f64, 
     if value.is_finite() && value > 0.0 {
         return Ok(value);
     }
-    Err(MaterialError::Parameter {
-        parameter: parameter.into(),
-        value,
-        requirement: "finite and greater than zero",
-    })
+    Err(refused(parameter, value, "finite and greater than zero"))
 }
 
 /// Accepts a finite number that is zero or greater.
@@ -90,11 +86,20 @@ pub(super) fn non_negative(parameter: impl Into<String>, value: f64) -> Result<f
         // Minus zero compares equal to zero; keep only plus zero.
         return Ok(value.abs());
     }
-    Err(MaterialError::Parameter {
+    Err(refused(parameter, value, "finite and not negative"))
+}
+
+/// A parameter that does not meet its requirement.
+pub(super) fn refused(
+    parameter: impl Into<String>,
+    value: f64,
+    requirement: &'static str,
+) -> MaterialError {
+    MaterialError::Parameter {
         parameter: parameter.into(),
         value,
-        requirement: "finite and not negative",
-    })
+        requirement,
+    }
 }
 
 /// Accepts a computed number that is still finite.

@@ -40,17 +40,17 @@
 
 #[cfg(test)]
 mod noisy;
+mod report;
 mod search;
 
-use std::fmt;
-
 use super::nnls::NnlsError;
-use super::tabulated::{TableWarning, Tabulated, name, seconds};
+use super::tabulated::Tabulated;
 use super::{
     Compressibility, Creep, CreepBranch, Material, MaterialError, MaterialFunction, ModulusKind,
     Relaxation, RelaxationBranch,
 };
-use crate::quantity::{Dimension, format_human};
+use report::FAR_FROM_EQUILIBRIUM;
+pub use report::{FitRemark, FitReport, Misfit};
 use search::{Open, Search, Series};
 
 /// What a parameter must lower the sum of squares by, in units of the variance of the noise (H. Akaike, IEEE Transactions on
@@ -77,10 +77,6 @@ const AFTER: f64 = 10.0;
 /// Ratio to the fit's own value beyond which no alternative is looked for.
 const WIDEST: f64 = 10.0;
 
-/// Shares of extrapolation to time zero and to equilibrium that are worth a warning.
-const FAR_FROM_INSTANTANEOUS: f64 = 0.01;
-const FAR_FROM_EQUILIBRIUM: f64 = 0.05;
-
 /// Why no fit was made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -106,81 +102,6 @@ pub struct Fit {
 pub enum FittedSeries {
     Creep(Creep),
     Relaxation(Relaxation),
-}
-
-/// Difference between series and samples, relative to the samples.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
-pub struct Misfit {
-    /// Root mean square.
-    pub rms: f64,
-    /// Largest magnitude, and the time (s) at which it occurs.
-    pub largest: f64,
-    pub largest_at_s: f64,
-}
-
-/// What was fitted, how well, and what was assumed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct FitReport {
-    pub face: MaterialFunction,
-    pub kind: ModulusKind,
-    pub samples: usize,
-    /// Groups of samples that were fitted; as many as samples where these are sparse.
-    pub groups: usize,
-    /// First and last time of the table (s).
-    pub first_s: f64,
-    pub last_s: f64,
-    /// First positive and last time (s).
-    pub window_s: (f64, f64),
-    pub branches: usize,
-    pub misfit: Misfit,
-    pub remarks: Vec<FitRemark>,
-}
-
-/// Something to know about a fit.
-#[derive(Debug, Clone, PartialEq)]
-pub enum FitRemark {
-    /// About the samples themselves.
-    Table(TableWarning),
-    /// The data begin at `first_s`: the value at time zero (1/Pa or Pa) is an extrapolation by this share.
-    Instantaneous {
-        face: MaterialFunction,
-        first_s: f64,
-        value: f64,
-        share: f64,
-        /// The lowest and the highest value of series that fit about as well.
-        allowed: (f64, f64),
-    },
-    /// The creep compliance of the fit begins at zero.
-    InstantaneouslyRigid { first_s: f64 },
-    /// The series goes on after the last sample, by this share of its value there.
-    Equilibrium {
-        face: MaterialFunction,
-        last_s: f64,
-        share: f64,
-        /// The lowest and the highest equilibrium value (1/Pa or Pa) of series that fit about as well.
-        allowed: (f64, f64),
-    },
-    /// The data ask for a viscous flow term; the misfits (rms) without and with it.
-    Flow {
-        viscosity_pa_s: f64,
-        rms_without: f64,
-        rms_with: f64,
-    },
-    /// They do not.
-    NoFlow { rms_without: f64, rms_with: f64 },
-    /// A relaxation modulus that falls to nothing.
-    NoEquilibrium,
-}
-
-impl FitRemark {
-    /// Whether this limits what the fit can be used for, rather than telling how it was made.
-    pub fn is_warning(&self) -> bool {
-        match self {
-            Self::Instantaneous { share, .. } => *share > FAR_FROM_INSTANTANEOUS,
-            Self::NoFlow { .. } => false,
-            _ => true,
-        }
-    }
 }
 
 /// Fits a series to a table: that of a fluid or of a solid as `flow` says, and as the data say where it does not.
@@ -517,140 +438,12 @@ impl Fit {
     }
 }
 
-/// A creep compliance or relaxation modulus in five digits.
-fn value(face: MaterialFunction, value: f64) -> String {
-    match face {
-        MaterialFunction::Creep => format_human(value, Dimension::Compliance, 5),
-        MaterialFunction::Relaxation => format_human(value, Dimension::Stress, 5),
-    }
-}
-
-/// What a value at an end of time may be.
-fn range(face: MaterialFunction, (lowest, highest): (f64, f64)) -> String {
-    let (lowest, highest) = (value(face, lowest), value(face, highest));
-    format!("the data allow {lowest} to {highest}")
-}
-
-/// A share as a person reads it: per cent, or a power of ten where that would be nothing.
-fn share(value: f64) -> String {
-    if value >= 1e-5 {
-        let decimals = (1 - (100.0 * value).log10().floor() as i32).max(0) as usize;
-        format!("{:.decimals$} %", 100.0 * value)
-    } else if value > 0.0 {
-        format!("{value:.0e}")
-    } else {
-        "0 %".to_owned()
-    }
-}
-
-impl fmt::Display for FitReport {
-    /// Lines to be printed, without a line end after the last.
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let kind = self.kind.name();
-        let plural = if self.branches == 1 { "" } else { "es" };
-        write!(
-            formatter,
-            "Fit of {} branch{plural} to the {kind} {}, {} samples from {} to {}",
-            self.branches,
-            name(self.face),
-            self.samples,
-            seconds(self.first_s),
-            seconds(self.last_s),
-        )?;
-        if self.groups < self.samples {
-            write!(formatter, " averaged to {} groups", self.groups)?;
-        }
-        write!(
-            formatter,
-            "\nMisfit relative to the data: {} rms, {} at most (at t = {})",
-            share(self.misfit.rms),
-            share(self.misfit.largest),
-            seconds(self.misfit.largest_at_s)
-        )?;
-        for remark in &self.remarks {
-            let rank = if remark.is_warning() {
-                "Warning"
-            } else {
-                "Note"
-            };
-            write!(formatter, "\n{rank}: {remark}")?;
-        }
-        Ok(())
-    }
-}
-
-impl fmt::Display for FitRemark {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Table(warning) => warning.fmt(formatter),
-            Self::Instantaneous {
-                face,
-                first_s,
-                value: own,
-                share: by,
-                allowed,
-            } => write!(
-                formatter,
-                "the data begin at {}: the instantaneous {} of {} is assumed, {} from the first value of the fit; anything faster is taken for instantaneous; {}",
-                seconds(*first_s),
-                name(*face),
-                value(*face, *own),
-                share(*by),
-                range(*face, *allowed)
-            ),
-            Self::InstantaneouslyRigid { first_s } => write!(
-                formatter,
-                "the fit has no instantaneous compliance, so it cannot go into contact: the data, which begin at {}, show none",
-                seconds(*first_s)
-            ),
-            Self::Equilibrium {
-                face,
-                last_s,
-                share: by,
-                allowed,
-            } => write!(
-                formatter,
-                "the data end at {} before the {} comes to rest: its equilibrium is assumed, {} from the last value of the fit; {}",
-                seconds(*last_s),
-                name(*face),
-                share(*by),
-                range(*face, *allowed)
-            ),
-            Self::Flow {
-                viscosity_pa_s,
-                rms_without,
-                rms_with,
-            } => write!(
-                formatter,
-                "the data ask for a viscous flow of {}: the misfit is {} rms with it and {} without; the material is a fluid (flow = false asks for a solid)",
-                format_human(*viscosity_pa_s, Dimension::Viscosity, 4),
-                share(*rms_with),
-                share(*rms_without)
-            ),
-            // The digits that are printed are what counts.
-            Self::NoFlow {
-                rms_without,
-                rms_with,
-            } if *rms_with < 0.95 * rms_without => write!(
-                formatter,
-                "no viscous flow is assumed: it would lower the misfit from {} rms to {} only",
-                share(*rms_without),
-                share(*rms_with)
-            ),
-            Self::NoFlow { .. } => formatter
-                .write_str("no viscous flow is assumed: it would not lower the misfit"),
-            Self::NoEquilibrium => formatter.write_str(
-                "the relaxation modulus of the fit falls to nothing: the material is a fluid, and has no stabilised cycle in contact (flow = false asks for a solid)",
-            ),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::material::library;
     use crate::material::synthetic::{Noise, log_spaced};
+    use crate::material::tabulated::TableWarning;
 
     fn pmma() -> Material {
         library::find("pmma").unwrap().material().unwrap()
@@ -1034,7 +827,7 @@ mod tests {
             (3e-15, "3e-15"),
             (0.0, "0 %"),
         ] {
-            assert_eq!(share(value), text);
+            assert_eq!(report::percent(value), text);
         }
     }
 }

@@ -21,11 +21,10 @@
 //! (2014) 385).
 
 use std::f64::consts::{FRAC_PI_2, PI};
-use std::fmt;
 
 use num_complex::Complex;
 
-use super::error::{MaterialError, non_negative, positive};
+use super::error::{MaterialError, non_negative, positive, refused};
 use super::relaxation::{Relaxation, RelaxationBranch};
 
 /// A fractional model: `E_inf + E (i omega tau)^a / (1 + (i omega tau)^c)`, the springpot without denominator.
@@ -41,7 +40,11 @@ pub struct Fractional {
 }
 
 /// How well a series stands for a model.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, thiserror::Error)]
+#[error(
+    "The {model} as a series of {branches} branches: its complex modulus is within {error:.1e} of the model's from {:e} to {:e} rad/s",
+    band_rad_per_s.0, band_rad_per_s.1
+)]
 pub struct Approximation {
     /// The model.
     pub model: &'static str,
@@ -445,25 +448,6 @@ fn joint(one: &RelaxationBranch, other: &RelaxationBranch) -> RelaxationBranch {
     RelaxationBranch {
         modulus_pa,
         time_s: one.time_s * (other.time_s / one.time_s).powf(share),
-    }
-}
-
-fn refused(parameter: &str, value: f64, requirement: &'static str) -> MaterialError {
-    MaterialError::Parameter {
-        parameter: parameter.to_owned(),
-        value,
-        requirement,
-    }
-}
-
-impl fmt::Display for Approximation {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (low, high) = self.band_rad_per_s;
-        write!(
-            formatter,
-            "The {} as a series of {} branches: its complex modulus is within {:.1e} of the model's from {low:e} to {high:e} rad/s",
-            self.model, self.branches, self.error
-        )
     }
 }
 

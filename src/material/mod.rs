@@ -45,14 +45,13 @@ mod branches;
 mod conversion;
 mod creep;
 mod error;
+mod functions;
 mod harmonic;
 mod peaks;
 mod random;
 mod relaxation;
 #[cfg(test)]
 mod synthetic;
-
-use num_complex::Complex;
 
 pub use compressibility::Compressibility;
 pub use creep::{Creep, CreepBranch};
@@ -146,22 +145,9 @@ impl Material {
         {
             return Self::from_creep(relaxation.to_creep()?, kind, compressibility);
         }
-        Ok(Material {
-            name: None,
-            compressibility,
-            kind,
-            given: MaterialFunction::Relaxation,
-            creep: relaxation.to_creep()?,
-            relaxation: Some(relaxation),
-            fit: None,
-            approximation: None,
-            shift: None,
-            measured_window_s: None,
-            temperature_k: None,
-            alternatives: Vec::new(),
-            replicas: Vec::new(),
-            counterbody: None,
-        })
+        let (given, creep) = (MaterialFunction::Relaxation, relaxation.to_creep()?);
+        let relaxation = Some(relaxation);
+        Ok(Self::plain(compressibility, kind, given, creep, relaxation))
     }
 
     /// A material from its creep compliance. Without an instantaneous compliance (Kelvin-Voigt) it
@@ -189,7 +175,18 @@ impl Material {
             Err(error) => return Err(error),
         };
         let given = MaterialFunction::Creep;
-        Ok(Material {
+        Ok(Self::plain(compressibility, kind, given, creep, relaxation))
+    }
+
+    /// Of which no more is known.
+    fn plain(
+        compressibility: Compressibility,
+        kind: ModulusKind,
+        given: MaterialFunction,
+        creep: Creep,
+        relaxation: Option<Relaxation>,
+    ) -> Self {
+        Material {
             name: None,
             compressibility,
             kind,
@@ -204,31 +201,25 @@ impl Material {
             alternatives: Vec::new(),
             replicas: Vec::new(),
             counterbody: None,
-        })
+        }
     }
 
     /// The same material under a name.
-    pub fn named(self, name: impl Into<String>) -> Self {
-        Material {
-            name: Some(name.into()),
-            ..self
-        }
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.name = Some(name.into());
+        self
     }
 
     /// The same material, known to come from a fit.
-    pub fn with_fit(self, report: fit::FitReport) -> Self {
-        Material {
-            fit: Some(report),
-            ..self
-        }
+    pub fn with_fit(mut self, report: fit::FitReport) -> Self {
+        self.fit = Some(report);
+        self
     }
 
     /// The same material, known to shift in time with the temperature by this law, which refers to the material's own.
-    pub fn shifting(self, law: dynamic::shift_law::Wlf) -> Self {
-        Material {
-            shift: Some(law),
-            ..self
-        }
+    pub fn shifting(mut self, law: dynamic::shift_law::Wlf) -> Self {
+        self.shift = Some(law);
+        self
     }
 
     /// How the material shifts in time with the temperature, where that is known, from the temperature of its series on.
@@ -237,11 +228,9 @@ impl Material {
     }
 
     /// The same material, known to stand for a fractional model.
-    pub fn approximated(self, approximation: fractional::Approximation) -> Self {
-        Material {
-            approximation: Some(approximation),
-            ..self
-        }
+    pub fn approximated(mut self, approximation: fractional::Approximation) -> Self {
+        self.approximation = Some(approximation);
+        self
     }
 
     /// Where the material stands for a fractional model: over which band, and how well.
@@ -250,11 +239,9 @@ impl Material {
     }
 
     /// The same material, known to have been measured from the first to the second of these times (s).
-    pub fn measured(self, window_s: (f64, f64)) -> Self {
-        Material {
-            measured_window_s: Some(window_s),
-            ..self
-        }
+    pub fn measured(mut self, window_s: (f64, f64)) -> Self {
+        self.measured_window_s = Some(window_s);
+        self
     }
 
     /// First and last time (s) at which the material was observed, where that is known. What it does at angular frequencies
@@ -264,11 +251,9 @@ impl Material {
     }
 
     /// The same material, known to be told from these by no data.
-    pub fn with_alternatives(self, alternatives: Vec<Material>) -> Self {
-        Material {
-            alternatives,
-            ..self
-        }
+    pub fn with_alternatives(mut self, alternatives: Vec<Material>) -> Self {
+        self.alternatives = alternatives;
+        self
     }
 
     /// Materials of the same kind that fit the data this one was fitted to about as well, and differ in what the data leave
@@ -279,11 +264,9 @@ impl Material {
     }
 
     /// The same material, known to be at this temperature (K).
-    pub fn at_temperature(self, temperature_k: f64) -> Self {
-        Material {
-            temperature_k: Some(temperature_k),
-            ..self
-        }
+    pub fn at_temperature(mut self, temperature_k: f64) -> Self {
+        self.temperature_k = Some(temperature_k);
+        self
     }
 
     /// The temperature (K) that the material is at, where that is known.
@@ -293,13 +276,12 @@ impl Material {
 
     /// The same material, known to be one of these but for the noise of the data that it was fitted to.
     /// The times of the test are those of the material, and not of each replica.
-    pub fn with_replicas(self, replicas: Vec<Material>) -> Self {
-        let without_times = |replica| Material {
-            measured_window_s: None,
-            ..replica
-        };
-        let replicas = replicas.into_iter().map(without_times).collect();
-        Material { replicas, ..self }
+    pub fn with_replicas(mut self, mut replicas: Vec<Material>) -> Self {
+        for replica in &mut replicas {
+            replica.measured_window_s = None;
+        }
+        self.replicas = replicas;
+        self
     }
 
     /// Materials of the same kind, drawn at random: what the fit gives where the noise of the data falls otherwise. All are alike
@@ -310,19 +292,12 @@ impl Material {
     }
 
     /// The same material, pressed by an indenter of this one in place of a rigid one.
-    pub fn against(self, indenter: Material) -> Self {
-        let with = |others: Vec<Material>| -> Vec<Material> {
-            let others = others.into_iter();
-            others
-                .map(|other| other.against(indenter.clone()))
-                .collect()
-        };
-        Material {
-            alternatives: with(self.alternatives),
-            replicas: with(self.replicas),
-            counterbody: Some(Box::new(indenter.clone())),
-            ..self
+    pub fn against(mut self, indenter: Material) -> Self {
+        for other in self.alternatives.iter_mut().chain(&mut self.replicas) {
+            *other = other.clone().against(indenter.clone());
         }
+        self.counterbody = Some(Box::new(indenter));
+        self
     }
 
     /// What the indenter is made of; `None` for a rigid one.
@@ -410,178 +385,6 @@ impl Material {
     /// material is instantaneously rigid (Kelvin-Voigt).
     pub fn relaxation(&self) -> Option<&Relaxation> {
         self.relaxation.as_ref()
-    }
-
-    /// Creep compliance of the kind asked for, in 1/Pa: `J = 2 (1 + nu) D`.
-    ///
-    /// # Errors
-    /// A compliance beyond the range of a double.
-    pub fn creep_as(&self, kind: ModulusKind) -> Result<Creep, MaterialError> {
-        match (&self.compressibility, kind) {
-            (Compressibility::PoissonRatio(nu), _) => {
-                self.creep.scaled(1.0 / self.modulus_factor(kind, *nu))
-            }
-            (Compressibility::BulkModulus(_), ModulusKind::Shear) => self.creep.scaled(1.0),
-            (Compressibility::BulkModulus(bulk), ModulusKind::Longitudinal) => {
-                compressibility::longitudinal_of_shear(&self.creep, bulk)
-            }
-        }
-    }
-
-    /// Relaxation modulus of the kind asked for, in Pa: `E(t) = 2 (1 + nu) G(t)`; `None` if the
-    /// material is instantaneously rigid.
-    ///
-    /// # Errors
-    /// A modulus beyond the range of a double.
-    pub fn relaxation_as(&self, kind: ModulusKind) -> Result<Option<Relaxation>, MaterialError> {
-        let Some(relaxation) = &self.relaxation else {
-            return Ok(None);
-        };
-        let own = match (&self.compressibility, kind) {
-            (Compressibility::PoissonRatio(nu), _) => {
-                relaxation.scaled(self.modulus_factor(kind, *nu))
-            }
-            (Compressibility::BulkModulus(_), ModulusKind::Shear) => relaxation.scaled(1.0),
-            (Compressibility::BulkModulus(_), ModulusKind::Longitudinal) => {
-                self.creep_as(kind)?.to_relaxation()
-            }
-        };
-        own.map(Some)
-    }
-
-    /// The shear creep function `Phi(t) = J(t)/2 = (1 + nu) D(t)`, in 1/Pa, as S. Spinu writes it
-    /// (Advances in Tribology 2018, 9432894, equations (3) to (10)); `1/(2G)` for an elastic solid.
-    ///
-    /// # Errors
-    /// A compliance beyond the range of a double.
-    pub fn shear_creep_function(&self) -> Result<Creep, MaterialError> {
-        self.creep.scaled(match (self.kind, &self.compressibility) {
-            (ModulusKind::Longitudinal, Compressibility::PoissonRatio(nu)) => 1.0 + nu,
-            _ => 0.5,
-        })
-    }
-
-    /// The contact compliance `C(t) = (1 - nu^2) D(t) = (1 - nu) J(t)/2`, in 1/Pa, or that of a bulk modulus: what takes the
-    /// place of `1/E* = (1 - nu^2)/E` of a half-space when the solid is viscoelastic (E. H. Lee
-    /// and J. R. M. Radok, Journal of Applied Mechanics 27 (1960) 438). That of an indenter which is not rigid is added: both
-    /// surfaces move under the same pressure (K. L. Johnson, *Contact Mechanics*, Cambridge 1985, section 4.2).
-    ///
-    /// # Errors
-    /// [`MaterialError::SingularContactPressure`] without an instantaneous compliance; a
-    /// compliance beyond the range of a double.
-    pub fn contact_compliance(&self) -> Result<Creep, MaterialError> {
-        if self.creep.is_instantaneously_rigid() {
-            return Err(MaterialError::SingularContactPressure);
-        }
-        let own = match &self.compressibility {
-            Compressibility::PoissonRatio(nu) => {
-                let lateral = 1.0 - nu;
-                self.creep.scaled(match self.kind {
-                    ModulusKind::Shear => 0.5 * lateral,
-                    ModulusKind::Longitudinal => lateral * (1.0 + nu),
-                })?
-            }
-            Compressibility::BulkModulus(bulk) => {
-                let shear = self.needed_relaxation()?;
-                let constrained = compressibility::under_lateral_constraint(shear, bulk)?;
-                self.creep
-                    .scaled(0.25)?
-                    .beside(&constrained.scaled(0.75)?)?
-            }
-        };
-        match &self.counterbody {
-            Some(indenter) => own.beside(&indenter.contact_compliance()?),
-            None => Ok(own),
-        }
-    }
-
-    /// Longitudinal complex modulus `E* = E' + i E'' = 2 (1 + nu) G*`, in Pa.
-    pub fn longitudinal_complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
-        self.complex_modulus_as(ModulusKind::Longitudinal, angular_frequency_rad_per_s)
-    }
-
-    /// Shear complex modulus `G* = G' + i G''`, in Pa.
-    pub fn shear_complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
-        self.complex_modulus_as(ModulusKind::Shear, angular_frequency_rad_per_s)
-    }
-
-    /// Contact complex modulus `1/C* = E*/(1 - nu^2)`, in Pa, which a flat punch sees.
-    pub fn contact_complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
-        let omega = angular_frequency_rad_per_s;
-        match &self.compressibility {
-            Compressibility::PoissonRatio(nu) => {
-                self.longitudinal_complex_modulus(omega) / ((1.0 - nu) * (1.0 + nu))
-            }
-            Compressibility::BulkModulus(bulk) => compressibility::contact_of_shear(
-                self.shear_complex_modulus(omega),
-                bulk.complex_modulus(omega),
-            ),
-        }
-    }
-
-    /// What a loop between the pair says of this material: storage and loss modulus (Pa) from those that the formula of
-    /// [`LoopAnalysis::equivalent_moduli_pa`](crate::cycle::LoopAnalysis::equivalent_moduli_pa) reads with the material's Poisson ratio,
-    /// as if the indenter were rigid, or with 0 where that is not constant. What the indenter yields is taken off, and with a constant
-    /// bulk modulus E* is that of the contact modulus 1/C*.
-    pub fn of_loop(
-        &self,
-        (storage_pa, loss_pa): (f64, f64),
-        angular_frequency_rad_per_s: f64,
-    ) -> (f64, f64) {
-        let read = Complex::new(storage_pa, loss_pa);
-        let nu = self.poisson_ratio().unwrap_or(0.0);
-        let lateral = (1.0 - nu) * (1.0 + nu);
-        let own = self.counterbody.as_ref().map(|indenter| {
-            let of_indenter = indenter.contact_complex_modulus(angular_frequency_rad_per_s);
-            lateral * (read.inv() * lateral - of_indenter.inv()).inv()
-        });
-        let own = match &self.compressibility {
-            Compressibility::PoissonRatio(_) => own.unwrap_or(read),
-            Compressibility::BulkModulus(bulk) => {
-                let bulk_pa = bulk.complex_modulus(angular_frequency_rad_per_s);
-                let shear = compressibility::shear_of_contact(own.unwrap_or(read), bulk_pa);
-                compressibility::young_of_shear(shear, bulk_pa)
-            }
-        };
-        (own.re, own.im)
-    }
-
-    /// Local maxima over frequency of loss modulus, loss compliance (of the kind asked for) and
-    /// loss tangent, searched to two decades beyond the time constants.
-    ///
-    /// # Errors
-    /// A compliance beyond the range of a double.
-    pub fn loss_peaks(&self, kind: ModulusKind) -> Result<LossPeaks, MaterialError> {
-        let relaxation = self.relaxation_as(kind)?;
-        Ok(peaks::loss_peaks(
-            &self.creep_as(kind)?,
-            relaxation.as_ref(),
-        ))
-    }
-
-    /// The complex modulus from the face that was given, which has seen no conversion.
-    fn complex_modulus_as(&self, kind: ModulusKind, omega: f64) -> Complex<f64> {
-        let own = match (self.given, &self.relaxation) {
-            (MaterialFunction::Relaxation, Some(relaxation)) => relaxation.complex_modulus(omega),
-            _ => self.creep.complex_modulus(omega),
-        };
-        match (&self.compressibility, kind) {
-            (Compressibility::PoissonRatio(nu), _) => own * self.modulus_factor(kind, *nu),
-            (Compressibility::BulkModulus(_), ModulusKind::Shear) => own,
-            (Compressibility::BulkModulus(bulk), ModulusKind::Longitudinal) => {
-                compressibility::young_of_shear(own, bulk.complex_modulus(omega))
-            }
-        }
-    }
-
-    /// What a modulus of the material's own kind is multiplied by to be one of `kind`.
-    fn modulus_factor(&self, kind: ModulusKind, poisson_ratio: f64) -> f64 {
-        let longitudinal_over_shear = 2.0 * (1.0 + poisson_ratio);
-        match (self.kind, kind) {
-            (ModulusKind::Shear, ModulusKind::Longitudinal) => longitudinal_over_shear,
-            (ModulusKind::Longitudinal, ModulusKind::Shear) => 1.0 / longitudinal_over_shear,
-            _ => 1.0,
-        }
     }
 }
 

@@ -53,64 +53,41 @@ pub(super) fn loss_peaks(creep: &Creep, relaxation: Option<&Relaxation>) -> Loss
     };
     let range = (1.0 / longest / MARGIN, MARGIN / shortest);
     LossPeaks {
-        loss_modulus: maxima(range, |omega| loss_modulus(Point::at(creep, omega))),
-        loss_compliance: maxima(range, |omega| loss_compliance(Point::at(creep, omega))),
-        loss_tangent: maxima(range, |omega| loss_tangent(Point::at(creep, omega))),
+        loss_modulus: maxima(creep, range, loss_modulus),
+        loss_compliance: maxima(creep, range, loss_compliance),
+        loss_tangent: maxima(creep, range, loss_tangent),
     }
 }
 
-/// The complex compliance and its derivative by `ln omega` at one frequency.
-struct Point {
-    compliance: Complex<f64>,
-    slope: Complex<f64>,
-}
-
-impl Point {
-    fn at(creep: &Creep, omega: f64) -> Self {
-        Point {
-            compliance: creep.complex_compliance(omega),
-            slope: creep.complex_compliance_slope(omega),
-        }
-    }
-}
-
-/// A measure of loss and a number with the sign of its derivative by `ln omega`.
-struct Measure {
-    value: f64,
-    slope: f64,
-}
+/// A measure of loss, and a number with the sign of its derivative by `ln omega`, from the complex compliance and its derivative.
+type Measure = fn(Complex<f64>, Complex<f64>) -> (f64, f64);
 
 /// `E'' = Im 1/D*`, with `d(1/D*) = -dD*/D*^2` taken relative to `|E*|`.
-fn loss_modulus(point: Point) -> Measure {
-    let modulus = reciprocal(point.compliance);
-    let relative = point.slope * modulus;
-    Measure {
-        value: modulus.im,
-        slope: -(relative * modulus).im,
-    }
+fn loss_modulus(compliance: Complex<f64>, slope: Complex<f64>) -> (f64, f64) {
+    let modulus = reciprocal(compliance);
+    let relative = slope * modulus;
+    (modulus.im, -(relative * modulus).im)
 }
 
-fn loss_compliance(point: Point) -> Measure {
-    Measure {
-        value: -point.compliance.im,
-        slope: -point.slope.im,
-    }
+fn loss_compliance(compliance: Complex<f64>, slope: Complex<f64>) -> (f64, f64) {
+    (-compliance.im, -slope.im)
 }
 
 /// `tan delta = D''/D'`; its derivative times `D'`.
-fn loss_tangent(point: Point) -> Measure {
-    let tangent = -point.compliance.im / point.compliance.re;
-    Measure {
-        value: tangent,
-        slope: -point.slope.im - tangent * point.slope.re,
-    }
+fn loss_tangent(compliance: Complex<f64>, slope: Complex<f64>) -> (f64, f64) {
+    let tangent = -compliance.im / compliance.re;
+    (tangent, -slope.im - tangent * slope.re)
 }
 
 /// Every change of the slope from rising to falling on a logarithmic grid, refined by bisection.
-fn maxima(range: (f64, f64), measure: impl Fn(f64) -> Measure) -> Vec<LossPeak> {
+fn maxima(creep: &Creep, range: (f64, f64), measure: Measure) -> Vec<LossPeak> {
+    let at_omega = |omega: f64| {
+        let slope = creep.complex_compliance_slope(omega);
+        measure(creep.complex_compliance(omega), slope)
+    };
     let (start, end) = (range.0.ln(), range.1.ln());
     let intervals = ((end - start) / std::f64::consts::LN_10 * SAMPLES_PER_DECADE).ceil();
-    let rising = |logarithm: f64| measure(logarithm.exp()).slope > 0.0;
+    let rising = |logarithm: f64| at_omega(logarithm.exp()).1 > 0.0;
     let at = |index: u32| start + (end - start) * f64::from(index) / intervals;
     let mut peaks = Vec::new();
     let mut before = rising(start);
@@ -119,7 +96,7 @@ fn maxima(range: (f64, f64), measure: impl Fn(f64) -> Measure) -> Vec<LossPeak> 
         let now = rising(at(index));
         if before && !now {
             let angular_frequency_rad_per_s = last_rising(at(index - 1), at(index), rising).exp();
-            let value = measure(angular_frequency_rad_per_s).value;
+            let (value, _) = at_omega(angular_frequency_rad_per_s);
             peaks.push(LossPeak {
                 angular_frequency_rad_per_s,
                 value,

@@ -12,6 +12,7 @@
 
 use num_complex::Complex;
 
+use super::branches::merged;
 use super::conversion;
 use super::creep::Creep;
 use super::error::{MaterialError, in_range, non_negative, positive};
@@ -60,7 +61,11 @@ impl Relaxation {
         }
         let relaxation = Relaxation {
             equilibrium_pa,
-            branches: merged(branches),
+            branches: merged(
+                branches,
+                |branch| branch.time_s,
+                |kept, next| kept.modulus_pa += next.modulus_pa,
+            ),
         };
         let instantaneous = relaxation.instantaneous_modulus();
         in_range("the instantaneous modulus", instantaneous)?;
@@ -143,14 +148,10 @@ impl Relaxation {
     /// A factor that is not positive and finite, or takes a modulus out of range.
     pub fn scaled(&self, factor: f64) -> Result<Self, MaterialError> {
         positive("factor on the relaxation modulus", factor)?;
-        let branches = self
-            .branches
-            .iter()
-            .map(|branch| RelaxationBranch {
-                modulus_pa: branch.modulus_pa * factor,
-                ..*branch
-            })
-            .collect();
+        let mut branches = self.branches.clone();
+        for branch in &mut branches {
+            branch.modulus_pa *= factor;
+        }
         Relaxation::new(self.equilibrium_pa * factor, branches)
     }
 
@@ -162,19 +163,6 @@ impl Relaxation {
     pub fn to_creep(&self) -> Result<Creep, MaterialError> {
         conversion::relaxation_to_creep(self)
     }
-}
-
-/// Sorted by time, equal times added together.
-fn merged(mut branches: Vec<RelaxationBranch>) -> Vec<RelaxationBranch> {
-    branches.sort_by(|left, right| left.time_s.total_cmp(&right.time_s));
-    branches.dedup_by(|next, kept| {
-        let same = next.time_s == kept.time_s;
-        if same {
-            kept.modulus_pa += next.modulus_pa;
-        }
-        same
-    });
-    branches
 }
 
 #[cfg(test)]

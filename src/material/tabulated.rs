@@ -22,33 +22,16 @@
 //! Brunk, G. M. Ewing, W. T. Reid and E. Silverman, Annals of Mathematical Statistics 26 (1955) 641). Samples that are
 //! monotone stay as they are.
 
-use std::fmt;
+mod course;
 
 use super::interpolant::Interpolant;
 use super::{MaterialError, MaterialFunction, ModulusKind};
 use crate::quantity::{Dimension, format_si};
 
+pub use course::{NOISE_LIMIT, REVERSAL_LIMIT, REVERSAL_SCATTER, TREND_FLOOR, TREND_SCATTER};
+
 /// Fewest samples: one more than an instantaneous value, one branch and its time take.
 pub const FEWEST_SAMPLES: usize = 4;
-
-/// Share by which one value may be on the wrong side of an earlier one, however small the scatter.
-pub const NOISE_LIMIT: f64 = 0.10;
-
-/// How many standard deviations of the scatter it may: the range of a thousand normal deviates is below 8.
-pub const REVERSAL_SCATTER: f64 = 8.0;
-
-/// And the largest share in any case.
-pub const REVERSAL_LIMIT: f64 = 0.30;
-
-/// Share by which medians may be on the wrong side, however small the scatter: rounding of the data, drift of an instrument.
-pub const TREND_FLOOR: f64 = 0.005;
-
-/// And how many standard deviations of the scatter they may. Pure scatter about a constant, which is the hardest case, was
-/// refused in fewer than one of a thousand simulated tables of ten samples or more.
-pub const TREND_SCATTER: f64 = 6.0;
-
-/// Fewest consecutive values whose median stands for them.
-const RUN: usize = 5;
 
 /// Samples per decade beyond which they are averaged.
 const GROUPS_PER_DECADE: f64 = 40.0;
@@ -61,9 +44,6 @@ const COARSEST: f64 = 0.01;
 
 /// Values whose digits are looked at.
 const ENOUGH_VALUES: usize = 1000;
-
-/// Deviations too few for their median to mean anything.
-const FEW: usize = 10;
 
 /// Decades without a sample that are worth a warning, and decades of data that are enough not to get one.
 const WIDE_GAP: f64 = 1.0;
@@ -163,9 +143,13 @@ fn wrong_way(face: MaterialFunction) -> &'static str {
 }
 
 /// What is odd about samples that are used all the same.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TableWarning {
     /// Samples on the wrong side of an earlier one: how many, by how much at most, and where (row from 1).
+    #[error(
+        "{samples} {} on the wrong side of an earlier one: the {} {} by up to {:.2} % (row {row}), taken for noise",
+        if *samples == 1 { "sample is" } else { "samples are" }, name(*face), wrong_way(*face), 100.0 * largest_share
+    )]
     Noise {
         face: MaterialFunction,
         samples: usize,
@@ -173,47 +157,17 @@ pub enum TableWarning {
         row: usize,
     },
     /// More than a decade without a sample.
+    #[error(
+        "no sample between {} and {}, {:.1} decades: branches with times in there are guessed",
+        seconds(*from_s), seconds(*to_s), (to_s / from_s).log10()
+    )]
     Gap { from_s: f64, to_s: f64 },
     /// Less than a decade of time.
+    #[error(
+        "the data cover {:.2} decades of time only, {} to {}: they say little about other times",
+        (to_s / from_s).log10(), seconds(*from_s), seconds(*to_s)
+    )]
     Short { from_s: f64, to_s: f64 },
-}
-
-impl fmt::Display for TableWarning {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Noise {
-                face,
-                samples,
-                largest_share,
-                row,
-            } => write!(
-                formatter,
-                "{samples} {} on the wrong side of an earlier one: the {} {} by up to {:.2} % (row {row}), taken for noise",
-                if *samples == 1 {
-                    "sample is"
-                } else {
-                    "samples are"
-                },
-                name(*face),
-                wrong_way(*face),
-                100.0 * largest_share
-            ),
-            Self::Gap { from_s, to_s } => write!(
-                formatter,
-                "no sample between {} and {}, {:.1} decades: branches with times in there are guessed",
-                seconds(*from_s),
-                seconds(*to_s),
-                (to_s / from_s).log10()
-            ),
-            Self::Short { from_s, to_s } => write!(
-                formatter,
-                "the data cover {:.2} decades of time only, {} to {}: they say little about other times",
-                (to_s / from_s).log10(),
-                seconds(*from_s),
-                seconds(*to_s)
-            ),
-        }
-    }
 }
 
 /// A time in four digits, as short as it can be written.
@@ -290,11 +244,8 @@ impl Tabulated {
     ) -> Result<Self, TableError> {
         check_samples(face, &times_s, &values)?;
         let groups = Groups::of(&times_s, &values);
-        let mut scatter = scatter(&times_s, &rising(face, &values));
-        // Where all change is rounded away, samples do not scatter.
-        scatter.deviation = scatter.deviation.max(rounding(&values));
-        check_course(face, scatter, &groups)?;
-        let mut warnings: Vec<_> = noise(face, &values).into_iter().collect();
+        course::check(face, &times_s, &values, &groups)?;
+        let mut warnings: Vec<_> = course::noise(face, &values).into_iter().collect();
         warnings.extend(coverage(&times_s));
         Ok(Self {
             face,
@@ -414,154 +365,6 @@ fn check_samples(
     }
 }
 
-/// ln C or -ln E: what must not fall.
-fn rising(face: MaterialFunction, values: &[f64]) -> Vec<f64> {
-    match face {
-        MaterialFunction::Creep => values.iter().map(|v| v.ln()).collect(),
-        MaterialFunction::Relaxation => values.iter().map(|v| -v.ln()).collect(),
-    }
-}
-
-/// What a fall of the logarithm is as a share.
-fn share(fall: f64) -> f64 {
-    -(-fall).exp_m1()
-}
-
-/// Samples on the wrong side of an earlier one.
-fn noise(face: MaterialFunction, values: &[f64]) -> Option<TableWarning> {
-    let mut highest = f64::NEG_INFINITY;
-    let (mut samples, mut largest, mut row) = (0, 0.0, 0);
-    for (index, value) in rising(face, values).into_iter().enumerate() {
-        if value < highest {
-            samples += 1;
-            if highest - value > largest {
-                (largest, row) = (highest - value, index + 1);
-            }
-        }
-        highest = highest.max(value);
-    }
-    (samples > 0).then(|| TableWarning::Noise {
-        face,
-        samples,
-        largest_share: share(largest),
-        row,
-    })
-}
-
-/// Tells noise from what no passive material does.
-fn check_course(
-    face: MaterialFunction,
-    scatter: Scatter,
-    groups: &Groups,
-) -> Result<(), TableError> {
-    let rising = rising(face, &groups.values);
-    let deviations: Vec<f64> = groups.weights().iter().map(|w| 1.0 / w).collect();
-    // Few samples say little about their scatter, and what is looked for is part of it.
-    let known = if scatter.of_few {
-        0.0
-    } else {
-        scatter.deviation
-    };
-    let most = |deviation: f64| {
-        let by_scatter = share(REVERSAL_SCATTER * known * deviation);
-        by_scatter.clamp(NOISE_LIMIT, REVERSAL_LIMIT)
-    };
-    let limit = |deviation| -(-most(deviation)).ln_1p();
-    if let Some(fall) = fall_beyond(&rising, &deviations, limit) {
-        return Err(TableError::Reversal {
-            face,
-            earlier_row: groups.starts[fall.from] + 1,
-            row: groups.starts[fall.to] + 1,
-            share: share(fall.size),
-            limit: most(deviations[fall.from].max(deviations[fall.to])),
-        });
-    }
-    let mut run = RUN.min(rising.len() / 2).max(1);
-    while run == 1 || 2 * run <= rising.len() {
-        let stride = (run / RUN).max(1);
-        let starts: Vec<usize> = (0..=rising.len() - run).step_by(stride).collect();
-        let medians: Vec<f64> = starts
-            .iter()
-            .map(|&i| median(&rising[i..i + run]))
-            .collect();
-        let largest = |i: &usize| deviations[*i..i + run].iter().copied().fold(0.0, f64::max);
-        let deviations: Vec<f64> = starts.iter().map(largest).collect();
-        let averaged = (RUN.min(run) as f64 / run as f64).sqrt();
-        let limit = |deviation: f64| {
-            TREND_FLOOR.max(TREND_SCATTER * scatter.deviation * deviation * averaged)
-        };
-        if let Some(fall) = fall_beyond(&medians, &deviations, limit) {
-            let row = |place: usize| groups.starts[starts[place] + run / 2] + 1;
-            return Err(TableError::Trend {
-                face,
-                earlier_row: row(fall.from),
-                row: row(fall.to),
-                share: share(fall.size),
-                scatter: scatter.deviation,
-            });
-        }
-        if run == 1 {
-            break;
-        }
-        run *= 2;
-    }
-    Ok(())
-}
-
-/// The largest fall among those beyond their limit, which is that of the larger of the two deviations.
-fn fall_beyond(values: &[f64], deviations: &[f64], limit: impl Fn(f64) -> f64) -> Option<Fall> {
-    let limits: Vec<f64> = deviations.iter().map(|&d| limit(d)).collect();
-    let mut worst: Option<Fall> = None;
-    for to in 1..values.len() {
-        for from in 0..to {
-            let size = values[from] - values[to];
-            let allowed = limits[from].max(limits[to]);
-            if size > allowed && worst.as_ref().is_none_or(|worst| size > worst.size) {
-                worst = Some(Fall { size, from, to });
-            }
-        }
-    }
-    worst
-}
-
-/// A fall from an earlier value to a later one.
-struct Fall {
-    size: f64,
-    from: usize,
-    to: usize,
-}
-
-/// Standard deviation of the samples about the chord between their neighbours.
-#[derive(Debug, Clone, Copy)]
-struct Scatter {
-    deviation: f64,
-    of_few: bool,
-}
-
-/// From the median, so that outliers do not count, except where there are too few samples for that.
-fn scatter(times_s: &[f64], values: &[f64]) -> Scatter {
-    let deviations: Vec<f64> = times_s
-        .windows(3)
-        .zip(values.windows(3))
-        .filter(|(t, _)| t[0] > 0.0)
-        .map(|(t, v)| {
-            let share = (t[1] / t[0]).ln() / (t[2] / t[0]).ln();
-            let deviation = v[1] - (1.0 - share) * v[0] - share * v[2];
-            // What three independent samples of unit variance give.
-            deviation.abs() / (1.0 + share * share + (1.0 - share).powi(2)).sqrt()
-        })
-        .collect();
-    let of_few = deviations.len() < FEW;
-    let deviation = if of_few {
-        let squares: f64 = deviations.iter().map(|d| d * d).sum();
-        (squares / deviations.len().max(1) as f64).sqrt()
-    } else {
-        // The median of the magnitude of a normal variable is 0.6745 of its standard deviation.
-        median(&deviations) / 0.6745
-    };
-    Scatter { deviation, of_few }
-}
-
 /// See [`Tabulated::rounding`].
 fn rounding(values: &[f64]) -> f64 {
     let stride = values.len().div_ceil(ENOUGH_VALUES).max(1);
@@ -612,17 +415,6 @@ fn isotonic(face: MaterialFunction, values: &[f64]) -> Vec<f64> {
         .iter()
         .flat_map(|&(mean, count)| std::iter::repeat_n(mean, count));
     values.collect()
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    match sorted.len() {
-        0 => 0.0,
-        even if even % 2 == 0 => 0.5 * (sorted[middle - 1] + sorted[middle]),
-        _ => sorted[middle],
-    }
 }
 
 /// Gaps and shortness.

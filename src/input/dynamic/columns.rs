@@ -1,14 +1,13 @@
-//! What the columns of dynamic tests are called, in the languages of instruments, and what their units are.
+//! What the columns of dynamic tests are called, in the languages of instruments, and what they hold; [`super::units`] has their units.
 //!
 //! A name stands alone (`E'`), with its unit (`E' [MPa]`, `G'' (Pa)`, `Frequency / Hz`, `f/Hz`, `Loss modulus, MPa`), or joined to it
 //! by `_` (`storage_modulus_mpa`, `omega_rad_s`, `temperature_c`). Case and dots do not matter, but that `T` is a temperature and `t`
 //! a time, `f` a frequency and `F` a force.
 
-use std::f64::consts::TAU;
-
-use crate::input::data_file::{split_unit, unit_of_suffix};
+use super::units::{bare, scale, suffix};
+use crate::input::data_file::split_unit;
 use crate::material::ModulusKind;
-use crate::quantity::{self, Dimension, ZERO_CELSIUS_K};
+use crate::quantity::Dimension;
 
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,48 +28,43 @@ pub(super) enum Role {
 }
 
 impl Role {
+    /// What it holds, in the plural; a unit that it may have, for messages; its dimension.
+    fn facts(self) -> (&'static str, &'static str, Option<Dimension>) {
+        use Dimension::{Angle, Stress};
+        match self {
+            Self::Frequency => ("frequencies", "Hz", Some(Dimension::Frequency)),
+            Self::AngularFrequency => {
+                let dimension = Some(Dimension::AngularFrequency);
+                ("angular frequencies", "rad/s", dimension)
+            }
+            Self::Storage => ("storage moduli", "MPa", Some(Stress)),
+            Self::Loss => ("loss moduli", "MPa", Some(Stress)),
+            Self::Complex => ("magnitudes of the complex modulus", "MPa", Some(Stress)),
+            Self::TanDelta => ("loss tangents", "", None),
+            Self::PhaseAngle => ("phase angles", "deg", Some(Angle)),
+            Self::Temperature => ("temperatures", "°C", Some(Dimension::Temperature)),
+            Self::Set => ("isotherms", "", None),
+            Self::StorageError => ("errors of the storage modulus", "%", Some(Stress)),
+            Self::LossError => ("errors of the loss modulus", "%", Some(Stress)),
+        }
+    }
+
     /// What it holds, in the plural.
     pub(super) fn what(self) -> &'static str {
-        match self {
-            Self::Frequency => "frequencies",
-            Self::AngularFrequency => "angular frequencies",
-            Self::Storage => "storage moduli",
-            Self::Loss => "loss moduli",
-            Self::Complex => "magnitudes of the complex modulus",
-            Self::TanDelta => "loss tangents",
-            Self::PhaseAngle => "phase angles",
-            Self::Temperature => "temperatures",
-            Self::Set => "isotherms",
-            Self::StorageError => "errors of the storage modulus",
-            Self::LossError => "errors of the loss modulus",
-        }
+        self.facts().0
     }
 
-    /// Units that it may have, for messages.
-    fn units(self) -> &'static str {
-        match self {
-            Self::Frequency => "Hz",
-            Self::AngularFrequency => "rad/s",
-            Self::Temperature => "°C",
-            Self::PhaseAngle => "deg",
-            Self::StorageError | Self::LossError => "%",
-            _ => "MPa",
-        }
+    /// A unit that it may have, for messages.
+    pub(super) fn example_unit(self) -> &'static str {
+        self.facts().1
     }
 
-    fn dimension(self) -> Option<Dimension> {
-        match self {
-            Self::Frequency => Some(Dimension::Frequency),
-            Self::AngularFrequency => Some(Dimension::AngularFrequency),
-            Self::Temperature => Some(Dimension::Temperature),
-            Self::PhaseAngle => Some(Dimension::Angle),
-            Self::TanDelta | Self::Set => None,
-            _ => Some(Dimension::Stress),
-        }
+    pub(super) fn dimension(self) -> Option<Dimension> {
+        self.facts().2
     }
 
     /// Whether a column without a unit can be read: the name of an angular frequency says that it is in rad/s.
-    fn has_own_unit(self) -> bool {
+    pub(super) fn has_own_unit(self) -> bool {
         matches!(self, Self::AngularFrequency | Self::TanDelta | Self::Set)
     }
 }
@@ -322,9 +316,7 @@ pub(super) fn recognise(cell: &str) -> Option<Named> {
             .split_once(mark)
             .map(|(name, unit)| (name, Some(unit.trim())))
     };
-    let sure = [Some((trimmed, None)), Some(bracketed)]
-        .into_iter()
-        .flatten();
+    let sure = [(trimmed, None), bracketed].into_iter();
     let sure = sure.filter_map(|(name, unit)| named(name.trim(), unit.map(bare)));
     // What stands behind other signs may be anything: `G*/sin(delta)`; what stands in brackets too, but of moduli and frequencies it
     // had better be a unit.
@@ -341,11 +333,6 @@ pub(super) fn recognise(cell: &str) -> Option<Named> {
     };
     let sure = sure.filter(|named| named.unit.is_none() || matters(named) || fits(named));
     sure.chain(others.filter(fits)).next()
-}
-
-/// A unit without brackets.
-pub(super) fn bare(unit: &str) -> &str {
-    unit.trim_matches(['[', ']', '(', ')', ' ', '\u{a0}'])
 }
 
 fn named(name: &str, unit: Option<&str>) -> Option<Named> {
@@ -436,140 +423,4 @@ fn kind_of(words: &str) -> (Option<ModulusKind>, String) {
     let kind = kind.or_else(|| lettered('e').map(|()| ModulusKind::Longitudinal));
     let left: Vec<&str> = words.split(' ').filter(|word| of(word).is_none()).collect();
     (kind, left.join(" "))
-}
-
-/// The unit that the words behind a name are.
-fn suffix(words: &str, role: Role) -> Option<String> {
-    let known = match (role, words) {
-        (Role::Temperature, "c" | "°c" | "degc" | "deg c" | "celsius") => Some("°C"),
-        (Role::Temperature, "k" | "kelvin") => Some("K"),
-        (
-            Role::Frequency | Role::AngularFrequency,
-            "rad s" | "rads" | "rad per s" | "rad per sec" | "rad/s" | "rad s 1",
-        ) => Some("rad/s"),
-        (Role::StorageError | Role::LossError, "percent" | "pct" | "%" | "rel percent") => {
-            Some("%")
-        }
-        (Role::PhaseAngle, "deg" | "degree" | "degrees" | "°") => Some("deg"),
-        _ => None,
-    };
-    match known {
-        Some(unit) => Some(unit.to_owned()),
-        None => unit_of_suffix(&words.replace(' ', "_"), role.dimension()?),
-    }
-}
-
-/// From the numbers of a column to SI: `zero + factor * number`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scale {
-    pub(super) factor: f64,
-    pub(super) zero: f64,
-    /// Whether the numbers are shares of the modulus.
-    pub(super) is_relative: bool,
-}
-
-impl Scale {
-    /// Of numbers that are in SI units.
-    pub(super) const ONE: Self = times(1.0);
-}
-
-const fn times(factor: f64) -> Scale {
-    Scale {
-        factor,
-        zero: 0.0,
-        is_relative: false,
-    }
-}
-
-/// Whether a text is a unit, of whatever.
-pub(super) fn is_unit(text: &str) -> bool {
-    let unit = bare(text);
-    let known = ["%", "C", "-", "1", "K", "°"].contains(&unit);
-    let read = quantity::parse(&format!("1 {}", spelt(unit)), Dimension::Time);
-    known
-        || matches!(
-            read,
-            Ok(_) | Err(quantity::QuantityError::WrongDimension { .. })
-        )
-}
-
-/// A unit as [`quantity`] spells it.
-fn spelt(unit: &str) -> String {
-    let unit = unit
-        .replace("sec", "s")
-        .replace(['\u{b7}', '\u{22c5}'], " ");
-    match unit.as_str() {
-        "rad.s-1" | "rad s-1" | "rad.s^-1" | "rad s⁻¹" | "rad s^-1" | "rad/ s" | "rads-1"
-        | "r/s" => "rad/s".to_owned(),
-        "Hertz" | "hertz" | "HZ" | "hz" => "Hz".to_owned(),
-        "s-1" | "s^-1" | "s⁻¹" | "1/ s" => "1/s".to_owned(),
-        "PA" | "pa" | "Pascal" => "Pa".to_owned(),
-        "KPa" | "kpa" => "kPa".to_owned(),
-        "Mpa" | "MPA" => "MPa".to_owned(),
-        "Gpa" | "GPA" => "GPa".to_owned(),
-        "N/mm2" => "N/mm^2".to_owned(),
-        "N/m2" => "N/m^2".to_owned(),
-        _ => unit,
-    }
-}
-
-/// What turns the numbers of a column into SI units.
-///
-/// # Errors
-/// The unit is none of this column, or absent: what to write.
-pub(super) fn scale(role: Role, unit: Option<&str>) -> Result<Scale, String> {
-    let given = unit.map(bare).filter(|unit| !["", "-", "1"].contains(unit));
-    let Some(unit) = given else {
-        return match role.has_own_unit() {
-            true => Ok(times(1.0)),
-            false => Err(format!("write its unit, such as [{}]", role.units())),
-        };
-    };
-    let parse = |dimension| quantity::parse(&format!("1 {}", spelt(unit)), dimension);
-    match role {
-        Role::TanDelta | Role::Set => Ok(times(1.0)),
-        Role::Temperature => temperature(unit),
-        Role::StorageError | Role::LossError if unit == "%" => Ok(Scale {
-            is_relative: true,
-            ..times(0.01)
-        }),
-        Role::Frequency => match parse(Dimension::AngularFrequency) {
-            Ok(factor) => Ok(times(factor)),
-            Err(_) => parse(Dimension::Frequency)
-                .map(|hertz| times(TAU * hertz))
-                .map_err(|error| error.to_string()),
-        },
-        Role::AngularFrequency if spelt(unit) == "1/s" => Ok(times(1.0)),
-        Role::PhaseAngle if matches!(unit, "°" | "degrees" | "degree" | "Grad") => {
-            Ok(times(TAU / 360.0))
-        }
-        _ if matches!(
-            unit,
-            "dyn/cm^2" | "dyn/cm²" | "dyne/cm^2" | "dyne/cm²" | "dyn/cm2"
-        ) =>
-        {
-            Ok(times(0.1))
-        }
-        _ => parse(role.dimension().unwrap_or(Dimension::Stress))
-            .map(times)
-            .map_err(|error| error.to_string()),
-    }
-}
-
-fn temperature(unit: &str) -> Result<Scale, String> {
-    let celsius = Scale {
-        zero: ZERO_CELSIUS_K,
-        ..times(1.0)
-    };
-    let plain = unit.to_lowercase().replace([' ', '\u{ba}', '°'], "");
-    match plain.as_str() {
-        "c" | "degc" | "\u{2103}" | "celsius" | "degreec" | "\u{fffd}c" | "\u{c2}c" | "grdc"
-        | "gradc" | "?c" => Ok(celsius),
-        "k" | "kelvin" => Ok(times(1.0)),
-        "f" | "degf" | "\u{2109}" | "fahrenheit" => Ok(Scale {
-            zero: ZERO_CELSIUS_K - 32.0 / 1.8,
-            ..times(1.0 / 1.8)
-        }),
-        _ => Err(format!("`{unit}` is no unit of temperature: write °C or K")),
-    }
 }

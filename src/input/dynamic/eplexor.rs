@@ -13,10 +13,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use calamine::{Data, DataRef, Reader, Xls, Xlsx};
 
-use super::{Reading, generic, steps};
+use super::{Reading, generic, steps, units};
 use crate::input::data_file::grid::Grid;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
-use crate::quantity::{ZERO_CELSIUS_K, celsius};
+use crate::quantity::celsius;
 
 /// Largest workbook, bytes: its contents may be a thousand times as large.
 const MAX_BYTES: usize = 4_000_000;
@@ -52,7 +52,7 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
     }
     // The crate that reads workbooks is not free of panics on broken ones.
     let sheets = catch_unwind(AssertUnwindSafe(|| sheets(bytes)))
-        .unwrap_or_else(|_| Err("it is broken".to_owned()));
+        .unwrap_or_else(|_| Err("it is broken".into()));
     let sheets = sheets.map_err(|why| {
         Diagnostic::new(format!("`{name}` cannot be read as a workbook: {why}"))
             .help("open it and save it again, or save the sheet as CSV")
@@ -110,21 +110,21 @@ fn one_sheet(
                 "a master curve at {at}: the workbook has a sheet `{SHIFTS}`"
             ));
         }
-        let content = block.read(reading.kind)?;
-        reading.add_content(&block, content)?;
+        reading.add(&block)?;
     }
     Ok(())
 }
 
+/// Why a workbook cannot be read.
+type Broken = Box<dyn std::error::Error>;
+
 /// The crate that reads workbooks unpacks their files whole: refuses those that are too large for that.
-fn check_archive(bytes: &[u8]) -> Result<(), String> {
-    let mut archive =
-        zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| error.to_string())?;
+fn check_archive(bytes: &[u8]) -> Result<(), Broken> {
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes))?;
     let mut left = MAX_UNPACKED_BYTES;
     for place in 0..archive.len() {
-        let file = archive.by_index(place).map_err(|error| error.to_string())?;
-        let unpacked =
-            copy(&mut file.take(left + 1), &mut sink()).map_err(|error| error.to_string())?;
+        let file = archive.by_index(place)?;
+        let unpacked = copy(&mut file.take(left + 1), &mut sink())?;
         left = left
             .checked_sub(unpacked)
             .ok_or("unpacked it is larger than 100 MB")?;
@@ -134,21 +134,14 @@ fn check_archive(bytes: &[u8]) -> Result<(), String> {
 
 /// The crate lays a sheet out as the rectangle that its cells span, or that it says they span: refuses those that are too large for
 /// that. Records of the stream are a kind and a length, of two bytes each, and the data.
-fn check_records(bytes: &[u8]) -> Result<(), String> {
-    let mut file =
-        cfb::CompoundFile::open(Cursor::new(bytes)).map_err(|error| error.to_string())?;
+fn check_records(bytes: &[u8]) -> Result<(), Broken> {
+    let mut file = cfb::CompoundFile::open(Cursor::new(bytes))?;
     let stream = ["/Workbook", "/Book"]
         .into_iter()
         .find(|name| file.is_stream(name))
         .ok_or("it has no stream `Workbook`")?;
-    let (mut stream, mut data) = (
-        file.open_stream(stream)
-            .map_err(|error| error.to_string())?,
-        Vec::new(),
-    );
-    stream
-        .read_to_end(&mut data)
-        .map_err(|error| error.to_string())?;
+    let mut data = Vec::new();
+    file.open_stream(stream)?.read_to_end(&mut data)?;
     let (mut at, mut rows, mut columns) = (0, 0, 0);
     let number = |at: usize| {
         data.get(at..at + 2)
@@ -160,18 +153,13 @@ fn check_records(bytes: &[u8]) -> Result<(), String> {
             0x809 => (rows, columns) = (0, 0),
             // Dimensions: first and last row, of four bytes, first and last column.
             0x200 if length >= 14 => {
-                let ends = [
-                    number(start),
-                    number(start + 4),
-                    number(start + 8),
-                    number(start + 10),
-                ];
+                let ends = [0, 4, 8, 10].map(|offset| number(start + offset));
                 let is_range = ends[0] <= ends[1]
                     && ends[2] <= ends[3]
                     && number(start + 2) <= 1
                     && number(start + 6) <= 1;
                 if !is_range {
-                    return Err("the dimensions of a sheet are broken".to_owned());
+                    return Err("the dimensions of a sheet are broken".into());
                 }
                 rows = rows.max(ends[1]);
                 columns = columns.max(ends[3]);
@@ -184,7 +172,7 @@ fn check_records(bytes: &[u8]) -> Result<(), String> {
             _ => {}
         }
         if rows * columns > MOST_CELLS {
-            return Err(format!("a sheet spans {rows} rows and {columns} columns"));
+            return Err(format!("a sheet spans {rows} rows and {columns} columns").into());
         }
         at = start + length;
     }
@@ -192,11 +180,11 @@ fn check_records(bytes: &[u8]) -> Result<(), String> {
 }
 
 /// Every sheet as text.
-fn sheets(bytes: &[u8]) -> Result<Vec<(String, String)>, String> {
+fn sheets(bytes: &[u8]) -> Result<Vec<(String, String)>, Broken> {
     let wanted = |names: Vec<String>| -> Vec<String> { names.into_iter().take(20).collect() };
     if bytes.starts_with(b"PK") {
         check_archive(bytes)?;
-        let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(|error| error.to_string())?;
+        let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes))?;
         let names = wanted(book.sheet_names());
         return names
             .into_iter()
@@ -204,12 +192,10 @@ fn sheets(bytes: &[u8]) -> Result<Vec<(String, String)>, String> {
             .collect();
     }
     check_records(bytes)?;
-    let mut book: Xls<_> = Xls::new(Cursor::new(bytes)).map_err(|error| error.to_string())?;
+    let mut book: Xls<_> = Xls::new(Cursor::new(bytes))?;
     let names = wanted(book.sheet_names());
     let sheet = |sheet: String| {
-        let range = book
-            .worksheet_range(&sheet)
-            .map_err(|error| error.to_string())?;
+        let range = book.worksheet_range(&sheet)?;
         let mut text = Rows::default();
         let (top, left) = range.start().unwrap_or((0, 0));
         for (row, column, cell) in range.used_cells() {
@@ -224,12 +210,10 @@ fn sheets(bytes: &[u8]) -> Result<Vec<(String, String)>, String> {
     names.into_iter().map(sheet).collect()
 }
 
-fn xlsx_sheet(book: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<String, String> {
-    let mut cells = book
-        .worksheet_cells_reader(sheet)
-        .map_err(|error| error.to_string())?;
+fn xlsx_sheet(book: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<String, Broken> {
+    let mut cells = book.worksheet_cells_reader(sheet)?;
     let mut text = Rows::default();
-    while let Some(cell) = cells.next_cell().map_err(|error| error.to_string())? {
+    while let Some(cell) = cells.next_cell()? {
         let (row, column) = cell.get_position();
         let value = match cell.get_value() {
             DataRef::SharedString(shared) => (*shared).to_owned(),
@@ -267,13 +251,7 @@ impl Rows {
             self.text.push('\t');
             self.column += 1;
         }
-        self.text.extend(cell.chars().map(|c| {
-            if matches!(c, '\t' | '\n' | '\r') {
-                ' '
-            } else {
-                c
-            }
-        }));
+        self.text += &cell.replace(['\t', '\n', '\r'], " ");
     }
 }
 
@@ -295,14 +273,7 @@ fn reference(sheet: &str) -> Option<f64> {
             .trim()
             .strip_suffix('C')?
             .trim_end_matches(['°', ' ', '\u{ba}']);
-        let number = number
-            .rsplit([' ', ':', '='])
-            .next()?
-            .replace(',', ".")
-            .parse::<f64>()
-            .ok()?;
-        let kelvin = number + ZERO_CELSIUS_K;
-        (kelvin.is_finite() && kelvin > 0.0).then_some(kelvin)
+        units::kelvin(number.rsplit([' ', ':', '=']).next()?)
     })
 }
 

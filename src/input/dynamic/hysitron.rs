@@ -35,9 +35,7 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
     };
     reading.note("moduli as the instrument computed them from the contact");
     for block in generic::blocks(&grid, header) {
-        let block = block.by_instrument();
-        let content = block.read(reading.kind)?;
-        reading.add_content(&block, content)?;
+        reading.add(&block.by_instrument())?;
     }
     Ok(())
 }

@@ -6,6 +6,8 @@
 //!   to 1.5 K, begins another isotherm: within one, the measured temperature scatters by some tenths of a kelvin, and isotherms are 2
 //!   to 20 K apart. Temperatures that cover more than 3 K without such a gap are those of a ramp, not of isotherms.
 
+use std::collections::HashMap;
+
 use super::block::{Block, Measured};
 use crate::input::diagnostic::Diagnostic;
 use crate::quantity::celsius;
@@ -88,21 +90,15 @@ fn width(ascending: &[f64]) -> f64 {
 fn starts(ascending: &[f64]) -> Vec<f64> {
     let gaps = || {
         ascending
-            .iter()
-            .zip(ascending.iter().skip(1))
-            .map(|(a, b)| (b - a, *b))
+            .windows(2)
+            .map(|pair| (pair[1] - pair[0], pair[1]))
     };
     let largest = gaps().map(|(gap, _)| gap).fold(0.0, f64::max);
     let least = (SHARE_OF_LARGEST * largest).clamp(GAP_K.0, GAP_K.1);
     let above = gaps()
         .filter(|(gap, _)| *gap > least)
         .map(|(_, start)| start);
-    ascending
-        .first()
-        .copied()
-        .into_iter()
-        .chain(above)
-        .collect()
+    ascending.iter().take(1).copied().chain(above).collect()
 }
 
 fn frequencies_differ(points: &[Measured]) -> bool {
@@ -111,24 +107,18 @@ fn frequencies_differ(points: &[Measured]) -> bool {
         .map(|measured| measured.point.angular_frequency_rad_per_s)
         .collect();
     all.sort_by(f64::total_cmp);
-    all.iter()
-        .zip(all.iter().skip(1))
-        .all(|(a, b)| b / a > 1.001)
+    all.windows(2).all(|pair| pair[1] / pair[0] > 1.001)
 }
 
 fn by_set(points: Vec<Measured>) -> Vec<Vec<Measured>> {
-    let mut places: std::collections::HashMap<String, usize> = std::collections::HashMap::new();
-    let mut sets: Vec<Vec<Measured>> = Vec::new();
-    for measured in points {
-        let place = *places
-            .entry(measured.set.clone().unwrap_or_default())
-            .or_insert_with(|| {
-                sets.push(Vec::new());
-                sets.len() - 1
-            });
-        if let Some(set) = sets.get_mut(place) {
-            set.push(measured);
+    let (mut places, mut sets) = (HashMap::new(), Vec::new());
+    for mut measured in points {
+        let next = places.len();
+        let place = *places.entry(measured.set.take()).or_insert(next);
+        if place == next {
+            sets.push(Vec::new());
         }
+        sets[place].push(measured);
     }
     sets
 }

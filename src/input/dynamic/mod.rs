@@ -30,6 +30,7 @@ mod steps;
 mod trios_csv;
 mod trios_lims;
 mod trios_text;
+mod units;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -38,7 +39,7 @@ use super::data_file::grid;
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Source};
 use super::document::{cannot_read, read_limited};
 use crate::material::ModulusKind;
-use crate::material::dynamic::{DynamicData, DynamicDataError, DynamicPoint};
+use crate::material::dynamic::{DynamicData, DynamicDataError};
 use crate::quantity::celsius;
 use block::{Block, Content, Measured};
 pub use shift_factors::{read_shift_factors, shift_factors_from_bytes};
@@ -187,55 +188,37 @@ fn one_file(
         None => detect(&source),
     };
     reading.note(format!("format {}: {reason}", format.name()));
-    let known = TEXTS.iter().find(|known| known.format == format);
-    known.map_or(generic::read as ReadText, |known| known.read)(&source, reading)?;
+    let known = TEXTS.into_iter().find(|(known, _, _)| *known == format);
+    known.map_or(generic::read as Read, |(_, _, read)| read)(&source, reading)?;
     Ok(format)
 }
 
-type ReadText = fn(&Arc<Source>, &mut Reading) -> Result<(), Diagnostics>;
-
-/// A format of texts.
-struct TextFormat {
-    format: DynamicFormat,
-    /// Why a text is taken for it.
-    detect: fn(&Arc<Source>) -> Option<String>,
-    read: ReadText,
-}
+/// Why a text is taken for a format.
+type Detect = fn(&Arc<Source>) -> Option<String>;
+type Read = fn(&Arc<Source>, &mut Reading) -> Result<(), Diagnostics>;
 
 /// Formats of texts in the order in which they are tried.
-const TEXTS: [TextFormat; 7] = [
-    text_format(
+const TEXTS: [(DynamicFormat, Detect, Read); 7] = [
+    (
         DynamicFormat::TriosLims,
         trios_lims::detect,
         trios_lims::read,
     ),
-    text_format(
+    (
         DynamicFormat::TriosText,
         trios_text::detect,
         trios_text::read,
     ),
-    text_format(DynamicFormat::TriosCsv, trios_csv::detect, trios_csv::read),
-    text_format(DynamicFormat::Reptate, reptate::detect, reptate::read),
-    text_format(DynamicFormat::Pyvisco, pyvisco::detect, pyvisco::read),
-    text_format(DynamicFormat::Hysitron, hysitron::detect, hysitron::read),
-    text_format(
+    (DynamicFormat::TriosCsv, trios_csv::detect, trios_csv::read),
+    (DynamicFormat::Reptate, reptate::detect, reptate::read),
+    (DynamicFormat::Pyvisco, pyvisco::detect, pyvisco::read),
+    (DynamicFormat::Hysitron, hysitron::detect, hysitron::read),
+    (
         DynamicFormat::RheoCompass,
         rheocompass::detect,
         rheocompass::read,
     ),
 ];
-
-const fn text_format(
-    format: DynamicFormat,
-    detect: fn(&Arc<Source>) -> Option<String>,
-    read: ReadText,
-) -> TextFormat {
-    TextFormat {
-        format,
-        detect,
-        read,
-    }
-}
 
 /// The text of a file, unless it is known to hold none that can be read.
 fn text(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<Arc<Source>, Diagnostics> {
@@ -274,8 +257,8 @@ fn binary_trios(name: &str) -> Diagnostic {
 /// The format of a text, and why.
 fn detect(source: &Arc<Source>) -> (DynamicFormat, String) {
     let found = TEXTS
-        .iter()
-        .find_map(|known| Some((known.format, (known.detect)(source)?)));
+        .into_iter()
+        .find_map(|(format, detect, _)| Some((format, detect(source)?)));
     found.unwrap_or((DynamicFormat::Generic, "named columns".to_owned()))
 }
 
@@ -298,9 +281,8 @@ struct Reading {
     /// Before notes, where there are several files.
     prefix: String,
     missing: usize,
-    /// Rows of instruments in which a value is not positive, and the first of them.
-    noise: usize,
-    first_noise: Option<Location>,
+    /// Rows of instruments in which a value is not positive: the first, and how many.
+    noise: Option<(Location, usize)>,
 }
 
 impl Reading {
@@ -311,8 +293,7 @@ impl Reading {
             notes: Vec::new(),
             prefix: String::new(),
             missing: 0,
-            noise: 0,
-            first_noise: None,
+            noise: None,
         }
     }
 
@@ -346,8 +327,7 @@ impl Reading {
     fn count(&mut self, missing: usize, noise: Option<(Location, usize)>) {
         self.missing += missing;
         if let Some((first, count)) = noise {
-            self.noise += count;
-            self.first_noise.get_or_insert(first);
+            self.noise.get_or_insert((first, 0)).1 += count;
         }
     }
 
@@ -363,44 +343,31 @@ impl Reading {
                 self.missing
             ));
         }
-        if let Some(first) = self.first_noise.take() {
-            let rows = if self.noise == 1 { "row" } else { "rows" };
+        if let Some((first, count)) = self.noise.take() {
+            let rows = if count == 1 { "row" } else { "rows" };
             self.note(format!(
-                "{} {rows} passed over: a value is not positive, which is noise of the instrument (first in {})",
-                self.noise,
+                "{count} {rows} passed over: a value is not positive, which is noise of the instrument (first in {})",
                 first.line()
             ));
         }
         let names: Vec<&str> = files.iter().map(|(name, _)| name.as_str()).collect();
         let whole = Source::file(names.join("`, `"), "");
-        let points = |sets: &[Vec<Measured>]| -> Vec<Vec<DynamicPoint>> {
-            sets.iter()
-                .map(|set| set.iter().map(|measured| measured.point).collect())
-                .collect()
-        };
-        let data = DynamicData::new(self.kind, points(&self.isotherms));
-        let data =
-            data.map_err(|error| refused(&error, &self.isotherms, &Location::whole(&whole)))?;
-        if files.len() > 1
-            && data
-                .isotherms()
-                .iter()
-                .all(|isotherm| isotherm.temperature_k.is_none())
-        {
-            return Err(Diagnostic::at(
-                &Location::whole(&whole),
-                "several files, and none says its temperature",
-            )
-            .help("add a column `temperature_c` to each, or name one file")
-            .into());
+        let whole = Location::whole(&whole);
+        let points = |set: &Vec<Measured>| set.iter().map(|measured| measured.point).collect();
+        let sets = self.isotherms.iter().map(points).collect();
+        let data = DynamicData::new(self.kind, sets)
+            .map_err(|error| refused(&error, &self.isotherms, &whole))?;
+        let mut isotherms = data.isotherms().iter();
+        let has_none = isotherms.all(|isotherm| isotherm.temperature_k.is_none());
+        if files.len() > 1 && has_none {
+            return Err(
+                Diagnostic::at(&whole, "several files, and none says its temperature")
+                    .help("add a column `temperature_c` to each, or name one file")
+                    .into(),
+            );
         }
         let steps = self.isotherms.iter().filter(|set| !set.is_empty()).count();
-        if steps > 1
-            && data
-                .isotherms()
-                .iter()
-                .all(|isotherm| isotherm.temperature_k.is_none())
-        {
+        if steps > 1 && has_none {
             self.note(format!(
                 "{steps} tables without a temperature, taken for one isotherm"
             ));

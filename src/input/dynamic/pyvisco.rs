@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use super::{Reading, generic};
+use super::{Reading, generic, steps};
 use crate::input::data_file::grid::Grid;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
 
@@ -46,7 +46,7 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
     if detect(source).is_none() {
         return Err(Diagnostic::at(&grid.place(0), "not a file of pyvisco")
             .because("the first line should be `f,E_stor,E_loss,T,Set`")
-            .help("leave the format out, to have it found")
+            .help(steps::LEAVE_OUT)
             .into());
     }
     generic::read(source, reading)

@@ -8,13 +8,13 @@
 use std::sync::Arc;
 
 use super::Reading;
-use super::block::Measured;
-use super::columns::{self, Role, Scale};
+use super::block::{Measured, Skipped};
+use super::columns::Role;
+use super::units::{self, Scale};
 use crate::input::data_file::grid::{Cell, Grid, Line, Numbers};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Problems, Source};
 use crate::material::ModulusKind;
 use crate::material::dynamic::DynamicPoint;
-use crate::quantity::ZERO_CELSIUS_K;
 
 const ROLES: [Role; 3] = [Role::AngularFrequency, Role::Storage, Role::Loss];
 
@@ -72,26 +72,20 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
     for line in (first..grid.len()).filter(|line| !grid.is_comment(*line)) {
         let row = grid.line(line);
         match row_values(&row, &mut numbers, &problems, scales) {
-            Ok(Row::Values(
-                [
-                    angular_frequency_rad_per_s,
-                    storage_modulus_pa,
-                    loss_modulus_pa,
-                ],
-            )) => points.push(Measured {
+            Ok([omega, storage, loss]) => points.push(Measured {
                 point: DynamicPoint {
                     temperature_k,
-                    angular_frequency_rad_per_s,
-                    storage_modulus_pa,
-                    loss_modulus_pa,
+                    angular_frequency_rad_per_s: omega,
+                    storage_modulus_pa: storage,
+                    loss_modulus_pa: loss,
                     errors_pa: None,
                 },
                 place: grid.place(line),
                 set: None,
             }),
-            Ok(Row::Missing) => reading.count(1, None),
-            Ok(Row::Noise) => reading.count(0, Some((grid.place(line), 1))),
-            Err(()) => {}
+            Err(Skipped::Missing) => reading.count(1, None),
+            Err(Skipped::Noise) => reading.count(0, Some((grid.place(line), 1))),
+            Err(Skipped::Bad) => {}
         }
     }
     numbers.check(&problems);
@@ -112,11 +106,7 @@ fn temperature(grid: &Grid, reading: &mut Reading) -> Result<Option<f64>, Diagno
         reading.note("no parameter T: the temperature is not known");
         return Ok(None);
     };
-    let celsius = text.replace(',', ".").parse::<f64>().ok();
-    match celsius
-        .map(|celsius| celsius + ZERO_CELSIUS_K)
-        .filter(|kelvin| kelvin.is_finite() && *kelvin > 0.0)
-    {
+    match units::kelvin(text) {
         Some(kelvin) => Ok(Some(kelvin)),
         None => Err(Diagnostic::at(
             &grid.place(0),
@@ -134,8 +124,8 @@ fn is_row(line: &Line<'_>) -> bool {
 fn scales(line: &Line<'_>) -> Option<[Scale; 3]> {
     let scale = |cell: usize, role| {
         let unit = line.text(cell);
-        columns::is_unit(unit)
-            .then(|| columns::scale(role, Some(unit)).ok())
+        units::is_unit(unit)
+            .then(|| units::scale(role, Some(unit)).ok())
             .flatten()
     };
     Some([
@@ -145,39 +135,31 @@ fn scales(line: &Line<'_>) -> Option<[Scale; 3]> {
     ])
 }
 
-/// What a row holds.
-enum Row {
-    Values([f64; 3]),
-    Missing,
-    /// A value is not positive.
-    Noise,
-}
-
-/// The values of a row; an error where a problem was reported.
+/// The values of a row.
 fn row_values(
     row: &Line<'_>,
     numbers: &mut Numbers<'_>,
     problems: &Problems,
     scales: [Scale; 3],
-) -> Result<Row, ()> {
+) -> Result<[f64; 3], Skipped> {
     let mut values = [0.0; 3];
     for (cell, ((value, scale), role)) in values.iter_mut().zip(scales).zip(ROLES).enumerate() {
         let what = role.what();
         match numbers.read(row, cell) {
             Cell::Number(number) if number > 0.0 => *value = scale.factor * number,
-            Cell::Number(_) => return Ok(Row::Noise),
-            Cell::Missing => return Ok(Row::Missing),
+            Cell::Number(_) => return Err(Skipped::Noise),
+            Cell::Missing => return Err(Skipped::Missing),
             Cell::Bad(why) => {
                 let message = format!("a cell of the column of {what} must be a number");
                 problems
                     .at(&row.place(cell), message)
                     .because(why)
                     .help("leave the row out");
-                return Err(());
+                return Err(Skipped::Bad);
             }
         }
     }
-    Ok(Row::Values(values))
+    Ok(values)
 }
 
 #[cfg(test)]

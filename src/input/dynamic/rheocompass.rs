@@ -10,8 +10,8 @@ use std::sync::Arc;
 
 use super::block::{self, Block};
 use super::{Reading, steps};
-use crate::input::data_file::grid::{Grid, Line};
-use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
+use crate::input::data_file::grid::Grid;
+use crate::input::diagnostic::{Diagnostics, Source};
 
 /// Why a text is taken for this format.
 pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
@@ -36,35 +36,26 @@ pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
 /// # Errors
 /// No names with units in brackets below them, or what [`steps::read`] refuses.
 pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Diagnostics> {
-    let grids: Vec<Grid> = Grid::every(source)
-        .filter(|grid| grid.delimiter() != ' ')
-        .collect();
-    let headers = |grid: &Grid| -> Vec<usize> {
-        (0..grid.len())
-            .filter(|line| is_header(grid, *line))
-            .collect()
-    };
-    let best = grids
-        .iter()
-        .map(|grid| (grid, headers(grid)))
-        .rev()
-        .max_by_key(|(_, headers)| headers.len());
-    let Some((grid, headers)) = best.filter(|(_, headers)| !headers.is_empty()) else {
-        let place = Grid::new(source, '\t').place(0);
-        return Err(Diagnostic::at(
-            &place,
-            "not an export of RheoCompass: no names with units in brackets below them",
-        )
-        .help("export with names and units, or leave the format out, to have it found")
-        .into());
-    };
+    let mut best: Option<(Grid, Vec<usize>)> = None;
+    for grid in Grid::every(source).filter(|grid| grid.delimiter() != ' ') {
+        let lines = (0..grid.len()).filter(|line| is_header(&grid, *line));
+        let headers: Vec<usize> = lines.collect();
+        if headers.len() > best.as_ref().map_or(0, |(_, most)| most.len()) {
+            best = Some((grid, headers));
+        }
+    }
+    let (grid, headers) = best.unwrap_or_else(|| (Grid::new(source, '\t'), Vec::new()));
     let ends = headers.iter().skip(1).copied().chain([grid.len()]);
-    let blocks = headers
+    let blocks: Vec<Block<'_>> = headers
         .iter()
         .zip(ends)
-        .map(|(header, end)| interval(grid, *header, end, reading))
+        .map(|(header, end)| interval(&grid, *header, end, reading))
         .collect();
-    steps::read(grid, blocks, reading)
+    let none = [
+        "not an export of RheoCompass: no names with units in brackets below them",
+        "export with names and units, or leave the format out, to have it found",
+    ];
+    steps::read(&grid, &blocks, none, reading)
 }
 
 /// Whether a line holds names, that is, the next one units in brackets.
@@ -106,11 +97,9 @@ fn name(grid: &Grid, header: usize) -> Option<String> {
     let above = (header.saturating_sub(12)..header)
         .rev()
         .map(|line| grid.line(line));
-    let mut labels: Vec<Line<'_>> = above
-        .take_while(|line| line.text(0).ends_with(':'))
-        .collect();
-    labels.retain(|line| ["Result:", "Ergebnis:", "Test:"].contains(&line.text(0)));
-    labels.first().map(|line| line.text(1).to_owned())
+    let mut labels = above.take_while(|line| line.text(0).ends_with(':'));
+    let label = labels.find(|line| ["Result:", "Ergebnis:", "Test:"].contains(&line.text(0)))?;
+    Some(label.text(1).to_owned())
 }
 
 /// Rows whose point has no number, where points are numbered.

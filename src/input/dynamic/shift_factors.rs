@@ -4,6 +4,7 @@
 use std::path::Path;
 
 use super::columns::{self, Role};
+use super::units::{self, Scale};
 use crate::input::data_file::grid::{self, Cell, Grid, Line};
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Problems};
 use crate::input::document::{cannot_read, read_limited};
@@ -40,10 +41,11 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
     super::within_limit(name, bytes)?;
     let (source, _) = grid::source(name, bytes)?;
     let found = Grid::every(&source).find_map(|grid| {
-        let line = (0..grid.len().min(50)).find(|line| places(&grid.line(*line)).is_some())?;
-        Some((grid, line))
+        let mut lines = 0..grid.len().min(50);
+        let (header, places) = lines.find_map(|line| Some((line, places(&grid.line(line))?)))?;
+        Some((grid, header, places))
     });
-    let Some((grid, header)) = found else {
+    let Some((grid, header, places)) = found else {
         return Err(Diagnostic::at(
             &Grid::new(&source, ',').place(0),
             "no table of shift factors",
@@ -53,34 +55,36 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
         )
         .into());
     };
-    let names = grid.line(header);
-    let Some((temperature, factor)) = places(&names) else {
-        return Ok(Vec::new());
-    };
-    let below = grid.line(header + 1);
-    let has_units = !below.is_number(temperature) && !below.is_number(factor);
+    let (names, below) = (grid.line(header), grid.line(header + 1));
+    let temperature = places[0];
+    let has_units = !places.iter().any(|place| below.is_number(*place));
     let above = columns::recognise(names.text(temperature)).and_then(|named| named.unit);
-    let unit = above.unwrap_or_else(|| {
-        if has_units {
-            below.text(temperature).to_owned()
-        } else {
-            String::new()
-        }
-    });
-    let scale = columns::scale(Role::Temperature, Some(&unit)).map_err(|why| {
+    let below = if has_units {
+        below.text(temperature)
+    } else {
+        ""
+    };
+    let unit = above.as_deref().unwrap_or(below);
+    let scale = units::scale(Role::Temperature, Some(unit)).map_err(|why| {
         Diagnostic::at(&names.place(temperature), "the temperatures have no unit").help(why)
     })?;
-    let (problems, mut numbers, mut pairs) = (
-        Problems::new(),
-        grid.numbers(header + 1..grid.len()),
-        Vec::new(),
-    );
-    for line in header + 1 + usize::from(has_units)..grid.len() {
-        if grid.is_comment(line) {
-            continue;
-        }
+    rows(&grid, header, usize::from(has_units), places, scale)
+}
+
+/// The pairs in the rows below the header and its units.
+fn rows(
+    grid: &Grid,
+    header: usize,
+    units: usize,
+    places: [usize; 2],
+    scale: Scale,
+) -> Result<Vec<(f64, f64)>, Diagnostics> {
+    let (names, problems) = (grid.line(header), Problems::new());
+    let mut numbers = grid.numbers(header + 1..grid.len());
+    let mut pairs = Vec::new();
+    for line in (header + 1 + units..grid.len()).filter(|line| !grid.is_comment(*line)) {
         let row = grid.line(line);
-        let mut number = |cell: usize| match numbers.read(&row, cell) {
+        let read = places.map(|cell| match numbers.read(&row, cell) {
             Cell::Number(number) => Some(number),
             Cell::Missing | Cell::Bad(_) => {
                 let message = format!(
@@ -92,17 +96,16 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
                     .help("write it as `-1.5`, or leave the whole row out");
                 None
             }
-        };
-        let (celsius, factor_of) = (number(temperature), number(factor));
-        if let (Some(temperature_c), Some(log)) = (celsius, factor_of) {
-            let temperature_k = scale.zero + scale.factor * temperature_c;
+        });
+        if let [Some(temperature), Some(log10_a_t)] = read {
+            let temperature_k = scale.zero + scale.factor * temperature;
             if temperature_k <= 0.0 {
                 let message = format!("the temperature must be above {} °C", -ZERO_CELSIUS_K);
                 problems
-                    .at(&row.place(temperature), message)
+                    .at(&row.place(places[0]), message)
                     .help("check the unit of the temperatures");
             }
-            pairs.push((temperature_k, log));
+            pairs.push((temperature_k, log10_a_t));
         }
     }
     numbers.check(&problems);
@@ -118,12 +121,12 @@ pub fn shift_factors_from_bytes(name: &str, bytes: &[u8]) -> Result<Vec<(f64, f6
 }
 
 /// Where temperature and shift factor stand.
-fn places(header: &Line<'_>) -> Option<(usize, usize)> {
+fn places(header: &Line<'_>) -> Option<[usize; 2]> {
     let is_temperature =
         |text: &str| columns::recognise(text).is_some_and(|named| named.role == Role::Temperature);
     let temperature = header.texts().position(is_temperature)?;
     let factor = header
         .texts()
         .position(|text| NAMES.contains(&text.to_lowercase().as_str()))?;
-    Some((temperature, factor))
+    Some([temperature, factor])
 }

@@ -1,31 +1,34 @@
 //! Steps of a test, as TRIOS and RheoCompass export them: which of them are frequency sweeps, and what is said of the others.
 
-use super::Reading;
 use super::block::{self, Block, Measured};
+use super::{Reading, units};
 use crate::input::data_file::grid::Grid;
 use crate::input::diagnostic::{Diagnostic, Diagnostics};
-use crate::quantity::ZERO_CELSIUS_K;
 
 /// Frequencies closer than this are one.
 const SAME_FREQUENCY: f64 = 1.001;
+
+/// What to do where a file is not of the format that was asked for.
+pub(super) const LEAVE_OUT: &str = "leave the format out, to have it found";
 
 /// Reads the steps that hold dynamic data. What an instrument's software computed from others, and what varies strain, time or
 /// temperature at one frequency where other steps vary the frequency, is passed over.
 ///
 /// # Errors
-/// No such step, or what [`Block::read`] refuses.
+/// No step at all, for which `none` gives the reason and what to do; none that holds dynamic data; or what [`Block::read`] refuses.
 pub(super) fn read(
     grid: &Grid,
-    steps: Vec<Block<'_>>,
+    steps: &[Block<'_>],
+    [none, help]: [&str; 2],
     reading: &mut Reading,
 ) -> Result<(), Diagnostics> {
+    if steps.is_empty() {
+        return Err(Diagnostic::at(&grid.place(0), none).help(help).into());
+    }
     let (mut sweeps, mut others) = (Vec::new(), Vec::new());
-    for step in &steps {
-        let name = step
-            .name
-            .clone()
-            .unwrap_or_else(|| "without a name".to_owned());
-        if is_derived(&name) {
+    for step in steps {
+        let name = step.name.as_deref().unwrap_or("without a name");
+        if is_derived(name) {
             reading.note(format!(
                 "step `{name}` passed over: computed from the others"
             ));
@@ -37,13 +40,12 @@ pub(super) fn read(
         }
         let content = step.read(reading.kind)?;
         match is_sweep(&content.points) {
-            true => sweeps.push((step, content)),
-            false => others.push((step, content)),
+            true => sweeps.push((name, step, content)),
+            false => others.push((name, step, content)),
         }
     }
     if !sweeps.is_empty() {
-        for (step, _) in others.drain(..) {
-            let name = step.name.as_deref().unwrap_or("without a name");
+        for (name, _, _) in others.drain(..) {
             reading.note(format!(
                 "step `{name}` passed over: it does not vary the frequency"
             ));
@@ -54,7 +56,7 @@ pub(super) fn read(
             .help("export the columns Angular frequency, Storage modulus, Loss modulus and Temperature of the frequency sweeps")
             .into());
     }
-    for (step, content) in sweeps.into_iter().chain(others) {
+    for (_, step, content) in sweeps.into_iter().chain(others) {
         reading.add_content(step, content)?;
     }
     Ok(())
@@ -82,10 +84,7 @@ fn is_sweep(points: &[Measured]) -> bool {
 /// The temperature in the name of a step (K): `Frequency sweep (150.0 °C)`.
 pub(super) fn temperature_in(name: &str) -> Option<f64> {
     let (before, _) = name.split_once("°C").or_else(|| name.split_once(" C)"))?;
-    let number = before.trim_end().rsplit(['(', ' ', '@', '=', '_']).next()?;
-    let celsius: f64 = number.replace(',', ".").parse().ok()?;
-    let kelvin = celsius + ZERO_CELSIUS_K;
-    (kelvin.is_finite() && kelvin > 0.0).then_some(kelvin)
+    units::kelvin(before.trim_end().rsplit(['(', ' ', '@', '=', '_']).next()?)
 }
 
 /// Steps that open with a line `[step]`: perhaps a name, then names, perhaps units, rows; each ends at the next line in brackets.
@@ -96,9 +95,8 @@ pub(super) fn bracketed(grid: &Grid) -> Vec<Block<'_>> {
             .trim_matches([',', '\t', ' ', '"'])
             .eq_ignore_ascii_case("[step]")
     };
-    let starts: Vec<usize> = (0..grid.len()).filter(is_step).collect();
     let mut steps = Vec::new();
-    for start in starts {
+    for start in (0..grid.len()).filter(is_step) {
         let end = (start + 1..grid.len()).find(is_mark).unwrap_or(grid.len());
         let header = (start + 1..end.min(start + 5)).find(|line| {
             let cells = grid.line(*line);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::input::diagnostic::Styling;
+use crate::material::dynamic::DynamicPoint;
 
 /// Reads a text by itself.
 pub(super) fn read_text(text: &str, kind: ModulusKind) -> Result<DynamicFile, String> {
@@ -149,106 +150,109 @@ fn missing_numbers_are_passed_over_and_counted() {
     );
 }
 
+/// Texts, and where and why they are refused.
+const REFUSED: [(&str, &str, &str); 20] = [
+    ("", "dma.csv", "no line names the columns"),
+    (
+        "1,2,3\n2,3,4\n",
+        "dma.csv:1:1",
+        "frequency_hz,storage_modulus_mpa",
+    ),
+    (
+        "f,E' [MPa],E'' [MPa]\n1,2,3\n",
+        "dma.csv:1:1",
+        "write `f [Hz]` or `f [rad/s]`",
+    ),
+    (
+        "f [Hz],E',E'' [MPa]\n1,2,3\n",
+        "dma.csv:1:8",
+        "the column of storage moduli has no unit",
+    ),
+    (
+        "f [Hz],E' [psi],E'' [MPa]\n1,2,3\n",
+        "dma.csv:1:8",
+        "1 psi is 6894.7573 Pa",
+    ),
+    (
+        "f [Hz],E' [MPa],E'' [MPa],T\n1,2,3,4\n",
+        "dma.csv:1:27",
+        "write its unit, such as [°C]",
+    ),
+    (
+        "f [Hz],E' [MPa]\n1,2\n",
+        "dma.csv:1:1",
+        "no column of loss moduli",
+    ),
+    (
+        "f [Hz],G' [MPa],G'' [MPa]\n1,2,3\n",
+        "dma.csv:1:8",
+        "--modulus shear",
+    ),
+    (
+        "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,x,3\n",
+        "dma.csv:3:3",
+        "not a number",
+    ),
+    (
+        "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,-1,3\n",
+        "dma.csv:3:3",
+        "storage moduli must be positive",
+    ),
+    (
+        "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,1,0\n",
+        "dma.csv:3:5",
+        "loss moduli must be positive",
+    ),
+    (
+        "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,1,inf\n",
+        "dma.csv:3:5",
+        "not a finite number",
+    ),
+    (
+        "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,1\n",
+        "dma.csv:3:1",
+        "a row of 2 cells in a table of 3 columns",
+    ),
+    (
+        "f [Hz],E' [MPa],E'' [MPa],E'' [Pa]\n1,2,3,4\n",
+        "dma.csv:1:27",
+        "two columns of loss moduli",
+    ),
+    (
+        "f [Hz];E' [MPa];E'' [MPa]\n1,5;2.5;3\n2;1;1\n",
+        "dma.csv:2:1",
+        "a decimal comma in a file with decimal points",
+    ),
+    (
+        "f [Hz];E' [MPa];E'' [MPa]\n1;2,500;3\n2;1,250;1\n",
+        "dma.csv:2:3",
+        "may separate decimals or thousands",
+    ),
+    (
+        "f [Hz],E' [MPa],E'' [MPa],T [C]\n1,2,3,-300\n",
+        "dma.csv:2:1",
+        "absolute temperature must be positive",
+    ),
+    (
+        "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,1,1\n",
+        "dma.csv",
+        "at least 3 points, and there are 2",
+    ),
+    (
+        "t,E_relax,T,Set\ns,MPa,C,-\n1,2,3,0\n",
+        "dma.csv:1:1",
+        "--quantity relaxation",
+    ),
+    (
+        "time_s,relaxation_modulus_pa\n1,2\n",
+        "dma.csv:1:1",
+        "--quantity relaxation",
+    ),
+];
+
 #[test]
 fn what_is_ambiguous_or_wrong_is_refused_at_its_place() {
-    for (text, place, reason) in [
-        ("", "dma.csv", "no line names the columns"),
-        (
-            "1,2,3\n2,3,4\n",
-            "dma.csv:1:1",
-            "frequency_hz,storage_modulus_mpa",
-        ),
-        (
-            "f,E' [MPa],E'' [MPa]\n1,2,3\n",
-            "dma.csv:1:1",
-            "write `f [Hz]` or `f [rad/s]`",
-        ),
-        (
-            "f [Hz],E',E'' [MPa]\n1,2,3\n",
-            "dma.csv:1:8",
-            "the column of storage moduli has no unit",
-        ),
-        (
-            "f [Hz],E' [psi],E'' [MPa]\n1,2,3\n",
-            "dma.csv:1:8",
-            "1 psi is 6894.7573 Pa",
-        ),
-        (
-            "f [Hz],E' [MPa],E'' [MPa],T\n1,2,3,4\n",
-            "dma.csv:1:27",
-            "write its unit, such as [°C]",
-        ),
-        (
-            "f [Hz],E' [MPa]\n1,2\n",
-            "dma.csv:1:1",
-            "no column of loss moduli",
-        ),
-        (
-            "f [Hz],G' [MPa],G'' [MPa]\n1,2,3\n",
-            "dma.csv:1:8",
-            "--modulus shear",
-        ),
-        (
-            "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,x,3\n",
-            "dma.csv:3:3",
-            "not a number",
-        ),
-        (
-            "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,-1,3\n",
-            "dma.csv:3:3",
-            "storage moduli must be positive",
-        ),
-        (
-            "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,1,0\n",
-            "dma.csv:3:5",
-            "loss moduli must be positive",
-        ),
-        (
-            "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,1,inf\n",
-            "dma.csv:3:5",
-            "not a finite number",
-        ),
-        (
-            "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,1\n",
-            "dma.csv:3:1",
-            "a row of 2 cells in a table of 3 columns",
-        ),
-        (
-            "f [Hz],E' [MPa],E'' [MPa],E'' [Pa]\n1,2,3,4\n",
-            "dma.csv:1:27",
-            "two columns of loss moduli",
-        ),
-        (
-            "f [Hz];E' [MPa];E'' [MPa]\n1,5;2.5;3\n2;1;1\n",
-            "dma.csv:2:1",
-            "a decimal comma in a file with decimal points",
-        ),
-        (
-            "f [Hz];E' [MPa];E'' [MPa]\n1;2,500;3\n2;1,250;1\n",
-            "dma.csv:2:3",
-            "may separate decimals or thousands",
-        ),
-        (
-            "f [Hz],E' [MPa],E'' [MPa],T [C]\n1,2,3,-300\n",
-            "dma.csv:2:1",
-            "absolute temperature must be positive",
-        ),
-        (
-            "f [Hz],E' [MPa],E'' [MPa]\n1,2,3\n2,1,1\n",
-            "dma.csv",
-            "at least 3 points, and there are 2",
-        ),
-        (
-            "t,E_relax,T,Set\ns,MPa,C,-\n1,2,3,0\n",
-            "dma.csv:1:1",
-            "--quantity relaxation",
-        ),
-        (
-            "time_s,relaxation_modulus_pa\n1,2\n",
-            "dma.csv:1:1",
-            "--quantity relaxation",
-        ),
-    ] {
+    for (text, place, reason) in REFUSED {
         let refused = read_text(text, ModulusKind::Longitudinal).unwrap_err();
         assert!(
             refused.contains(place) && refused.contains(reason),

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{Reading, steps};
 use crate::input::data_file::grid::Grid;
-use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
+use crate::input::diagnostic::{Diagnostics, Source};
 
 /// Why a text is taken for this format.
 pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
@@ -37,16 +37,8 @@ pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
 /// # Errors
 /// No step, or what [`steps::read`] refuses.
 pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Diagnostics> {
-    let semicolons = source
-        .text()
-        .lines()
-        .filter(|line| line.contains(';'))
-        .count();
-    let commas = source
-        .text()
-        .lines()
-        .filter(|line| line.contains(','))
-        .count();
+    let has_semicolons = source.text().contains(';');
+    let has_commas = source.text().contains(',');
     // Where commas separate decimals, semicolons separate cells.
     let in_table = |grid: &Grid| {
         steps::bracketed(grid)
@@ -54,20 +46,13 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
             .any(|step| step.header.len() > 2)
     };
     let by_semicolon = Grid::new(source, ';');
-    let grid = match semicolons > 0 && (commas == 0 || in_table(&by_semicolon)) {
+    let grid = match has_semicolons && (!has_commas || in_table(&by_semicolon)) {
         true => by_semicolon,
         false => Grid::new(source, ','),
     };
-    let found = steps::bracketed(&grid);
-    if found.is_empty() {
-        return Err(Diagnostic::at(
-            &grid.place(0),
-            "not a CSV of TRIOS: it has no line `[step]`",
-        )
-        .help("leave the format out, to have it found")
-        .into());
-    }
-    steps::read(&grid, found, reading)
+    let none = "not a CSV of TRIOS: it has no line `[step]`";
+    let none = [none, steps::LEAVE_OUT];
+    steps::read(&grid, &steps::bracketed(&grid), none, reading)
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use super::block::Block;
 use super::{Reading, steps};
 use crate::input::data_file::grid::Grid;
-use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
+use crate::input::diagnostic::{Diagnostics, Source};
 
 /// Why a text is taken for this format.
 pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
@@ -32,20 +32,13 @@ pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
 pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Diagnostics> {
     let grid = Grid::new(source, '\t');
     let is_step = |line: &usize| grid.text(*line).trim().eq_ignore_ascii_case("[step]");
-    let starts: Vec<usize> = (0..grid.len()).filter(is_step).collect();
+    let starts = (0..grid.len()).filter(is_step);
     let found: Vec<Block<'_>> = starts
-        .into_iter()
         .filter_map(|start| step(&grid, start, reading))
         .collect();
-    if found.is_empty() {
-        return Err(Diagnostic::at(
-            &grid.place(0),
-            "not a LIMS text of TRIOS: it has no part `[Step]` with `Variables`",
-        )
-        .help("leave the format out, to have it found")
-        .into());
-    }
-    steps::read(&grid, found, reading)
+    let none = "not a LIMS text of TRIOS: it has no part `[Step]` with `Variables`";
+    let none = [none, steps::LEAVE_OUT];
+    steps::read(&grid, &found, none, reading)
 }
 
 /// The table of a part.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use super::{Reading, steps};
 use crate::input::data_file::grid::Grid;
-use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
+use crate::input::diagnostic::{Diagnostics, Source};
 
 /// Why a text is taken for this format.
 pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
@@ -36,16 +36,9 @@ pub(super) fn detect(source: &Arc<Source>) -> Option<String> {
 /// No step, or what [`steps::read`] refuses.
 pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Diagnostics> {
     let grid = Grid::new(source, '\t');
-    let found = steps::bracketed(&grid);
-    if found.is_empty() {
-        return Err(Diagnostic::at(
-            &grid.place(0),
-            "not a text of TRIOS: it has no line `[step]`",
-        )
-        .help("leave the format out, to have it found")
-        .into());
-    }
-    steps::read(&grid, found, reading)
+    let none = "not a text of TRIOS: it has no line `[step]`";
+    let none = [none, steps::LEAVE_OUT];
+    steps::read(&grid, &steps::bracketed(&grid), none, reading)
 }
 
 #[cfg(test)]

@@ -62,7 +62,8 @@ impl<L: Fn(f64) -> Option<f64>> Interpolation<'_, L> {
     }
 
     fn between(&self, temperature_k: f64) -> Option<f64> {
-        let straight = |t: f64| self.coordinate(t);
+        // The law where it falls with the temperature, as it does for all but odd data; turned round to rise.
+        let straight = |t: f64| Some(-self.law.as_ref()?(t)?);
         let coordinates: Option<Vec<f64>> =
             self.temperatures_k.iter().map(|&t| straight(t)).collect();
         let ascending = |c: &Vec<f64>| c.windows(2).all(|pair| pair[0] < pair[1]);
@@ -75,14 +76,6 @@ impl<L: Fn(f64) -> Option<f64>> Interpolation<'_, L> {
             .zip(self.log10_a_t.iter().copied())
             .collect();
         monotone(&pairs, x)
-    }
-
-    /// The law where it falls with the temperature, as it does for all but odd data; turned round to rise.
-    fn coordinate(&self, temperature_k: f64) -> Option<f64> {
-        self.law
-            .as_ref()
-            .and_then(|law| law(temperature_k))
-            .map(|value| -value)
     }
 
     /// How the factor at a temperature depends on those given, in first order: between two, by the share of the way from one to

@@ -84,7 +84,10 @@ impl DynamicData {
         }
         let has_temperature = all.iter().any(|point| point.temperature_k.is_some());
         for (index, point) in all.iter().enumerate() {
-            point.check(index)?;
+            if let Some((what, value)) = point.not_positive() {
+                let point = index;
+                return Err(DynamicDataError::NotPositive { point, what, value });
+            }
             if has_temperature && point.temperature_k.is_none() {
                 return Err(DynamicDataError::SomeTemperatures { point: index });
             }
@@ -128,7 +131,8 @@ impl DynamicData {
 }
 
 impl DynamicPoint {
-    fn check(&self, point: usize) -> Result<(), DynamicDataError> {
+    /// What of it is no positive number, and its value.
+    pub(crate) fn not_positive(&self) -> Option<(&'static str, f64)> {
         let values = [
             ("the frequency", self.angular_frequency_rad_per_s),
             ("the storage modulus", self.storage_modulus_pa),
@@ -138,13 +142,8 @@ impl DynamicPoint {
                 self.temperature_k.unwrap_or(1.0),
             ),
         ];
-        let bad = values
-            .into_iter()
-            .find(|(_, value)| !(value.is_finite() && *value > 0.0));
-        match bad {
-            Some((what, value)) => Err(DynamicDataError::NotPositive { point, what, value }),
-            None => Ok(()),
-        }
+        let is_positive = |value: f64| value.is_finite() && value > 0.0;
+        values.into_iter().find(|(_, value)| !is_positive(*value))
     }
 }
 
@@ -160,6 +159,13 @@ impl Isotherm {
             temperature_k: temperatures.map(mean),
             points,
         }
+    }
+
+    /// Lowest and highest angular frequency.
+    fn window_rad_per_s(&self) -> (f64, f64) {
+        let ends = self.points.first().zip(self.points.last());
+        let omega = |point: &DynamicPoint| point.angular_frequency_rad_per_s;
+        ends.map_or_else(Default::default, |(a, b)| (omega(a), omega(b)))
     }
 }
 

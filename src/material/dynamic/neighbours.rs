@@ -53,17 +53,9 @@ fn between(colder: &Isotherm, hotter: &Isotherm, noise: &Noise, vertical: bool) 
 
 /// The smallest shift that is as good as any, from where the isotherms lie the wrong way round to where they do not meet.
 fn searched(curve: &OneCurve, colder: &Isotherm, hotter: &Isotherm) -> f64 {
-    let width = |isotherm: &Isotherm| {
-        let omegas = isotherm
-            .points
-            .iter()
-            .map(|p| p.angular_frequency_rad_per_s.log10());
-        let lowest = omegas.clone().fold(f64::INFINITY, f64::min);
-        (lowest, omegas.fold(f64::NEG_INFINITY, f64::max))
-    };
-    let (colder, hotter) = (width(colder), width(hotter));
+    let (lowest, highest) = (colder.window_rad_per_s().0, hotter.window_rad_per_s().1);
     // The colder isotherm's frequencies end up a decade above the hotter's at most.
-    let most = hotter.1 - colder.0 + 1.0;
+    let most = highest.log10() - lowest.log10() + 1.0;
     let steps = ((most + 1.0) / SEARCH_STEP).ceil().max(1.0) as usize;
     let tried = (0..=steps).map(|i| -1.0 + SEARCH_STEP * i as f64);
     let tried: Vec<(f64, f64)> = tried
@@ -102,25 +94,18 @@ pub(super) fn closed_form(
     let storage = |p: &DynamicPoint| p.storage_modulus_pa.ln();
     let loss = |p: &DynamicPoint| p.loss_modulus_pa.ln();
     let tangent = |p: &DynamicPoint| (p.loss_modulus_pa / p.storage_modulus_pa).ln();
-    let found = if vertical {
-        vec![area(
-            colder,
-            hotter,
-            tangent,
-            noise.storage.hypot(noise.loss),
-        )]
-    } else {
-        vec![
+    let of_both = noise.storage.hypot(noise.loss);
+    let found = match vertical {
+        true => [area(colder, hotter, tangent, of_both), None],
+        false => [
             area(colder, hotter, storage, noise.storage),
             area(colder, hotter, loss, noise.loss),
-        ]
+        ],
     };
-    let sums = found
-        .into_iter()
-        .flatten()
-        .fold((0.0, 0.0), |sum, (shift, variance)| {
-            (sum.0 + shift / variance, sum.1 + 1.0 / variance)
-        });
+    let mut sums = (0.0, 0.0);
+    for (shift, variance) in found.into_iter().flatten() {
+        sums = (sums.0 + shift / variance, sums.1 + 1.0 / variance);
+    }
     (sums.1 > 0.0).then(|| sums.0 / sums.1 / LN_10)
 }
 
@@ -140,16 +125,15 @@ fn area(
     };
     let (colder, hotter) = (path(colder), path(hotter));
     let ends = |path: &[(f64, f64)]| Some((path.first()?.1, path.last()?.1));
-    let (c, h) = (ends(&colder)?, ends(&hotter)?);
+    let (mut c, mut h) = (ends(&colder)?, ends(&hotter)?);
     let rising = c.1 > c.0;
     if rising != (h.1 > h.0) {
         return None;
     }
-    let (lowest, highest) = if rising {
-        (c.0.max(h.0), c.1.min(h.1))
-    } else {
-        (c.1.max(h.1), c.0.min(h.0))
-    };
+    if !rising {
+        (c, h) = ((c.1, c.0), (h.1, h.0));
+    }
+    let (lowest, highest) = (c.0.max(h.0), c.1.min(h.1));
     let height = highest - lowest;
     if height < 3.0 * noise {
         return None;

@@ -78,14 +78,11 @@ impl Noise {
             let relative = error / value;
             (relative.is_finite() && relative > 0.0).then_some(relative.max(LEAST))
         };
-        let (storage, loss) = match point.errors_pa {
-            Some((storage, loss)) => (
-                own(storage, point.storage_modulus_pa),
-                own(loss, point.loss_modulus_pa),
-            ),
-            None => (None, None),
-        };
-        (storage.unwrap_or(self.storage), loss.unwrap_or(self.loss))
+        let (storage, loss) = point.errors_pa.unwrap_or_default();
+        (
+            own(storage, point.storage_modulus_pa).unwrap_or(self.storage),
+            own(loss, point.loss_modulus_pa).unwrap_or(self.loss),
+        )
     }
 }
 

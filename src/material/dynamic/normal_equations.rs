@@ -21,12 +21,12 @@ pub(super) struct Solution {
 }
 
 /// The products `A' A` and `A' b` of columns of unit length; `b` in standard deviations.
-pub(super) struct NormalEquations<'a> {
-    pub(super) products: &'a DMatrix<f64>,
-    pub(super) right: &'a DVector<f64>,
+pub(super) struct NormalEquations {
+    pub(super) products: DMatrix<f64>,
+    pub(super) right: DVector<f64>,
 }
 
-impl NormalEquations<'_> {
+impl NormalEquations {
     /// The x that minimises |A x - b| with no component negative, from the columns of a similar problem on.
     pub(super) fn solve(&self, start: &[usize]) -> Solution {
         let mut solution = self.feasible(start.to_vec());
@@ -110,23 +110,13 @@ impl NormalEquations<'_> {
                 next.values = target;
                 return Some(next);
             }
-            let moved = next.values.iter().zip(&target);
-            let kept: Vec<Option<f64>> = moved
-                .map(|(x, z)| {
-                    let out = *z <= 0.0 && limit((x, z)) <= share;
-                    (!out).then_some(x + share * (z - x))
-                })
-                .collect();
-            next = Solution {
-                columns: next
-                    .columns
-                    .iter()
-                    .zip(&kept)
-                    .filter(|(_, k)| k.is_some())
-                    .map(|(&c, _)| c)
-                    .collect(),
-                values: kept.into_iter().flatten().collect(),
-            };
+            let all = next.columns.iter().zip(next.values.iter().zip(&target));
+            let is_out = |x: &f64, z: &f64| *z <= 0.0 && limit((x, z)) <= share;
+            let kept = all.filter(|(_, (x, z))| !is_out(x, z));
+            let (columns, values) = kept
+                .map(|(&column, (x, z))| (column, x + share * (z - x)))
+                .unzip();
+            next = Solution { columns, values };
             if next.columns.is_empty() {
                 return None;
             }

@@ -6,16 +6,16 @@
 //! form of L. Kaufman 1975) with the damping of Levenberg and Marquardt. Rows are divided by the noise of each value, so that the
 //! sum of squares is that of standard deviations.
 
+mod columns;
+
 use std::f64::consts::LN_10;
 
 use nalgebra::{DMatrix, DVector};
 
 use super::Isotherm;
 use super::noise::Noise;
-use super::normal_equations::{NormalEquations, Solution};
-
-/// Times per decade: a branch between two of the grid is represented to a few tenths of a per cent.
-const TIMES_PER_DECADE: f64 = 8.0;
+use super::normal_equations::Solution;
+use columns::Columns;
 
 /// How far the times go beyond the reciprocals of the angular frequencies (decades): so far that the flank of a branch outside is
 /// represented. What this says of the equilibrium modulus does not matter for shifts.
@@ -68,14 +68,6 @@ pub(super) struct State {
     /// Half the gradient and the curvature of the sum of squares by the shifts, the fixed one left out of neither.
     gradient: DVector<f64>,
     curvature: DMatrix<f64>,
-}
-
-/// Columns of the linear problem: the equilibrium modulus, and the moduli of the times.
-struct Columns {
-    first_time: i64,
-    times: usize,
-    lengths: Vec<f64>,
-    matrix: DMatrix<f64>,
 }
 
 impl OneCurve {
@@ -176,26 +168,13 @@ impl OneCurve {
     /// The best curve for these places.
     pub(super) fn at(&self, places: &[f64], start: &[i64]) -> State {
         let columns = self.columns(places);
-        let right = self.right();
-        let products = columns.products();
-        let projected = columns.matrix.tr_mul(&right);
-        let equations = NormalEquations {
-            products: &products,
-            right: &projected,
-        };
-        let solution = equations.solve(&columns.start(start));
-        let mut residual = right;
+        let solution = columns.equations.solve(&columns.start(start));
+        let mut residual = self.right();
         for (&column, &value) in solution.columns.iter().zip(&solution.values) {
             residual.axpy(-value, &columns.matrix.column(column), 1.0);
         }
-        let (gradient, curvature) = self.derivatives(
-            places,
-            &columns,
-            &equations,
-            &solution,
-            &solution.columns,
-            &residual,
-        );
+        let used = &solution.columns;
+        let (gradient, curvature) = self.derivatives(places, &columns, &solution, used, &residual);
         let from_expected = DVector::from_row_slice(places) - &self.expected.1;
         let pull = &self.expected.0 * &from_expected;
         State {
@@ -204,7 +183,7 @@ impl OneCurve {
             objective: residual.norm_squared() + pull.dot(&from_expected),
             relative: self.relative(&residual),
             correlated: self.correlated(&residual),
-            taken: self.taken(&columns, &equations, &solution),
+            taken: self.taken(&columns, &solution),
             linear: solution.columns.len(),
             times: columns.times_of(&solution),
             gradient: gradient - pull,
@@ -214,10 +193,14 @@ impl OneCurve {
 
     /// The curve and the places that make the sum of squares least, from these shifts on.
     pub(super) fn refine(&self, shifts: &[f64]) -> State {
-        let start = DVector::from_vec(self.places(shifts));
-        let by = self.directions(&self.free());
+        self.refine_along(&self.places(shifts), &self.directions(&self.free()))
+    }
+
+    /// The same from these places on, in these directions alone.
+    pub(super) fn refine_along(&self, start: &[f64], by: &DMatrix<f64>) -> State {
+        let start = DVector::from_row_slice(start);
         let places = |unknowns: &[f64]| {
-            let moved = &start + &by * DVector::from_row_slice(unknowns);
+            let moved = &start + by * DVector::from_row_slice(unknowns);
             Some(moved.iter().copied().collect())
         };
         let unknowns = vec![0.0; by.ncols()];
@@ -280,22 +263,10 @@ impl OneCurve {
         directions: &DMatrix<f64>,
     ) -> Option<DMatrix<f64>> {
         let columns = self.columns(&state.places);
-        let products = columns.products();
-        let projected = columns.matrix.tr_mul(&self.right());
-        let equations = NormalEquations {
-            products: &products,
-            right: &projected,
-        };
-        let solution = equations.solve(&columns.start(&state.times));
+        let solution = columns.equations.solve(&columns.start(&state.times));
         let free = columns.with_neighbours(&solution.columns);
-        let (_, curvature) = self.derivatives(
-            &state.places,
-            &columns,
-            &equations,
-            &solution,
-            &free,
-            &self.right(),
-        );
+        let right = self.right();
+        let (_, curvature) = self.derivatives(&state.places, &columns, &solution, &free, &right);
         let curvature = directions.tr_mul(&((curvature + &self.expected.0) * directions));
         // A shift that the data say nothing about is unknown to ten decades rather than without bound.
         let weak = directions.tr_mul(directions) * 1e-2;
@@ -331,7 +302,7 @@ impl OneCurve {
             .collect();
         let lowest = reduced.iter().copied().fold(f64::INFINITY, f64::min);
         let highest = reduced.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let step = LN_10 / TIMES_PER_DECADE;
+        let step = columns::STEP;
         let first_time = ((-highest - BEYOND * LN_10) / step).floor() as i64;
         let last_time = ((-lowest + BEYOND * LN_10) / step).ceil() as i64;
         let times = (last_time - first_time + 1).max(1) as usize;
@@ -346,18 +317,7 @@ impl OneCurve {
                 matrix[(2 * index + 1, 1 + k)] = loss * share;
             }
         }
-        let lengths: Vec<f64> = matrix.column_iter().map(|c| c.norm()).collect();
-        for (mut column, &length) in matrix.column_iter_mut().zip(&lengths) {
-            if length > 0.0 {
-                column /= length;
-            }
-        }
-        Columns {
-            first_time,
-            times,
-            lengths,
-            matrix,
-        }
+        Columns::new(first_time, times, matrix, &self.right())
     }
 
     fn relative(&self, residual: &DVector<f64>) -> [f64; 2] {
@@ -371,14 +331,9 @@ impl OneCurve {
         [mean_square(0), mean_square(1)]
     }
 
-    fn taken(
-        &self,
-        columns: &Columns,
-        equations: &NormalEquations,
-        solution: &Solution,
-    ) -> [f64; 2] {
+    fn taken(&self, columns: &Columns, solution: &Solution) -> [f64; 2] {
         let used = columns.matrix.select_columns(&solution.columns);
-        let Some(factor) = equations.factor(&solution.columns) else {
+        let Some(factor) = columns.equations.factor(&solution.columns) else {
             return [0.0, 0.0];
         };
         let mut taken = [0.0, 0.0];
@@ -415,7 +370,6 @@ impl OneCurve {
         &self,
         places: &[f64],
         columns: &Columns,
-        equations: &NormalEquations,
         solution: &Solution,
         free: &[usize],
         residual: &DVector<f64>,
@@ -447,85 +401,10 @@ impl OneCurve {
                 }
             }
         }
-        match equations.factor(free) {
+        match columns.equations.factor(free) {
             Some(factor) => (gradient, own - cross.tr_mul(&factor.solve(&cross))),
             None => (gradient, own),
         }
-    }
-}
-
-impl Columns {
-    fn products(&self) -> DMatrix<f64> {
-        let count = self.matrix.ncols();
-        let mut products = DMatrix::zeros(count, count);
-        for i in 0..count {
-            for j in 0..=i {
-                let product = self.matrix.column(i).dot(&self.matrix.column(j));
-                products[(i, j)] = product;
-                products[(j, i)] = product;
-            }
-        }
-        products
-    }
-
-    /// Storage and loss modulus of a solution (Pa) at a reduced angular frequency (natural logarithm), and their derivatives by it.
-    fn modulus(&self, solution: &Solution, reduced: f64) -> [(f64, f64); 2] {
-        let step = LN_10 / TIMES_PER_DECADE;
-        let mut modulus = [(0.0, 0.0); 2];
-        for (&column, &unit) in solution.columns.iter().zip(&solution.values) {
-            let value = unit / self.lengths[column];
-            let Some(k) = column.checked_sub(1) else {
-                modulus[0].0 += value;
-                continue;
-            };
-            let x = (reduced + step * (self.first_time + k as i64) as f64).exp();
-            let share = x / (1.0 + x * x);
-            modulus[0].0 += value * x * share;
-            modulus[0].1 += value * 2.0 * share * share;
-            modulus[1].0 += value * share;
-            modulus[1].1 += value * share * (1.0 - x * x) / (1.0 + x * x);
-        }
-        modulus
-    }
-
-    fn start(&self, times: &[i64]) -> Vec<usize> {
-        let known = times.iter().filter_map(|&time| match time {
-            EQUILIBRIUM => Some(0),
-            _ => {
-                let k = time - self.first_time;
-                (0..self.times as i64).contains(&k).then(|| 1 + k as usize)
-            }
-        });
-        known.collect()
-    }
-
-    /// These columns, and those of the times next to theirs.
-    fn with_neighbours(&self, columns: &[usize]) -> Vec<usize> {
-        let is_time = |column: usize| (1..=self.times).contains(&column);
-        let near = |&column: &usize| {
-            let next = [column.saturating_sub(1), column + 1];
-            let next = next
-                .into_iter()
-                .filter(move |&other| is_time(column) && is_time(other));
-            next.chain([column])
-        };
-        let mut all: Vec<usize> = columns.iter().flat_map(near).collect();
-        all.sort_unstable();
-        all.dedup();
-        all
-    }
-
-    fn times_of(&self, solution: &Solution) -> Vec<i64> {
-        let times = solution
-            .columns
-            .iter()
-            .filter(|&&column| column <= self.times);
-        times
-            .map(|&column| match column {
-                0 => EQUILIBRIUM,
-                _ => self.first_time + column as i64 - 1,
-            })
-            .collect()
     }
 }
 
@@ -535,9 +414,6 @@ const VERTICAL: f64 = 0.03;
 
 /// Of data that no one curve describes: shifts between neighbours are expected to be within some of these of what the pair says.
 const NEIGHBOURS: f64 = 0.3;
-
-/// In the place of a time: the equilibrium modulus.
-const EQUILIBRIUM: i64 = i64::MIN;
 
 const ITERATIONS: usize = 40;
 

@@ -115,7 +115,7 @@ pub fn fit(points: &[DynamicPoint], branches: Option<usize>) -> Result<PronyFit,
         loss_rms: rms(|both| both.1),
         residuals,
         relaxation,
-        noise: rows.noise,
+        noise: rows.noise.into(),
         window_rad_per_s: rows.window(),
         kramers_kronig: kramers_kronig(points)?,
     })
@@ -185,7 +185,7 @@ fn limits(rows: &Rows, beyond: f64) -> (f64, f64) {
 fn rest(rows: &Rows, spectrum: Series) -> Result<Series, NnlsError> {
     let (lowest, _) = rows.window();
     let at_lowest = rows.omegas.iter().position(|omega| *omega == lowest);
-    let Some((storage, loss)) = at_lowest.map(|point| rows.values[point]) else {
+    let Some([storage, loss]) = at_lowest.map(|point| rows.values[point]) else {
         return Ok(spectrum);
     };
     if spectrum.constant > NOTHING * storage {
@@ -223,8 +223,8 @@ fn kramers_kronig(points: &[DynamicPoint]) -> Result<Option<f64>, NnlsError> {
     let rows = Rows::new(points);
     let times = Rows::grid(limits(&rows, FAR_BEYOND), COARSE);
     let alone = |part: Part| rows.only(part).strengths(&times, (part != Part::Loss, 0.0));
-    let (storage, loss) = (alone(Part::Storage)?, alone(Part::Loss)?);
-    let Some(rows) = rows.with_noise_of_each(&storage, &loss, FEWEST_FREE) else {
+    let alone = [alone(Part::Storage)?, alone(Part::Loss)?];
+    let Some(rows) = rows.with_noise_of_each(&alone, FEWEST_FREE) else {
         return Ok(None);
     };
     let both = rows.strengths(&times, (true, 0.0))?;

@@ -95,23 +95,12 @@ struct Modelled {
     residuals: Residuals,
 }
 
-/// What an isotherm has beside the spectrum.
-#[derive(Debug, Clone, Copy, Default)]
-struct Residuals {
-    level: f64,
-    tilt: f64,
-    /// Variances that the noise of the points gives both of them.
-    level_variance: f64,
-    tilt_variance: f64,
-}
+/// Level and tilt that an isotherm has beside the spectrum, each with the variance that the noise of its points gives it.
+type Residuals = [(f64, f64); 2];
 
-/// What all points of an isotherm have in common beyond their noise (relative standard deviations): nothing where the data lie on
-/// one curve.
-#[derive(Debug, Clone, Copy, Default)]
-struct Common {
-    level: f64,
-    tilt: f64,
-}
+/// Level and tilt that all points of an isotherm have in common beyond their noise (relative standard deviations): nothing where the
+/// data lie on one curve.
+type Common = [f64; 2];
 
 /// Place of a point in its isotherm: -1 to 1.
 fn place(index: usize, count: usize) -> f64 {
@@ -140,8 +129,7 @@ impl Model {
                 modelled(isotherm, shift(index), spectrum, noise)
             })
             .collect();
-        let common =
-            [0, 1].map(|part| Common::of(isotherms.iter().map(|both| both[part].residuals)));
+        let common = [0, 1].map(|part| common(isotherms.iter().map(|both| both[part].residuals)));
         Self { isotherms, common }
     }
 
@@ -176,82 +164,60 @@ fn modelled(
     spectrum: &Relaxation,
     (noise, errors_known): ((f64, f64), bool),
 ) -> [Modelled; 2] {
-    let part =
-        |of: fn(&DynamicPoint) -> (f64, Option<f64>), model: &dyn Fn(f64) -> f64, noise: f64| {
-            let values = isotherm.points.iter().map(|point| {
-                let relative = match of(point) {
-                    (value, Some(error)) if errors_known => noise.max(1.0) * error / value,
-                    _ => noise,
-                };
-                (
-                    model(a_t * point.angular_frequency_rad_per_s) / b_t,
-                    relative,
-                )
+    [0, 1].map(|part| {
+        let noise = <[f64; 2]>::from(noise)[part];
+        let points = isotherm.points.iter();
+        let measured = points.map(|p| [p.storage_modulus_pa, p.loss_modulus_pa][part]);
+        let measured: Vec<f64> = measured.collect();
+        let points = isotherm.points.iter().zip(&measured);
+        let values = points.map(|(point, value)| {
+            let errors = point.errors_pa.filter(|_| errors_known);
+            let relative = errors.map_or(noise, |errors| {
+                noise.max(1.0) * <[f64; 2]>::from(errors)[part] / value
             });
-            let values: Vec<(f64, f64)> = values.collect();
-            let measured: Vec<f64> = isotherm.points.iter().map(|point| of(point).0).collect();
-            let residuals = Residuals::of(&values, &measured);
-            Modelled { values, residuals }
-        };
-    let modulus = |omega: f64| spectrum.complex_modulus(omega);
-    [
-        part(
-            |p| (p.storage_modulus_pa, p.errors_pa.map(|errors| errors.0)),
-            &|omega| modulus(omega).re,
-            noise.0,
-        ),
-        part(
-            |p| (p.loss_modulus_pa, p.errors_pa.map(|errors| errors.1)),
-            &|omega| modulus(omega).im,
-            noise.1,
-        ),
-    ]
+            let modulus = spectrum.complex_modulus(a_t * point.angular_frequency_rad_per_s);
+            ([modulus.re, modulus.im][part] / b_t, relative)
+        });
+        let values: Vec<(f64, f64)> = values.collect();
+        let residuals = residuals(&values, &measured);
+        Modelled { values, residuals }
+    })
 }
 
-impl Residuals {
-    /// Least squares of level and tilt, which are orthogonal for points at even places.
-    fn of(values: &[(f64, f64)], measured: &[f64]) -> Self {
-        let count = values.len();
-        let mut found = Self::default();
-        let mut places = 0.0;
-        for (index, ((value, noise), measured)) in values.iter().zip(measured).enumerate() {
-            let (residual, place) = ((measured / value).ln(), place(index, count));
-            found.level += residual / count as f64;
-            found.tilt += residual * place;
-            places += place * place;
-            found.level_variance += (noise / count as f64).powi(2);
-            found.tilt_variance += (noise * place).powi(2);
-        }
-        if places > 0.0 {
-            found.tilt /= places;
-            found.tilt_variance /= places * places;
-        }
-        found
+/// Least squares of level and tilt, which are orthogonal for points at even places.
+fn residuals(values: &[(f64, f64)], measured: &[f64]) -> Residuals {
+    let count = values.len();
+    let (mut level, mut tilt, mut places) = ((0.0, 0.0), (0.0, 0.0), 0.0);
+    for (index, ((value, noise), measured)) in values.iter().zip(measured).enumerate() {
+        let (residual, place) = ((measured / value).ln(), place(index, count));
+        level.0 += residual / count as f64;
+        tilt.0 += residual * place;
+        places += place * place;
+        level.1 += (noise / count as f64).powi(2);
+        tilt.1 += (noise * place).powi(2);
     }
+    if places > 0.0 {
+        tilt = (tilt.0 / places, tilt.1 / (places * places));
+    }
+    [level, tilt]
 }
 
-impl Common {
-    /// What the mean squares have beyond those that the noise explains.
-    fn of(residuals: impl Iterator<Item = Residuals> + Clone) -> Self {
-        let count = residuals.clone().count().max(1) as f64;
-        let beyond = |excess: fn(Residuals) -> f64| {
-            let sum: f64 = residuals.clone().map(excess).sum();
-            (sum / count).max(0.0).sqrt()
-        };
-        Self {
-            level: beyond(|r| r.level * r.level - r.level_variance),
-            tilt: beyond(|r| r.tilt * r.tilt - r.tilt_variance),
-        }
-    }
+/// What the mean squares have beyond those that the noise explains.
+fn common(residuals: impl Iterator<Item = Residuals> + Clone) -> Common {
+    let count = residuals.clone().count().max(1) as f64;
+    [0, 1].map(|which| {
+        let excess = residuals.clone().map(|residuals| {
+            let (value, variance) = residuals[which];
+            value * value - variance
+        });
+        (excess.sum::<f64>() / count).max(0.0).sqrt()
+    })
 }
 
 impl Modelled {
     /// Other moduli (Pa) of this model. Logarithmic, so that none of them is negative.
     fn measured_again(&self, common: Common, random: &mut Noise) -> Vec<f64> {
-        let (level, tilt) = (
-            common.level * random.normal(),
-            common.tilt * random.normal(),
-        );
+        let [level, tilt] = common.map(|common| common * random.normal());
         let count = self.values.len();
         let values = self.values.iter().enumerate();
         values
@@ -446,12 +412,12 @@ mod tests {
         };
         // The mean of ten points with 1 % of noise is off by 0.3 %; of levels 10 % apart, the spectrum follows some.
         assert!(
-            common(0.0).iter().all(|c| c.level < 0.004),
+            common(0.0).iter().all(|c| c[0] < 0.004),
             "{:?}",
             common(0.0)
         );
         let common = common(0.1);
-        assert!(common.iter().any(|c| c.level > 0.03), "{common:?}");
-        assert!(common.iter().all(|c| c.level < 0.2), "{common:?}");
+        assert!(common.iter().any(|c| c[0] > 0.03), "{common:?}");
+        assert!(common.iter().all(|c| c[0] < 0.2), "{common:?}");
     }
 }

@@ -43,9 +43,7 @@ impl Wlf {
         let denominator = self.c2_k + above;
         (denominator > 0.0).then(|| -self.c1 * above / denominator)
     }
-}
 
-impl Wlf {
     /// The same law with this reference temperature: `c1' = c1 c2 / (c2 + T - Tr)`, `c2' = c2 + T - Tr`; `None` at and below `Tr - c2`.
     /// Errors of c1 are scaled with it, as if it were independent of c2.
     pub fn referred_to(&self, temperature_k: f64) -> Option<Self> {
@@ -64,8 +62,7 @@ impl Wlf {
 impl From<Arrhenius> for Wlf {
     /// Exact: Arrhenius is `c1 = Ea / (R Tr ln 10)`, `c2 = Tr`.
     fn from(law: Arrhenius) -> Self {
-        let per_energy =
-            1.0 / (GAS_CONSTANT * law.reference_temperature_k * std::f64::consts::LN_10);
+        let per_energy = 1.0 / (GAS_CONSTANT * law.reference_temperature_k * LN_10);
         Self {
             reference_temperature_k: law.reference_temperature_k,
             c1: law.activation_energy_j_per_mol * per_energy,
@@ -169,54 +166,6 @@ impl Hyperbola {
             }
         })
     }
-
-    /// The law at a reference temperature, its errors from the covariance of the unknowns. `None` for a WLF law whose pole is
-    /// not below the reference temperature.
-    pub(super) fn law(
-        &self,
-        covariance: &DMatrix<f64>,
-        reference_temperature_k: f64,
-    ) -> Option<ShiftLaw> {
-        match self.form {
-            Form::Wlf => self
-                .wlf(covariance, reference_temperature_k)
-                .map(ShiftLaw::Wlf),
-            Form::Arrhenius => {
-                // a = Ea / (ln 10 R T0^2)
-                let unit = LN_10 * GAS_CONSTANT * self.origin_k.powi(2);
-                Some(ShiftLaw::Arrhenius(Arrhenius {
-                    reference_temperature_k,
-                    activation_energy_j_per_mol: unit * self.a,
-                    activation_energy_error_j_per_mol: unit * covariance[(0, 0)].max(0.0).sqrt(),
-                }))
-            }
-        }
-    }
-
-    /// c2 grows by what the reference temperature does, and c1 c2 stays: with `D = 1/b`, `c2 = D + x`, `c1 = a D^2 / c2`.
-    fn wlf(&self, covariance: &DMatrix<f64>, reference_temperature_k: f64) -> Option<Wlf> {
-        let distance = 1.0 / self.b;
-        let c2_k = distance + reference_temperature_k - self.origin_k;
-        if !(self.b > 0.0 && c2_k > 0.0 && c2_k.is_finite()) {
-            return None;
-        }
-        let c1 = self.a * distance * distance / c2_k;
-        let by_b = -distance * distance;
-        let c1_by = Vector2::new(
-            distance * distance / c2_k,
-            by_b * (2.0 * c1 / distance - c1 / c2_k),
-        );
-        let c2_by = Vector2::new(0.0, by_b);
-        let covariance = Matrix2::from_fn(|i, j| covariance[(i, j)]);
-        let error = |by: Vector2<f64>| by.dot(&(covariance * by)).max(0.0).sqrt();
-        Some(Wlf {
-            reference_temperature_k,
-            c1,
-            c2_k,
-            c1_error: error(c1_by),
-            c2_error_k: error(c2_by),
-        })
-    }
 }
 
 /// A law through shift factors.
@@ -237,6 +186,75 @@ impl LawFit {
         let freedom = self.freedom as f64;
         self.freedom > 0 && self.squares > freedom + 4.0 * (2.0 * freedom).sqrt()
     }
+
+    /// The law of Arrhenius at a reference temperature, its error from the covariance of the unknowns: `a = Ea / (ln 10 R T0^2)`.
+    pub(super) fn arrhenius(&self, reference_temperature_k: f64) -> Arrhenius {
+        let unit = LN_10 * GAS_CONSTANT * self.hyperbola.origin_k.powi(2);
+        Arrhenius {
+            reference_temperature_k,
+            activation_energy_j_per_mol: unit * self.hyperbola.a,
+            activation_energy_error_j_per_mol: unit * self.covariance[(0, 0)].max(0.0).sqrt(),
+        }
+    }
+
+    /// The WLF law at a reference temperature, its errors from the covariance of the unknowns; `None` where its pole is not below that.
+    /// c2 grows by what the reference temperature does, and c1 c2 stays: with `D = 1/b`, `c2 = D + x`, `c1 = a D^2 / c2`.
+    pub(super) fn wlf(&self, reference_temperature_k: f64) -> Option<Wlf> {
+        let Hyperbola { origin_k, a, b, .. } = self.hyperbola;
+        let distance = 1.0 / b;
+        let c2_k = distance + reference_temperature_k - origin_k;
+        if !(b > 0.0 && c2_k > 0.0 && c2_k.is_finite()) {
+            return None;
+        }
+        let c1 = a * distance * distance / c2_k;
+        let by_b = -distance * distance;
+        let c1_by = Vector2::new(
+            distance * distance / c2_k,
+            by_b * (2.0 * c1 / distance - c1 / c2_k),
+        );
+        let c2_by = Vector2::new(0.0, by_b);
+        let covariance = Matrix2::from_fn(|i, j| self.covariance[(i, j)]);
+        let error = |by: Vector2<f64>| by.dot(&(covariance * by)).max(0.0).sqrt();
+        Some(Wlf {
+            reference_temperature_k,
+            c1,
+            c2_k,
+            c1_error: error(c1_by),
+            c2_error_k: error(c2_by),
+        })
+    }
+}
+
+/// Both laws through the same factors, where there are.
+#[derive(Debug, Default)]
+pub(super) struct Laws {
+    pub(super) wlf: Option<LawFit>,
+    pub(super) arrhenius: Option<LawFit>,
+}
+
+impl Laws {
+    pub(super) fn of(&self, form: Form) -> Option<&LawFit> {
+        match form {
+            Form::Wlf => self.wlf.as_ref(),
+            Form::Arrhenius => self.arrhenius.as_ref(),
+        }
+    }
+
+    /// The law that the data prefer: WLF to Arrhenius, which is a WLF law with one constant given, by the criterion of Schwarz (1978),
+    /// where the sum of squares is less by more than the logarithm of the number of measured values. Where WLF itself leaves more than
+    /// the errors of the factors, they are scaled up first.
+    pub(super) fn preferred(&self, values: usize) -> Option<Form> {
+        match (&self.wlf, &self.arrhenius) {
+            (Some(wlf), Some(arrhenius)) => {
+                let scale = (wlf.squares / wlf.freedom.max(1) as f64).max(1.0);
+                let excess = (arrhenius.squares - wlf.squares) / scale;
+                let is_wlf = excess > (values.max(3) as f64).ln();
+                Some(if is_wlf { Form::Wlf } else { Form::Arrhenius })
+            }
+            (wlf, None) => wlf.as_ref().map(|_| Form::Wlf),
+            (None, _) => Some(Form::Arrhenius),
+        }
+    }
 }
 
 /// Factors at temperatures other than that of the origin, where the factor is zero without error.
@@ -249,20 +267,16 @@ pub(super) struct Factors<'a> {
 
 impl Factors<'_> {
     /// WLF, where there are two factors at least beside the origin and they bend as the law does, and Arrhenius.
-    pub(super) fn laws(&self) -> (Option<LawFit>, Option<LawFit>) {
+    pub(super) fn laws(&self) -> Laws {
         let Some(factor) = self.covariance.clone().cholesky() else {
-            return (None, None);
+            return Laws::default();
         };
         let arrhenius = self
             .amplitude(1.0 / self.origin_k, &factor)
             .and_then(|(a, _)| self.fitted(Hyperbola::arrhenius(self.origin_k, a), &factor));
-        let wlf = self
-            .hyperbola(&factor)
-            .filter(|hyperbola| hyperbola.b > 0.0);
-        (
-            wlf.and_then(|hyperbola| self.fitted(hyperbola, &factor)),
-            arrhenius,
-        )
+        let wlf = self.hyperbola(&factor).filter(|wlf| wlf.b > 0.0);
+        let wlf = wlf.and_then(|hyperbola| self.fitted(hyperbola, &factor));
+        Laws { wlf, arrhenius }
     }
 
     /// The best `a` for this `b`, and its sum of squares.
@@ -349,14 +363,6 @@ fn golden_section(mut from: f64, mut to: f64, value: impl Fn(f64) -> f64) -> f64
         }
     }
     0.5 * (from + to)
-}
-
-/// Whether the data prefer WLF to Arrhenius, which is a WLF law with one constant given: by the criterion of Schwarz (1978), where
-/// the sum of squares is less by more than the logarithm of the number of measured values. Where WLF itself leaves more than the
-/// errors of the factors, they are scaled up first.
-pub(super) fn prefers_wlf(wlf: &LawFit, arrhenius: &LawFit, values: usize) -> bool {
-    let scale = (wlf.squares / wlf.freedom.max(1) as f64).max(1.0);
-    (arrhenius.squares - wlf.squares) / scale > (values.max(3) as f64).ln()
 }
 
 #[cfg(test)]

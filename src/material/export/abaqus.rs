@@ -15,7 +15,7 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
     let mut text = format!(
         "*MATERIAL, NAME={}\n*ELASTIC, MODULI=INSTANTANEOUS\n{young}, {:?}\n",
         series.label(),
-        series.nu()
+        series.nu
     );
     if !ratios.is_empty() {
         text.push_str("*VISCOELASTIC, TIME=PRONY\n");
@@ -33,9 +33,7 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
                 .to_owned(),
         );
     }
-    if let (Some(wlf), false) = (series.shift, ratios.is_empty()) {
-        let values = [wlf.reference_temperature_k, wlf.c1, wlf.c2_k].map(Printed::free);
-        let [reference, c1, c2] = values;
+    if let (Some([reference, c1, c2]), false) = (series.wlf(), ratios.is_empty()) {
         text.push_str(&format!("*TRS, DEFINITION=WLF\n{reference}, {c1}, {c2}\n"));
         remarks.push("Temperatures of the model must be in K, as that of *TRS.".to_owned());
     }

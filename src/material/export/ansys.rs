@@ -20,9 +20,7 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
     let ratios = series.ratios();
     series.at_most(MOST_PAIRS, ratios.len())?;
     let written = Series::of_ratios(&young, &ratios)?;
-    let nu = series.nu();
-    let mut text = format!("MP,EX,1,{young}\n");
-    text.push_str(&format!("MP,PRXY,1,{nu:?}\n"));
+    let mut text = format!("MP,EX,1,{young}\nMP,PRXY,1,{:?}\n", series.nu);
     let kinds: &[&str] = if ratios.is_empty() {
         &[]
     } else {
@@ -42,9 +40,7 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
          the material has the number 1."
             .to_owned(),
     ];
-    if let (Some(wlf), false) = (series.shift, ratios.is_empty()) {
-        let values = [wlf.reference_temperature_k, wlf.c1, wlf.c2_k].map(Printed::free);
-        let [reference, c1, c2] = values;
+    if let (Some([reference, c1, c2]), false) = (series.wlf(), ratios.is_empty()) {
         text.push_str(&format!(
             "TB,SHIFT,1,1,3,WLF\nTBDATA,1,{reference},{c1},{c2}\n"
         ));

@@ -14,7 +14,7 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
         return Err(ExportError::Fluid { program });
     }
     let young = Printed::free(series.longitudinal.equilibrium_modulus());
-    let nu = series.nu();
+    let nu = series.nu;
     let longitudinal_over_shear = 2.0 * (1.0 + nu);
     let mut text = String::new();
     let mut written = Vec::new();
@@ -42,9 +42,7 @@ pub(super) fn draft(series: &Series<'_>) -> Result<Draft, ExportError> {
                 .to_owned(),
         },
     ];
-    if let Some(wlf) = series.shift {
-        let values = [wlf.reference_temperature_k, wlf.c1, wlf.c2_k].map(Printed::free);
-        let [reference, c1, c2] = values;
+    if let Some([reference, c1, c2]) = series.wlf() {
         remarks.push(format!(
             "Shift function Williams-Landel-Ferry: Tref = {reference} K, C1WLF = {c1}, C2WLF = {c2} K."
         ));

@@ -17,7 +17,7 @@ pub(super) fn draft(series: &Series<'_>) -> Draft {
         written: series.longitudinal.clone(),
         remarks: vec![format!(
             "Poisson ratio {:?}, which the table does not hold.",
-            series.nu()
+            series.nu
         )],
         comment: None,
     }

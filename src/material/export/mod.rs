@@ -40,26 +40,25 @@ impl Program {
         Program::Csv,
     ];
 
+    /// The name as it is asked for, and as its vendor writes it.
+    fn names(self) -> (&'static str, &'static str) {
+        match self {
+            Self::Abaqus => ("abaqus", "Abaqus"),
+            Self::Ansys => ("ansys", "ANSYS"),
+            Self::LsDyna => ("ls-dyna", "LS-DYNA"),
+            Self::Comsol => ("comsol", "COMSOL"),
+            Self::Csv => ("csv", "CSV"),
+        }
+    }
+
     /// The name as it is asked for.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Abaqus => "abaqus",
-            Self::Ansys => "ansys",
-            Self::LsDyna => "ls-dyna",
-            Self::Comsol => "comsol",
-            Self::Csv => "csv",
-        }
+        self.names().0
     }
 
     /// The name as its vendor writes it.
     pub fn title(self) -> &'static str {
-        match self {
-            Self::Abaqus => "Abaqus",
-            Self::Ansys => "ANSYS",
-            Self::LsDyna => "LS-DYNA",
-            Self::Comsol => "COMSOL",
-            Self::Csv => "CSV",
-        }
+        self.names().1
     }
 }
 
@@ -207,12 +206,14 @@ impl<'a> Series<'a> {
         })
     }
 
-    fn nu(&self) -> f64 {
-        self.nu
+    fn is_incompressible(&self) -> bool {
+        self.nu == 0.5
     }
 
-    fn is_incompressible(&self) -> bool {
-        self.nu() == 0.5
+    /// Reference temperature (K), C1 and C2 (K) of the shift as they are printed.
+    fn wlf(&self) -> Option<[Printed; 3]> {
+        let wlf = self.shift?;
+        Some([wlf.reference_temperature_k, wlf.c1, wlf.c2_k].map(Printed::free))
     }
 
     fn title(&self) -> String {
@@ -231,7 +232,7 @@ impl<'a> Series<'a> {
 
     /// `K_i / G_i`, the same for all terms; `None` for an incompressible material.
     fn bulk_over_shear(&self) -> Option<f64> {
-        let nu = self.nu();
+        let nu = self.nu;
         (nu < 0.5).then(|| 2.0 * (1.0 + nu) / (3.0 * (1.0 - 2.0 * nu)))
     }
 
@@ -274,13 +275,9 @@ impl<'a> Series<'a> {
                 first.recip()
             ));
         }
-        if let Some(wlf) = self.shift {
+        if let Some([reference, c1, c2]) = self.wlf() {
             remarks.push(format!(
-                "The series is that of {} K; log10 a_T = -C1 (T - Tr)/(C2 + T - Tr) with Tr = {} K, C1 = {}, C2 = {} K.",
-                Printed::free(wlf.reference_temperature_k),
-                Printed::free(wlf.reference_temperature_k),
-                Printed::free(wlf.c1),
-                Printed::free(wlf.c2_k)
+                "The series is that of {reference} K; log10 a_T = -C1 (T - Tr)/(C2 + T - Tr) with Tr = {reference} K, C1 = {c1}, C2 = {c2} K."
             ));
         }
         remarks

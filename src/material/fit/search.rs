@@ -154,12 +154,11 @@ impl Search<'_> {
         }
         let lowest = found.iter().map(|series| self.score(series));
         let about_best = lowest.fold(f64::INFINITY, f64::min) + ABOUT_EQUAL;
-        let rank = |series: &Series| (series.branches.len(), self.score(series));
-        let order = |left: &(usize, f64), right: &(usize, f64)| {
-            left.0.cmp(&right.0).then(left.1.total_cmp(&right.1))
-        };
         found.retain(|series| self.score(series) <= about_best);
-        let best = found.into_iter().min_by(|l, r| order(&rank(l), &rank(r)));
+        let best = found.into_iter().min_by(|l, r| {
+            let by_branches = l.branches.len().cmp(&r.branches.len());
+            by_branches.then(self.score(l).total_cmp(&self.score(r)))
+        });
         // The lowest score is never above itself.
         self.refined(&best.unwrap_or(gridded), CLOSELY)
     }

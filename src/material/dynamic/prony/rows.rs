@@ -47,17 +47,20 @@ impl Series {
     }
 
     /// Storage and loss modulus.
-    pub(super) fn moduli(&self, omega: f64) -> (f64, f64) {
-        let start = (self.constant, 0.0);
-        self.branches.iter().fold(start, |sum, branch| {
+    pub(super) fn moduli(&self, omega: f64) -> Both {
+        let start = [self.constant, 0.0];
+        self.branches.iter().fold(start, |[storage, loss], branch| {
             let (modulus, debye) = (branch.strength, Debye::at(omega * branch.time_s));
-            (sum.0 + modulus * debye.frozen, sum.1 + modulus * debye.loss)
+            [
+                storage + modulus * debye.frozen,
+                loss + modulus * debye.loss,
+            ]
         })
     }
 }
 
 /// Storage and loss modulus of one point, or anything else that both have.
-pub(super) type Both = (f64, f64);
+pub(super) type Both = [f64; 2];
 
 /// Which moduli take part.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -97,17 +100,14 @@ impl Rows {
         let logarithms = points.iter().map(|p| p.storage_modulus_pa.ln());
         let reference_pa = (logarithms.sum::<f64>() / points.len().max(1) as f64).exp();
         let value = |p: &DynamicPoint| {
-            (
-                p.storage_modulus_pa / reference_pa,
-                p.loss_modulus_pa / reference_pa,
-            )
+            [p.storage_modulus_pa, p.loss_modulus_pa].map(|modulus_pa| modulus_pa / reference_pa)
         };
         let errors_known = errors_known(points.iter());
         let relative = |p: &DynamicPoint| match p.errors_pa {
             Some((storage, loss)) if errors_known => {
-                (storage / p.storage_modulus_pa, loss / p.loss_modulus_pa)
+                [storage / p.storage_modulus_pa, loss / p.loss_modulus_pa]
             }
-            _ => (1.0, 1.0),
+            _ => [1.0; 2],
         };
         let mut rows = Self {
             omegas: points
@@ -117,7 +117,7 @@ impl Rows {
             values: points.iter().map(value).collect(),
             deviations: Vec::new(),
             relative: points.iter().map(relative).collect(),
-            noise: (1.0, 1.0),
+            noise: [1.0; 2],
             reference_pa,
             part: Part::Both,
         };
@@ -130,10 +130,10 @@ impl Rows {
         let mut rows = Self::new(points);
         let sizes = rows.omegas.iter().map(|&omega| {
             let modulus = fit.relaxation.complex_modulus(omega) / rows.reference_pa;
-            (modulus.re, modulus.im)
+            [modulus.re, modulus.im]
         });
         let sizes: Vec<Both> = sizes.collect();
-        rows.noise = fit.noise;
+        rows.noise = fit.noise.into();
         rows.set_deviations(&sizes);
         rows
     }
@@ -142,21 +142,18 @@ impl Rows {
     pub(super) fn lowest_storage(&self) -> f64 {
         let both = self.omegas.iter().zip(&self.values);
         let lowest = both.min_by(|left, right| left.0.total_cmp(right.0));
-        lowest.map_or(0.0, |(_, values)| values.0)
+        lowest.map_or(0.0, |(_, values)| values[0])
     }
 
     /// Deviations proportional to these moduli.
     fn set_deviations(&mut self, sizes: &[Both]) {
         let size = |size: f64, value: f64| size.clamp(value / CORRECTION, value * CORRECTION);
         let rows = sizes.iter().zip(&self.values).zip(&self.relative);
-        self.deviations = rows
-            .map(|((sizes, values), relative)| {
-                (
-                    self.noise.0 * relative.0 * size(sizes.0, values.0),
-                    self.noise.1 * relative.1 * size(sizes.1, values.1),
-                )
-            })
-            .collect();
+        let deviations = rows.map(|((sizes, values), relative)| {
+            let part = |part| self.noise[part] * relative[part] * size(sizes[part], values[part]);
+            [0, 1].map(part)
+        });
+        self.deviations = deviations.collect();
     }
 
     /// The same with the noise that is left of the best spectrum, relative to this spectrum: relative to the data themselves,
@@ -164,7 +161,7 @@ impl Rows {
     pub(super) fn with_noise_from(&self, spectrum: &Series) -> Self {
         let mut rows = self.clone();
         let fitted: Vec<Both> = self.omegas.iter().map(|&w| spectrum.moduli(w)).collect();
-        rows.noise = (1.0, 1.0);
+        rows.noise = [1.0; 2];
         rows.set_deviations(&fitted);
         rows.noise = rows.noise_beside(spectrum, self.leverage(spectrum));
         rows.set_deviations(&fitted);
@@ -174,15 +171,14 @@ impl Rows {
     /// Each modulus has the degrees of freedom that the spectrum leaves it: its points less their leverage in the least squares
     /// problem of the moduli in use, of which the loss modulus takes the most.
     fn noise_beside(&self, spectrum: &Series, leverage: Both) -> Both {
-        let (storage, loss) = self.squares(spectrum);
+        let squares = self.squares(spectrum);
         let points = self.omegas.len() as f64;
         let free = |leverage: f64| (points - leverage).max(1.0);
-        let pooled = (storage + loss) / free(leverage.0 + leverage.1 - points);
-        let noise = |squares: f64, leverage: f64| {
-            let variance = (squares + LENT * pooled) / (free(leverage) + LENT);
+        let pooled = (squares[0] + squares[1]) / free(leverage[0] + leverage[1] - points);
+        [0, 1].map(|part| {
+            let variance = (squares[part] + LENT * pooled) / (free(leverage[part]) + LENT);
             variance.sqrt().max(self.least_noise())
-        };
-        (noise(storage, leverage.0), noise(loss, leverage.1))
+        })
     }
 
     /// Traces of the parts of the projection on the columns in use that belong to storage and loss modulus.
@@ -190,46 +186,35 @@ impl Rows {
         let times: Vec<f64> = spectrum.branches.iter().map(|b| b.time_s).collect();
         let (matrix, _) = self.equations(&times, (spectrum.constant > 0.0, 0.0));
         if matrix.ncols() == 0 || matrix.ncols() > matrix.nrows() {
-            return (0.0, 0.0);
+            return [0.0; 2];
         }
         let orthonormal = matrix.qr().q();
         let points = self.omegas.len();
-        (
-            orthonormal.rows(0, points).norm_squared(),
-            orthonormal.rows(points, points).norm_squared(),
-        )
+        [0, points].map(|first| orthonormal.rows(first, points).norm_squared())
     }
 
     /// The same with the noise that spectra of storage and loss modulus alone leave; `None` where one of them has fewer degrees
     /// of freedom than this left.
-    pub(super) fn with_noise_of_each(
-        &self,
-        storage: &Series,
-        loss: &Series,
-        fewest: usize,
-    ) -> Option<Self> {
+    pub(super) fn with_noise_of_each(&self, alone: &[Series; 2], fewest: usize) -> Option<Self> {
         let mut rows = self.clone();
-        let sizes = self.omegas.iter();
-        let sizes: Vec<Both> = sizes
-            .map(|&omega| (storage.moduli(omega).0, loss.moduli(omega).1))
-            .collect();
+        let size = |omega: &f64| [0, 1].map(|part| alone[part].moduli(*omega)[part]);
+        let sizes: Vec<Both> = self.omegas.iter().map(size).collect();
         rows.set_deviations(&sizes);
-        let noise = |squares: f64, spectrum: &Series| {
+        for (part, spectrum) in alone.iter().enumerate() {
             let free = self.omegas.len().checked_sub(spectrum.strengths())?;
-            let variance = squares / free as f64;
-            (free >= fewest).then(|| variance.sqrt().max(self.least_noise()))
-        };
-        rows.noise = (
-            noise(rows.squares(storage).0, storage)?,
-            noise(rows.squares(loss).1, loss)?,
-        );
+            if free < fewest {
+                return None;
+            }
+            let variance = rows.squares(spectrum)[part] / free as f64;
+            rows.noise[part] = variance.sqrt().max(self.least_noise());
+        }
         rows.set_deviations(&sizes);
         Some(rows)
     }
 
     /// The least noise that is reckoned with, as a multiple of the relative errors.
     fn least_noise(&self) -> f64 {
-        let least = self.relative.iter().map(|r| r.0.min(r.1));
+        let least = self.relative.iter().map(|r| r[0].min(r[1]));
         NOTICEABLE / least.fold(f64::INFINITY, f64::min)
     }
 
@@ -257,19 +242,20 @@ impl Rows {
 
     /// Sums of squares of both moduli, in units of the variance of the noise.
     pub(super) fn squares(&self, series: &Series) -> Both {
-        let mut sums = (0.0, 0.0);
+        let mut sums = [0.0; 2];
         for (index, &omega) in self.omegas.iter().enumerate() {
             let (moduli, values) = (series.moduli(omega), self.values[index]);
             let deviations = self.deviations[index];
-            sums.0 += ((moduli.0 - values.0) / deviations.0).powi(2);
-            sums.1 += ((moduli.1 - values.1) / deviations.1).powi(2);
+            for part in 0..2 {
+                sums[part] += ((moduli[part] - values[part]) / deviations[part]).powi(2);
+            }
         }
         sums
     }
 
     /// The sum over the moduli that take part.
     pub(super) fn chi_squared(&self, series: &Series) -> f64 {
-        let (storage, loss) = self.squares(series);
+        let [storage, loss] = self.squares(series);
         match self.part {
             Part::Both => storage + loss,
             Part::Storage => storage,
@@ -299,7 +285,7 @@ impl Rows {
             let distance = |omega: f64| (omega * time_s).ln().abs();
             let both = self.omegas.iter().zip(&self.values);
             let nearest = both.min_by(|l, r| distance(*l.0).total_cmp(&distance(*r.0)));
-            nearest.map_or(0.0, |(_, values)| values.1)
+            nearest.map_or(0.0, |(_, values)| values[1])
         };
         let times = Self::times(shares, limits_s).into_iter();
         let branch = |time_s| Branch {
@@ -330,18 +316,18 @@ impl Rows {
             let (storage, loss) = (point, loss_from + point);
             let basis = times_s.iter().map(|time_s| Debye::at(omega * time_s));
             if self.part != Part::Loss {
-                right[storage] = (self.values[point].0 - held) / deviations.0;
+                right[storage] = (self.values[point][0] - held) / deviations[0];
                 if free {
-                    matrix[(storage, 0)] = 1.0 / deviations.0;
+                    matrix[(storage, 0)] = 1.0 / deviations[0];
                 }
                 for (place, debye) in basis.clone().enumerate() {
-                    matrix[(storage, first + place)] = debye.frozen / deviations.0;
+                    matrix[(storage, first + place)] = debye.frozen / deviations[0];
                 }
             }
             if self.part != Part::Storage {
-                right[loss] = self.values[point].1 / deviations.1;
+                right[loss] = self.values[point][1] / deviations[1];
                 for (place, debye) in basis.enumerate() {
-                    matrix[(loss, first + place)] = debye.loss / deviations.1;
+                    matrix[(loss, first + place)] = debye.loss / deviations[1];
                 }
             }
         }

@@ -175,29 +175,29 @@ impl Linear {
         let mut residuals = DVector::zeros(2 * points);
         for (point, &omega) in rows.omegas.iter().enumerate() {
             let (deviations, loss_row) = (rows.deviations[point], points + point);
-            let mut model = (series.constant, 0.0);
+            let mut model = [series.constant, 0.0];
             if first == 1 {
-                matrix[(point, 0)] = series.constant / deviations.0;
+                matrix[(point, 0)] = series.constant / deviations[0];
             }
             for (number, branch) in series.branches.iter().enumerate() {
                 let (modulus, time_s) = (branch.strength, branch.time_s);
                 let debye = Debye::at(omega * time_s);
                 let place = first + number;
-                matrix[(point, place)] = modulus * debye.frozen / deviations.0;
-                matrix[(loss_row, place)] = modulus * debye.loss / deviations.1;
-                model.0 += modulus * debye.frozen;
-                model.1 += modulus * debye.loss;
+                matrix[(point, place)] = modulus * debye.frozen / deviations[0];
+                matrix[(loss_row, place)] = modulus * debye.loss / deviations[1];
+                model[0] += modulus * debye.frozen;
+                model[1] += modulus * debye.loss;
                 if with_times {
                     let place = place + count;
-                    matrix[(point, place)] = modulus * debye.frozen_slope() / deviations.0;
-                    matrix[(loss_row, place)] = modulus * debye.loss_slope() / deviations.1;
+                    matrix[(point, place)] = modulus * debye.frozen_slope() / deviations[0];
+                    matrix[(loss_row, place)] = modulus * debye.loss_slope() / deviations[1];
                 }
             }
-            let measured = rows.values[point];
-            values[point] = measured.0 / deviations.0;
-            values[loss_row] = measured.1 / deviations.1;
-            residuals[point] = (measured.0 - model.0) / deviations.0;
-            residuals[loss_row] = (measured.1 - model.1) / deviations.1;
+            for (part, row) in [point, loss_row].into_iter().enumerate() {
+                let measured = rows.values[point][part];
+                values[row] = measured / deviations[part];
+                residuals[row] = (measured - model[part]) / deviations[part];
+            }
         }
         Self {
             matrix,
