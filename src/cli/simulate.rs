@@ -12,7 +12,7 @@ use super::sweep::interrupt_flag;
 use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, print};
 use crate::input::scenario_file;
 use crate::report::{self, terminal_simulation};
-use crate::sweep::history::checkpoint::{Found, HistoryCheckpoint, HistoryState};
+use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::scenario;
 use crate::sweep::search::run;
@@ -53,7 +53,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         let (simulation, interrupt, bar) = (&simulation, &interrupt, &bar);
         move || {
             let told = |done, _| bar.set_position(done as u64);
-            let outcome = simulation.run_from(state, &checkpoint, interrupt, &told);
+            let outcome = simulation.run_from(state, Some(&checkpoint), interrupt, &told);
             (outcome, checkpoint)
         }
     });
@@ -100,20 +100,15 @@ fn found(
     quiet: bool,
 ) -> Option<HistoryState<'static>> {
     let (text, state) = match checkpoint.find() {
-        Found::Nothing => return None,
-        Found::State(state) => {
+        Ok(None) => return None,
+        Ok(Some(state)) => {
             let done = state.steps_done();
-            (
-                format!("{done} of {steps} steps were already done"),
-                Some(*state),
-            )
+            let text = format!("{done} of {steps} steps were already done");
+            (text, Some(state))
         }
-        Found::Unusable { path, reason } => {
-            let path = path.display();
-            (
-                format!("{path}: {reason}; the history is computed from its beginning"),
-                None,
-            )
+        Err(unusable) => {
+            let text = format!("{unusable}; the history is computed from its beginning");
+            (text, None)
         }
     };
     if !quiet {

@@ -46,8 +46,8 @@ mod search;
 use super::nnls::NnlsError;
 use super::tabulated::Tabulated;
 use super::{
-    Compressibility, Creep, CreepBranch, Material, MaterialError, MaterialFunction, ModulusKind,
-    Relaxation, RelaxationBranch,
+    Compressibility, Creep, CreepBranch, Material, MaterialError, MaterialFunction, Relaxation,
+    RelaxationBranch,
 };
 use report::FAR_FROM_EQUILIBRIUM;
 pub use report::{FitRemark, FitReport, Misfit};
@@ -441,6 +441,7 @@ impl Fit {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::material::ModulusKind;
     use crate::material::library;
     use crate::material::synthetic::{Noise, log_spaced};
     use crate::material::tabulated::TableWarning;

@@ -51,7 +51,6 @@ use crate::report::page::Pictures;
 use crate::sweep::case::SetupError;
 use crate::sweep::engine::EngineError;
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::history::SimulationError;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::search::peak::PeakError;
@@ -112,8 +111,6 @@ pub enum ReproductionError {
     NoPlan(&'static str),
     #[error("{0}")]
     Unfit(String),
-    #[error(transparent)]
-    Simulation(#[from] SimulationError),
     #[error(transparent)]
     Setup(#[from] SetupError),
     #[error(transparent)]

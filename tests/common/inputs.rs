@@ -19,7 +19,7 @@ use contact_dma::report::{machine, page, quantities, table};
 use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::case::checkpoint::Checkpoints;
 use contact_dma::sweep::history::Simulation;
-use contact_dma::sweep::history::checkpoint::{Found, HistoryCheckpoint};
+use contact_dma::sweep::history::checkpoint::HistoryCheckpoint;
 use contact_dma::sweep::plan::resolved::resolved_text;
 use contact_dma::sweep::plan::scenario;
 use contact_dma::sweep::plan::{Case, EngineKind};
@@ -591,13 +591,10 @@ impl Histories {
         let resolved = scenario::resolved_text(simulation.plan());
         let store = Store::open(self.folder.path(), &resolved, true).unwrap();
         let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
-        let state = match checkpoint.find() {
-            Found::State(state) => Some(*state),
-            Found::Nothing | Found::Unusable { .. } => None,
-        };
+        let state = checkpoint.find().ok().flatten();
         let accepted = state.is_some();
         let interrupt = AtomicBool::new(false);
-        let _ = simulation.run_from(state, &checkpoint, &interrupt, &|done, _| {
+        let _ = simulation.run_from(state, Some(&checkpoint), &interrupt, &|done, _| {
             interrupt.store(done >= steps, Ordering::Relaxed);
         });
         accepted

@@ -25,8 +25,10 @@ use crate::sweep::store::records::Key;
 
 /// The checkpoints of one case, in the hands of the thread that solves it.
 pub struct Checkpoints {
-    /// The folder of the sweep, and the case by name and frequency; `None`: nothing is kept.
-    place: Option<(Store, String, u64)>,
+    /// The folder of the sweep, and the case by name and frequency.
+    store: Store,
+    case: String,
+    frequency: u64,
     rhythm: Rhythm,
     levels: Cell<usize>,
     unwritten: RefCell<Unwritten>,
@@ -40,53 +42,37 @@ struct Unwritten {
     latest: Option<(CheckpointFile, LevelState)>,
 }
 
-/// One stabilised cycle to be found within a case: its files, where they are kept.
-pub(in crate::sweep) struct Level {
-    finished: Option<CheckpointFile>,
-    cycle: Option<CheckpointFile>,
+/// One stabilised cycle to be found within a case, and its files.
+pub(in crate::sweep) struct Level<'a> {
+    of: &'a Checkpoints,
+    finished: CheckpointFile,
+    cycle: CheckpointFile,
 }
 
 /// The state of the level under way between two cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(in crate::sweep) enum LevelState {
     Searching(Box<SearchState>),
-    Marching {
-        /// Cycles of a direct search that failed before, and why.
-        after_search: Option<(usize, String)>,
-        cycles: usize,
-        distance: Option<f64>,
-        march: MarchState,
-    },
+    Marching(Marching),
 }
 
-impl LevelState {
-    /// A march that has not begun.
-    pub(in crate::sweep) fn unmarched(after_search: Option<(usize, String)>) -> Self {
-        Self::Marching {
-            after_search,
-            cycles: 0,
-            distance: None,
-            march: MarchState::default(),
-        }
-    }
+/// A march under way, or none that has begun.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub(in crate::sweep) struct Marching {
+    /// Cycles of a direct search that failed before, and why.
+    pub after_search: Option<(usize, String)>,
+    pub cycles: usize,
+    pub distance: Option<f64>,
+    pub march: MarchState,
 }
 
 impl Checkpoints {
-    /// Keeps nothing.
-    pub fn none() -> Self {
-        Self::new(None, checkpoint_file::EVERY)
-    }
-
     /// Those of a case in the folder of its sweep.
     pub fn of(store: &Store, purpose: Purpose, case: &Case, every: Duration) -> Self {
-        let frequency = case.angular_frequency_rad_per_s.to_bits();
-        let place = (store.clone(), Key::name(purpose, case), frequency);
-        Self::new(Some(place), every)
-    }
-
-    fn new(place: Option<(Store, String, u64)>, every: Duration) -> Self {
         Self {
-            place,
+            store: store.clone(),
+            case: Key::name(purpose, case),
+            frequency: case.angular_frequency_rad_per_s.to_bits(),
             rhythm: Rhythm::new(every),
             levels: Cell::new(0),
             unwritten: RefCell::default(),
@@ -94,55 +80,18 @@ impl Checkpoints {
     }
 
     /// The next level, on this number of nodes and in this number of steps.
-    pub(in crate::sweep) fn begin(&self, nodes: usize, steps: usize) -> Level {
+    pub(in crate::sweep) fn begin(&self, nodes: usize, steps: usize) -> Level<'_> {
         self.unwritten.borrow_mut().latest = None;
         let level = self.levels.replace(self.levels.get() + 1);
         let file = |ending: &str| {
-            let (store, case, frequency) = self.place.as_ref()?;
-            let name = format!("{case}/{level:02}.{ending}");
-            let owner = format!("{name}\n{frequency:016x}\n{nodes} {steps}");
-            Some(CheckpointFile::new(store, name, &owner))
+            let name = format!("{}/{level:02}.{ending}", self.case);
+            let owner = format!("{name}\n{:016x}\n{nodes} {steps}", self.frequency);
+            CheckpointFile::new(&self.store, name, &owner)
         };
         Level {
+            of: self,
             finished: file("finished"),
             cycle: file("cycle"),
-        }
-    }
-
-    /// The level as it ended before.
-    pub(in crate::sweep) fn finished(&self, level: &Level) -> Option<Stabilised> {
-        level.finished.as_ref()?.read().ok().flatten()
-    }
-
-    /// The state in which the level was left.
-    pub(in crate::sweep) fn state(&self, level: &Level) -> Option<LevelState> {
-        level.cycle.as_ref()?.read().ok().flatten()
-    }
-
-    /// Whether the case runs long enough for its state to be worth keeping.
-    pub(in crate::sweep) fn is_wanted(&self) -> bool {
-        self.place.is_some() && self.rhythm.is_wanted()
-    }
-
-    /// Takes in the state of the level between two cycles.
-    pub(in crate::sweep) fn keep(&self, level: &Level, state: LevelState) {
-        if let Some(file) = &level.cycle {
-            self.unwritten.borrow_mut().latest = Some((file.clone(), state));
-            self.write_where_due();
-        }
-    }
-
-    /// Takes in a finished level.
-    pub(in crate::sweep) fn finish(&self, level: &Level, ended: &Stabilised) {
-        if self.is_wanted()
-            && let Some(file) = &level.finished
-            && let Some(bytes) = file.encode(ended)
-        {
-            let mut unwritten = self.unwritten.borrow_mut();
-            unwritten.finished.push((file.clone(), bytes));
-            unwritten.latest = None;
-            drop(unwritten);
-            self.write_where_due();
         }
     }
 
@@ -169,9 +118,41 @@ impl Checkpoints {
 
     /// Removes them: the case is done.
     pub(in crate::sweep) fn remove(&self) {
-        if let Some((store, case, _)) = &self.place {
-            // There is none, most often.
-            let _ = fs::remove_dir_all(store.folder().join(checkpoint_file::FOLDER).join(case));
+        let folder = self.store.folder().join(checkpoint_file::FOLDER);
+        // There is none, most often.
+        let _ = fs::remove_dir_all(folder.join(&self.case));
+    }
+}
+
+impl Level<'_> {
+    /// The level as it ended before.
+    pub(in crate::sweep) fn finished(&self) -> Option<Stabilised> {
+        self.finished.read().ok().flatten()
+    }
+
+    /// The state in which the level was left.
+    pub(in crate::sweep) fn state(&self) -> Option<LevelState> {
+        self.cycle.read().ok().flatten()
+    }
+
+    /// Takes in the state of the level between two cycles, where the case runs long enough for it to be worth keeping.
+    pub(in crate::sweep) fn keep(&self, state: impl FnOnce() -> LevelState) {
+        if self.of.rhythm.is_wanted() {
+            self.of.unwritten.borrow_mut().latest = Some((self.cycle.clone(), state()));
+            self.of.write_where_due();
+        }
+    }
+
+    /// Takes in its end.
+    pub(in crate::sweep) fn finish(&self, ended: &Stabilised) {
+        if self.of.rhythm.is_wanted()
+            && let Some(bytes) = self.finished.encode(ended)
+        {
+            let mut unwritten = self.of.unwritten.borrow_mut();
+            unwritten.finished.push((self.finished.clone(), bytes));
+            unwritten.latest = None;
+            drop(unwritten);
+            self.of.write_where_due();
         }
     }
 }
@@ -220,22 +201,22 @@ mod tests {
             cycles: 3,
             distance: f64::INFINITY,
         }));
-        let marching = LevelState::Marching {
+        let marching = LevelState::Marching(Marching {
             after_search: Some((40, "no".to_owned())),
             cycles: 17,
             distance: None,
             march: march(),
-        };
+        });
         for state in [searching, marching] {
             let kept = checkpoints();
-            kept.keep(&kept.begin(12, 34), state.clone());
+            kept.begin(12, 34).keep(|| state.clone());
             let found = checkpoints();
             let level = found.begin(12, 34);
-            assert_eq!(found.state(&level), Some(state));
-            assert!(found.finished(&level).is_none());
-            assert_eq!(found.state(&found.begin(12, 34)), None);
+            assert_eq!(level.state(), Some(state));
+            assert!(level.finished().is_none());
+            assert_eq!(found.begin(12, 34).state(), None);
             let finer = checkpoints();
-            assert_eq!(finer.state(&finer.begin(12, 68)), None);
+            assert_eq!(finer.begin(12, 68).state(), None);
         }
         checkpoints().remove();
         assert!(!folder.path().join("checkpoints/0003").exists());

@@ -3,7 +3,7 @@
 use crate::sweep::engine::slope::{ROUNDING, of_slope, slope_of_case};
 use crate::sweep::plan::{Condition, EngineKind, SolverPlan};
 use crate::sweep::record::CaseRecord;
-use crate::sweep::record::warning::{LARGEST_TABOR_PARAMETER, NoErrorBars, Warning};
+use crate::sweep::record::warning::{NoErrorBars, Warning};
 
 /// What is to be said of a case, once it is solved.
 pub(in crate::sweep) fn warnings(
@@ -25,24 +25,18 @@ pub(in crate::sweep) fn warnings(
         .norm();
     let radius_m = result.contact_radius_m.maximum;
     warnings.extend(of_slope(slope, radius_m, modulus_pa));
-    let tabor = result.tabor_parameter;
-    let is_too_large = |parameter: &f64| *parameter > LARGEST_TABOR_PARAMETER;
-    warnings.extend(
-        (tabor.filter(is_too_large)).map(|parameter| Warning::TaborParameter { parameter }),
-    );
+    warnings.extend((result.tabor_parameter).and_then(Warning::of_tabor_parameter));
     warnings.extend(Warning::of_depth(
         condition.layer,
         result.approach_m.maximum,
     ));
     if error_bars_wanted && result.errors.is_none() {
-        let own =
-            solver.engine == EngineKind::HalfSpace && condition.indenter.own_cells().is_some();
-        warnings.push(Warning::NoErrorBars {
-            because: match own {
-                true => NoErrorBars::OwnCells,
-                false => NoErrorBars::NoCoarserResult,
-            },
-        });
+        let on_cells = solver.engine == EngineKind::HalfSpace;
+        let because = match on_cells && condition.indenter.own_cells().is_some() {
+            true => NoErrorBars::OwnCells,
+            false => NoErrorBars::NoCoarserResult,
+        };
+        warnings.push(Warning::NoErrorBars { because });
     }
     warnings
 }

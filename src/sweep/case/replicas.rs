@@ -4,39 +4,33 @@
 //! for every one of them. So the replicas and the material itself are solved on the same few steps and nodes, and the loss with a
 //! replica is that of the case times the ratio of the two.
 
-use crate::sweep::case::checkpoint::Checkpoints;
+use crate::sweep::case::Resolution;
+use crate::sweep::case::levels::Levels;
 use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
-use crate::sweep::case::{Resolution, Setup};
 use crate::sweep::plan::{CyclePlan, EngineKind, Method};
-use crate::sweep::record::CaseRecord;
 
-impl Setup {
+impl Levels<'_> {
     /// Adds the losses with the replicas to a record that has a result.
-    pub(super) fn add_replicas(
-        &self,
-        contact: &Contact<'_>,
-        record: &mut CaseRecord,
-    ) -> Result<(), CaseError> {
-        let Some(loss_j) = record.energy_loss_j() else {
+    pub(super) fn add_replicas(&mut self) -> Result<(), CaseError> {
+        let Some(loss_j) = self.record.energy_loss_j() else {
             return Ok(());
         };
-        let replicas = &contact.solid.replicas;
+        let replicas = &self.contact.solid.replicas;
         if replicas.is_empty() {
             return Ok(());
         }
-        // Checkpoints are of the case itself.
-        let checkpoints = Checkpoints::none();
         let contact = Contact {
             cycle: CyclePlan {
-                method: match contact.cycle.at_cycle {
+                method: match self.contact.cycle.at_cycle {
                     Some(_) => Method::March,
                     None => Method::Direct,
                 },
-                ..contact.cycle
+                ..self.contact.cycle
             },
-            checkpoints: &checkpoints,
+            // Checkpoints are of the case itself.
+            checkpoints: None,
             wanted: Wanted::Loss,
-            ..*contact
+            ..self.contact
         };
         let at = self.coarse_for_replicas();
         let mut coarse_j = |compliance| -> Result<Option<f64>, CaseError> {
@@ -44,7 +38,7 @@ impl Setup {
                 compliance,
                 ..contact
             };
-            let solved = self.coarser(&contact, at.nodes, &[at.steps], record)?;
+            let solved = self.coarser(&contact, at.nodes, &[at.steps])?;
             let result = solved.result(at.steps);
             Ok(result.map(|result| result.analysis.energy_loss_j))
         };
@@ -60,14 +54,14 @@ impl Setup {
         }
         let missing = losses_j.iter().filter(|loss| loss.is_none()).count();
         if missing > 0 {
-            record.message.get_or_insert_with(|| {
+            self.note(|| {
                 format!(
                     "the error of the material leaves out {missing} of its {} replicas: no stabilised cycle was found with them",
                     replicas.len()
                 )
             });
         }
-        if let Some(result) = &mut record.result {
+        if let Some(result) = &mut self.record.result {
             result.replica_losses_j = losses_j;
         }
         Ok(())
@@ -75,17 +69,16 @@ impl Setup {
 
     /// Steps and nodes on which the replicas are solved. A map has its own cells and no others.
     fn coarse_for_replicas(&self) -> Resolution {
-        let nodes = match (
-            self.plan.contact.solver.engine,
-            self.plan.contact.indenter.own_cells(),
-        ) {
+        let plan = self.setup.plan();
+        let solver = &plan.contact.solver;
+        let nodes = match (solver.engine, plan.contact.indenter.own_cells()) {
             (EngineKind::Axisymmetric, _) => 48,
             (EngineKind::HalfSpace, None) => 32,
             (EngineKind::HalfSpace, Some(_)) => usize::MAX,
         };
         Resolution {
-            steps: self.plan.cycle.steps.min(48),
-            nodes: self.plan.contact.solver.nodes().min(nodes),
+            steps: plan.cycle.steps.min(48),
+            nodes: solver.nodes().min(nodes),
         }
     }
 }

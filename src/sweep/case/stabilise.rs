@@ -4,30 +4,23 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Engine, Prescribed, Solution, sums};
-use crate::cycle::{self, ContactDuty, Extrema, Loop, LoopError};
+use crate::cycle::{self, LoopError};
 use crate::drive::Control;
-use crate::history::{Dissipation, March, Memory, Stage, StepWeights, TimeRule, Work};
+use crate::history::{March, Memory, Stage, StepWeights, TimeRule, Work};
 use crate::material::Creep;
 use crate::steady::{self, Begin, MeanPressure, Remaining, SteadySettings};
 use crate::sweep::case::SetupError;
-use crate::sweep::case::checkpoint::{Checkpoints, Level, LevelState};
-use crate::sweep::case::pressure::Pressures;
+use crate::sweep::case::checkpoint::{Checkpoints, Level, LevelState, Marching};
+use crate::sweep::case::recording::Recording;
 use crate::sweep::case::solid::Solid;
-use crate::sweep::case::tangent_radius::TangentRadius;
-use crate::sweep::engine::{AsContactError, EngineError, missed_contact, prescribed};
-use crate::sweep::plan::check::PlanError;
+use crate::sweep::engine::{EngineError, missed_contact, prescribed};
 use crate::sweep::plan::{Condition, CyclePlan, Method};
-use crate::sweep::record::{BranchLoss, CaseResult, CellLoss, RecordedCycle, SurfaceLoss};
+use crate::sweep::record::CaseResult;
 
 /// Cycles after which a direct search is given up for marching, which takes many more where a search takes long: cells that
 /// come and go at the edge of a strongly relaxing contact may take 140.
 const SEARCH_CYCLES: usize = 200;
-
-/// Where rounding of load and approach is more than this part of the area of a loop, far above and below the spectrum, the loss is
-/// what the branches dissipate, which no rounding touches.
-const LARGEST_ROUNDING: f64 = 1e-6;
 
 /// What a stabilised cycle is recorded for, least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -53,7 +46,8 @@ pub(in crate::sweep) struct Contact<'a> {
     pub time_rule: TimeRule,
     pub cycle: CyclePlan,
     pub interrupt: &'a AtomicBool,
-    pub checkpoints: &'a Checkpoints,
+    /// Where states are kept, if they are.
+    pub checkpoints: Option<&'a Checkpoints>,
     /// Whether a cycle that a direct search does not find is marched to.
     pub marches_at_last: bool,
     /// Of the cycle in the most steps; those in fewer only serve its error bars.
@@ -80,17 +74,13 @@ pub(in crate::sweep) struct Stabilised {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(in crate::sweep) enum CaseError {
     #[error(transparent)]
-    Contact(ContactError),
+    Contact(#[from] ContactError),
     #[error(transparent)]
     Loop(#[from] LoopError),
     #[error(transparent)]
     Engine(#[from] EngineError),
     #[error(transparent)]
     Setup(#[from] SetupError),
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    #[error("interrupted")]
-    Interrupted,
 }
 
 impl CaseError {
@@ -103,26 +93,8 @@ impl CaseError {
     }
 }
 
-impl AsContactError for CaseError {
-    fn as_contact_error(&self) -> Option<&ContactError> {
-        match self {
-            Self::Contact(error) => Some(error),
-            _ => None,
-        }
-    }
-}
-
-impl From<ContactError> for CaseError {
-    fn from(error: ContactError) -> Self {
-        match error {
-            ContactError::Interrupted => Self::Interrupted,
-            other => Self::Contact(other),
-        }
-    }
-}
-
 impl Contact<'_> {
-    fn period_s(&self) -> f64 {
+    pub fn period_s(&self) -> f64 {
         std::f64::consts::TAU / self.angular_frequency_rad_per_s
     }
 
@@ -153,8 +125,11 @@ impl Contact<'_> {
         }
     }
 
-    fn interrupted(&self) -> bool {
-        self.interrupt.load(Ordering::Relaxed)
+    fn check_interrupted(&self) -> Result<(), ContactError> {
+        match self.interrupt.load(Ordering::Relaxed) {
+            true => Err(ContactError::Interrupted),
+            false => Ok(()),
+        }
     }
 
     /// The same, whose direct search is not followed by a march.
@@ -204,34 +179,35 @@ impl Contact<'_> {
         steps: usize,
         start: Option<Vec<f64>>,
     ) -> Result<Stabilised, CaseError> {
-        let level = self.checkpoints.begin(engine.nodes(), steps);
-        if let Some(finished) = self.checkpoints.finished(&level) {
+        let level = self.checkpoints.map(|all| all.begin(engine.nodes(), steps));
+        let level = level.as_ref();
+        if let Some(finished) = level.and_then(Level::finished) {
             if let Some(last) = &finished.last {
                 engine.resume_from(last);
             }
             return Ok(finished);
         }
-        let ended = self.on_level(&level, engine, steps, start)?;
-        self.checkpoints.finish(&level, &ended);
+        let ended = self.on_level(level, engine, steps, start)?;
+        if let Some(level) = level {
+            level.finish(&ended);
+        }
         Ok(ended)
     }
 
     fn on_level(
         &self,
-        level: &Level,
+        level: Option<&Level<'_>>,
         engine: &mut dyn Engine,
         steps: usize,
         start: Option<Vec<f64>>,
     ) -> Result<Stabilised, CaseError> {
-        let begin = match self.checkpoints.state(level) {
-            Some(marching @ LevelState::Marching { .. }) => {
-                return self.march(level, engine, steps, marching);
-            }
+        let begin = match level.and_then(Level::state) {
+            Some(LevelState::Marching(state)) => return self.march(level, engine, steps, state),
             Some(LevelState::Searching(state)) => Begin::State(state),
             None => Begin::Memory(start),
         };
         if self.cycle.method == Method::March {
-            return self.march(level, engine, steps, LevelState::unmarched(None));
+            return self.march(level, engine, steps, Marching::default());
         }
         let (direct, why) = match self.search(level, engine, steps, begin) {
             Ok(stabilised) if stabilised.result.is_some() || !self.marches_at_last => {
@@ -248,13 +224,17 @@ impl Contact<'_> {
             }
             Err(error) => return Err(error),
         };
-        let unmarched = LevelState::unmarched(Some((direct, why)));
-        self.march(level, engine, steps, unmarched)
+        let after_search = Some((direct, why));
+        let state = Marching {
+            after_search,
+            ..Marching::default()
+        };
+        self.march(level, engine, steps, state)
     }
 
     fn search(
         &self,
-        level: &Level,
+        level: Option<&Level<'_>>,
         engine: &mut dyn Engine,
         steps: usize,
         begin: Begin,
@@ -272,18 +252,15 @@ impl Contact<'_> {
             max_cycles: SEARCH_CYCLES.min(self.cycle.max_cycles),
         };
         let watch = steady::Watch {
-            stop: &|| self.interrupted(),
+            stop: &|| self.interrupt.load(Ordering::Relaxed),
             between_cycles: &|state| {
-                if self.checkpoints.is_wanted() {
-                    let state = LevelState::Searching(Box::new(state()));
-                    self.checkpoints.keep(level, state);
+                if let Some(level) = level {
+                    level.keep(|| LevelState::Searching(Box::new(state())));
                 }
             },
         };
         let found = steady::find_from(&mut march, &cycle, begin, settings, &watch)?;
-        if self.interrupted() {
-            return Err(CaseError::Interrupted);
-        }
+        self.check_interrupted()?;
         let mut cycles = Cycles::new(self, &march, steps);
         cycles.count = found.cycles;
         cycles.distance = found.distance.is_finite().then_some(found.distance);
@@ -298,28 +275,18 @@ impl Contact<'_> {
     /// Marches on from where the level stands, until a cycle is within the tolerance.
     fn march(
         &self,
-        level: &Level,
+        level: Option<&Level<'_>>,
         engine: &mut dyn Engine,
         steps: usize,
-        state: LevelState,
+        state: Marching,
     ) -> Result<Stabilised, CaseError> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
         let mut cycles = Cycles::new(self, &march, steps);
-        let after_search = match state {
-            LevelState::Marching {
-                after_search,
-                cycles: count,
-                distance,
-                march: state,
-            } => {
-                let under_way = 1..self.most_cycles();
-                if under_way.contains(&count) && march.restore(&state) {
-                    (cycles.count, cycles.distance) = (count, distance);
-                }
-                after_search
-            }
-            LevelState::Searching(_) => None,
-        };
+        let under_way = 1..self.most_cycles();
+        if under_way.contains(&state.cycles) && march.restore(&state.march) {
+            (cycles.count, cycles.distance) = (state.cycles, state.distance);
+        }
+        let after_search = state.after_search;
         if cycles.count == 0 {
             march.jump(self.mean())?;
             let hold_s = self.condition.drive.hold_s();
@@ -328,14 +295,15 @@ impl Contact<'_> {
         }
         let mut result = None;
         while result.is_none() && cycles.count < self.most_cycles() {
-            if cycles.count > 0 && self.checkpoints.is_wanted() {
-                let marching = LevelState::Marching {
-                    after_search: after_search.clone(),
-                    cycles: cycles.count,
-                    distance: cycles.distance,
-                    march: march.state(),
-                };
-                self.checkpoints.keep(level, marching);
+            if let Some(level) = level.filter(|_| cycles.count > 0) {
+                level.keep(|| {
+                    LevelState::Marching(Marching {
+                        after_search: after_search.clone(),
+                        cycles: cycles.count,
+                        distance: cycles.distance,
+                        march: march.state(),
+                    })
+                });
             }
             match self.cycle.at_cycle {
                 Some(number) if cycles.count + 1 < number => cycles.run(&mut march, None)?,
@@ -358,34 +326,6 @@ impl Contact<'_> {
             ));
         }
         Ok(marched)
-    }
-}
-
-/// What a recorded cycle is watched for, as far as it is wanted.
-struct Recording {
-    samples: Loop,
-    dissipation: Dissipation,
-    pressures: Option<Pressures>,
-    tangent_radius: Option<TangentRadius>,
-}
-
-impl Recording {
-    /// Takes in the instant at the end of a step.
-    fn see(&mut self, march: &mut March<'_>, step: usize, time_s: f64) -> Result<(), ContactError> {
-        self.sample(march, time_s)?;
-        if let Some(pressures) = &mut self.pressures {
-            pressures.see(march, step, time_s)?;
-        }
-        if let Some(tangent_radius) = &mut self.tangent_radius {
-            tangent_radius.see(march, step)?;
-        }
-        Ok(())
-    }
-
-    /// Appends the present instant to the loop.
-    fn sample(&mut self, march: &mut March<'_>, time_s: f64) -> Result<(), ContactError> {
-        let with_numbers = self.tangent_radius.is_some();
-        sample(march, &mut self.samples, time_s, with_numbers)
     }
 }
 
@@ -447,9 +387,7 @@ impl<'a> Cycles<'a> {
             recording.sample(march, 0.0)?;
         }
         for step in 1..=self.steps {
-            if self.contact.interrupted() {
-                return Err(CaseError::Interrupted);
-            }
+            self.contact.check_interrupted()?;
             let fraction = |end: f64| ((step - 1) as f64 + end) / self.steps as f64;
             let drive = |end| self.contact.prescribed(fraction(end));
             match recording.as_deref_mut() {
@@ -488,46 +426,35 @@ impl<'a> Cycles<'a> {
     /// Solves and records one more cycle; `None` where it turns out to be too far from the stabilised one after all.
     fn record(&mut self, march: &mut March<'_>) -> Result<Option<CaseResult>, CaseError> {
         let contact = self.contact;
-        let step_s = contact.period_s() / self.steps as f64;
-        let nodes = march.pressure().len();
-        let mut recording = Recording {
-            samples: Loop::default(),
-            dissipation: Dissipation::new(contact.compliance, nodes, step_s, contact.time_rule),
-            pressures: (contact.wanted >= Wanted::Everything)
-                .then(|| Pressures::new(&contact.condition.drive, self.steps)),
-            tangent_radius: (contact.wanted >= Wanted::Numbers)
-                .then(|| TangentRadius::new(self.steps)),
-        };
+        let mut recording = Recording::new(contact, march.pressure().len(), self.steps);
         self.run(march, Some(&mut recording))?;
         if contact.cycle.at_cycle.is_none() && !self.is_within_tolerance() {
             return Ok(None);
         }
-        contact.result(march, recording).map(Some)
-    }
-
-    /// Why there was no contact.
-    fn without_pressure(&self) -> String {
-        let drive = &self.contact.condition.drive;
-        match drive.control() == Control::Approach && drive.maximum() > 0.0 {
-            true => missed_contact(drive.maximum()),
-            false => format!("no pressure arose in {} cycles", self.count),
-        }
+        recording.result(contact, march).map(Some)
     }
 
     fn ended(self, method: Method, march: &March<'_>, result: Option<CaseResult>) -> Stabilised {
+        let Contact {
+            cycle, condition, ..
+        } = self.contact;
+        let drive = &condition.drive;
         let message = match (&result, self.distance) {
             (Some(_), _) => None,
             (None, Some(distance)) => {
-                let instead = match self.contact.cycle.method {
+                let instead = match cycle.method {
                     Method::March => "; method = \"direct\" in [cycle] needs a few cycles alone",
                     Method::Direct => "",
                 };
                 Some(format!(
                     "after {} cycles the estimated distance to the stabilised cycle is {distance:.1e}, above the tolerance {:.1e}{instead}",
-                    self.count, self.contact.cycle.tolerance
+                    self.count, cycle.tolerance
                 ))
             }
-            (None, None) => Some(self.without_pressure()),
+            (None, None) if drive.control() == Control::Approach && drive.maximum() > 0.0 => {
+                Some(missed_contact(drive.maximum()))
+            }
+            (None, None) => Some(format!("no pressure arose in {} cycles", self.count)),
         };
         Stabilised {
             method,
@@ -540,173 +467,4 @@ impl<'a> Cycles<'a> {
             result,
         }
     }
-}
-
-impl Contact<'_> {
-    fn result(&self, march: &mut March<'_>, recording: Recording) -> Result<CaseResult, CaseError> {
-        let Recording {
-            mut samples,
-            dissipation,
-            pressures,
-            tangent_radius,
-        } = recording;
-        // The contact carries the attraction too.
-        let pull_off_n = self.condition.drive.pull_off_n();
-        let mut pressures = pressures.map_or_else(Vec::new, Pressures::finished);
-        if pull_off_n > 0.0 {
-            samples
-                .load_n
-                .iter_mut()
-                .for_each(|load| *load -= pull_off_n);
-            pressures.iter_mut().for_each(|p| p.load_n -= pull_off_n);
-        }
-        let is_transient = self.cycle.at_cycle.is_some();
-        let mut analysis = match is_transient {
-            true => cycle::analyse_open(&samples.load_n, &samples.approach_m)?,
-            false => cycle::analyse(&samples.load_n, &samples.approach_m)?,
-        };
-        // What an open cycle dissipates is not the area of a loop: the body stores another part of the work.
-        let compliance = self.compliance.branches();
-        let branches = if is_transient { &[] } else { compliance };
-        let energies = dissipation.branch_energies_j();
-        // A body without branches is elastic and loses nothing: what its loop encloses is rounding.
-        let is_rounding = analysis.rounding_j() > LARGEST_ROUNDING * analysis.energy_loss_j.abs();
-        if energies.is_empty() || (is_rounding && !is_transient) {
-            // The sum of nothing would be -0.
-            analysis = analysis.of_energy_loss(energies.iter().fold(0.0, |sum, e| sum + e));
-        }
-        let radii = &samples.contact_radius_m;
-        // The mean over the period counts the seam once.
-        let mean_radius_m =
-            radii.iter().skip(1).sum::<f64>() / radii.len().saturating_sub(1).max(1) as f64;
-        let drive = &self.condition.drive;
-        let contact_duty = match drive.loaded_part() {
-            Some(part) => Some(ContactDuty { part, error: 0.0 }),
-            None => ContactDuty::of(&samples.load_n),
-        };
-        let contact_duty = contact_duty.unwrap_or(ContactDuty::WHOLE);
-        // A loop that holds time out of contact is read as no modulus.
-        let moduli = tangent_radius
-            .filter(|_| contact_duty == ContactDuty::WHOLE)
-            .and_then(|tangent_radius| tangent_radius.mean_m(mean_radius_m))
-            .and_then(|radius_m| {
-                let nu = self.condition.material.poisson_ratio().unwrap_or(0.0);
-                analysis.equivalent_moduli_pa(radius_m, nu)
-            })
-            .map(|moduli| {
-                let omega = self.angular_frequency_rad_per_s;
-                self.condition.material.of_loop(moduli, omega)
-            });
-        let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
-        let extrema = |signal: &[f64]| {
-            Extrema::of(signal).ok_or(LoopError::TooFewSamples {
-                samples: 0,
-                needed: 1,
-            })
-        };
-        let largest_radius_m = radii.iter().copied().fold(0.0, f64::max);
-        let work = dissipation.nodal_work();
-        let surface_loss = match self.wanted {
-            Wanted::Everything if !is_transient => {
-                surface_loss(march.surface_density(work, largest_radius_m)?)
-            }
-            _ => SurfaceLoss::default(),
-        };
-        let branches = branches.iter().zip(&self.solid.shares_of_indenter);
-        let branches = branches.zip(energies);
-        Ok(CaseResult {
-            storage_modulus_pa: moduli.map(|m| m.0),
-            loss_modulus_pa: moduli.map(|m| m.1),
-            approach_m: extrema(&samples.approach_m)?,
-            contact_radius_m: not_negative(extrema(&samples.contact_radius_m)?),
-            contact_duty,
-            tabor_parameter: None,
-            peak_pressure_pa: peaks.as_deref().and_then(Extrema::of).map(not_negative),
-            errors: None,
-            replica_losses_j: Vec::new(),
-            branches: branches
-                .map(|((branch, indenter_share), energy_loss_j)| BranchLoss {
-                    retardation_time_s: branch.time_s,
-                    energy_loss_j,
-                    indenter_share: *indenter_share,
-                })
-                .collect(),
-            analysis,
-            cycle: RecordedCycle {
-                samples,
-                pressures,
-                surface_loss,
-            },
-        })
-    }
-}
-
-/// Extrema of what cannot be negative: where a contact opens or closes, a parabola through samples may go below zero.
-fn not_negative(extrema: Extrema) -> Extrema {
-    Extrema {
-        minimum: extrema.minimum.max(0.0),
-        ..extrema
-    }
-}
-
-/// The surface's "pressure" is the density; beyond the contact there is nothing, and nothing is stored.
-fn surface_loss(surface: Surface) -> SurfaceLoss {
-    match surface {
-        Surface::Radial(mut radial) => {
-            let inside = radial.pressure_pa.iter().rposition(|d| *d != Some(0.0));
-            let kept = inside.map_or(0, |last| last + 2);
-            radial.radius_m.truncate(kept);
-            radial.pressure_pa.truncate(kept);
-            SurfaceLoss::Radial {
-                radius_m: radial.radius_m,
-                density_j_per_m2: radial.pressure_pa,
-            }
-        }
-        Surface::Cells(cells) => {
-            let grid = cells.grid;
-            let (nx, ny) = (grid.cells_x(), grid.cells_y());
-            let (mut x, mut y) = ((nx, 0), (ny, 0));
-            for (cell, _) in cells
-                .pressure_pa
-                .iter()
-                .enumerate()
-                .filter(|(_, density)| **density != 0.0)
-            {
-                x = (x.0.min(cell % nx), x.1.max(cell % nx + 1));
-                y = (y.0.min(cell / nx), y.1.max(cell / nx + 1));
-            }
-            let rows = (y.0..y.1).flat_map(|row| {
-                let start = row * nx;
-                &cells.pressure_pa[start + x.0..start + x.1]
-            });
-            SurfaceLoss::Cells(CellLoss {
-                first_x_m: grid.x_m(x.0.min(nx - 1)),
-                first_y_m: grid.y_m(y.0.min(ny - 1)),
-                spacing_x_m: grid.spacing_x_m(),
-                spacing_y_m: grid.spacing_y_m(),
-                cells_x: x.1.saturating_sub(x.0),
-                density_j_per_m2: rows.map(|density| *density as f32).collect(),
-            })
-        }
-    }
-}
-
-/// Appends the present instant to a loop, with its peak pressure or without.
-pub(crate) fn sample(
-    march: &mut March<'_>,
-    samples: &mut Loop,
-    time_s: f64,
-    with_peak: bool,
-) -> Result<(), ContactError> {
-    march.observe(&mut |engine, pressure, solution| {
-        samples.time_s.push(time_s);
-        samples.load_n.push(solution.load_n);
-        samples.approach_m.push(solution.approach_m);
-        samples.contact_radius_m.push(solution.contact_radius_m);
-        samples.peak_pressure_pa.push(match with_peak {
-            true => engine.peak_pressure_pa(pressure, solution)?,
-            false => None,
-        });
-        Ok(())
-    })
 }

@@ -31,6 +31,14 @@ struct Row {
 type Shares = Vec<Vec<(usize, f64)>>;
 
 impl Row {
+    fn new(start_m: f64, width_m: f64, count: usize) -> Self {
+        Self {
+            start_m,
+            width_m,
+            count,
+        }
+    }
+
     /// For each interval the intervals of `from` that it overlaps, and the part of its own width.
     fn shares(&self, from: &Row) -> Shares {
         /// Of a width: what rounding makes of intervals that only touch.
@@ -63,30 +71,16 @@ impl Layout {
     /// The rows of intervals along x and y that the nodes are; springs have one along y.
     fn rows(&self) -> [Row; 2] {
         match self {
-            Self::Springs { springs, width_m } => [
-                Row {
-                    start_m: 0.0,
-                    width_m: *width_m,
-                    count: *springs,
-                },
-                Row {
-                    start_m: 0.0,
-                    width_m: 1.0,
-                    count: 1,
-                },
-            ],
-            Self::Cells(grid) => [
-                Row {
-                    start_m: grid.x_m(0) - 0.5 * grid.spacing_x_m(),
-                    width_m: grid.spacing_x_m(),
-                    count: grid.cells_x(),
-                },
-                Row {
-                    start_m: grid.y_m(0) - 0.5 * grid.spacing_y_m(),
-                    width_m: grid.spacing_y_m(),
-                    count: grid.cells_y(),
-                },
-            ],
+            Self::Springs { springs, width_m } => {
+                [Row::new(0.0, *width_m, *springs), Row::new(0.0, 1.0, 1)]
+            }
+            Self::Cells(grid) => {
+                let (x_m, y_m) = (grid.spacing_x_m(), grid.spacing_y_m());
+                [
+                    Row::new(grid.x_m(0) - 0.5 * x_m, x_m, grid.cells_x()),
+                    Row::new(grid.y_m(0) - 0.5 * y_m, y_m, grid.cells_y()),
+                ]
+            }
         }
     }
 }

@@ -4,9 +4,11 @@
 pub mod domain;
 pub mod growing;
 mod layered;
+pub mod setup;
 pub mod slope;
+mod springs;
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use crate::contact::axisymmetric::{self, Axisymmetric};
 use crate::contact::half_space::convolution::Convolution;
@@ -14,12 +16,13 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::half_space::layer::{Layer, LayerInfluence};
 use crate::contact::half_space::periodic::{Periodic, PeriodicOperator};
 use crate::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes};
-use crate::contact::{ContactError, Engine, Prescribed};
-use crate::drive::Control;
+use crate::contact::{Engine, Prescribed};
+use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::{self, Domain, Indenter};
 use crate::sweep::engine::domain::GROWTH;
 use crate::sweep::engine::growing::Layout;
 use crate::sweep::plan::instant_tolerance;
+use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::{EngineKind, SolverPlan};
 
 /// Why there is no engine for an indenter.
@@ -75,6 +78,17 @@ pub struct LargestContact {
     pub compliance_per_pa: f64,
 }
 
+impl LargestContact {
+    /// That of a body as soft as this: no history within the drive's range makes a larger one than its maximum held for ever.
+    pub(in crate::sweep) fn of(drive: &HarmonicDrive, compliance_per_pa: f64) -> Self {
+        Self {
+            control: drive.control(),
+            maximum: drive.maximum() + drive.pull_off_n(),
+            compliance_per_pa,
+        }
+    }
+}
+
 /// Makes engines of one kind for one indenter.
 pub struct EngineBuilder {
     indenter: Arc<dyn Indenter>,
@@ -91,7 +105,7 @@ pub struct EngineBuilder {
     grid: Option<Grid>,
     operator: Mutex<Option<Arc<Convolution>>>,
     /// That of one period, where the indenter repeats itself.
-    period: Mutex<Option<Arc<PeriodicOperator>>>,
+    period: OnceLock<Arc<PeriodicOperator>>,
 }
 
 impl EngineBuilder {
@@ -133,27 +147,35 @@ impl EngineBuilder {
         if let Some(layer) = &layer {
             domain = layered::contact_domain(layer, indenter.as_ref(), domain, largest)?;
         }
-        let half_width_m = contact_half_width_m(indenter.as_ref(), largest);
+        let mut half_width_m = contact_half_width_m(indenter.as_ref(), largest);
+        if solver.engine == EngineKind::Axisymmetric
+            && body(indenter.as_ref())?.contact_limit_m().is_none()
+        {
+            half_width_m *= SPRING_ROOM;
+        }
+        Self::on_domain(indenter, solver, layer, (domain, half_width_m))
+    }
+
+    /// On a domain, or with springs for contacts up to a half width (m).
+    fn on_domain(
+        indenter: Arc<dyn Indenter>,
+        solver: SolverPlan,
+        layer: Option<Arc<LayerInfluence>>,
+        (domain, half_width_m): (Domain, f64),
+    ) -> Result<Self, EngineError> {
         let mut builder = Self {
-            domain,
             indenter,
             solver,
             layer,
             half_width_m,
+            domain,
             extremes_m: None,
             grid: None,
-            operator: Mutex::new(None),
-            period: Mutex::new(None),
+            operator: Mutex::default(),
+            period: OnceLock::new(),
         };
-        match solver.engine {
-            EngineKind::Axisymmetric => {
-                if builder.body()?.contact_limit_m().is_none() {
-                    builder.half_width_m *= SPRING_ROOM;
-                }
-            }
-            EngineKind::HalfSpace => {
-                builder.grid = Some(builder.grid(0)?);
-            }
+        if solver.engine == EngineKind::HalfSpace {
+            builder.grid = Some(builder.grid(0)?);
         }
         Ok(builder)
     }
@@ -181,21 +203,9 @@ impl EngineBuilder {
     /// [`EngineError::Grid`].
     pub(in crate::sweep) fn scaled(&self, factor: f64) -> Result<Self, EngineError> {
         let domain = domain::scaled(&self.domain, factor);
-        let mut builder = Self {
-            indenter: Arc::clone(&self.indenter),
-            solver: self.solver,
-            layer: self.layer.clone(),
-            half_width_m: factor * self.half_width_m,
-            extremes_m: None,
-            domain,
-            grid: None,
-            operator: Mutex::new(None),
-            period: Mutex::new(None),
-        };
-        if self.grid.is_some() {
-            builder.grid = Some(builder.grid(0)?);
-        }
-        Ok(builder)
+        let (indenter, layer) = (Arc::clone(&self.indenter), self.layer.clone());
+        let sizes = (domain, factor * self.half_width_m);
+        Self::on_domain(indenter, self.solver, layer, sizes)
     }
 
     /// How often the domain can be halved and still hold a contact no larger than this: not at all, where the contact might not
@@ -204,9 +214,7 @@ impl EngineBuilder {
         /// Room beyond the first contact, whose size is an estimate.
         const ROOM: f64 = 1.15;
         let own = matches!(self.domain, Domain::Cells { .. });
-        let ends = self
-            .body()
-            .is_ok_and(|body| body.contact_limit_m().is_some());
+        let ends = body(&*self.indenter).is_ok_and(|body| body.contact_limit_m().is_some());
         let is_fixed = match self.solver.engine {
             EngineKind::Axisymmetric => ends,
             EngineKind::HalfSpace => {
@@ -224,11 +232,6 @@ impl EngineBuilder {
         let halvings = (self.half_width_m() / wanted_m).log2();
         // Nothing or no number where either width is zero.
         (halvings.max(0.0) as usize).min(MAX_GROWTHS)
-    }
-
-    /// Half width (m) of the domain, and whether it can be wider.
-    pub(in crate::sweep) fn reach(&self) -> (f64, bool) {
-        self.enlarged_half_width_m(0)
     }
 
     /// Where the nodes are.
@@ -277,18 +280,16 @@ impl EngineBuilder {
     }
 
     /// Half width (m) of the domain enlarged `growths` times, and whether a further enlargement would enlarge it.
-    fn enlarged_half_width_m(&self, growths: usize) -> (f64, bool) {
-        let known_m = match self.solver.engine {
-            EngineKind::HalfSpace => {
-                let half_width_m = domain::half_width_m(&self.domain, growths);
-                return (half_width_m, domain::can_grow(&self.domain, growths));
-            }
-            EngineKind::Axisymmetric => self.body().ok().and_then(|body| body.known_radius_m()),
-        };
+    pub(in crate::sweep) fn enlarged_half_width_m(&self, growths: usize) -> (f64, bool) {
+        if self.solver.engine == EngineKind::HalfSpace {
+            let half_width_m = domain::half_width_m(&self.domain, growths);
+            return (half_width_m, domain::can_grow(&self.domain, growths));
+        }
         let wanted_m = self.half_width_m * GROWTH.powi(growths as i32);
-        match known_m {
-            Some(known_m) if known_m <= wanted_m => (known_m, false),
-            _ => (wanted_m, true),
+        let known_m = (self.indenter.axisymmetric()).and_then(|body| body.known_radius_m());
+        match known_m.filter(|known_m| *known_m <= wanted_m) {
+            Some(known_m) => (known_m, false),
+            None => (wanted_m, true),
         }
     }
 
@@ -315,52 +316,12 @@ impl EngineBuilder {
         })
     }
 
-    /// Calls `run` with an engine, on ever larger domains as long as it reports that the contact reached the edge; the first is
-    /// enlarged `growths` times. `started` hears the half width (m) of each domain and how often it was enlarged.
-    ///
-    /// # Errors
-    /// What `run` or the building of an engine ends with.
-    pub fn on_a_large_enough_domain<T, E>(
-        &self,
-        mut growths: usize,
-        mut started: impl FnMut(f64, usize),
-        mut run: impl FnMut(&mut dyn Engine) -> Result<T, E>,
-    ) -> Result<T, E>
-    where
-        E: From<EngineError> + AsContactError,
-    {
-        loop {
-            let mut engine = self.engine(growths)?;
-            let (half_width_m, can_grow) = self.enlarged_half_width_m(growths);
-            started(half_width_m, growths);
-            let error = match run(engine.as_mut()) {
-                Err(error) if reached_edge(&error) => error,
-                ended => return ended,
-            };
-            if !can_grow {
-                return Err(EngineError::EndOfData { half_width_m }.into());
-            }
-            if growths >= MAX_GROWTHS {
-                return Err(error);
-            }
-            growths += 1;
-        }
-    }
-
-    fn body(&self) -> Result<&dyn indenter::Axisymmetric, EngineError> {
-        let refusal = || EngineError::NotAxisymmetric {
-            shape: self.indenter.shape(),
-            reason: self.indenter.not_axisymmetric_because(),
-        };
-        self.indenter.axisymmetric().ok_or_else(refusal)
-    }
-
     fn springs(&self, growths: usize) -> Result<Axisymmetric, EngineError> {
-        let body = self.body()?;
+        let body = body(&*self.indenter)?;
         let springs = self.solver.springs;
         let end_m = self.enlarged_half_width_m(growths).0;
         let extremes_m = self.extremes_m.filter(|_| growths == 0);
-        let places_m = spring_places_m(end_m, extremes_m, springs);
+        let places_m = springs::places_m(end_m, extremes_m, springs);
         let edge = match body.contact_limit_m() {
             Some(_) => axisymmetric::Edge::Rim,
             None => axisymmetric::Edge::Open,
@@ -388,8 +349,8 @@ impl EngineBuilder {
 
     fn periodic(&self, grid: Grid) -> Periodic {
         let gaps = domain::gaps_m(self.indenter.as_ref(), &grid);
-        let mut shared = self.period.lock().unwrap_or_else(PoisonError::into_inner);
-        let operator = shared.get_or_insert_with(|| Arc::new(PeriodicOperator::new(grid)));
+        let built = || Arc::new(PeriodicOperator::new(grid));
+        let operator = self.period.get_or_init(built);
         Periodic::new(Arc::clone(operator), gaps, self.settings())
     }
 
@@ -428,17 +389,25 @@ impl EngineBuilder {
     }
 }
 
-/// Errors that may be those of an instant.
-pub trait AsContactError {
-    /// The instant's error, where this is one.
-    fn as_contact_error(&self) -> Option<&ContactError>;
+/// The indenter as a body of revolution, which springs take.
+fn body(indenter: &dyn Indenter) -> Result<&dyn indenter::Axisymmetric, EngineError> {
+    let refusal = || EngineError::NotAxisymmetric {
+        shape: indenter.shape(),
+        reason: indenter.not_axisymmetric_because(),
+    };
+    indenter.axisymmetric().ok_or_else(refusal)
 }
 
-fn reached_edge(error: &impl AsContactError) -> bool {
-    matches!(
-        error.as_contact_error(),
-        Some(ContactError::ReachedEdge { .. })
-    )
+/// The layer that a body of this Poisson ratio is, where it is one.
+pub(in crate::sweep) fn layer(
+    plan: Option<LayerPlan>,
+    poisson_ratio: Option<f64>,
+) -> Result<Option<Layer>, EngineError> {
+    let Some(plan) = plan else {
+        return Ok(None);
+    };
+    let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfConstantBulkModulus)?;
+    Ok(Some(plan.of_material(poisson_ratio)))
 }
 
 /// A value of a drive as what it prescribes at an instant.
@@ -447,47 +416,6 @@ pub fn prescribed(control: Control, value: f64) -> Prescribed {
         Control::Load => Prescribed::LoadN(value),
         Control::Approach => Prescribed::ApproachM(value),
     }
-}
-
-/// Where springs begin and end, from the axis to `end_m`. Where the contacts between which a cycle swings are known, half of the
-/// springs or more lie where the edge of the contact moves, so that however little it moves they resolve it, and it turns
-/// where one of them ends, whatever their number: errors of different numbers of springs then differ by their order alone. Half
-/// of these lie beyond the contact under the mean: above the spectrum a strongly relaxing body hardly lets the edge move there,
-/// and the force falls to zero, and the pressure has its peak, within as little.
-fn spring_places_m(end_m: f64, extremes_m: Option<[f64; 3]>, springs: usize) -> Vec<f64> {
-    /// Of the springs within the largest contact, the most that lie where contact never ends.
-    const FIXED: f64 = 0.5;
-    /// Parts of the largest contact narrower than this have no springs of their own.
-    const NARROWEST: f64 = 1e-12;
-    let evenly = |from_m: f64, to_m: f64, count: usize| {
-        let width_m = (to_m - from_m) / count as f64;
-        (0..count).map(move |i| from_m + i as f64 * width_m)
-    };
-    let uniform = || evenly(0.0, end_m, springs).chain([end_m]).collect();
-    let Some([always_m, mean_m, largest_m]) = extremes_m else {
-        return uniform();
-    };
-    let is_narrow = |from_m: f64, to_m: f64| to_m - from_m <= NARROWEST * largest_m;
-    if largest_m >= end_m || is_narrow(mean_m, largest_m) || is_narrow(always_m, mean_m) {
-        return uniform();
-    }
-    let count = |part: f64| (springs as f64 * part).round() as usize;
-    let fixed = count((always_m / largest_m).min(FIXED));
-    let always_m = if fixed > 0 { always_m } else { 0.0 };
-    let beyond = (springs - fixed) / 2;
-    let mut places_m: Vec<f64> = evenly(0.0, always_m, fixed)
-        .chain(evenly(always_m, mean_m, springs - fixed - beyond))
-        .chain(evenly(mean_m, largest_m, beyond))
-        .chain([largest_m])
-        .collect();
-    // Past the largest, for what discretisation adds, springs grow as fast as they may.
-    let (mut place_m, mut width_m) = (largest_m, (largest_m - mean_m) / beyond as f64);
-    while place_m < end_m {
-        place_m = (place_m + width_m).min(end_m);
-        width_m *= 2.0;
-        places_m.push(place_m);
-    }
-    places_m
 }
 
 /// Half the side (m) of the square that no contact leaves while a drive stays below its maximum; for springs, the radius about
@@ -507,28 +435,19 @@ fn contact_half_width_m(indenter: &dyn Indenter, largest: LargestContact) -> f64
 /// The domain that holds the largest contact: under load control the indenter's own, under approach control as far as the
 /// approach reaches, unless the indenter comes with cells of its own.
 fn contact_domain(indenter: &dyn Indenter, largest: LargestContact) -> Domain {
-    let own = indenter.domain(largest.maximum.max(0.0), largest.compliance_per_pa);
-    match (largest.control, own) {
-        (
-            Control::Approach,
-            Domain::Around {
-                cell_aspect_ratio,
-                limit_m,
-                ..
-            },
-        ) => {
-            let (half_width_x_m, half_width_y_m) =
-                indenter.half_widths_under_approach_m(largest.maximum);
-            Domain::Around {
-                // Cells have a length, also where no contact is to be expected.
-                half_width_x_m: half_width_x_m.max(SMALLEST_M),
-                half_width_y_m: half_width_y_m.max(SMALLEST_M),
-                cell_aspect_ratio,
-                limit_m,
-            }
-        }
-        (_, own) => own,
+    let mut domain = indenter.domain(largest.maximum.max(0.0), largest.compliance_per_pa);
+    if let Control::Approach = largest.control
+        && let Domain::Around {
+            half_width_x_m,
+            half_width_y_m,
+            ..
+        } = &mut domain
+    {
+        let (x_m, y_m) = indenter.half_widths_under_approach_m(largest.maximum);
+        // Cells have a length, also where no contact is to be expected.
+        (*half_width_x_m, *half_width_y_m) = (x_m.max(SMALLEST_M), y_m.max(SMALLEST_M));
     }
+    domain
 }
 
 /// Why a drive that presses the indenter in to this approach (m) came to no contact at all.

@@ -149,22 +149,15 @@ impl Patch {
     fn slope(&self, cell: usize) -> Option<f64> {
         let here_m = self.gap_m.get(cell).copied().flatten()?;
         let column = cell % self.cells_x;
-        let neighbour = |is_inside: bool, at: usize| match is_inside {
-            true => self.gap_m.get(at).copied().flatten(),
-            false => None,
+        let at = |cell: Option<usize>| self.gap_m.get(cell?).copied().flatten();
+        let along = |has_before: bool, has_after: bool, stride: usize, spacing_m: f64| {
+            let before = at(has_before.then(|| cell - stride));
+            let after = at(has_after.then_some(cell + stride));
+            difference(before, here_m, after).map(|d| d / spacing_m)
         };
-        let x = difference(
-            neighbour(column > 0, cell.wrapping_sub(1)),
-            here_m,
-            neighbour(column + 1 < self.cells_x, cell + 1),
-        );
-        let y = difference(
-            neighbour(cell >= self.cells_x, cell.wrapping_sub(self.cells_x)),
-            here_m,
-            neighbour(true, cell + self.cells_x),
-        );
-        let slope = |difference: Option<f64>, spacing_m: f64| difference.map(|d| d / spacing_m);
-        let (x, y) = (slope(x, self.spacing_m[0]), slope(y, self.spacing_m[1]));
+        let [spacing_x_m, spacing_y_m] = self.spacing_m;
+        let x = along(column > 0, column + 1 < self.cells_x, 1, spacing_x_m);
+        let y = along(cell >= self.cells_x, true, self.cells_x, spacing_y_m);
         match (x, y) {
             (None, None) => None,
             (x, y) => Some(x.unwrap_or(0.0).hypot(y.unwrap_or(0.0))),

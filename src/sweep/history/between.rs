@@ -38,18 +38,23 @@ pub(super) fn within(rows: &[HistoryRow], start_s: f64, duration_s: f64) -> Opti
     rows.get(first.checked_sub(1)?..=last)
 }
 
-/// The cubic through the four samples about a time, in Lagrange's form: exact at the samples.
+/// The cubic through the four samples about a time: exact at the samples.
 pub(super) fn cubic(times: &[f64], values: &[f64], time: f64) -> f64 {
     let after = times.partition_point(|t| *t < time);
     let first = after.saturating_sub(2).min(times.len().saturating_sub(4));
     let near = first..(first + 4).min(times.len());
+    lagrange(&times[near.clone()], &values[near], time)
+}
+
+/// Lagrange's polynomial through all samples.
+pub(in crate::sweep) fn lagrange(places: &[f64], values: &[f64], at: f64) -> f64 {
     let weight = |i: usize| -> f64 {
-        let others = near.clone().filter(|j| *j != i);
+        let others = places.iter().enumerate().filter(|(j, _)| *j != i);
         others
-            .map(|j| (time - times[j]) / (times[i] - times[j]))
+            .map(|(_, other)| (at - other) / (places[i] - other))
             .product()
     };
-    near.clone().map(|i| values[i] * weight(i)).sum()
+    (0..places.len()).map(|i| values[i] * weight(i)).sum()
 }
 
 #[cfg(test)]

@@ -15,24 +15,20 @@ use crate::history::StepState;
 use crate::sweep::history::SurfaceRecord;
 use crate::sweep::history::follow::Course;
 use crate::sweep::store::Store;
-use crate::sweep::store::checkpoint_file::{self, CheckpointFile, Rhythm, Unusable};
+use crate::sweep::store::checkpoint_file::{CheckpointFile, Rhythm, Unusable};
 
 /// Where the checkpoint of a history lies, and when it is written.
 pub struct HistoryCheckpoint {
-    /// `None`: nothing is kept.
-    file: Option<CheckpointFile>,
+    file: CheckpointFile,
     rhythm: Rhythm,
 }
 
-/// What there is of an earlier run.
-pub enum Found {
-    Nothing,
-    State(Box<HistoryState<'static>>),
-    /// There is a checkpoint, but it cannot be used.
-    Unusable {
-        path: PathBuf,
-        reason: Unusable,
-    },
+/// There is a checkpoint, but it cannot be used.
+#[derive(Debug, thiserror::Error)]
+#[error("{}: {reason}", path.display())]
+pub struct UnusableCheckpoint {
+    pub path: PathBuf,
+    pub reason: Unusable,
 }
 
 /// The state of a history under way.
@@ -77,53 +73,40 @@ fn is_whole(record: &SurfaceRecord) -> bool {
 }
 
 impl HistoryCheckpoint {
-    /// Keeps nothing.
-    pub fn none() -> Self {
-        Self {
-            file: None,
-            rhythm: Rhythm::new(checkpoint_file::EVERY),
-        }
-    }
-
     /// That of the scenario of a folder, written every so often.
     pub fn of(store: &Store, every: Duration) -> Self {
         Self {
-            file: Some(CheckpointFile::new(store, "history", "history")),
+            file: CheckpointFile::new(store, "history", "history"),
             rhythm: Rhythm::new(every),
         }
     }
 
-    /// What an earlier run has left.
-    pub fn find(&self) -> Found {
-        let Some(file) = &self.file else {
-            return Found::Nothing;
+    /// What an earlier run has left, if anything.
+    ///
+    /// # Errors
+    /// [`UnusableCheckpoint`] where that is of no use.
+    pub fn find(&self) -> Result<Option<HistoryState<'static>>, UnusableCheckpoint> {
+        let found = match self.file.read::<HistoryState<'static>>() {
+            Ok(Some(state)) if !state.is_whole() => Err(Unusable::Damaged),
+            found => found,
         };
-        let reason = match file.read::<HistoryState<'static>>() {
-            Ok(None) => return Found::Nothing,
-            Ok(Some(state)) if state.is_whole() => return Found::State(Box::new(state)),
-            Ok(Some(_)) => Unusable::Damaged,
-            Err(reason) => reason,
-        };
-        let path = file.path().to_path_buf();
-        Found::Unusable { path, reason }
-    }
-
-    /// Whether anything is kept at all.
-    pub(in crate::sweep) fn keeps(&self) -> bool {
-        self.file.is_some()
+        found.map_err(|reason| UnusableCheckpoint {
+            path: self.file.path().to_path_buf(),
+            reason,
+        })
     }
 
     /// Whether it is time to write.
     pub(in crate::sweep) fn is_due(&self) -> bool {
-        self.keeps() && self.rhythm.is_wanted() && self.rhythm.is_due()
+        self.rhythm.is_wanted() && self.rhythm.is_due()
     }
 
     /// Writes the state, unless so little has been done that it is not worth it.
     pub(in crate::sweep) fn write(&self, state: &HistoryState<'_>) {
-        if let Some(file) = self.file.as_ref().filter(|_| self.rhythm.is_wanted()) {
+        if self.rhythm.is_wanted() {
             self.rhythm.written(|| {
-                if let Some(bytes) = file.encode(state) {
-                    file.write(&bytes);
+                if let Some(bytes) = self.file.encode(state) {
+                    self.file.write(&bytes);
                 }
             });
         }
@@ -131,7 +114,7 @@ impl HistoryCheckpoint {
 
     /// Removes it: the history is at its end, and its results are written.
     pub fn remove(&self) {
-        if let Some(folder) = self.file.as_ref().and_then(|file| file.path().parent()) {
+        if let Some(folder) = self.file.path().parent() {
             // There is none, most often.
             let _ = fs::remove_dir_all(folder);
         }
@@ -146,6 +129,7 @@ mod tests {
     use crate::contact::surface::{CellSurface, RadialSurface};
     use crate::history::Work;
     use crate::sweep::history::HistoryRow;
+    use crate::sweep::store::checkpoint_file;
 
     fn row(time_s: f64) -> HistoryRow {
         HistoryRow {
@@ -212,24 +196,18 @@ mod tests {
         let store = |text: &str| Store::open(folder.path(), text, true).unwrap();
         let one = store("title = \"a\"\n");
         let checkpoint = HistoryCheckpoint::of(&one, Duration::ZERO);
-        assert!(matches!(checkpoint.find(), Found::Nothing));
+        assert_eq!(checkpoint.find().unwrap(), None);
         checkpoint.write(&state());
-        let Found::State(found) = checkpoint.find() else {
-            panic!("nothing was found")
-        };
-        assert_eq!(*found, state());
+        assert_eq!(checkpoint.find().unwrap(), Some(state()));
         let path = folder.path().join("checkpoints/history");
         let bytes = fs::read(&path).unwrap();
         drop(one);
         let other = HistoryCheckpoint::of(&store("title = \"b\"\n"), Duration::ZERO);
         // Another scenario has cleared the folder.
-        assert!(matches!(other.find(), Found::Nothing));
+        assert_eq!(other.find().unwrap(), None);
         other.write(&state());
         fs::write(&path, &bytes).unwrap();
-        let reason = |checkpoint: &HistoryCheckpoint| match checkpoint.find() {
-            Found::Unusable { reason, .. } => Some(reason),
-            _ => None,
-        };
+        let reason = |checkpoint: &HistoryCheckpoint| checkpoint.find().err().map(|e| e.reason);
         assert_eq!(reason(&other), Some(Unusable::Foreign));
         fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
         assert_eq!(reason(&checkpoint), Some(Unusable::Damaged));
@@ -243,6 +221,6 @@ mod tests {
         let store = Store::open(folder.path(), "", true).unwrap();
         let checkpoint = HistoryCheckpoint::of(&store, checkpoint_file::EVERY);
         checkpoint.write(&state());
-        assert!(matches!(checkpoint.find(), Found::Nothing) && !checkpoint.is_due());
+        assert!(checkpoint.find().unwrap().is_none() && !checkpoint.is_due());
     }
 }

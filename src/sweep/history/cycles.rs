@@ -131,21 +131,15 @@ fn numbers(
         return None;
     }
     let times: Vec<f64> = rows.iter().map(|row| row.time_s).collect();
-    let sampled = |values: &[f64]| -> Vec<f64> {
+    let sampled = |value: fn(&HistoryRow) -> Option<f64>| -> Option<Vec<f64>> {
+        let values: Vec<f64> = rows.iter().map(value).collect::<Option<_>>()?;
         let at = |k: usize| start_s + period_s * k as f64 / SAMPLES as f64;
-        (0..=SAMPLES)
-            .map(|k| between::cubic(&times, values, at(k)))
-            .collect()
+        let samples = (0..=SAMPLES).map(|k| between::cubic(&times, &values, at(k)));
+        Some(samples.collect())
     };
-    let approach: Option<Vec<f64>> = rows.iter().map(|row| row.approach_m).collect();
-    let load_n = sampled(&rows.iter().map(|row| row.load_n).collect::<Vec<_>>());
-    let approach_m = sampled(&approach?);
-    let radii = sampled(
-        &rows
-            .iter()
-            .map(|row| row.contact_radius_m)
-            .collect::<Vec<_>>(),
-    );
+    let load_n = sampled(|row| Some(row.load_n))?;
+    let approach_m = sampled(|row| row.approach_m)?;
+    let radii = sampled(|row| Some(row.contact_radius_m))?;
     let analysis = cycle::analyse_open(&load_n, &approach_m).ok()?;
     let mean_contact_radius_m = radii.iter().skip(1).sum::<f64>() / SAMPLES as f64;
     let change = |samples: &[f64]| samples[SAMPLES] - samples[0];

@@ -8,8 +8,8 @@
 
 use crate::drive::Fineness;
 use crate::sweep::history::HistoryRow;
-use crate::sweep::plan::EngineKind;
-use crate::sweep::record::error_bars::richardson;
+use crate::sweep::plan::{EngineKind, SolverPlan};
+use crate::sweep::record::error_bars::{ROUNDING, SAFETY, richardson};
 
 /// Estimated errors of a row, absolute; `None` where the value is undefined or the estimate is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -18,14 +18,6 @@ pub struct RowErrors {
     pub approach_m: Option<f64>,
     pub contact_radius_m: Option<f64>,
     pub peak_pressure_pa: Option<f64>,
-}
-
-/// One of the resolutions at which a history is followed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(in crate::sweep) struct Resolution {
-    pub(in crate::sweep) fineness: Fineness,
-    /// Springs, or cells along the longer side.
-    pub(in crate::sweep) nodes: usize,
 }
 
 /// Where the differences that tell the error of one kind come from: two pairs of resolutions, finer first, and how many times
@@ -41,23 +33,19 @@ impl Ladder {
         let [ratio, second_ratio] = self.ratios;
         if self.pairs[0] == self.pairs[1] {
             // The history is the coarser of the two, at the lowest order.
-            first * ratio / (ratio - 1.0)
-        } else {
-            richardson(
-                first,
-                ratio,
-                second.map(|second| (second, second_ratio)),
-                orders,
-            )
+            return first * ratio / (ratio - 1.0);
         }
+        let second = second.map(|second| (second, second_ratio));
+        richardson(first, ratio, second, orders)
     }
 }
 
-/// The history itself, and what tells its errors.
+/// What tells the errors of a history, which is the first of the resolutions.
 pub(in crate::sweep) struct Plan {
-    pub(in crate::sweep) resolutions: Vec<Resolution>,
-    steps: Ladder,
-    nodes: Ladder,
+    /// How fine the steps are, and springs, or cells along the longer side.
+    pub(in crate::sweep) resolutions: Vec<(Fineness, usize)>,
+    /// In steps, and in nodes.
+    ladders: [Ladder; 2],
     node_orders: [(f64, f64); 4],
 }
 
@@ -69,18 +57,18 @@ const NODES: f64 = 0.7;
 /// Fewer tell nothing.
 const LEAST_NODES: usize = 6;
 
-/// So many nodes, and those of the two coarser levels, multiples of `step`; `None` where they are too few.
-pub(in crate::sweep) fn coarser_nodes(nodes: usize, step: usize) -> Option<[usize; 3]> {
+/// The nodes of the plan, and those of the two coarser levels; `None` where they are too few.
+pub(in crate::sweep) fn coarser_nodes(solver: &SolverPlan) -> Option<[usize; 3]> {
+    // An even number of cells keeps the symmetry of a quarter.
+    let step = match solver.engine {
+        EngineKind::Axisymmetric => 1,
+        EngineKind::HalfSpace => 2,
+    };
+    let nodes = solver.nodes();
     let part = |part: f64| (part * nodes as f64 / step as f64).round() as usize * step;
     let [fewer, least] = [part(NODES), part(NODES * NODES)];
     (LEAST_NODES <= least && least < fewer && fewer < nodes).then_some([nodes, fewer, least])
 }
-
-/// As in [`error_bars`](crate::sweep::record::error_bars).
-const SAFETY: f64 = 1.5;
-
-/// What rounding leaves of a value, relative.
-const ROUNDING: f64 = 1e-12;
 
 /// Rows before and after a row that lend it their differences.
 const AROUND: usize = 8;
@@ -109,33 +97,15 @@ pub(in crate::sweep) struct Followed<'a> {
 }
 
 impl Plan {
-    /// The history alone.
-    pub(in crate::sweep) fn without_errors(nodes: usize) -> Self {
-        let full = Resolution {
-            fineness: Fineness::FULL,
-            nodes,
-        };
-        let none = || Ladder {
-            pairs: [(0, 0); 2],
-            ratios: [1.0; 2],
-        };
-        Self {
-            resolutions: vec![full],
-            steps: none(),
-            nodes: none(),
-            node_orders: SPRING_ORDERS,
-        }
-    }
-
     /// `can_be_coarser`: whether there are steps to leave out; otherwise they are halved instead.
-    pub(in crate::sweep) fn with_errors(
+    pub(in crate::sweep) fn new(
         can_be_coarser: bool,
         engine: EngineKind,
         nodes: [usize; 3],
     ) -> Self {
         let [all, fewer, least] = nodes;
         let full = Fineness::FULL;
-        let (resolutions, steps, pairs) = if can_be_coarser {
+        let (resolutions, steps, nodes) = if can_be_coarser {
             let (half, quarter) = (Fineness::EveryNth(2), Fineness::EveryNth(4));
             // What nodes do to half the steps is what they do to all of them, at half the cost.
             let resolutions = vec![
@@ -155,17 +125,18 @@ impl Plan {
             ];
             (resolutions, [(1, 0); 2], [(0, 2), (2, 3)])
         };
-        let resolution = |(fineness, nodes)| Resolution { fineness, nodes };
         Self {
-            resolutions: resolutions.into_iter().map(resolution).collect(),
-            steps: Ladder {
-                pairs: steps,
-                ratios: [2.0; 2],
-            },
-            nodes: Ladder {
-                pairs,
-                ratios: [all as f64 / fewer as f64, fewer as f64 / least as f64],
-            },
+            resolutions,
+            ladders: [
+                Ladder {
+                    pairs: steps,
+                    ratios: [2.0; 2],
+                },
+                Ladder {
+                    pairs: nodes,
+                    ratios: [all as f64 / fewer as f64, fewer as f64 / least as f64],
+                },
+            ],
             node_orders: match engine {
                 EngineKind::Axisymmetric => SPRING_ORDERS,
                 EngineKind::HalfSpace => CELL_ORDERS,
@@ -173,58 +144,65 @@ impl Plan {
         }
     }
 
-    /// The error of a number that the history gives as a whole, from what every resolution gives for it; `None` where one of them has
-    /// none, or the history is the only one.
-    pub(in crate::sweep) fn error_of_whole(&self, values: &[Option<f64>]) -> Option<f64> {
-        let own = (*values.first()?)?;
-        if values.len() < 2 {
-            return None;
-        }
-        let of = |ladder: &Ladder, orders| -> Option<f64> {
-            let difference = |(finer, coarser): (usize, usize)| -> Option<f64> {
-                let of = |level: usize| values.get(level).copied().flatten();
-                Some((of(finer)? - of(coarser)?).abs())
-            };
-            let [first, second] = ladder.pairs.map(difference);
-            Some(ladder.error(first?, second, orders))
+    /// The error of a value of the history, from the differences of each ladder's pairs; `None` without those of the finer pairs.
+    fn error(
+        &self,
+        value: f64,
+        node_orders: (f64, f64),
+        difference: impl Fn(usize, usize) -> Option<f64>,
+    ) -> Option<f64> {
+        let of = |ladder: usize, orders| {
+            let (first, second) = (difference(ladder, 0)?, difference(ladder, 1));
+            Some(self.ladders[ladder].error(first, second, orders))
         };
-        let steps = of(&self.steps, STEP_ORDERS)?;
-        let nodes = of(&self.nodes, self.node_orders[1])?;
-        Some(SAFETY * (steps + nodes) + ROUNDING * own.abs())
+        let (steps, nodes) = (of(0, STEP_ORDERS)?, of(1, node_orders)?);
+        Some(SAFETY * (steps + nodes) + ROUNDING * value.abs())
     }
 
-    /// Errors of every row of the history, the first of the resolutions; none where it is the only one.
+    /// The error of a number that the history gives as a whole, from what every resolution gives for it; `None` where one of them has
+    /// none.
+    pub(in crate::sweep) fn error_of_whole(&self, values: &[Option<f64>]) -> Option<f64> {
+        let at = |level: usize| values.get(level).copied().flatten();
+        self.error(at(0)?, self.node_orders[1], |ladder, pair| {
+            let (finer, coarser) = self.ladders[ladder].pairs[pair];
+            Some((at(finer)? - at(coarser)?).abs())
+        })
+    }
+
+    /// Errors of every row of the history, the first of the resolutions.
     pub(in crate::sweep) fn errors(&self, followed: &[Followed<'_>]) -> Vec<RowErrors> {
-        let Some(history) = followed.first().filter(|_| followed.len() > 1) else {
+        let Some(history) = followed.first() else {
             return Vec::new();
         };
         let stretches = stretches(history.rows);
         let columns = [0, 1, 2, 3].map(|column| {
-            let (value, orders) = (VALUES[column], self.node_orders[column]);
-            let differences = |ladder: &Ladder| {
+            let value = VALUES[column];
+            let differences = self.ladders.each_ref().map(|ladder| {
                 ladder.pairs.map(|(finer, coarser)| {
                     let pair = [followed.get(finer), followed.get(coarser)];
                     spread(&differences(pair, value, history.rows.len()), &stretches)
                 })
+            });
+            let error = |(row, values): (usize, &HistoryRow)| {
+                let difference = |ladder: usize, pair: usize| differences[ladder][pair][row];
+                self.error(value(values)?, self.node_orders[column], difference)
             };
-            let [steps, nodes] = [&self.steps, &self.nodes].map(differences);
-            let error = |row: usize| {
-                let size = value(&history.rows[row])?.abs();
-                let of = |ladder: &Ladder, [first, second]: &[Vec<Option<f64>>; 2], orders| {
-                    Some(ladder.error(first[row]?, second[row], orders))
-                };
-                let steps = of(&self.steps, &steps, STEP_ORDERS)?;
-                let nodes = of(&self.nodes, &nodes, orders)?;
-                Some(SAFETY * (steps + nodes) + ROUNDING * size)
-            };
-            (0..history.rows.len()).map(error).collect::<Vec<_>>()
+            history
+                .rows
+                .iter()
+                .enumerate()
+                .map(error)
+                .collect::<Vec<_>>()
         });
-        let [load_n, approach_m, contact_radius_m, peak_pressure_pa] = columns;
-        let row = |row: usize| RowErrors {
-            load_n: load_n[row],
-            approach_m: approach_m[row],
-            contact_radius_m: contact_radius_m[row],
-            peak_pressure_pa: peak_pressure_pa[row],
+        let row = |row: usize| {
+            let [load_n, approach_m, contact_radius_m, peak_pressure_pa] =
+                columns.each_ref().map(|column| column[row]);
+            RowErrors {
+                load_n,
+                approach_m,
+                contact_radius_m,
+                peak_pressure_pa,
+            }
         };
         (0..history.rows.len()).map(row).collect()
     }
@@ -292,15 +270,14 @@ mod tests {
 
     /// Errors of a history that is off by `steps` t h^2 on steps of h, and by `nodes` / n on n nodes.
     fn errors(steps: f64, nodes: f64) -> Vec<RowErrors> {
-        let plan = Plan::with_errors(true, EngineKind::Axisymmetric, [400, 200, 100]);
+        let plan = Plan::new(true, EngineKind::Axisymmetric, [400, 200, 100]);
         let all: Vec<_> = (plan.resolutions.iter())
-            .map(|resolution| {
-                let Fineness::EveryNth(n) = resolution.fineness else {
+            .map(|(fineness, on)| {
+                let Fineness::EveryNth(n) = *fineness else {
                     panic!("steps are left out")
                 };
                 let in_full: Vec<usize> = (0..=16).step_by(n).collect();
-                let error =
-                    |t: f64| steps * t * (n * n) as f64 + nodes * 400.0 / resolution.nodes as f64;
+                let error = |t: f64| steps * t * (n * n) as f64 + nodes * 400.0 / *on as f64;
                 let at = |&k: &usize| row(k as f64, 10.0 + error(k as f64));
                 let rows: Vec<_> = in_full.iter().map(at).collect();
                 (rows, in_full.into_iter().map(Some).collect::<Vec<_>>())

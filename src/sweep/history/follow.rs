@@ -1,7 +1,8 @@
-//! Follows one drive history on one engine, from moment to moment: rows, surfaces at the times asked for, checkpoints.
+//! Follows one drive history from moment to moment, on domains that grow with the contact: rows, surfaces at the times asked for,
+//! checkpoints.
 
 use std::borrow::Cow;
-use std::collections::HashSet;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
@@ -9,35 +10,24 @@ use serde::{Deserialize, Serialize};
 use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::Surface;
 use crate::contact::{ContactError, Prescribed, Solution};
-use crate::drive::{Moment, Schedule};
-use crate::history::{Hereditary, March, StepState};
+use crate::drive::{Control, Moment, Schedule};
+use crate::history::{DirectMemory, Hereditary, March, StepState};
 use crate::sweep::engine::growing::{self, Layout};
-use crate::sweep::engine::{self, EngineError};
+use crate::sweep::engine::{self, EngineBuilder, EngineError, MAX_GROWTHS};
 use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
-use crate::sweep::history::{HistoryRow, Progress, SurfaceRecord};
-use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::history::{HistoryRow, Level, Progress, Simulation, SurfaceRecord};
+use crate::sweep::plan::body_material::Compliance;
 
 /// Why a march ended early.
 #[derive(Debug, thiserror::Error)]
 pub(in crate::sweep) enum MarchError {
     #[error(transparent)]
-    Contact(ContactError),
+    Contact(#[from] ContactError),
     #[error(transparent)]
     Engine(#[from] EngineError),
-    #[error("interrupted")]
-    Interrupted,
     /// The contact reached the edge, and goes on from here on a wider domain.
     #[error("the contact has outgrown its domain")]
     Outgrown(Box<StepState>),
-}
-
-impl From<ContactError> for MarchError {
-    fn from(error: ContactError) -> Self {
-        match error {
-            ContactError::Interrupted => Self::Interrupted,
-            other => Self::Contact(other),
-        }
-    }
 }
 
 /// A history as far as it was followed at one resolution.
@@ -54,33 +44,119 @@ pub(in crate::sweep) struct Course {
     pub(in crate::sweep) failed: Option<String>,
 }
 
-/// A history to follow, and how.
-pub(in crate::sweep) struct Following<'a> {
-    pub(in crate::sweep) plan: &'a ScenarioPlan,
-    pub(in crate::sweep) schedule: &'a Schedule,
-    /// Per moment, whether the approach is undefined.
-    pub(in crate::sweep) floating: &'a [bool],
-    pub(in crate::sweep) field_grid: &'a Grid,
-    /// Where the nodes are, and where those of a wider domain would be, if there can be one.
-    pub(in crate::sweep) layout: Layout,
-    pub(in crate::sweep) wider: Option<Layout>,
+/// What a run hands to every resolution.
+pub(super) struct Run<'a> {
     /// What was followed before, at other resolutions.
-    pub(in crate::sweep) finished: &'a [Course],
-    pub(in crate::sweep) checkpoint: &'a HistoryCheckpoint,
-    pub(in crate::sweep) interrupt: &'a AtomicBool,
-    pub(in crate::sweep) progress: &'a Progress<'a>,
+    pub finished: &'a [Course],
+    pub checkpoint: Option<&'a HistoryCheckpoint>,
+    pub interrupt: &'a AtomicBool,
+    pub progress: &'a Progress<'a>,
+}
+
+/// One resolution of a history on one domain.
+struct Following<'a> {
+    simulation: &'a Simulation,
+    schedule: &'a Schedule,
+    run: &'a Run<'a>,
+    field_grid: &'a Grid,
+    /// Where the nodes are, and where those of a wider domain would be, if there can be one.
+    layout: Layout,
+    wider: Option<Layout>,
+}
+
+impl Simulation {
+    /// Follows the history at one resolution, from where it was begun, on domains that grow with the contact.
+    pub(super) fn follow(
+        &self,
+        level: &Level,
+        begun: Option<(Course, StepState)>,
+        run: &Run<'_>,
+    ) -> (Course, Result<(), MarchError>) {
+        let (mut course, mut step) = match begun {
+            Some((course, step)) => (course, Some(step)),
+            None => (Course::default(), None),
+        };
+        loop {
+            match self.follow_on_domain(level, step.take(), &mut course, run) {
+                Err(MarchError::Outgrown(state)) => {
+                    step = Some(*state);
+                    course.growths += 1;
+                }
+                ended => return (course, ended),
+            }
+        }
+    }
+
+    /// The same on the domain that the course has come to.
+    fn follow_on_domain(
+        &self,
+        level: &Level,
+        step: Option<StepState>,
+        course: &mut Course,
+        run: &Run<'_>,
+    ) -> Result<(), MarchError> {
+        let engines = self.domain(level, course.growths)?;
+        let (half_width_m, can_grow) = engines.enlarged_half_width_m(0);
+        let wider = match can_grow && course.growths < self.halvings + MAX_GROWTHS {
+            true => Some(self.domain(level, course.growths + 1)?.layout()),
+            false => None,
+        };
+        let mut engine = engines.engine(0)?;
+        if let Some(flag) = &self.interrupt {
+            engine.interrupted_by(Arc::clone(flag));
+        }
+        let following = Following {
+            simulation: self,
+            schedule: &level.schedule,
+            run,
+            field_grid: &engines.field_grid(self.plan.output.field_cells, 0)?,
+            layout: engines.layout(),
+            wider,
+        };
+        let (rule, steps) = (
+            self.plan.contact.solver.time_rule,
+            level.schedule.moments.len(),
+        );
+        let ended = match &self.compliance {
+            Compliance::Series(creep) => {
+                let march = March::new(engine.as_mut(), creep.clone(), rule);
+                following.run(march, step.as_ref(), course)
+            }
+            Compliance::Samples(curve) => {
+                let memory = DirectMemory::with_room_for(curve.clone(), engine.nodes(), steps);
+                let march = March::with_memory(engine.as_mut(), memory, rule);
+                following.run(march, step.as_ref(), course)
+            }
+        };
+        match ended {
+            Err(MarchError::Contact(ContactError::ReachedEdge { .. })) if !can_grow => {
+                Err(EngineError::EndOfData { half_width_m }.into())
+            }
+            ended => ended,
+        }
+    }
+
+    /// Engines on the domain that the contact needs after it has outgrown so many: each is twice as wide as the one before.
+    pub(super) fn domain(
+        &self,
+        level: &Level,
+        growths: usize,
+    ) -> Result<EngineBuilder, EngineError> {
+        let doublings = growths as i32 - self.halvings as i32;
+        level.engines.scaled(2_f64.powi(doublings))
+    }
 }
 
 impl Following<'_> {
     /// Marches to the end, from within a step where an earlier run was if that fits; what there is by then is in the course
     /// either way.
-    pub(in crate::sweep) fn run<M: Hereditary>(
+    fn run<M: Hereditary>(
         &self,
         mut march: March<'_, M>,
         state: Option<&StepState>,
         course: &mut Course,
     ) -> Result<(), MarchError> {
-        let profiles = self.plan.output.profiles_at_s.len();
+        let profiles = self.simulation.plan.output.profiles_at_s.len();
         // Surfaces are asked for at full resolution alone.
         let wanted = (self.schedule.requested.split_at_checked(profiles)).unwrap_or_default();
         let wanted = [wanted.0, wanted.1];
@@ -116,7 +192,8 @@ impl Following<'_> {
         wanted: [&[usize]; 2],
     ) -> Result<(), MarchError> {
         let moments = &self.schedule.moments;
-        let wanted = wanted.map(Wanted::new);
+        let drive = &self.simulation.plan.drive;
+        let prescribed = |value| engine::prescribed(drive.control(), value);
         let mut guess = Vec::new();
         for (index, moment) in moments.iter().enumerate().skip(course.rows.len()) {
             let stages = march.stages(moment.step_s);
@@ -127,36 +204,36 @@ impl Following<'_> {
                 }
                 guess.clear();
                 guess.extend_from_slice(march.pressure());
-                let drive = |at| {
-                    let value = self.plan.drive.value_within(moment, at);
-                    engine::prescribed(self.plan.drive.control(), value)
-                };
-                let prescribed = stage_of_step.prescribed(drive);
+                let value = |at| prescribed(drive.value_within(moment, at));
+                let prescribed = stage_of_step.prescribed(value);
                 let weights = &stage_of_step.weights;
                 self.end_stage(march, weights, prescribed, (at, &guess), course)?;
             }
             let Some(solution) = march.solution() else {
                 continue;
             };
-            let prescribed = engine::prescribed(self.plan.drive.control(), moment.value);
-            let mut row = self.row(march, moment, prescribed, solution, self.floating[index])?;
+            let floating = is_floating(drive.control(), moments, index);
+            let mut row = row(march, moment, prescribed(moment.value), solution, floating)?;
             if index == 0 && moment.value == 0.0 {
                 // First touch of an undisturbed body: zero by definition, whatever node lies nearest to the axis.
                 row.approach_m = Some(0.0);
             }
-            let [profiles, fields] = &mut course.surfaces;
-            if wanted[0].has(index)
-                && let Some(surface) = march.surface()?
-            {
-                wanted[0].keep(index, &self.surface_record(row, surface), profiles);
-            }
-            if wanted[1].has(index)
-                && let Some(surface) = march.field(self.field_grid)?
-            {
-                wanted[1].keep(index, &self.surface_record(row, surface), fields);
+            for (kind, moments) in wanted.into_iter().enumerate() {
+                if moments.contains(&index)
+                    && let Some(surface) = match kind {
+                        0 => march.surface()?,
+                        _ => march.field(self.field_grid)?,
+                    }
+                {
+                    let record = self.surface_record(row, surface);
+                    let places = moments.iter().zip(&mut course.surfaces[kind]);
+                    for (_, place) in places.filter(|(moment, _)| **moment == index) {
+                        *place = Some(record.clone());
+                    }
+                }
             }
             course.rows.push(row);
-            (self.progress)(index + 1, moments.len());
+            (self.run.progress)(index + 1, moments.len());
         }
         Ok(())
     }
@@ -170,12 +247,12 @@ impl Following<'_> {
         at: (usize, &[f64]),
         course: &Course,
     ) -> Result<(), MarchError> {
-        let interrupted = self.interrupt.load(Ordering::Relaxed);
-        if interrupted || self.checkpoint.is_due() {
+        let interrupted = self.run.interrupt.load(Ordering::Relaxed);
+        if interrupted || (self.run.checkpoint).is_some_and(HistoryCheckpoint::is_due) {
             self.keep(march, at, course);
         }
         if interrupted {
-            return Err(MarchError::Interrupted);
+            return Err(ContactError::Interrupted.into());
         }
         match (march.end_step(weights, prescribed), &self.wider) {
             (Err(ContactError::ReachedEdge { .. }), Some(wider)) => {
@@ -185,7 +262,7 @@ impl Following<'_> {
             }
             (Err(ContactError::Interrupted), _) => {
                 self.keep(march, at, course);
-                return Err(MarchError::Interrupted);
+                return Err(ContactError::Interrupted.into());
             }
             (solved, _) => solved?,
         };
@@ -199,68 +276,29 @@ impl Following<'_> {
         (stage, guess): (usize, &[f64]),
         course: &Course,
     ) {
-        if self.checkpoint.keeps() {
-            self.checkpoint.write(&HistoryState {
-                finished: Cow::Borrowed(self.finished),
+        if let Some(checkpoint) = self.run.checkpoint {
+            checkpoint.write(&HistoryState {
+                finished: Cow::Borrowed(self.run.finished),
                 course: Cow::Borrowed(course),
                 step: march.step_state(stage, guess),
             });
         }
     }
 
-    /// The row of the instant just solved.
-    fn row<M: Hereditary>(
-        &self,
-        march: &mut March<'_, M>,
-        moment: &Moment,
-        prescribed: Prescribed,
-        solution: Solution,
-        floating: bool,
-    ) -> Result<HistoryRow, ContactError> {
-        let mut peak_pressure_pa = None;
-        march.observe(&mut |engine, pressure, solution| {
-            peak_pressure_pa = engine.peak_pressure_pa(pressure, solution)?;
-            Ok(())
-        })?;
-        if solution.load_n == 0.0 {
-            peak_pressure_pa = Some(0.0);
-        }
-        let Solution {
-            load_n,
-            approach_m,
-            contact_radius_m,
-            ..
-        } = solution;
-        Ok(HistoryRow {
-            time_s: moment.time_s,
-            // What was prescribed, without the rounding of the sum over the nodes.
-            load_n: match prescribed {
-                Prescribed::LoadN(load_n) => load_n,
-                Prescribed::ApproachM(_) => load_n,
-            },
-            approach_m: (!floating).then_some(approach_m),
-            contact_radius_m,
-            peak_pressure_pa,
-        })
-    }
-
     fn surface_record(&self, row: HistoryRow, surface: Surface) -> SurfaceRecord {
-        let indenter = self.plan.contact.indenter.as_ref();
-        let gap_m = row.approach_m.map(|approach_m| match &surface {
-            Surface::Radial(radial) => {
-                let points = radial.radius_m.iter().zip(&radial.displacement_m);
-                points
-                    .map(|(r, u)| indenter.gap_m(*r, 0.0) + u - approach_m)
-                    .collect()
-            }
-            Surface::Cells(cells) => {
-                let points = cells.displacement_m.iter().enumerate();
-                points
-                    .map(|(cell, u)| {
-                        let (x_m, y_m) = cells.grid.center(cell);
-                        indenter.gap_m(x_m, y_m) + u - approach_m
-                    })
-                    .collect()
+        let indenter = self.simulation.plan.contact.indenter.as_ref();
+        let gap_m = row.approach_m.map(|approach_m| {
+            let gap_m = |x_m, y_m, u: &f64| indenter.gap_m(x_m, y_m) + u - approach_m;
+            match &surface {
+                Surface::Radial(radial) => {
+                    let points = radial.radius_m.iter().zip(&radial.displacement_m);
+                    points.map(|(r, u)| gap_m(*r, 0.0, u)).collect()
+                }
+                Surface::Cells(cells) => {
+                    let centers = (0..cells.displacement_m.len()).map(|c| cells.grid.center(c));
+                    let points = centers.zip(&cells.displacement_m);
+                    points.map(|((x_m, y_m), u)| gap_m(x_m, y_m, u)).collect()
+                }
             }
         });
         SurfaceRecord {
@@ -271,30 +309,45 @@ impl Following<'_> {
     }
 }
 
-/// Surfaces wanted at some moments, in the order of the wishes.
-struct Wanted<'a> {
-    moments: &'a [usize],
-    all: HashSet<usize>,
+/// The row of the instant just solved.
+fn row<M: Hereditary>(
+    march: &mut March<'_, M>,
+    moment: &Moment,
+    prescribed: Prescribed,
+    solution: Solution,
+    floating: bool,
+) -> Result<HistoryRow, ContactError> {
+    let mut peak_pressure_pa = None;
+    march.observe(&mut |engine, pressure, solution| {
+        peak_pressure_pa = engine.peak_pressure_pa(pressure, solution)?;
+        Ok(())
+    })?;
+    if solution.load_n == 0.0 {
+        peak_pressure_pa = Some(0.0);
+    }
+    Ok(HistoryRow {
+        time_s: moment.time_s,
+        // What was prescribed, without the rounding of the sum over the nodes.
+        load_n: match prescribed {
+            Prescribed::LoadN(load_n) => load_n,
+            Prescribed::ApproachM(_) => solution.load_n,
+        },
+        approach_m: (!floating).then_some(solution.approach_m),
+        contact_radius_m: solution.contact_radius_m,
+        peak_pressure_pa,
+    })
 }
 
-impl<'a> Wanted<'a> {
-    fn new(moments: &'a [usize]) -> Self {
-        Self {
-            moments,
-            all: moments.iter().copied().collect(),
-        }
+/// Whether the indenter is clear of the surface at a moment, at a place that the drive does not say.
+pub(super) fn is_floating(control: Control, moments: &[Moment], index: usize) -> bool {
+    let is_loaded = |moment: &Moment| moment.value > 0.0;
+    let moment = &moments[index];
+    if control == Control::Approach || is_loaded(moment) {
+        return false;
     }
-
-    fn has(&self, moment: usize) -> bool {
-        self.all.contains(&moment)
-    }
-
-    /// Puts the record of a moment into every place where it is wanted.
-    fn keep(&self, moment: usize, record: &SurfaceRecord, records: &mut [Option<SurfaceRecord>]) {
-        for (wanted, slot) in self.moments.iter().zip(records) {
-            if *wanted == moment {
-                *slot = Some(record.clone());
-            }
-        }
-    }
+    let before = index.checked_sub(1).and_then(|i| moments.get(i));
+    let after = moments.get(index + 1);
+    let jumps = (index > 0 && moment.is_jump()) || after.is_some_and(Moment::is_jump);
+    let is_touch = !jumps && [before, after].into_iter().flatten().all(is_loaded);
+    !is_touch
 }

@@ -21,49 +21,18 @@ use std::sync::atomic::AtomicBool;
 
 use serde::{Deserialize, Serialize};
 
+use crate::contact::ContactError;
 use crate::contact::surface::Surface;
-use crate::contact::{ContactError, Engine};
-use crate::drive::{Control, Fineness, MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
-use crate::history::{DirectMemory, March, StepState};
-use crate::material::MaterialError;
+use crate::drive::{Control, Fineness, MAX_MOMENTS, Schedule, Steps};
 use crate::quantity::{Dimension, format_human};
-use crate::sweep::engine::{
-    EngineBuilder, EngineError, LargestContact, MAX_GROWTHS, missed_contact,
-};
+use crate::sweep::engine::setup::{SetupError, check_direct_sum};
+use crate::sweep::engine::{self, EngineBuilder, LargestContact, MAX_GROWTHS, missed_contact};
 use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::sweep::history::cycles::HistoryCycle;
 use crate::sweep::history::errors::{Followed, Plan, RowErrors};
-use crate::sweep::history::follow::{Course, Following, MarchError};
-use crate::sweep::plan::EngineKind;
+use crate::sweep::history::follow::{Course, MarchError, Run};
 use crate::sweep::plan::body_material::Compliance;
-use crate::sweep::plan::check::PlanError;
 use crate::sweep::plan::scenario::ScenarioPlan;
-
-/// Why a simulation cannot be set up.
-#[derive(Debug, Clone, thiserror::Error)]
-#[non_exhaustive]
-pub enum SimulationError {
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    #[error(transparent)]
-    Material(#[from] MaterialError),
-    #[error(transparent)]
-    Schedule(#[from] ScheduleError),
-    #[error(transparent)]
-    Engine(#[from] EngineError),
-    #[error(
-        "{steps} time steps on {nodes} nodes are too many for the direct sum, which keeps the pressure of every step (at most \
-         {MAX_DIRECT_STEPS} steps and {} GB) and whose cost grows with their square: set a longer [time] step, fewer cells, \
-         or material.table.evaluation = \"fit\"",
-        MAX_DIRECT_BYTES / 1_000_000_000
-    )]
-    DirectSum { steps: usize, nodes: usize },
-}
-
-/// Steps of a direct sum: half of their square are evaluations of the compliance, a minute for as many as this.
-const MAX_DIRECT_STEPS: usize = 20_000;
-/// Memory of a direct sum, bytes.
-const MAX_DIRECT_BYTES: usize = 2_000_000_000;
 
 /// A scenario, ready to run.
 pub struct Simulation {
@@ -71,7 +40,7 @@ pub struct Simulation {
     compliance: Compliance,
     /// The history itself, and the coarser ones that tell its errors.
     levels: Vec<Level>,
-    errors: Plan,
+    errors: Option<Plan>,
     /// Why there are no errors, where they were asked for.
     without_errors: Option<String>,
     /// How often the domain of the largest contact is halved for the first.
@@ -83,8 +52,6 @@ pub struct Simulation {
 /// One resolution of the history.
 struct Level {
     schedule: Schedule,
-    /// Per moment, whether the approach is undefined.
-    floating: Vec<bool>,
     /// On the domain of the largest contact.
     engines: EngineBuilder,
 }
@@ -151,9 +118,9 @@ impl Simulation {
     /// Checks the plan against the physics, lays out the time steps and sizes the domain.
     ///
     /// # Errors
-    /// [`SimulationError`] where the material cannot make a contact, a requested time lies outside the history, or the engine
+    /// [`SetupError`] where the material cannot make a contact, a requested time lies outside the history, or the engine
     /// cannot treat the indenter or give what is asked for.
-    pub fn new(plan: ScenarioPlan) -> Result<Self, SimulationError> {
+    pub fn new(plan: ScenarioPlan) -> Result<Self, SetupError> {
         Self::of_fineness(plan, Fineness::FULL)
     }
 
@@ -162,10 +129,7 @@ impl Simulation {
     ///
     /// # Errors
     /// As [`Simulation::new`].
-    pub fn of_fineness(
-        mut plan: ScenarioPlan,
-        fineness: Fineness,
-    ) -> Result<Self, SimulationError> {
+    pub fn of_fineness(mut plan: ScenarioPlan, fineness: Fineness) -> Result<Self, SetupError> {
         plan.check()?;
         plan.contact = plan.contact.on_own_cells();
         let compliance = plan.contact.material.compliance()?;
@@ -181,38 +145,36 @@ impl Simulation {
             // A solid or fluid meets no more than its compliance at the end, and no more than the largest load.
             compliance_per_pa: compliance.largest_per_pa(plan.drive.duration_s()),
         };
-        let layer = plan.contact.layer.map(|layer| {
-            let poisson_ratio = plan.contact.material.poisson_ratio();
-            let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfConstantBulkModulus)?;
-            Ok::<_, EngineError>(layer.of_material(poisson_ratio))
-        });
-        let layer = layer.transpose()?;
-        let level = |fineness, nodes| -> Result<Level, SimulationError> {
-            let schedule = schedule(&plan, steps, fineness)?;
+        let poisson_ratio = plan.contact.material.poisson_ratio();
+        let layer = engine::layer(plan.contact.layer, poisson_ratio)?;
+        let output = &plan.output;
+        let requested_s = [&output.profiles_at_s[..], &output.fields_at_s[..]].concat();
+        let level = |fineness, nodes| -> Result<Level, SetupError> {
+            let schedule = Schedule::of_fineness(&plan.drive, steps, &requested_s, fineness)?;
             let solver = plan.contact.solver.with_nodes(nodes);
             Ok(Level {
-                floating: floating(plan.drive.control(), &schedule.moments),
                 schedule,
                 engines: EngineBuilder::on(layer, plan.contact.indenter.clone(), solver, largest)?,
             })
         };
         let full = level(fineness, plan.contact.solver.nodes())?;
         let (moments, nodes) = (full.schedule.moments.len(), full.engines.nodes());
-        if matches!(compliance, Compliance::Samples(_)) && !direct_sum_fits(moments, nodes) {
-            let steps = moments;
-            return Err(SimulationError::DirectSum { steps, nodes });
+        if let Compliance::Samples(_) = compliance {
+            check_direct_sum(moments, nodes)?;
         }
-        let nodes = plan.contact.solver.nodes();
         let wanted = plan.output.error_bars && fineness == Fineness::FULL;
-        let error_plan = || error_plan(&plan, &compliance, &full).map_err(Some);
-        let (errors, without_errors) = match wanted.then(error_plan).unwrap_or(Err(None)) {
+        let errors = wanted.then(|| error_plan(&plan, &compliance, &full));
+        let (errors, without_errors) = match errors.transpose() {
             Ok(errors) => (errors, None),
-            Err(why) => (Plan::without_errors(nodes), why),
+            Err(why) => (None, Some(why)),
         };
         let halvings = halvings(&full, largest, &compliance);
         let mut levels = vec![full];
-        for resolution in errors.resolutions.iter().skip(1) {
-            levels.push(level(resolution.fineness, resolution.nodes)?);
+        let coarser = errors
+            .iter()
+            .flat_map(|plan| plan.resolutions.iter().skip(1));
+        for (fineness, nodes) in coarser {
+            levels.push(level(*fineness, *nodes)?);
         }
         Ok(Self {
             levels,
@@ -273,7 +235,7 @@ impl Simulation {
     /// Runs the history, on domains that grow with the contact, and then at the coarser resolutions that tell its errors. An
     /// instant that cannot be solved ends it, as does `interrupt`; what came before is in the outcome either way.
     pub fn run(&self, interrupt: &AtomicBool, progress: &Progress<'_>) -> SimulationOutcome {
-        self.run_from(None, &HistoryCheckpoint::none(), interrupt, progress)
+        self.run_from(None, None, interrupt, progress)
     }
 
     /// As [`Simulation::run`], from where an earlier run of the same scenario was; the outcome is the same, bit for bit. An
@@ -281,7 +243,7 @@ impl Simulation {
     pub fn run_from(
         &self,
         state: Option<HistoryState<'_>>,
-        checkpoint: &HistoryCheckpoint,
+        checkpoint: Option<&HistoryCheckpoint>,
         interrupt: &AtomicBool,
         progress: &Progress<'_>,
     ) -> SimulationOutcome {
@@ -313,7 +275,9 @@ impl Simulation {
                     ended = SimulationEnd::Failed(missed_contact(approach_m));
                 }
                 (Ok(()), _) => {}
-                (Err(MarchError::Interrupted), _) => ended = SimulationEnd::Interrupted,
+                (Err(MarchError::Contact(ContactError::Interrupted)), _) => {
+                    ended = SimulationEnd::Interrupted;
+                }
                 (Err(error), 1) => {
                     ended = SimulationEnd::Failed(place(level, &finished[0], &error));
                 }
@@ -349,16 +313,16 @@ impl Simulation {
         let mut cycles = cycles::of(&self.plan, &courses[0].rows);
         let mut errors = Vec::new();
         let mut errors_missing = self.without_errors.clone();
-        if ended == SimulationEnd::Done {
+        if let (SimulationEnd::Done, Some(plan)) = (&ended, &self.errors) {
             let followed = courses.iter().zip(&self.levels);
             let followed = followed.map(|(course, level)| Followed {
                 rows: &course.rows,
                 in_full: &level.schedule.in_full,
             });
-            errors = self.errors.errors(&followed.collect::<Vec<_>>());
+            errors = plan.errors(&followed.collect::<Vec<_>>());
             let coarser = courses.iter().skip(1);
             let coarser = coarser.map(|course| cycles::of(&self.plan, &course.rows));
-            cycles::add_errors(&mut cycles, &coarser.collect::<Vec<_>>(), &self.errors);
+            cycles::add_errors(&mut cycles, &coarser.collect::<Vec<_>>(), plan);
             let failed = courses.iter().find_map(|course| course.failed.as_ref());
             errors_missing = errors_missing.or(failed.map(|why| {
                 format!("the coarser history that tells the errors could not be followed: {why}")
@@ -381,7 +345,7 @@ impl Simulation {
             errors_missing,
             // What a domain came to be is a domain that could be built.
             domain_half_width_m: (self.domain(&self.levels[0], growths))
-                .map_or(0.0, |engines| engines.reach().0),
+                .map_or(0.0, |engines| engines.half_width_m()),
             domain_enlarged: growths.saturating_sub(self.halvings),
             iterations,
             ended,
@@ -400,147 +364,26 @@ impl Simulation {
             rows.for_each(|row| row.load_n -= pull_off_n);
         }
     }
-
-    /// Follows the history at one resolution, from where it was begun, on domains that grow with the contact.
-    fn follow(
-        &self,
-        level: &Level,
-        begun: Option<(Course, StepState)>,
-        run: &Run<'_>,
-    ) -> (Course, Result<(), MarchError>) {
-        let (mut course, mut step) = match begun {
-            Some((course, step)) => (course, Some(step)),
-            None => (Course::default(), None),
-        };
-        loop {
-            match self.follow_on_domain(level, step.take(), &mut course, run) {
-                Err(MarchError::Outgrown(state)) => {
-                    step = Some(*state);
-                    course.growths += 1;
-                }
-                ended => return (course, ended),
-            }
-        }
-    }
-
-    /// The same on the domain that the course has come to.
-    fn follow_on_domain(
-        &self,
-        level: &Level,
-        step: Option<StepState>,
-        course: &mut Course,
-        run: &Run<'_>,
-    ) -> Result<(), MarchError> {
-        let engines = self.domain(level, course.growths)?;
-        let (half_width_m, can_grow) = engines.reach();
-        let wider = match can_grow && course.growths < self.halvings + MAX_GROWTHS {
-            true => Some(self.domain(level, course.growths + 1)?.layout()),
-            false => None,
-        };
-        let mut engine = engines.engine(0)?;
-        if let Some(flag) = &self.interrupt {
-            engine.interrupted_by(Arc::clone(flag));
-        }
-        let following = Following {
-            plan: &self.plan,
-            schedule: &level.schedule,
-            floating: &level.floating,
-            field_grid: &engines.field_grid(self.plan.output.field_cells, 0)?,
-            layout: engines.layout(),
-            wider,
-            finished: run.finished,
-            checkpoint: run.checkpoint,
-            interrupt: run.interrupt,
-            progress: run.progress,
-        };
-        match self.march(engine.as_mut(), &following, step.as_ref(), course) {
-            Err(MarchError::Contact(ContactError::ReachedEdge { .. })) if !can_grow => {
-                Err(EngineError::EndOfData { half_width_m }.into())
-            }
-            ended => ended,
-        }
-    }
-
-    /// Engines on the domain that the contact needs after it has outgrown so many: each is twice as wide as the one before.
-    fn domain(&self, level: &Level, growths: usize) -> Result<EngineBuilder, EngineError> {
-        let doublings = growths as i32 - self.halvings as i32;
-        level.engines.scaled(2_f64.powi(doublings))
-    }
-
-    fn march(
-        &self,
-        engine: &mut dyn Engine,
-        following: &Following<'_>,
-        step: Option<&StepState>,
-        course: &mut Course,
-    ) -> Result<(), MarchError> {
-        let rule = self.plan.contact.solver.time_rule;
-        match &self.compliance {
-            Compliance::Series(creep) => {
-                let march = March::new(engine, creep.clone(), rule);
-                following.run(march, step, course)
-            }
-            Compliance::Samples(curve) => {
-                let steps = following.schedule.moments.len();
-                let memory = DirectMemory::with_room_for(curve.clone(), engine.nodes(), steps);
-                let march = March::with_memory(engine, memory, rule);
-                following.run(march, step, course)
-            }
-        }
-    }
-}
-
-/// What a run hands to every resolution.
-struct Run<'a> {
-    finished: &'a [Course],
-    checkpoint: &'a HistoryCheckpoint,
-    interrupt: &'a AtomicBool,
-    progress: &'a Progress<'a>,
-}
-
-fn schedule(
-    plan: &ScenarioPlan,
-    steps: Steps,
-    fineness: Fineness,
-) -> Result<Schedule, ScheduleError> {
-    let output = &plan.output;
-    let requested_s = [&output.profiles_at_s[..], &output.fields_at_s[..]].concat();
-    Schedule::of_fineness(&plan.drive, steps, &requested_s, fineness)
-}
-
-fn direct_sum_fits(steps: usize, nodes: usize) -> bool {
-    let bytes = steps.saturating_mul(nodes).saturating_mul(size_of::<f64>());
-    steps <= MAX_DIRECT_STEPS && bytes <= MAX_DIRECT_BYTES
 }
 
 /// The resolutions that tell the errors; otherwise why there are none.
 fn error_plan(plan: &ScenarioPlan, compliance: &Compliance, full: &Level) -> Result<Plan, String> {
     if full.engines.has_cells_of_its_own() {
-        let why = "the cells are those of the map, of which there are no fewer";
-        return Err(why.to_owned());
+        return Err("the cells are those of the map, of which there are no fewer".to_owned());
     }
-    // An even number of cells keeps the symmetry of a quarter.
-    let multiple = match plan.contact.solver.engine {
-        EngineKind::Axisymmetric => 1,
-        EngineKind::HalfSpace => 2,
-    };
-    let nodes = errors::coarser_nodes(plan.contact.solver.nodes(), multiple)
+    let solver = &plan.contact.solver;
+    let nodes = errors::coarser_nodes(solver)
         .ok_or_else(|| "there are too few nodes to leave any out".to_owned())?;
     let can_be_coarser = full.schedule.can_be_coarser;
     let doubled = 2 * full.schedule.moments.len();
     let fits = match compliance {
         Compliance::Series(_) => doubled <= MAX_MOMENTS,
-        Compliance::Samples(_) => direct_sum_fits(doubled, full.engines.nodes()),
+        Compliance::Samples(_) => check_direct_sum(doubled, full.engines.nodes()).is_ok(),
     };
     if !can_be_coarser && !fits {
-        let why = "there are no steps to leave out, and too many to be halved";
-        return Err(why.to_owned());
+        return Err("there are no steps to leave out, and too many to be halved".to_owned());
     }
-    Ok(Plan::with_errors(
-        can_be_coarser,
-        plan.contact.solver.engine,
-        nodes,
-    ))
+    Ok(Plan::new(can_be_coarser, solver.engine, nodes))
 }
 
 /// How often the domain of the largest contact can be halved for the first.
@@ -574,26 +417,6 @@ impl HistoryRow {
     }
 }
 
-/// Per moment, whether the indenter is clear of the surface at a place that the drive does not say.
-fn floating(control: Control, moments: &[Moment]) -> Vec<bool> {
-    if control == Control::Approach {
-        return vec![false; moments.len()];
-    }
-    let is_loaded = |moment: &Moment| moment.value > 0.0;
-    let is_touch = |index: usize| {
-        let before = index.checked_sub(1).and_then(|i| moments.get(i));
-        let after = moments.get(index + 1);
-        let jumps = (index > 0 && moments[index].is_jump()) || after.is_some_and(Moment::is_jump);
-        let neighbours = [before, after];
-        !jumps && neighbours.into_iter().flatten().all(is_loaded)
-    };
-    moments
-        .iter()
-        .enumerate()
-        .map(|(index, moment)| !is_loaded(moment) && !is_touch(index))
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use std::cell::Cell;
@@ -605,8 +428,7 @@ mod tests {
     use crate::indenter::{Axisymmetric, Indenter, Parameter, Sphere};
     use crate::material::library;
 
-    use crate::sweep::history::checkpoint::Found;
-
+    use crate::sweep::history::follow::is_floating;
     use crate::sweep::plan::scenario::OutputPlan;
     use crate::sweep::store::Store;
 
@@ -614,11 +436,11 @@ mod tests {
     fn unloaded(segments: Vec<Segment>) -> Vec<(f64, bool)> {
         let drive = SegmentedDrive::new(Control::Load, segments).unwrap();
         let schedule = Schedule::new(&drive, Steps::Given { step_s: 1.0 }, &[]).unwrap();
-        let floating = floating(Control::Load, &schedule.moments);
-        let moments = schedule.moments.iter().zip(floating);
-        moments
-            .filter(|(m, _)| m.value == 0.0)
-            .map(|(m, floating)| (m.time_s, floating))
+        let moments = schedule.moments.iter().enumerate();
+        let unloaded = moments.filter(|(_, moment)| moment.value == 0.0);
+        let floating = |index| is_floating(Control::Load, &schedule.moments, index);
+        unloaded
+            .map(|(index, moment)| (moment.time_s, floating(index)))
             .collect()
     }
 
@@ -744,17 +566,13 @@ mod tests {
         let (mut runs, mut grown) = (0, 0);
         let outcome = loop {
             let checkpoint = HistoryCheckpoint::of(&store, Duration::ZERO);
-            let state = match checkpoint.find() {
-                Found::State(state) => Some(*state),
-                Found::Nothing => None,
-                Found::Unusable { path, reason } => panic!("{}: {reason}", path.display()),
-            };
+            let state = checkpoint.find().unwrap();
             grown = state
                 .as_ref()
                 .map_or(0, |state| state.course.growths)
                 .max(grown);
             let (interrupt, steps) = (AtomicBool::new(false), Cell::new(0));
-            let outcome = simulation.run_from(state, &checkpoint, &interrupt, &|_, _| {
+            let outcome = simulation.run_from(state, Some(&checkpoint), &interrupt, &|_, _| {
                 steps.set(steps.get() + 1);
                 interrupt.store(steps.get() == 3, Ordering::Relaxed);
             });

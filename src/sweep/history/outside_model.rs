@@ -7,30 +7,26 @@ use crate::sweep::engine::slope::{Patch, ROUNDING, of_slope, slope_of_body};
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
 use crate::sweep::plan::body_material::BodyMaterial;
 use crate::sweep::plan::scenario::ScenarioPlan;
-use crate::sweep::record::warning::{LARGEST_TABOR_PARAMETER, Warning};
+use crate::sweep::record::warning::Warning;
 
 /// What is to be said of a history, as far as it came.
 pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning> {
     let window = plan.contact.material.measured_window_s();
     let mut warnings = of_times(window, &plan.drive);
-    let wider = |a, b| {
-        let (a, b): (&HistoryRow, &HistoryRow) = (a, b);
-        match b.contact_radius_m > a.contact_radius_m {
+    let widest =
+        (outcome.rows.iter()).reduce(|a, b| match b.contact_radius_m > a.contact_radius_m {
             true => b,
             false => a,
-        }
-    };
-    if let Some(widest) = outcome.rows.iter().reduce(wider)
+        });
+    let approach_m = outcome.rows.iter().filter_map(|row| row.approach_m);
+    let approach_m = approach_m.fold(0.0, f64::max);
+    if let Some(widest) = widest
         && let Some(modulus_pa) = creep_modulus_pa(&plan.contact.material, widest.time_s)
     {
-        let slope = slope_of_history(plan, outcome, widest);
+        let slope = slope_of_history(plan, outcome, (widest, approach_m));
         warnings.extend(of_slope(slope, widest.contact_radius_m, modulus_pa));
     }
-    let approach_m = outcome.rows.iter().filter_map(|row| row.approach_m);
-    warnings.extend(Warning::of_depth(
-        plan.contact.layer,
-        approach_m.fold(0.0, f64::max),
-    ));
+    warnings.extend(Warning::of_depth(plan.contact.layer, approach_m));
     warnings.extend(tabor_parameter(plan));
     warnings
 }
@@ -40,11 +36,8 @@ fn tabor_parameter(plan: &ScenarioPlan) -> Option<Warning> {
     let compliance = plan.contact.material.compliance().ok()?;
     let softest_pa = compliance.largest_per_pa(plan.drive.duration_s()).recip();
     let pull_off_n = plan.drive.pull_off_n();
-    let parameter = plan
-        .contact
-        .adhesion?
-        .tabor_parameter(pull_off_n, softest_pa);
-    (parameter > LARGEST_TABOR_PARAMETER).then_some(Warning::TaborParameter { parameter })
+    let adhesion = plan.contact.adhesion?;
+    Warning::of_tabor_parameter(adhesion.tabor_parameter(pull_off_n, softest_pa))
 }
 
 /// The times of a drive against those in which the material was measured.
@@ -110,14 +103,12 @@ fn creep_modulus_pa(material: &BodyMaterial, time_s: f64) -> Option<f64> {
 fn slope_of_history(
     plan: &ScenarioPlan,
     outcome: &SimulationOutcome,
-    widest: &HistoryRow,
+    (widest, approach_m): (&HistoryRow, f64),
 ) -> Option<f64> {
     /// Cells along the longer side of the domain, where the shape has none of its own.
     const CELLS: usize = 128;
     let indenter = plan.contact.indenter.as_ref();
     if let Some(body) = indenter.axisymmetric() {
-        let approach_m = outcome.rows.iter().filter_map(|row| row.approach_m);
-        let approach_m = approach_m.fold(0.0, f64::max);
         return slope_of_body(body, widest.contact_radius_m, approach_m);
     }
     let load_n = outcome.rows.iter().fold(0.0, |a, row| row.load_n.max(a));

@@ -227,10 +227,10 @@ pub struct Ladder<'a> {
 
 /// By what the estimate is multiplied: of 200 random cases, this leaves the true error inside the bar in 95 of 100 and more
 /// (`tests/error_bars.rs`), without making the bar useless.
-const SAFETY: f64 = 1.5;
+pub(in crate::sweep) const SAFETY: f64 = 1.5;
 
 /// What rounding leaves over the instants of a cycle, relative.
-const ROUNDING: f64 = 1e-12;
+pub(in crate::sweep) const ROUNDING: f64 = 1e-12;
 
 /// The lowest order believed, in the time steps and in the nodes of what is smooth in them: that of the constant rule.
 const LOWEST_SMOOTH_ORDER: f64 = 1.0;

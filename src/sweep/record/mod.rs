@@ -31,10 +31,7 @@ pub enum Status {
 impl Status {
     /// Whether there is a result.
     pub fn has_result(self) -> bool {
-        match self {
-            Self::Converged | Self::Transient => true,
-            Self::NotConverged | Self::Failed => false,
-        }
+        matches!(self, Self::Converged | Self::Transient)
     }
 
     /// The name used in every output.
@@ -260,20 +257,11 @@ impl CaseRecord {
     /// The same with its numbers alone.
     #[must_use]
     pub fn without_cycle(&self) -> Self {
-        let numbers = |result: &CaseResult| CaseResult {
-            cycle: RecordedCycle::default(),
-            analysis: result.analysis.clone(),
-            errors: result.errors.clone(),
-            replica_losses_j: result.replica_losses_j.clone(),
-            branches: result.branches.clone(),
-            ..*result
-        };
-        Self {
-            message: self.message.clone(),
-            warnings: self.warnings.clone(),
-            result: self.result.as_ref().map(numbers),
-            ..*self
+        let mut numbers = self.clone();
+        if let Some(result) = &mut numbers.result {
+            result.cycle = RecordedCycle::default();
         }
+        numbers
     }
 
     /// Whether the case ran under this condition.

@@ -63,6 +63,17 @@ pub enum NoErrorBars {
     NoCoarserResult,
 }
 
+impl NoErrorBars {
+    fn words(self) -> &'static str {
+        match self {
+            Self::OwnCells => {
+                "a map is solved on its own cells, and there are no coarser ones to compare with"
+            }
+            Self::NoCoarserResult => "there is no coarser result to compare with",
+        }
+    }
+}
+
 impl Warning {
     /// What is to be said of an approach (m) into a layer on a rigid base, where the body is one: a base that yields takes its part of
     /// the approach.
@@ -70,6 +81,11 @@ impl Warning {
         let layer = layer.filter(|layer| layer.yielding.is_none())?;
         let part = approach_m / layer.thickness_m;
         (part > LARGEST_DEPTH && part.is_finite()).then_some(Self::DeepInLayer { part })
+    }
+
+    /// What is to be said of Tabor's parameter.
+    pub(in crate::sweep) fn of_tabor_parameter(parameter: f64) -> Option<Self> {
+        (parameter > LARGEST_TABOR_PARAMETER).then_some(Self::TaborParameter { parameter })
     }
 
     /// A short name, for tables and programs.
@@ -113,68 +129,54 @@ impl Warning {
 /// One line, with frequencies in rad/s.
 impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.write(f, FrequencyUnit::RadPerS)
-    }
-}
-
-/// A warning with frequencies in a unit.
-struct In(FrequencyUnit, Warning);
-
-impl fmt::Display for In {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.1.write(f, self.0)
+        f.write_str(&self.message(FrequencyUnit::RadPerS))
     }
 }
 
 impl Warning {
-    fn write(&self, f: &mut fmt::Formatter<'_>, unit: FrequencyUnit) -> fmt::Result {
+    /// One line, with frequencies in a unit.
+    fn message(&self, unit: FrequencyUnit) -> String {
         let time = |time_s| format_human(time_s, Dimension::Time, 3);
         let frequency = |time_s: f64| format_human(unit.of(time_s.recip()), unit.dimension(), 3);
         match *self {
             Self::BelowMeasured {
-                last_measured_s, ..
-            } => write!(
-                f,
-                "the material was measured up to {}: below {} it is an extrapolation",
-                time(last_measured_s),
-                frequency(last_measured_s)
-            ),
+                last_measured_s: last_s,
+                ..
+            } => {
+                let (last, limit) = (time(last_s), frequency(last_s));
+                format!(
+                    "the material was measured up to {last}: below {limit} it is an extrapolation"
+                )
+            }
             Self::AboveMeasured {
-                first_measured_s, ..
-            } => write!(
-                f,
-                "the material was measured from {} on: above {} it is an extrapolation",
-                time(first_measured_s),
-                frequency(first_measured_s)
-            ),
+                first_measured_s: first_s,
+                ..
+            } => {
+                let (first, limit) = (time(first_s), frequency(first_s));
+                format!(
+                    "the material was measured from {first} on: above {limit} it is an extrapolation"
+                )
+            }
             Self::ShorterThanMeasured {
                 time_s,
                 first_measured_s,
             } => {
+                let when = match time_s {
+                    0.0 => ": up to then after a jump of the drive".to_owned(),
+                    _ => format!(", and the drive changes within {}: there", time(time_s)),
+                };
                 let first = time(first_measured_s);
-                match time_s {
-                    0.0 => write!(
-                        f,
-                        "the material was measured from {first} on: up to then after a jump of the drive it is an extrapolation"
-                    ),
-                    _ => write!(
-                        f,
-                        "the material was measured from {first} on, and the drive changes within {}: there it is an extrapolation",
-                        time(time_s)
-                    ),
-                }
+                format!("the material was measured from {first} on{when} it is an extrapolation")
             }
             Self::LongerThanMeasured {
                 time_s,
                 last_measured_s,
-            } => write!(
-                f,
+            } => format!(
                 "the material was measured up to {}, and the history lasts {}: beyond, it is an extrapolation",
                 time(last_measured_s),
                 time(time_s)
             ),
-            Self::LargeStrain { strain } => write!(
-                f,
+            Self::LargeStrain { strain } => format!(
                 "strains up to {} %: a glassy material is linear up to about {} %",
                 two_digits(100.0 * strain),
                 100.0 * LARGEST_GLASSY_STRAIN
@@ -182,32 +184,22 @@ impl Warning {
             Self::SteepSlope {
                 slope,
                 contact_radius_m,
-            } => write!(
-                f,
+            } => format!(
                 "slopes of the indenter in the contact (a/R of a sphere) up to {} at a contact radius of {}: the model takes them \
                  as small, up to about {LARGEST_SLOPE}",
                 two_digits(slope),
                 format_human(contact_radius_m, Dimension::Length, 3)
             ),
-            Self::DeepInLayer { part } => write!(
-                f,
+            Self::DeepInLayer { part } => format!(
                 "the approach is up to {} of the layer's thickness: the model takes strains as small, up to about {LARGEST_DEPTH} of it",
                 two_digits(part)
             ),
-            Self::TaborParameter { parameter } => write!(
-                f,
+            Self::TaborParameter { parameter } => format!(
                 "Tabor's parameter is up to {}: DMT adhesion holds up to about {LARGEST_TABOR_PARAMETER}, and from about \
                  {JKR_TABOR_PARAMETER} on that of Johnson, Kendall and Roberts, which is not solved here",
                 two_digits(parameter)
             ),
-            Self::NoErrorBars {
-                because: NoErrorBars::OwnCells,
-            } => f.write_str(
-                "no error bars: a map is solved on its own cells, and there are no coarser ones to compare with",
-            ),
-            Self::NoErrorBars {
-                because: NoErrorBars::NoCoarserResult,
-            } => f.write_str("no error bars: there is no coarser result to compare with"),
+            Self::NoErrorBars { because } => format!("no error bars: {}", because.words()),
         }
     }
 }
@@ -292,7 +284,7 @@ pub fn over_cases(records: &[CaseRecord], unit: FrequencyUnit) -> Vec<OverCases>
             false => "",
         };
         OverCases {
-            message: format!("{}{others}", In(unit, worst)),
+            message: worst.message(unit) + others,
             ..over
         }
     };
@@ -309,25 +301,17 @@ impl fmt::Display for OverCases {
         let symbol = self.unit.symbol();
         let value = |omega| format_human(self.unit.of(omega), self.unit.dimension(), 4);
         f.write_str(&self.message)?;
-        match (self.cases == self.of, low == high) {
-            (true, true) => Ok(()),
-            (true, false) => f.write_str(" (all cases)"),
-            (false, true) => write!(
-                f,
-                " ({} of {} cases, {symbol} = {})",
-                self.cases,
-                self.of,
-                value(low)
-            ),
-            (false, false) => write!(
-                f,
-                " ({} of {} cases, {symbol} = {} to {})",
-                self.cases,
-                self.of,
-                value(low),
-                value(high)
-            ),
-        }
+        let cases = match (self.cases == self.of, low == high) {
+            (true, true) => return Ok(()),
+            (true, false) => return f.write_str(" (all cases)"),
+            (false, true) => value(low),
+            (false, false) => format!("{} to {}", value(low), value(high)),
+        };
+        write!(
+            f,
+            " ({} of {} cases, {symbol} = {cases})",
+            self.cases, self.of
+        )
     }
 }
 

@@ -10,9 +10,9 @@ use crate::material::Material;
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::plan::adhesion::AdhesionPlan;
 use crate::sweep::plan::check::PlanError;
-use crate::sweep::plan::{Axes, Case, EngineKind, Method, SweepPlan, Varied};
+use crate::sweep::plan::{Axes, Case, EngineKind, Method, SolverPlan, SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
-use crate::sweep::search::run::{self, Options, Outcome, Progress, RunError};
+use crate::sweep::search::run::{self, Options, Outcome, RunError};
 use crate::sweep::store::archive::MemoryArchive;
 
 /// A sweep under construction. Every method that takes a value checks it.
@@ -51,14 +51,6 @@ pub enum SweepError {
     Run(#[from] RunError),
     #[error("interrupted")]
     Interrupted,
-}
-
-/// Hears of nothing.
-struct Silent;
-
-impl Progress for Silent {
-    fn case_finished(&self, _: &CaseRecord) {}
-    fn locating_peaks(&self, _: usize) {}
 }
 
 impl Sweep {
@@ -114,21 +106,20 @@ impl Sweep {
     }
 
     fn varied(
-        mut self,
+        self,
         varied: Varied,
         values: impl IntoIterator<Item = f64>,
     ) -> Result<Self, SetupError> {
-        self.plan.axes = Some(Axes::of_drive(&self.plan, varied, values)?);
-        Ok(self.checked()?)
+        let axes = Axes::of_drive(&self.plan, varied, values)?;
+        Ok(self.with(|plan| plan.axes = Some(axes))?)
     }
 
     /// Time steps per cycle; where an accuracy is asked for, at least.
     ///
     /// # Errors
     /// [`PlanError`] where the number is not in [`crate::sweep::plan::CyclePlan::STEPS`].
-    pub fn steps(mut self, steps: usize) -> Result<Self, PlanError> {
-        self.plan.cycle.steps = steps;
-        self.checked()
+    pub fn steps(self, steps: usize) -> Result<Self, PlanError> {
+        self.with(|plan| plan.cycle.steps = steps)
     }
 
     /// A sphere that the surface attracts, with this work of adhesion (J/m^2), by the theory of Derjaguin, Muller and Toporov: see
@@ -137,7 +128,7 @@ impl Sweep {
     /// # Errors
     /// A work that is not positive and finite, another indenter than a sphere, a prescribed approach, a load at which the sphere comes
     /// off.
-    pub fn attracted(mut self, work_j_per_m2: f64) -> Result<Self, SetupError> {
+    pub fn attracted(self, work_j_per_m2: f64) -> Result<Self, SetupError> {
         if !(work_j_per_m2.is_finite() && work_j_per_m2 > 0.0) {
             return Err(PlanError::WorkOfAdhesion { work_j_per_m2 }.into());
         }
@@ -149,48 +140,42 @@ impl Sweep {
         let is_load = self.plan.drive.control() == Control::Load;
         let pull_off_n = pull_off_n.filter(|_| is_load);
         let pull_off_n = pull_off_n.ok_or(PlanError::AdhesionOfOther)?;
-        self.plan.drive = self.plan.drive.attracted_by(pull_off_n)?;
-        self.plan.contact.adhesion = Some(adhesion);
-        Ok(self.checked()?)
+        let drive = self.plan.drive.attracted_by(pull_off_n)?;
+        Ok(self.with(|plan| {
+            (plan.drive, plan.contact.adhesion) = (drive, Some(adhesion));
+        })?)
     }
 
     /// This cycle of a march, counted from 1 and after the hold of the drive, in place of the stabilised one.
     ///
     /// # Errors
     /// [`PlanError`] where there is no such cycle.
-    pub fn at_cycle(mut self, number: usize) -> Result<Self, PlanError> {
-        self.plan.cycle.method = Method::March;
-        self.plan.cycle.at_cycle = Some(number);
-        self.checked()
+    pub fn at_cycle(self, number: usize) -> Result<Self, PlanError> {
+        self.with(|plan| (plan.cycle.method, plan.cycle.at_cycle) = (Method::March, Some(number)))
     }
 
     /// The axisymmetric engine, on this number of springs.
     ///
     /// # Errors
     /// [`PlanError`] where the number is not in [`crate::sweep::plan::SolverPlan::SPRINGS`].
-    pub fn springs(mut self, springs: usize) -> Result<Self, PlanError> {
-        self.plan.contact.solver.engine = EngineKind::Axisymmetric;
-        self.plan.contact.solver.springs = springs;
-        self.checked()
+    pub fn springs(self, springs: usize) -> Result<Self, PlanError> {
+        self.on(EngineKind::Axisymmetric, springs)
     }
 
     /// The half-space engine, on this number of cells along the longer side.
     ///
     /// # Errors
     /// [`PlanError`] where the number is not in [`crate::sweep::plan::SolverPlan::CELLS`].
-    pub fn cells(mut self, cells: usize) -> Result<Self, PlanError> {
-        self.plan.contact.solver.engine = EngineKind::HalfSpace;
-        self.plan.contact.solver.cells = cells;
-        self.checked()
+    pub fn cells(self, cells: usize) -> Result<Self, PlanError> {
+        self.on(EngineKind::HalfSpace, cells)
     }
 
     /// Steps and nodes such that the error of every loss stays below this part of it.
     ///
     /// # Errors
     /// [`PlanError`] where the accuracy is not in [`crate::sweep::plan::CyclePlan::ACCURACY`].
-    pub fn accuracy(mut self, accuracy: f64) -> Result<Self, PlanError> {
-        self.plan.cycle.accuracy = Some(accuracy);
-        self.checked()
+    pub fn accuracy(self, accuracy: f64) -> Result<Self, PlanError> {
+        self.with(|plan| plan.cycle.accuracy = Some(accuracy))
     }
 
     /// Adds frequencies where those given do not resolve the curve of the loss.
@@ -242,7 +227,7 @@ impl Sweep {
         let setup = Setup::new(self.plan)?.interrupted_by(Arc::clone(&self.interrupt));
         let options = Options::on_threads(run::useful_threads(self.threads));
         let archive = MemoryArchive::default();
-        let outcome = run::run_with(&setup, &archive, &options, &self.interrupt, &Silent);
+        let outcome = run::run_with(&setup, &archive, &options, &self.interrupt, &());
         Ok(outcome?)
     }
 
@@ -264,8 +249,16 @@ impl Sweep {
         setup.run(&case, &interrupt).ok_or(SweepError::Interrupted)
     }
 
-    /// The sweep, where its values so far may be what they are.
-    fn checked(self) -> Result<Self, PlanError> {
+    fn on(self, engine: EngineKind, nodes: usize) -> Result<Self, PlanError> {
+        self.with(|plan| {
+            let solver = &mut plan.contact.solver;
+            *solver = SolverPlan { engine, ..*solver }.with_nodes(nodes);
+        })
+    }
+
+    /// The sweep with a change, where its values may be what they then are.
+    fn with(mut self, change: impl FnOnce(&mut SweepPlan)) -> Result<Self, PlanError> {
+        change(&mut self.plan);
         self.plan.check_values().map(|()| self)
     }
 }

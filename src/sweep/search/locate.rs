@@ -8,7 +8,7 @@ use crate::sweep::record::CaseRecord;
 use crate::sweep::search::peak::{self, Loss, Peak, PeakError, Point};
 use crate::sweep::search::replica_peaks;
 use crate::sweep::search::run::Outcome;
-use crate::sweep::search::{Missing, Search, by_condition};
+use crate::sweep::search::{Search, by_condition};
 use crate::sweep::store::StoreError;
 
 /// Why a peak that the cases bracket has no place.
@@ -93,14 +93,11 @@ impl Search<'_> {
             condition: bracket.condition.clone(),
         };
         let cases: Vec<Case> = omegas.iter().enumerate().map(case).collect();
-        let aim = Aim::Loss(bracket.resolution);
-        let records = match alone {
-            true => self.records_here(aim, &cases)?,
-            false => self.records_of(aim, &cases)?,
-        };
+        let aim = Aim::loss(bracket.resolution);
+        let records = self.records_of(aim, &cases, alone)?;
         if records.len() < omegas.len() {
-            return Err(match (self.missing, self.archive.store()) {
-                (Missing::LeftOut, Some(store)) => LocateError::NoRecords {
+            return Err(match (self.checkpoint_every, self.archive.store()) {
+                (None, Some(store)) => LocateError::NoRecords {
                     angular_frequency_rad_per_s: bracket.points[1].0,
                     folder: store.folder().display().to_string(),
                 },
@@ -108,13 +105,13 @@ impl Search<'_> {
             });
         }
         let loss = |record: &CaseRecord| {
-            let omega = record.angular_frequency_rad_per_s;
+            let angular_frequency_rad_per_s = record.angular_frequency_rad_per_s;
             let loss_j = record.energy_loss_j().ok_or_else(|| PeakError::Case {
-                angular_frequency_rad_per_s: omega,
+                angular_frequency_rad_per_s,
                 reason: record.message.clone().unwrap_or_default(),
             })?;
-            let error_j = bracket.relative_error_at(omega).map(|e| e * loss_j.abs());
-            Ok((loss_j, error_j))
+            let relative = bracket.relative_error_at(angular_frequency_rad_per_s);
+            Ok((loss_j, relative.map(|error| error * loss_j.abs())))
         };
         records.iter().map(loss).collect()
     }
@@ -147,10 +144,7 @@ impl Bracket {
                 Some(Self {
                     condition: condition.clone(),
                     points,
-                    resolution: Resolution {
-                        steps: middle.steps,
-                        nodes: middle.nodes,
-                    },
+                    resolution: Resolution::of(middle),
                     relative_errors: a.zip(b).zip(c).map(|((a, b), c)| [a, b, c]),
                 })
             })

@@ -9,8 +9,6 @@ mod replica_peaks;
 pub mod run;
 
 use std::collections::HashMap;
-use std::path::Path;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
@@ -21,51 +19,44 @@ use crate::sweep::case::{Aim, Setup};
 use crate::sweep::plan::{AxisValues, Case, Condition};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::locate::curve_of;
-use crate::sweep::search::run::{Outcome, Progress, RunError};
-use crate::sweep::store::StoreError;
-use crate::sweep::store::archive::{Archive, Kept, OF_ANOTHER_BUILD, Purpose};
+use crate::sweep::search::run::{Options, Outcome, Progress, RunError};
+use crate::sweep::store::archive::{Archive, Kept, Purpose};
+use crate::sweep::store::{Store, StoreError};
 
 /// What solving more cases takes.
 pub(in crate::sweep) struct Search<'a> {
-    pub pool: &'a ThreadPool,
+    pub pool: ThreadPool,
     pub setup: &'a Setup,
     pub archive: Archive<'a>,
-    pub missing: Missing,
+    /// Time between two checkpoints of a case that takes long. `None`: nothing is solved, and cases without a usable record are left
+    /// out.
+    pub checkpoint_every: Option<Duration>,
     pub interrupt: &'a AtomicBool,
     pub progress: &'a dyn Progress,
     /// Where nothing is solved: whether it was said that records of another build are drawn.
     told_of_builds: AtomicBool,
 }
 
-/// What becomes of cases that have no usable record.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::sweep) enum Missing {
-    /// They are solved, those that take long with a checkpoint every so often.
-    Solved { checkpoint_every: Duration },
-    /// Nothing is solved.
-    LeftOut,
-}
-
 /// How often a neighbourhood may be halved before it is left as it is.
 const REFINEMENTS: usize = 6;
 
 impl<'a> Search<'a> {
+    /// Solves cases with these options, or none.
     pub fn new(
-        pool: &'a ThreadPool,
         setup: &'a Setup,
         archive: Archive<'a>,
-        missing: Missing,
+        options: Option<&Options>,
         (interrupt, progress): (&'a AtomicBool, &'a dyn Progress),
-    ) -> Self {
-        Self {
-            pool,
+    ) -> Result<Self, RunError> {
+        Ok(Self {
+            pool: run::pool(options.map_or(1, |options| options.threads))?,
             setup,
             archive,
-            missing,
+            checkpoint_every: options.map(|options| options.checkpoint_every),
             interrupt,
             progress,
             told_of_builds: AtomicBool::new(false),
-        }
+        })
     }
 
     /// The records of cases of the sweep, and how many of these have none in the end.
@@ -74,7 +65,7 @@ impl<'a> Search<'a> {
         if !records.is_empty() {
             self.progress.cases_found(records.len(), cases.len());
         }
-        records.extend(self.compute(Aim::Plan, &lacking)?);
+        records.extend(self.compute(Aim::PLAN, &lacking, false)?);
         records.sort_by_key(|r| r.index);
         let missing = cases.len() - records.len();
         Ok((records, missing))
@@ -101,7 +92,7 @@ impl<'a> Search<'a> {
             outcome.interrupted = !self.locate_peaks(&mut outcome)?;
         }
         // Where nothing is solved, another process may be at work in the folder.
-        if self.missing != Missing::LeftOut
+        if self.checkpoint_every.is_some()
             && !outcome.interrupted
             && let Some(store) = self.archive.store()
         {
@@ -128,7 +119,7 @@ impl<'a> Search<'a> {
             if added.is_empty() {
                 break;
             }
-            let more = self.records_of(Aim::Plan, &added)?;
+            let more = self.records_of(Aim::PLAN, &added, false)?;
             let interrupted = more.len() < added.len();
             records.extend(more);
             if interrupted {
@@ -138,25 +129,16 @@ impl<'a> Search<'a> {
         Ok(false)
     }
 
-    /// The records of these cases, solved where there are none; fewer after an interruption.
-    pub fn records_of(&self, aim: Aim, cases: &[Case]) -> Result<Vec<CaseRecord>, StoreError> {
+    /// The records of these cases, solved where there are none, by all threads or on this one alone: for what many threads do at
+    /// once. Fewer after an interruption.
+    pub fn records_of(
+        &self,
+        aim: Aim,
+        cases: &[Case],
+        alone: bool,
+    ) -> Result<Vec<CaseRecord>, StoreError> {
         let (mut records, lacking) = self.known(aim.purpose(), cases)?;
-        records.extend(self.compute(aim, &lacking)?);
-        records.sort_by_key(|r| r.index);
-        Ok(records)
-    }
-
-    /// The same, solved one after another on this thread: for what many threads do at once.
-    pub fn records_here(&self, aim: Aim, cases: &[Case]) -> Result<Vec<CaseRecord>, StoreError> {
-        let (mut records, lacking) = self.known(aim.purpose(), cases)?;
-        if let Missing::Solved { checkpoint_every } = self.missing {
-            for case in &lacking {
-                match self.compute_one(aim, case, checkpoint_every)? {
-                    Some(record) if !self.interrupt.load(Ordering::Relaxed) => records.push(record),
-                    _ => break,
-                }
-            }
-        }
+        records.extend(self.compute(aim, &lacking, alone)?);
         records.sort_by_key(|r| r.index);
         Ok(records)
     }
@@ -167,48 +149,44 @@ impl<'a> Search<'a> {
         purpose: Purpose,
         cases: &[Case],
     ) -> Result<(Vec<CaseRecord>, Vec<Case>), StoreError> {
-        for unread in self.archive.look()? {
+        for unread in self.archive.store().map_or(Ok(Vec::new()), Store::look)? {
             let path = unread.path.display();
             self.progress.told(&format!("{path}: {}", unread.reason));
         }
+        let then = match self.checkpoint_every {
+            Some(_) => "the case is computed again",
+            None => "the case is left out",
+        };
         let (mut records, mut lacking) = (Vec::new(), Vec::new());
         for case in cases {
-            match self.archive.load_case(purpose, case)? {
+            let kept = self.load_case(purpose, case)?;
+            let refusal = kept.refusal();
+            match kept {
                 Kept::Intact(record) => records.push(*record),
-                Kept::Absent => lacking.push(case.clone()),
-                Kept::OfAnotherBuild { path, record } if self.missing == Missing::LeftOut => {
-                    if !self.told_of_builds.swap(true, Ordering::Relaxed) {
-                        let path = path.display();
-                        self.progress.told(&format!(
-                            "{path}: {OF_ANOTHER_BUILD}; it and those like it are shown as they are"
-                        ));
+                Kept::OfAnotherBuild { record, .. } if self.checkpoint_every.is_none() => {
+                    if let Some(refusal) = refusal
+                        && !self.told_of_builds.swap(true, Ordering::Relaxed)
+                    {
+                        let shown = "it and those like it are shown as they are";
+                        self.progress.told(&format!("{refusal}; {shown}"));
                     }
                     records.push(*record);
                 }
-                Kept::OfAnotherBuild { path, .. } => {
-                    self.lacks(&path, OF_ANOTHER_BUILD);
-                    lacking.push(case.clone());
-                }
-                Kept::Unusable { path, reason } => {
-                    self.lacks(&path, &reason);
+                Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
+                    if let Some(refusal) = refusal {
+                        self.progress.told(&format!("{refusal}; {then}"));
+                    }
                     lacking.push(case.clone());
                 }
             }
-        }
-        for record in &mut records {
-            self.hold_cycle(purpose, record)?;
         }
         Ok((records, lacking))
     }
 
-    /// Gives a record that was read its cycle, where the outcome holds them.
-    fn hold_cycle(&self, purpose: Purpose, record: &mut CaseRecord) -> Result<(), StoreError> {
-        match self.archive.store() {
-            Some(store) if purpose == Purpose::Sweep && self.holds_cycles() => {
-                store.load_cycle(record)
-            }
-            _ => Ok(()),
-        }
+    /// What there is of a case, with its cycle where the outcome holds them.
+    fn load_case(&self, purpose: Purpose, case: &Case) -> Result<Kept, StoreError> {
+        let with_cycle = purpose == Purpose::Sweep && self.holds_cycles();
+        self.archive.load_case(purpose, case, with_cycle)
     }
 
     /// Whether the outcome holds the cycles of all cases; of a large sweep in a folder they stay there.
@@ -216,52 +194,42 @@ impl<'a> Search<'a> {
         self.archive.store().is_none() || self.setup.plan().is_small()
     }
 
-    /// Tells why a record is not used.
-    fn lacks(&self, path: &Path, reason: &str) {
-        let then = match self.missing {
-            Missing::Solved { .. } => "the case is computed again",
-            Missing::LeftOut => "the case is left out",
-        };
-        let path = path.display();
-        self.progress.told(&format!("{path}: {reason}; {then}"));
-    }
-
     /// Solves these cases in parallel, the dearest first: each thread takes the next from a common counter, so that the
     /// uneven cases end together.
-    fn compute(&self, aim: Aim, cases: &[Case]) -> Result<Vec<CaseRecord>, StoreError> {
-        let Missing::Solved { checkpoint_every } = self.missing else {
+    fn compute(
+        &self,
+        aim: Aim,
+        cases: &[Case],
+        alone: bool,
+    ) -> Result<Vec<CaseRecord>, StoreError> {
+        let Some(checkpoint_every) = self.checkpoint_every else {
             return Ok(Vec::new());
         };
         let mut order: Vec<&Case> = cases.iter().collect();
         let cost = |case: &Case| self.setup.predicted_cycles(case);
         order.sort_by(|a, b| cost(b).total_cmp(&cost(a)).then(a.index.cmp(&b.index)));
         let next = AtomicUsize::new(0);
-        let failure: Mutex<Option<StoreError>> = Mutex::new(None);
         let stop = AtomicBool::new(false);
-        let parts: Vec<Vec<CaseRecord>> = self.pool.broadcast(|_| {
+        let work = || -> Result<Vec<CaseRecord>, StoreError> {
             let mut done = Vec::new();
             while !stop.load(Ordering::Relaxed) && !self.interrupt.load(Ordering::Relaxed) {
                 let Some(case) = order.get(next.fetch_add(1, Ordering::Relaxed)) else {
                     break;
                 };
-                match self.compute_one(aim, case, checkpoint_every) {
-                    Ok(Some(record)) => done.push(record),
-                    Ok(None) => break,
-                    Err(error) => {
-                        stop.store(true, Ordering::Relaxed);
-                        if let Ok(mut slot) = failure.lock() {
-                            slot.get_or_insert(error);
-                        }
-                        break;
-                    }
+                let solved = self.compute_one(aim, case, checkpoint_every);
+                match solved.inspect_err(|_| stop.store(true, Ordering::Relaxed))? {
+                    Some(record) => done.push(record),
+                    None => break,
                 }
             }
-            done
-        });
-        match failure.into_inner().ok().flatten() {
-            Some(error) => Err(error),
-            None => Ok(parts.into_iter().flatten().collect()),
-        }
+            Ok(done)
+        };
+        let parts = match alone {
+            true => vec![work()],
+            false => self.pool.broadcast(|_| work()),
+        };
+        let parts: Vec<_> = parts.into_iter().collect::<Result<_, _>>()?;
+        Ok(parts.into_iter().flatten().collect())
     }
 
     /// Solves a case and stores its record, unless another process has done so meanwhile; `None` where it was interrupted.
@@ -272,22 +240,20 @@ impl<'a> Search<'a> {
         every: Duration,
     ) -> Result<Option<CaseRecord>, StoreError> {
         let purpose = aim.purpose();
-        let record = match self.archive.load_case(purpose, case)? {
-            Kept::Intact(mut record) => {
-                self.hold_cycle(purpose, &mut record)?;
-                *record
-            }
+        let record = match self.load_case(purpose, case)? {
+            Kept::Intact(record) => *record,
             Kept::Absent | Kept::OfAnotherBuild { .. } | Kept::Unusable { .. } => {
-                let checkpoints = match self.archive.store() {
-                    Some(store) => Checkpoints::of(store, purpose, case, every),
-                    None => Checkpoints::none(),
-                };
-                let found = (self.setup).run_for(aim, &checkpoints, case, self.interrupt);
+                let store = self.archive.store();
+                let checkpoints = store.map(|store| Checkpoints::of(store, purpose, case, every));
+                let checkpoints = checkpoints.as_ref();
+                let found = (self.setup).run_for(aim, checkpoints, case, self.interrupt);
                 let Some(record) = found else {
                     return Ok(None);
                 };
                 self.archive.save_case(purpose, case, &record)?;
-                checkpoints.remove();
+                if let Some(checkpoints) = checkpoints {
+                    checkpoints.remove();
+                }
                 match self.holds_cycles() {
                     true => record,
                     false => record.without_cycle(),

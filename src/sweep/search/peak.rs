@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::sweep::plan::{AxisValues, Condition};
 
 /// A local maximum of the energy loss.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Peak {
     pub angular_frequency_rad_per_s: f64,
     pub energy_loss_j: f64,
@@ -121,11 +121,7 @@ pub fn refine<E: From<PeakError>>(bracket: &[Point; 3], losses: &Losses<'_, E>) 
                 energy_loss_j: loss,
                 angular_frequency_uncertainty_rad_per_s: omega * (moved + shift),
                 energy_loss_error_j: error,
-                angular_frequency_material_error_rad_per_s: None,
-                energy_loss_material_error_j: None,
-                varied: AxisValues::default(),
-                drive_mean: None,
-                drive_amplitude: None,
+                ..Peak::default()
             });
         }
         half_width = (0.5 * half_width).max(0.1);

@@ -4,6 +4,7 @@
 //! logarithms of frequency and loss. Where the computed value differs, the curve has a detail that the samples around it
 //! only just show, and the two intervals beside the point are halved.
 
+use crate::sweep::history::between::lagrange;
 use crate::sweep::search::peak::Point;
 
 /// Error of the curve between its points, relative, above which a neighbourhood is refined: well above the error of a loss,
@@ -27,16 +28,14 @@ pub fn candidates(curve: &[Point]) -> Vec<f64> {
     let mut halved = vec![false; logarithms.len()];
     for middle in 1..logarithms.len().saturating_sub(1) {
         let from = middle.saturating_sub(2);
-        let neighbours: Vec<Point> = logarithms
-            .iter()
-            .enumerate()
-            .skip(from)
-            .take(middle + 3 - from)
+        let around = logarithms.iter().enumerate().skip(from);
+        let around = around.take(middle + 3 - from);
+        let neighbours = around
             .filter(|(i, _)| *i != middle)
-            .map(|(_, point)| *point)
-            .collect();
+            .map(|(_, point)| *point);
+        let (places, values): (Vec<f64>, Vec<f64>) = neighbours.unzip();
         let (x, y) = logarithms[middle];
-        if (interpolate(&neighbours, x) - y).abs() > WITHOUT_ITSELF * TOLERANCE {
+        if (lagrange(&places, &values, x) - y).abs() > WITHOUT_ITSELF * TOLERANCE {
             halved[middle - 1] = true;
             halved[middle] = true;
         }
@@ -46,17 +45,6 @@ pub fn candidates(curve: &[Point]) -> Vec<f64> {
         .filter(|(ends, halved)| **halved && ends[1].0 - ends[0].0 > NARROWEST)
         .map(|(ends, _)| (0.5 * (ends[0].0 + ends[1].0)).exp())
         .collect()
-}
-
-/// Lagrange's polynomial through the points.
-fn interpolate(points: &[Point], x: f64) -> f64 {
-    let basis = |i: usize| -> f64 {
-        let others = points.iter().enumerate().filter(|(j, _)| *j != i);
-        others
-            .map(|(_, other)| (x - other.0) / (points[i].0 - other.0))
-            .product()
-    };
-    (0..points.len()).map(|i| points[i].1 * basis(i)).sum()
 }
 
 #[cfg(test)]

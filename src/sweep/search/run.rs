@@ -12,8 +12,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 use crate::sweep::case::Setup;
 use crate::sweep::plan::Condition;
 use crate::sweep::record::{BranchLoss, CaseRecord, Status};
+use crate::sweep::search::Search;
 use crate::sweep::search::peak::Peak;
-use crate::sweep::search::{Missing, Search};
 use crate::sweep::share::shard::{self, Shard};
 use crate::sweep::store::StoreError;
 use crate::sweep::store::archive::{Archive, Purpose};
@@ -44,13 +44,16 @@ pub struct Outcome {
 
 /// Hears of progress; called from the threads that do the work.
 pub trait Progress: Sync {
-    fn case_finished(&self, record: &CaseRecord);
-    fn locating_peaks(&self, brackets: usize);
+    fn case_finished(&self, _record: &CaseRecord) {}
+    fn locating_peaks(&self, _brackets: usize) {}
     /// So many of the cases to do have records already.
     fn cases_found(&self, _done: usize, _of: usize) {}
     /// Something a user should know, such as a record that is damaged and computed again.
     fn told(&self, _what: &str) {}
 }
+
+/// Hears of nothing.
+impl Progress for () {}
 
 /// How a sweep is run; none of it changes its results.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,11 +114,7 @@ pub fn run_with<'a>(
     interrupt: &AtomicBool,
     progress: &dyn Progress,
 ) -> Result<Outcome, RunError> {
-    let pool = pool(options.threads)?;
-    let missing = Missing::Solved {
-        checkpoint_every: options.checkpoint_every,
-    };
-    let search = Search::new(&pool, setup, archive.into(), missing, (interrupt, progress));
+    let search = Search::new(setup, archive.into(), Some(options), (interrupt, progress))?;
     let (records, missing) = search.planned(&setup.plan().cases())?;
     search.outcome(records, missing > 0)
 }
@@ -132,11 +131,7 @@ pub fn run_shard<'a>(
     interrupt: &AtomicBool,
     progress: &dyn Progress,
 ) -> Result<Part, RunError> {
-    let pool = pool(options.threads)?;
-    let missing = Missing::Solved {
-        checkpoint_every: options.checkpoint_every,
-    };
-    let search = Search::new(&pool, setup, archive.into(), missing, (interrupt, progress));
+    let search = Search::new(setup, archive.into(), Some(options), (interrupt, progress))?;
     let own = shard::cases(setup, shard);
     let (records, missing) = search.planned(&own)?;
     if missing > 0 {
@@ -148,10 +143,8 @@ pub fn run_shard<'a>(
         });
     }
     let (all, lacking) = search.known(Purpose::Sweep, &setup.plan().cases())?;
-    let whole = match lacking.is_empty() {
-        true => Some(search.outcome(all, false)?),
-        false => None,
-    };
+    let whole = (lacking.is_empty()).then(|| search.outcome(all, false));
+    let whole = whole.transpose()?;
     Ok(Part {
         records,
         missing: lacking.len(),
@@ -169,10 +162,8 @@ pub fn collect<'a>(
     archive: impl Into<Archive<'a>>,
     progress: &dyn Progress,
 ) -> Result<Outcome, RunError> {
-    let pool = pool(1)?;
     let interrupt = AtomicBool::new(false);
-    let watch = (&interrupt, progress);
-    let search = Search::new(&pool, setup, archive.into(), Missing::LeftOut, watch);
+    let search = Search::new(setup, archive.into(), None, (&interrupt, progress))?;
     let (records, missing) = search.known(Purpose::Sweep, &setup.plan().cases())?;
     search.outcome(records, !missing.is_empty())
 }
@@ -204,16 +195,13 @@ pub fn pool(threads: usize) -> Result<ThreadPool, RunError> {
 impl Outcome {
     /// Retardation times (s) of the material's creep compliance, as the results list its branches; none without a result.
     pub fn retardation_times_s(&self) -> Vec<f64> {
-        let mut results = self.branches_of_results();
-        let Some(first) = results.next() else {
-            return Vec::new();
-        };
         let times = |branches: &[BranchLoss]| -> Vec<f64> {
             branches.iter().map(|b| b.retardation_time_s).collect()
         };
-        let times_s = times(first);
-        match results.all(|other| times(other) == times_s) {
-            true => times_s,
+        let mut results = self.branches_of_results().map(times);
+        let first = results.next().unwrap_or_default();
+        match results.all(|other| other == first) {
+            true => first,
             false => Vec::new(),
         }
     }

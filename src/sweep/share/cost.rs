@@ -188,13 +188,17 @@ fn levels(plan: &SweepPlan, cycles: f64) -> Vec<Level> {
         Method::Direct => 0.5 * cycles,
         Method::March => cycles,
     };
-    let mut levels = vec![level(1, 1, again), level(1, 2, again)];
-    levels.push(match plan.contact.solver.engine {
-        EngineKind::Axisymmetric => level(1, 4, cycles),
-        EngineKind::HalfSpace => level(2, 4, cycles),
-    });
-    levels.extend([level(2, 2, again), level(4, 2, cycles)]);
-    levels
+    let on_fewest_steps = match plan.contact.solver.engine {
+        EngineKind::Axisymmetric => 1,
+        EngineKind::HalfSpace => 2,
+    };
+    vec![
+        level(1, 1, again),
+        level(1, 2, again),
+        level(on_fewest_steps, 4, cycles),
+        level(2, 2, again),
+        level(4, 2, cycles),
+    ]
 }
 
 /// Time of a step on so many nodes, relative to one on the full number.
@@ -210,18 +214,17 @@ fn relative_step(plan: &SweepPlan, nodes: usize) -> f64 {
 fn step_s(setup: &Setup) -> Result<f64, SetupError> {
     let plan = setup.plan();
     let nodes = match plan.contact.solver.engine {
-        EngineKind::Axisymmetric => plan.contact.solver.nodes(),
-        EngineKind::HalfSpace if plan.contact.indenter.own_cells().is_some() => {
-            plan.contact.solver.nodes()
+        EngineKind::HalfSpace if plan.contact.indenter.own_cells().is_none() => {
+            plan.contact.solver.nodes().min(CELLS_MEASURED)
         }
-        EngineKind::HalfSpace => plan.contact.solver.nodes().min(CELLS_MEASURED),
+        _ => plan.contact.solver.nodes(),
     };
     let first = plan.conditions().first().cloned();
     let condition = &first.unwrap_or_else(|| plan.condition());
     let (drive, solid) = (&condition.drive, setup.solid(condition)?);
     let omegas = &plan.angular_frequencies_rad_per_s;
     let omega = omegas.get(omegas.len() / 2).copied().unwrap_or(1.0);
-    let mut engine = setup.engine(condition, nodes)?;
+    let mut engine = setup.engines(condition, nodes)?.engine(0)?;
     let compliance = solid.compliance.clone();
     engine.tolerate(setup.instant_tolerance(&compliance, drive, omega, plan.cycle.tolerance));
     let mut march = March::new(engine.as_mut(), compliance, plan.contact.solver.time_rule);

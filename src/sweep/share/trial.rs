@@ -4,7 +4,6 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use crate::drive::Control;
-use crate::sweep::case::checkpoint::Checkpoints;
 use crate::sweep::case::{Aim, Resolution, Setup, SetupError};
 use crate::sweep::plan::{Condition, EngineKind};
 use crate::sweep::share::cost;
@@ -89,12 +88,9 @@ impl Trial {
             }
             if k == most / 2 {
                 let own_s = clock.elapsed().as_secs_f64();
-                let at = Resolution {
-                    steps: record.steps,
-                    nodes: record.nodes,
-                };
+                let at = Resolution::of(&record);
                 let clock = Instant::now();
-                setup.run_for(Aim::Loss(at), &Checkpoints::none(), case, &interrupt);
+                setup.run_for(Aim::loss(at), None, case, &interrupt);
                 trial.loss = clock.elapsed().as_secs_f64() / own_s;
             }
             if begun.elapsed() > LONGEST {

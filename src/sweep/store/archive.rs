@@ -39,14 +39,6 @@ impl<'a> Archive<'a> {
         }
     }
 
-    /// As [`Store::look`].
-    ///
-    /// # Errors
-    /// [`StoreError`] with the path, of a folder.
-    pub fn look(self) -> Result<Vec<Unread>, StoreError> {
-        self.store().map_or(Ok(Vec::new()), Store::look)
-    }
-
     /// As [`Store::save_case`].
     ///
     /// # Errors
@@ -68,13 +60,18 @@ impl<'a> Archive<'a> {
         Ok(())
     }
 
-    /// As [`Store::load_case`]; of a record in memory with its cycle.
+    /// As [`Store::load_case`], with the cycle where that is asked for; of a record in memory with it in any case.
     ///
     /// # Errors
     /// [`StoreError`] with the path, of a folder.
-    pub fn load_case(self, purpose: Purpose, case: &Case) -> Result<Kept, StoreError> {
+    pub(in crate::sweep) fn load_case(
+        self,
+        purpose: Purpose,
+        case: &Case,
+        with_cycle: bool,
+    ) -> Result<Kept, StoreError> {
         match self {
-            Self::Folder(store) => store.load_case(purpose, case),
+            Self::Folder(store) => store.load(purpose, case, with_cycle),
             Self::Memory(memory) => Ok(match memory.records().get(&Key::of(purpose, case)) {
                 Some(record) => Kept::Intact(Box::new(CaseRecord {
                     index: case.index,
@@ -148,8 +145,20 @@ pub enum Kept {
     },
 }
 
+impl Kept {
+    /// Why a record is not used, and where it stands.
+    pub(in crate::sweep) fn refusal(&self) -> Option<String> {
+        let (path, reason) = match self {
+            Self::Intact(_) | Self::Absent => return None,
+            Self::OfAnotherBuild { path, .. } => (path, OF_ANOTHER_BUILD),
+            Self::Unusable { path, reason } => (path, reason.as_str()),
+        };
+        Some(format!("{}: {reason}", path.display()))
+    }
+}
+
 /// What is said of a record of another build.
-pub const OF_ANOTHER_BUILD: &str = concat!(
+const OF_ANOTHER_BUILD: &str = concat!(
     "it was written by another build of version ",
     env!("CARGO_PKG_VERSION"),
     " of the program"
@@ -198,6 +207,10 @@ impl Store {
     /// # Errors
     /// [`StoreError`] where the record cannot be read, or was written by a newer program and may not be replaced.
     pub fn load_case(&self, purpose: Purpose, case: &Case) -> Result<Kept, StoreError> {
+        self.load(purpose, case, false)
+    }
+
+    fn load(&self, purpose: Purpose, case: &Case, with_cycle: bool) -> Result<Kept, StoreError> {
         let Some(place) = self.records.place(&Key::of(purpose, case))? else {
             return Ok(Kept::Absent);
         };
@@ -206,29 +219,24 @@ impl Store {
             path: path.clone(),
             reason,
         };
+        let of_version = |version: &str, age: &str| {
+            unusable(format!(
+                "it was written by version {version} of the program, {age} than this one"
+            ))
+        };
         match &place.origin {
             Origin::Newer(version) if !self.force => {
                 let version = version.clone();
                 return Err(StoreError::NewerProgram { path, version });
             }
-            Origin::Newer(version) => {
-                return Ok(unusable(format!(
-                    "it was written by version {version} of the program, newer than this one"
-                )));
-            }
-            Origin::Older(version) => {
-                return Ok(unusable(format!(
-                    "it was written by version {version} of the program, older than this one"
-                )));
-            }
+            Origin::Newer(version) => return Ok(of_version(version, "newer")),
+            Origin::Older(version) => return Ok(of_version(version, "older")),
             Origin::ThisBuild | Origin::AnotherBuild => {}
         }
         let content = self.records.read(&place)?;
-        let Some(record) = packed_record::numbers(&content) else {
-            return Ok(unusable(format!(
-                "the record of case {} is damaged",
-                case.index
-            )));
+        let Some(mut record) = packed_record::numbers(&content) else {
+            let case = case.index;
+            return Ok(unusable(format!("the record of case {case} is damaged")));
         };
         let same_frequency = record.angular_frequency_rad_per_s.to_bits()
             == case.angular_frequency_rad_per_s.to_bits();
@@ -237,10 +245,11 @@ impl Store {
                 "a record in it belongs to another sweep".to_owned(),
             ));
         }
-        let record = Box::new(CaseRecord {
-            index: case.index,
-            ..record
-        });
+        record.index = case.index;
+        if with_cycle {
+            packed_record::add_cycle(&mut record, &content);
+        }
+        let record = Box::new(record);
         Ok(match place.origin {
             Origin::ThisBuild => Kept::Intact(record),
             _ => Kept::OfAnotherBuild { path, record },
@@ -255,10 +264,7 @@ impl Store {
         let Some(place) = self.records.place(&Key::of_record(record))? else {
             return Ok(());
         };
-        let content = self.records.read(&place)?;
-        if let (Some(result), Some(cycle)) = (&mut record.result, packed_record::cycle(&content)) {
-            result.cycle = cycle;
-        }
+        packed_record::add_cycle(record, &self.records.read(&place)?);
         Ok(())
     }
 

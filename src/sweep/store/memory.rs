@@ -32,10 +32,7 @@ impl MemoryArchive {
         let packed: Vec<(Key, Vec<u8>)> = postcard::from_bytes(bytes).ok()?;
         let record = |(key, packed): (Key, Vec<u8>)| {
             let mut record = packed_record::numbers(&packed)?;
-            if let (Some(result), Some(cycle)) = (&mut record.result, packed_record::cycle(&packed))
-            {
-                result.cycle = cycle;
-            }
+            packed_record::add_cycle(&mut record, &packed);
             Some((key, record))
         };
         let records: HashMap<_, _> = packed.into_iter().map(record).collect::<Option<_>>()?;
@@ -76,14 +73,7 @@ mod tests {
     use crate::sweep::Sweep;
     use crate::sweep::case::Setup;
     use crate::sweep::plan::{self, resolved::resolved_text};
-    use crate::sweep::search::run::{self, Progress};
-
-    struct Silent;
-
-    impl Progress for Silent {
-        fn case_finished(&self, _: &CaseRecord) {}
-        fn locating_peaks(&self, _: usize) {}
-    }
+    use crate::sweep::search::run;
 
     /// A sweep with a peak, and its records.
     fn solved() -> (Setup, MemoryArchive) {
@@ -95,24 +85,24 @@ mod tests {
         let sweep = sweep.frequencies_hz([1e-4, 1e-3, 1e-2]).unwrap();
         let setup = Setup::new(sweep.into_plan()).unwrap();
         let archive = MemoryArchive::default();
-        run::run(&setup, &archive, 1, &false.into(), &Silent).unwrap();
+        run::run(&setup, &archive, 1, &false.into(), &()).unwrap();
         (setup, archive)
     }
 
     #[test]
     fn records_that_were_moved_give_the_same_outcome_with_its_cycles_and_peaks() {
         let (setup, archive) = solved();
-        let outcome = run::collect(&setup, &archive, &Silent).unwrap();
+        let outcome = run::collect(&setup, &archive, &()).unwrap();
         assert!(outcome.records.iter().all(|r| r.result.is_some()));
         let moved = MemoryArchive::from_bytes(&archive.to_bytes().unwrap()).unwrap();
-        assert_eq!(run::collect(&setup, &moved, &Silent).unwrap(), outcome);
+        assert_eq!(run::collect(&setup, &moved, &()).unwrap(), outcome);
 
         let folder = tempfile::TempDir::new().unwrap();
         let store = Store::open(folder.path(), &resolved_text(setup.plan()), false).unwrap();
         // The second time there is nothing left to do.
         for _ in 0..2 {
             archive.put_into(&store).unwrap();
-            assert_eq!(run::collect(&setup, &store, &Silent).unwrap(), outcome);
+            assert_eq!(run::collect(&setup, &store, &()).unwrap(), outcome);
         }
         let records = folder.path().join("records");
         let length =

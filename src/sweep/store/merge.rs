@@ -1,7 +1,7 @@
 //! The records of several folders of one sweep, brought together in one.
 
 use crate::sweep::plan::Case;
-use crate::sweep::store::archive::{Kept, OF_ANOTHER_BUILD, Purpose};
+use crate::sweep::store::archive::{Kept, Purpose};
 use crate::sweep::store::{Store, StoreError};
 
 /// Copies the records of all parts into `out` and returns the cases of the sweep that none of them has. `told` hears of
@@ -35,12 +35,8 @@ pub fn gather(
             continue;
         }
         for part in parts {
-            match part.load_case(Purpose::Sweep, case)? {
-                Kept::Unusable { path, reason } => told(&format!("{}: {reason}", path.display())),
-                Kept::OfAnotherBuild { path, .. } => {
-                    told(&format!("{}: {OF_ANOTHER_BUILD}", path.display()));
-                }
-                Kept::Intact(_) | Kept::Absent => {}
+            if let Some(refusal) = part.load_case(Purpose::Sweep, case)?.refusal() {
+                told(&refusal);
             }
         }
         missing.push(case.clone());

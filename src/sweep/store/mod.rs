@@ -88,14 +88,17 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The resolved sweep file inside the folder.
 pub const RESOLVED: &str = "resolved.toml";
 
-/// What a sweep leaves in its folder besides single files: folders with one file per case.
-const CASE_FOLDERS: [&str; 6] = [
+/// What a sweep leaves in its folder besides single files, folders with one file per case; and those of a scenario, with one file per
+/// requested time.
+const FOLDERS: [&str; 8] = [
     "records",
     "loops",
     "pressures",
     "work",
     "peaks",
     "checkpoints",
+    "profiles",
+    "fields",
 ];
 /// How many changed lines of a resolved sweep a message shows.
 const LINES_SHOWN: usize = 12;
@@ -106,8 +109,6 @@ static TEMPORARY: LazyLock<String> = LazyLock::new(|| {
     host.retain(|c| c.is_ascii_alphanumeric() || "-.".contains(c));
     format!(".contact-dma-{host}~")
 });
-/// The same of a scenario: folders with one file per requested time.
-const SURFACE_FOLDERS: [&str; 2] = ["profiles", "fields"];
 
 impl Store {
     /// Opens (or creates) a folder for a sweep whose resolved text is given, and proves that it can be written.
@@ -116,17 +117,10 @@ impl Store {
     /// [`StoreError::OtherSweep`] where the folder holds another sweep's results and `force` is not given,
     /// [`StoreError::InUse`] where it is given and another process is at work there.
     pub fn open(folder: &Path, resolved: &str, force: bool) -> Result<Self, StoreError> {
-        fs::create_dir_all(folder).map_err(|source| StoreError::Create {
-            path: folder.to_path_buf(),
-            source,
-        })?;
+        create_folder(folder)?;
         let store = Self {
-            folder: folder.to_path_buf(),
-            sweep_hash: hash(resolved),
-            resolved: resolved.into(),
             force,
-            lock: Arc::new(FolderLock::of(folder)),
-            records: Arc::new(Records::of(folder, &hash(resolved))),
+            ..Self::of(folder, resolved, FolderLock::of(folder))
         };
         let others = store.lock.try_exclusive();
         if others == Others::Absent {
@@ -152,9 +146,8 @@ impl Store {
         read_plan(folder)?;
         let lock = FolderLock::of(folder);
         lock.share();
-        let (store, resolved) = Self::reopen_to_read(folder)?;
-        let lock = Arc::new(lock);
-        Ok((Self { lock, ..store }, resolved))
+        let resolved = read_plan(folder)?;
+        Ok((Self::of(folder, &resolved, lock), resolved))
     }
 
     /// As [`Store::reopen`], where nothing is to be written into the folder.
@@ -163,15 +156,20 @@ impl Store {
     /// As [`Store::reopen`].
     pub fn reopen_to_read(folder: &Path) -> Result<(Self, String), StoreError> {
         let resolved = read_plan(folder)?;
-        let store = Self {
-            folder: folder.to_path_buf(),
-            sweep_hash: hash(&resolved),
-            resolved: resolved.as_str().into(),
-            force: false,
-            lock: Arc::new(FolderLock::none()),
-            records: Arc::new(Records::of(folder, &hash(&resolved))),
-        };
+        let store = Self::of(folder, &resolved, FolderLock::none());
         Ok((store, resolved))
+    }
+
+    fn of(folder: &Path, resolved: &str, lock: FolderLock) -> Self {
+        let sweep_hash = hash(resolved);
+        Self {
+            folder: folder.to_path_buf(),
+            records: Arc::new(Records::of(folder, &sweep_hash)),
+            sweep_hash,
+            resolved: resolved.into(),
+            force: false,
+            lock: Arc::new(lock),
+        }
     }
 
     /// Replaces another sweep's plan and results, where there are any.
@@ -279,8 +277,7 @@ impl Store {
 
     /// Removes what killed processes of this machine have left half-written; for the one that holds the lock alone.
     fn remove_stale_temporaries(&self) {
-        let folders = CASE_FOLDERS.iter().chain(&SURFACE_FOLDERS);
-        let folders = folders.map(|name| self.folder.join(name));
+        let folders = FOLDERS.map(|name| self.folder.join(name));
         for folder in std::iter::once(self.folder.clone()).chain(folders) {
             let Ok(entries) = fs::read_dir(folder) else {
                 continue;
@@ -298,7 +295,7 @@ impl Store {
     /// Removes what an earlier sweep left, before another takes the folder.
     fn clear(&self) -> Result<(), StoreError> {
         let failed = |path: PathBuf| move |source| StoreError::Write { path, source };
-        for folder in CASE_FOLDERS.into_iter().chain(SURFACE_FOLDERS) {
+        for folder in FOLDERS {
             let path = self.folder.join(folder);
             if path.is_dir() {
                 fs::remove_dir_all(&path).map_err(failed(path.clone()))?;
@@ -383,16 +380,20 @@ fn create_atomically(path: &Path, bytes: &[u8]) -> Result<bool, StoreError> {
     }
 }
 
+fn create_folder(folder: &Path) -> Result<(), StoreError> {
+    fs::create_dir_all(folder).map_err(|source| StoreError::Create {
+        path: folder.to_path_buf(),
+        source,
+    })
+}
+
 /// A whole file beside the one whose name it is to take, in a folder that is created where needed.
 fn temporary(
     path: &Path,
     write_content: impl FnOnce(&mut fs::File) -> io::Result<()>,
 ) -> Result<NamedTempFile, StoreError> {
     let folder = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).map_err(|source| StoreError::Create {
-        path: folder.to_path_buf(),
-        source,
-    })?;
+    create_folder(folder)?;
     let write = || {
         let mut builder = tempfile::Builder::new();
         builder.prefix(TEMPORARY.as_str());

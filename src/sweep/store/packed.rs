@@ -35,22 +35,14 @@ pub fn to_doubles(bytes: &[u8]) -> Option<Vec<f64>> {
 /// What [`optional_doubles`] has packed; `None` of anything else.
 pub fn to_optional_doubles(bytes: &[u8]) -> Option<Vec<Option<f64>>> {
     let values = to_doubles(bytes)?.into_iter();
-    Some(
-        values
-            .map(|value| (!value.is_nan()).then_some(value))
-            .collect(),
-    )
+    Some(values.map(|v| (!v.is_nan()).then_some(v)).collect())
 }
 
 /// What [`optional_singles`] has packed; `None` of anything else.
 pub fn to_optional_singles(bytes: &[u8]) -> Option<Vec<Option<f32>>> {
     let bits = unpack(bytes)?.into_iter();
     let values = bits.map(|bits| f32::from_bits(bits as u32));
-    Some(
-        values
-            .map(|value| (!value.is_nan()).then_some(value))
-            .collect(),
-    )
+    Some(values.map(|v| (!v.is_nan()).then_some(v)).collect())
 }
 
 fn pack(mut bits: Vec<i64>) -> Vec<u8> {

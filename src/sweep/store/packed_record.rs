@@ -25,7 +25,7 @@ pub fn pack(record: &CaseRecord) -> Result<Vec<u8>, String> {
     let deflated = deflate.write_all(&numbers).and_then(|()| deflate.finish());
     let deflated = deflated.map_err(|error| error.to_string())?;
     let cycle = record.result.as_ref().and_then(|result| result.cycle());
-    postcard::to_stdvec(&(deflated, cycle.map(Packed::of))).map_err(|error| error.to_string())
+    postcard::to_stdvec(&(deflated, cycle.map(packed_cycle))).map_err(|error| error.to_string())
 }
 
 /// The numbers of a packed record; `None` of anything else.
@@ -37,160 +37,127 @@ pub fn numbers(packed: &[u8]) -> Option<CaseRecord> {
     serde_json::from_slice(&json).ok()
 }
 
-/// The cycle of a packed record; `None` where it has none.
-pub fn cycle(packed: &[u8]) -> Option<RecordedCycle> {
-    let (_, cycle) = postcard::take_from_bytes::<&[u8]>(packed).ok()?;
-    postcard::from_bytes::<Option<Packed>>(cycle)
-        .ok()??
-        .unpacked()
+/// Gives the numbers of a packed record their cycle, where there is one.
+pub fn add_cycle(record: &mut CaseRecord, packed: &[u8]) {
+    let cycle = || {
+        let (_, cycle) = postcard::take_from_bytes::<&[u8]>(packed).ok()?;
+        unpacked_cycle(postcard::from_bytes::<Option<Packed>>(cycle).ok()??)
+    };
+    if let (Some(result), Some(cycle)) = (&mut record.result, cycle()) {
+        result.cycle = cycle;
+    }
 }
 
-/// A cycle, every series packed.
-#[derive(Serialize, Deserialize)]
-struct Packed {
-    /// Time, load, approach, radius, peak pressure.
-    samples: [Vec<u8>; 5],
-    pressures: Vec<PackedProfile>,
-    surface: PackedSurface,
-}
+/// A cycle, every series packed: time, load, approach, radius and peak pressure of its samples, profiles, and surface.
+type Packed = ([Vec<u8>; 5], Vec<PackedProfile>, PackedSurface);
 
-#[derive(Serialize, Deserialize)]
-struct PackedProfile {
-    quarter: Quarter,
-    /// Time, load, approach, radius.
-    instant: [f64; 4],
-    lines: Vec<(Along, Values, Values)>,
-}
+/// The quarter; time, load, approach and radius; positions and pressures along lines.
+type PackedProfile = (Quarter, [f64; 4], Vec<(Along, Values, Values)>);
 
 #[derive(Serialize, Deserialize)]
 enum PackedSurface {
+    /// Radius and density.
     Radial(Values, Values),
-    Cells {
-        first_m: [f64; 2],
-        spacing_m: [f64; 2],
-        cells_x: u64,
-        density: Vec<u8>,
-    },
+    /// The first cell and the spacing along x and y, cells along x, density.
+    Cells([f64; 2], [f64; 2], u64, Vec<u8>),
 }
 
-impl Packed {
-    fn of(cycle: &RecordedCycle) -> Self {
-        let samples = &cycle.samples;
-        Self {
-            samples: [
-                packed::doubles(&samples.time_s),
-                packed::doubles(&samples.load_n),
-                packed::doubles(&samples.approach_m),
-                packed::doubles(&samples.contact_radius_m),
-                packed::optional_doubles(&samples.peak_pressure_pa),
-            ],
-            pressures: cycle.pressures.iter().map(PackedProfile::of).collect(),
-            surface: PackedSurface::of(&cycle.surface_loss),
-        }
-    }
-
-    fn unpacked(self) -> Option<RecordedCycle> {
-        let [
-            time_s,
-            load_n,
-            approach_m,
-            contact_radius_m,
-            peak_pressure_pa,
-        ] = &self.samples;
-        let pressures = self.pressures.into_iter();
-        Some(RecordedCycle {
-            samples: Loop {
-                time_s: packed::to_doubles(time_s)?,
-                load_n: packed::to_doubles(load_n)?,
-                approach_m: packed::to_doubles(approach_m)?,
-                contact_radius_m: packed::to_doubles(contact_radius_m)?,
-                peak_pressure_pa: packed::to_optional_doubles(peak_pressure_pa)?,
-            },
-            pressures: pressures
-                .map(PackedProfile::unpacked)
-                .collect::<Option<_>>()?,
-            surface_loss: self.surface.unpacked()?,
-        })
-    }
-}
-
-impl PackedProfile {
-    fn of(profile: &PressureProfile) -> Self {
-        let line = |line: &PressureLine| {
-            let pressure = Values::of(&line.pressure_pa);
-            (line.along, Values::all(&line.position_m), pressure)
-        };
-        Self {
-            quarter: profile.quarter,
-            instant: [
-                profile.time_s,
-                profile.load_n,
-                profile.approach_m,
-                profile.contact_radius_m,
-            ],
-            lines: profile.lines.iter().map(line).collect(),
-        }
-    }
-
-    fn unpacked(self) -> Option<PressureProfile> {
-        let [time_s, load_n, approach_m, contact_radius_m] = self.instant;
-        let line = |(along, position, pressure): &(Along, Values, Values)| {
-            Some(PressureLine {
-                along: *along,
-                position_m: position.unpacked()?.into_iter().collect::<Option<_>>()?,
-                pressure_pa: pressure.unpacked()?,
-            })
-        };
-        Some(PressureProfile {
-            quarter: self.quarter,
-            time_s,
-            load_n,
-            approach_m,
-            contact_radius_m,
-            lines: self.lines.iter().map(line).collect::<Option<_>>()?,
-        })
-    }
-}
-
-impl PackedSurface {
-    fn of(surface: &SurfaceLoss) -> Self {
-        match surface {
+fn packed_cycle(cycle: &RecordedCycle) -> Packed {
+    let samples = &cycle.samples;
+    let line = |line: &PressureLine| {
+        let pressure = Values::of(&line.pressure_pa);
+        (line.along, Values::all(&line.position_m), pressure)
+    };
+    let profile = |profile: &PressureProfile| {
+        let instant = [
+            profile.time_s,
+            profile.load_n,
+            profile.approach_m,
+            profile.contact_radius_m,
+        ];
+        (
+            profile.quarter,
+            instant,
+            profile.lines.iter().map(line).collect(),
+        )
+    };
+    (
+        [
+            packed::doubles(&samples.time_s),
+            packed::doubles(&samples.load_n),
+            packed::doubles(&samples.approach_m),
+            packed::doubles(&samples.contact_radius_m),
+            packed::optional_doubles(&samples.peak_pressure_pa),
+        ],
+        cycle.pressures.iter().map(profile).collect(),
+        match &cycle.surface_loss {
             SurfaceLoss::Radial {
                 radius_m,
                 density_j_per_m2,
-            } => Self::Radial(Values::all(radius_m), Values::of(density_j_per_m2)),
-            SurfaceLoss::Cells(cells) => Self::Cells {
-                first_m: [cells.first_x_m, cells.first_y_m],
-                spacing_m: [cells.spacing_x_m, cells.spacing_y_m],
-                cells_x: cells.cells_x as u64,
-                density: packed::optional_singles(cells.density_j_per_m2.iter().copied().map(Some)),
-            },
-        }
-    }
+            } => PackedSurface::Radial(Values::all(radius_m), Values::of(density_j_per_m2)),
+            SurfaceLoss::Cells(cells) => PackedSurface::Cells(
+                [cells.first_x_m, cells.first_y_m],
+                [cells.spacing_x_m, cells.spacing_y_m],
+                cells.cells_x as u64,
+                packed::optional_singles(cells.density_j_per_m2.iter().copied().map(Some)),
+            ),
+        },
+    )
+}
 
-    fn unpacked(self) -> Option<SurfaceLoss> {
-        Some(match self {
-            Self::Radial(radius, density) => SurfaceLoss::Radial {
-                radius_m: radius.unpacked()?.into_iter().collect::<Option<_>>()?,
+fn unpacked_cycle((samples, profiles, surface): Packed) -> Option<RecordedCycle> {
+    let [
+        time_s,
+        load_n,
+        approach_m,
+        contact_radius_m,
+        peak_pressure_pa,
+    ] = &samples;
+    let line = |(along, position, pressure): (Along, Values, Values)| {
+        Some(PressureLine {
+            along,
+            position_m: position.all_unpacked()?,
+            pressure_pa: pressure.unpacked()?,
+        })
+    };
+    let profile = |(quarter, instant, lines): PackedProfile| {
+        let [time_s, load_n, approach_m, contact_radius_m] = instant;
+        Some(PressureProfile {
+            quarter,
+            time_s,
+            load_n,
+            approach_m,
+            contact_radius_m,
+            lines: lines.into_iter().map(line).collect::<Option<_>>()?,
+        })
+    };
+    Some(RecordedCycle {
+        samples: Loop {
+            time_s: packed::to_doubles(time_s)?,
+            load_n: packed::to_doubles(load_n)?,
+            approach_m: packed::to_doubles(approach_m)?,
+            contact_radius_m: packed::to_doubles(contact_radius_m)?,
+            peak_pressure_pa: packed::to_optional_doubles(peak_pressure_pa)?,
+        },
+        pressures: profiles.into_iter().map(profile).collect::<Option<_>>()?,
+        surface_loss: match surface {
+            PackedSurface::Radial(radius, density) => SurfaceLoss::Radial {
+                radius_m: radius.all_unpacked()?,
                 density_j_per_m2: density.unpacked()?,
             },
-            Self::Cells {
-                first_m: [first_x_m, first_y_m],
-                spacing_m: [spacing_x_m, spacing_y_m],
-                cells_x,
-                density,
-            } => SurfaceLoss::Cells(CellLoss {
-                first_x_m,
-                first_y_m,
-                spacing_x_m,
-                spacing_y_m,
-                cells_x: usize::try_from(cells_x).ok()?,
-                density_j_per_m2: packed::to_optional_singles(&density)?
-                    .into_iter()
-                    .collect::<Option<_>>()?,
-            }),
-        })
-    }
+            PackedSurface::Cells(first_m, spacing_m, cells_x, density) => {
+                let density = packed::to_optional_singles(&density)?;
+                SurfaceLoss::Cells(CellLoss {
+                    first_x_m: first_m[0],
+                    first_y_m: first_m[1],
+                    spacing_x_m: spacing_m[0],
+                    spacing_y_m: spacing_m[1],
+                    cells_x: usize::try_from(cells_x).ok()?,
+                    density_j_per_m2: density.into_iter().collect::<Option<_>>()?,
+                })
+            }
+        },
+    })
 }
 
 /// Numbers of a profile, in as much precision as they have.
@@ -214,6 +181,10 @@ impl Values {
 
     fn all(values: &[f64]) -> Self {
         Self::of(&values.iter().copied().map(Some).collect::<Vec<_>>())
+    }
+
+    fn all_unpacked(&self) -> Option<Vec<f64>> {
+        self.unpacked()?.into_iter().collect()
     }
 
     fn unpacked(&self) -> Option<Vec<Option<f64>>> {

@@ -25,7 +25,7 @@ pub struct Stopwatch {
 }
 
 /// What only the command knows.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Circumstances {
     /// `sweep`, `merge` or `report`.
     pub command: &'static str,
@@ -49,12 +49,8 @@ struct Run<'a> {
     cycle_tolerance: f64,
     /// `None`: for every case what its loss asks for.
     solver_tolerance: Option<f64>,
-    command: &'a str,
-    threads: usize,
-    shard: Option<&'a str>,
-    cases_computed: usize,
-    cases_found: usize,
-    interrupted: bool,
+    #[serde(flatten)]
+    circumstances: &'a Circumstances,
     host: Option<String>,
     processors: Option<usize>,
     started: String,
@@ -91,12 +87,7 @@ impl Stopwatch {
             engine: plan.contact.solver.engine.name(),
             cycle_tolerance: plan.cycle.tolerance,
             solver_tolerance: plan.contact.solver.tolerance,
-            command: circumstances.command,
-            threads: circumstances.threads,
-            shard: circumstances.shard.as_deref(),
-            cases_computed: circumstances.cases_computed,
-            cases_found: circumstances.cases_found,
-            interrupted: circumstances.interrupted,
+            circumstances,
             host: host(),
             processors: std::thread::available_parallelism().ok().map(usize::from),
             started: utc(self.started),

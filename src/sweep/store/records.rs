@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::archive::Purpose;
 use super::provenance::{self, BUILD};
 use super::segment::{self, Met, SegmentWriter};
-use super::{StoreError, VERSION};
+use super::{StoreError, VERSION, create_folder};
 
 /// The folder of the segments, and the ending of their names.
 pub const FOLDER: &str = "records";
@@ -69,14 +69,12 @@ pub struct Unread {
 
 /// All that is known of the records of a folder.
 #[derive(Debug)]
-pub(in crate::sweep) struct Records {
-    folder: PathBuf,
-    sweep_hash: String,
-    state: Mutex<State>,
-}
+pub(in crate::sweep) struct Records(Mutex<State>);
 
 #[derive(Debug, Default)]
 struct State {
+    folder: PathBuf,
+    sweep_hash: String,
     /// Segments, and how far each has been read.
     read: HashMap<PathBuf, (Arc<Path>, u64)>,
     places: HashMap<Key, Place>,
@@ -87,16 +85,16 @@ struct State {
 
 impl Records {
     pub(in crate::sweep) fn of(folder: &Path, sweep_hash: &str) -> Self {
-        Self {
+        Self(Mutex::new(State {
             folder: folder.join(FOLDER),
             sweep_hash: sweep_hash.to_owned(),
-            state: Mutex::default(),
-        }
+            ..State::default()
+        }))
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
         // What a panicking thread has left half done is read from the files again, at worst.
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Looks at the folder again, now.
@@ -104,7 +102,7 @@ impl Records {
     /// # Errors
     /// [`StoreError::Read`] with the path.
     pub(in crate::sweep) fn look(&self) -> Result<(), StoreError> {
-        self.state().look(&self.folder, &self.sweep_hash)
+        self.state().look()
     }
 
     /// Where the record of a case stands, be it of another process that has appended it a moment ago.
@@ -116,7 +114,7 @@ impl Records {
         if !state.places.contains_key(key)
             && state.looked.is_none_or(|at| at.elapsed() >= LOOK_AGAIN)
         {
-            state.look(&self.folder, &self.sweep_hash)?;
+            state.look()?;
         }
         Ok(state.places.get(key).cloned())
     }
@@ -153,67 +151,61 @@ impl Records {
     /// # Errors
     /// [`StoreError`] with the path.
     pub(in crate::sweep) fn append(&self, key: Key, record: &[u8]) -> Result<(), StoreError> {
+        let mut state = self.state();
         let heading = Heading {
             program_version: VERSION,
             build: BUILD,
-            sweep_hash: &self.sweep_hash,
+            sweep_hash: &state.sweep_hash,
             key,
         };
         let mut content = postcard::to_stdvec(&heading).map_err(|error| StoreError::Encode {
-            path: self.folder.clone(),
+            path: state.folder.clone(),
             reason: error.to_string(),
         })?;
-        let begins = content.len() as u64;
+        let (key, begins) = (heading.key, content.len() as u64);
         content.extend_from_slice(record);
-        let mut state = self.state();
-        let writer = state.writer(&self.folder)?;
-        let at = writer.append(&content);
-        let at = at.map_err(|source| StoreError::Write {
-            path: writer.path().to_path_buf(),
-            source,
-        })?;
-        let (path, length) = (writer.path().to_path_buf(), writer.length());
-        let segment: Arc<Path> = match state.read.get(&path) {
-            Some((segment, _)) => Arc::clone(segment),
-            None => path.as_path().into(),
+        let writer = match state.own.take() {
+            Some(writer) => writer,
+            None => new_segment(&state.folder)?,
         };
-        state.read.insert(path, (Arc::clone(&segment), length));
+        let writer = state.own.insert(writer);
+        let path = writer.path().to_path_buf();
+        let at = match writer.append(&content) {
+            Ok(at) => at,
+            Err(source) => return Err(StoreError::Write { path, source }),
+        };
+        let length = writer.length();
+        let read = state.read.entry(path);
+        let (segment, read_to) = read.or_insert_with_key(|path| (path.as_path().into(), 0));
+        *read_to = length;
         let place = Place {
-            segment,
+            segment: Arc::clone(segment),
             origin: Origin::ThisBuild,
             at: at + begins,
             length: record.len(),
         };
-        state.places.insert(heading.key, place);
+        state.places.insert(key, place);
         Ok(())
     }
 }
 
 impl State {
-    /// The segment of this process, made with its first record.
-    fn writer(&mut self, folder: &Path) -> Result<&mut SegmentWriter, StoreError> {
-        let writer = match self.own.take() {
-            Some(writer) => writer,
-            None => new_segment(folder)?,
-        };
-        Ok(self.own.insert(writer))
-    }
-
-    fn look(&mut self, folder: &Path, sweep_hash: &str) -> Result<(), StoreError> {
+    fn look(&mut self) -> Result<(), StoreError> {
         let first = self.looked.is_none();
         self.looked = Some(Instant::now());
         let failed = |path: &Path| {
             let path = path.to_path_buf();
             move |source| StoreError::Read { path, source }
         };
-        let entries = match fs::read_dir(folder) {
+        let folder = self.folder.clone();
+        let entries = match fs::read_dir(&folder) {
             Ok(entries) => entries,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-            Err(source) => return Err(failed(folder)(source)),
+            Err(source) => return Err(failed(&folder)(source)),
         };
         let mut paths = Vec::new();
         for entry in entries {
-            let path = entry.map_err(failed(folder))?.path();
+            let path = entry.map_err(failed(&folder))?.path();
             match path.extension().is_some_and(|ending| ending == ENDING) {
                 true => paths.push(path),
                 false if first => self.unread.extend(other_file(path)),
@@ -223,64 +215,54 @@ impl State {
         // Whatever the order in which a system lists them.
         paths.sort();
         for path in paths {
-            self.look_at(&path, sweep_hash).map_err(failed(&path))?;
+            self.look_at(&path).map_err(failed(&path))?;
         }
         Ok(())
     }
 
     /// Reads what a segment has grown by.
-    fn look_at(&mut self, path: &Path, sweep_hash: &str) -> io::Result<()> {
-        let (segment, from) = match self.read.get(path) {
-            Some((segment, from)) => (Arc::clone(segment), *from),
-            None => (Arc::from(path), 0),
-        };
+    fn look_at(&mut self, path: &Path) -> io::Result<()> {
+        let known = self.read.get(path).cloned();
+        let is_first = known.is_none();
+        let (segment, from) = known.unwrap_or_else(|| (Arc::from(path), 0));
         let length = fs::metadata(path)?.len();
         if length <= from {
             return Ok(());
         }
-        let is_first = !self.read.contains_key(path);
-        let mut found = Vec::new();
+        let mut unread = |reason: String| {
+            let path = path.to_path_buf();
+            self.unread.push(Unread { path, reason });
+        };
         let to = segment::read(path, from, |met| match met {
-            Met::Damaged { from, to } => found.push(Err(format!(
+            Met::Damaged { from, to } => unread(format!(
                 "bytes {from} to {to} are damaged or torn {NOT_USED}"
-            ))),
-            Met::Record { at, content } => found.push(place(&segment, at, content, sweep_hash)),
+            )),
+            Met::Record { at, content } => {
+                match place(&segment, at, content, &self.sweep_hash) {
+                    // Of several records of a case the one of this build counts, and of several of these the first.
+                    Ok((key, place)) => match self.places.get(&key) {
+                        Some(known) if known.origin <= place.origin => {}
+                        _ => drop(self.places.insert(key, place)),
+                    },
+                    Err(reason) => unread(reason),
+                }
+            }
         })?;
         // A process that is killed leaves such an end, and one at work for a moment too: it is told once.
         if to < length && is_first {
             let torn = length - to;
-            found.push(Err(format!(
+            unread(format!(
                 "its last {torn} bytes are damaged or torn {NO_END}"
-            )));
-        }
-        for found in found {
-            match found {
-                Ok((key, place)) => self.insert(key, place),
-                Err(reason) => self.unread.push(Unread {
-                    path: path.to_path_buf(),
-                    reason,
-                }),
-            }
+            ));
         }
         self.read.insert(path.to_path_buf(), (segment, to));
         Ok(())
-    }
-
-    /// Of several records of a case the one of this build counts, and of several of these the first.
-    fn insert(&mut self, key: Key, place: Place) {
-        match self.places.get(&key) {
-            Some(known) if known.origin <= place.origin => {}
-            _ => {
-                self.places.insert(key, place);
-            }
-        }
     }
 }
 
 /// A segment that no other process has.
 fn new_segment(folder: &Path) -> Result<SegmentWriter, StoreError> {
-    let created = |path: PathBuf| move |source| StoreError::Create { path, source };
-    fs::create_dir_all(folder).map_err(created(folder.to_path_buf()))?;
+    create_folder(folder)?;
     let host: String = provenance::host().unwrap_or_default();
     let host = host.replace(|c: char| !c.is_ascii_alphanumeric() && c != '-', "");
     let process = std::process::id();
@@ -291,7 +273,7 @@ fn new_segment(folder: &Path) -> Result<SegmentWriter, StoreError> {
         match SegmentWriter::create(&path) {
             Ok(writer) => return Ok(writer),
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => count += 1,
-            Err(source) => return Err(created(path)(source)),
+            Err(source) => return Err(StoreError::Create { path, source }),
         }
     }
 }

@@ -1,0 +1,96 @@
+//! The resolution at which the error of a case's loss stays below what is asked for, at the least cost.
+
+use crate::history::Work;
+use crate::sweep::case::levels::Levels;
+use crate::sweep::case::stabilise::CaseError;
+use crate::sweep::plan::EngineKind;
+use crate::sweep::record::error_bars::{Bar, Quantity};
+use crate::sweep::record::{CaseRecord, Status};
+
+impl Levels<'_> {
+    /// Chooses steps and nodes such that the error of the loss stays below `accuracy` of it, at the least cost.
+    pub(super) fn within_accuracy(&mut self, accuracy: f64) -> Result<(), CaseError> {
+        /// Each refinement is foretold from the last one's error; where an error falls more slowly than foretold, it takes more.
+        const ROUNDS: usize = 8;
+        // Where it begins, and beyond what an accuracy counts as out of reach.
+        let (first, finest) = match self.engine() {
+            EngineKind::Axisymmetric => ((64, 64), (20_000, 6_400)),
+            EngineKind::HalfSpace => ((48, 64), (4_000, 1_024)),
+        };
+        (self.record.steps, self.record.nodes) = first;
+        self.contact.cycle.error_bars = true;
+        let (mut work, mut failure) = (Work::default(), None);
+        for _ in 0..ROUNDS {
+            let ended = self.at_resolution();
+            let record = &mut *self.record;
+            work += record.work;
+            record.work = work;
+            let found = match ended {
+                Ok(()) => {
+                    failure = record.message.clone();
+                    loss_and_bar(record)
+                }
+                Err(error) if error.may_be_of_the_resolution() => {
+                    failure = Some(error.to_string());
+                    None
+                }
+                Err(error) => return Err(error),
+            };
+            let (steps, nodes) = match found {
+                // No result, or no error of it.
+                None => (2 * record.steps, 2 * record.nodes),
+                Some((loss_j, bar)) => {
+                    failure = None;
+                    let allowed_j = accuracy * loss_j.abs();
+                    if bar.total() <= allowed_j {
+                        return Ok(());
+                    }
+                    // Half of what is allowed for each, of which the distance to the stabilised cycle takes its part from both.
+                    let share_j = (0.5 * (allowed_j - bar.steady)).max(0.1 * allowed_j);
+                    (
+                        finer(record.steps, bar.steps, share_j),
+                        finer(record.nodes, bar.nodes, share_j),
+                    )
+                }
+            };
+            if steps > finest.0 || nodes > finest.1 {
+                break;
+            }
+            (record.steps, record.nodes) = (steps, nodes);
+        }
+        let record = &mut *self.record;
+        let reached = record.energy_loss_error_j().zip(record.energy_loss_j());
+        let reached = reached.map_or(f64::INFINITY, |(error, loss)| (error / loss).abs());
+        let why = failure.unwrap_or_else(|| {
+            format!(
+                "the error of the loss is {reached:.1e} of it at {} steps and {} nodes, above the accuracy {accuracy:.1e}",
+                record.steps, record.nodes
+            )
+        });
+        // There is no result of the accuracy asked for, and so no result.
+        record.result = None;
+        record.status = Status::NotConverged;
+        record.message = Some(why);
+        Ok(())
+    }
+}
+
+/// The loss (J) of a record and its bar, where it has both.
+fn loss_and_bar(record: &CaseRecord) -> Option<(f64, Bar)> {
+    let result = record.result.as_ref()?;
+    let bar = result.errors.as_ref()?.bar(Quantity::EnergyLoss)?;
+    Some((result.analysis.energy_loss_j, bar))
+}
+
+/// Nodes or steps that bring an error of second order down to what is allowed, with a little to spare; divisible by four, as
+/// coarser ones are halves and quarters.
+fn finer(now: usize, error: f64, allowed: f64) -> usize {
+    const SPARE: f64 = 1.1;
+    /// One foretelling is not trusted further than this.
+    const LARGEST: f64 = 8.0;
+    let factor = SPARE * (error / allowed).sqrt();
+    if factor <= 1.0 {
+        return now;
+    }
+    4 * (now as f64 * factor.min(LARGEST) / 4.0).ceil() as usize
+}
