@@ -47,16 +47,15 @@ impl Caption {
     /// The paragraph, in one line.
     pub fn text(&self, setting: &Setting) -> String {
         let Setting { of, by } = setting;
-        let opening = match of.is_empty() {
+        let mut text = match of.is_empty() {
             true => format!("{}.", self.shows),
             false => format!("{}: {of}.", self.shows),
         };
-        let rest = self.says.iter().chain(by);
-        std::iter::once(&opening)
-            .chain(rest)
-            .map(String::as_str)
-            .collect::<Vec<_>>()
-            .join(" ")
+        for sentence in self.says.iter().chain(by) {
+            text += " ";
+            text += sentence;
+        }
+        text
     }
 }
 
@@ -72,19 +71,14 @@ pub struct Setting {
 impl Setting {
     /// The setting of a sweep.
     pub fn of_sweep(plan: &SweepPlan, outcome: &Outcome, units: Option<String>) -> Self {
-        let rest = match plan.drive.hold_s() {
-            hold_s if hold_s > 0.0 => {
-                format!(
-                    ", after {} of rest under the mean",
-                    plain(hold_s, Dimension::Time, 4)
-                )
-            }
-            _ => String::new(),
-        };
-        let attraction =
-            adhesion_line(plan.contact.adhesion).map_or(String::new(), |line| format!(", {line}"));
+        let hold_s = Some(plan.drive.hold_s()).filter(|hold_s| *hold_s > 0.0);
+        let rest = after_comma(hold_s.map(|hold_s| {
+            let hold = plain(hold_s, Dimension::Time, 4);
+            format!("after {hold} of rest under the mean")
+        }));
+        let attraction = after_comma(adhesion_line(plan.contact.adhesion));
         let swept = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
-        let varied = varied_line(plan).map_or(String::new(), |line| format!(", {line}"));
+        let varied = after_comma(varied_line(plan));
         let of = format!(
             "{} on {}{}, {} (mean ± amplitude){rest}{attraction}{varied}",
             words::each_of(plan, Block::Indenter, |name, c| {
@@ -127,8 +121,7 @@ impl Setting {
             Some(series) => material(series),
             None => "a material given by its samples".to_owned(),
         };
-        let attraction =
-            adhesion_line(contact.adhesion).map_or(String::new(), |line| format!(", {line}"));
+        let attraction = after_comma(adhesion_line(contact.adhesion));
         let of = format!(
             "{} on {body}{}, {} against time prescribed{attraction}",
             indenter(
@@ -159,6 +152,11 @@ impl Setting {
     }
 }
 
+/// A further part of a sentence, where there is one.
+fn after_comma(part: Option<String>) -> String {
+    part.map_or(String::new(), |part| format!(", {part}"))
+}
+
 fn material(material: &Material) -> String {
     let is_elastic = material.creep().branches().is_empty() && !material.creep().is_fluid();
     let unnamed = match is_elastic {
@@ -171,13 +169,13 @@ fn material(material: &Material) -> String {
 
 /// The layer that the body is, with a blank before it, without what axes vary; nothing of a half-space.
 pub(in crate::report) fn layer(layer: Option<LayerPlan>, swept: &[Varied]) -> String {
-    let is_varied = |key: &str| {
-        let mut swept = swept.iter();
-        swept.any(|varied| varied.block == Block::Layer && varied.key == key)
-    };
-    layer.map_or(String::new(), |layer| {
-        format!(" {}", layer.words(is_varied))
-    })
+    let words = |layer: LayerPlan| layer.words(|key| is_swept(swept, Block::Layer, key));
+    layer.map_or(String::new(), |layer| format!(" {}", words(layer)))
+}
+
+fn is_swept(swept: &[Varied], block: Block, key: &str) -> bool {
+    let mut swept = swept.iter();
+    swept.any(|varied| varied.block == block && varied.key == key)
 }
 
 /// The indenter, of a list with its name, without the numbers that axes vary.
@@ -201,15 +199,8 @@ fn indenter(
             Value::Quantity(..) | Value::Number(_) | Value::Integer(_)
         )
     };
-    let is_swept = |key: &str| {
-        let mut swept = swept.iter();
-        swept.any(|varied| (varied.block, &*varied.key) == (Block::Indenter, key))
-    };
-    let settings: Vec<_> = indenter
-        .parameters()
-        .into_iter()
-        .filter(|parameter| told(&parameter.value) && !is_swept(parameter.key))
-        .collect();
+    let mut settings = indenter.parameters();
+    settings.retain(|own| told(&own.value) && !is_swept(swept, Block::Indenter, own.key));
     match settings.is_empty() {
         true => shape,
         false => format!("{shape} ({})", row(&settings)),
@@ -236,10 +227,8 @@ pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
         EngineKind::Axisymmetric => "springs",
         EngineKind::HalfSpace => "cells",
     };
-    let records = &outcome.records;
-    let any = records
-        .iter()
-        .any(|record| record.energy_loss_error_j().is_some());
+    let mut records = outcome.records.iter();
+    let any = records.any(|record| record.energy_loss_error_j().is_some());
     any.then(|| {
         let distance = match plan.cycle.at_cycle {
             Some(_) => "",
@@ -267,11 +256,12 @@ pub fn material_band(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
 
 /// Cases that are absent from the curves; nothing where all are there.
 pub fn absent(outcome: &Outcome) -> Option<String> {
-    let without = outcome
-        .records
-        .iter()
-        .filter(|record| record.result.is_none());
-    let (without, of) = (without.count(), outcome.records.len());
+    let records = outcome.records.iter();
+    let (of, without) = (
+        records.len(),
+        records.filter(|record| record.result.is_none()),
+    );
+    let without = without.count();
     (without > 0).then(|| format!("{without} of {of} cases have no result and are absent."))
 }
 

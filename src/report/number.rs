@@ -70,7 +70,8 @@ fn trimmed(number: &str) -> String {
     }
 }
 
-fn superscript(exponent: i32) -> String {
+/// A whole number raised: `⁻³`.
+pub(super) fn superscript(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let raised = |c: char| match c.to_digit(10) {
         Some(digit) => DIGITS[digit as usize % 10],

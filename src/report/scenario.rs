@@ -2,9 +2,9 @@
 
 use super::ReportError;
 use crate::report::caption::Setting;
+use crate::report::figure;
 use crate::report::figure::press::{self, Press};
 use crate::report::figure::units::Units;
-use crate::report::figure::{self, Drawn};
 use crate::report::page::{self, Pictures};
 use crate::report::scenario_tables::{self, HISTORY};
 use crate::sweep::figures::figure_plan::AxisUnits;
@@ -25,10 +25,10 @@ pub fn write(
     let pictures = Pictures::default();
     let left_out = figures(store, plan, outcome, &pictures)?;
     if plan.figures.axes != AxisUnits::Si
-        && let Some(history) = figure::history::in_si(outcome)?
+        && let Ok(history) = figure::history::figure(outcome, &Units::default())
     {
         // The page shows SI units throughout, since its own script draws in them.
-        pictures.insert("history", &history);
+        pictures.insert("history", &history.draw()?);
     }
     let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
     store.write("index.html", page.as_bytes())?;
@@ -71,8 +71,8 @@ fn figures(
     };
     let (mut figures, mut left_out) = (Vec::new(), Vec::new());
     match figure::history::figure(outcome, &units) {
-        Drawn::Figure(figure) => figures.push(figure),
-        Drawn::LeftOut(why) => left_out.push(why),
+        Ok(figure) => figures.push(figure),
+        Err(why) => left_out.push(why.to_owned()),
     }
     figures.extend(figure::cycle_losses::figure(outcome, &units));
     let (profiles, not_drawn) = figure::profiles::figure(&outcome.profiles, &units);

@@ -118,12 +118,7 @@ fn picture_in_si(
     in_si.figures.axes = AxisUnits::Si;
     let (figures, _) = figure::of_sweep::figures(&in_si, outcome)?;
     for figure in figures.iter().filter(|f| page::FIGURES.contains(&f.name)) {
-        let drawing = figure.picture.draw();
-        let drawing = drawing.map_err(|source| ReportError::Chart {
-            name: figure.name,
-            source,
-        })?;
-        pictures.insert(figure.name, &drawing);
+        pictures.insert(figure.name, &figure.draw()?);
     }
     Ok(())
 }

@@ -46,7 +46,7 @@ use crate::material::{Material, MaterialError};
 use crate::report::ReportError;
 use crate::report::chart::Chart;
 use crate::report::figure::Picture;
-use crate::report::figure::press::{self, Press};
+use crate::report::figure::press::Press;
 use crate::report::page::Pictures;
 use crate::sweep::case::SetupError;
 use crate::sweep::engine::EngineError;
@@ -275,15 +275,13 @@ pub fn write(figures: &[Figure], plan: &FigurePlan, folder: &Path) -> Result<()>
     };
     figures.par_iter().try_for_each(|figure| {
         let name = figure.name();
-        let picture = match &figure.panels[..] {
-            [chart] => Picture::from(chart.clone()),
-            panels => Picture::Stack(panels.to_vec()),
-        };
+        let picture = Picture(figure.panels.clone());
         write(&format!("{name}.csv"), &figure.data)?;
         // The page of the repository shows one resolution.
-        let resolutions = &press::RESOLUTIONS[..1];
+        let mut forms = plan.pictures();
+        forms.retain(|(ending, _)| *ending != "@2x.png");
         let names = (&name[..], "a figure of the paper");
-        press.picture_at(resolutions, names, &picture, &figure.full_caption())?;
+        press.picture_in(&forms, names, &picture, &figure.full_caption())?;
         Ok::<(), ReproductionError>(())
     })?;
     let claims = claim::table(figures);

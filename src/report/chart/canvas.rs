@@ -1,19 +1,19 @@
 //! Drawing in px by plotters, into the shapes of a [`Drawing`](super::Drawing).
 //!
-//! Plotters' coordinates are whole numbers, which would put kinks into curves; so its canvas is sixteen times the size of the
-//! picture. What it draws goes to a backend of our own, which collects paths and texts.
+//! Coordinates of plotters are whole numbers, which would put kinks into curves; so its canvas is sixteen times the size of the
+//! picture. What it draws goes to a backend of our own, which collects shapes. Texts go there directly: they are placed by their
+//! measured width, which plotters would guess.
 
 use std::cell::RefCell;
+use std::convert::Infallible;
 use std::rc::Rc;
 
 use plotters::coord::Shift;
 use plotters::drawing::{DrawingArea, IntoDrawingArea};
-use plotters::element::{Circle, Drawable, PathElement, PointCollection, Polygon, Text};
-pub(super) use plotters::style::text_anchor::HPos;
-use plotters::style::text_anchor::{Pos, VPos};
-use plotters::style::{Color as _, FontTransform, IntoFont, RGBAColor, ShapeStyle, TextStyle};
+use plotters::element::{Circle, Drawable, PathElement, PointCollection, Polygon};
+use plotters::style::{Color as _, RGBAColor, ShapeStyle};
 use plotters_backend::{
-    BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
+    BackendColor, BackendCoord, BackendStyle, DrawingBackend, DrawingErrorKind,
 };
 use resvg::tiny_skia::PathBuilder;
 
@@ -21,39 +21,34 @@ use super::drawing::{FINE, Paint, Shape};
 use super::geometry::{Point, Rect};
 use super::{ChartError, Color, Size, text};
 
-/// Horizontally, or upwards as along the y axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Direction {
-    Level,
-    Upwards,
-}
-
 /// What one chart is drawn on. What cannot be drawn is reported by [`Canvas::finish`].
 pub(super) struct Canvas {
     area: DrawingArea<Collector, Shift>,
-    shapes: Rc<RefCell<Vec<Shape>>>,
-    failed: RefCell<Option<ChartError>>,
+    shapes: Shapes,
+    failed: Option<ChartError>,
 }
+
+/// Shapes in the order in which they were drawn.
+type Shapes = Rc<RefCell<Vec<Shape>>>;
 
 impl Canvas {
     /// A canvas of this size.
     pub(super) fn new(size: Size) -> Self {
-        let shapes = Rc::new(RefCell::new(Vec::new()));
-        let fine = |px: u32| px * FINE as u32;
+        let shapes = Shapes::default();
         let backend = Collector {
             shapes: Rc::clone(&shapes),
-            size: (fine(size.width_px), fine(size.height_px)),
+            size: (size.width_px * FINE as u32, size.height_px * FINE as u32),
         };
         Self {
             area: backend.into_drawing_area(),
             shapes,
-            failed: RefCell::new(None),
+            failed: None,
         }
     }
 
     /// A line through the points.
-    pub(super) fn line(&self, points: &[Point], width: f64, color: Color) {
-        let mut path: Vec<BackendCoord> = points.iter().map(|&point| fine(point)).collect();
+    pub(super) fn line(&mut self, points: &[Point], width: f64, color: Color) {
+        let mut path: Vec<BackendCoord> = points.iter().map(|&point| fine_point(point)).collect();
         path.dedup();
         if path.len() > 1 {
             self.put(&PathElement::new(path, stroke(color, width)));
@@ -61,86 +56,85 @@ impl Canvas {
     }
 
     /// A filled polygon.
-    pub(super) fn polygon(&self, corners: &[Point], color: Color, opacity: f64) {
-        let corners: Vec<BackendCoord> = corners.iter().map(|&point| fine(point)).collect();
+    pub(super) fn polygon(&mut self, corners: &[Point], color: Color, opacity: f64) {
+        let corners: Vec<BackendCoord> = corners.iter().map(|&point| fine_point(point)).collect();
         self.put(&Polygon::new(corners, rgba(color, opacity).filled()));
     }
 
     /// A filled box.
-    pub(super) fn rect(&self, rect: &Rect, color: Color, opacity: f64) {
+    pub(super) fn rect(&mut self, rect: &Rect, color: Color, opacity: f64) {
         self.polygon(&rect.corners(), color, opacity);
     }
 
     /// The edge of a box.
-    pub(super) fn outline(&self, rect: &Rect, width: f64, color: Color) {
+    pub(super) fn outline(&mut self, rect: &Rect, width: f64, color: Color) {
         let corners = rect.corners();
         self.line(&[&corners[..], &corners[..1]].concat(), width, color);
     }
 
     /// A filled disc.
-    pub(super) fn disc(&self, center: Point, radius: f64, color: Color) {
+    pub(super) fn disc(&mut self, center: Point, radius: f64, color: Color) {
         let style = rgba(color, 1.0).filled();
-        self.put(&Circle::new(fine(center), fine_length(radius), style));
+        self.put(&Circle::new(fine_point(center), fine(radius), style));
     }
 
     /// A circle.
-    pub(super) fn circle(&self, center: Point, radius: f64, width: f64, color: Color) {
+    pub(super) fn circle(&mut self, center: Point, radius: f64, width: f64, color: Color) {
         let style = stroke(color, width);
-        self.put(&Circle::new(fine(center), fine_length(radius), style));
+        self.put(&Circle::new(fine_point(center), fine(radius), style));
     }
 
     /// A line of text; `at` is on its baseline.
-    pub(super) fn text(
-        &self,
-        text: &str,
-        at: Point,
-        size: f64,
-        (anchor, direction): (HPos, Direction),
-    ) {
-        // Plotters places texts by their upper edge.
+    pub(super) fn text(&mut self, text: &str, (x, y): Point, size: f64, anchor: Anchor) {
+        // Texts are placed by their upper edge.
         let hang = text::HANG_EM * size;
-        let (at, transform) = match direction {
-            Direction::Level => ((at.0, at.1 - hang), FontTransform::None),
-            Direction::Upwards => ((at.0 - hang, at.1), FontTransform::Rotate270),
+        let at = match anchor {
+            Anchor::Start | Anchor::Middle | Anchor::End => (x, y - hang),
+            Anchor::Upwards => (x - hang, y),
         };
-        let font = (text::FAMILY, size * FINE).into_font();
-        let ink = rgba(super::look::TEXT, 1.0);
-        let style = TextStyle::from(font.transform(transform))
-            .color(&ink)
-            .pos(Pos::new(anchor, VPos::Top));
-        self.put(&Text::new(text.to_owned(), fine(at), style));
+        match text::laid_out(text, fine_point(at), size * FINE, anchor) {
+            Ok(laid_out) => (self.shapes.borrow_mut()).extend(laid_out.and_then(Shape::of_text)),
+            Err(error) => {
+                self.failed.get_or_insert(error);
+            }
+        }
     }
 
-    /// Adds a shape finer than plotters' coordinates: its outline (px), and how it is painted.
-    pub(super) fn path(&self, paint: Paint, outline: impl FnOnce(&mut Pen)) {
+    /// Adds a shape finer than sixteenths of a px: its outline (px), and how it is painted.
+    pub(super) fn path(&mut self, paint: Paint, outline: impl FnOnce(&mut Pen)) {
         let mut pen = Pen(PathBuilder::new());
         outline(&mut pen);
-        let shape = pen.0.finish().map(|path| Shape::new(path, paint));
-        self.shapes.borrow_mut().extend(shape);
+        add(&self.shapes, pen.0, paint);
     }
 
     /// All shapes in the order in which they were drawn.
     ///
     /// # Errors
-    /// [`ChartError::Draw`] for the first that could not be drawn.
+    /// [`ChartError::Svg`] or [`ChartError::Draw`] for the first that could not be drawn.
     pub(super) fn finish(self) -> Result<Vec<Shape>, ChartError> {
-        match self.failed.into_inner() {
-            Some(error) => Err(error),
-            None => Ok(self.shapes.take()),
-        }
+        self.failed.map_or_else(|| Ok(self.shapes.take()), Err)
     }
 
-    fn put<E>(&self, element: &E)
+    fn put<E>(&mut self, element: &E)
     where
         E: Drawable<Collector>,
         for<'b> &'b E: PointCollection<'b, BackendCoord>,
     {
         if let Err(error) = self.area.draw(element) {
-            self.failed.borrow_mut().get_or_insert(ChartError::Draw {
+            self.failed.get_or_insert(ChartError::Draw {
                 reason: error.to_string(),
             });
         }
     }
+}
+
+/// What of a line of text is at its place: its start, its middle or its end; upwards, as along the y axis, its middle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+    Upwards,
 }
 
 /// Draws the outline of one shape, in px of the chart.
@@ -148,33 +142,28 @@ pub(super) struct Pen(PathBuilder);
 
 impl Pen {
     pub(super) fn segment(&mut self, from: Point, to: Point) {
-        self.lines(&[from, to]);
+        lines(&mut self.0, [from, to].map(rounded).map(single));
     }
 
     pub(super) fn rect(&mut self, rect: &Rect) {
-        self.lines(&rect.corners());
+        lines(&mut self.0, rect.corners().map(rounded).map(single));
         self.0.close();
     }
 
     pub(super) fn circle(&mut self, center: Point, radius: f64) {
-        let center = (rounded(center.0), rounded(center.1));
-        circle(&mut self.0, center, rounded(radius));
-    }
-
-    fn lines(&mut self, points: &[Point]) {
-        for (place, &(x, y)) in points.iter().enumerate() {
-            let (x, y) = (rounded(x) as f32, rounded(y) as f32);
-            match place {
-                0 => self.0.move_to(x, y),
-                _ => self.0.line_to(x, y),
-            }
-        }
+        circle(&mut self.0, rounded(center), rounded((radius, 0.0)).0);
     }
 }
 
 /// In sixteenths, and to a hundredth of a px, far below what can be seen.
-fn rounded(px: f64) -> f64 {
-    FINE * ((100.0 * px).round() / 100.0)
+fn rounded((x, y): Point) -> Point {
+    let rounded = |px: f64| FINE * ((100.0 * px).round() / 100.0);
+    (rounded(x), rounded(y))
+}
+
+/// In single precision.
+fn single((x, y): (impl Into<f64>, impl Into<f64>)) -> (f32, f32) {
+    (x.into() as f32, y.into() as f32)
 }
 
 /// Four cubic curves that keep to a circle within 0.03 % of its radius.
@@ -198,31 +187,24 @@ fn circle(builder: &mut PathBuilder, (x, y): (f64, f64), radius: f64) {
     builder.close();
 }
 
-/// What plotters draws on: every path and text becomes a shape.
+fn lines(builder: &mut PathBuilder, points: impl IntoIterator<Item = (f32, f32)>) {
+    for (place, (x, y)) in points.into_iter().enumerate() {
+        match place {
+            0 => builder.move_to(x, y),
+            _ => builder.line_to(x, y),
+        }
+    }
+}
+
+/// What plotters draws on: every path becomes a shape.
 struct Collector {
-    shapes: Rc<RefCell<Vec<Shape>>>,
+    shapes: Shapes,
     size: (u32, u32),
 }
 
-type Drawn = Result<(), DrawingErrorKind<ChartError>>;
-
-impl Collector {
-    fn add(&self, builder: PathBuilder, paint: Paint) -> Drawn {
-        let shape = builder.finish().map(|path| Shape::new(path, paint));
-        self.shapes.borrow_mut().extend(shape);
-        Ok(())
-    }
-}
-
-fn polyline(points: impl IntoIterator<Item = BackendCoord>) -> PathBuilder {
-    let mut builder = PathBuilder::new();
-    for (x, y) in points {
-        match builder.is_empty() {
-            true => builder.move_to(x as f32, y as f32),
-            false => builder.line_to(x as f32, y as f32),
-        }
-    }
-    builder
+fn add(shapes: &Shapes, outline: PathBuilder, paint: Paint) {
+    let shape = outline.finish().map(|path| Shape::new(path, paint));
+    shapes.borrow_mut().extend(shape);
 }
 
 fn filled(style: &impl BackendStyle) -> Paint {
@@ -242,8 +224,10 @@ fn stroked(style: &impl BackendStyle) -> Paint {
     }
 }
 
+type Drawn = Result<(), DrawingErrorKind<Infallible>>;
+
 impl DrawingBackend for Collector {
-    type ErrorType = ChartError;
+    type ErrorType = Infallible;
 
     fn get_size(&self) -> (u32, u32) {
         self.size
@@ -266,7 +250,10 @@ impl DrawingBackend for Collector {
         path: I,
         style: &S,
     ) -> Drawn {
-        self.add(polyline(path), stroked(style))
+        let mut outline = PathBuilder::new();
+        lines(&mut outline, path.into_iter().map(single));
+        add(&self.shapes, outline, stroked(style));
+        Ok(())
     }
 
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
@@ -274,9 +261,11 @@ impl DrawingBackend for Collector {
         corners: I,
         style: &S,
     ) -> Drawn {
-        let mut builder = polyline(corners);
-        builder.close();
-        self.add(builder, filled(style))
+        let mut outline = PathBuilder::new();
+        lines(&mut outline, corners.into_iter().map(single));
+        outline.close();
+        add(&self.shapes, outline, filled(style));
+        Ok(())
     }
 
     fn draw_circle<S: BackendStyle>(
@@ -286,42 +275,22 @@ impl DrawingBackend for Collector {
         style: &S,
         fill: bool,
     ) -> Drawn {
-        let mut builder = PathBuilder::new();
-        circle(&mut builder, (x.into(), y.into()), radius.into());
-        self.add(builder, if fill { filled(style) } else { stroked(style) })
-    }
-
-    fn draw_text<S: BackendTextStyle>(
-        &mut self,
-        text: &str,
-        style: &S,
-        (x, y): BackendCoord,
-    ) -> Drawn {
-        let anchor = match style.anchor().h_pos {
-            HPos::Left => "start",
-            HPos::Center => "middle",
-            HPos::Right => "end",
-        };
-        let degrees = match style.transform() {
-            FontTransform::None => 0,
-            FontTransform::Rotate90 => 90,
-            FontTransform::Rotate180 => 180,
-            FontTransform::Rotate270 => 270,
-        };
-        let laid_out = text::laid_out(text, (x, y), style.size(), (anchor, degrees))
-            .map_err(DrawingErrorKind::DrawingError)?;
-        let shape = laid_out.and_then(|text| Shape::of_text(text, style.color().rgb.into()));
-        self.shapes.borrow_mut().extend(shape);
+        let mut outline = PathBuilder::new();
+        circle(&mut outline, (x.into(), y.into()), radius.into());
+        let paint = if fill { filled(style) } else { stroked(style) };
+        add(&self.shapes, outline, paint);
         Ok(())
     }
 }
 
-fn fine((x, y): Point) -> BackendCoord {
-    ((x * FINE).round() as i32, (y * FINE).round() as i32)
+/// In sixteenths of a px.
+fn fine_point((x, y): Point) -> BackendCoord {
+    (fine(x), fine(y))
 }
 
-fn fine_length(length: f64) -> i32 {
-    (length * FINE).round() as i32
+/// A length (px) in sixteenths.
+fn fine(px: f64) -> i32 {
+    (px * FINE).round() as i32
 }
 
 fn rgba(color: Color, opacity: f64) -> RGBAColor {
@@ -330,5 +299,5 @@ fn rgba(color: Color, opacity: f64) -> RGBAColor {
 }
 
 fn stroke(color: Color, width: f64) -> ShapeStyle {
-    plotters::style::Color::stroke_width(&rgba(color, 1.0), fine_length(width).max(1) as u32)
+    plotters::style::Color::stroke_width(&rgba(color, 1.0), fine(width).max(1) as u32)
 }

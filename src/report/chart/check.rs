@@ -1,7 +1,7 @@
 //! What a chart must fulfil before it is drawn; nothing that cannot be drawn truly is drawn at all.
 
 use super::text::printable;
-use super::{AxisName, Chart, ChartError, Mark, MarkPlace, Scale, Series};
+use super::{AxisName, Chart, ChartError, Mark, Scale, Series};
 
 /// Refuses a chart with no point, with values no axis can show, or with text that XML cannot hold.
 pub(super) fn check(chart: &Chart) -> Result<(), ChartError> {
@@ -11,7 +11,7 @@ pub(super) fn check(chart: &Chart) -> Result<(), ChartError> {
         Some(&chart.y.label),
     ];
     let series = chart.series.iter().map(|series| series.label.as_deref());
-    let marks = chart.marks.iter().map(|mark| mark.label.as_deref());
+    let marks = chart.marks.iter().map(|mark| Some(&*mark.label));
     for text in texts.into_iter().chain(series).chain(marks).flatten() {
         if !printable(text) {
             return Err(ChartError::Text {
@@ -50,9 +50,9 @@ pub(super) fn subject(chart: &Chart) -> String {
 
 /// What a mark is called in an error.
 pub(super) fn mark_name(mark: &Mark) -> String {
-    match &mark.label {
-        Some(label) => format!("the mark '{label}'"),
-        None => "a mark".to_owned(),
+    match mark.label.as_str() {
+        "" => "a mark".to_owned(),
+        label => format!("the mark '{label}'"),
     }
 }
 
@@ -75,7 +75,7 @@ fn check_series(chart: &Chart, series: &Series, name: &str) -> Result<(), ChartE
         check_value(chart, AxisName::X, x, item)?;
         check_value(chart, AxisName::Y, y, item)?;
     }
-    if let Some(base) = series.fill_to {
+    if let Some(base) = series.area_to {
         check_value(chart, AxisName::Y, base, || {
             format!("the filled area of {name}")
         })?;
@@ -103,15 +103,13 @@ fn check_series(chart: &Chart, series: &Series, name: &str) -> Result<(), ChartE
 }
 
 fn check_mark(chart: &Chart, mark: &Mark) -> Result<(), ChartError> {
-    let item = || mark_name(mark);
-    match mark.place {
-        MarkPlace::Point { x, y } => {
-            check_value(chart, AxisName::X, x, item)?;
-            check_value(chart, AxisName::Y, y, item)
+    let (x, y) = mark.place.coordinates();
+    for (axis, value) in [(AxisName::X, x), (AxisName::Y, y)] {
+        if let Some(value) = value {
+            check_value(chart, axis, value, || mark_name(mark))?;
         }
-        MarkPlace::Vertical { x } => check_value(chart, AxisName::X, x, item),
-        MarkPlace::Horizontal { y } => check_value(chart, AxisName::Y, y, item),
     }
+    Ok(())
 }
 
 fn check_value(
@@ -197,7 +195,7 @@ mod tests {
         assert!(matches!(check(&nan), Err(ChartError::NotFinite { .. })));
         let zero = good.clone().mark(Mark::vertical(0.0, "peak"));
         assert!(matches!(check(&zero), Err(ChartError::NotPositive { .. })));
-        let fill = good.series(Series::line([(1.0, 1.0)]).fill_to(f64::INFINITY));
+        let fill = good.series(Series::line([(1.0, 1.0)]).area_to(f64::INFINITY));
         assert!(matches!(check(&fill), Err(ChartError::NotFinite { .. })));
     }
 

@@ -2,16 +2,17 @@
 
 use std::sync::Arc;
 
-use super::canvas::{Canvas, Direction, HPos};
+use super::canvas::{Anchor, Canvas};
 use super::color_map::{self, LEVELS};
 use super::geometry::Rect;
-use super::heat_map::{Boxes, HeatMap};
-use super::layout::crisp;
+use super::heat_map::HeatMap;
+use super::layout::{crisp, tick_widths};
 use super::look::*;
 use super::scale::AxisMap;
-use super::text::{ASCENT_EM, CAPITAL_EM, DESCENT_EM, widths_em};
+use super::text::{ASCENT_EM, CAPITAL_EM, DESCENT_EM, width_em};
 use super::ticks::{self, Ticks};
-use super::{Chart, ChartError, Color, Scale, color_scale};
+use super::{Chart, ChartError, Color, ColorScale, Scale, color_scale};
+use crate::report::number::largest;
 
 /// From the frame to the colour bar, and its width.
 const BAR_GAP: f64 = 22.0;
@@ -36,41 +37,40 @@ impl Bar {
     /// # Errors
     /// [`ChartError`] where the values of the map cannot be drawn.
     pub(super) fn of(chart: &Chart) -> Result<Option<Self>, ChartError> {
-        match (&chart.map, &chart.color_scale) {
+        let (map, name, label, scale, range) = match (&chart.map, &chart.color_scale) {
             (Some(map), _) => {
-                let (label, scaled) = (&map.value_label, (map.value_scale, map.checked_range()?));
-                Self::new(Some(Arc::clone(map)), label, scaled).map(Some)
+                let label = &map.value_label;
+                let name = chart.title.as_ref().unwrap_or(label);
+                let range = map.checked_range(name)?;
+                (Some(Arc::clone(map)), name, label, map.value_scale, range)
             }
-            (None, Some(colors)) => {
-                let scaled = (Scale::Linear, colors.checked_range()?);
-                Self::new(None, &colors.label, scaled).map(Some)
+            (None, Some(ColorScale { label, range })) => {
+                (None, label, label, Scale::Linear, *range)
             }
-            (None, None) => Ok(None),
+            (None, None) => return Ok(None),
+        };
+        let (low, high) = range;
+        if low >= high || !(high - low).is_finite() {
+            return Err(ChartError::Map {
+                map: name.clone(),
+                reason: "the first end of the value range must be below the second",
+            });
         }
-    }
-
-    fn new(
-        map: Option<Arc<HeatMap>>,
-        label: &str,
-        (scale, range): (Scale, (f64, f64)),
-    ) -> Result<Self, ChartError> {
         // Along a bar of unit length; the frame's height is not known yet.
-        let unit = along(scale, range, (0.0, 1.0));
-        let ticks = ticks::choose(scale, range.0, range.1, |ticks| {
+        let unit = AxisMap::new(scale, range, (0.0, 1.0));
+        let ticks = ticks::choose(scale, low, high, |ticks| {
             let apart = |pair: &[ticks::Tick]| unit.px(pair[1].value) - unit.px(pair[0].value);
             ticks.windows(2).all(|pair| apart(pair) >= 1.0 / 9.0)
         });
-        let widths = widths_em(ticks.major.iter().map(|tick| tick.label.as_str()))?;
-        let label_em = widths_em([label])?;
-        Ok(Self {
+        Ok(Some(Self {
             map,
-            label: label.to_owned(),
+            label: label.clone(),
             scale,
             range,
-            widest_label: TICK_TEXT * widths.into_iter().fold(0.0, f64::max),
-            label_em: label_em.first().copied().unwrap_or(0.0),
+            widest_label: largest(tick_widths(&ticks)?),
+            label_em: width_em(label)?,
             ticks,
-        })
+        }))
     }
 
     pub(super) fn total_width(&self) -> f64 {
@@ -94,29 +94,29 @@ impl Bar {
         }
     }
 
-    /// Adds a box for each colour of the bar.
-    pub(super) fn strips(&self, frame: &Rect, boxes: &mut Boxes) {
+    /// A box for each level of the colours.
+    pub(super) fn strips(&self, frame: &Rect) -> impl Iterator<Item = (usize, Rect)> {
         let bar = self.rect(frame);
-        let y = |level: usize| bar.bottom - bar.height() * level as f64 / LEVELS as f64;
-        for level in 0..LEVELS {
+        let y = move |level: usize| bar.bottom - bar.height() * level as f64 / LEVELS as f64;
+        (0..LEVELS).map(move |level| {
             let (top, bottom) = (y(level + 1), y(level));
-            boxes.add(level, Rect { top, bottom, ..bar });
-        }
+            (level, Rect { top, bottom, ..bar })
+        })
     }
 
     /// The sides of the frame that a chart leaves open, outline, ticks and labels of the bar.
-    pub(super) fn draw(&self, frame: &Rect, height_px: f64, canvas: &Canvas) {
+    pub(super) fn draw(&self, frame: &Rect, height_px: f64, canvas: &mut Canvas) {
         let [top_left, top_right, bottom_right, _] = frame.corners();
         canvas.line(&[top_left, top_right, bottom_right], FRAME_STROKE, FRAME);
         let bar = self.rect(frame);
         let right = bar.right;
         canvas.outline(&bar, FRAME_STROKE, FRAME);
-        let along = along(self.scale, self.range, (frame.bottom, frame.top));
+        let along = AxisMap::new(self.scale, self.range, (frame.bottom, frame.top));
         for (value, length) in self.ticks.lengths() {
             let y = crisp(along.px(value));
             canvas.line(&[(right, y), (right + length, y)], FRAME_STROKE, FRAME);
         }
-        let level = (HPos::Left, Direction::Level);
+        let level = Anchor::Start;
         for tick in &self.ticks.major {
             let at = (
                 right + MAJOR_TICK + TICK_GAP,
@@ -133,18 +133,7 @@ impl Bar {
         let size = LABEL_TEXT.min(room / self.label_em.max(1e-9));
         let beside = right + MAJOR_TICK + TICK_GAP + self.widest_label + LABEL_GAP;
         let at = (beside + LABEL_TEXT * ASCENT_EM, middle);
-        let upwards = (HPos::Center, Direction::Upwards);
+        let upwards = Anchor::Upwards;
         canvas.text(&self.label, at, size, upwards);
-    }
-}
-
-/// The map of values to lengths along a bar between these two ends.
-fn along(scale: Scale, (low, high): (f64, f64), (from_px, to_px): (f64, f64)) -> AxisMap {
-    AxisMap {
-        scale,
-        low,
-        high,
-        from_px,
-        to_px,
     }
 }

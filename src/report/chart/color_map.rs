@@ -1,6 +1,6 @@
 //! A colour map for heat maps: equal steps of the value look like equal steps, in colour, in grey and to the colour-blind.
 
-use super::Color;
+use super::{Color, palette};
 
 /// Nine steps through viridis (S. van der Walt and N. Smith, 2015, for matplotlib; released under CC0), dark to light.
 const VIRIDIS: [[u8; 3]; 10] = [
@@ -28,18 +28,8 @@ pub(super) fn level(value: f64, (low, high): (f64, f64)) -> usize {
 
 /// The colour of a level.
 pub(super) fn color(level: usize) -> Color {
-    let last = VIRIDIS.len() - 1;
-    let place = level.min(LEVELS - 1) as f64 / (LEVELS - 1) as f64 * last as f64;
-    let lower = (place as usize).min(last - 1);
-    let part = place - lower as f64;
-    let mix = |channel: usize| {
-        let (from, to) = (
-            f64::from(VIRIDIS[lower][channel]),
-            f64::from(VIRIDIS[lower + 1][channel]),
-        );
-        (from + (to - from) * part).round() as u8
-    };
-    Color::Rgb(mix(0), mix(1), mix(2))
+    let [red, green, blue] = palette::along(&VIRIDIS, level, LEVELS);
+    Color::Rgb(red, green, blue)
 }
 
 #[cfg(test)]

@@ -1,10 +1,10 @@
 //! Where the data lie in the frame: every series in px, cut to the frame, for drawing and for keeping clear of.
 
 use super::geometry::{Point, Rect, distance};
-use super::layout::Layout;
+use super::layout::{Layout, Marked};
 use super::look::{MARKER_EDGE, MARKER_RADIUS, MARKER_SPACING};
 use super::stroke::{clip, thinned};
-use super::{Chart, MarkPlace, Series};
+use super::{Chart, Series};
 
 /// One series in px.
 #[derive(Debug, Default)]
@@ -58,7 +58,7 @@ fn curve(series: &Series, layout: &Layout) -> Curve {
         if series.closed {
             curve.fills.push(frame.clip_polygon(&line));
         }
-        if let (Some(base), Some(first), Some(last)) = (series.fill_to, line.first(), line.last()) {
+        if let (Some(base), Some(first), Some(last)) = (series.area_to, line.first(), line.last()) {
             let base = layout.y.px(base);
             let outline: Vec<Point> = line
                 .iter()
@@ -155,18 +155,10 @@ impl Obstacles {
                 .map(|bar| ((bar.x, bar.top), (bar.x, bar.bottom)));
             all.segments.extend(bars);
         }
-        let frame = &layout.frame;
         for mark in &chart.marks {
-            match mark.place {
-                MarkPlace::Point { x, y } => all.points.push(layout.px((x, y))),
-                MarkPlace::Vertical { x } => {
-                    let x = layout.x.px(x);
-                    all.segments.push(((x, frame.top), (x, frame.bottom)));
-                }
-                MarkPlace::Horizontal { y } => {
-                    let y = layout.y.px(y);
-                    all.segments.push(((frame.left, y), (frame.right, y)));
-                }
+            match layout.marked(mark.place) {
+                Marked::Point(point) => all.points.push(point),
+                Marked::Line(from, to) => all.segments.push((from, to)),
             }
         }
         all

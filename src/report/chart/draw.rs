@@ -2,21 +2,19 @@
 
 use std::borrow::Cow;
 
-use super::canvas::{Canvas, Direction, HPos};
+use super::canvas::{Anchor, Canvas};
 use super::check::{check, subject};
 use super::color_bar::Bar;
 use super::curves::{Curve, ErrorBar, Obstacles, curves};
 use super::drawing::{Drawing, Shape};
 use super::geometry::{Point, Rect};
-use super::layout::{Layout, Reserve, Widths, crisp, lay_out, ranges};
-use super::legend::{Block, Legend, Outside};
+use super::layout::{Layout, Marked, Reserve, Widths, crisp, lay_out, ranges};
+use super::legend::{Legend, Outside};
 use super::look::*;
 use super::place::{self, AIR, PlacedLabel};
 use super::stroke::dashes;
 use super::text::{CAPITAL_EM, DESCENT_EM};
-use super::{
-    Chart, ChartError, Color, LegendPlace, LineStyle, MarkPlace, Series, Size, heat_map, marker,
-};
+use super::{Chart, ChartError, Color, LegendPlace, LineStyle, Series, Size, heat_map, marker};
 
 /// Everything in its place.
 pub(super) struct Arrangement {
@@ -76,8 +74,8 @@ pub fn stack(charts: &[Chart]) -> Result<Drawing, ChartError> {
 /// The shapes of a chart whose frame begins no further left than `left`.
 fn shapes(chart: &Chart, left: f64) -> Result<Vec<Shape>, ChartError> {
     let arrangement = arrange_beside(chart, left)?;
-    let canvas = Canvas::new(chart.size);
-    paint(chart, &arrangement, &canvas);
+    let mut canvas = Canvas::new(chart.size);
+    paint(chart, &arrangement, &mut canvas);
     canvas.finish()
 }
 
@@ -103,20 +101,15 @@ fn arrange_beside(chart: &Chart, left: f64) -> Result<Arrangement, ChartError> {
         let curves = curves(chart, &layout);
         (layout, curves, legend)
     };
-    let outside = |block: Block, side: Outside| {
-        let layout = lay_out(chart, &ranges, &widths, beside(block.reserve(side)))?;
-        let legend = block.outside(&layout, side);
+    let outside = |legend: Legend, side: Outside| {
+        let layout = lay_out(chart, &ranges, &widths, beside(legend.reserve(side)))?;
+        let legend = legend.outside(&layout, side);
         Ok::<_, ChartError>(inside(layout, Some(legend)))
     };
-    let column = Block::column(chart, &widths, plain.frame.width());
-    let rows = || {
-        Block::rows(
-            chart,
-            &widths,
-            f64::from(chart.size.width_px) - 2.0 * MARGIN,
-        )
-    };
-    let (layout, curves, legend) = match (chart.legend, column, rows()) {
+    let column = Legend::column(chart, &widths, plain.frame.width());
+    let width = f64::from(chart.size.width_px) - 2.0 * MARGIN;
+    let rows = Legend::rows(chart, &widths, width);
+    let (layout, curves, legend) = match (chart.legend, column, rows) {
         (Some(LegendPlace::Right), Some(column), _) if column.leaves_room_beside(&plain) => {
             outside(column, Outside::Right)?
         }
@@ -151,7 +144,7 @@ fn arrange_beside(chart: &Chart, left: f64) -> Result<Arrangement, ChartError> {
     })
 }
 
-fn paint(chart: &Chart, arrangement: &Arrangement, canvas: &Canvas) {
+fn paint(chart: &Chart, arrangement: &Arrangement, canvas: &mut Canvas) {
     let Arrangement {
         layout,
         curves,
@@ -195,11 +188,11 @@ fn paint(chart: &Chart, arrangement: &Arrangement, canvas: &Canvas) {
     }
     // Title and axis labels.
     for text in &layout.texts {
-        canvas.text(&text.text, text.at, text.size, text.hold);
+        canvas.text(&text.text, text.at, text.size, text.anchor);
     }
 }
 
-fn grid(layout: &Layout, canvas: &Canvas) {
+fn grid(layout: &Layout, canvas: &mut Canvas) {
     let frame = &layout.frame;
     let upright = |value: f64| [frame.top, frame.bottom].map(|y| (crisp(layout.x.px(value)), y));
     let level = |value: f64| [frame.left, frame.right].map(|x| (x, crisp(layout.y.px(value))));
@@ -221,7 +214,7 @@ fn grid(layout: &Layout, canvas: &Canvas) {
 }
 
 /// The left and lower side of the frame, the ticks and their labels.
-fn axes(layout: &Layout, canvas: &Canvas) {
+fn axes(layout: &Layout, canvas: &mut Canvas) {
     let frame = &layout.frame;
     for (value, length) in layout.x_ticks.lengths() {
         let x = crisp(layout.x.px(value));
@@ -236,8 +229,7 @@ fn axes(layout: &Layout, canvas: &Canvas) {
     let below = frame.bottom + MAJOR_TICK + TICK_GAP + CAPITAL_EM * TICK_TEXT;
     for tick in &layout.x_ticks.major {
         let at = (layout.x.px(tick.value), below);
-        let hold = (HPos::Center, Direction::Level);
-        canvas.text(&tick.label, at, TICK_TEXT, hold);
+        canvas.text(&tick.label, at, TICK_TEXT, Anchor::Middle);
     }
     let beside = frame.left - MAJOR_TICK - TICK_GAP;
     for tick in &layout.y_ticks.major {
@@ -245,13 +237,13 @@ fn axes(layout: &Layout, canvas: &Canvas) {
             beside,
             layout.y.px(tick.value) + CAPITAL_EM / 2.0 * TICK_TEXT,
         );
-        canvas.text(&tick.label, at, TICK_TEXT, (HPos::Right, Direction::Level));
+        canvas.text(&tick.label, at, TICK_TEXT, Anchor::End);
     }
     let [top_left, _, bottom_right, bottom_left] = frame.corners();
     canvas.line(&[top_left, bottom_left, bottom_right], FRAME_STROKE, FRAME);
 }
 
-fn line(series: &Series, parts: &[Vec<Point>], canvas: &Canvas) {
+fn line(series: &Series, parts: &[Vec<Point>], canvas: &mut Canvas) {
     let Some(style) = series.line else {
         return;
     };
@@ -262,7 +254,7 @@ fn line(series: &Series, parts: &[Vec<Point>], canvas: &Canvas) {
     }
 }
 
-fn markers(series: &Series, points: &[Point], canvas: &Canvas) {
+fn markers(series: &Series, points: &[Point], canvas: &mut Canvas) {
     for &point in points {
         match series.marker {
             Some(shape) => marker::draw(canvas, shape, point, series.color),
@@ -272,7 +264,7 @@ fn markers(series: &Series, points: &[Point], canvas: &Canvas) {
     }
 }
 
-fn error_bar(bar: &ErrorBar, color: Color, canvas: &Canvas) {
+fn error_bar(bar: &ErrorBar, color: Color, canvas: &mut Canvas) {
     canvas.line(
         &[(bar.x, bar.top), (bar.x, bar.bottom)],
         ERROR_STROKE,
@@ -289,33 +281,25 @@ fn error_bar(bar: &ErrorBar, color: Color, canvas: &Canvas) {
     }
 }
 
-fn mark_lines(chart: &Chart, layout: &Layout, canvas: &Canvas) {
-    let frame = &layout.frame;
+fn mark_lines(chart: &Chart, layout: &Layout, canvas: &mut Canvas) {
     for mark in &chart.marks {
-        let ends = match mark.place {
-            MarkPlace::Point { .. } => continue,
-            MarkPlace::Vertical { x } => {
-                [(layout.x.px(x), frame.bottom), (layout.x.px(x), frame.top)]
+        if let Marked::Line(from, to) = layout.marked(mark.place) {
+            for stroke in dashes(&[from, to], LineStyle::Dashed) {
+                canvas.line(&stroke, MARK_STROKE, mark.color);
             }
-            MarkPlace::Horizontal { y } => {
-                [(frame.left, layout.y.px(y)), (frame.right, layout.y.px(y))]
-            }
-        };
-        for stroke in dashes(&ends, LineStyle::Dashed) {
-            canvas.line(&stroke, MARK_STROKE, mark.color);
         }
     }
 }
 
-fn mark_rings(chart: &Chart, layout: &Layout, canvas: &Canvas) {
+fn mark_rings(chart: &Chart, layout: &Layout, canvas: &mut Canvas) {
     for mark in &chart.marks {
-        if let MarkPlace::Point { x, y } = mark.place {
-            canvas.circle(layout.px((x, y)), MARK_RING, MARK_STROKE, mark.color);
+        if let Marked::Point(point) = layout.marked(mark.place) {
+            canvas.circle(point, MARK_RING, MARK_STROKE, mark.color);
         }
     }
 }
 
-fn mark_label(chart: &Chart, label: &PlacedLabel, canvas: &Canvas) {
+fn mark_label(chart: &Chart, label: &PlacedLabel, canvas: &mut Canvas) {
     let Some(mark) = chart.marks.get(label.mark) else {
         return;
     };
@@ -326,16 +310,11 @@ fn mark_label(chart: &Chart, label: &PlacedLabel, canvas: &Canvas) {
     canvas.rect(&label.rect.grown(-1.0), WHITE, 1.0);
     let middle = (label.rect.top + label.rect.bottom) / 2.0;
     let baseline = middle + (CAPITAL_EM - DESCENT_EM * 0.35) / 2.0 * label.text_px;
-    let text = mark.label.as_deref().unwrap_or("");
-    canvas.text(
-        text,
-        (label.rect.left + AIR, baseline),
-        label.text_px,
-        (HPos::Left, Direction::Level),
-    );
+    let at = (label.rect.left + AIR, baseline);
+    canvas.text(&mark.label, at, label.text_px, Anchor::Start);
 }
 
-fn draw_legend(chart: &Chart, curves: &[Curve], legend: &Legend, canvas: &Canvas) {
+fn draw_legend(chart: &Chart, curves: &[Curve], legend: &Legend, canvas: &mut Canvas) {
     if legend.framed {
         canvas.rect(&legend.rect, WHITE, 1.0);
         canvas.outline(&legend.rect, MAJOR_GRID_STROKE, MAJOR_GRID);
@@ -347,7 +326,9 @@ fn draw_legend(chart: &Chart, curves: &[Curve], legend: &Legend, canvas: &Canvas
         let end = (at.0 + LEGEND_SAMPLE, at.1);
         let middle = (at.0 + LEGEND_SAMPLE / 2.0, at.1);
         if series.is_filled() {
-            canvas.rect(&swatch(series, at), series.color, opacity(series));
+            let height = 0.5 * LEGEND_ROW;
+            let swatch = Rect::at(at.0, at.1 - height / 2.0, LEGEND_SAMPLE, height);
+            canvas.rect(&swatch, series.color, opacity(series));
         }
         line(series, &[vec![at, end]], canvas);
         // Bars that all hide behind their markers are not explained either.
@@ -366,23 +347,17 @@ fn draw_legend(chart: &Chart, curves: &[Curve], legend: &Legend, canvas: &Canvas
         }
         let baseline = at.1 + CAPITAL_EM / 2.0 * legend.text_px;
         let text = series.label.as_deref().unwrap_or("");
-        let hold = (HPos::Left, Direction::Level);
+        let hold = Anchor::Start;
         canvas.text(text, (end.0 + LEGEND_GAP, baseline), legend.text_px, hold);
     }
 }
 
 /// How much of its colour an area has.
 fn opacity(series: &Series) -> f64 {
-    if series.solid_fill { 1.0 } else { FILL_OPACITY }
-}
-
-/// The sample of an area in the legend: below its line, or, where it has none, about the middle of the row.
-fn swatch(series: &Series, at: Point) -> Rect {
-    let height = 0.5 * LEGEND_ROW;
-    if series.line.is_some() {
-        Rect::at(at.0, at.1, LEGEND_SAMPLE, height / 2.0)
+    if series.area_to.is_some() {
+        1.0
     } else {
-        Rect::at(at.0, at.1 - height / 2.0, LEGEND_SAMPLE, height)
+        FILL_OPACITY
     }
 }
 

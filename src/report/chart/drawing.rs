@@ -6,8 +6,9 @@ use std::fmt::Write as _;
 use resvg::tiny_skia::{Path, PathSegment, Point};
 use resvg::usvg;
 
-use super::Size;
+use super::look::TEXT;
 use super::text::{escaped, outline};
+use super::{Color, Size};
 
 /// Coordinates of shapes are in such parts of a px.
 pub(super) const FINE: f64 = 16.0;
@@ -68,15 +69,10 @@ impl Shape {
     }
 
     /// `None` for a text without ink.
-    pub(super) fn of_text(text: Box<usvg::Text>, color: [u8; 3]) -> Option<Self> {
-        let paint = Paint::Fill {
-            color,
-            opacity: 1.0,
-            crisp: false,
-        };
+    pub(super) fn of_text(text: Box<usvg::Text>) -> Option<Self> {
         Some(Self {
             path: outline(&text)?,
-            paint,
+            paint: Paint::fill(TEXT, 1.0),
             text: Some(text),
         })
     }
@@ -108,6 +104,15 @@ impl Shape {
 }
 
 impl Paint {
+    /// An area with smooth edges.
+    pub(super) fn fill(color: Color, opacity: f64) -> Self {
+        Self::Fill {
+            color: color.rgb(),
+            opacity,
+            crisp: false,
+        }
+    }
+
     /// Attributes of SVG that a group may carry for many paths.
     fn attributes(&self) -> String {
         let hex = |[red, green, blue]: [u8; 3]| format!("#{red:02x}{green:02x}{blue:02x}");
@@ -146,32 +151,27 @@ const PAGE_STEPS: f32 = 1.0;
 impl Drawing {
     /// On paper the picture is so wide, each px of it `px_mm` long; so high as asked for, or as it was drawn.
     #[must_use]
-    pub fn on_paper(self, width_mm: f64, height_mm: Option<f64>, px_mm: f64) -> Self {
-        let paper = Some(Paper {
+    pub fn on_paper(mut self, width_mm: f64, height_mm: Option<f64>, px_mm: f64) -> Self {
+        self.paper = Some(Paper {
             width_mm,
             height_mm: height_mm.unwrap_or(f64::from(self.size.height_px) * px_mm),
             px_mm,
         });
-        Self { paper, ..self }
+        self
     }
 
     /// The picture with a description, which screen readers read.
     #[must_use]
-    pub fn described(self, description: impl Into<String>) -> Self {
-        let description = Some(description.into());
-        Self {
-            description,
-            ..self
-        }
+    pub fn described(mut self, description: impl Into<String>) -> Self {
+        self.description = Some(description.into());
+        self
     }
 
     /// The picture with the sweep it shows: `<metadata>` of an SVG, `tEXt` of a PNG, a comment in a PDF.
     #[must_use]
-    pub fn stamped(self, sweep_hash: Option<&str>) -> Self {
-        Self {
-            sweep_hash: sweep_hash.map(str::to_owned),
-            ..self
-        }
+    pub fn stamped(mut self, sweep_hash: Option<&str>) -> Self {
+        self.sweep_hash = sweep_hash.map(str::to_owned);
+        self
     }
 
     /// The picture as SVG that needs no font, since its letters are outlines, and refers to no other file.
@@ -217,20 +217,16 @@ impl Drawing {
         } = self.size;
         // Four places are far below what can be printed.
         let rounded = |value: f64| (value * 1e4).round() / 1e4;
-        match self.paper {
+        match &self.paper {
             None => format!(
                 "width=\"{width_px}\" height=\"{height_px}\" viewBox=\"0 0 {width_px} {height_px}\""
             ),
-            Some(Paper {
-                width_mm,
-                height_mm,
-                px_mm,
-            }) => format!(
+            Some(paper) => format!(
                 "width=\"{}mm\" height=\"{}mm\" viewBox=\"0 0 {} {}\"",
-                rounded(width_mm),
-                rounded(height_mm),
-                rounded(width_mm / px_mm),
-                rounded(height_mm / px_mm)
+                rounded(paper.width_mm),
+                rounded(paper.height_mm),
+                rounded(paper.width_mm / paper.px_mm),
+                rounded(paper.height_mm / paper.px_mm)
             ),
         }
     }

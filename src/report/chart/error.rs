@@ -31,6 +31,9 @@ pub enum ChartError {
         value: f64,
     },
 
+    #[error("cannot draw the chart: {reason}")]
+    Draw { reason: String },
+
     #[error("cannot lay out the {axis} axis from {low} to {high}: {reason}")]
     Range {
         axis: AxisName,
@@ -100,9 +103,6 @@ pub enum ChartError {
 
     #[error("cannot turn the chart into pixels at scale {scale}: {reason}")]
     PixelScale { scale: f32, reason: &'static str },
-
-    #[error("cannot draw the chart: {reason}")]
-    Draw { reason: String },
 
     #[error("cannot read the chart's SVG: {0}")]
     Svg(#[from] usvg::Error),

@@ -1,13 +1,14 @@
 //! Where frame, ticks and labels go, from the measured sizes of all text.
 
-use super::canvas::{Direction, HPos};
+use super::canvas::Anchor;
 use super::check::{empty, mark_name};
 use super::geometry::{Point, Rect};
 use super::look::*;
 use super::scale::{AxisMap, Room, range};
-use super::text::{ASCENT_EM, DESCENT_EM, widths_em};
+use super::text::{ASCENT_EM, DESCENT_EM, fitted_px, width_em};
 use super::ticks::{self, Tick, Ticks};
 use super::{AxisName, Chart, ChartError, Mark, MarkPlace, Scale, Series};
+use crate::report::number;
 
 /// The frame with its axes, and the texts around it.
 pub(super) struct Layout {
@@ -24,13 +25,35 @@ impl Layout {
     pub(super) fn px(&self, (x, y): Point) -> Point {
         (self.x.px(x), self.y.px(y))
     }
+
+    /// A mark in px.
+    pub(super) fn marked(&self, place: MarkPlace) -> Marked {
+        let frame = &self.frame;
+        match place {
+            MarkPlace::Point { x, y } => Marked::Point(self.px((x, y))),
+            MarkPlace::Vertical { x } => {
+                let x = self.x.px(x);
+                Marked::Line((x, frame.bottom), (x, frame.top))
+            }
+            MarkPlace::Horizontal { y } => {
+                let y = self.y.px(y);
+                Marked::Line((frame.left, y), (frame.right, y))
+            }
+        }
+    }
 }
 
 pub(super) struct PlacedText {
     pub(super) text: String,
     pub(super) at: Point,
     pub(super) size: f64,
-    pub(super) hold: (HPos, Direction),
+    pub(super) anchor: Anchor,
+}
+
+/// A mark in px: a point, or a line across the frame.
+pub(super) enum Marked {
+    Point(Point),
+    Line(Point, Point),
 }
 
 /// Room kept free outside the frame, for a legend above or at the right, or to line frames up.
@@ -56,30 +79,25 @@ pub(super) struct Widths {
 
 impl Widths {
     pub(super) fn measure(chart: &Chart) -> Result<Self, ChartError> {
-        let title = chart.title.as_deref().unwrap_or("");
-        let series = chart
-            .series
-            .iter()
-            .map(|series| series.label.as_deref().unwrap_or(""));
-        let marks = chart
-            .marks
-            .iter()
-            .map(|mark| mark.label.as_deref().unwrap_or(""));
-        let texts = [title, &chart.x.label, &chart.y.label]
-            .into_iter()
-            .chain(series)
-            .chain(marks);
-        let mut widths = widths_em(texts)?.into_iter();
-        let mut next = || widths.next().unwrap_or(0.0);
-        let (title, x_label, y_label) = (next(), next(), next());
-        let series = chart.series.iter().map(|_| next()).collect();
+        let of = |text: Option<&str>| width_em(text.unwrap_or(""));
+        let series = chart.series.iter();
+        let marks = chart.marks.iter();
         Ok(Self {
-            title,
-            x_label,
-            y_label,
-            series,
-            marks: widths.collect(),
+            title: of(chart.title.as_deref())?,
+            x_label: width_em(&chart.x.label)?,
+            y_label: width_em(&chart.y.label)?,
+            series: series
+                .map(|s| of(s.label.as_deref()))
+                .collect::<Result<_, _>>()?,
+            marks: marks
+                .map(|m| width_em(&m.label))
+                .collect::<Result<_, _>>()?,
         })
+    }
+
+    /// The height (px) of a picture in which the label of y has its full size.
+    pub(super) fn height_of_y_label_px(&self) -> f64 {
+        self.y_label * LABEL_TEXT + 2.0 * MARGIN
     }
 }
 
@@ -88,13 +106,6 @@ impl Widths {
 pub(super) struct Ranges {
     x: (f64, f64),
     y: (f64, f64),
-}
-
-impl Widths {
-    /// The height (px) of a picture in which the label of y has its full size.
-    pub(super) fn height_of_y_label_px(&self) -> f64 {
-        self.y_label * LABEL_TEXT + 2.0 * MARGIN
-    }
 }
 
 /// The least frame that is still a chart, in px.
@@ -109,32 +120,19 @@ pub(super) fn lay_out(
     widths: &Widths,
     reserve: Reserve,
 ) -> Result<Layout, ChartError> {
-    let (width, height) = (
-        f64::from(chart.size.width_px),
-        f64::from(chart.size.height_px),
-    );
-    let title_height = if chart.title.is_some() {
-        TITLE_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP
-    } else {
-        0.0
+    let [width, height] = [chart.size.width_px, chart.size.height_px].map(f64::from);
+    let of_text = |is_there: bool, size: f64| match is_there {
+        true => size * (ASCENT_EM + DESCENT_EM) + LABEL_GAP,
+        false => 0.0,
     };
+    let title_height = of_text(chart.title.is_some(), TITLE_TEXT);
     let top = crisp(MARGIN + title_height + reserve.top);
     let below_ticks = MAJOR_TICK + TICK_GAP + TICK_TEXT * ASCENT_EM;
-    let label_height = if chart.x.label.is_empty() {
-        0.0
-    } else {
-        LABEL_TEXT * (ASCENT_EM + DESCENT_EM) + LABEL_GAP
-    };
+    let label_height = of_text(!chart.x.label.is_empty(), LABEL_TEXT);
     let bottom = crisp(height - MARGIN - label_height - below_ticks);
     checked_size(chart, bottom - top)?;
 
-    let y = AxisMap {
-        scale: chart.y.scale,
-        low: ranges.y.0,
-        high: ranges.y.1,
-        from_px: bottom,
-        to_px: top,
-    };
+    let y = AxisMap::new(chart.y.scale, ranges.y, (bottom, top));
     let y_ticks = ticks::choose(y.scale, y.low, y.high, |ticks| room_for_heights(&y, ticks));
     let widest = tick_widths(&y_ticks)?.into_iter().fold(0.0, f64::max);
     let beside_frame =
@@ -143,13 +141,7 @@ pub(super) fn lay_out(
 
     let mut right = crisp(width - MARGIN - reserve.right);
     checked_size(chart, right - left)?;
-    let mut x = AxisMap {
-        scale: chart.x.scale,
-        low: ranges.x.0,
-        high: ranges.x.1,
-        from_px: left,
-        to_px: right,
-    };
+    let mut x = AxisMap::new(chart.x.scale, ranges.x, (left, right));
     let x_ticks = ticks::choose(x.scale, x.low, x.high, |ticks| room_for_widths(&x, ticks));
     if let (Some(last), Some(label_width)) = (x_ticks.major.last(), tick_widths(&x_ticks)?.last()) {
         // The last label is centred on its tick and may reach beyond the frame.
@@ -197,9 +189,10 @@ fn checked_size(chart: &Chart, frame_length: f64) -> Result<(), ChartError> {
     Ok(())
 }
 
-fn tick_widths(ticks: &Ticks) -> Result<Vec<f64>, ChartError> {
-    let widths = widths_em(ticks.major.iter().map(|tick| tick.label.as_str()))?;
-    Ok(widths.into_iter().map(|width| width * TICK_TEXT).collect())
+/// The widths (px) of the labels.
+pub(super) fn tick_widths(ticks: &Ticks) -> Result<Vec<f64>, ChartError> {
+    let width = |tick: &Tick| Ok(width_em(&tick.label)? * TICK_TEXT);
+    ticks.major.iter().map(width).collect()
 }
 
 /// An upper bound of a label's width, good enough to tell whether labels crowd: in DejaVu Sans figures take 0.64 em,
@@ -236,60 +229,53 @@ fn texts(
     (height, reserve): (f64, Reserve),
 ) -> Vec<PlacedText> {
     // About the middle of its side of the frame, but within these ends; too long for them, set smaller rather than cut off.
-    let placed = |text: &String, size: f64, width_em: f64, side: (f64, f64), ends: (f64, f64)| {
-        let room = ends.1 - ends.0;
-        let size = if width_em * size > room {
-            room / width_em
-        } else {
-            size
-        };
+    let placed = |size: f64, width_em: f64, side: (f64, f64), ends: (f64, f64)| {
+        let size = fitted_px(size, width_em, ends.1 - ends.0);
         let half = width_em * size / 2.0;
         let middle = (side.0 + side.1) / 2.0;
-        let middle = middle.min(ends.1 - half).max(ends.0 + half);
-        (text.clone(), size, middle)
+        (size, middle.min(ends.1 - half).max(ends.0 + half))
     };
-    let across = ((frame.left, frame.right), (MARGIN, frame.right));
+    let level = |text: &String, size: f64, width_em: f64, y: f64| {
+        let ends = (MARGIN, frame.right);
+        let (size, x) = placed(size, width_em, (frame.left, frame.right), ends);
+        PlacedText {
+            text: text.clone(),
+            at: (x, y),
+            size,
+            anchor: Anchor::Middle,
+        }
+    };
     // A legend above may begin as far left as the label of y stands.
     let y_from = if reserve.top > 0.0 { frame.top } else { MARGIN };
-    let upwards = ((frame.top, frame.bottom), (y_from, height - MARGIN));
-    let level = |(text, size, x): (String, f64, f64), y: f64| PlacedText {
-        text,
-        at: (x, y),
+    let ends = (y_from, height - MARGIN);
+    let (size, y) = placed(LABEL_TEXT, widths.y_label, (frame.top, frame.bottom), ends);
+    let upwards = PlacedText {
+        text: chart.y.label.clone(),
+        at: (MARGIN + LABEL_TEXT * ASCENT_EM, y),
         size,
-        hold: (HPos::Center, Direction::Level),
+        anchor: Anchor::Upwards,
     };
-    let (x, y) = (&chart.x.label, &chart.y.label);
-    let x = placed(x, LABEL_TEXT, widths.x_label, across.0, across.1);
-    let (text, size, center) = placed(y, LABEL_TEXT, widths.y_label, upwards.0, upwards.1);
-    let y = PlacedText {
-        text,
-        at: (MARGIN + LABEL_TEXT * ASCENT_EM, center),
-        size,
-        hold: (HPos::Center, Direction::Upwards),
-    };
-    let title = chart.title.as_ref().map(|title| {
-        let placed = placed(title, TITLE_TEXT, widths.title, across.0, across.1);
-        level(placed, MARGIN + TITLE_TEXT * ASCENT_EM)
-    });
-    let x = level(x, height - MARGIN - LABEL_TEXT * DESCENT_EM);
-    [x, y].into_iter().chain(title).collect()
+    let below = height - MARGIN - LABEL_TEXT * DESCENT_EM;
+    let across = level(&chart.x.label, LABEL_TEXT, widths.x_label, below);
+    let above = MARGIN + TITLE_TEXT * ASCENT_EM;
+    let title = chart.title.as_ref();
+    let title = title.map(|title| level(title, TITLE_TEXT, widths.title, above));
+    [across, upwards].into_iter().chain(title).collect()
 }
 
 /// The ranges of both axes: those given, otherwise from the data and marks.
 pub(super) fn ranges(chart: &Chart) -> Result<Ranges, ChartError> {
-    let (xs, ys) = extents(chart)?;
-    let side = if chart.series.iter().all(is_plain_function) {
-        0.0
-    } else {
-        0.025
+    let [xs, ys] = extents(chart)?;
+    let side = match chart.series.iter().all(is_plain_function) {
+        true => 0.0,
+        false => 0.025,
     };
     // A labelled peak needs room for its label above it.
     let labelled_point =
-        |mark: &Mark| mark.label.is_some() && matches!(mark.place, MarkPlace::Point { .. });
-    let above = if chart.marks.iter().any(labelled_point) {
-        0.12
-    } else {
-        0.05
+        |mark: &Mark| !mark.label.is_empty() && matches!(mark.place, MarkPlace::Point { .. });
+    let above = match chart.marks.iter().any(labelled_point) {
+        true => 0.12,
+        false => 0.05,
     };
     let x_room = Room {
         below: side,
@@ -302,99 +288,62 @@ pub(super) fn ranges(chart: &Chart) -> Result<Ranges, ChartError> {
         reach_zero: 0.3,
     };
     let ranges = Ranges {
-        x: range(&chart.x, AxisName::X, xs.least, xs.greatest, x_room)?,
-        y: range(&chart.y, AxisName::Y, ys.least, ys.greatest, y_room)?,
+        x: range(&chart.x, AxisName::X, xs, x_room)?,
+        y: range(&chart.y, AxisName::Y, ys, y_room)?,
     };
     check_marks_inside(chart, &ranges)?;
     Ok(ranges)
 }
 
 /// What the data with their error bars and areas, and the marks, take up in x and in y.
-fn extents(chart: &Chart) -> Result<(Extent, Extent), ChartError> {
+fn extents(chart: &Chart) -> Result<[(f64, f64); 2], ChartError> {
     let within = |range: Option<(f64, f64)>, value: f64| {
         range.is_none_or(|(low, high)| (low..=high).contains(&value))
     };
-    let (mut xs, mut ys) = (Extent::default(), Extent::default());
+    // What a given range leaves out must not widen the other axis.
+    let shown = |(x, y): &(f64, f64)| within(chart.x.range, *x) && within(chart.y.range, *y);
+    let (mut xs, mut ys) = (Vec::new(), Vec::new());
     for series in &chart.series {
         for (place, point) in series.points.iter().enumerate() {
-            // What a given range leaves out must not widen the other axis.
-            let shown =
-                |(x, y): &(f64, f64)| within(chart.x.range, *x) && within(chart.y.range, *y);
             let Some((x, y)) = point.filter(shown) else {
                 continue;
             };
-            xs.add(x);
-            ys.add(y);
-            let error = series
-                .error
-                .as_ref()
-                .and_then(|errors| *errors.get(place)?)
-                .unwrap_or(0.0);
-            ys.add(y + error);
+            let errors = series.error.as_ref();
+            let error = errors.and_then(|errors| *errors.get(place)?).unwrap_or(0.0);
+            xs.push(x);
+            ys.extend([y, y + error]);
             if chart.y.scale == Scale::Linear || y > error {
-                ys.add(y - error);
+                ys.push(y - error);
             }
-            series.fill_to.iter().for_each(|&base| ys.add(base));
+            ys.extend(series.area_to);
         }
     }
-    if xs.least > xs.greatest && chart.map.is_none() {
+    if xs.is_empty() && chart.map.is_none() {
         return Err(empty(chart));
     }
     for mark in &chart.marks {
-        match mark.place {
-            MarkPlace::Point { x, y } => {
-                xs.add(x);
-                ys.add(y);
-            }
-            MarkPlace::Vertical { x } => xs.add(x),
-            MarkPlace::Horizontal { y } => ys.add(y),
-        }
+        let (x, y) = mark.place.coordinates();
+        xs.extend(x);
+        ys.extend(y);
     }
-    Ok((xs, ys))
+    Ok([xs, ys].map(number::range))
 }
 
 /// A line y(x) without markers: it may run from edge to edge of the frame.
 fn is_plain_function(series: &Series) -> bool {
-    let mut xs = series.points.iter().flatten().map(|point| point.0);
-    series.marker.is_none()
-        && series.error.is_none()
-        && series.points.len() > 1
-        && xs.by_ref().is_sorted()
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Extent {
-    least: f64,
-    greatest: f64,
-}
-
-impl Default for Extent {
-    fn default() -> Self {
-        Self {
-            least: f64::INFINITY,
-            greatest: f64::NEG_INFINITY,
-        }
-    }
-}
-
-impl Extent {
-    fn add(&mut self, value: f64) {
-        self.least = self.least.min(value);
-        self.greatest = self.greatest.max(value);
-    }
+    let xs = series.points.iter().flatten().map(|point| point.0);
+    let is_bare = series.marker.is_none() && series.error.is_none();
+    is_bare && series.points.len() > 1 && xs.is_sorted()
 }
 
 fn check_marks_inside(chart: &Chart, ranges: &Ranges) -> Result<(), ChartError> {
     for mark in &chart.marks {
-        let (x, y) = match mark.place {
-            MarkPlace::Point { x, y } => (Some(x), Some(y)),
-            MarkPlace::Vertical { x } => (Some(x), None),
-            MarkPlace::Horizontal { y } => (None, Some(y)),
-        };
+        let (x, y) = mark.place.coordinates();
         for (value, (low, high), axis) in [(x, ranges.x, AxisName::X), (y, ranges.y, AxisName::Y)] {
             if let Some(value) = value.filter(|value| !(low..=high).contains(value)) {
+                let mark = mark_name(mark);
                 return Err(ChartError::MarkOutside {
-                    mark: mark_name(mark),
+                    mark,
                     axis,
                     value,
                     low,

@@ -4,9 +4,10 @@ use super::curves::Obstacles;
 use super::geometry::{Point, Rect};
 use super::layout::{Layout, Reserve, Widths, crisp};
 use super::look::*;
-use super::{Chart, LegendPlace};
+use super::text::fitted_px;
+use super::{Chart, LegendPlace, Series};
 
-/// A legend in its place.
+/// A legend, in its place or with its upper left corner at the origin.
 #[derive(Debug)]
 pub(super) struct Legend {
     pub(super) rect: Rect,
@@ -17,17 +18,7 @@ pub(super) struct Legend {
     pub(super) entries: Vec<(usize, Point)>,
 }
 
-/// A legend of known size that has no place yet.
-#[derive(Debug)]
-pub(super) struct Block {
-    width: f64,
-    height: f64,
-    text_px: f64,
-    /// As [`Legend::entries`], counted from the upper left corner of the block.
-    entries: Vec<(usize, Point)>,
-}
-
-impl Block {
+impl Legend {
     /// All labelled series in one column at most `room` px wide; `None` where no series has a label.
     pub(super) fn column(chart: &Chart, widths: &Widths, room: f64) -> Option<Self> {
         Self::grid(chart, widths, room, 1)
@@ -65,11 +56,7 @@ impl Block {
         let gaps =
             columns as f64 * (LEGEND_SAMPLE + LEGEND_GAP) + (columns - 1) as f64 * COLUMN_GAP;
         let text_room = (room - 2.0 * LEGEND_PADDING - gaps) / columns as f64;
-        let text_px = if widest * LEGEND_TEXT > text_room {
-            (text_room / widest).max(1.0)
-        } else {
-            LEGEND_TEXT
-        };
+        let text_px = fitted_px(LEGEND_TEXT, widest, text_room).max(1.0);
         let pitch = LEGEND_SAMPLE + LEGEND_GAP + widest * text_px + COLUMN_GAP;
         let at = |place: usize| {
             let (column, row) = (place % columns, place / columns);
@@ -78,120 +65,116 @@ impl Block {
                 LEGEND_PADDING / 2.0 + (row as f64 + 0.5) * LEGEND_ROW,
             )
         };
+        let width = (columns as f64 * pitch - COLUMN_GAP + 2.0 * LEGEND_PADDING).ceil();
+        let height = (rows as f64 * LEGEND_ROW + LEGEND_PADDING).ceil();
+        let entries = entries.into_iter().enumerate();
         Some(Self {
-            width: (columns as f64 * pitch - COLUMN_GAP + 2.0 * LEGEND_PADDING).ceil(),
-            height: (rows as f64 * LEGEND_ROW + LEGEND_PADDING).ceil(),
+            rect: Rect::at(0.0, 0.0, width, height),
             text_px,
-            entries: entries
-                .into_iter()
-                .enumerate()
-                .map(|(place, series)| (series, at(place)))
-                .collect(),
+            framed: true,
+            entries: entries.map(|(place, series)| (series, at(place))).collect(),
         })
     }
 
-    fn at(self, left: f64, top: f64) -> Legend {
+    /// Moved from the origin.
+    fn at(mut self, (left, top): Point) -> Self {
         let (left, top) = (crisp(left), crisp(top));
-        let entries = self
-            .entries
-            .into_iter()
-            .map(|(series, (x, y))| (series, (left + x, top + y)))
-            .collect();
-        Legend {
-            rect: Rect::at(left, top, self.width, self.height),
-            text_px: self.text_px,
-            framed: true,
-            entries,
+        self.rect = Rect::at(left, top, self.rect.width(), self.rect.height());
+        for (_, (x, y)) in &mut self.entries {
+            (*x, *y) = (left + *x, top + *y);
         }
+        self
     }
 
     /// The room to keep free outside the frame.
     pub(super) fn reserve(&self, side: Outside) -> Reserve {
-        match side {
-            Outside::Right => Reserve {
-                right: self.width,
-                ..Reserve::default()
-            },
-            Outside::Above => Reserve {
-                top: self.height,
-                ..Reserve::default()
-            },
+        let (right, top) = match side {
+            Outside::Right => (self.rect.width(), 0.0),
+            Outside::Above => (0.0, self.rect.height()),
+        };
+        Reserve {
+            right,
+            top,
+            left: 0.0,
         }
     }
 
     /// The legend outside the frame of a layout that reserved the room.
-    pub(super) fn outside(self, layout: &Layout, side: Outside) -> Legend {
-        let frame = &layout.frame;
-        let legend = match side {
-            Outside::Right => self.at(frame.right + MARGIN / 2.0, frame.top - LEGEND_PADDING / 2.0),
+    pub(super) fn outside(self, layout: &Layout, side: Outside) -> Self {
+        let (frame, own) = (&layout.frame, &self.rect);
+        let place = match side {
+            Outside::Right => (frame.right + MARGIN / 2.0, frame.top - LEGEND_PADDING / 2.0),
             Outside::Above => {
-                let centered = (frame.left + frame.right - self.width) / 2.0;
-                let left = centered.min(frame.right - self.width).max(MARGIN);
-                let top = frame.top - self.height - 1.0;
-                self.at(left, top)
+                let centered = (frame.left + frame.right - own.width()) / 2.0;
+                let left = centered.min(frame.right - own.width()).max(MARGIN);
+                (left, frame.top - own.height() - 1.0)
             }
         };
-        Legend {
+        Self {
             framed: false,
-            ..legend
+            ..self.at(place)
         }
+    }
+
+    /// Places inside the frame: the four corners, from the upper right by rows, then the middles of the sides.
+    fn places(&self, layout: &Layout) -> [Point; 8] {
+        let inner = layout.frame.grown(-LEGEND_INSET);
+        let (left, top) = (inner.left, inner.top);
+        let (right, bottom) = (
+            inner.right - self.rect.width(),
+            inner.bottom - self.rect.height(),
+        );
+        let (middle_x, middle_y) = ((left + right) / 2.0, (top + bottom) / 2.0);
+        [
+            (right, top),
+            (left, top),
+            (right, bottom),
+            (left, bottom),
+            (right, middle_y),
+            (left, middle_y),
+            (middle_x, top),
+            (middle_x, bottom),
+        ]
     }
 
     /// The legend in the given corner, whatever it covers.
-    pub(super) fn in_corner(self, layout: &Layout, corner: LegendPlace) -> Legend {
-        let Rect {
-            left,
-            top,
-            right,
-            bottom,
-        } = layout.frame.grown(-LEGEND_INSET);
-        let (width, height) = (self.width, self.height);
-        match corner {
-            LegendPlace::TopLeft => self.at(left, top),
-            LegendPlace::BottomRight => self.at(right - width, bottom - height),
-            LegendPlace::BottomLeft => self.at(left, bottom - height),
+    pub(super) fn in_corner(self, layout: &Layout, corner: LegendPlace) -> Self {
+        let [top_right, top_left, bottom_right, bottom_left, ..] = self.places(layout);
+        self.at(match corner {
+            LegendPlace::TopLeft => top_left,
+            LegendPlace::BottomRight => bottom_right,
+            LegendPlace::BottomLeft => bottom_left,
             LegendPlace::TopRight | LegendPlace::Auto | LegendPlace::Right | LegendPlace::Above => {
-                self.at(right - width, top)
+                top_right
             }
-        }
+        })
     }
 
     /// The legend inside the frame where it covers nothing: in a corner, else at the middle of a side.
-    /// Gives the block back where there is no such place.
-    pub(super) fn where_free(self, layout: &Layout, obstacles: &Obstacles) -> Result<Legend, Self> {
+    /// Gives the legend back where there is no such place.
+    pub(super) fn where_free(self, layout: &Layout, obstacles: &Obstacles) -> Result<Self, Self> {
         let inner = layout.frame.grown(-LEGEND_INSET);
-        let (width, height) = (self.width, self.height);
+        let (width, height) = (self.rect.width(), self.rect.height());
         if width > 0.75 * inner.width() || height > 0.75 * inner.height() {
             return Err(self);
         }
-        let (right, bottom) = (inner.right - width, inner.bottom - height);
-        let (middle_x, middle_y) = ((inner.left + right) / 2.0, (inner.top + bottom) / 2.0);
-        let places = [
-            (right, inner.top),
-            (inner.left, inner.top),
-            (right, bottom),
-            (inner.left, bottom),
-            (right, middle_y),
-            (inner.left, middle_y),
-            (middle_x, inner.top),
-            (middle_x, bottom),
-        ];
         let free =
             |&(left, top): &Point| obstacles.spare(&Rect::at(left, top, width, height).grown(3.0));
-        match places.into_iter().find(free) {
-            Some((left, top)) => Ok(self.at(left, top)),
+        match self.places(layout).into_iter().find(free) {
+            Some(place) => Ok(self.at(place)),
             None => Err(self),
         }
     }
 
     /// Whether the frame of a layout without it stays wide enough with it at the right.
     pub(super) fn leaves_room_beside(&self, layout: &Layout) -> bool {
-        layout.frame.width() - self.width >= LEAST_FRAME_BESIDE
+        layout.frame.width() - self.rect.width() >= LEAST_FRAME_BESIDE
     }
 
-    /// Whether the block reads better in a column beside the frame than in rows above it.
+    /// Whether it reads better in a column beside the frame than in rows above it.
     pub(super) fn suits_right(&self, layout: &Layout) -> bool {
-        self.width <= 0.27 * layout.frame.width() && self.height <= layout.frame.height()
+        self.rect.width() <= 0.27 * layout.frame.width()
+            && self.rect.height() <= layout.frame.height()
     }
 }
 
@@ -211,10 +194,7 @@ const LEAST_FRAME_BESIDE: f64 = 240.0;
 const COLUMN_GAP: f64 = 26.0;
 
 fn labelled(chart: &Chart) -> impl Iterator<Item = usize> {
-    chart
-        .series
-        .iter()
-        .enumerate()
-        .filter(|(_, series)| series.label.as_ref().is_some_and(|label| !label.is_empty()))
-        .map(|(place, _)| place)
+    let has_label = |series: &Series| series.label.as_ref().is_some_and(|l| !l.is_empty());
+    let places = 0..chart.series.len();
+    places.filter(move |&place| has_label(&chart.series[place]))
 }

@@ -6,7 +6,7 @@ use super::look::{MARKER_EDGE, MARKER_RADIUS, WHITE};
 use super::{Color, Marker};
 
 /// Draws one marker. The sizes are balanced so that all shapes carry about the same weight.
-pub(super) fn draw(canvas: &Canvas, marker: Marker, at: Point, color: Color) {
+pub(super) fn draw(canvas: &mut Canvas, marker: Marker, at: Point, color: Color) {
     let radius = MARKER_RADIUS;
     match marker {
         Marker::Disc => {
@@ -47,7 +47,7 @@ fn regular<const N: usize>(start_degrees: f64) -> [Point; N] {
     })
 }
 
-fn polygon(canvas: &Canvas, at: Point, radius: f64, shape: &[Point], color: Color) {
+fn polygon(canvas: &mut Canvas, at: Point, radius: f64, shape: &[Point], color: Color) {
     // An edge of even width needs a radius that grows by width / cos(π/n).
     let edge = MARKER_EDGE / (std::f64::consts::PI / shape.len() as f64).cos();
     for (radius, color) in [(radius + edge, WHITE), (radius, color)] {

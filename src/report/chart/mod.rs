@@ -4,10 +4,9 @@
 //! data already scaled to the unit named in the axis label. [`Chart::draw`] gives the finished picture as a [`Drawing`], which
 //! writes itself as SVG whose text is outlines (it needs no font), in pixels, as a page of a PDF or as an element of HTML.
 //!
-//! Plotters draws, in four kinds of shapes: lines, polygons, circles, texts. Layout, ticks and legend are our own, because its
-//! coordinates are whole numbers (so it draws sixteen times as large), because it moves what lies outside to the edge in place of
-//! cutting it there (so lines are cut to the frame before), and because it guesses the width of a text from its bytes (so texts
-//! are measured as they are set).
+//! Plotters draws lines, polygons and circles. Layout, ticks, legend and texts are our own, because its coordinates are whole numbers
+//! (so it draws sixteen times as large), because it moves what lies outside to the edge in place of cutting it there (so lines are cut
+//! to the frame before), and because it guesses the width of a text from its bytes (so texts are measured as they are set).
 //!
 //! ```
 //! use contact_dma::report::chart::{Axis, Chart, Mark, Marker, Series};
@@ -98,6 +97,12 @@ impl Chart {
         self
     }
 
+    /// The same where there may be none.
+    #[must_use]
+    pub fn maybe_title(self, title: Option<String>) -> Self {
+        Self { title, ..self }
+    }
+
     /// Adds one series.
     #[must_use]
     pub fn series(mut self, series: Series) -> Self {
@@ -126,6 +131,14 @@ impl Chart {
         self
     }
 
+    /// Lays a map below everything else, the ranges of whose grid the axes have; it has no legend.
+    #[must_use]
+    pub fn map(mut self, map: HeatMap) -> Self {
+        self.map = Some(Arc::new(map));
+        self.legend = None;
+        self
+    }
+
     /// Adds the bar that explains colours taken from [`ColorScale::color`].
     #[must_use]
     pub fn color_scale(mut self, scale: ColorScale) -> Self {
@@ -151,7 +164,7 @@ impl Chart {
 }
 
 /// One axis: quantity and unit in words, how values become lengths, and optionally the range shown.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     pub label: String,
     pub scale: Scale,
@@ -163,16 +176,14 @@ impl Axis {
     pub fn linear(label: impl Into<String>) -> Self {
         Self {
             label: label.into(),
-            scale: Scale::Linear,
-            range: None,
+            ..Self::default()
         }
     }
 
     pub fn log(label: impl Into<String>) -> Self {
         Self {
-            label: label.into(),
             scale: Scale::Log,
-            range: None,
+            ..Self::linear(label)
         }
     }
 
@@ -193,6 +204,24 @@ pub enum Scale {
     Log,
 }
 
+impl Scale {
+    /// A value as it goes linearly along the axis.
+    pub fn linearised(self, value: f64) -> f64 {
+        match self {
+            Self::Linear => value,
+            Self::Log => value.log10(),
+        }
+    }
+
+    /// The value of what goes linearly along the axis.
+    pub fn value(self, linearised: f64) -> f64 {
+        match self {
+            Self::Linear => linearised,
+            Self::Log => 10_f64.powf(linearised),
+        }
+    }
+}
+
 /// One curve or one set of points.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Series {
@@ -203,12 +232,11 @@ pub struct Series {
     pub line: Option<LineStyle>,
     pub marker: Option<Marker>,
     pub color: Color,
-    /// Fills the area between the curve and this y.
-    pub fill_to: Option<f64>,
-    /// Fills the area that the points enclose: a band, there along one edge and back along the other.
+    /// Fills the area between the curve and this y with the full colour: see [`Series::area_to`].
+    pub area_to: Option<f64>,
+    /// Fills the area that the points enclose with a tint that shows what lies behind: a band, there along one edge and back along
+    /// the other.
     pub closed: bool,
-    /// Whether the area is filled with the full colour, as in a stack of areas, or with a tint that shows what lies behind.
-    pub solid_fill: bool,
     /// Whether markers that crowd are left out: see [`Series::spaced`].
     pub spaced: bool,
     /// Symmetric error bars in units of y, one entry per entry of `points`.
@@ -224,9 +252,8 @@ impl Series {
             line: Some(LineStyle::Solid),
             marker: None,
             color: Color::Palette(0),
-            fill_to: None,
+            area_to: None,
             closed: false,
-            solid_fill: false,
             spaced: false,
             error: None,
         }
@@ -246,7 +273,7 @@ impl Series {
 
     /// Whether it has an area.
     pub(super) fn is_filled(&self) -> bool {
-        self.closed || self.fill_to.is_some()
+        self.closed || self.area_to.is_some()
     }
 
     /// Points that no line joins, drawn as discs unless another marker is chosen.
@@ -283,18 +310,11 @@ impl Series {
         self
     }
 
-    #[must_use]
-    pub fn fill_to(mut self, y: f64) -> Self {
-        self.fill_to = Some(y);
-        self
-    }
-
     /// An area in full colour between the points and this y, without a line. Later series lie on top: a stack is drawn from
     /// its total downwards.
     #[must_use]
     pub fn area_to(mut self, y: f64) -> Self {
-        self.fill_to = Some(y);
-        self.solid_fill = true;
+        self.area_to = Some(y);
         self.line = None;
         self
     }
@@ -360,7 +380,8 @@ impl Marker {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
     pub place: MarkPlace,
-    pub label: Option<String>,
+    /// May be empty.
+    pub label: String,
     pub color: Color,
 }
 
@@ -373,6 +394,17 @@ pub enum MarkPlace {
     Vertical { x: f64 },
     /// A line over the whole width of the frame.
     Horizontal { y: f64 },
+}
+
+impl MarkPlace {
+    /// Its x and its y, as far as it has them.
+    fn coordinates(self) -> (Option<f64>, Option<f64>) {
+        match self {
+            Self::Point { x, y } => (Some(x), Some(y)),
+            Self::Vertical { x } => (Some(x), None),
+            Self::Horizontal { y } => (None, Some(y)),
+        }
+    }
 }
 
 impl Mark {
@@ -391,7 +423,7 @@ impl Mark {
     fn new(place: MarkPlace, label: impl Into<String>) -> Self {
         Self {
             place,
-            label: Some(label.into()),
+            label: label.into(),
             color: look::INK,
         }
     }

@@ -40,26 +40,32 @@ const RAMP: [[u8; 3]; 4] = [
 ];
 
 impl Color {
+    /// Of a curve in a family with an order, which may be one curve alone: then the first of the palette.
+    pub fn of_family(step: usize, of: usize) -> Self {
+        match of {
+            1 => Self::Palette(0),
+            _ => Self::Ramp { step, of },
+        }
+    }
+
     /// Red, green, blue.
     pub fn rgb(self) -> [u8; 3] {
         match self {
             Self::Palette(place) => PALETTE[place % PALETTE.len()],
-            Self::Ramp { step, of } => ramp(step, of),
+            Self::Ramp { step, of } => along(&RAMP, step, of),
             Self::Rgb(red, green, blue) => [red, green, blue],
         }
     }
 }
 
-fn ramp(step: usize, of: usize) -> [u8; 3] {
+/// Step `step` of `of` along colours that are mixed in between.
+pub(super) fn along<const N: usize>(colors: &[[u8; 3]; N], step: usize, of: usize) -> [u8; 3] {
     let last = of.saturating_sub(1).max(1);
-    let place = step.min(last) as f64 / last as f64 * (RAMP.len() - 1) as f64;
-    let lower = (place as usize).min(RAMP.len() - 2);
+    let place = step.min(last) as f64 / last as f64 * (N - 1) as f64;
+    let lower = (place as usize).min(N - 2);
     let part = place - lower as f64;
     std::array::from_fn(|channel| {
-        let (from, to) = (
-            f64::from(RAMP[lower][channel]),
-            f64::from(RAMP[lower + 1][channel]),
-        );
+        let [from, to] = [lower, lower + 1].map(|k| f64::from(colors[k][channel]));
         (from + (to - from) * part).round() as u8
     })
 }

@@ -16,7 +16,7 @@ use resvg::tiny_skia::{Path, PathSegment};
 use resvg::usvg;
 
 use super::ChartError;
-use super::drawing::{Drawing, FINE, PROGRAM, Paint, Paper, Shape};
+use super::drawing::{Drawing, FINE, PROGRAM, Paint, Shape};
 use super::text::FONT;
 
 /// PDF counts in points, 72 to an inch, SVG in px, 96 to an inch.
@@ -36,20 +36,16 @@ impl Drawing {
     /// [`ChartError::Pdf`] where krilla refuses it.
     pub fn to_pdf(&self) -> Result<Vec<u8>, ChartError> {
         let (width_px, height_px) = (self.size.width_px, self.size.height_px);
-        let (width, height, points_per_px) = match self.paper {
+        let (width, height, points_per_px) = match &self.paper {
             None => (
                 f64::from(width_px) * POINTS_PER_PX,
                 f64::from(height_px) * POINTS_PER_PX,
                 POINTS_PER_PX,
             ),
-            Some(Paper {
-                width_mm,
-                height_mm,
-                px_mm,
-            }) => (
-                width_mm * POINTS_PER_MM,
-                height_mm * POINTS_PER_MM,
-                px_mm * POINTS_PER_MM,
+            Some(paper) => (
+                paper.width_mm * POINTS_PER_MM,
+                paper.height_mm * POINTS_PER_MM,
+                paper.px_mm * POINTS_PER_MM,
             ),
         };
         let page = PageSettings::from_wh(width as f32, height as f32)
@@ -231,16 +227,8 @@ fn font() -> Result<&'static Font, ChartError> {
         .ok_or_else(|| failed("its font cannot be read"))
 }
 
-fn transform(transform: usvg::Transform) -> Transform {
-    let usvg::Transform {
-        sx,
-        ky,
-        kx,
-        sy,
-        tx,
-        ty,
-    } = transform;
-    Transform::from_row(sx, ky, kx, sy, tx, ty)
+fn transform(t: usvg::Transform) -> Transform {
+    Transform::from_row(t.sx, t.ky, t.kx, t.sy, t.tx, t.ty)
 }
 
 #[cfg(test)]
@@ -248,7 +236,7 @@ mod tests {
     use crate::report::chart::{Axis, Chart, Series};
 
     fn chart() -> Chart {
-        let line = Series::line([(0.0, 0.0), (1.0, 1.0)]).fill_to(0.0);
+        let line = Series::line([(0.0, 0.0), (1.0, 1.0)]).area_to(0.0);
         Chart::new(
             Axis::linear("angular frequency ω / rad·s⁻¹"),
             Axis::linear("E″ / GPa"),

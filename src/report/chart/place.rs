@@ -4,6 +4,7 @@ use super::curves::Obstacles;
 use super::geometry::{Point, Rect, between, cross, distance};
 use super::layout::{Layout, Widths};
 use super::look::*;
+use super::text::fitted_px;
 use super::{Chart, MarkPlace};
 
 /// A mark's label in its place.
@@ -30,31 +31,30 @@ pub(super) fn labels(
     widths: &Widths,
     mut obstacles: Obstacles,
 ) -> Vec<PlacedLabel> {
-    let is_point = |place: usize| matches!(chart.marks[place].place, MarkPlace::Point { .. });
-    let mut order: Vec<usize> = (0..chart.marks.len())
-        .filter(|&place| {
-            chart.marks[place]
-                .label
-                .as_ref()
-                .is_some_and(|label| !label.is_empty())
-        })
-        .collect();
-    order.sort_by_key(|&place| !is_point(place));
+    let marks = chart.marks.iter().enumerate();
+    let mut order: Vec<_> = marks.filter(|(_, mark)| !mark.label.is_empty()).collect();
+    order.sort_by_key(|(_, mark)| !matches!(mark.place, MarkPlace::Point { .. }));
     let inner = layout.frame.grown(-AIR);
     let mut placed = Vec::new();
-    for place in order {
+    for (place, mark) in order {
         let width_em = widths.marks.get(place).copied().unwrap_or(0.0);
         let room = inner.width() - 2.0 * AIR;
-        let text_px = if width_em * MARK_TEXT > room {
-            room / width_em
-        } else {
-            MARK_TEXT
-        };
+        let text_px = fitted_px(MARK_TEXT, width_em, room);
         let size = (width_em * text_px + 2.0 * AIR, 1.15 * text_px + AIR);
-        let candidates = match chart.marks[place].place {
+        let candidates = match mark.place {
             MarkPlace::Point { x, y } => about_point(layout.px((x, y)), size),
-            MarkPlace::Vertical { x } => along_vertical(layout.x.px(x), &inner, size),
-            MarkPlace::Horizontal { y } => along_horizontal(layout.y.px(y), &inner, size),
+            MarkPlace::Vertical { x } => {
+                let (x, top) = (layout.x.px(x), inner.top + 4.0);
+                along(inner.height() - size.1, 12.0, size, |down| {
+                    [x + 4.0, x - 4.0 - size.0].map(|left| (left, top + down))
+                })
+            }
+            MarkPlace::Horizontal { y } => {
+                let (y, right) = (layout.y.px(y), inner.right - 4.0 - size.0);
+                along(inner.width() - size.0, 16.0, size, |back| {
+                    [y - 3.5 - size.1, y + 3.5].map(|top| (right - back, top))
+                })
+            }
         };
         let Some(best) = best(candidates, &inner, &obstacles) else {
             continue;
@@ -116,30 +116,20 @@ fn about_point(center: Point, (width, height): (f64, f64)) -> Vec<Candidate> {
     all
 }
 
-fn along_vertical(x: f64, inner: &Rect, (width, height): (f64, f64)) -> Vec<Candidate> {
-    let mut all = Vec::new();
-    let rows = ((inner.height() - height) / 12.0).max(0.0) as usize;
-    for row in 0..=rows {
-        let top = inner.top + 4.0 + 12.0 * row as f64;
-        for (left, bias) in [(x + 4.0, 0.0), (x - 4.0 - width, 1.0)] {
-            let cost = 0.5 * row as f64 + bias;
-            all.push(Candidate::at((left, top), (width, height), cost));
-        }
-    }
-    all
-}
-
-fn along_horizontal(y: f64, inner: &Rect, (width, height): (f64, f64)) -> Vec<Candidate> {
-    let mut all = Vec::new();
-    let columns = ((inner.width() - width) / 16.0).max(0.0) as usize;
-    for column in 0..=columns {
-        let left = inner.right - 4.0 - width - 16.0 * column as f64;
-        for (top, bias) in [(y - 3.5 - height, 0.0), (y + 3.5, 1.0)] {
-            let cost = 0.5 * column as f64 + bias;
-            all.push(Candidate::at((left, top), (width, height), cost));
-        }
-    }
-    all
+/// Places on both sides of a line, step by step along it: the first of each step is the better one.
+fn along(
+    length: f64,
+    step_px: f64,
+    size: (f64, f64),
+    at: impl Fn(f64) -> [Point; 2],
+) -> Vec<Candidate> {
+    let steps = (length / step_px).max(0.0) as usize;
+    let of_step = |step: usize| {
+        let (corners, cost) = (at(step_px * step as f64), 0.5 * step as f64);
+        let sides = corners.into_iter().zip([0.0, 1.0]);
+        sides.map(move |(corner, bias)| Candidate::at(corner, size, cost + bias))
+    };
+    (0..=steps).flat_map(of_step).collect()
 }
 
 /// The candidate with the least against it, moved into the frame where it stuck out.

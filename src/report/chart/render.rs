@@ -136,7 +136,7 @@ mod tests {
         Chart::new(Axis::linear("approach δ / µm"), Axis::linear("load P / N"))
             .title("Title")
             .all_series(styles)
-            .series(Series::line([(-3.0, -5.0), (5.0, 9.0)]).fill_to(0.0))
+            .series(Series::line([(-3.0, -5.0), (5.0, 9.0)]).area_to(0.0))
             .mark(Mark::vertical(4.9, "x₀ ≈ 4.9"))
             .mark(Mark::horizontal(53.0, "limit"))
             .mark(Mark::point(-3.0, 0.0, "start"))
@@ -212,7 +212,7 @@ mod tests {
         let mut unwieldy = chart().title(long.clone()).size(500, 400);
         unwieldy.y.label.clone_from(&long);
         unwieldy.x.label.clone_from(&long);
-        unwieldy.marks[0].label = Some(long.clone());
+        unwieldy.marks[0].label.clone_from(&long);
         unwieldy.series[0].label = Some(long);
         let above = unwieldy.clone().legend(LegendPlace::Above);
         for chart in [

@@ -16,6 +16,17 @@ pub(super) struct AxisMap {
 const FAR: f64 = 1e6;
 
 impl AxisMap {
+    /// The map of these values to a length between these two ends.
+    pub(super) fn new(scale: Scale, (low, high): (f64, f64), (from_px, to_px): (f64, f64)) -> Self {
+        Self {
+            scale,
+            low,
+            high,
+            from_px,
+            to_px,
+        }
+    }
+
     pub(super) fn px(&self, value: f64) -> f64 {
         let part = match self.scale {
             Scale::Linear => (value - self.low) / (self.high - self.low),
@@ -24,9 +35,7 @@ impl AxisMap {
         // Far outside, how far no longer matters; an infinite length would.
         self.from_px + part.clamp(-FAR, FAR) * (self.to_px - self.from_px)
     }
-}
 
-impl AxisMap {
     /// As [`AxisMap::px`] for the lower end of an error bar, which on a log axis may have no place at all: then it
     /// lies far below the frame.
     pub(super) fn lowest_px(&self, value: f64) -> f64 {
@@ -52,8 +61,7 @@ pub(super) struct Room {
 pub(super) fn range(
     axis: &Axis,
     name: AxisName,
-    least: f64,
-    greatest: f64,
+    (least, greatest): (f64, f64),
     room: Room,
 ) -> Result<(f64, f64), ChartError> {
     let (low, high) = match (axis.range, axis.scale) {
@@ -61,40 +69,40 @@ pub(super) fn range(
         (None, Scale::Linear) => linear_range(least, greatest, room),
         (None, Scale::Log) => log_range(least, greatest, room),
     };
-    let refuse = |reason| {
-        Err(ChartError::Range {
+    let is_log = axis.scale == Scale::Log;
+    let refusals = [
+        (
+            !(low.is_finite() && high.is_finite()),
+            "the ends must be finite numbers",
+        ),
+        (low >= high, "the first end must be below the second"),
+        (is_log && low <= 0.0, "a logarithmic axis starts above zero"),
+        (
+            is_log && !(high / low).is_finite(),
+            "the ends are too far apart for numbers of double precision",
+        ),
+        (
+            !is_log && !(high - low).is_finite(),
+            "the ends are too far apart for numbers of double precision; scale the data first",
+        ),
+        (
+            high - low < SMALLEST || (is_log && low < SMALLEST),
+            "the values are too small for labels; scale the data first",
+        ),
+        (
+            high - low <= NARROWEST * low.abs().max(high.abs()),
+            "the ends are too close together to tell the labels apart; subtract an offset first",
+        ),
+    ];
+    match refusals.into_iter().find(|(refused, _)| *refused) {
+        None => Ok((low, high)),
+        Some((_, reason)) => Err(ChartError::Range {
             axis: name,
             low,
             high,
             reason,
-        })
-    };
-    if !(low.is_finite() && high.is_finite()) {
-        return refuse("the ends must be finite numbers");
+        }),
     }
-    if low >= high {
-        return refuse("the first end must be below the second");
-    }
-    if axis.scale == Scale::Log && low <= 0.0 {
-        return refuse("a logarithmic axis starts above zero");
-    }
-    if axis.scale == Scale::Log && !(high / low).is_finite() {
-        return refuse("the ends are too far apart for numbers of double precision");
-    }
-    if axis.scale == Scale::Linear && !(high - low).is_finite() {
-        return refuse(
-            "the ends are too far apart for numbers of double precision; scale the data first",
-        );
-    }
-    if high - low < SMALLEST || (axis.scale == Scale::Log && low < SMALLEST) {
-        return refuse("the values are too small for labels; scale the data first");
-    }
-    if (high - low) <= NARROWEST * low.abs().max(high.abs()) {
-        return refuse(
-            "the ends are too close together to tell the labels apart; subtract an offset first",
-        );
-    }
-    Ok((low, high))
 }
 
 /// Relative width below which tick labels would run out of the 15 figures of a double.
@@ -149,7 +157,7 @@ mod tests {
     };
 
     fn auto(axis: Axis, least: f64, greatest: f64) -> (f64, f64) {
-        range(&axis, AxisName::Y, least, greatest, ROOM).unwrap()
+        range(&axis, AxisName::Y, (least, greatest), ROOM).unwrap()
     }
 
     #[test]
@@ -211,8 +219,7 @@ mod tests {
             let result = range(
                 &Axis::linear("").range(low, high),
                 AxisName::X,
-                0.0,
-                1.0,
+                (0.0, 1.0),
                 ROOM,
             );
             assert!(
@@ -227,7 +234,12 @@ mod tests {
             );
         }
         for (low, high) in [(0.0, 1.0), (-1.0, 1.0), (1e-200, 1e200), (1e-320, 1.0)] {
-            let result = range(&Axis::log("").range(low, high), AxisName::X, 0.5, 1.0, ROOM);
+            let result = range(
+                &Axis::log("").range(low, high),
+                AxisName::X,
+                (0.5, 1.0),
+                ROOM,
+            );
             assert!(
                 matches!(result, Err(ChartError::Range { .. })),
                 "{low} {high}"

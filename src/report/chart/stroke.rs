@@ -1,4 +1,4 @@
-//! Lines cut to the frame and into dashes, because the SVG backend of plotters does neither.
+//! Lines cut to the frame and into dashes.
 
 use super::LineStyle;
 use super::geometry::{Point, Rect, between, distance};

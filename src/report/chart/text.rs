@@ -6,6 +6,7 @@ use resvg::tiny_skia::{Path, PathBuilder};
 use resvg::usvg::{self, Node, fontdb};
 
 use super::ChartError;
+use super::canvas::Anchor;
 
 /// DejaVu Sans, whose licence lies beside it: it has ω, δ, τ, ′, superscripts and subscripts, and stays the same
 /// whatever fonts a system has.
@@ -19,7 +20,7 @@ pub(super) const CAPITAL_EM: f64 = 0.729;
 pub(super) const ASCENT_EM: f64 = 0.80;
 pub(super) const DESCENT_EM: f64 = 0.24;
 
-/// From the upper edge of a text to its baseline where plotters places it.
+/// From the upper edge of a text, by which it is placed, to its baseline.
 pub(super) const HANG_EM: f64 = 0.76;
 
 /// How SVG is read: with the embedded font and no other.
@@ -37,27 +38,36 @@ pub(super) fn options() -> usvg::Options<'static> {
     }
 }
 
-/// The widths of the texts at size 1, kerned as they will be drawn.
-pub(super) fn widths_em<'a>(
-    texts: impl IntoIterator<Item = &'a str>,
-) -> Result<Vec<f64>, ChartError> {
+/// The width of a text at size 1, kerned as it will be drawn.
+pub(super) fn width_em(text: &str) -> Result<f64, ChartError> {
     /// Large, so that rounding to the font's own units does not matter.
     const SIZE: f64 = 1000.0;
-    let width = |text| {
-        let laid_out = laid_out(text, (0, 0), SIZE, ("start", 0))?;
-        Ok(laid_out.map_or(0.0, |text| f64::from(text.bounding_box().width()) / SIZE))
-    };
-    texts.into_iter().map(width).collect()
+    let laid_out = laid_out(text, (0, 0), SIZE, Anchor::Start)?;
+    Ok(laid_out.map_or(0.0, |text| f64::from(text.bounding_box().width()) / SIZE))
+}
+
+/// The size of a text of this width at size 1: this one, or less where the room (px) takes it.
+pub(super) fn fitted_px(size: f64, width_em: f64, room: f64) -> f64 {
+    match width_em * size > room {
+        true => room / width_em,
+        false => size,
+    }
 }
 
 /// The text with its letters in their places: at this size, its upper edge at `y`, its start, middle or end at `x`, then turned
-/// clockwise about this point. `None`: no letter has ink.
+/// about this point. `None`: no letter has ink.
 pub(super) fn laid_out(
     text: &str,
     (x, y): (i32, i32),
     size: f64,
-    (anchor, degrees): (&str, u32),
+    anchor: Anchor,
 ) -> Result<Option<Box<usvg::Text>>, ChartError> {
+    let (anchor, degrees) = match anchor {
+        Anchor::Start => ("start", 0),
+        Anchor::Middle => ("middle", 0),
+        Anchor::End => ("end", 0),
+        Anchor::Upwards => ("middle", 270),
+    };
     let svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><text x=\"{x}\" y=\"{y}\" dy=\"{HANG_EM}em\" \
          text-anchor=\"{anchor}\" font-size=\"{size}\" transform=\"rotate({degrees}, {x}, {y})\">{}</text></svg>",
@@ -119,7 +129,7 @@ mod tests {
 
     #[test]
     fn widths_follow_the_metrics_of_the_font() {
-        let widths = widths_em(["0", "00", "⁻", ""]).unwrap();
+        let widths = ["0", "00", "⁻", ""].map(|text| width_em(text).unwrap());
         // The figure's advance in DejaVu Sans 2.37 is 1303 of 2048 units.
         assert!((widths[0] - 1303.0 / 2048.0).abs() < 1e-3, "{widths:?}");
         assert!((widths[1] - 2606.0 / 2048.0).abs() < 1e-3, "{widths:?}");
@@ -129,7 +139,7 @@ mod tests {
 
     #[test]
     fn reserved_characters_are_measured_as_themselves() {
-        let widths = widths_em(["a<b&c", "a", "<", "b", "&", "c"]).unwrap();
+        let widths = ["a<b&c", "a", "<", "b", "&", "c"].map(|text| width_em(text).unwrap());
         let apart: f64 = widths[1..].iter().sum();
         // Kerning between the letters moves them by less than a tenth of a letter.
         assert!((widths[0] - apart).abs() < 0.06, "{widths:?}");

@@ -5,6 +5,7 @@
 
 use super::Scale;
 use super::look::{MAJOR_TICK, MINOR_TICK};
+use crate::report::number::superscript;
 
 /// The ticks of one axis, each list ascending.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -73,31 +74,26 @@ fn linear(low: f64, high: f64, most: usize) -> Ticks {
     let power = step.power;
     let digits: Vec<i64> = numbers.map(|k| k * step.digits).collect();
     let labels = decimal_labels(&digits, power);
-    let major = digits
-        .iter()
-        .zip(labels)
-        .map(|(&digits, label)| Tick {
-            value: Decimal { digits, power }.value(),
-            label,
-        })
-        .collect();
+    let tick = |(&digits, label)| Tick {
+        value: Decimal { digits, power }.value(),
+        label,
+    };
+    let major = digits.iter().zip(labels).map(tick).collect();
     // A step of 2 is quartered (0.5), the others are cut in five (0.2, 1).
     let parts = if step.digits == 2 { 4 } else { 5 };
     let fine = Decimal {
         digits: step.digits * 10 / parts,
         power: power - 1,
     };
-    let minor = multiples(low, high, fine)
-        .filter(|k| k % parts != 0)
-        .map(|k| {
-            Decimal {
-                digits: k * fine.digits,
-                power: fine.power,
-            }
-            .value()
-        })
-        .collect();
-    Ticks { major, minor }
+    let of_fine = |k: i64| Decimal {
+        digits: k * fine.digits,
+        ..fine
+    };
+    let minor = multiples(low, high, fine).filter(|k| k % parts != 0);
+    Ticks {
+        major,
+        minor: minor.map(|k| of_fine(k).value()).collect(),
+    }
 }
 
 fn finest_step(low: f64, high: f64, most: usize) -> (Decimal, std::ops::RangeInclusive<i64>) {
@@ -157,22 +153,18 @@ fn decades(low: f64, high: f64, first: i32, last: i32, most: usize) -> Ticks {
         .unwrap_or(1000);
     let mut ticks = Ticks::default();
     for power in first - 1..=last {
-        if power >= first {
-            let value = Decimal { digits: 1, power }.value();
-            if power.rem_euclid(stride) == 0 {
-                ticks.major.push(Tick {
-                    value,
-                    label: power_of_ten(power),
-                });
-            } else {
-                ticks.minor.push(value);
-            }
+        let value = Decimal { digits: 1, power }.value();
+        let label = power_of_ten(power);
+        match power.rem_euclid(stride) {
+            _ if power < first => {}
+            0 => ticks.major.push(Tick { value, label }),
+            _ => ticks.minor.push(value),
         }
         if stride == 1 {
-            ticks.minor.extend(
-                within(low, high, (2..=9).map(|digits| Decimal { digits, power }))
-                    .map(Decimal::value),
-            );
+            let between = (2..=9).map(|digits| Decimal { digits, power });
+            ticks
+                .minor
+                .extend(within(low, high, between).map(Decimal::value));
         }
     }
     ticks
@@ -191,14 +183,12 @@ fn one_two_five(low: f64, high: f64, first: i32, last: i32) -> Ticks {
         (false, 1) => power_of_ten(tick.power),
         (false, digits) => format!("{digits} × {}", power_of_ten(tick.power)),
     };
+    let tick = |tick: &Decimal| Tick {
+        value: tick.value(),
+        label: label(tick),
+    };
     Ticks {
-        major: named
-            .iter()
-            .map(|tick| Tick {
-                value: tick.value(),
-                label: label(tick),
-            })
-            .collect(),
+        major: named.iter().map(tick).collect(),
         minor: all(&[3, 4, 6, 7, 8, 9]).map(Decimal::value).collect(),
     }
 }
@@ -218,29 +208,12 @@ fn decimal_labels(digits: &[i64], power: i32) -> Vec<String> {
     let size = largest.to_string().len() as i32 + power;
     // Seven figures before the point or five after it are still read at a glance.
     let readable = size <= 7 && power >= -5;
-    let plain = || {
-        digits
-            .iter()
-            .map(|&n| plain_decimal(n, power))
-            .collect::<Vec<_>>()
+    let labels = |label: fn(i64, i32) -> String| -> Vec<String> {
+        digits.iter().map(|&n| label(n, power)).collect()
     };
-    if readable {
-        return plain();
-    }
-    let scientific: Vec<String> = digits.iter().map(|&n| scientific(n, power)).collect();
-    let longest = |labels: &[String]| {
-        labels
-            .iter()
-            .map(|label| label.chars().count())
-            .max()
-            .unwrap_or(0)
-    };
-    // Beyond some 20 figures the plain form cannot win, and at 10³⁰⁰ need not be written out to see that.
-    if size > 20 || power < -20 {
-        return scientific;
-    }
-    let plain = plain();
-    if longest(&plain) < longest(&scientific) {
+    let longest = |labels: &[String]| labels.iter().map(|label| label.chars().count()).max();
+    let (plain, scientific) = (labels(plain_decimal), labels(scientific));
+    if readable || longest(&plain) < longest(&scientific) {
         plain
     } else {
         scientific
@@ -294,29 +267,7 @@ fn scientific(digits: i64, power: i32) -> String {
 
 /// "10⁻³".
 fn power_of_ten(power: i32) -> String {
-    let raised = power
-        .to_string()
-        .chars()
-        .map(superscript)
-        .collect::<String>();
-    format!("10{raised}")
-}
-
-fn superscript(c: char) -> char {
-    match c {
-        '-' => '⁻',
-        '0' => '⁰',
-        '1' => '¹',
-        '2' => '²',
-        '3' => '³',
-        '4' => '⁴',
-        '5' => '⁵',
-        '6' => '⁶',
-        '7' => '⁷',
-        '8' => '⁸',
-        '9' => '⁹',
-        other => other,
-    }
+    format!("10{}", superscript(power))
 }
 
 #[cfg(test)]

@@ -7,9 +7,8 @@ use crate::quantity::FrequencyUnit;
 use crate::report::ReportError;
 use crate::report::caption::{Caption, Setting};
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
-use crate::report::comparison::{Comparison, CurvePoint, Place};
-use crate::report::number::{at_frequency, largest, prefix, range, scientific};
-use crate::sweep::plan::AxisValues;
+use crate::report::comparison::{Comparison, CurvePoint};
+use crate::report::number::{at_frequency, largest, range, scientific};
 
 const NAME: &str = "comparison";
 const WIDTH_PX: u32 = 800;
@@ -23,13 +22,12 @@ const DIFFERENCE_PX: u32 = 300;
 pub fn write(comparison: &Comparison, press: &Press<'_>) -> Result<Option<String>, ReportError> {
     (press.write)("comparison.csv", &comparison.table())?;
     let (curve, unit) = (&comparison.curve, comparison.unit);
-    let has_difference = curve.iter().any(|p| p.relative_difference().is_some());
-    if !has_difference {
+    if curve.iter().all(|p| p.relative_difference().is_none()) {
         return Ok(Some(
             "no figure: no case has a loss in both results".to_owned(),
         ));
     }
-    let picture = Picture::Stack(vec![losses(curve, unit), differences(curve, unit)]);
+    let picture = Picture(vec![losses(curve, unit), differences(curve, unit)]);
     let caption = caption(comparison).text(&Setting::default());
     press.picture(NAME, NAME, &picture, &caption)?;
     Ok(None)
@@ -46,11 +44,7 @@ fn caption(comparison: &Comparison) -> Caption {
             at_frequency(comparison.unit, place.angular_frequency_rad_per_s, 4)
         )
     });
-    let over = format!(
-        "{} {}",
-        comparison.unit.quantity(),
-        comparison.unit.symbol()
-    );
+    let over = Units::in_si(comparison.unit).frequency_words();
     Caption::new(format!(
         "Energy loss per cycle over {over} in two results (above) and their relative difference (below)"
     ))
@@ -58,26 +52,16 @@ fn caption(comparison: &Comparison) -> Caption {
         .say_all(largest)
 }
 
-fn condition(place: &Place) -> (AxisValues, f64, f64) {
-    (place.varied, place.drive_mean, place.drive_amplitude)
-}
-
 /// Points, broken where the condition changes.
 fn points(
     (curve, unit): (&[CurvePoint], FrequencyUnit),
     value: impl Fn(&CurvePoint) -> Option<f64>,
 ) -> Vec<Option<(f64, f64)>> {
-    let mut points = Vec::with_capacity(curve.len());
-    let mut last = None;
-    for point in curve {
-        if last.is_some_and(|last| last != condition(&point.place)) {
-            points.push(None);
-        }
-        last = Some(condition(&point.place));
-        let x = unit.of(point.place.angular_frequency_rad_per_s);
-        points.push(value(point).map(|v| (x, v)));
-    }
-    points
+    let condition = |p: &CurvePoint| (p.place.varied, p.place.drive_mean, p.place.drive_amplitude);
+    let point = |p: &CurvePoint| Some((unit.of(p.place.angular_frequency_rad_per_s), value(p)?));
+    let parts = curve.chunk_by(|a, b| condition(a) == condition(b));
+    let parts: Vec<Vec<_>> = parts.map(|part| part.iter().map(point).collect()).collect();
+    parts.join(&None)
 }
 
 /// The axis of both panels, with the same ends, where there is more than one frequency.
@@ -91,11 +75,11 @@ fn frequencies(curve: &[CurvePoint], unit: FrequencyUnit, label: &str) -> Axis {
 
 fn losses(curve: &[CurvePoint], unit: FrequencyUnit) -> Chart {
     let all = curve.iter().flat_map(|p| [p.baseline_j, p.new_j]).flatten();
-    let (factor, prefix) = prefix(largest(all));
+    let (factor, energy) = Units::in_si(unit).energy(largest(all));
     let scaled = |loss: Option<f64>| loss.map(|j| factor * j);
     Chart::new(
         frequencies(curve, unit, ""),
-        Axis::linear(format!("energy loss per cycle / {prefix}J")),
+        Axis::linear(format!("energy loss per cycle / {energy}")),
     )
     .series(Series::line(points((curve, unit), |p| scaled(p.baseline_j))).label("baseline"))
     .series(

@@ -1,9 +1,11 @@
 //! The cases of a sweep as curves over frequency: one, or one per value of a second axis; and which of many are shown.
 
 use super::units::Units;
-use crate::report::table::Cell;
-use crate::sweep::plan::{Axes, AxisValues, Block, Condition, SweepPlan, Varied};
+use crate::report::ReportError;
+use crate::report::table::{Cell, csv_leading};
+use crate::sweep::plan::{Axes, AxisValues, Block, Condition, SweepPlan};
 use crate::sweep::record::{CaseRecord, CaseResult};
+use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
 
 /// The cases under one condition, in ascending frequency.
@@ -18,69 +20,110 @@ pub struct Curve<'a> {
 
 /// The curves of a sweep, in the order of its conditions, labelled in these units; those without any case are left out.
 pub fn curves<'a>(plan: &SweepPlan, outcome: &'a Outcome, units: &Units) -> Vec<Curve<'a>> {
+    let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
     // Records stand curve after curve, in the order of the conditions.
     let mut rest = outcome.records.iter().peekable();
     let conditions = plan.conditions();
-    let curves = conditions.iter().map(|condition| Curve {
-        records: std::iter::from_fn(|| rest.next_if(|record| record.is_of(condition))).collect(),
-        ..empty(plan, condition, units)
+    let curves = conditions.iter().map(|condition| {
+        let (mut words, mut sentences) = (Vec::new(), Vec::new());
+        for (varied, value) in over.iter().zip(condition.values.all()) {
+            let value = units.varied_value(varied, *value);
+            let said = match varied.is_whole() {
+                true => value,
+                false => format!("{} {value}", varied.name()),
+            };
+            let of = match varied.block {
+                Block::Drive => "Drive",
+                Block::Indenter => "Indenter",
+                Block::Layer => "Layer",
+                Block::Material => "Material",
+            };
+            sentences.push(format!("{of}: {said}."));
+            words.push(said);
+        }
+        Curve {
+            label: (!words.is_empty()).then(|| words.join(", ")),
+            sentence: (!words.is_empty()).then(|| sentences.join(" ")),
+            records: std::iter::from_fn(|| rest.next_if(|record| record.is_of(condition)))
+                .collect(),
+            condition: condition.clone(),
+        }
     });
     curves.filter(|curve| !curve.records.is_empty()).collect()
 }
 
-/// The curve under a condition, without its cases.
-fn empty<'a>(plan: &SweepPlan, condition: &Condition, units: &Units) -> Curve<'a> {
-    let over = plan.axes.as_ref().map_or(&[][..], |axes| &axes.over);
-    let parts: Vec<(Varied, String)> = (over.iter().zip(condition.values.all()))
-        .map(|(varied, value)| {
-            let value = units.varied_value(varied, *value);
-            let words = match varied.is_whole() {
-                true => value,
-                false => format!("{} {value}", varied.name()),
-            };
-            (varied.clone(), words)
+/// A sweep as its figures show it.
+pub struct SweepCurves<'a> {
+    pub plan: &'a SweepPlan,
+    pub outcome: &'a Outcome,
+    pub units: Units,
+    pub curves: Vec<Curve<'a>>,
+}
+
+impl<'a> SweepCurves<'a> {
+    /// The curves in the units that the sweep asks for.
+    ///
+    /// # Errors
+    /// [`ReportError::Scale`] where normalised axes are asked for and there is nothing to normalise by.
+    pub fn of(plan: &'a SweepPlan, outcome: &'a Outcome) -> Result<Self, ReportError> {
+        let units = Units::of_sweep(plan)?;
+        Ok(Self {
+            curves: curves(plan, outcome, &units),
+            plan,
+            outcome,
+            units,
         })
-        .collect();
-    let words: Vec<&str> = parts.iter().map(|(_, words)| words.as_str()).collect();
-    let label = (!words.is_empty()).then(|| words.join(", "));
-    let sentences = parts.iter().map(|(varied, words)| {
-        let of = match varied.block {
-            Block::Drive => "Drive",
-            Block::Indenter => "Indenter",
-            Block::Layer => "Layer",
-            Block::Material => "Material",
-        };
-        format!("{of}: {words}.")
-    });
-    let sentence = (!words.is_empty()).then(|| sentences.collect::<Vec<_>>().join(" "));
-    Curve {
-        condition: condition.clone(),
-        label,
-        sentence,
-        records: Vec::new(),
     }
-}
 
-/// Columns that tell the cases of a sweep apart but for their frequency.
-pub fn place_columns(axes: Option<&Axes>) -> Vec<String> {
-    let own = axes.into_iter().flat_map(Axes::own_columns);
-    let drive = ["drive_mean", "drive_amplitude"].map(str::to_owned);
-    own.map(|(_, varied)| varied.column())
-        .chain(drive)
-        .collect()
-}
+    /// All cases, curve by curve.
+    pub fn records(&self) -> impl Iterator<Item = &'a CaseRecord> {
+        self.curves.iter().flat_map(|curve| &curve.records).copied()
+    }
 
-/// Their cells: the varied numbers, mean and amplitude.
-pub fn place_cells(axes: Option<&Axes>, varied: AxisValues, drive: [f64; 2]) -> Vec<Cell> {
-    let own = axes.into_iter().flat_map(Axes::own_columns);
-    let own = own.map(|(axis, of)| Cell::of_axis(of, varied.get(axis)));
-    own.chain(drive.map(Cell::from)).collect()
-}
+    /// The values of the second axis, one for each curve.
+    pub fn values(&self) -> impl DoubleEndedIterator<Item = f64> {
+        let curves = self.curves.iter();
+        curves.filter_map(|curve| curve.condition.value())
+    }
 
-/// The same of a case.
-pub fn place_of(axes: Option<&Axes>, record: &CaseRecord) -> Vec<Cell> {
-    let drive = [record.drive_mean, record.drive_amplitude];
-    place_cells(axes, record.varied, drive)
+    /// A table of cases or peaks: these columns, then where they are in the sweep, then these numbers.
+    pub fn table<R: IntoIterator<Item = Cell>>(
+        &self,
+        first: &[&str],
+        numbers: &[&str],
+        rows: impl IntoIterator<Item = (Vec<Cell>, R)>,
+    ) -> Vec<u8> {
+        let own = self.plan.axes.iter().flat_map(Axes::own_columns);
+        let own: Vec<String> = own.map(|(_, varied)| varied.column()).collect();
+        let place = own.iter().map(String::as_str);
+        let place = place.chain(["drive_mean", "drive_amplitude"]);
+        let columns = first.iter().copied().chain(place);
+        let columns: Vec<&str> = columns.chain(numbers.iter().copied()).collect();
+        let rows = rows.into_iter().map(|(mut row, numbers)| {
+            row.extend(numbers);
+            row
+        });
+        csv_leading(self.units.frequency_unit(), &columns, rows)
+    }
+
+    /// Where a case is in the sweep, as the cells of a table: the varied numbers, mean and amplitude.
+    pub fn place_of(&self, record: &CaseRecord) -> Vec<Cell> {
+        self.place(record.varied, [record.drive_mean, record.drive_amplitude])
+    }
+
+    /// The same of a peak.
+    pub fn place_of_peak(&self, peak: &Peak) -> Vec<Cell> {
+        let drive = &self.plan.drive;
+        let mean = peak.drive_mean.unwrap_or(drive.mean());
+        let amplitude = peak.drive_amplitude.unwrap_or(drive.amplitude());
+        self.place(peak.varied, [mean, amplitude])
+    }
+
+    fn place(&self, varied: AxisValues, drive: [f64; 2]) -> Vec<Cell> {
+        let own = self.plan.axes.iter().flat_map(Axes::own_columns);
+        let own = own.map(|(axis, of)| Cell::of_axis(of, varied.get(axis)));
+        own.chain(drive.map(Cell::from)).collect()
+    }
 }
 
 /// The curve with the largest loss: what a figure that has room for one curve shows.
@@ -101,6 +144,13 @@ impl<'a> Curve<'a> {
         results
             .filter_map(|record| Some((*record, record.result.as_ref()?)))
             .collect()
+    }
+
+    /// The one of the largest loss.
+    pub fn largest_result(&self) -> Option<(&'a CaseRecord, &'a CaseResult)> {
+        let loss = |(_, result): &(&CaseRecord, &CaseResult)| result.analysis.energy_loss_j;
+        let results = self.results().into_iter();
+        results.max_by(|a, b| loss(a).total_cmp(&loss(b)))
     }
 }
 

@@ -34,10 +34,7 @@ pub fn figure(outcome: &SimulationOutcome, units: &Units) -> Option<Figure> {
             .map(|cycle| Some(factor * cycle.errors.energy_loss_j?));
         let series = Series::line(points)
             .marker(Marker::nth(step))
-            .color(match segments.len() {
-                1 => Color::Palette(0),
-                of => Color::Ramp { step, of },
-            });
+            .color(Color::of_family(step, segments.len()));
         let series = match cycles.iter().any(|c| c.errors.energy_loss_j.is_some()) {
             true => series.error_bars(errors),
             false => series,

@@ -5,7 +5,7 @@ use super::units::Units;
 use super::{Drawn, Figure};
 use crate::quantity::{Dimension, format_human};
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
+use crate::report::chart::{Axis, Chart, Color, Series};
 use crate::report::number::{largest, scientific};
 use crate::report::table::{cells, csv_leading};
 use crate::report::words::listed;
@@ -19,38 +19,30 @@ const OTHERS: Color = Color::Rgb(0xC4, 0xC4, 0xC4);
 pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
     let results = curve.results();
     if results.len() < 2 {
-        return Drawn::left_out("no dissipation figure: it takes two frequencies with a result");
+        return Err("no dissipation figure: it takes two frequencies with a result");
     }
     let bands = bands(&results);
-    if bands.is_empty() && results[0].0.status == Status::Transient {
-        return Drawn::left_out(
-            "no dissipation figure: what the branches dissipate is not the area of a transient loop",
-        );
-    }
     if bands.is_empty() {
-        return Drawn::left_out("no dissipation figure: the material has no relaxation branches");
+        return Err(match results[0].0.status {
+            Status::Transient => {
+                "no dissipation figure: what the branches dissipate is not the area of a transient loop"
+            }
+            _ => "no dissipation figure: the material has no relaxation branches",
+        });
     }
     let losses = results.iter().map(|(_, r)| r.analysis.energy_loss_j);
     let (factor, unit) = units.energy(largest(losses));
     let omega = |record: &CaseRecord| units.frequency().0 * record.angular_frequency_rad_per_s;
-    let mut chart = Chart::new(
-        Axis::log(units.frequency_title()),
-        Axis::linear(format!("energy loss per cycle / {unit}")),
-    );
-    chart.title.clone_from(&curve.label);
     // From the total downwards: each area covers the lower part of the one before.
     let of = bands.iter().filter(|band| !band.is_rest).count();
-    let mut step = 0;
-    for (k, band) in bands.iter().enumerate() {
+    let areas = bands.iter().enumerate().map(|(k, band)| {
         let color = match band.is_rest {
             true => OTHERS,
-            false => {
-                step += 1;
-                Color::Ramp {
-                    step: of - step,
-                    of,
-                }
-            }
+            // What is left of the stack from here down.
+            false => Color::Ramp {
+                step: bands.len() - 1 - k,
+                of,
+            },
         };
         let points = curve.records.iter().map(|record| {
             let place = results.iter().position(|(r, _)| r.index == record.index)?;
@@ -58,20 +50,22 @@ pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
             Some((omega(record), factor * below.sum::<f64>()))
         });
         let area = Series::line(points).area_to(0.0);
-        chart = chart.series(area.label(band.label.clone()).color(color));
-    }
-    let total = curve
-        .records
-        .iter()
-        .map(|r| Some((omega(r), factor * r.energy_loss_j()?)));
-    chart = chart
-        .series(
-            Series::line(total)
-                .label("area of the loop")
-                .color(Color::Rgb(0, 0, 0)),
-        )
-        .legend(LegendPlace::Auto);
-    Drawn::Figure(Figure {
+        area.label(band.label.clone()).color(color)
+    });
+    let records = curve.records.iter();
+    let total = records.map(|r| Some((omega(r), factor * r.energy_loss_j()?)));
+    let chart = Chart::new(
+        Axis::log(units.frequency_title()),
+        Axis::linear(format!("energy loss per cycle / {unit}")),
+    )
+    .maybe_title(curve.label.clone())
+    .all_series(areas)
+    .series(
+        Series::line(total)
+            .label("area of the loop")
+            .color(Color::Rgb(0, 0, 0)),
+    );
+    Ok(Figure {
         name: "dissipation",
         picture: chart.into(),
         caption: caption(curve, &results, &bands, units),
@@ -122,11 +116,7 @@ fn bands(results: &[(&CaseRecord, &CaseResult)]) -> Vec<Band> {
     let Some((_, first)) = results.first() else {
         return Vec::new();
     };
-    let times: Vec<f64> = first
-        .branches
-        .iter()
-        .map(|b| b.retardation_time_s)
-        .collect();
+    let times = || first.branches.iter().map(|b| b.retardation_time_s);
     let loss =
         |result: &CaseResult, k: usize| result.branches.get(k).map_or(0.0, |b| b.energy_loss_j);
     let band = |label: String, members: &[usize]| Band {
@@ -137,29 +127,27 @@ fn bands(results: &[(&CaseRecord, &CaseResult)]) -> Vec<Band> {
             .collect(),
         is_rest: false,
     };
-    if times.len() <= BANDS {
-        let label = |time_s: f64, body: &str| {
-            format!("λ = {}{body}", format_human(time_s, Dimension::Time, 4))
-        };
-        let bands = times.iter().zip(&first.branches).enumerate();
-        return bands
-            .map(|(k, (&time_s, branch))| band(label(time_s, body_of(branch)), &[k]))
-            .collect();
+    if first.branches.len() <= BANDS {
+        let bands = first.branches.iter().enumerate().map(|(k, branch)| {
+            let time = format_human(branch.retardation_time_s, Dimension::Time, 4);
+            band(format!("λ = {time}{}", body_of(branch)), &[k])
+        });
+        return bands.collect();
     }
-    let decade = |time_s: f64| time_s.log10().floor() as i32;
-    let mut decades: Vec<i32> = times.iter().map(|&time_s| decade(time_s)).collect();
-    decades.dedup();
+    let mut decades: Vec<(i32, Vec<usize>)> = Vec::new();
+    for (k, time_s) in times().enumerate() {
+        let decade = time_s.log10().floor() as i32;
+        match decades.iter_mut().find(|(d, _)| *d == decade) {
+            Some((_, members)) => members.push(k),
+            None => decades.push((decade, vec![k])),
+        }
+    }
     let power = |exponent: i32| scientific(10_f64.powi(exponent), 1);
-    let bands: Vec<Band> = decades
-        .iter()
-        .map(|&d| {
-            let members: Vec<usize> = (0..times.len())
-                .filter(|&k| decade(times[k]) == d)
-                .collect();
-            band(format!("λ = {} to {} s", power(d), power(d + 1)), &members)
-        })
-        .collect();
-    with_rest(bands)
+    let bands = decades.iter().map(|(decade, members)| {
+        let label = format!("λ = {} to {} s", power(*decade), power(decade + 1));
+        band(label, members)
+    });
+    with_rest(bands.collect())
 }
 
 /// The body that a branch belongs to, where there are two, as it is added to a label.

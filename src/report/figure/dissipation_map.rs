@@ -5,38 +5,28 @@ use super::units::Units;
 use super::{Drawn, Figure};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
-use crate::report::chart::{HeatMap, MapShape};
+use crate::report::chart::{Axis, Chart, HeatMap, MapShape};
 use crate::report::number::{largest, with_error};
 use crate::report::table::{cells, csv};
-use crate::sweep::record::{CaseRecord, CaseResult, SurfaceLoss};
+use crate::sweep::record::{CaseRecord, SurfaceLoss};
 
-const WIDTH_PX: u32 = 800;
 /// Steps along the radius of what is revolved, and beyond it to the edge of the map.
 const ALONG_RADIUS: usize = 250;
 const BEYOND: usize = 10;
 
 /// The figure, of one curve.
 pub fn figure(curve: &Curve<'_>, units: &Units) -> Drawn {
-    let loss = |result: &CaseResult| result.analysis.energy_loss_j;
-    let results = curve.results();
-    let largest = results
-        .iter()
-        .max_by(|a, b| loss(a.1).total_cmp(&loss(b.1)));
-    let field = largest.and_then(|(record, result)| {
-        let field = Field::of(&result.cycle.surface_loss)?;
-        Some((record, result, field))
-    });
-    let Some((record, result, field)) = field else {
-        return Drawn::left_out("no dissipation map: nothing is dissipated");
-    };
+    const NOTHING: &str = "no dissipation map: nothing is dissipated";
+    let (record, result) = curve.largest_result().ok_or(NOTHING)?;
+    let field = Field::of(&result.cycle.surface_loss).ok_or(NOTHING)?;
     let frequency = units.frequency_label(record.angular_frequency_rad_per_s);
     let title = match &curve.label {
         Some(label) => format!("{frequency}, {label}"),
         None => frequency,
     };
-    Drawn::Figure(Figure {
+    Ok(Figure {
         name: "dissipation-map",
-        picture: field.map(title, units).into(),
+        picture: field.chart(title, units).into(),
         caption: caption(curve, record, units),
         data: data(&result.cycle.surface_loss),
     })
@@ -59,10 +49,7 @@ fn caption(curve: &Curve<'_>, record: &CaseRecord, units: &Units) -> Caption {
 struct Field {
     x_range_m: (f64, f64),
     y_range_m: (f64, f64),
-    columns: usize,
-    rows: usize,
-    density: Vec<Option<f64>>,
-    shape: MapShape,
+    map: HeatMap,
 }
 
 impl Field {
@@ -79,25 +66,22 @@ impl Field {
                     let start_m = first_m - 0.5 * spacing_m;
                     (start_m, start_m + cells as f64 * spacing_m)
                 };
+                // Cells of the rectangle that were never in contact are blank.
+                let value = |density: &f32| (*density != 0.0).then_some(f64::from(*density));
                 Self {
                     x_range_m: range(cells.first_x_m, cells.spacing_x_m, cells.cells_x),
                     y_range_m: range(cells.first_y_m, cells.spacing_y_m, rows),
-                    columns: cells.cells_x,
-                    rows,
-                    density: (cells.density_j_per_m2)
-                        .iter()
-                        // Cells of the rectangle that were never in contact.
-                        .map(|density| (*density != 0.0).then_some(f64::from(*density)))
-                        .collect(),
-                    shape: MapShape::ToScale,
+                    map: HeatMap {
+                        columns: cells.cells_x,
+                        rows,
+                        values: cells.density_j_per_m2.iter().map(value).collect(),
+                        ..HeatMap::default()
+                    },
                 }
             }
         };
-        let seen = field
-            .density
-            .iter()
-            .flatten()
-            .any(|density| *density != 0.0);
+        let mut values = field.map.values.iter().flatten();
+        let seen = values.any(|density| *density != 0.0);
         seen.then_some(field)
     }
 
@@ -122,34 +106,35 @@ impl Field {
         Some(Self {
             x_range_m: (-edge_m, edge_m),
             y_range_m: (-edge_m, edge_m),
-            columns,
-            rows: 1,
-            density: (0..columns).map(at).collect(),
-            shape: MapShape::Turned,
+            map: HeatMap {
+                columns,
+                rows: 1,
+                values: (0..columns).map(at).collect(),
+                shape: MapShape::Turned,
+                ..HeatMap::default()
+            },
         })
     }
 
-    fn map(self, title: String, units: &Units) -> HeatMap {
+    fn chart(self, title: String, units: &Units) -> Chart {
         let [(left, right), (low, high)] = [self.x_range_m, self.y_range_m];
         let reach = [left, right, low, high].map(f64::abs);
         let (to_length, length) = units.length(largest(reach));
-        let densities = self.density.iter().flatten();
+        let densities = self.map.values.iter().flatten();
         let (to_density, unit) = units.density(largest(densities.map(|d| d.abs())));
-        let scaled = |density: &Option<f64>| Some(to_density * (*density)?);
-        HeatMap {
-            title: Some(title),
-            x_label: format!("x / {length}"),
-            y_label: format!("y / {length}"),
-            x_range: (to_length * left, to_length * right),
-            y_range: (to_length * low, to_length * high),
-            columns: self.columns,
-            rows: self.rows,
-            values: self.density.iter().map(scaled).collect(),
-            value_label: format!("work per cycle and area / {unit}"),
-            width_px: WIDTH_PX,
-            shape: self.shape,
-            ..HeatMap::default()
+        let mut map = self.map;
+        map.value_label = format!("work per cycle and area / {unit}");
+        for value in map.values.iter_mut().flatten() {
+            *value *= to_density;
         }
+        let x = Axis::linear(format!("x / {length}"));
+        let y = Axis::linear(format!("y / {length}"));
+        Chart::new(
+            x.range(to_length * left, to_length * right),
+            y.range(to_length * low, to_length * high),
+        )
+        .title(title)
+        .map(map)
     }
 }
 
@@ -191,7 +176,7 @@ mod tests {
         let density: Vec<_> = radius.iter().map(|r| Some(3.0 - 2e4 * r)).collect();
         let field = Field::revolved(&radius, &density).unwrap();
         let step = 50.0e-6 / ALONG_RADIUS as f64;
-        for (k, value) in field.density.iter().enumerate() {
+        for (k, value) in field.map.values.iter().enumerate() {
             let r = (k as f64 + 0.5) * step;
             match value {
                 // Linear in r, which linear interpolation reproduces but for rounding.

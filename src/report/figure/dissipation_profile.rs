@@ -29,10 +29,10 @@ pub fn figure(curve: &Curve<'_>, asked_rad_per_s: &[f64], units: &Units) -> Draw
         .filter(|(_, line)| line.points.iter().any(|(_, density)| density.is_some()))
         .collect();
     if results.is_empty() {
-        return Drawn::left_out("no dissipation profile: no case has a result");
+        return Err("no dissipation profile: no case has a result");
     }
     let Some(along) = profiles.first().map(|(_, line)| line.along) else {
-        return Drawn::left_out("no dissipation profile: nothing is dissipated");
+        return Err("no dissipation profile: nothing is dissipated");
     };
     let points = || profiles.iter().flat_map(|(_, line)| &line.points);
     let (to_length, length) = units.length(largest(points().map(|(x, _)| x.abs())));
@@ -46,13 +46,13 @@ pub fn figure(curve: &Curve<'_>, asked_rad_per_s: &[f64], units: &Units) -> Draw
             .label(units.frequency_label(record.angular_frequency_rad_per_s))
             .color(Color::Ramp { step, of })
     });
-    let mut chart = Chart::new(
+    let chart = Chart::new(
         Axis::linear(format!("{} / {length}", along.label())),
         Axis::linear(format!("work per cycle and area w / {unit}")),
     )
+    .maybe_title(curve.label.clone())
     .all_series(series);
-    chart.title.clone_from(&curve.label);
-    Drawn::Figure(Figure {
+    Ok(Figure {
         name: "dissipation-profile",
         picture: chart.into(),
         caption: caption(curve, &profiles, along, units),

@@ -1,16 +1,14 @@
 //! A quantity over both axes of a sweep, frequency and the second one, as a map: coloured between the cases, which are dots.
 
-use super::curve::{Curve, place_columns, place_of};
+use super::curve::{Curve, SweepCurves};
 use super::moduli_error::WIDE;
-use super::units::Units;
-use crate::report::chart::{HeatMap, MapShape, Scale};
+use super::{axis, scale};
+use crate::report::chart::{Axis, Chart, HeatMap, MapShape, Scale};
 use crate::report::number::range;
-use crate::report::table::csv_leading;
-use crate::sweep::plan::{Axes, SweepPlan};
+use crate::report::table::Cell;
+use crate::sweep::plan::Axes;
 use crate::sweep::record::CaseRecord;
 
-const WIDTH_PX: u32 = 800;
-const HEIGHT_PX: u32 = 600;
 /// Cells that are coloured.
 const COLUMNS: usize = 128;
 const ROWS: usize = 96;
@@ -28,106 +26,72 @@ pub struct Mapped<'a> {
 }
 
 /// The map; `None` where there are not two frequencies under each of two conditions to colour between.
-pub fn map(
-    plan: &SweepPlan,
-    axis: &Axes,
-    (curves, units): (&[Curve<'_>], &Units),
-    mapped: Mapped<'_>,
-) -> Option<HeatMap> {
-    let control = plan.drive.control();
-    let to_omega = units.frequency().0;
-    let records = || curves.iter().flat_map(|curve| &curve.records);
-    let values = records().filter_map(|record| (mapped.value)(record));
-    let value_scale = scale(range(values), WIDE_COLOURS);
-    let values = || curves.iter().filter_map(|curve| curve.condition.value());
-    let (low, high) = (values().next()?, values().next_back()?);
-    let unit = units.varied(&axis.varied(), low.abs().max(high.abs()));
-    let y_scale = scale((low, high), WIDE);
-    let x_range = range(records().map(|record| record.angular_frequency_rad_per_s));
-    if x_range.0 >= x_range.1 || low >= high {
+pub fn chart(sweep: &SweepCurves<'_>, axes: &Axes, mapped: Mapped<'_>) -> Option<Chart> {
+    let varied = axes.varied();
+    let to_omega = sweep.units.frequency().0;
+    let (first, last) = range(sweep.records().map(|r| r.angular_frequency_rad_per_s));
+    let (low, high) = (sweep.values().next()?, sweep.values().next_back()?);
+    if first >= last || low >= high {
         return None;
     }
+    let unit = sweep.units.varied(&varied, low.abs().max(high.abs()));
+    let title = unit.title(&varied, sweep.plan.drive.control());
+    let x = Axis::log(sweep.units.frequency_title()).range(to_omega * first, to_omega * last);
+    let y = axis((low, high), WIDE, title).range(unit.of(low), unit.of(high));
+    let value_scale = scale(
+        range(sweep.records().filter_map(mapped.value)),
+        WIDE_COLOURS,
+    );
+    let curves = sweep.curves.iter();
+    let rows = curves.filter_map(|curve| Row::of(curve, [y.scale, value_scale], mapped.value));
     let grid = Grid {
-        rows: curves
-            .iter()
-            .filter_map(|curve| row(curve, y_scale, value_scale, mapped.value))
-            .collect(),
+        rows: rows.collect(),
     };
-    let centre = |(from, to): (f64, f64), k: usize, count: usize| {
+    let on = |scale: Scale, (from, to): (f64, f64), k: usize, count: usize| {
+        let (from, to) = (scale.linearised(from), scale.linearised(to));
         from + (to - from) * (k as f64 + 0.5) / count as f64
     };
-    let (x, y) = (
-        (x_range.0.log10(), x_range.1.log10()),
-        (on(y_scale, low), on(y_scale, high)),
-    );
     let cell = |i: usize| {
-        let value = grid.at(
-            centre(x, i % COLUMNS, COLUMNS),
-            centre(y, i / COLUMNS, ROWS),
-        )?;
-        Some(match value_scale {
-            Scale::Linear => value,
-            Scale::Log => 10_f64.powf(value),
-        })
+        let x = on(Scale::Log, (first, last), i % COLUMNS, COLUMNS);
+        let y = on(y.scale, (low, high), i / COLUMNS, ROWS);
+        Some(value_scale.value(grid.at(x, y)?))
     };
-    let coloured: Vec<Option<f64>> = (0..COLUMNS * ROWS).map(cell).collect();
-    coloured.iter().any(Option::is_some).then_some(())?;
-    let points = curves.iter().flat_map(|curve| {
-        let value = curve.condition.value().map(|value| unit.of(value));
+    let values: Vec<Option<f64>> = (0..COLUMNS * ROWS).map(cell).collect();
+    values.iter().any(Option::is_some).then_some(())?;
+    let place = |omega: f64, value: f64| (to_omega * omega, unit.of(value));
+    let points = sweep.curves.iter().flat_map(|curve| {
+        let value = curve.condition.value();
         let there = curve.records.iter().filter(|r| (mapped.value)(r).is_some());
-        there.filter_map(move |r| Some((to_omega * r.angular_frequency_rad_per_s, value?)))
+        there.filter_map(move |r| Some(place(r.angular_frequency_rad_per_s, value?)))
     });
-    Some(HeatMap {
-        title: None,
-        x_label: units.frequency_title(),
-        y_label: unit.title(&axis.varied(), control),
-        x_range: (to_omega * x_range.0, to_omega * x_range.1),
-        y_range: (unit.of(low), unit.of(high)),
-        x_scale: Scale::Log,
-        y_scale,
+    let rings = mapped.rings.iter();
+    let map = HeatMap {
         columns: COLUMNS,
         rows: ROWS,
-        values: coloured,
+        values,
         value_label: mapped.label,
         value_range: None,
         value_scale,
         contours: true,
-        points: match records().count() > DOTS {
-            true => Vec::new(),
-            false => points.collect(),
+        points: match has_dots(sweep) {
+            true => points.collect(),
+            false => Vec::new(),
         },
-        rings: mapped
-            .rings
-            .iter()
-            .map(|(x, y)| (to_omega * x, unit.of(*y)))
-            .collect(),
-        width_px: WIDTH_PX,
-        shape: MapShape::HeightPx(HEIGHT_PX),
-    })
+        rings: rings.map(|(omega, value)| place(*omega, *value)).collect(),
+        shape: MapShape::Stretched,
+    };
+    Some(Chart::new(x, y).map(map))
 }
 
-/// What a map shows of these cases: dots, where they have room.
-pub fn words(curves: &[Curve<'_>]) -> &'static str {
-    let cases: usize = curves.iter().map(|curve| curve.records.len()).sum();
-    match cases > DOTS {
-        true => "Coloured linearly between the computed cases",
-        false => "Dots: computed cases, coloured linearly between",
-    }
+fn has_dots(sweep: &SweepCurves<'_>) -> bool {
+    sweep.records().count() <= DOTS
 }
 
-fn scale((least, largest): (f64, f64), wide: f64) -> Scale {
-    if least > 0.0 && largest > wide * least {
-        Scale::Log
-    } else {
-        Scale::Linear
-    }
-}
-
-/// A number on a scale.
-fn on(scale: Scale, value: f64) -> f64 {
-    match scale {
-        Scale::Linear => value,
-        Scale::Log => value.log10(),
+/// What a map shows of the cases: dots, where they have room.
+pub fn words(sweep: &SweepCurves<'_>) -> &'static str {
+    match has_dots(sweep) {
+        true => "Dots: computed cases, coloured linearly between",
+        false => "Coloured linearly between the computed cases",
     }
 }
 
@@ -142,38 +106,40 @@ struct Row {
     cases: Vec<(f64, Option<f64>)>,
 }
 
-fn row(
-    curve: &Curve<'_>,
-    y_scale: Scale,
-    value_scale: Scale,
-    value: &dyn Fn(&CaseRecord) -> Option<f64>,
-) -> Option<Row> {
-    let case = |record: &&CaseRecord| {
-        let value = value(record).map(|value| on(value_scale, value));
-        (record.angular_frequency_rad_per_s.log10(), value)
-    };
-    Some(Row {
-        place: on(y_scale, curve.condition.value()?),
-        cases: curve.records.iter().map(case).collect(),
-    })
+/// The two neighbours of a number among ascending ones, and how far it is from the first to the second.
+fn neighbours<T>(all: &[T], number: impl Fn(&T) -> f64, of: f64) -> Option<(&T, &T, f64)> {
+    let above = all.partition_point(|one| number(one) < of).max(1);
+    let (low, high) = (all.get(above - 1)?, all.get(above)?);
+    Some((low, high, (of - number(low)) / (number(high) - number(low))))
 }
 
 impl Grid {
     /// Linear between the neighbours; `None` beside a case without a value.
     fn at(&self, x: f64, y: f64) -> Option<f64> {
-        let above = self.rows.partition_point(|row| row.place < y).max(1);
-        let (low, high) = (self.rows.get(above - 1)?, self.rows.get(above)?);
-        let part = (y - low.place) / (high.place - low.place);
+        let (low, high, part) = neighbours(&self.rows, |row| row.place, y)?;
         let (from, to) = (low.at(x)?, high.at(x)?);
         Some(from + part * (to - from))
     }
 }
 
 impl Row {
+    fn of(
+        curve: &Curve<'_>,
+        [y_scale, value_scale]: [Scale; 2],
+        value: &dyn Fn(&CaseRecord) -> Option<f64>,
+    ) -> Option<Self> {
+        let case = |record: &&CaseRecord| {
+            let value = value(record).map(|value| value_scale.linearised(value));
+            (record.angular_frequency_rad_per_s.log10(), value)
+        };
+        Some(Self {
+            place: y_scale.linearised(curve.condition.value()?),
+            cases: curve.records.iter().map(case).collect(),
+        })
+    }
+
     fn at(&self, x: f64) -> Option<f64> {
-        let right = self.cases.partition_point(|case| case.0 < x).max(1);
-        let (left, right) = (self.cases.get(right - 1)?, self.cases.get(right)?);
-        let part = (x - left.0) / (right.0 - left.0);
+        let (left, right, part) = neighbours(&self.cases, |case| case.0, x)?;
         let (from, to) = (left.1?, right.1?);
         Some(from + part * (to - from))
     }
@@ -183,25 +149,16 @@ impl Row {
 pub type Column<'a> = (&'a str, &'a dyn Fn(&CaseRecord) -> Option<f64>);
 
 /// The table behind a map: the cases.
-pub fn data<const N: usize>(
-    axis: &Axes,
-    (curves, units): (&[Curve<'_>], &Units),
-    columns: [Column<'_>; N],
-) -> Vec<u8> {
-    let unit = units.frequency_unit();
-    let mut names = place_columns(Some(axis));
-    names.push("angular_frequency_rad_per_s".to_owned());
-    names.extend(columns.iter().map(|(name, _)| (*name).to_owned()));
-    let rows = curves
-        .iter()
-        .flat_map(|curve| &curve.records)
-        .map(|record| {
-            let mut row = place_of(Some(axis), record);
-            row.push(record.angular_frequency_rad_per_s.into());
-            row.extend(columns.iter().map(|(_, value)| value(record).into()));
-            row
-        });
-    csv_leading(unit, &names, rows)
+pub fn data(sweep: &SweepCurves<'_>, columns: &[Column<'_>]) -> Vec<u8> {
+    let mut names = vec!["angular_frequency_rad_per_s"];
+    names.extend(columns.iter().map(|(name, _)| name));
+    let rows = sweep.records().map(|record| {
+        let numbers = columns.iter().map(|(_, value)| value(record).into());
+        let omega = Cell::from(record.angular_frequency_rad_per_s);
+        let numbers = [omega].into_iter().chain(numbers);
+        (sweep.place_of(record), numbers.collect::<Vec<_>>())
+    });
+    sweep.table(&[], &names, rows)
 }
 
 #[cfg(test)]

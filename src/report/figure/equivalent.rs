@@ -2,17 +2,16 @@
 
 use num_complex::Complex;
 
-use super::curve::{Curve, curves, place_columns, place_of};
-use super::units::Units;
+use super::Figure;
+use super::curve::{Curve, SweepCurves};
 use crate::material::Material;
+use crate::quantity::FrequencyUnit;
 use crate::report::caption::Caption;
-use crate::report::chart::Series;
+use crate::report::chart::{Axis, Chart, Series};
 use crate::report::number::{largest, scientific};
 use crate::report::table::{cells, csv_leading};
-use crate::sweep::plan::SweepPlan;
-use crate::sweep::record::CaseRecord;
 use crate::sweep::record::error_bars::Quantity;
-use crate::sweep::search::run::Outcome;
+use crate::sweep::record::{CaseRecord, CaseResult};
 
 /// What indentation reads from one loop, and what it stands for.
 #[derive(Debug, Clone, Copy)]
@@ -64,19 +63,16 @@ pub fn symbols<P: Into<Option<(f64, f64)>>>(points: impl IntoIterator<Item = P>)
 /// The moduli of the loops of a curve, as far as they have any.
 pub fn of_loops<'a>(curve: &Curve<'a>) -> Vec<LoopModulus<'a>> {
     let material = &curve.condition.material;
-    let records = curve.records.iter();
-    records
-        .filter_map(|&record| {
-            let result = record.result.as_ref()?;
-            let omega = record.angular_frequency_rad_per_s;
-            Some(LoopModulus {
-                record,
-                storage_pa: result.storage_modulus_pa?,
-                loss_pa: result.loss_modulus_pa?,
-                own_pa: material.longitudinal_complex_modulus(omega),
-            })
+    let of_loop = |(record, result): (&'a CaseRecord, &CaseResult)| {
+        let omega = record.angular_frequency_rad_per_s;
+        Some(LoopModulus {
+            record,
+            storage_pa: result.storage_modulus_pa?,
+            loss_pa: result.loss_modulus_pa?,
+            own_pa: material.longitudinal_complex_modulus(omega),
         })
-        .collect()
+    };
+    curve.results().into_iter().filter_map(of_loop).collect()
 }
 
 fn line(material: &Material, first: f64, last: f64) -> Line {
@@ -121,6 +117,11 @@ impl LoopModulus<'_> {
         self.record.angular_frequency_rad_per_s
     }
 
+    /// Both moduli (Pa).
+    pub fn modulus(&self) -> Complex<f64> {
+        Complex::new(self.storage_pa, self.loss_pa)
+    }
+
     /// Estimated error (Pa) of one of the moduli.
     pub fn error_pa(&self, quantity: Quantity) -> Option<f64> {
         let result = self.record.result.as_ref()?;
@@ -139,8 +140,7 @@ impl LoopModulus<'_> {
 }
 
 /// The table behind the moduli: all loops of a sweep, under all conditions.
-pub fn table(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
-    let mut columns = place_columns(plan.axes.as_ref());
+pub fn table(sweep: &SweepCurves<'_>) -> Vec<u8> {
     let numbers = [
         "angular_frequency_rad_per_s",
         "storage_modulus_pa",
@@ -152,12 +152,8 @@ pub fn table(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
         "storage_relative_difference",
         "loss_relative_difference",
     ];
-    columns.extend(numbers.map(str::to_owned));
-    let curves = curves(plan, outcome, units);
-    let loops = curves.iter();
-    let rows = loops.flat_map(|curve| of_loops(curve)).map(|at| {
-        let mut row = place_of(plan.axes.as_ref(), at.record);
-        row.extend(cells![
+    let rows = sweep.curves.iter().flat_map(of_loops).map(|at| {
+        let numbers = cells![
             at.omega(),
             at.storage_pa,
             at.error_pa(Quantity::StorageModulus),
@@ -167,29 +163,58 @@ pub fn table(plan: &SweepPlan, outcome: &Outcome, units: &Units) -> Vec<u8> {
             at.own_pa.im,
             at.storage_difference(),
             at.loss_difference(),
-        ]);
-        row
+        ];
+        (sweep.place_of(at.record), numbers)
     });
-    csv_leading(units.frequency_unit(), &columns, rows)
+    sweep.table(&[], &numbers, rows)
 }
 
-/// The table behind a figure that draws loops beside the material's line: of both, these two numbers.
-pub fn pairs(
-    equivalent: &Equivalent<'_>,
-    own: &Line,
-    [x, y]: [&str; 2],
-    pair: impl Fn(Complex<f64>) -> [f64; 2],
-    units: &Units,
-) -> Vec<u8> {
-    let loops = equivalent.loops.iter();
-    let loops = loops.map(|at| ("loop", at.omega(), Complex::new(at.storage_pa, at.loss_pa)));
-    let own = own
-        .iter()
-        .map(|(omega, modulus)| ("material", *omega, *modulus));
-    let rows = loops.chain(own).map(|(kind, omega, modulus)| {
-        let [x, y] = pair(modulus);
-        cells![kind, omega, x, y]
-    });
-    let columns = ["kind", "angular_frequency_rad_per_s", x, y];
-    csv_leading(units.frequency_unit(), &columns, rows)
+/// A figure that draws the loops as symbols beside the material's line.
+pub struct Diagram<'a> {
+    pub name: &'static str,
+    /// What it shows, for its caption.
+    pub shows: &'a str,
+    pub x: Axis,
+    pub y: Axis,
+    /// Of the material, which moduli are drawn.
+    pub own: &'a Line,
+    /// Where a modulus (Pa) at an angular frequency (rad/s) is drawn.
+    pub place: &'a dyn Fn(f64, Complex<f64>) -> Option<(f64, f64)>,
+    /// The numbers that stand for it in the data, and their columns.
+    pub numbers: fn(Complex<f64>) -> [f64; 2],
+    pub columns: [&'static str; 2],
+}
+
+impl Diagram<'_> {
+    /// The figure.
+    pub fn figure(self, equivalent: &Equivalent<'_>, unit: FrequencyUnit) -> Figure {
+        let loops = equivalent.loops.iter();
+        let loops: Line = loops.map(|at| (at.omega(), at.modulus())).collect();
+        let points = |line: &Line| {
+            let points = line
+                .iter()
+                .map(|(omega, modulus)| (self.place)(*omega, *modulus));
+            points.collect::<Vec<_>>()
+        };
+        let chart = Chart::new(self.x, self.y)
+            .maybe_title(equivalent.title.clone())
+            .series(Series::line(points(self.own)).label("material"))
+            .series(symbols(points(&loops)).label("from the loops").color(1));
+        let rows = [("loop", &loops), ("material", self.own)];
+        let rows = rows.into_iter().flat_map(|(kind, line)| {
+            let numbers = &self.numbers;
+            line.iter().map(move |(omega, modulus)| {
+                let [x, y] = numbers(*modulus);
+                cells![kind, *omega, x, y]
+            })
+        });
+        let [x, y] = self.columns;
+        let columns = ["kind", "angular_frequency_rad_per_s", x, y];
+        Figure {
+            name: self.name,
+            picture: chart.into(),
+            caption: equivalent.caption(self.shows),
+            data: csv_leading(unit, &columns, rows),
+        }
+    }
 }

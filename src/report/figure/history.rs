@@ -3,13 +3,11 @@
 use super::units::{Unit, Units};
 use super::{Drawn, Figure, Picture};
 use crate::quantity::Dimension;
-use crate::report::ReportError;
 use crate::report::caption::Caption;
-use crate::report::chart::{self, Axis, Chart, Drawing, Series};
+use crate::report::chart::{Axis, Chart, Series};
 use crate::report::number::{largest, plain};
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
 
-const NAME: &str = "history";
 /// Points of a curve beyond which only the extremes of each stretch are drawn.
 const MOST_POINTS: usize = 4000;
 const WIDTH_PX: u32 = 800;
@@ -20,12 +18,12 @@ const LAST_PANEL_PX: u32 = 285;
 /// The figure; its data are history.csv.
 pub fn figure(outcome: &SimulationOutcome, units: &Units) -> Drawn {
     let rows = &outcome.rows;
-    if !has_span(rows) {
-        return Drawn::left_out("no figure of the history: it has no two times");
+    let end_s = rows.last().map_or(0.0, |row| row.time_s);
+    if rows.first().is_none_or(|row| row.time_s >= end_s) {
+        return Err("no figure of the history: it has no two times");
     }
     let load = largest(rows.iter().map(|row| row.load_n));
     let radius = largest(rows.iter().map(|row| row.contact_radius_m));
-    let end_s = rows.last().map_or(0.0, |row| row.time_s);
     let caption =
         Caption::new("Load W, approach δ and contact radius a against time t").say(format!(
             "The history ends at {}; its largest load is {}, its largest contact radius {}.",
@@ -33,30 +31,12 @@ pub fn figure(outcome: &SimulationOutcome, units: &Units) -> Drawn {
             plain(load, Dimension::Force, 4),
             plain(radius, Dimension::Length, 4)
         ));
-    Drawn::Figure(Figure {
-        name: NAME,
-        picture: Picture::Stack(panels(rows, units)),
+    Ok(Figure {
+        name: "history",
+        picture: Picture(panels(rows, units)),
         caption,
         data: Vec::new(),
     })
-}
-
-fn has_span(rows: &[HistoryRow]) -> bool {
-    matches!((rows.first(), rows.last()), (Some(a), Some(b)) if b.time_s > a.time_s)
-}
-
-/// The picture in SI units, where the history has two times.
-///
-/// # Errors
-/// [`ReportError`] naming the figure.
-pub fn in_si(outcome: &SimulationOutcome) -> Result<Option<Drawing>, ReportError> {
-    let rows = &outcome.rows;
-    if !has_span(rows) {
-        return Ok(None);
-    }
-    let drawing = chart::stack(&panels(rows, &Units::default()));
-    let failed = |source| ReportError::Chart { name: NAME, source };
-    Ok(Some(drawing.map_err(failed)?))
 }
 
 type Signal = fn(&HistoryRow) -> Option<f64>;

@@ -69,16 +69,10 @@ fn axis(number: Number, numbers: &[&Compared]) -> (String, f64) {
 fn data(report: &IdentifyReport<'_>) -> Figure {
     let numbers = report.plan.measurements.numbers();
     let frames = numbers.iter().enumerate();
-    let charts: Vec<Chart> = frames
-        .map(|(place, number)| frame(report, *number, place == 0))
-        .collect();
-    let picture = match <[Chart; 1]>::try_from(charts) {
-        Ok([only]) => only.into(),
-        Err(several) => Picture::Stack(several),
-    };
+    let charts = frames.map(|(place, number)| frame(report, *number, place == 0));
     Figure {
         name: "data-and-model",
-        picture,
+        picture: Picture(charts.collect()),
         caption: Caption::new(match report.plan.measurements.is_history() {
             true => "Measured history, and the history computed with the identified material",
             false => "Measured cycles, and the cycles computed with the identified material",
@@ -225,7 +219,7 @@ fn moduli(report: &IdentifyReport<'_>) -> Figure {
         .mark(Mark::vertical(highest, "last measured"));
     Figure {
         name: "moduli",
-        picture: Picture::Stack(vec![chart, openness(report, &omegas)]),
+        picture: Picture(vec![chart, openness(report, &omegas)]),
         caption: Caption::new("Storage modulus E′ and loss modulus E″ of the identified material, and how well they are known")
             .say("Shaded: 95 % bands, drawn up to a factor of five. Below: half widths of the bands.")
             .say("Dashed: first and last measured frequency, beyond which the series is an extrapolation."),

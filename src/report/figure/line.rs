@@ -1,8 +1,9 @@
 //! One axis of a sweep over several: the sweep along it, the other axes at their values where the loss is largest.
 
-use super::curve::{curves, largest};
+use super::Figure;
+use super::curve::{SweepCurves, curves, largest};
 use super::units::Units;
-use super::{Drawn, Figure};
+use crate::report::ReportError;
 use crate::report::number;
 use crate::sweep::plan::{AxisValues, SweepPlan};
 use crate::sweep::record::CaseRecord;
@@ -18,14 +19,19 @@ pub struct Line {
 }
 
 impl Line {
+    /// Its curves.
+    ///
+    /// # Errors
+    /// As [`SweepCurves::of`].
+    pub fn curves(&self) -> Result<SweepCurves<'_>, ReportError> {
+        SweepCurves::of(&self.plan, &self.outcome)
+    }
+
     /// A figure along the axis, with where the others are held in its caption.
-    pub fn say(&self, drawn: Drawn) -> Drawn {
-        match drawn {
-            Drawn::Figure(figure) => Drawn::Figure(Figure {
-                caption: figure.caption.say_all(self.sentence.clone()),
-                ..figure
-            }),
-            left_out => left_out,
+    pub fn say(&self, figure: Figure) -> Figure {
+        Figure {
+            caption: figure.caption.say_all(self.sentence.clone()),
+            ..figure
         }
     }
 }
@@ -45,6 +51,10 @@ pub fn along(plan: &SweepPlan, outcome: &Outcome, axis: usize) -> Option<Line> {
     };
     let records = outcome.records.iter().filter(|r| is_on(&r.varied));
     let peaks = outcome.peaks.iter().filter(|peak| is_on(&peak.varied));
+    let peak = |peak: &Peak| Peak {
+        varied: peak.varied.alone(axis),
+        ..*peak
+    };
     let held = axes.over.iter().enumerate().filter(|(k, _)| *k != axis);
     let held = held.filter_map(|(k, varied)| {
         let value = number::varied(varied, through.get(k)?);
@@ -58,12 +68,7 @@ pub fn along(plan: &SweepPlan, outcome: &Outcome, axis: usize) -> Option<Line> {
         },
         outcome: Outcome {
             records: records.map(record).collect(),
-            peaks: peaks
-                .map(|peak| Peak {
-                    varied: peak.varied.alone(axis),
-                    ..*peak
-                })
-                .collect(),
+            peaks: peaks.map(peak).collect(),
             peak_problems: outcome.peak_problems.clone(),
             interrupted: outcome.interrupted,
         },

@@ -18,28 +18,26 @@ pub const LOOPS: usize = 5;
 /// one with the largest loss among them.
 pub fn figure(curve: &Curve<'_>, asked_rad_per_s: &[f64], units: &Units) -> Figure {
     let chosen = chosen(&curve.results(), asked_rad_per_s, LOOPS);
-    let of = |signal: fn(&CaseResult) -> &[f64]| {
+    let of = chosen.len();
+    let reach = |signal: fn(&CaseResult) -> &[f64]| {
         let values = chosen.iter().flat_map(|(_, result)| signal(result));
         largest(values.map(|value| value.abs()))
     };
-    let (to_load, load_unit) = units.load(of(|r| &r.cycle.samples.load_n));
-    let (to_approach, approach_unit) = units.approach(of(|r| &r.cycle.samples.approach_m));
+    let (to_load, load_unit) = units.load(reach(|r| &r.cycle.samples.load_n));
+    let (to_approach, approach_unit) = units.approach(reach(|r| &r.cycle.samples.approach_m));
     let series = chosen.iter().enumerate().map(|(step, (record, result))| {
         let samples = &result.cycle.samples;
         let points = samples.approach_m.iter().zip(&samples.load_n);
         Series::line(points.map(|(d, w)| (to_approach * d, to_load * w)))
             .label(units.frequency_label(record.angular_frequency_rad_per_s))
-            .color(Color::Ramp {
-                step,
-                of: chosen.len(),
-            })
+            .color(Color::Ramp { step, of })
     });
-    let mut chart = Chart::new(
+    let chart = Chart::new(
         Axis::linear(format!("approach δ / {approach_unit}")),
         Axis::linear(format!("load W / {load_unit}")),
     )
+    .maybe_title(curve.label.clone())
     .all_series(series);
-    chart.title.clone_from(&curve.label);
     Figure {
         name: "loops",
         picture: chart.into(),
@@ -76,14 +74,9 @@ fn caption(curve: &Curve<'_>, chosen: &[(&CaseRecord, &CaseResult)], units: &Uni
 fn data(chosen: &[(&CaseRecord, &CaseResult)], units: &Units) -> Vec<u8> {
     let columns = ["angular_frequency_rad_per_s", "approach_m", "load_n"];
     let rows = chosen.iter().flat_map(|(record, result)| {
-        let samples = result
-            .cycle
-            .samples
-            .approach_m
-            .iter()
-            .zip(&result.cycle.samples.load_n);
-        let omega = record.angular_frequency_rad_per_s;
-        samples.map(move |(approach, load)| cells![omega, *approach, *load])
+        let (omega, samples) = (record.angular_frequency_rad_per_s, &result.cycle.samples);
+        let points = samples.approach_m.iter().zip(&samples.load_n);
+        points.map(move |(approach, load)| cells![omega, *approach, *load])
     });
     csv_leading(units.frequency_unit(), &columns, rows)
 }

@@ -31,8 +31,9 @@ pub mod relaxation;
 pub mod units;
 pub mod van_gurp_palmen;
 
+use super::ReportError;
 use super::caption::Caption;
-use super::chart::{self, Chart, ChartError, Drawing, HeatMap};
+use super::chart::{self, Axis, Chart, ChartError, Drawing, Scale};
 
 /// A picture, the name of its files, what is to be said of it, and its data as CSV.
 pub struct Figure {
@@ -43,51 +44,51 @@ pub struct Figure {
     pub data: Vec<u8>,
 }
 
-/// What a figure shows.
+/// What a figure shows: a chart, or charts one above another.
 #[derive(Clone)]
-pub enum Picture {
-    Chart(Box<Chart>),
-    /// Charts one above another.
-    Stack(Vec<Chart>),
-}
+pub struct Picture(pub Vec<Chart>);
 
 impl From<Chart> for Picture {
     fn from(chart: Chart) -> Self {
-        Self::Chart(Box::new(chart))
+        Self(vec![chart])
     }
 }
 
-impl From<HeatMap> for Picture {
-    fn from(map: HeatMap) -> Self {
-        Self::from(Chart::from(map))
+impl Figure {
+    /// The picture in the size that it has by itself.
+    ///
+    /// # Errors
+    /// [`ReportError::Chart`] naming the figure.
+    pub(super) fn draw(&self) -> Result<Drawing, ReportError> {
+        let failed = |source| ReportError::Chart {
+            name: self.name,
+            source,
+        };
+        self.picture.draw().map_err(failed)
     }
 }
 
 impl Picture {
     pub(super) fn draw(&self) -> Result<Drawing, ChartError> {
-        match self {
-            Self::Chart(chart) => chart.draw(),
-            Self::Stack(charts) => chart::stack(charts),
-        }
+        chart::stack(&self.0)
     }
 }
 
 /// A figure, or why there is none: an empty frame says less than a sentence.
-pub enum Drawn {
-    Figure(Figure),
-    LeftOut(String),
-}
+pub type Drawn = Result<Figure, &'static str>;
 
-/// An axis of values between these two: logarithmic where they are positive and more than `wide` times apart.
-fn axis((least, largest): (f64, f64), wide: f64, label: impl Into<String>) -> chart::Axis {
+/// The scale of values between these two: logarithmic where they are positive and more than `wide` times apart.
+fn scale((least, largest): (f64, f64), wide: f64) -> Scale {
     match least > 0.0 && largest > wide * least {
-        true => chart::Axis::log(label),
-        false => chart::Axis::linear(label),
+        true => Scale::Log,
+        false => Scale::Linear,
     }
 }
 
-impl Drawn {
-    fn left_out(why: &str) -> Self {
-        Self::LeftOut(why.to_owned())
+/// An axis of values between these two, on their [`scale`].
+fn axis(range: (f64, f64), wide: f64, label: impl Into<String>) -> Axis {
+    Axis {
+        scale: scale(range, wide),
+        ..Axis::linear(label)
     }
 }

@@ -1,15 +1,16 @@
 //! Storage modulus and loss modulus over angular frequency: of a material, and beside it what the loops of a sweep give.
 
+use num_complex::Complex;
+
 use super::Figure;
-use super::equivalent::{self, Equivalent, LoopModulus};
+use super::curve::SweepCurves;
+use super::equivalent::{self, Equivalent, Line, LoopModulus};
 use super::units::Units;
 use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
 use crate::report::number::{largest, scientific};
 use crate::report::table::{cells, csv};
-use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::error_bars::Quantity;
-use crate::sweep::search::run::Outcome;
 
 /// One frequency of a material: rad/s, then Pa, then 1/Pa.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -23,11 +24,14 @@ pub struct ModulusPoint {
 
 /// The figure of a material. `symbol` is E for longitudinal and G for shear moduli.
 pub fn figure(points: &[ModulusPoint], symbol: char) -> Figure {
-    let lines = points.iter().map(|p| {
-        let (storage, loss) = (p.storage_modulus_pa, p.loss_modulus_pa);
-        (p.angular_frequency_rad_per_s, storage, loss)
-    });
-    let (chart, _) = of_material(lines, symbol, &Units::default());
+    let line: Line = points
+        .iter()
+        .map(|p| {
+            let modulus = Complex::new(p.storage_modulus_pa, p.loss_modulus_pa);
+            (p.angular_frequency_rad_per_s, modulus)
+        })
+        .collect();
+    let (chart, _) = of_material(&line, symbol, &Units::default());
     let columns = [
         "angular_frequency_rad_per_s",
         "storage_modulus_pa",
@@ -41,7 +45,7 @@ pub fn figure(points: &[ModulusPoint], symbol: char) -> Figure {
             p.angular_frequency_rad_per_s,
             p.storage_modulus_pa,
             p.loss_modulus_pa,
-            p.loss_modulus_pa / p.storage_modulus_pa,
+            p.loss_tangent(),
             p.storage_compliance_per_pa,
             p.loss_compliance_per_pa,
         ]
@@ -57,34 +61,28 @@ pub fn figure(points: &[ModulusPoint], symbol: char) -> Figure {
     }
 }
 
+impl ModulusPoint {
+    fn loss_tangent(&self) -> f64 {
+        self.loss_modulus_pa / self.storage_modulus_pa
+    }
+}
+
 /// Where the material dissipates most of what it stores.
 fn largest_tangent(points: &[ModulusPoint]) -> Option<String> {
-    let tangent = |p: &ModulusPoint| p.loss_modulus_pa / p.storage_modulus_pa;
-    let largest = points
-        .iter()
-        .max_by(|a, b| tangent(a).total_cmp(&tangent(b)))?;
+    let points = points.iter();
+    let largest = points.max_by(|a, b| a.loss_tangent().total_cmp(&b.loss_tangent()))?;
     let at = Units::default().frequency_label(largest.angular_frequency_rad_per_s);
-    (tangent(largest) > 0.0).then(|| {
-        let tangent = scientific(tangent(largest), 4);
+    (largest.loss_tangent() > 0.0).then(|| {
+        let tangent = scientific(largest.loss_tangent(), 4);
         format!("Largest loss tangent of the points drawn: {tangent} at {at}.")
     })
 }
 
 /// The figure of a sweep: the equivalent moduli of the loops as symbols, the material's own as lines.
-pub fn with_loops(
-    equivalent: &Equivalent<'_>,
-    plan: &SweepPlan,
-    outcome: &Outcome,
-    units: &Units,
-) -> Figure {
-    let own = equivalent.own.iter();
-    let (mut chart, factor) = of_material(
-        own.map(|(w, modulus)| (*w, modulus.re, modulus.im)),
-        'E',
-        units,
-    );
+pub fn with_loops(equivalent: &Equivalent<'_>, sweep: &SweepCurves<'_>) -> Figure {
+    let units = &sweep.units;
+    let (chart, factor) = of_material(&equivalent.own, 'E', units);
     let to_omega = units.frequency().0;
-    chart.title.clone_from(&equivalent.title);
     let symbols = |quantity: Quantity, value: fn(&LoopModulus<'_>) -> f64| {
         let points = equivalent.loops.iter().map(|at| {
             let scaled = factor * value(at);
@@ -92,9 +90,10 @@ pub fn with_loops(
         });
         let errors = equivalent.loops.iter();
         let errors = errors.map(|at| Some(factor * at.error_pa(quantity)?));
-        equivalent::symbols(points).error_bars(errors.collect::<Vec<_>>())
+        equivalent::symbols(points).error_bars(errors)
     };
     let chart = chart
+        .maybe_title(equivalent.title.clone())
         .series(symbols(Quantity::StorageModulus, |at| at.storage_pa).label("E′ from the loop"))
         .series(
             symbols(Quantity::LossModulus, |at| at.loss_pa)
@@ -111,35 +110,29 @@ pub fn with_loops(
         picture: chart.into(),
         caption: equivalent
             .caption(&shows)
-            .say_all(caption::error_bars(plan, outcome)),
-        data: equivalent::table(plan, outcome, units),
+            .say_all(caption::error_bars(sweep.plan, sweep.outcome)),
+        data: equivalent::table(sweep),
     }
 }
 
-/// The lines of a material from (rad/s, Pa, Pa), and the factor from Pa to the unit of the axis.
-fn of_material(
-    points: impl Iterator<Item = (f64, f64, f64)> + Clone,
-    symbol: char,
-    units: &Units,
-) -> (Chart, f64) {
-    let storage = points.clone().map(|(_, storage, _)| storage);
-    let (factor, unit) = units.modulus(largest(storage));
+/// The lines of a material, and the factor from Pa to the unit of the axis.
+fn of_material(own: &Line, symbol: char, units: &Units) -> (Chart, f64) {
+    let (factor, unit) = units.modulus(largest(own.iter().map(|(_, modulus)| modulus.re)));
     let to_omega = units.frequency().0;
     // A modulus of exactly zero has no place on a log axis.
-    let line = |value: fn((f64, f64, f64)) -> f64| {
-        let scaled = points.clone().map(move |p| {
-            let value = factor * value(p);
-            (value > 0.0).then_some((to_omega * p.0, value))
-        });
-        Series::line(scaled)
+    let line = |part: fn(&Complex<f64>) -> f64| {
+        Series::line(own.iter().map(|(omega, modulus)| {
+            let value = factor * part(modulus);
+            (value > 0.0).then_some((to_omega * omega, value))
+        }))
     };
     let chart = Chart::new(
         Axis::log(units.frequency_title()),
         Axis::log(format!("modulus / {unit}")),
     )
-    .series(line(|p| p.1).label(format!("storage modulus {symbol}′")))
+    .series(line(|m| m.re).label(format!("storage modulus {symbol}′")))
     .series(
-        line(|p| p.2)
+        line(|m| m.im)
             .label(format!("loss modulus {symbol}″"))
             .style(LineStyle::Dashed)
             .color(1),

@@ -1,15 +1,13 @@
 //! What the indentation formula gets wrong: the relative difference of the equivalent moduli from the material's own, over the
 //! second axis of a sweep.
 
-use super::curve::{Curve, evenly};
+use super::curve::{SweepCurves, evenly};
 use super::equivalent::{self, LoopModulus, of_loops};
-use super::units::Units;
 use super::{Drawn, Figure, Picture, axis};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, Marker, Series};
 use crate::report::number::{largest, range};
-use crate::sweep::plan::{Axes, SweepPlan};
-use crate::sweep::search::run::Outcome;
+use crate::sweep::plan::Axes;
 
 /// Frequencies in one figure; more cannot be told apart.
 const FREQUENCIES: usize = 5;
@@ -20,23 +18,16 @@ pub(super) const WIDE: f64 = 5.0;
 type Row<'a> = Vec<(f64, Option<LoopModulus<'a>>)>;
 
 /// The figure: storage modulus above, loss modulus below, one curve per frequency.
-pub fn figure(
-    plan: &SweepPlan,
-    outcome: &Outcome,
-    over: &Axes,
-    curves: &[Curve<'_>],
-    units: &Units,
-) -> Drawn {
-    let rows = rows(plan, curves);
+pub fn figure(sweep: &SweepCurves<'_>, over: &Axes) -> Drawn {
+    let units = &sweep.units;
+    let rows = rows(sweep);
     let loops = rows.iter().flat_map(|(_, row)| row);
     if loops.filter_map(|(_, at)| *at).count() < 2 {
-        return Drawn::left_out("no figure of the error of the moduli: too few loops have moduli");
+        return Err("no figure of the error of the moduli: too few loops have moduli");
     }
-    let control = plan.drive.control();
-    let values = || curves.iter().filter_map(|curve| curve.condition.value());
-    let unit = &units.varied(&over.varied(), largest(values().map(f64::abs)));
-    let label = unit.title(&over.varied(), control);
-    let x_axis = |label: String| axis(range(values()), WIDE, label);
+    let unit = &units.varied(&over.varied(), largest(sweep.values().map(f64::abs)));
+    let label = unit.title(&over.varied(), sweep.plan.drive.control());
+    let x_axis = |label: String| axis(range(sweep.values()), WIDE, label);
     let series = |difference: fn(&LoopModulus<'_>) -> Option<f64>| {
         let of = rows.len();
         let series = rows.iter().enumerate().map(move |(step, (omega, row))| {
@@ -62,11 +53,11 @@ pub fn figure(
         .all_series(series(|at| at.loss_difference()))
         .legend(None)
         .size(800, 360);
-    Drawn::Figure(Figure {
+    Ok(Figure {
         name: "moduli-error",
-        picture: Picture::Stack(vec![storage, loss]),
+        picture: Picture(vec![storage, loss]),
         caption: caption(over, &rows),
-        data: equivalent::table(plan, outcome, units),
+        data: equivalent::table(sweep),
     })
 }
 
@@ -86,19 +77,19 @@ fn caption(axis: &Axes, rows: &[(f64, Row<'_>)]) -> Caption {
 }
 
 /// Some of the planned frequencies, each over the second axis.
-fn rows<'a>(plan: &SweepPlan, curves: &[Curve<'a>]) -> Vec<(f64, Row<'a>)> {
+fn rows<'a>(sweep: &SweepCurves<'a>) -> Vec<(f64, Row<'a>)> {
+    let curves = sweep.curves.iter();
     let loops: Vec<(f64, Vec<LoopModulus<'a>>)> = curves
-        .iter()
         .filter_map(|curve| Some((curve.condition.value()?, of_loops(curve))))
         .collect();
-    let planned = &plan.angular_frequencies_rad_per_s;
-    evenly(planned.len(), FREQUENCIES)
-        .into_iter()
-        .filter_map(|k| planned.get(k))
+    let planned = &sweep.plan.angular_frequencies_rad_per_s;
+    let some = evenly(planned.len(), FREQUENCIES).into_iter();
+    some.filter_map(|k| planned.get(k))
         .map(|&omega| {
-            let at =
-                |loops: &[LoopModulus<'a>]| loops.iter().find(|at| at.omega() == omega).copied();
-            let row = loops.iter().map(|(value, loops)| (*value, at(loops)));
+            let row = loops.iter().map(|(value, loops)| {
+                let at = loops.iter().find(|at| at.omega() == omega);
+                (*value, at.copied())
+            });
             (omega, row.collect())
         })
         .collect()

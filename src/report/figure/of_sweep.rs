@@ -2,10 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::curve::{Curve, chosen, curves, largest};
+use super::curve::{Curve, SweepCurves, chosen, largest};
 use super::equivalent::Equivalent;
 use super::line::{self, Line};
-use super::units::Units;
 use super::{
     Drawn, Figure, cole_cole, dissipation, dissipation_map, dissipation_profile, energy_loss,
     harmonic_map, loops, loss_map, loss_tangent, moduli, moduli_error, peaks_over_axis,
@@ -13,7 +12,6 @@ use super::{
 };
 use crate::report::ReportError;
 use crate::sweep::plan::{SweepPlan, axes};
-use crate::sweep::record::{CaseRecord, CaseResult};
 use crate::sweep::search::run::Outcome;
 
 /// The figures, and what was left out and why. Of a sweep over several axes each figure shows one of them, the others at their values
@@ -25,68 +23,65 @@ pub fn figures(
     plan: &SweepPlan,
     outcome: &Outcome,
 ) -> Result<(Vec<Figure>, Vec<String>), ReportError> {
-    let along = line::along(plan, outcome, 0);
-    let (one_plan, one) = along
-        .as_ref()
-        .map_or((plan, outcome), |line| (&line.plan, &line.outcome));
-    let mut drawn = of_first_axis(one_plan, one)?;
-    if let Some(line) = &along {
-        drawn = drawn.into_iter().map(|drawn| line.say(drawn)).collect();
-    }
+    let mut drawn = match line::along(plan, outcome, 0) {
+        None => of_first_axis(&SweepCurves::of(plan, outcome)?),
+        Some(line) => said(&line, of_first_axis(&line.curves()?)),
+    };
     let lines = (1..axes::MOST).map_while(|axis| Some((axis, line::along(plan, outcome, axis)?)));
     for (axis, line) in lines {
-        let others = of_other_axis(axis, &line)?.into_iter();
-        drawn.extend(others.map(|drawn| line.say(drawn)));
+        drawn.extend(said(&line, of_other_axis(axis, &line.curves()?)));
     }
     let (mut figures, mut left_out) = (Vec::new(), Vec::new());
     for drawn in drawn {
         match drawn {
-            Drawn::Figure(figure) => figures.push(figure),
-            Drawn::LeftOut(why) => left_out.push(why),
+            Ok(figure) => figures.push(figure),
+            Err(why) => left_out.push(why.to_owned()),
         }
     }
     Ok((figures, left_out))
 }
 
-fn of_first_axis(plan: &SweepPlan, outcome: &Outcome) -> Result<Vec<Drawn>, ReportError> {
-    let units = &Units::of_sweep(plan)?;
+fn said(line: &Line, drawn: Vec<Drawn>) -> Vec<Drawn> {
+    let said = |drawn: Drawn| drawn.map(|figure| line.say(figure));
+    drawn.into_iter().map(said).collect()
+}
+
+fn of_first_axis(sweep: &SweepCurves<'_>) -> Vec<Drawn> {
+    let (plan, units) = (sweep.plan, &sweep.units);
     let asked = &plan.figures.loops_rad_per_s;
-    let curves = curves(plan, outcome, units);
-    let Some(curve) = largest(&curves).filter(|curve| !curve.results().is_empty()) else {
-        let why = "no figures: no case converged, so there is nothing to draw";
-        return Ok(vec![Drawn::left_out(why)]);
+    let Some(curve) = largest(&sweep.curves).filter(|curve| !curve.results().is_empty()) else {
+        return vec![Err(
+            "no figures: no case converged, so there is nothing to draw",
+        )];
     };
     let mut drawn = vec![
-        Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)),
-        Drawn::Figure(loops::figure(curve, asked, units)),
+        Ok(energy_loss::figure(sweep)),
+        Ok(loops::figure(curve, asked, units)),
         dissipation::figure(curve, units),
         dissipation_profile::figure(curve, asked, units),
         dissipation_map::figure(curve, units),
     ];
     match Equivalent::of(curve) {
-        Some(equivalent) => drawn.extend(
-            [
-                moduli::with_loops(&equivalent, plan, outcome, units),
-                cole_cole::figure(&equivalent, units),
-                van_gurp_palmen::figure(&equivalent, units),
-                loss_tangent::figure(&equivalent, units),
-            ]
-            .map(Drawn::Figure),
-        ),
-        None => drawn.push(Drawn::left_out(
+        Some(equivalent) => drawn.extend([
+            Ok(moduli::with_loops(&equivalent, sweep)),
+            Ok(cole_cole::figure(&equivalent, units)),
+            Ok(van_gurp_palmen::figure(&equivalent, units)),
+            Ok(loss_tangent::figure(&equivalent, units)),
+        ]),
+        None => drawn.push(Err(
             "no figures of the moduli: fewer than two loops have equivalent moduli",
         )),
     }
     // Names have no order to draw along.
     if let Some(axes) = plan.axes.as_ref().filter(|axes| !axes.varied().is_whole()) {
         drawn.extend([
-            loss_map::figure(plan, outcome, axes, &curves, units),
-            harmonic_map::figure(plan, axes, &curves, units),
-            moduli_error::figure(plan, outcome, axes, &curves, units),
-            peaks_over_axis::figure(plan, outcome, axes, units),
+            loss_map::figure(sweep, axes),
+            harmonic_map::figure(sweep, axes),
+            moduli_error::figure(sweep, axes),
+            peaks_over_axis::figure(sweep, axes),
         ]);
     }
-    Ok(drawn)
+    drawn
 }
 
 /// Names of the figures over the second, third and fourth axis.
@@ -96,35 +91,20 @@ const OF_OTHER_AXES: [[&str; 3]; axes::MOST - 1] = [
     ["energy-loss-4", "loss-map-4", "peaks-4"],
 ];
 
-fn of_other_axis(axis: usize, line: &Line) -> Result<Vec<Drawn>, ReportError> {
-    let (plan, outcome) = (&line.plan, &line.outcome);
-    let units = &Units::of_sweep(plan)?;
-    let curves = curves(plan, outcome, units);
-    let (Some(names), Some(axes)) = (OF_OTHER_AXES.get(axis - 1), &plan.axes) else {
-        return Ok(Vec::new());
+fn of_other_axis(axis: usize, sweep: &SweepCurves<'_>) -> Vec<Drawn> {
+    let (Some(names), Some(axes)) = (OF_OTHER_AXES.get(axis - 1), &sweep.plan.axes) else {
+        return Vec::new();
     };
-    let has_results = curves.iter().any(|curve| !curve.results().is_empty());
-    let drawn = match has_results {
-        false => Vec::new(),
-        true if axes.varied().is_whole() => {
-            vec![Drawn::Figure(energy_loss::figure(
-                plan, outcome, &curves, units,
-            ))]
-        }
-        true => vec![
-            Drawn::Figure(energy_loss::figure(plan, outcome, &curves, units)),
-            loss_map::figure(plan, outcome, axes, &curves, units),
-            peaks_over_axis::figure(plan, outcome, axes, units),
-        ],
-    };
-    let named = drawn
-        .into_iter()
-        .zip(names)
-        .map(|(drawn, name)| match drawn {
-            Drawn::Figure(figure) => Drawn::Figure(Figure { name, ..figure }),
-            left_out => left_out,
-        });
-    Ok(named.collect())
+    if sweep.records().all(|record| record.result.is_none()) {
+        return Vec::new();
+    }
+    let mut drawn = vec![Ok(energy_loss::figure(sweep))];
+    if !axes.varied().is_whole() {
+        drawn.push(loss_map::figure(sweep, axes));
+        drawn.push(peaks_over_axis::figure(sweep, axes));
+    }
+    let named = |(drawn, &name): (Drawn, _)| drawn.map(|figure| Figure { name, ..figure });
+    drawn.into_iter().zip(names).map(named).collect()
 }
 
 /// The cases whose cycles the figures show: of the curve of the largest loss.
@@ -132,21 +112,17 @@ fn of_other_axis(axis: usize, line: &Line) -> Result<Vec<Drawn>, ReportError> {
 /// # Errors
 /// As [`figures`].
 pub fn drawn(plan: &SweepPlan, outcome: &Outcome) -> Result<BTreeSet<usize>, ReportError> {
-    let units = Units::of_sweep(plan)?;
     // The curve of the largest loss lies on every line.
-    let curves = curves(plan, outcome, &units);
-    let Some(curve) = largest(&curves) else {
-        return Ok(BTreeSet::new());
-    };
-    Ok(cycles_of(curve, &plan.figures.loops_rad_per_s))
+    let sweep = SweepCurves::of(plan, outcome)?;
+    let curve = largest(&sweep.curves);
+    Ok(curve.map_or(BTreeSet::new(), |curve| {
+        cycles_of(curve, &plan.figures.loops_rad_per_s)
+    }))
 }
 
 /// The cases of a curve whose cycles are shown, where those at some frequencies are asked for or none.
 pub fn cycles_of(curve: &Curve<'_>, asked_rad_per_s: &[f64]) -> BTreeSet<usize> {
-    let results = curve.results();
-    let loss = |(_, result): &&(&CaseRecord, &CaseResult)| result.analysis.energy_loss_j;
-    let highest = results.iter().max_by(|a, b| loss(a).total_cmp(&loss(b)));
-    let shown = chosen(&results, asked_rad_per_s, loops::LOOPS);
-    let shown = shown.iter().chain(highest);
+    let shown = chosen(&curve.results(), asked_rad_per_s, loops::LOOPS).into_iter();
+    let shown = shown.chain(curve.largest_result());
     shown.map(|(record, _)| record.index).collect()
 }

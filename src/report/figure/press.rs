@@ -7,15 +7,12 @@ use crate::report::ReportError;
 use crate::report::caption::Setting;
 use crate::report::chart::{self, Chart, ChartError, Color, Drawing, LegendPlace, LineStyle};
 use crate::report::page::Pictures;
-use crate::sweep::figures::figure_plan::{FigurePlan, Format, PaperSize};
+use crate::sweep::figures::figure_plan::{FigurePlan, Form, PaperSize};
 use crate::sweep::store::StoreError;
 use crate::sweep::store::files;
 
 /// Writes one file: its name, its bytes.
 pub type WriteFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 'a;
-
-/// Resolutions of the PNG where none is asked for: suffix of the name and scale.
-pub const RESOLUTIONS: [(&str, f32); 2] = [("", 1.0), ("@2x", 2.0)];
 
 /// What makes files of figures.
 pub struct Press<'a> {
@@ -51,16 +48,16 @@ impl Press<'_> {
         picture: &Picture,
         caption: &str,
     ) -> Result<(), ReportError> {
-        self.picture_at(&RESOLUTIONS, (file, figure), picture, caption)
+        self.picture_in(&self.plan.pictures(), (file, figure), picture, caption)
     }
 
-    /// As [`Press::picture`]; where the plan asks for no resolution of the PNG, in these of [`RESOLUTIONS`].
+    /// As [`Press::picture`], in these of the forms that the plan asks for.
     ///
     /// # Errors
     /// As [`Press::picture`].
-    pub fn picture_at(
+    pub fn picture_in(
         &self,
-        resolutions: &[(&str, f32)],
+        forms: &[(&str, Form)],
         (file, figure): (&str, &'static str),
         picture: &Picture,
         caption: &str,
@@ -76,37 +73,27 @@ impl Press<'_> {
         self.pictures.insert(file, &drawing);
         let name = format!("{file}{}", files::CAPTION);
         (self.write)(&name, format!("{caption}\n").as_bytes())?;
-        for format in &self.plan.formats {
-            match (format, self.plan.resolution()) {
-                (Format::Svg, _) => {
-                    (self.write)(&format!("{file}.svg"), drawing.to_svg().as_bytes())?
-                }
-                (Format::Pdf, _) => {
-                    let pdf = drawing.to_pdf().map_err(failed)?;
-                    (self.write)(&format!("{file}.pdf"), &pdf)?;
-                }
-                (Format::Png, Some(dpi)) => {
-                    let png = drawing.to_png_at(dpi).map_err(failed)?;
-                    (self.write)(&format!("{file}.png"), &png)?;
-                }
-                (Format::Png, None) => {
-                    resolutions.par_iter().try_for_each(|&(suffix, scale)| {
-                        let png = drawing.to_png(scale).map_err(failed)?;
-                        Ok::<(), ReportError>((self.write)(&format!("{file}{suffix}.png"), &png)?)
-                    })?
-                }
-            }
-        }
-        Ok(())
+        forms.par_iter().try_for_each(|(ending, form)| {
+            let bytes = match *form {
+                Form::Svg => Ok(drawing.to_svg().into_bytes()),
+                Form::Pdf => drawing.to_pdf(),
+                Form::PngOfDpi(dpi) => drawing.to_png_at(dpi),
+                Form::PngOfScale(scale) => drawing.to_png(scale),
+            };
+            Ok((self.write)(
+                &format!("{file}{ending}"),
+                &bytes.map_err(failed)?,
+            )?)
+        })
     }
 }
 
 /// Files of a figure that the plan does not ask for: an earlier run may have left them.
 pub fn not_asked(plan: &FigurePlan, file: &str) -> Vec<String> {
-    let endings = plan.endings();
+    let asked = plan.pictures();
     files::PICTURES
         .into_iter()
-        .filter(|ending| !endings.contains(ending))
+        .filter(|ending| asked.iter().all(|(asked, _)| asked != ending))
         .map(|ending| format!("{file}{ending}"))
         .collect()
 }
@@ -119,7 +106,7 @@ impl Picture {
     pub fn as_asked(&self, plan: &FigurePlan) -> Result<Drawing, ChartError> {
         let mut picture = self.clone();
         if !plan.titles {
-            for chart in picture.charts() {
+            for chart in &mut picture.0 {
                 chart.title = None;
             }
         }
@@ -135,13 +122,6 @@ impl Picture {
         Ok(drawing.on_paper(1e3 * paper.width_m, height_mm, 1e3 * paper.px_m))
     }
 
-    fn charts(&mut self) -> &mut [Chart] {
-        match self {
-            Self::Chart(chart) => std::slice::from_mut(chart.as_mut()),
-            Self::Stack(charts) => charts,
-        }
-    }
-
     /// Gives the drawing the px of this size on paper; says whether it has the height asked for. A map to scale has its own, and
     /// what is too low for its labels and legends is drawn as high as they need.
     fn resize(&mut self, paper: &PaperSize) -> Result<bool, ChartError> {
@@ -149,8 +129,8 @@ impl Picture {
         let whole = |length_m: f64| (length_m / paper.px_m + 1e-6).floor() as u32;
         let width_px = whole(paper.width_m);
         let height_px = paper.height_m.map(whole);
-        let charts = self.charts();
-        if let [chart] = charts
+        let charts = &mut self.0;
+        if let [chart] = charts.as_mut_slice()
             && chart.map.as_ref().is_some_and(|map| map.is_to_scale())
         {
             chart.size.width_px = width_px;
@@ -168,7 +148,7 @@ impl Picture {
                 .map(chart::fits)
                 .collect::<Result<Vec<_>, _>>()?;
             if !fit.contains(&false) {
-                charts.clone_from_slice(&given);
+                *charts = given;
                 return Ok(true);
             }
         }
@@ -184,8 +164,7 @@ impl Picture {
     /// Paper may be printed in grey: curves of a family, which differ in colour alone on a screen, get strokes of their own. And a
     /// corner that a legend was given in a wide picture may hold data in a narrow one.
     fn make_fit_for_paper(&mut self) {
-        let charts = self.charts();
-        for chart in charts.iter_mut() {
+        for chart in &mut self.0 {
             if let Some(
                 LegendPlace::TopRight
                 | LegendPlace::TopLeft
@@ -196,7 +175,7 @@ impl Picture {
                 chart.legend = Some(LegendPlace::Auto);
             }
         }
-        for series in charts.iter_mut().flat_map(|chart| &mut chart.series) {
+        for series in self.0.iter_mut().flat_map(|chart| &mut chart.series) {
             if let (Some(LineStyle::Solid), None, Color::Ramp { step, of }) =
                 (series.line, series.marker, series.color)
                 && of > 1
@@ -244,17 +223,14 @@ mod tests {
     #[test]
     fn heights_follow_the_width_or_are_what_is_given() {
         let sizes = |height_m: Option<f64>| {
-            let mut stack = Picture::Stack(vec![
+            let mut stack = Picture(vec![
                 chart().size(800, 600),
                 chart().size(800, 300).title("b"),
             ]);
             let met = stack.resize(&paper(height_m)).unwrap();
             assert_eq!(met, height_m == Some(0.12));
-            let Picture::Stack(charts) = stack else {
-                panic!("it is a stack")
-            };
             let size = |chart: &Chart| (chart.size.width_px, chart.size.height_px);
-            charts.iter().map(size).collect::<Vec<_>>()
+            stack.0.iter().map(size).collect::<Vec<_>>()
         };
         assert_eq!(sizes(None), [(400, 300), (400, 150)]);
         assert_eq!(sizes(Some(0.12)), [(400, 400), (400, 200)]);
@@ -264,41 +240,34 @@ mod tests {
 
     #[test]
     fn a_map_to_scale_keeps_its_shape_and_others_take_the_height() {
+        let axis = |label| Axis::linear(label).range(0.0, 1.0);
         let map = |shape| HeatMap {
-            x_label: "x".to_owned(),
-            y_label: "y".to_owned(),
-            x_range: (0.0, 1.0),
-            y_range: (0.0, 1.0),
             columns: 1,
             rows: 1,
             values: vec![Some(1.0)],
             value_label: "value".to_owned(),
-            width_px: 800,
             shape,
             ..HeatMap::default()
         };
         let resized = |shape, height_m| {
-            let mut picture = Picture::from(map(shape));
+            let mut picture = Picture::from(Chart::new(axis("x"), axis("y")).map(map(shape)));
             let met = picture.resize(&paper(height_m)).unwrap();
-            let size = picture.charts()[0].size;
+            let size = picture.0[0].size;
             (met, size.width_px, size.height_px)
         };
-        let high = MapShape::HeightPx;
+        let high = MapShape::Stretched;
         assert!(!resized(MapShape::ToScale, Some(0.0014)).0);
-        assert_eq!(resized(high(600), None), (false, 400, 300));
-        assert_eq!(resized(high(600), Some(0.04)), (true, 400, 200));
+        assert_eq!(resized(high, None), (false, 400, 300));
+        assert_eq!(resized(high, Some(0.04)), (true, 400, 200));
         // Too low for labels: as high as it needs.
-        assert_eq!(resized(high(600), Some(0.01)), (false, 400, 300));
+        assert_eq!(resized(high, Some(0.01)), (false, 400, 300));
     }
 
     #[test]
     fn on_paper_a_family_has_strokes_of_its_own_and_the_legend_looks_for_a_place() {
         let mut picture = Picture::from(chart().legend(LegendPlace::TopLeft));
         picture.make_fit_for_paper();
-        let Picture::Chart(chart) = picture else {
-            panic!("it is a chart")
-        };
-        let styles: Vec<_> = chart
+        let styles: Vec<_> = picture.0[0]
             .series
             .iter()
             .filter_map(|series| series.line)
@@ -307,6 +276,6 @@ mod tests {
             styles,
             [LineStyle::Solid, LineStyle::Dashed, LineStyle::Solid]
         );
-        assert_eq!(chart.legend, Some(LegendPlace::Auto));
+        assert_eq!(picture.0[0].legend, Some(LegendPlace::Auto));
     }
 }

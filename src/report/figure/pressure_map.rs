@@ -6,12 +6,11 @@ use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::ReportError;
 use crate::report::caption::{Caption, Setting};
-use crate::report::chart::HeatMap;
+use crate::report::chart::{Axis, Chart, HeatMap};
 use crate::report::number::{self, plain, scientific};
 use crate::sweep::history::SurfaceRecord;
 
 const NAME: &str = "pressure-map";
-const WIDTH_PX: u32 = 800;
 
 /// Writes the map of the field with the largest pressure as `pressure-map`, and, where there are several fields, each as
 /// `fields/<k>-pressure-map`, all to one colour scale. Its data are `fields/<k>-pressure_pa.npy`. Returns why where there is
@@ -45,7 +44,7 @@ pub fn write(
         ));
     }
     let write_map = |file: &str, time_s: f64, cells: &CellSurface| {
-        let picture = map(time_s, cells, peak, units).into();
+        let picture = chart(time_s, cells, peak, units).into();
         press.picture(file, NAME, &picture, &caption(time_s, cells).text(setting))
     };
     write_map(NAME, time_s, cells)?;
@@ -78,7 +77,7 @@ fn caption(time_s: f64, cells: &CellSurface) -> Caption {
     ))
 }
 
-fn map(time_s: f64, cells: &CellSurface, peak_pa: f64, units: &Units) -> HeatMap {
+fn chart(time_s: f64, cells: &CellSurface, peak_pa: f64, units: &Units) -> Chart {
     let grid = &cells.grid;
     let half = (
         0.5 * grid.cells_x() as f64 * grid.spacing_x_m(),
@@ -89,21 +88,19 @@ fn map(time_s: f64, cells: &CellSurface, peak_pa: f64, units: &Units) -> HeatMap
     // From a second on, so that times stay in seconds.
     let (to_time, time_unit) = units.time(1.0);
     let value = |p: &f64| (*p > 0.0).then_some(to_pressure * p);
-    HeatMap {
-        title: Some(format!(
-            "t = {} {time_unit}",
-            scientific(to_time * time_s, 4)
-        )),
-        x_label: format!("x / {length}"),
-        y_label: format!("y / {length}"),
-        x_range: (-to_length * half.0, to_length * half.0),
-        y_range: (-to_length * half.1, to_length * half.1),
+    let map = HeatMap {
         columns: grid.cells_x(),
         rows: grid.cells_y(),
         values: cells.pressure_pa.iter().map(value).collect(),
         value_label: format!("pressure p / {pressure}"),
         value_range: Some((0.0, to_pressure * peak_pa)),
-        width_px: WIDTH_PX,
         ..HeatMap::default()
-    }
+    };
+    let axis = |name: char, half: f64| {
+        Axis::linear(format!("{name} / {length}")).range(-to_length * half, to_length * half)
+    };
+    let time = scientific(to_time * time_s, 4);
+    Chart::new(axis('x', half.0), axis('y', half.1))
+        .title(format!("t = {time} {time_unit}"))
+        .map(map)
 }

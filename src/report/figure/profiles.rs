@@ -1,11 +1,13 @@
 //! Pressure and surface displacement along a radius, or along x through the centre, at the times asked for.
 
+use std::collections::BTreeSet;
+
 use super::units::Units;
 use super::{Figure, Picture};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, Color, LegendPlace, Series};
-use crate::report::number::{largest, plain, scientific};
+use crate::report::chart::{Axis, Chart, Color, Series};
+use crate::report::number::{largest, plain, range, scientific};
 use crate::report::profile_lines::{ProfilePoint, lines};
 use crate::report::table::{cells, csv};
 use crate::report::words::listed;
@@ -29,7 +31,7 @@ pub fn figure(records: &[SurfaceRecord], units: &Units) -> (Option<Figure>, Opti
     let curves = chosen(records);
     let figure = Figure {
         name: NAME,
-        picture: Picture::Stack(panels(line, &curves, units).into()),
+        picture: Picture(panels(line, &curves, units).into()),
         caption: caption(line, &curves),
         data: data(&curves),
     };
@@ -72,16 +74,10 @@ fn chosen(records: &[SurfaceRecord]) -> Vec<Curve> {
     ordered.sort_by(|a, b| a.row.time_s.total_cmp(&b.row.time_s));
     let count = ordered.len();
     let shown = count.min(CURVES);
-    let place = |k: usize| {
-        if shown > 1 {
-            k * (count - 1) / (shown - 1)
-        } else {
-            0
-        }
-    };
     (0..shown)
         .filter_map(|k| {
-            let record = ordered.get(place(k))?;
+            let place = (k * (count - 1)).checked_div(shown - 1).unwrap_or(0);
+            let record = ordered.get(place)?;
             let (_, points) = lines(record).into_iter().next()?;
             Some((record.row.time_s, points))
         })
@@ -98,61 +94,51 @@ fn panels(line: &str, curves: &[Curve], units: &Units) -> [Chart; 2] {
     let digits = telling_digits(curves);
     // From a second on, so that times stay in seconds.
     let (to_time, time_unit) = units.time(1.0);
-    let family = |value: &dyn Fn(&ProfilePoint) -> Option<f64>, labelled: bool| {
-        let curve = |(step, (time_s, points)): (usize, &Curve)| {
-            let series = Series::line(
-                points
-                    .iter()
-                    .map(|p| Some((to_length * p.position_m, value(p)?))),
-            )
-            .color(Color::Ramp {
-                step,
-                of: curves.len(),
-            });
-            if labelled {
-                let time = scientific(to_time * time_s, digits);
-                series.label(format!("t = {time} {time_unit}"))
-            } else {
-                series
-            }
+    let family = |value: &dyn Fn(&ProfilePoint) -> Option<f64>| {
+        let of = curves.len();
+        let curve = |(step, (_, points)): (usize, &Curve)| {
+            let points = points.iter();
+            let points = points.map(|p| Some((to_length * p.position_m, value(p)?)));
+            Series::line(points).color(Color::Ramp { step, of })
         };
         curves.iter().enumerate().map(curve).collect::<Vec<_>>()
     };
+    let pressures = family(&|p| Some(to_pressure * p.pressure_pa?));
+    let labelled = pressures
+        .into_iter()
+        .zip(curves)
+        .map(|(series, (time_s, _))| {
+            let time = scientific(to_time * time_s, digits);
+            series.label(format!("t = {time} {time_unit}"))
+        });
     let position = if line == "r" { "radius r" } else { line };
-    let ends = |f: fn(f64, f64) -> f64| all().map(|p| to_length * p.position_m).reduce(f);
-    let axis = |label: String| {
-        let axis = Axis::linear(label);
-        match (ends(f64::min), ends(f64::max)) {
-            (Some(low), Some(high)) if low < high => axis.range(low, high),
-            _ => axis,
-        }
+    let ends = range(all().map(|p| to_length * p.position_m));
+    let axis = |label: String| Axis {
+        range: Some(ends).filter(|(low, high)| low < high),
+        ..Axis::linear(label)
     };
     let upper = Chart::new(
         axis(String::new()),
         Axis::linear(format!("pressure p / {pressure}")),
     )
-    .all_series(family(&|p| p.pressure_pa.map(|v| to_pressure * v), true))
-    .legend(LegendPlace::Auto)
+    .all_series(labelled)
     .size(WIDTH_PX, UPPER_PX);
     let lower = Chart::new(
         axis(format!("{position} / {length}")),
         Axis::linear(format!("displacement u / {displacement}")),
     )
-    .all_series(family(&|p| Some(to_displacement * p.displacement_m), false))
+    .all_series(family(&|p| Some(to_displacement * p.displacement_m)))
     .size(WIDTH_PX, LOWER_PX);
     [upper, lower]
 }
 
 /// As many digits as it takes to tell the times apart, from four on; times at one instant cannot be.
 fn telling_digits(curves: &[Curve]) -> usize {
-    let labels = |digits| {
-        curves
-            .iter()
-            .map(move |(time_s, _)| scientific(*time_s, digits))
-    };
     let told_apart = |digits: &usize| {
-        let all: std::collections::BTreeSet<String> = labels(*digits).collect();
-        all.len() == curves.len()
+        let labels = curves
+            .iter()
+            .map(|(time_s, _)| scientific(*time_s, *digits));
+        labels.collect::<BTreeSet<_>>().len() == curves.len()
     };
     (4..=9).find(told_apart).unwrap_or(4)
 }

@@ -1,18 +1,19 @@
 //! Relaxation modulus against time, as figure 1 of S. Spinu, Advances in Tribology 2018, 9432894, shows it for PMMA.
 
 use super::Figure;
+use super::units::Units;
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Series};
-use crate::report::number::{largest, plain, prefix};
+use crate::report::number::{largest, plain};
 use crate::report::table::{cells, csv};
 
 /// The figure, from (time in s, relaxation modulus in Pa, creep compliance in 1/Pa).
 pub fn figure(points: &[(f64, f64, f64)], symbol: char) -> Figure {
-    let (factor, unit) = prefix(largest(points.iter().map(|p| p.1)));
+    let (factor, unit) = Units::default().modulus(largest(points.iter().map(|p| p.1)));
     let chart = Chart::new(
         Axis::linear("time t / s"),
-        Axis::linear(format!("relaxation modulus {symbol}(t) / {unit}Pa")),
+        Axis::linear(format!("relaxation modulus {symbol}(t) / {unit}")),
     )
     .series(Series::line(points.iter().map(|p| (p.0, factor * p.1))));
     let columns = ["time_s", "relaxation_modulus_pa", "creep_compliance_per_pa"];

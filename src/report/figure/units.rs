@@ -56,6 +56,12 @@ impl VariedUnit {
 /// What a number is multiplied by to be drawn, and the unit it is then in.
 pub type Unit = (f64, String);
 
+/// The SI unit with the prefix that fits values up to `largest`.
+fn in_si(largest: f64, si: &str) -> Unit {
+    let (factor, prefix) = prefix(largest);
+    (factor, format!("{prefix}{si}"))
+}
+
 impl Units {
     /// SI units, with this one for frequencies.
     pub fn in_si(frequency_unit: FrequencyUnit) -> Self {
@@ -107,10 +113,7 @@ impl Units {
     fn unit(&self, largest: f64, si: &str, normal: (fn(&ElasticScale) -> f64, &str)) -> Unit {
         match &self.scale {
             Some(scale) => (normal.0(&scale.elastic).recip(), normal.1.to_owned()),
-            None => {
-                let (factor, prefix) = prefix(largest);
-                (factor, format!("{prefix}{si}"))
-            }
+            None => in_si(largest, si),
         }
     }
 
@@ -150,27 +153,15 @@ impl Units {
         self.unit(largest, "J·m⁻²", (density, "W₀δ₀a₀⁻²"))
     }
 
-    /// What a drive prescribes.
-    pub fn drive(&self, control: Control, largest: f64) -> Unit {
-        match control {
-            Control::Load => self.load(largest),
-            Control::Approach => self.approach(largest),
-        }
-    }
-
     /// What a second axis varies, up to `largest` (SI) in size.
     pub fn varied(&self, varied: &Varied, largest: f64) -> VariedUnit {
-        let si = |dimension: Dimension| {
-            let (factor, prefix) = prefix(largest);
-            (factor, format!("{prefix}{}", dimension.si_unit()))
-        };
         let of_drive = !varied.has_own_column();
         let (factor, unit) = match varied.dimension {
             Some(Dimension::Force) if of_drive => self.load(largest),
             Some(Dimension::Length) if of_drive => self.approach(largest),
             Some(Dimension::Temperature) => (1.0, "°C".to_owned()),
             Some(Dimension::Angle) => (180.0 / std::f64::consts::PI, "°".to_owned()),
-            Some(dimension) => si(dimension),
+            Some(dimension) => in_si(largest, dimension.si_unit()),
             None => (1.0, String::new()),
         };
         let offset = match varied.dimension {
@@ -230,10 +221,7 @@ impl Units {
     pub fn time(&self, largest: f64) -> Unit {
         match self.time_s() {
             Some(time_s) => (time_s.recip(), "τ".to_owned()),
-            None if largest < 1.0 => {
-                let (factor, prefix) = prefix(largest);
-                (factor, format!("{prefix}s"))
-            }
+            None if largest < 1.0 => in_si(largest, "s"),
             None => (1.0, "s".to_owned()),
         }
     }

@@ -1,8 +1,6 @@
 //! How the figures of a sweep or scenario are to look: the `[figures]` table. It is kept with the resolved file and is no part
 //! of its hash: figures drawn in another way are of the same sweep.
 
-use std::fmt::Write;
-
 use crate::quantity::{Dimension, FrequencyUnit, format_si};
 
 /// What the `[figures]` table asks for. Where it asks for nothing, figures are 800 px wide with text of 16 px (211.7 mm and 12 pt
@@ -34,6 +32,17 @@ pub enum Format {
     Png,
     /// Of the same size as the SVG; its text is text.
     Pdf,
+}
+
+/// How one picture is drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Form {
+    Svg,
+    Pdf,
+    /// With so many pixels per inch on paper.
+    PngOfDpi(usize),
+    /// With so many pixels per px.
+    PngOfScale(f32),
 }
 
 /// What the axes of figures are in.
@@ -115,69 +124,65 @@ impl FigurePlan {
         self.dpi.or(of_paper)
     }
 
-    /// The endings of the pictures of a figure.
-    pub fn endings(&self) -> Vec<&'static str> {
-        let mut endings = Vec::new();
-        for format in &self.formats {
-            match (format, self.resolution()) {
-                (Format::Svg, _) => endings.push(".svg"),
-                (Format::Pdf, _) => endings.push(".pdf"),
-                (Format::Png, Some(_)) => endings.push(".png"),
-                (Format::Png, None) => endings.extend([".png", "@2x.png"]),
-            }
-        }
-        endings
+    /// The pictures of a figure: the ending of each, and how it is drawn.
+    pub fn pictures(&self) -> Vec<(&'static str, Form)> {
+        let of_format = |format: &Format| match (format, self.resolution()) {
+            (Format::Svg, _) => vec![(".svg", Form::Svg)],
+            (Format::Pdf, _) => vec![(".pdf", Form::Pdf)],
+            (Format::Png, Some(dpi)) => vec![(".png", Form::PngOfDpi(dpi))],
+            (Format::Png, None) => vec![
+                (".png", Form::PngOfScale(1.0)),
+                ("@2x.png", Form::PngOfScale(2.0)),
+            ],
+        };
+        self.formats.iter().flat_map(of_format).collect()
     }
 
     /// The table as it stands at the end of a resolved file: what differs from the default, nothing where nothing does.
     pub fn text(&self) -> String {
         let default = Self::default();
-        if *self == default {
-            return String::new();
-        }
-        let mut text = "\n[figures]\n".to_owned();
-        let mut line = |key: &str, value: Option<String>| {
-            if let Some(value) = value {
-                // Writing to a String cannot fail.
-                let _ = writeln!(text, "{key} = {value}");
-            }
-        };
         let list =
             |items: Vec<String>| (!items.is_empty()).then(|| format!("[{}]", items.join(", ")));
         let length = |value: f64| format!("\"{}\"", format_si(value, Dimension::Length));
-        let loops = self.loops_rad_per_s.iter();
-        let loops = loops.map(|w| format!("\"{}\"", format_si(*w, Dimension::AngularFrequency)));
-        line("loops", list(loops.collect()));
-        line("width", self.width_m.map(length));
-        line("height", self.height_m.map(length));
-        line(
-            "font_size",
-            self.font_size_pt.map(|size| format!("{size:?}")),
-        );
-        if self.formats != default.formats {
-            let names = Format::NAMES.iter();
-            let named = |format: &Format| {
-                names
-                    .clone()
-                    .find(|(_, f)| f == format)
-                    .map(|(name, _)| format!("\"{name}\""))
-            };
-            line(
-                "formats",
-                list(self.formats.iter().filter_map(named).collect()),
-            );
+        let omega = |w: &f64| format!("\"{}\"", format_si(*w, Dimension::AngularFrequency));
+        let named = |format: &Format| {
+            let (name, _) = Format::NAMES.iter().find(|(_, f)| f == format)?;
+            Some(format!("\"{name}\""))
+        };
+        let formats = self
+            .formats
+            .iter()
+            .filter(|_| self.formats != default.formats);
+        let other = |is_other: bool, value: &str| is_other.then(|| value.to_owned());
+        let lines = [
+            (
+                "loops",
+                list(self.loops_rad_per_s.iter().map(omega).collect()),
+            ),
+            ("width", self.width_m.map(length)),
+            ("height", self.height_m.map(length)),
+            (
+                "font_size",
+                self.font_size_pt.map(|size| format!("{size:?}")),
+            ),
+            ("formats", list(formats.filter_map(named).collect())),
+            ("dpi", self.dpi.map(|dpi| dpi.to_string())),
+            (
+                "axes",
+                other(self.axes == AxisUnits::Normalised, "\"normalised\""),
+            ),
+            (
+                "frequency_unit",
+                other(self.frequency_unit == FrequencyUnit::Hz, "\"Hz\""),
+            ),
+            ("titles", other(!self.titles, "false")),
+        ];
+        let line = |(key, value): (&str, Option<String>)| Some(format!("{key} = {}\n", value?));
+        let lines: String = lines.into_iter().filter_map(line).collect();
+        match lines.is_empty() {
+            true => lines,
+            false => format!("\n[figures]\n{lines}"),
         }
-        line("dpi", self.dpi.map(|dpi| dpi.to_string()));
-        if self.axes == AxisUnits::Normalised {
-            line("axes", Some("\"normalised\"".to_owned()));
-        }
-        if self.frequency_unit == FrequencyUnit::Hz {
-            line("frequency_unit", Some("\"Hz\"".to_owned()));
-        }
-        if !self.titles {
-            line("titles", Some("false".to_owned()));
-        }
-        text
     }
 }
 
@@ -228,8 +233,13 @@ mod tests {
 
     #[test]
     fn two_resolutions_are_for_figures_of_which_nothing_is_asked() {
-        assert_eq!(FigurePlan::default().endings(), [".svg", ".png", "@2x.png"]);
-        assert_eq!(everything().endings(), [".png", ".pdf"]);
+        let endings = |plan: &FigurePlan| -> Vec<&str> {
+            let pictures = plan.pictures().into_iter();
+            pictures.map(|(ending, _)| ending).collect()
+        };
+        let default = FigurePlan::default();
+        assert_eq!(endings(&default), [".svg", ".png", "@2x.png"]);
+        assert_eq!(endings(&everything()), [".png", ".pdf"]);
         assert_eq!(everything().resolution(), Some(600));
         let column = FigurePlan {
             width_m: Some(0.085),

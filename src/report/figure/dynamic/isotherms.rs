@@ -58,7 +58,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
     ];
     Some(Figure {
         name: "isotherms",
-        picture: Picture::Stack(panels),
+        picture: Picture(panels),
         caption: caption(
             report,
             &format!(
