@@ -4,17 +4,13 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use contact_dma::identify::resolved::resolved_text;
 use contact_dma::identify::{IdentifyError, curves, identify};
 use contact_dma::input::document::Document;
 use contact_dma::input::{identify_file, loop_file, setup_file};
-use contact_dma::measured::{Options, Signal, analyse as analyse_signal};
+use contact_dma::measured::{Options, Signal};
 use contact_dma::quantity::{Dimension, parse};
-use contact_dma::report::dynamic::tables::prony;
-use contact_dma::report::identify::{
-    IdentifyReport, summary as identify_summary, tables as identify_tables,
-};
-use contact_dma::report::measured::{Analysis, MeasuredRow, columns, ordered, summary, tables};
+use contact_dma::report::identify::IdentifyReport;
+use contact_dma::report::measured::{Analysis, MeasuredRow, columns, files, ordered};
 use contact_dma::sweep::plan::resolved::material_text;
 use contact_dma::sweep::store::write_atomically;
 use numpy::{IntoPyArray, PyArray1};
@@ -102,15 +98,7 @@ pub fn restore_analysis<'py>(py: Python<'py>, everything: &[u8]) -> PyResult<Ana
 }
 
 fn analysed<'py>(py: Python<'py>, analysis: &Analysis) -> PyResult<Analysed<'py>> {
-    let mut files = tables(&analysis.rows);
-    let summary = summary::summary(analysis).map_err(|error| failure::of_report(&error))?;
-    let summary = serde_json::to_string_pretty(&summary).map_err(failure::of_run)?;
-    files.push((
-        "summary.json".to_owned(),
-        format!("{summary}\n").into_bytes(),
-    ));
-    let everything = serde_json::to_vec(analysis).map_err(failure::of_run)?;
-    files.push(("analysis.json".to_owned(), everything));
+    let files = files(analysis).map_err(failure::of_run)?;
     Ok((
         arrays::columns(py, &columns::of_records(), &analysis.rows)?,
         analysis.rows.iter().map(|row| cycle(py, row)).collect(),
@@ -145,16 +133,7 @@ fn row(
             },
         ),
     };
-    let (measured, reason) = match analyse_signal(&signal, options) {
-        Ok(measured) => (Some(measured), None),
-        Err(error) => (None, Some(error.to_string())),
-    };
-    Ok(MeasuredRow {
-        index: 0,
-        file,
-        measured,
-        reason,
-    })
+    Ok(MeasuredRow::of(file, &signal, options))
 }
 
 fn cycle<'py>(py: Python<'py>, row: &MeasuredRow) -> Option<Cycle<'py>> {
@@ -167,14 +146,13 @@ fn cycle<'py>(py: Python<'py>, row: &MeasuredRow) -> Option<Cycle<'py>> {
 }
 
 fn findings(row: &MeasuredRow) -> Vec<(&'static str, String)> {
-    let findings = row.measured.iter().flat_map(|measured| &measured.findings);
-    findings.map(|f| (f.code(), f.to_string())).collect()
+    row.findings().map(|f| (f.code(), f.to_string())).collect()
 }
 
-fn bytes<'py>(py: Python<'py>, files: Vec<(String, Vec<u8>)>) -> Files<'py> {
+fn bytes<N: Into<String>>(py: Python<'_>, files: Vec<(N, Vec<u8>)>) -> Files<'_> {
     let files = files.into_iter();
     files
-        .map(|(name, bytes)| (name, PyBytes::new(py, &bytes)))
+        .map(|(name, bytes)| (name.into(), PyBytes::new(py, &bytes)))
         .collect()
 }
 
@@ -208,23 +186,8 @@ pub fn identify_material<'py>(
         curves: &curves,
     };
     let material = plan.material_of(&found).map_err(failure::of_run)?;
-    let summary = identify_summary::summary(&report);
-    let summary = serde_json::to_string_pretty(&summary).map_err(failure::of_run)?;
     let block = material_text(&material);
-    let files = vec![
-        ("material.toml".to_owned(), block.clone().into_bytes()),
-        (
-            "resolved.toml".to_owned(),
-            resolved_text(&plan).into_bytes(),
-        ),
-        ("prony.csv".to_owned(), prony(&found.relaxation)),
-        ("fit.csv".to_owned(), identify_tables::fit(&report)),
-        ("moduli.csv".to_owned(), identify_tables::moduli(&report)),
-        (
-            "summary.json".to_owned(),
-            format!("{summary}\n").into_bytes(),
-        ),
-    ];
+    let files = report.files(&block);
     Ok((block, report.lines(), bytes(py, files)))
 }
 

@@ -8,19 +8,19 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use super::arguments::{OutputFormat, folder};
-use super::material::write_figures;
+use super::material::{write_figures, write_files};
 use super::{Ended, Failure, json, print, read_document};
 use crate::input::document::read_limited;
 use crate::input::loop_file;
 use crate::input::setup_file::{self, Setup};
-use crate::measured::{Options, analyse};
+use crate::measured::Options;
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting as CaptionSetting;
-use crate::report::measured::{Analysis, Computed, MeasuredRow, ordered, summary, tables, text};
+use crate::report::measured::{self, ANALYSIS, Analysis, Computed, MeasuredRow, ordered, text};
 use crate::report::words::wrapped;
 use crate::report::{figure, page};
 use crate::sweep::record::Status;
-use crate::sweep::store::{RESOLVED, files, write_atomically};
+use crate::sweep::store::{RESOLVED, files};
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -90,8 +90,6 @@ fn frequency(text: &str) -> Result<f64, String> {
     }
 }
 
-/// Where everything about the records is kept, for `report`.
-const ANALYSIS: &str = "analysis.json";
 /// Largest file that `report` reads.
 const MAX_BYTES: usize = 1_000_000_000;
 
@@ -117,72 +115,52 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
     };
     let computed = flags.against.as_deref().map(computed).transpose()?;
     // One file a thread is in memory at a time; results come in the order of the files.
-    let rows: Vec<Result<MeasuredRow, Failure>> = flags
-        .files
-        .par_iter()
-        .map(|file| row(file, &options))
-        .collect();
+    let row = |file: &PathBuf| {
+        let signal = loop_file::read(file)?;
+        Ok(MeasuredRow::of(
+            file.display().to_string(),
+            &signal,
+            &options,
+        ))
+    };
+    let rows: Vec<Result<MeasuredRow, Failure>> = flags.files.par_iter().map(row).collect();
     let analysis = Analysis {
         title: setup.title.unwrap_or_else(|| "Measured loops".to_owned()),
         setup: setup_text,
         rows: ordered(rows.into_iter().collect::<Result<_, _>>()?),
         computed: computed.unwrap_or_default(),
     };
-    let output = Output {
-        folder: &flags.out,
-        analysis: &analysis,
-        figures: !flags.no_figures,
-        quiet: flags.quiet,
-        format,
-    };
-    output.finish()
+    finish(
+        &flags.out,
+        &analysis,
+        (!flags.no_figures, flags.quiet, format),
+    )
 }
+
+/// What is written and printed: whether there are figures, whether nothing is printed, and how it is.
+type Asked = (bool, bool, OutputFormat);
 
 /// Draws tables and figures of a folder again, where it holds an analysis; `None` where it holds none.
 pub(super) fn again(
     folder: &Path,
     out: Option<&Path>,
-    (figures, quiet, format): (bool, bool, OutputFormat),
+    asked: Asked,
 ) -> Option<Result<Ended, Failure>> {
     let path = folder.join(ANALYSIS);
     if !path.exists() || folder.join(RESOLVED).exists() {
         return None;
     }
-    let analysis = read_limited(&path, MAX_BYTES)
-        .map_err(|error| Failure::input(format!("cannot read {}: {error}", path.display())))
-        .and_then(|bytes| {
-            let of_another = |error| {
-                let path = path.display();
-                Failure::input(format!(
-                    "{path} is none that this version of the program wrote: {error}"
-                ))
-            };
-            serde_json::from_slice::<Analysis>(&bytes).map_err(of_another)
-        });
-    Some(analysis.and_then(|analysis| {
-        let output = Output {
-            folder: out.unwrap_or(folder),
-            analysis: &analysis,
-            figures,
-            quiet,
-            format,
-        };
-        output.finish()
-    }))
-}
-
-fn row(file: &Path, options: &Options) -> Result<MeasuredRow, Failure> {
-    let signal = loop_file::read(file)?;
-    let (measured, reason) = match analyse(&signal, options) {
-        Ok(measured) => (Some(measured), None),
-        Err(error) => (None, Some(error.to_string())),
+    let name = path.display();
+    let read = || {
+        let bytes = read_limited(&path, MAX_BYTES)
+            .map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
+        serde_json::from_slice::<Analysis>(&bytes).map_err(|error| {
+            Failure::input(format!(
+                "{name} is none that this version of the program wrote: {error}"
+            ))
+        })
     };
-    Ok(MeasuredRow {
-        index: 0,
-        file: file.display().to_string(),
-        measured,
-        reason,
-    })
+    Some(read().and_then(|analysis| finish(out.unwrap_or(folder), &analysis, asked)))
 }
 
 /// The cases of a computed sweep, with their cycles.
@@ -197,10 +175,8 @@ fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
     let mut cases = Vec::new();
     for row in json::rows_of(&table)? {
         let number = |column: &str| row[column].as_f64();
-        let Some(angular_rad_per_s) = number("angular_frequency_rad_per_s") else {
-            continue;
-        };
-        let Some(index) = number("index") else {
+        let place = number("angular_frequency_rad_per_s").zip(number("index"));
+        let Some((angular_rad_per_s, index)) = place else {
             continue;
         };
         let cycle = folder.join(format!("loops/{}.csv", index as u64));
@@ -220,103 +196,76 @@ fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
     Ok(cases)
 }
 
-/// What is written and printed.
-struct Output<'a> {
-    folder: &'a Path,
-    analysis: &'a Analysis,
-    figures: bool,
-    quiet: bool,
-    format: OutputFormat,
+/// Writes and prints everything.
+fn finish(
+    folder: &Path,
+    analysis: &Analysis,
+    (figures, quiet, format): Asked,
+) -> Result<Ended, Failure> {
+    write(folder, analysis, figures)?;
+    match format {
+        OutputFormat::Json => json::print(&json!({
+            "folder": folder,
+            "rows": json::rows_of(&folder.join("sweep.csv"))?,
+            "summary": json::file(&folder.join("summary.json"))?,
+        }))?,
+        OutputFormat::Text if !quiet => print(&printed(folder, &analysis.rows))?,
+        OutputFormat::Text => Ended::Done,
+    };
+    let mut rows = analysis.rows.iter();
+    Ok(match rows.all(|row| row.status() == Status::Converged) {
+        true => Ended::Done,
+        false => Ended::SomeCasesWithoutResult,
+    })
 }
 
-impl Output<'_> {
-    fn finish(&self) -> Result<Ended, Failure> {
-        self.write()?;
-        let rows = &self.analysis.rows;
-        match self.format {
-            OutputFormat::Json => json::print(&json!({
-                "folder": self.folder,
-                "rows": json::rows_of(&self.folder.join("sweep.csv"))?,
-                "summary": json::file(&self.folder.join("summary.json"))?,
-            }))?,
-            OutputFormat::Text if !self.quiet => print(&self.printed())?,
-            OutputFormat::Text => Ended::Done,
-        };
-        Ok(
-            match rows.iter().all(|row| row.status() == Status::Converged) {
-                true => Ended::Done,
-                false => Ended::SomeCasesWithoutResult,
-            },
-        )
+fn printed(folder: &Path, rows: &[MeasuredRow]) -> String {
+    let mut printed = String::new();
+    if let [row] = rows
+        && let Some(measured) = &row.measured
+    {
+        for line in text::record(measured) {
+            printed.push_str(&wrapped(&line, 80, "", "  "));
+        }
+        printed.push('\n');
     }
-
-    fn printed(&self) -> String {
-        let rows = &self.analysis.rows;
-        let mut printed = String::new();
-        if let [row] = &rows[..]
-            && let Some(measured) = &row.measured
-        {
-            for line in text::record(measured) {
-                printed.push_str(&wrapped(&line, 80, "", "  "));
-            }
-            printed.push('\n');
-        }
-        printed.push_str(&text::table(rows));
-        printed.push_str(&text::moduli(rows));
-        printed.push_str(&text::findings(rows));
-        printed.push_str(&format!("\nResults in {}\n", self.folder.display()));
-        printed
-    }
-
-    fn put(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
-        write_atomically(&self.folder.join(name), bytes).map_err(Failure::run)
-    }
-
-    /// Writes everything; what an earlier analysis left beyond it is removed.
-    fn write(&self) -> Result<(), Failure> {
-        for folder in ["loops", "cycles"] {
-            remove_beyond(&self.folder.join(folder), self.analysis.rows.len())?;
-        }
-        for (name, bytes) in tables(&self.analysis.rows) {
-            self.put(&name, &bytes)?;
-        }
-        let summary = summary::summary(self.analysis).map_err(Failure::run)?;
-        let summary = serde_json::to_string_pretty(&summary).map_err(Failure::run)?;
-        self.put("summary.json", format!("{summary}\n").as_bytes())?;
-        let analysis = serde_json::to_vec(self.analysis).map_err(Failure::run)?;
-        self.put(ANALYSIS, &analysis)?;
-        let figures = match self.figures {
-            true => figure::measured::figures(self.analysis),
-            false => Vec::new(),
-        };
-        for name in ["loops", "energy-loss", "moduli", "cycles"] {
-            if !figures.iter().any(|figure| figure.name == name) {
-                for file in files::of_figure(name) {
-                    remove(&self.folder.join(file))?;
-                }
-            }
-        }
-        if figures.is_empty() {
-            return remove(&self.folder.join("index.html"));
-        }
-        write_figures(
-            self.folder,
-            &figures,
-            &CaptionSetting::default(),
-            |pictures, _| page::measured::page(self.analysis, &figures, pictures),
-        )
-    }
+    let (table, moduli, findings) = (text::table(rows), text::moduli(rows), text::findings(rows));
+    format!(
+        "{printed}{table}{moduli}{findings}\nResults in {}\n",
+        folder.display()
+    )
 }
 
-/// Removes tables `<index>.csv` from this index on.
-fn remove_beyond(folder: &Path, count: usize) -> Result<(), Failure> {
-    for path in (count..).map(|index| folder.join(format!("{index}.csv"))) {
-        if !path.exists() {
-            break;
-        }
-        remove(&path)?;
+/// Writes everything; what an earlier analysis left beyond it is removed.
+fn write(folder: &Path, analysis: &Analysis, with_figures: bool) -> Result<(), Failure> {
+    for part in ["loops", "cycles"] {
+        let beyond = analysis.rows.len()..;
+        beyond
+            .map(|index| folder.join(format!("{part}/{index}.csv")))
+            .take_while(|path| path.exists())
+            .try_for_each(|path| remove(&path))?;
     }
-    Ok(())
+    write_files(folder, measured::files(analysis).map_err(Failure::run)?)?;
+    let figures = match with_figures {
+        true => figure::measured::figures(analysis),
+        false => Vec::new(),
+    };
+    for name in ["loops", "energy-loss", "moduli", "cycles"] {
+        if !figures.iter().any(|figure| figure.name == name) {
+            for file in files::of_figure(name) {
+                remove(&folder.join(file))?;
+            }
+        }
+    }
+    if figures.is_empty() {
+        return remove(&folder.join("index.html"));
+    }
+    write_figures(
+        folder,
+        &figures,
+        &CaptionSetting::default(),
+        |pictures, _| page::measured::page(analysis, &figures, pictures),
+    )
 }
 
 /// Removes a file where it is there.

@@ -472,7 +472,7 @@ pub(super) struct FitFlags {
 }
 
 /// What is made of dynamic data, and how.
-#[derive(Debug, Args, PartialEq)]
+#[derive(Debug, Default, Args, PartialEq)]
 #[command(next_help_heading = "Dynamic data")]
 pub(super) struct DynamicFlags {
     /// Temperature of the master curve, for example '25 °C' [default: that of the middle isotherm]

@@ -7,19 +7,16 @@ use std::sync::atomic::Ordering;
 use clap::Args;
 
 use super::arguments::{OutputFormat, folder, threads};
-use super::material::{print_place, write_figures};
+use super::material::{commented, print_place, write_figures, write_files};
 use super::sweep::interrupt_flag;
-use super::{Ended, Failure, json, meant_for, open_document, print};
-use crate::identify::resolved::resolved_text;
-use crate::identify::{Identified, IdentifyError, curves, identify};
+use super::{Ended, Failure, default_folder, json, meant_for, open_document, print};
+use crate::identify::{IdentifyError, curves, identify};
 use crate::input::identify_file;
 use crate::report::caption::Setting;
-use crate::report::dynamic::tables::prony;
-use crate::report::identify::{IdentifyReport, summary, tables};
+use crate::report::identify::{IdentifyReport, summary};
 use crate::report::{figure, page};
 use crate::sweep::plan::resolved;
 use crate::sweep::search::run;
-use crate::sweep::store::write_atomically;
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -78,14 +75,10 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
         found: &found,
         curves: &curves,
     };
-    let block = block(&report, &found)?;
-    let stem = flags.file.file_stem().unwrap_or_default();
-    let default = match stem == "-" {
-        true => PathBuf::from("reports/stdin"),
-        false => Path::new("reports").join(stem),
-    };
+    let block = block(&report)?;
+    let default = default_folder(&flags.file);
     let folder = flags.out.as_deref().unwrap_or(&default);
-    write(folder, &report, &block)?;
+    write_files(folder, report.files(&block))?;
     if !flags.no_figures {
         let figures = figure::identify::figures(&report);
         write_figures(folder, &figures, &Setting::default(), |pictures, _| {
@@ -119,23 +112,11 @@ fn refused(file: &Path, error: &IdentifyError) -> Failure {
 }
 
 /// The material block of a sweep file, every number exact, with where it comes from.
-fn block(report: &IdentifyReport<'_>, found: &Identified) -> Result<String, Failure> {
+fn block(report: &IdentifyReport<'_>) -> Result<String, Failure> {
     let text = format!("{}\n{}", report.plan.title, report.text());
-    let comments: String = text.lines().map(|line| format!("# {line}\n")).collect();
-    let material = report.plan.material_of(found).map_err(Failure::run)?;
-    Ok(format!("{comments}{}", resolved::material_text(&material)))
-}
-
-/// Every file of the folder but figures and page.
-fn write(folder: &Path, report: &IdentifyReport<'_>, block: &str) -> Result<(), Failure> {
-    let put = |name: &str, bytes: &[u8]| {
-        write_atomically(&folder.join(name), bytes).map_err(Failure::run)
-    };
-    put("material.toml", block.as_bytes())?;
-    put("resolved.toml", resolved_text(report.plan).as_bytes())?;
-    put("prony.csv", &prony(&report.found.relaxation))?;
-    put("fit.csv", &tables::fit(report))?;
-    put("moduli.csv", &tables::moduli(report))?;
-    let summary = serde_json::to_string_pretty(&summary::summary(report)).map_err(Failure::run)?;
-    put("summary.json", format!("{summary}\n").as_bytes())
+    let material = report
+        .plan
+        .material_of(report.found)
+        .map_err(Failure::run)?;
+    Ok(commented(&text) + &resolved::material_text(&material))
 }

@@ -41,8 +41,7 @@ fn list(format: OutputFormat) -> Result<Ended, Failure> {
     let mut text = String::new();
     for entry in library::entries() {
         text.push_str(&format!("{}    {}\n", entry.name, entry.title));
-        text.push_str(&indented(entry.notes));
-        text.push_str(&indented(&format!("Source: {}", entry.source)));
+        text.push_str(&about(entry));
     }
     print(&text)
 }
@@ -75,6 +74,17 @@ fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
         page::material::page(&material, &about)
     })?;
     print_place("Figures", folder, format)
+}
+
+/// Writes these files, by their names, into a folder.
+pub(super) fn write_files<N: AsRef<Path>>(
+    folder: &Path,
+    files: impl IntoIterator<Item = (N, Vec<u8>)>,
+) -> Result<(), Failure> {
+    let mut files = files.into_iter();
+    files
+        .try_for_each(|(name, bytes)| write_atomically(&folder.join(name), &bytes))
+        .map_err(Failure::run)
 }
 
 /// Writes figures into a folder, and the page that shows them, made of the pictures and the name of the first one.
@@ -115,13 +125,7 @@ pub(super) fn print_place(
 pub(super) fn load(name: &str) -> Result<(Material, String), Failure> {
     if let Some(entry) = library::find(name) {
         let material = entry.material().map_err(Failure::run)?;
-        let head = format!(
-            "{}\n{}{}",
-            entry.title,
-            indented(entry.notes),
-            indented(&format!("Source: {}", entry.source))
-        );
-        return Ok((material, head));
+        return Ok((material, format!("{}\n{}", entry.title, about(entry))));
     }
     let path = Path::new(name);
     if !path.exists() && name != STANDARD_INPUT {
@@ -142,7 +146,14 @@ pub(super) fn load(name: &str) -> Result<(Material, String), Failure> {
     Ok((material, format!("{title} (from {name})\n{fit}{model}")))
 }
 
-/// A paragraph set in by four.
-fn indented(text: &str) -> String {
-    wrapped(text, 76, "    ", "    ")
+/// What the library says of a material, set in by four.
+fn about(entry: &library::LibraryEntry) -> String {
+    let source = format!("Source: {}", entry.source);
+    let indented = |text: &str| wrapped(text, 76, "    ", "    ");
+    indented(entry.notes) + &indented(&source)
+}
+
+/// Lines as comments of a material block.
+pub(super) fn commented(text: &str) -> String {
+    text.lines().map(|line| format!("# {line}\n")).collect()
 }

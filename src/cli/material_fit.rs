@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::arguments::{DynamicFlags, FitFlags, FitQuantity, OutputFormat};
-use super::material::{print_place, write_figures};
+use super::material::{commented, print_place, write_figures, write_files};
 use super::{Ended, Failure, json, material_fit_dynamic, print};
 use crate::input::dynamic::DynamicFormat;
 use crate::input::table_file;
@@ -14,7 +14,6 @@ use crate::report::dynamic::tables;
 use crate::report::page::{self, material::About};
 use crate::report::{self, figure};
 use crate::sweep::plan::resolved;
-use crate::sweep::store::write_atomically;
 
 /// Runs the command; `data_format` is what `--format` says of the data.
 pub(super) fn run(
@@ -27,15 +26,7 @@ pub(super) fn run(
         FitQuantity::Creep => MaterialFunction::Creep,
         FitQuantity::Relaxation => MaterialFunction::Relaxation,
     };
-    let none = DynamicFlags {
-        reference_temperature: None,
-        shift: None,
-        vertical_shift: false,
-        branches: None,
-        replicas: None,
-        data_format: None,
-    };
-    if flags.dynamic != none || data_format.is_some() {
+    if flags.dynamic != DynamicFlags::default() || data_format.is_some() {
         return Err(Failure::input(
             "--reference-temperature, --shift, --vertical-shift, --branches, --replicas and --data-format are for --quantity dynamic",
         ));
@@ -69,11 +60,9 @@ fn fit_table(
     let Some(folder) = &flags.out else {
         return Ok(Ended::Done);
     };
-    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
-    write("material.toml", block.as_bytes()).map_err(Failure::run)?;
-    if let Some(relaxation) = material.relaxation() {
-        write("prony.csv", &tables::prony(relaxation)).map_err(Failure::run)?;
-    }
+    write_files(folder, [("material.toml", block.clone().into_bytes())])?;
+    let series = material.relaxation().map(tables::prony);
+    write_files(folder, series.map(|series| ("prony.csv", series)))?;
     let figures = figure::fit::figures(&table, &fit);
     let setting = Setting::of_material(&material);
     write_figures(folder, &figures, &setting, |pictures, figure| {
@@ -93,13 +82,11 @@ fn fit_table(
 
 /// The material block of a sweep file, ready to paste, every number exact.
 fn block(data: &Path, material: &Material) -> String {
-    let comments: String = material.fit().map_or_else(String::new, |report| {
-        let report = report::fit::text(report);
-        report.lines().map(|line| format!("# {line}\n")).collect()
-    });
+    let fit = material.fit().map(report::fit::text).unwrap_or_default();
     format!(
-        "# From {}\n{comments}{}",
+        "# From {}\n{}{}",
         data.display().to_string().escape_debug(),
+        commented(&fit),
         resolved::material_text(material)
     )
 }

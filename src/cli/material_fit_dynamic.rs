@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::arguments::{Branches, FitFlags, OutputFormat};
-use super::material::{print_place, write_figures};
+use super::material::{commented, print_place, write_figures, write_files};
 use super::{Ended, Failure, json, print};
 use crate::input::dynamic::{self, DynamicFormat};
 use crate::material::dynamic::master_curve::ShiftChoice;
@@ -14,7 +14,6 @@ use crate::report::caption::Setting;
 use crate::report::dynamic::{DynamicReport, Source, summary, tables};
 use crate::report::{figure, page};
 use crate::sweep::plan::resolved;
-use crate::sweep::store::write_atomically;
 
 /// Runs the command.
 pub(super) fn run(
@@ -53,7 +52,7 @@ pub(super) fn run(
     let shifting = shifting_block(flags, &report)?;
     let shifting = shifting.as_deref();
     match format {
-        OutputFormat::Json => json::print(&printed_json(&report, &block, shifting)?)?,
+        OutputFormat::Json => json::print(&printed_json(&report, &block, shifting))?,
         OutputFormat::Text => {
             let (text, shifts) = (report.text(), report.shift_table());
             let branches = report.branches();
@@ -63,7 +62,11 @@ pub(super) fn run(
     let Some(folder) = &flags.out else {
         return Ok(Ended::Done);
     };
-    write(folder, &report, &block, shifting)?;
+    write_files(folder, report.files(&block, shifting))?;
+    let figures = figure::dynamic::figures(&report);
+    write_figures(folder, &figures, &Setting::default(), |pictures, _| {
+        page::dynamic::page(&report, &figures, &block, pictures)
+    })?;
     print_place("Material and figures", folder, format)
 }
 
@@ -123,9 +126,6 @@ fn refused(flags: &FitFlags, error: impl std::fmt::Display) -> Failure {
 
 /// The material block of a sweep file, every number exact, with where it comes from.
 fn block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<String, Failure> {
-    let comments = report.text();
-    let comments = comments.lines().map(|line| format!("# {line}\n"));
-    let comments: String = comments.collect();
     // Without a Poisson ratio there is none in the text either: the series does not depend on it.
     let nu = flags.poisson_ratio.unwrap_or(0.0);
     let material = report.made.material(None, nu).map_err(Failure::input)?;
@@ -135,7 +135,7 @@ fn block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<String, Failure
         Some(_) => resolved::material_text(&material),
         None => resolved::material_text_without_poisson_ratio(&material),
     };
-    Ok(format!("{comments}{block}"))
+    Ok(commented(&report.text()) + &block)
 }
 
 /// The block of the same series with its temperature and the law by which it shifts to others; `None` where the data prefer no law, or
@@ -153,12 +153,8 @@ fn shifting_block(flags: &FitFlags, report: &DynamicReport<'_>) -> Result<Option
 }
 
 /// The summary, with what else the files hold.
-fn printed_json(
-    report: &DynamicReport<'_>,
-    block: &str,
-    shifting: Option<&str>,
-) -> Result<Value, Failure> {
-    let mut value = summary::summary(report).map_err(Failure::run)?;
+fn printed_json(report: &DynamicReport<'_>, block: &str, shifting: Option<&str>) -> Value {
+    let mut value = summary::summary(report);
     let shifts = report.made.master.as_ref().map(|master| {
         let shifts = master.shifts.iter().map(|shift| {
             json!({
@@ -174,33 +170,5 @@ fn printed_json(
     value["relaxation"] = json!(report.relaxation());
     value["material_toml"] = block.into();
     value["shifting_toml"] = shifting.into();
-    Ok(value)
-}
-
-/// Every file of the folder.
-fn write(
-    folder: &Path,
-    report: &DynamicReport<'_>,
-    block: &str,
-    shifting: Option<&str>,
-) -> Result<(), Failure> {
-    let put = |name: &str, bytes: &[u8]| {
-        write_atomically(&folder.join(name), bytes).map_err(Failure::run)
-    };
-    put("material.toml", block.as_bytes())?;
-    if let Some(shifting) = shifting {
-        put("shifting.toml", shifting.as_bytes())?;
-    }
-    put("prony.csv", &tables::prony(report.relaxation()))?;
-    if let Some(master) = &report.made.master {
-        put("shift.csv", &tables::shift_factors(master))?;
-    }
-    put("master.csv", &tables::master_curve(report))?;
-    let summary = summary::summary(report).map_err(Failure::run)?;
-    let summary = serde_json::to_string_pretty(&summary).map_err(Failure::run)?;
-    put("summary.json", format!("{summary}\n").as_bytes())?;
-    let figures = figure::dynamic::figures(report);
-    write_figures(folder, &figures, &Setting::default(), |pictures, _| {
-        page::dynamic::page(report, &figures, block, pictures)
-    })
+    value
 }

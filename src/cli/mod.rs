@@ -26,7 +26,7 @@ mod width;
 use std::ffi::{OsStr, OsString};
 use std::fmt::Display;
 use std::io::{self, Read, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
@@ -155,18 +155,23 @@ fn open_document(file: &Path, assignments: &[String]) -> Result<Document, Failur
     Ok(document)
 }
 
-/// The folder for the results of a file: the one asked for, or reports/<name of the file>; of standard input, reports/stdin.
+/// The folder for the results of a file where none is asked for: reports/<name of the file>; of standard input, reports/stdin.
+fn default_folder(file: &Path) -> PathBuf {
+    let stem = match file == Path::new(STANDARD_INPUT) {
+        true => OsStr::new("stdin"),
+        false => file.file_stem().unwrap_or_default(),
+    };
+    Path::new("reports").join(stem)
+}
+
+/// The folder for the results of a file: the one asked for, or the default one.
 fn open_store(
     file: &Path,
     out: Option<&Path>,
     resolved: &str,
     force: bool,
 ) -> Result<Store, Failure> {
-    let stem = match file == Path::new(STANDARD_INPUT) {
-        true => OsStr::new("stdin"),
-        false => file.file_stem().unwrap_or_default(),
-    };
-    let default = Path::new("reports").join(stem);
+    let default = default_folder(file);
     let store = Store::open(out.unwrap_or(&default), resolved, force);
     store.map_err(|error| sweep::failure(RunError::Store(error)))
 }

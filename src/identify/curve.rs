@@ -37,45 +37,36 @@ pub fn curves(
     };
     let (low, high) = found.window_rad_per_s;
     let count = (PER_DECADE * (high / low).log10()).ceil().max(1.0) as usize;
-    let omegas = (0..=count).map(|k| low * (high / low).powf(k as f64 / count as f64));
-    let omegas: Vec<f64> = omegas.collect();
-    let numbers_measured = plan.measurements.numbers();
-    let cycles = omegas
-        .iter()
-        .enumerate()
-        .map(|(place, omega)| MeasuredCycle {
-            angular_frequency_rad_per_s: *omega,
-            drive,
-            row: place + 1,
-        });
-    let data = (0..omegas.len()).flat_map(|cycle| {
-        numbers_measured.iter().map(move |number| Datum {
-            place: cycle,
+    let omega = |k: usize| low * (high / low).powf(k as f64 / count as f64);
+    let omegas: Vec<f64> = (0..=count).map(omega).collect();
+    let measured = plan.measurements.numbers();
+    let cycle = |(place, omega): (usize, &f64)| MeasuredCycle {
+        angular_frequency_rad_per_s: *omega,
+        drive,
+        row: place + 1,
+    };
+    let data = (0..omegas.len()).flat_map(|place| {
+        measured.iter().map(move |number| Datum {
+            place,
             number: *number,
             value: 1.0,
             error: None,
         })
     });
+    let cycles = omegas.iter().enumerate().map(cycle);
     let dense = IdentifyPlan {
         measurements: Measurements::unchecked(cycles.collect(), data.collect()),
         ..plan.clone()
     };
     let numbers = Model::new(&dense, interrupt).numbers(&found.relaxation)?;
-    let curve = |(place, number): (usize, &Number)| Curve {
-        number: *number,
-        points: omegas
-            .iter()
-            .copied()
-            .zip(
-                numbers
-                    .iter()
-                    .skip(place)
-                    .step_by(numbers_measured.len())
-                    .copied(),
-            )
-            .collect(),
+    let curve = |(place, number): (usize, &Number)| {
+        let own = numbers.iter().copied().skip(place).step_by(measured.len());
+        Curve {
+            number: *number,
+            points: omegas.iter().copied().zip(own).collect(),
+        }
     };
-    Ok(numbers_measured.iter().enumerate().map(curve).collect())
+    Ok(measured.iter().enumerate().map(curve).collect())
 }
 
 /// The computed history between the first and the last instant measured.

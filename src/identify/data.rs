@@ -51,13 +51,6 @@ pub struct Reading {
 /// what an instrument takes a thousand times a second says no more about a time of minutes.
 const ONE_INSTANT: f64 = 0.05;
 
-/// What the numbers belong to.
-#[derive(Debug, Clone, PartialEq)]
-enum Places {
-    Cycles(Vec<MeasuredCycle>),
-    Instants(Vec<Instant>),
-}
-
 /// One measured cycle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeasuredCycle {
@@ -83,7 +76,9 @@ pub struct Datum {
 /// All that was measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurements {
-    places: Places,
+    /// What the numbers belong to: cycles, or instants of a history.
+    cycles: Vec<MeasuredCycle>,
+    instants: Vec<Instant>,
     data: Vec<Datum>,
     /// What was left out, and why.
     notes: Vec<String>,
@@ -101,7 +96,7 @@ impl Measurements {
     /// # Errors
     /// [`IdentifyError`]: numbers that no solid can have, all at one frequency, or none that varies.
     pub fn new(cycles: Vec<MeasuredCycle>, all: Vec<Datum>) -> Result<Self, IdentifyError> {
-        Self::checked(Places::Cycles(cycles), all)
+        Self::checked(cycles, Vec::new(), all)
     }
 
     /// The same of one history under a drive, from its rows in the order of time. Rows that are one instant are averaged, which the
@@ -143,40 +138,41 @@ impl Measurements {
                 row: same.first().map_or(0, |row| row.row),
             });
         }
-        let averaged = (instants.len() < rows.len()).then(|| {
-            format!(
-                "{} rows are averaged to {} instants",
-                rows.len(),
-                instants.len()
-            )
-        });
-        let mut measured = Self::checked(Places::Instants(instants), data)?;
+        let (read, kept) = (rows.len(), instants.len());
+        let averaged =
+            (kept < read).then(|| format!("{read} rows are averaged to {kept} instants"));
+        let mut measured = Self::checked(Vec::new(), instants, data)?;
         measured.notes.splice(0..0, averaged);
         Ok(measured)
     }
 
-    fn checked(places: Places, all: Vec<Datum>) -> Result<Self, IdentifyError> {
-        let mut data = Vec::with_capacity(all.len());
-        let mut notes = Vec::new();
+    fn checked(
+        cycles: Vec<MeasuredCycle>,
+        instants: Vec<Instant>,
+        all: Vec<Datum>,
+    ) -> Result<Self, IdentifyError> {
+        let mut measured = Self {
+            cycles,
+            instants,
+            ..Self::unchecked(Vec::new(), Vec::new())
+        };
         for datum in all {
-            let row = match &places {
-                Places::Cycles(cycles) => cycles.get(datum.place).map(|cycle| cycle.row),
-                Places::Instants(instants) => instants.get(datum.place).map(|instant| instant.row),
+            let of_cycle = measured.cycles.get(datum.place).map(|cycle| cycle.row);
+            let of_instant = || {
+                measured
+                    .instants
+                    .get(datum.place)
+                    .map(|instant| instant.row)
             };
-            let row = row.unwrap_or(0);
+            let row = of_cycle.or_else(of_instant).unwrap_or(0);
             match usable(&datum, row)? {
-                None => data.push(datum),
-                Some(why) => notes.push(format!(
+                None => measured.data.push(datum),
+                Some(why) => measured.notes.push(format!(
                     "row {row}: {} left out, {why}",
                     datum.number.column()
                 )),
             }
         }
-        let measured = Self {
-            places,
-            data,
-            notes,
-        };
         measured.check()?;
         Ok(measured)
     }
@@ -184,7 +180,8 @@ impl Measurements {
     /// What is no measurement but a list of what is to be computed.
     pub(super) fn unchecked(cycles: Vec<MeasuredCycle>, data: Vec<Datum>) -> Self {
         Self {
-            places: Places::Cycles(cycles),
+            cycles,
+            instants: Vec::new(),
             data,
             notes: Vec::new(),
         }
@@ -192,23 +189,17 @@ impl Measurements {
 
     /// The cycles; none of a history.
     pub fn cycles(&self) -> &[MeasuredCycle] {
-        match &self.places {
-            Places::Cycles(cycles) => cycles,
-            Places::Instants(_) => &[],
-        }
+        &self.cycles
     }
 
     /// Whether the numbers are those of a history.
     pub fn is_history(&self) -> bool {
-        matches!(self.places, Places::Instants(_))
+        !self.instants.is_empty()
     }
 
     /// How many cycles or instants there are.
     pub fn places(&self) -> usize {
-        match &self.places {
-            Places::Cycles(cycles) => cycles.len(),
-            Places::Instants(instants) => instants.len(),
-        }
+        self.cycles.len() + self.instants.len()
     }
 
     pub fn data(&self) -> &[Datum] {
@@ -227,42 +218,46 @@ impl Measurements {
         all.filter(measured).collect()
     }
 
-    /// Whether some numbers come with errors, and whether some come without.
-    pub fn errors(&self) -> (bool, bool) {
-        let with = self.data.iter().any(|datum| datum.error.is_some());
-        let without = self.data.iter().any(|datum| datum.error.is_none());
-        (with, without)
+    /// The angular frequency (rad/s) of a datum's cycle, or the time (s) of its instant.
+    pub(super) fn place_of(&self, datum: &Datum) -> f64 {
+        let cycle = self.cycles.get(datum.place);
+        let instant = self.instants.get(datum.place);
+        cycle
+            .map(|cycle| cycle.angular_frequency_rad_per_s)
+            .or(instant.map(|instant| instant.time_s))
+            .unwrap_or(f64::NAN)
     }
 
     /// The angular frequency (rad/s) that a datum speaks of: that of its cycle, or one over its time.
     pub fn angular_frequency(&self, datum: &Datum) -> f64 {
-        match &self.places {
-            Places::Cycles(cycles) => cycles
-                .get(datum.place)
-                .map_or(f64::NAN, |cycle| cycle.angular_frequency_rad_per_s),
-            Places::Instants(_) => 1.0 / self.time_s(datum),
+        match self.is_history() {
+            true => 1.0 / self.place_of(datum),
+            false => self.place_of(datum),
         }
     }
 
     /// The time (s) of a datum: of its instant, or one over the angular frequency of its cycle.
     pub fn time_s(&self, datum: &Datum) -> f64 {
-        match &self.places {
-            Places::Cycles(_) => 1.0 / self.angular_frequency(datum),
-            Places::Instants(instants) => instants
-                .get(datum.place)
-                .map_or(f64::NAN, |instant| instant.time_s),
+        match self.is_history() {
+            true => self.place_of(datum),
+            false => 1.0 / self.place_of(datum),
         }
     }
 
     /// Where a datum is, for messages: "3 rad/s" or "20 s".
     pub fn place_in_words(&self, datum: &Datum) -> String {
-        match self.is_history() {
-            true => format_human(self.time_s(datum), Dimension::Time, 4),
-            false => format_human(
-                self.angular_frequency(datum),
-                Dimension::AngularFrequency,
-                4,
-            ),
+        let dimension = match self.is_history() {
+            true => Dimension::Time,
+            false => Dimension::AngularFrequency,
+        };
+        format_human(self.place_of(datum), dimension, 4)
+    }
+
+    /// That the model has no such number.
+    pub(super) fn undefined(&self, datum: &Datum) -> IdentifyError {
+        IdentifyError::Undefined {
+            place: self.place_in_words(datum),
+            column: datum.number.column(),
         }
     }
 
@@ -289,18 +284,14 @@ impl Measurements {
                 false => IdentifyError::OneFrequency,
             });
         }
-        let spreads: Vec<(f64, f64)> = self
-            .numbers()
-            .into_iter()
-            .map(|number| self.spread(number))
-            .collect();
-        let varies = |(spread, error): &(f64, f64)| *spread > LEAST_SPREAD.max(4.0 * error);
-        if spreads.iter().any(varies) {
-            return Ok(());
+        let mut largest = 0.0_f64;
+        for number in self.numbers() {
+            let (spread, error) = self.spread(number);
+            if spread > LEAST_SPREAD.max(4.0 * error) {
+                return Ok(());
+            }
+            largest = largest.max(spread);
         }
-        let largest = spreads
-            .iter()
-            .fold(0.0_f64, |a, (spread, _)| a.max(*spread));
         Err(IdentifyError::Flat {
             spread_percent: format!("{:.2}", 100.0 * largest.exp_m1()),
         })

@@ -5,11 +5,12 @@ use std::sync::atomic::AtomicBool;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::identify::candidate::{Candidate, candidates, choose};
 use crate::identify::data::{Measurements, Number};
 use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
-use crate::identify::selection::{Linearised, Scores};
+use crate::identify::selection::{Linearised, residuals};
 use crate::identify::series::{Point, name};
 use crate::identify::uncertainty::{Directions, moduli};
 use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES, UNDETERMINED};
@@ -40,27 +41,8 @@ const EXACTLY: Ending = Ending {
 const CONTRADICTION: f64 = 0.15;
 const TIMES_ERRORS: f64 = 5.0;
 
-/// By how much a criterion must fall for one branch more: odds of seven to one.
-const EVIDENCE: f64 = 4.0;
-
 /// The largest exponent of a confidence factor that is written as a number.
 const WIDEST: f64 = 60.0;
-
-/// One number of branches that was tried.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Candidate {
-    pub branches: usize,
-    /// Sum of squared residuals, each in its standard deviation.
-    pub chi_squared: f64,
-    /// The criteria: lower is better.
-    pub akaike: f64,
-    pub schwarz: f64,
-    /// Akaike weight: how probable this number of branches is beside the others.
-    pub weight: f64,
-    /// Whether two of its times are one.
-    pub has_close_times: bool,
-    ln_moduli: Point,
-}
 
 /// An unknown with its 95 % interval.
 #[derive(Debug, Clone, PartialEq)]
@@ -185,12 +167,11 @@ fn tried(
     linearised: &mut Linearised<'_>,
     (most, part): (usize, f64),
 ) -> Result<Identified, IdentifyError> {
-    let plan = linearised.plan;
-    let (candidates, chosen) = on_linearised(plan, model, linearised, (most, part))?;
-    let start = candidates[chosen].ln_moduli.clone();
+    let (candidates, chosen) = on_linearised(model, linearised, (most, part))?;
+    let start = candidates[chosen].point.clone();
     let from = start.clone();
     let found = on_exact(model, linearised, (candidates, start), &from)?;
-    refuse_contradiction(&plan.measurements, &found)?;
+    refuse_contradiction(&linearised.plan.measurements, &found)?;
     Ok(found)
 }
 
@@ -224,7 +205,7 @@ fn on_exact(
     from: &Point,
 ) -> Result<Identified, IdentifyError> {
     let exact = Exact { model, linearised };
-    let found = minimise(&exact, &from.0, EXACTLY);
+    let found = minimise(&exact, from, EXACTLY);
     let found = found.ok_or(IdentifyError::NoFit("the exact model failed at the start"))?;
     let derivatives = exact.derivatives(&found.unknowns);
     let derivatives = derivatives.ok_or(IdentifyError::NoFit(
@@ -254,12 +235,12 @@ fn most_branches(plan: &IdentifyPlan) -> Result<usize, IdentifyError> {
 
 /// Searches with factors from the exact model until they stand still; which candidate the data ask for.
 fn on_linearised(
-    plan: &IdentifyPlan,
     model: &Model<'_>,
     linearised: &mut Linearised<'_>,
     (most, part): (usize, f64),
 ) -> Result<(Vec<Candidate>, usize), IdentifyError> {
-    let mut known: Vec<Solution> = Vec::new();
+    let plan = linearised.plan;
+    let mut known: Vec<Point> = Vec::new();
     let mut last = None;
     for round in 0..ROUNDS {
         known = linearised.search(&known, most);
@@ -268,86 +249,21 @@ fn on_linearised(
             Some(asked) => asked.min(candidates.len()).saturating_sub(1),
             None => choose(&candidates),
         };
-        let point = &candidates
-            .get(chosen)
-            .ok_or(IdentifyError::NoFit("no start could be tried"))?
-            .ln_moduli;
+        let point = known.get(chosen);
+        let point = point.ok_or(IdentifyError::NoFit("no start could be tried"))?;
         let exact = model.numbers_where_found(&point.relaxation()?);
         let exact = exact.map_err(|error| explained(linearised, point, error))?;
         let change = linearised.take_factors(point, &exact, part);
-        let is_settled = change < SETTLED && last == Some(chosen);
-        last = Some(chosen);
-        let point = point.clone();
-        if is_settled || round + 1 == ROUNDS {
+        if change < SETTLED && last == Some(chosen) || round + 1 == ROUNDS {
             return Ok((candidates, chosen));
         }
+        last = Some(chosen);
         // With the factors of the exact model, what is left is noise; of a series with branches to spare, less than that.
-        let relative = linearised.relative(&point);
-        linearised
-            .noise
-            .estimate(&plan.measurements, &relative, point.0.len());
+        let relative = linearised.relative(point);
+        let noise = &mut linearised.noise;
+        noise.estimate(&plan.measurements, &relative, point.0.len());
     }
     Err(IdentifyError::NoFit("no round was tried"))
-}
-
-fn candidates(linearised: &Linearised<'_>, known: &[Solution]) -> Vec<Candidate> {
-    let numbers = linearised.plan.measurements.data().len();
-    let mut candidates: Vec<Candidate> = known
-        .iter()
-        .map(|solution| {
-            let point = Point(solution.unknowns.clone());
-            // The noise may have been estimated since.
-            let residuals = linearised.residuals(&point.0);
-            let squares = residuals.map_or(f64::INFINITY, |r| r.norm_squared());
-            let scores = Scores::new(squares, numbers, point.0.len(), &linearised.noise);
-            Candidate {
-                branches: point.branches(),
-                chi_squared: squares,
-                akaike: scores.akaike,
-                schwarz: scores.schwarz,
-                weight: 0.0,
-                has_close_times: point.has_close_times(),
-                ln_moduli: point,
-            }
-        })
-        .collect();
-    let best = candidates
-        .iter()
-        .fold(f64::INFINITY, |a, c| a.min(c.akaike));
-    let weight = |akaike: f64| (0.5 * (best - akaike)).exp();
-    let sum: f64 = candidates
-        .iter()
-        .map(|c| weight(c.akaike))
-        .filter(|w| w.is_finite())
-        .sum();
-    for candidate in &mut candidates {
-        let weight = weight(candidate.akaike) / sum;
-        candidate.weight = if weight.is_finite() { weight } else { 0.0 };
-    }
-    candidates
-}
-
-/// The smaller of the numbers that the two criteria ask for, among those whose times are apart.
-fn choose(candidates: &[Candidate]) -> usize {
-    let best = |score: fn(&Candidate) -> f64| {
-        let evident = |c: &Candidate| score(c) + EVIDENCE * c.branches as f64;
-        let all = candidates.iter().enumerate();
-        let apart = all.filter(|(_, c)| !c.has_close_times);
-        let best = apart.min_by(|a, b| evident(a.1).total_cmp(&evident(b.1)));
-        best.map_or(0, |(place, _)| place)
-    };
-    best(|c| c.akaike).min(best(|c| c.schwarz))
-}
-
-/// Standard deviation of the residuals: one where errors are known, what they leave where not.
-fn scatter(linearised: &Linearised<'_>, squares: f64, numbers: usize, unknowns: usize) -> f64 {
-    match linearised.noise.knowledge {
-        Knowledge::All | Knowledge::Some => 1.0,
-        Knowledge::None => {
-            let free = numbers.saturating_sub(unknowns).max(1) as f64;
-            (squares / free).sqrt().max(linearised.noise.least_scale())
-        }
-    }
 }
 
 /// The exact model as a least squares problem.
@@ -357,7 +273,6 @@ struct Exact<'a> {
 }
 
 impl Exact<'_> {
-    /// Residuals of computed numbers, and those that keep times apart.
     fn scaled(&self, numbers: &[f64], point: &Point) -> Option<DVector<f64>> {
         let data = self.linearised.plan.measurements.data().iter();
         let all = data.zip(numbers).zip(&self.linearised.noise.relative);
@@ -365,37 +280,28 @@ impl Exact<'_> {
             let number = number.max(1e-6 * datum.value);
             (number / datum.value).ln() / error
         });
-        let residuals = DVector::from_vec(scaled.chain(point.kept_apart()).collect());
-        residuals.iter().all(|r| r.is_finite()).then_some(residuals)
+        residuals(scaled, point)
     }
 }
 
 impl Problem for Exact<'_> {
-    fn residuals(&self, unknowns: &[f64]) -> Option<DVector<f64>> {
-        let point = Point(unknowns.to_vec());
+    fn residuals(&self, point: &Point) -> Option<DVector<f64>> {
         let series = point.relaxation().ok()?;
-        self.scaled(&self.model.numbers(&series).ok()?, &point)
+        self.scaled(&self.model.numbers(&series).ok()?, point)
     }
 
-    fn derivatives(&self, unknowns: &[f64]) -> Option<DMatrix<f64>> {
-        let moved = (0..2 * unknowns.len()).map(|k| {
-            let mut moved = unknowns.to_vec();
-            moved[k / 2] += if k.is_multiple_of(2) { STEP } else { -STEP };
-            Point(moved)
-        });
+    fn derivatives(&self, point: &Point) -> Option<DMatrix<f64>> {
+        let moved = (0..point.0.len()).flat_map(|k| [STEP, -STEP].map(|step| point.moved(k, step)));
         let moved: Vec<Point> = moved.collect();
         let series: Option<Vec<Relaxation>> = moved.iter().map(|p| p.relaxation().ok()).collect();
         let numbers = self.model.numbers_of_each(&series?).ok()?;
-        let scaled = numbers
-            .iter()
-            .zip(&moved)
-            .map(|(n, point)| self.scaled(n, point));
-        let scaled: Option<Vec<DVector<f64>>> = scaled.collect();
-        let scaled = scaled?;
-        let columns = scaled
+        let scaled = numbers.iter().zip(&moved);
+        let scaled = scaled.map(|(numbers, point)| self.scaled(numbers, point));
+        let columns: Vec<DVector<f64>> = (scaled.collect::<Option<Vec<_>>>()?)
             .chunks_exact(2)
-            .map(|pair| (&pair[0] - &pair[1]) / (2.0 * STEP));
-        Some(DMatrix::from_columns(&columns.collect::<Vec<_>>()))
+            .map(|pair| (&pair[0] - &pair[1]) / (2.0 * STEP))
+            .collect();
+        Some(DMatrix::from_columns(&columns))
     }
 
     fn clamp(&self, place: usize, value: f64) -> f64 {
@@ -411,17 +317,21 @@ fn judged(
     derivatives: &DMatrix<f64>,
 ) -> Result<Identified, IdentifyError> {
     let measured = &linearised.plan.measurements;
-    let numbers = measured.data().len();
-    let point = Point(found.unknowns.clone());
-    let scatter = scatter(linearised, found.squares(), numbers, point.0.len());
+    let point = found.unknowns.clone();
+    let degrees_of_freedom = measured.data().len().saturating_sub(point.0.len());
+    let free = degrees_of_freedom.max(1) as f64;
+    let knowledge = linearised.noise.knowledge;
+    // Standard deviation of the residuals, and the half width of the interval of 95 % in these: known where errors are known.
+    let (scatter, half_width) = match knowledge {
+        Knowledge::All | Knowledge::Some => (1.0, NORMAL),
+        Knowledge::None => {
+            let scatter = (found.squares() / free).sqrt();
+            let least = linearised.noise.least_scale();
+            (scatter.max(least), student(degrees_of_freedom as f64))
+        }
+    };
     let directions = Directions::new(derivatives, scatter);
     let directions = directions.ok_or(IdentifyError::NoFit("its derivatives are not finite"))?;
-    let degrees_of_freedom = numbers.saturating_sub(point.0.len());
-    let knowledge = linearised.noise.knowledge;
-    let half_width = match knowledge {
-        Knowledge::All | Knowledge::Some => NORMAL,
-        Knowledge::None => student(degrees_of_freedom as f64),
-    };
     let covariance = directions.covariance();
     let deviation = |k: usize| covariance[(k, k)].sqrt();
     let factor = |deviation: f64| (half_width * deviation).min(WIDEST).exp();
@@ -438,10 +348,7 @@ fn judged(
         // A row of derivatives is in standard deviations of its datum.
         let gradient = derivatives.row(k).transpose() * error;
         Compared {
-            place: match measured.is_history() {
-                true => measured.time_s(datum),
-                false => measured.angular_frequency(datum),
-            },
+            place: measured.place_of(datum),
             number: datum.number,
             measured: datum.value,
             error: error * scatter * datum.value,
@@ -461,8 +368,7 @@ fn judged(
         compared: compared.collect(),
         knowledge,
         degrees_of_freedom,
-        reduced_chi_squared: found.squares()
-            / (degrees_of_freedom.max(1) as f64 * scatter * scatter),
+        reduced_chi_squared: found.squares() / (free * scatter * scatter),
         window_rad_per_s: measured.window_rad_per_s(),
         point,
         directions,
@@ -477,16 +383,11 @@ fn undetermined(directions: &Directions, half_width: f64) -> Vec<Undetermined> {
     let open = all.filter(|(_, deviation)| half_width * **deviation > UNDETERMINED.ln());
     open.map(|(place, deviation)| {
         let row = directions.vectors.row(place);
-        let largest = row
-            .iter()
-            .fold(0.0_f64, |a, v| if v.abs() > a.abs() { *v } else { a });
-        let mut parts: Vec<(String, f64)> = row
-            .iter()
-            .enumerate()
-            // The largest power is one; what hardly takes part is left out.
-            .map(|(k, v)| (name(k), v / largest))
-            .filter(|(_, power)| power.abs() > 0.2)
-            .collect();
+        let larger = |a: f64, v: &f64| if v.abs() > a.abs() { *v } else { a };
+        let largest = row.iter().fold(0.0, larger);
+        // The largest power is one; what hardly takes part is left out.
+        let powers = row.iter().enumerate().map(|(k, v)| (name(k), v / largest));
+        let mut parts: Vec<(String, f64)> = powers.filter(|(_, power)| power.abs() > 0.2).collect();
         parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
         Undetermined {
             factor: (half_width * deviation).min(WIDEST).exp(),
@@ -501,11 +402,7 @@ fn refuse_contradiction(measured: &Measurements, found: &Identified) -> Result<(
     let within =
         found.knowledge == Knowledge::All && found.reduced_chi_squared.sqrt() < TIMES_ERRORS;
     let branches = found.relaxation.branches().len();
-    let missed = found
-        .compared
-        .iter()
-        .map(|c| (c.computed / c.measured).ln());
-    match contradiction(measured, branches, &missed.collect::<Vec<_>>()) {
+    match contradiction(measured, branches, &found.missed()) {
         Some(error) if !within => Err(error),
         _ => Ok(()),
     }
@@ -544,10 +441,15 @@ fn contradiction(
 }
 
 impl Identified {
+    /// Logarithms of computed over measured numbers.
+    fn missed(&self) -> Vec<f64> {
+        let compared = self.compared.iter();
+        compared.map(|c| (c.computed / c.measured).ln()).collect()
+    }
+
     /// The root mean square of relative differences between measured and computed numbers, times what more unknowns gain by chance.
     fn misfit(&self) -> f64 {
-        let off = self.compared.iter().map(|c| (c.computed / c.measured).ln());
-        let squares: f64 = off.map(|off| off * off).sum();
+        let squares: f64 = self.missed().iter().map(|off| off * off).sum();
         (squares / self.degrees_of_freedom.max(1) as f64).sqrt()
     }
 
@@ -555,17 +457,13 @@ impl Identified {
     pub fn band(&self, angular_frequency_rad_per_s: f64) -> ModulusBand {
         let own = moduli(&self.point, angular_frequency_rad_per_s);
         let compared = moduli(&self.linearised, angular_frequency_rad_per_s);
-        let mut variances = [0.0; 2];
-        for (part, (_, gradient)) in own.iter().enumerate() {
-            variances[part] = self.directions.variance(gradient);
-        }
+        let mut variances = own
+            .each_ref()
+            .map(|(_, gradient)| self.directions.variance(gradient));
         let chosen = self.point.branches();
-        for other in self
-            .candidates
-            .iter()
-            .filter(|c| c.branches != chosen && c.weight > 0.0)
-        {
-            let theirs = moduli(&other.ln_moduli, angular_frequency_rad_per_s);
+        let others = self.candidates.iter();
+        for other in others.filter(|c| c.branches != chosen && c.weight > 0.0) {
+            let theirs = moduli(&other.point, angular_frequency_rad_per_s);
             for part in 0..2 {
                 let apart = theirs[part].0 - compared[part].0;
                 variances[part] += other.weight * apart * apart;

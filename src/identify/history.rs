@@ -124,42 +124,32 @@ impl<'a> LinearHistory<'a> {
         })
     }
 
-    /// The number of every datum.
-    pub(super) fn numbers(&self, point: &Point) -> Vec<f64> {
-        let undefined = || vec![f64::NAN; self.ends.len()];
-        let known = (
-            &self.plan.contact.material.counterbody,
-            self.plan.contact.material.compressibility.poisson_ratio(),
-        );
-        match (self.control, known) {
-            (Control::Approach, (None, Some(nu))) => {
-                let branches = point.branches_pa_s();
-                let loads = self.convolved(point.equilibrium_pa(), &branches);
+    /// The number of every datum; `None` where the pair has no compliance.
+    pub(super) fn numbers(&self, point: &Point) -> Option<Vec<f64>> {
+        let known = &self.plan.contact.material;
+        let nu = known.compressibility.poisson_ratio();
+        Some(match (self.control, &known.counterbody, nu) {
+            (Control::Approach, None, Some(nu)) => {
+                let loads = self.convolved(point.equilibrium_pa(), &point.branches_pa_s());
                 loads.iter().map(|load| load / (1.0 - nu * nu)).collect()
             }
-            (Control::Approach, _) => {
-                let compliance = self.compliance(point);
-                let Some(modulus) = compliance.and_then(|creep| creep.to_relaxation().ok()) else {
-                    return undefined();
-                };
+            (Control::Approach, ..) => {
+                let modulus = self.compliance(point)?.to_relaxation().ok()?;
                 let branches = modulus.branches().iter();
                 let branches: Vec<_> = branches.map(|b| (b.modulus_pa, b.time_s)).collect();
                 self.convolved(modulus.equilibrium_modulus(), &branches)
             }
-            (Control::Load, _) => {
-                let Some(creep) = self.compliance(point) else {
-                    return undefined();
-                };
+            (Control::Load, ..) => {
+                let creep = self.compliance(point)?;
                 let branches = || creep.branches().iter();
                 let late: f64 = branches().map(|b| b.compliance_per_pa).sum();
-                let falling: Vec<_> = branches()
-                    .map(|b| (-b.compliance_per_pa, b.time_s))
-                    .collect();
+                let falling = branches().map(|b| (-b.compliance_per_pa, b.time_s));
+                let falling: Vec<_> = falling.collect();
                 let products = self.convolved(creep.instantaneous_compliance() + late, &falling);
                 let approach = |product: &f64| self.elastic.approach_m(*product);
                 products.iter().map(approach).collect()
             }
-        }
+        })
     }
 
     /// The contact compliance (1/Pa) of the pair; `None` where it has none.
@@ -238,15 +228,10 @@ pub(super) fn numbers(
     let times: Vec<f64> = data.iter().map(|d| plan.measurements.time_s(d)).collect();
     let (_, value) = response(drive.control());
     let found = values_at(drive, &outcome.rows, &times, value).into_iter();
-    found
+    let defined = found
         .zip(data)
-        .map(|(number, datum)| {
-            number.ok_or_else(|| IdentifyError::Undefined {
-                place: plan.measurements.place_in_words(datum),
-                column: datum.number.column(),
-            })
-        })
-        .collect()
+        .map(|(number, datum)| number.ok_or_else(|| plan.measurements.undefined(datum)));
+    defined.collect()
 }
 
 impl Driven {

@@ -2,13 +2,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::identify::series::Point;
+
 /// Residuals, each in its standard deviation, as functions of the unknowns.
 pub(super) trait Problem {
     /// `None` where the unknowns cannot be tried.
-    fn residuals(&self, unknowns: &[f64]) -> Option<DVector<f64>>;
+    fn residuals(&self, unknowns: &Point) -> Option<DVector<f64>>;
 
     /// Derivatives of the residuals, a column for each unknown.
-    fn derivatives(&self, unknowns: &[f64]) -> Option<DMatrix<f64>>;
+    fn derivatives(&self, unknowns: &Point) -> Option<DMatrix<f64>>;
 
     /// The nearest value that this unknown may have.
     fn clamp(&self, place: usize, value: f64) -> f64;
@@ -25,10 +27,8 @@ pub(super) struct Ending {
 /// Where it ended.
 #[derive(Debug, Clone)]
 pub(super) struct Solution {
-    pub(super) unknowns: Vec<f64>,
+    pub(super) unknowns: Point,
     pub(super) residuals: DVector<f64>,
-    /// Of the last step but the last; of the last with [`minimise_with_derivatives`].
-    pub(super) iterations: usize,
 }
 
 impl Solution {
@@ -44,21 +44,21 @@ const LARGEST_STEP: f64 = 1.5;
 const ROUNDING: f64 = 1e-16;
 
 /// The least squares solution next to a start; `None` where the start cannot be tried.
-pub(super) fn minimise(problem: &impl Problem, start: &[f64], ending: Ending) -> Option<Solution> {
-    let clamped = |unknowns: &[f64]| -> Vec<f64> {
-        let all = unknowns.iter().enumerate();
-        all.map(|(place, value)| problem.clamp(place, *value))
-            .collect()
+pub(super) fn minimise(problem: &impl Problem, start: &Point, ending: Ending) -> Option<Solution> {
+    let clamped = |unknowns: &mut dyn Iterator<Item = f64>| {
+        let all = unknowns.enumerate();
+        Point(
+            all.map(|(place, value)| problem.clamp(place, value))
+                .collect(),
+        )
     };
-    let unknowns = clamped(start);
+    let unknowns = clamped(&mut start.0.iter().copied());
     let mut best = Solution {
         residuals: problem.residuals(&unknowns)?,
         unknowns,
-        iterations: 0,
     };
     let mut damping = 1e-2;
-    while best.iterations < ending.iterations {
-        best.iterations += 1;
+    for _ in 0..ending.iterations {
         let Some(matrix) = problem.derivatives(&best.unknowns) else {
             break;
         };
@@ -67,12 +67,10 @@ pub(super) fn minimise(problem: &impl Problem, start: &[f64], ending: Ending) ->
         let before = best.squares();
         while damping < 1e10 {
             let trial = step(&normal, &gradient, damping).map(|step| {
-                let moved = best.unknowns.iter().zip(step.iter());
-                let moved =
-                    moved.map(|(value, step)| value - step.clamp(-LARGEST_STEP, LARGEST_STEP));
-                clamped(&moved.collect::<Vec<_>>())
+                let moved = best.unknowns.0.iter().zip(step.iter());
+                clamped(&mut moved.map(|(v, step)| v - step.clamp(-LARGEST_STEP, LARGEST_STEP)))
             });
-            let residuals = trial.as_deref().and_then(|trial| problem.residuals(trial));
+            let residuals = trial.as_ref().and_then(|trial| problem.residuals(trial));
             if let (Some(unknowns), Some(residuals)) = (trial, residuals)
                 && residuals.norm_squared() < before
             {
@@ -108,13 +106,13 @@ mod tests {
     struct Valley;
 
     impl Problem for Valley {
-        fn residuals(&self, x: &[f64]) -> Option<DVector<f64>> {
+        fn residuals(&self, Point(x): &Point) -> Option<DVector<f64>> {
             Some(DVector::from_vec(vec![
                 10.0 * (x[1] - x[0] * x[0]),
                 1.0 - x[0],
             ]))
         }
-        fn derivatives(&self, x: &[f64]) -> Option<DMatrix<f64>> {
+        fn derivatives(&self, Point(x): &Point) -> Option<DMatrix<f64>> {
             Some(DMatrix::from_row_slice(
                 2,
                 2,
@@ -132,9 +130,9 @@ mod tests {
             iterations: 100,
             enough: 1e-12,
         };
-        let found = minimise(&Valley, &[-1.2, 1.0], ending).unwrap();
+        let found = minimise(&Valley, &Point(vec![-1.2, 1.0]), ending).unwrap();
         assert!(
-            found.squares() < 1e-15 && (found.unknowns[0] - 1.0).abs() < 1e-7,
+            found.squares() < 1e-15 && (found.unknowns.0[0] - 1.0).abs() < 1e-7,
             "{found:?}"
         );
     }

@@ -23,7 +23,7 @@ const LEAST: f64 = 1e-3;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LinearCycle<'a> {
     control: Control,
-    angular_frequency_rad_per_s: f64,
+    pub(super) angular_frequency_rad_per_s: f64,
     mean: f64,
     amplitude: f64,
     compressibility: &'a Compressibility,
@@ -61,11 +61,6 @@ impl<'a> LinearCycle<'a> {
             }
             Control::Approach => (indenter.half_widths_under_approach_m(mean).0, 1.0, 0.0),
         };
-        let power = if power.is_finite() {
-            power.clamp(0.0, 0.9)
-        } else {
-            0.0
-        };
         Self {
             control: drive.control(),
             angular_frequency_rad_per_s: cycle.angular_frequency_rad_per_s,
@@ -75,12 +70,11 @@ impl<'a> LinearCycle<'a> {
             counterbody,
             ln_radius: radius.max(f64::MIN_POSITIVE).ln(),
             ln_product: product.ln(),
-            power,
+            power: match power.is_finite() {
+                true => power.clamp(0.0, 0.9),
+                false => 0.0,
+            },
         }
-    }
-
-    pub(super) fn angular_frequency_rad_per_s(&self) -> f64 {
-        self.angular_frequency_rad_per_s
     }
 
     /// A number of the cycle, with the complex modulus (Pa) at its frequency.

@@ -39,6 +39,7 @@
 //! Inference*, Springer 2002, section 4.3). Combinations of the unknowns along which they may move by more than a factor of two
 //! are named as not determined: singular vectors of the matrix of derivatives.
 
+mod candidate;
 mod curve;
 pub mod data;
 mod fit;
@@ -52,8 +53,9 @@ mod selection;
 mod series;
 mod uncertainty;
 
+pub use candidate::Candidate;
 pub use curve::{Curve, curves};
-pub use fit::{Candidate, Compared, Identified, ModulusBand, Undetermined, Unknown, identify};
+pub use fit::{Compared, Identified, ModulusBand, Undetermined, Unknown, identify};
 pub use noise::Knowledge;
 
 use std::sync::Arc;

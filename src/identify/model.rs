@@ -10,6 +10,7 @@ use crate::identify::{Driven, IdentifyError, IdentifyPlan, history};
 use crate::material::{MaterialError, Relaxation};
 use crate::sweep::case::Setup;
 use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
+use crate::sweep::record::CaseResult;
 
 /// Numbers of the cycles of a plan's measurements, for any series.
 pub(super) struct Model<'a> {
@@ -42,17 +43,14 @@ impl<'a> Model<'a> {
         finer.contact.solver.springs *= 2;
         let finer = Model::new(&finer, self.interrupt).numbers_where_found(series)?;
         let own = self.numbers_where_found(series)?;
-        let ratio = |(fine, own): (&Option<f64>, &Option<f64>)| match (fine, own) {
-            (Some(fine), Some(own)) if fine / own > 0.5 && fine / own < 2.0 => fine / own,
-            _ => 1.0,
+        let ratio = |(fine, own): (Option<f64>, Option<f64>)| {
+            let ratio = fine.zip(own).map(|(fine, own)| fine / own);
+            ratio.filter(|ratio| *ratio > 0.5 && *ratio < 2.0)
         };
-        self.corrections = finer.iter().zip(&own).map(ratio).collect();
+        let ratios = finer.into_iter().zip(own).map(ratio);
+        self.corrections = ratios.map(|ratio| ratio.unwrap_or(1.0)).collect();
         let sizes = self.corrections.iter().map(|ratio| (ratio - 1.0).abs());
         Ok(sizes.fold(0.0, f64::max))
-    }
-
-    fn corrected(&self, place: usize, number: f64) -> f64 {
-        number * self.corrections.get(place).copied().unwrap_or(1.0)
     }
 
     /// The computed number of every datum, in their order.
@@ -77,14 +75,20 @@ impl<'a> Model<'a> {
             .map(|series| self.setup(series))
             .collect::<Result<_, _>>()?;
         let cycles = self.plan.measurements.cycles().len();
-        let solved: Vec<Vec<Option<f64>>> = (0..all.len() * cycles)
+        let solved: Vec<Option<CaseResult>> = (0..all.len() * cycles)
             .into_par_iter()
-            .map(|place| self.cycle(&setups[place / cycles], place % cycles))
-            .collect::<Result<_, _>>()?;
-        solved
-            .chunks(cycles)
-            .map(|of_series| self.in_order(of_series))
-            .collect()
+            .map(|place| Ok(Some(self.cycle(&setups[place / cycles], place % cycles)?)))
+            .collect::<Result<_, IdentifyError>>()?;
+        let each = solved.chunks(cycles);
+        each.map(|of_series| {
+            let numbers = self.of_cycles(of_series).into_iter();
+            let data = self.plan.measurements.data();
+            let defined = numbers.zip(data).map(|(number, datum)| {
+                number.ok_or_else(|| self.plan.measurements.undefined(datum))
+            });
+            defined.collect()
+        })
+        .collect()
     }
 
     /// The computed numbers of a series on the way to the one that is sought: `None` of a cycle that is not found.
@@ -104,43 +108,25 @@ impl<'a> Model<'a> {
             .collect();
         let is_lost = |cycle: &Result<_, _>| matches!(cycle, Err(IdentifyError::NoCycle { .. }));
         let lost = solved.iter().filter(|cycle| is_lost(cycle)).count();
-        let mut found = Vec::with_capacity(cycles);
-        for cycle in solved {
-            match cycle {
-                // Of a few it is no matter; where most are lost nothing is learnt.
-                Err(IdentifyError::NoCycle { .. }) if 2 * lost <= cycles => found.push(Vec::new()),
-                other => found.push(other?),
-            }
-        }
+        let found = solved.into_iter().map(|cycle| match cycle {
+            // Of a few it is no matter; where most are lost nothing is learnt.
+            Err(IdentifyError::NoCycle { .. }) if 2 * lost <= cycles => Ok(None),
+            other => other.map(Some),
+        });
+        Ok(self.of_cycles(&found.collect::<Result<Vec<_>, _>>()?))
+    }
+
+    /// The corrected number of every datum; `None` where its cycle has none or was not found.
+    fn of_cycles(&self, cycles: &[Option<CaseResult>]) -> Vec<Option<f64>> {
         let data = self.plan.measurements.data().iter().enumerate();
         let numbers = data.map(|(place, datum)| {
-            let own = self.data_of(datum.place).position(|other| other == place);
-            let number = own.and_then(|own| *found[datum.place].get(own)?);
-            number.map(|number| self.corrected(place, number))
+            let number = match datum.number {
+                Number::OfCycle(quantity) => quantity.of(cycles[datum.place].as_ref()?)?,
+                Number::Approach | Number::Load => return None,
+            };
+            Some(number * self.corrections.get(place).copied().unwrap_or(1.0))
         });
-        Ok(numbers.collect())
-    }
-
-    fn in_order(&self, of_cycles: &[Vec<Option<f64>>]) -> Result<Vec<f64>, IdentifyError> {
-        let data = self.plan.measurements.data().iter().enumerate();
-        data.map(|(place, datum)| {
-            let of_cycle = &of_cycles[datum.place];
-            let own = self.data_of(datum.place).position(|other| other == place);
-            let number = own.and_then(|own| of_cycle.get(own).copied().flatten());
-            let number = number.map(|number| self.corrected(place, number));
-            number.ok_or_else(|| IdentifyError::Undefined {
-                place: self.plan.measurements.place_in_words(datum),
-                column: datum.number.column(),
-            })
-        })
-        .collect()
-    }
-
-    /// Places of the data of a cycle.
-    fn data_of(&self, cycle: usize) -> impl Iterator<Item = usize> + '_ {
-        let data = self.plan.measurements.data().iter().enumerate();
-        data.filter(move |(_, datum)| datum.place == cycle)
-            .map(|(place, _)| place)
+        numbers.collect()
     }
 
     fn setup(&self, series: &Relaxation) -> Result<Setup, IdentifyError> {
@@ -159,18 +145,16 @@ impl<'a> Model<'a> {
         let contact = self.plan.contact.with_material(Arc::new(material));
         let mut plan = SweepPlan::of(contact, drive);
         plan.cycle = self.plan.cycle;
-        let cycles = measured.iter();
-        let mut omegas: Vec<f64> = cycles
-            .map(|cycle| cycle.angular_frequency_rad_per_s)
-            .collect();
-        omegas.sort_by(f64::total_cmp);
-        omegas.dedup();
-        plan.angular_frequencies_rad_per_s = omegas;
+        let omegas = measured
+            .iter()
+            .map(|cycle| cycle.angular_frequency_rad_per_s);
+        plan.angular_frequencies_rad_per_s = omegas.collect();
+        plan.angular_frequencies_rad_per_s.sort_by(f64::total_cmp);
+        plan.angular_frequencies_rad_per_s.dedup();
         Ok(Setup::new(plan)?)
     }
 
-    /// The computed numbers of the data of one cycle, `None` where it has none.
-    fn cycle(&self, setup: &Setup, cycle: usize) -> Result<Vec<Option<f64>>, IdentifyError> {
+    fn cycle(&self, setup: &Setup, cycle: usize) -> Result<CaseResult, IdentifyError> {
         let measured = &self.plan.measurements.cycles()[cycle];
         let case = Case {
             index: 0,
@@ -191,20 +175,10 @@ impl<'a> Model<'a> {
             record = Setup::new(plan)?.numbers(&case, self.interrupt);
         }
         let record = record.ok_or(IdentifyError::Interrupted)?;
-        let Some(result) = &record.result else {
-            let why = record
-                .message
-                .unwrap_or_else(|| record.status.name().to_owned());
-            return Err(IdentifyError::NoCycle {
-                angular_frequency_rad_per_s: measured.angular_frequency_rad_per_s,
-                why,
-            });
-        };
-        let data = self.plan.measurements.data();
-        let numbers = self.data_of(cycle).map(|place| match data[place].number {
-            Number::OfCycle(quantity) => quantity.of(result),
-            Number::Approach | Number::Load => None,
-        });
-        Ok(numbers.collect())
+        let (message, status) = (record.message, record.status);
+        record.result.ok_or_else(|| IdentifyError::NoCycle {
+            angular_frequency_rad_per_s: measured.angular_frequency_rad_per_s,
+            why: message.unwrap_or_else(|| status.name().to_owned()),
+        })
     }
 }

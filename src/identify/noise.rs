@@ -39,12 +39,14 @@ impl Noise {
             Some(error) => (error / datum.value).max(LEAST_ERROR),
             None => FIRST,
         });
+        let data = measured.data().iter();
+        let known = data.filter(|datum| datum.error.is_some()).count();
         Self {
             relative: relative.collect(),
-            knowledge: match measured.errors() {
-                (_, false) => Knowledge::All,
-                (true, true) => Knowledge::Some,
-                (false, true) => Knowledge::None,
+            knowledge: match known {
+                0 => Knowledge::None,
+                all if all == measured.data().len() => Knowledge::All,
+                _ => Knowledge::Some,
             },
         }
     }
@@ -66,11 +68,9 @@ impl Noise {
         let (_, common) = of_data(&|_| true);
         for number in measured.numbers() {
             let (count, own) = of_data(&|other| other == number);
-            let own = match count as usize >= FEWEST_VALUES {
-                true if own > SAME * common || own < common / SAME => {
-                    own.clamp(common / LARGEST_RATIO, common * LARGEST_RATIO)
-                }
-                true => common,
+            let is_other = own > SAME * common || own < common / SAME;
+            let own = match count as usize >= FEWEST_VALUES && is_other {
+                true => own.clamp(common / LARGEST_RATIO, common * LARGEST_RATIO),
                 false => common,
             };
             let data = measured.data().iter().zip(&mut self.relative);

@@ -1,4 +1,4 @@
-//! The search on the linearised contact: series of every number of branches, and which number the data ask for.
+//! The search on the linearised contact: series of every number of branches.
 
 use nalgebra::{DMatrix, DVector};
 use num_complex::Complex;
@@ -9,7 +9,7 @@ use crate::identify::history::LinearHistory;
 use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
 use crate::identify::linear::LinearCycle;
 use crate::identify::model::Model;
-use crate::identify::noise::{Knowledge, Noise};
+use crate::identify::noise::Noise;
 use crate::identify::series::{Limits, Point};
 use crate::identify::{IdentifyError, IdentifyPlan};
 use crate::sweep::record::error_bars::Quantity;
@@ -93,37 +93,33 @@ impl Linearised<'_> {
 
     /// Logarithms of all numbers without their factors.
     pub(super) fn ln_numbers(&self, point: &Point) -> Vec<f64> {
+        let ln = |number: f64| number.max(f64::MIN_POSITIVE).ln();
+        let data = self.measured().data();
         if let Some(history) = &self.history {
-            let numbers = history.numbers(point).into_iter();
-            return numbers.map(|n| n.max(f64::MIN_POSITIVE).ln()).collect();
+            let numbers = history.numbers(point);
+            let numbers = numbers.unwrap_or_else(|| vec![f64::NAN; data.len()]);
+            return numbers.into_iter().map(ln).collect();
         }
         let equilibrium_pa = point.equilibrium_pa();
-        let moduli: Vec<Complex<f64>> = self
-            .cycles
-            .iter()
-            .map(|cycle| point.complex_modulus(cycle.angular_frequency_rad_per_s()))
+        let cycles = self.cycles.iter();
+        let moduli: Vec<Complex<f64>> = cycles
+            .map(|cycle| point.complex_modulus(cycle.angular_frequency_rad_per_s))
             .collect();
         let number = |datum: &Datum| {
             let (cycle, modulus) = (&self.cycles[datum.place], moduli[datum.place]);
-            let number = match datum.number {
+            ln(match datum.number {
                 Number::OfCycle(quantity) => cycle.number(quantity, equilibrium_pa, modulus),
                 Number::Approach | Number::Load => f64::NAN,
-            };
-            number.max(f64::MIN_POSITIVE).ln()
+            })
         };
-        self.measured().data().iter().map(number).collect()
+        data.iter().map(number).collect()
     }
 
     /// Logarithms of computed over measured numbers.
     pub(super) fn relative(&self, point: &Point) -> Vec<f64> {
-        let numbers = self.ln_numbers(point);
-        let all = self
-            .measured()
-            .data()
-            .iter()
-            .zip(numbers)
-            .zip(&self.ln_factors);
-        all.map(|((datum, ln), factor)| ln + factor - datum.value.ln())
+        let numbers = self.ln_numbers(point).into_iter().zip(&self.ln_factors);
+        let all = self.measured().data().iter().zip(numbers);
+        all.map(|(datum, (ln, factor))| ln + factor - datum.value.ln())
             .collect()
     }
 
@@ -145,10 +141,8 @@ impl Linearised<'_> {
     fn first(&mut self) -> Vec<Point> {
         let mut all: Vec<(f64, Point)> = self.grid().into_iter().flatten().collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        all.into_iter()
-            .take(2 * KEPT)
-            .map(|(_, point)| point)
-            .collect()
+        let best = all.into_iter().take(2 * KEPT);
+        best.map(|(_, point)| point).collect()
     }
 
     /// A grid of series of one branch, and how well they fit: for every ratio and time of the branch those of all equilibrium moduli.
@@ -162,9 +156,10 @@ impl Linearised<'_> {
             for (k, own) in all.iter_mut().enumerate() {
                 let (ratio, place) = (RATIOS[k / PLACES], (k % PLACES + 1) as f64);
                 let time = low + (high - low) * place / (PLACES + 1) as f64;
-                let unknowns = vec![equilibrium_pa.ln(), (ratio * equilibrium_pa).ln(), time];
-                if let Some(residuals) = self.residuals(&unknowns) {
-                    own.push((residuals.norm_squared(), Point(unknowns)));
+                let moduli = [equilibrium_pa, ratio * equilibrium_pa].map(f64::ln);
+                let point = Point(vec![moduli[0], moduli[1], time]);
+                if let Some(residuals) = self.residuals(&point) {
+                    own.push((residuals.norm_squared(), point));
                 }
             }
         }
@@ -204,7 +199,6 @@ impl Linearised<'_> {
         if self.plan.drive.control() == Control::Load {
             return (point, exact);
         }
-        let data = self.measured().data();
         let goes = |datum: &Datum| match datum.number {
             Number::OfCycle(quantity) => matches!(
                 quantity,
@@ -217,16 +211,21 @@ impl Linearised<'_> {
             Number::Load => true,
             Number::Approach => false,
         };
-        let offs = data.iter().zip(&exact).filter(|(datum, _)| goes(datum));
-        let offs = offs.filter_map(|(datum, exact)| Some((datum.value / (*exact)?).ln()));
+        let mut loads: Vec<(f64, &mut Option<f64>)> = (self.measured().data().iter())
+            .zip(&mut exact)
+            .filter(|(datum, _)| goes(datum))
+            .map(|(datum, exact)| (datum.value, exact))
+            .collect();
+        let offs = loads.iter();
+        let offs = offs.filter_map(|(value, exact)| Some((value / (**exact)?).ln()));
         let offs: Vec<f64> = offs.filter(|off| off.is_finite()).collect();
         if offs.is_empty() {
             return (point, exact);
         }
         let off = offs.iter().sum::<f64>() / offs.len() as f64;
         point.scale_moduli(off);
-        for (_, exact) in data.iter().zip(&mut exact).filter(|(datum, _)| goes(datum)) {
-            *exact = exact.map(|value| value * off.exp());
+        for exact in loads.iter_mut().flat_map(|(_, exact)| exact.as_mut()) {
+            *exact *= off.exp();
         }
         (point, exact)
     }
@@ -243,16 +242,14 @@ impl Linearised<'_> {
     }
 
     /// The best series of 1 to `most` branches, from `known` ones on where there are any.
-    pub(super) fn search(&mut self, known: &[Solution], most: usize) -> Vec<Solution> {
+    pub(super) fn search(&mut self, known: &[Point], most: usize) -> Vec<Point> {
         let mut starts = match known.first() {
-            Some(first) => vec![Point(first.unknowns.clone())],
+            Some(first) => vec![first.clone()],
             None => self.first(),
         };
-        let mut found: Vec<Solution> = Vec::new();
+        let mut found: Vec<Point> = Vec::new();
         for branches in 1..=most {
-            if let Some(known) = known.get(branches - 1) {
-                starts.push(Point(known.unknowns.clone()));
-            }
+            starts.extend(known.get(branches - 1).cloned());
             // About where the last search ended: the radius is then that of its own contact.
             if known.is_empty()
                 && let Some(start) = starts.first()
@@ -262,36 +259,30 @@ impl Linearised<'_> {
             let Some(best) = self.best_of(&starts) else {
                 break;
             };
-            starts = self.with_one_more(&Point(best.unknowns.clone()));
+            starts = self.with_one_more(&best);
             found.push(best);
         }
         found
     }
 
     /// The best of several starts: all roughly, the better ones closely.
-    fn best_of(&self, starts: &[Point]) -> Option<Solution> {
+    fn best_of(&self, starts: &[Point]) -> Option<Point> {
         let rough = starts
             .iter()
-            .filter_map(|start| minimise(self, &start.0, ROUGHLY));
+            .filter_map(|start| minimise(self, start, ROUGHLY));
         let mut rough: Vec<Solution> = rough.collect();
         rough.sort_by(|a, b| a.squares().total_cmp(&b.squares()));
         let close = rough.iter().take(KEPT);
         let close = close.filter_map(|start| minimise(self, &start.unknowns, CLOSELY));
         let best = close.min_by(|a, b| a.squares().total_cmp(&b.squares()))?;
-        let unknowns = Point(best.unknowns).sorted().0;
-        Some(Solution {
-            residuals: self.residuals(&unknowns)?,
-            unknowns,
-            iterations: best.iterations,
-        })
+        Some(best.unknowns.sorted())
     }
 
     /// A series with one branch more, at each of several times.
     fn with_one_more(&self, point: &Point) -> Vec<Point> {
         let (low, high) = self.limits.times;
-        let count = ((high - low) / std::f64::consts::LN_10 * 2.0)
-            .round()
-            .max(1.0);
+        let decades = (high - low) / std::f64::consts::LN_10;
+        let count = (decades * 2.0).round().max(1.0);
         let places = (0..=count as usize).map(|k| low + (high - low) * k as f64 / count);
         let strength = |ln_time: f64| (0.2 * point.complex_modulus((-ln_time).exp()).norm()).ln();
         places
@@ -301,30 +292,19 @@ impl Linearised<'_> {
 }
 
 impl Problem for Linearised<'_> {
-    fn residuals(&self, unknowns: &[f64]) -> Option<DVector<f64>> {
-        let point = Point(unknowns.to_vec());
-        let relative = self.relative(&point);
-        let scaled = relative
-            .iter()
-            .zip(&self.noise.relative)
-            .map(|(r, error)| r / error);
-        let residuals = DVector::from_vec(scaled.chain(point.kept_apart()).collect());
-        residuals.iter().all(|r| r.is_finite()).then_some(residuals)
+    fn residuals(&self, point: &Point) -> Option<DVector<f64>> {
+        let scaled = self.relative(point).into_iter().zip(&self.noise.relative);
+        residuals(scaled.map(|(r, error)| r / error), point)
     }
 
-    fn derivatives(&self, unknowns: &[f64]) -> Option<DMatrix<f64>> {
-        let gaps = Point(unknowns.to_vec()).kept_apart().len();
-        let mut matrix = DMatrix::zeros(self.measured().data().len() + gaps, unknowns.len());
-        for place in 0..unknowns.len() {
-            let moved = |step: f64| {
-                let mut moved = unknowns.to_vec();
-                moved[place] += step;
-                self.residuals(&moved)
-            };
-            let column = (moved(STEP)? - moved(-STEP)?) / (2.0 * STEP);
-            matrix.set_column(place, &column);
-        }
-        Some(matrix)
+    fn derivatives(&self, point: &Point) -> Option<DMatrix<f64>> {
+        let column = |place: usize| {
+            let [above, below] =
+                [STEP, -STEP].map(|step| self.residuals(&point.moved(place, step)));
+            Some((above? - below?) / (2.0 * STEP))
+        };
+        let columns: Option<Vec<_>> = (0..point.0.len()).map(column).collect();
+        Some(DMatrix::from_columns(&columns?))
     }
 
     fn clamp(&self, place: usize, value: f64) -> f64 {
@@ -332,34 +312,8 @@ impl Problem for Linearised<'_> {
     }
 }
 
-/// What speaks for and against a number of branches: lower is better.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scores {
-    /// H. Akaike's criterion with the correction for few data.
-    pub(super) akaike: f64,
-    /// G. Schwarz's criterion.
-    pub(super) schwarz: f64,
-}
-
-impl Scores {
-    /// Of a fit with this sum of squares. Where no error is known, one more unknown is the noise.
-    pub(super) fn new(squares: f64, numbers: usize, unknowns: usize, noise: &Noise) -> Self {
-        let n = numbers as f64;
-        let (misfit, unknowns) = match noise.knowledge {
-            Knowledge::None => {
-                let variance = (squares / n).max(noise.least_scale().powi(2));
-                (n * variance.ln(), unknowns as f64 + 1.0)
-            }
-            Knowledge::All | Knowledge::Some => (squares, unknowns as f64),
-        };
-        let free = n - unknowns - 1.0;
-        let corrected = match free > 0.0 {
-            true => 2.0 * unknowns * (1.0 + (unknowns + 1.0) / free),
-            false => f64::INFINITY,
-        };
-        Self {
-            akaike: misfit + corrected,
-            schwarz: misfit + unknowns * n.ln(),
-        }
-    }
+/// Residuals of the data, and those that keep the times of a series apart; `None` where one is not finite.
+pub(super) fn residuals(of_data: impl Iterator<Item = f64>, point: &Point) -> Option<DVector<f64>> {
+    let residuals = DVector::from_vec(of_data.chain(point.kept_apart()).collect());
+    residuals.iter().all(|r| r.is_finite()).then_some(residuals)
 }

@@ -47,6 +47,18 @@ pub(super) fn name(place: usize) -> String {
 }
 
 impl Point {
+    /// The same with one unknown moved.
+    pub(super) fn moved(&self, place: usize, step: f64) -> Self {
+        let mut moved = self.clone();
+        moved.0[place] += step;
+        moved
+    }
+
+    /// Modulus and time of every branch.
+    fn pairs(&self) -> std::slice::ChunksExact<'_, f64> {
+        self.0.get(1..).unwrap_or_default().chunks_exact(2)
+    }
+
     pub(super) fn branches(&self) -> usize {
         self.0.len() / 2
     }
@@ -55,29 +67,19 @@ impl Point {
         self.0.first().map_or(0.0, |ln| ln.exp())
     }
 
-    /// Logarithms of the times (s).
-    pub(super) fn times(&self) -> impl Iterator<Item = f64> + '_ {
-        self.0.iter().skip(2).step_by(2).copied()
-    }
-
     /// The complex modulus (Pa).
     pub(super) fn complex_modulus(&self, angular_frequency_rad_per_s: f64) -> Complex<f64> {
         let ln_omega = angular_frequency_rad_per_s.ln();
         let start = Complex::new(self.equilibrium_pa(), 0.0);
-        self.0
-            .get(1..)
-            .unwrap_or_default()
-            .chunks_exact(2)
-            .fold(start, |sum, branch| {
-                let x = (ln_omega + branch[1]).exp();
-                let below = 1.0 / (1.0 + x * x);
-                let frozen = match x > 1.0 {
-                    true => 1.0 / (1.0 + 1.0 / (x * x)),
-                    false => x * x * below,
-                };
-                let loss = 1.0 / (x + 1.0 / x);
-                sum + Complex::new(frozen, loss) * branch[0].exp()
-            })
+        self.pairs().fold(start, |sum, branch| {
+            let x = (ln_omega + branch[1]).exp();
+            let frozen = match x > 1.0 {
+                true => 1.0 / (1.0 + 1.0 / (x * x)),
+                false => x * x * (1.0 / (1.0 + x * x)),
+            };
+            let loss = 1.0 / (x + 1.0 / x);
+            sum + Complex::new(frozen, loss) * branch[0].exp()
+        })
     }
 
     /// The same with one branch more, shortest time first.
@@ -89,13 +91,7 @@ impl Point {
 
     /// Branches in the order of their times.
     pub(super) fn sorted(mut self) -> Self {
-        let mut branches: Vec<[f64; 2]> = self
-            .0
-            .get(1..)
-            .unwrap_or_default()
-            .chunks_exact(2)
-            .map(|branch| [branch[0], branch[1]])
-            .collect();
+        let mut branches: Vec<[f64; 2]> = self.pairs().map(|b| [b[0], b[1]]).collect();
         branches.sort_by(|a, b| a[1].total_cmp(&b[1]));
         self.0.truncate(1);
         self.0.extend(branches.into_iter().flatten());
@@ -104,7 +100,7 @@ impl Point {
 
     /// Gaps between the logarithms of neighbouring times.
     fn gaps(&self) -> Vec<f64> {
-        let mut times: Vec<f64> = self.times().collect();
+        let mut times: Vec<f64> = self.pairs().map(|branch| branch[1]).collect();
         times.sort_by(f64::total_cmp);
         times.windows(2).map(|pair| pair[1] - pair[0]).collect()
     }
@@ -117,26 +113,19 @@ impl Point {
     /// Residuals that keep times apart: nothing where they are, and one in every gap between neighbours.
     pub(super) fn kept_apart(&self) -> Vec<f64> {
         let lack = |gap: f64| (CLOSEST.ln() - gap).max(0.0);
-        self.gaps()
-            .into_iter()
-            .map(|gap| STIFFNESS * lack(gap))
-            .collect()
+        let gaps = self.gaps().into_iter();
+        gaps.map(|gap| STIFFNESS * lack(gap)).collect()
     }
 
     /// Moduli (Pa) and times (s) of the branches.
     pub(super) fn branches_pa_s(&self) -> Vec<(f64, f64)> {
-        let branches = self.0.get(1..).unwrap_or_default().chunks_exact(2);
-        branches.map(|b| (b[0].exp(), b[1].exp())).collect()
+        self.pairs().map(|b| (b[0].exp(), b[1].exp())).collect()
     }
 
     /// Multiplies all moduli by exp(`by`).
     pub(super) fn scale_moduli(&mut self, by: f64) {
-        self.0[0] += by;
-        self.0
-            .iter_mut()
-            .skip(1)
-            .step_by(2)
-            .for_each(|ln| *ln += by);
+        let moduli = (0..self.0.len()).filter(|place| !is_time(*place));
+        moduli.for_each(|place| self.0[place] += by);
     }
 
     pub(super) fn relaxation(&self) -> Result<Relaxation, MaterialError> {

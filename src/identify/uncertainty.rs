@@ -74,12 +74,7 @@ pub(super) fn moduli(point: &Point, angular_frequency_rad_per_s: f64) -> [(f64, 
     let count = point.0.len();
     let mut gradients = [DVector::zeros(count), DVector::zeros(count)];
     for place in 0..count {
-        let moved = |step: f64| {
-            let mut moved = point.clone();
-            moved.0[place] += step;
-            ln(&moved)
-        };
-        let (above, below) = (moved(STEP), moved(-STEP));
+        let [above, below] = [STEP, -STEP].map(|step| ln(&point.moved(place, step)));
         for (part, gradient) in gradients.iter_mut().enumerate() {
             gradient[place] = (above[part] - below[part]) / (2.0 * STEP);
         }

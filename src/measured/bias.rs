@@ -6,13 +6,17 @@
 //! gives the mean approach (the mean load where the approach is driven). Its exact stabilised cycle is read by the same formula, its
 //! own modulus is known, and the ratio of the two is the bias.
 
+use std::sync::Arc;
+
+use num_complex::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::corrections::Harmonics;
 use super::moduli::{Contact, Radius, radius_of_geometry};
 use super::statistics::Estimate;
 use crate::drive::{Control, HarmonicDrive};
-use crate::material::{Material, ModulusKind, Relaxation, RelaxationBranch};
+use crate::indenter::Indenter;
+use crate::material::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
 use crate::sweep::Sweep;
 use crate::sweep::plan::SweepPlan;
 
@@ -46,12 +50,18 @@ struct Solid {
     equilibrium_pa: f64,
 }
 
-/// What the formula reads from a cycle, and the mean that the drive does not prescribe.
+/// What the formula reads from the exact cycle of a solid.
 struct Reading {
     storage_pa: f64,
     loss_pa: f64,
+    /// What the drive does not prescribe.
     mean: f64,
+    /// The solid's own modulus (Pa).
+    own: Complex<f64>,
 }
+
+/// Why the bias is not known, as a part of a sentence.
+type Failure = Box<dyn std::error::Error>;
 
 /// The moduli that the formula read from a cycle, without its bias.
 ///
@@ -62,10 +72,10 @@ pub(super) fn unbiased(
     cycle: &Harmonics,
     angular: f64,
     (storage, loss): (Estimate, Estimate),
-) -> Result<Unbiased, String> {
+) -> Result<Unbiased, Failure> {
     let model = Model::new(contact, cycle, angular)?;
     if loss.value <= 0.0 || storage.value <= 0.0 {
-        return Err("no passive solid has these moduli".to_owned());
+        return Err("no passive solid has these moduli".into());
     }
     let mut solid = Solid {
         storage_pa: storage.value,
@@ -74,31 +84,30 @@ pub(super) fn unbiased(
     };
     let mut change = f64::INFINITY;
     for _ in 0..ROUNDS {
-        let (reading, own) = model.read(&solid)?;
-        let (up, down) = (
-            storage.value / reading.storage_pa,
-            loss.value / reading.loss_pa,
-        );
+        let read = model.read(&solid)?;
         if change < SETTLED {
-            let biases = (reading.storage_pa / own.0, reading.loss_pa / own.1);
+            let storage_bias = read.storage_pa / read.own.re;
+            let loss_bias = read.loss_pa / read.own.im;
             return Ok(Unbiased {
-                storage_modulus_pa: over(storage, biases.0),
-                loss_modulus_pa: over(loss, biases.1),
-                storage_bias: biases.0,
-                loss_bias: biases.1,
+                storage_modulus_pa: over(storage, storage_bias),
+                loss_modulus_pa: over(loss, loss_bias),
+                storage_bias,
+                loss_bias,
             });
         }
+        let up = storage.value / read.storage_pa;
+        let down = loss.value / read.loss_pa;
         solid.storage_pa *= up;
         solid.loss_pa *= down;
         let before = solid.equilibrium_pa;
-        solid.equilibrium_pa = (before * model.softness(reading.mean)).min(solid.storage_pa);
+        solid.equilibrium_pa = (before * model.softness(read.mean)).min(solid.storage_pa);
         let of_mean = (solid.equilibrium_pa / before).ln().abs();
         change = up.ln().abs().max(down.ln().abs()).max(of_mean);
         if !change.is_finite() {
             break;
         }
     }
-    Err("no solid is found whose exact loop is the measured one".to_owned())
+    Err("no solid is found whose exact loop is the measured one".into())
 }
 
 fn over(estimate: Estimate, bias: f64) -> Estimate {
@@ -112,6 +121,7 @@ fn over(estimate: Estimate, bias: f64) -> Estimate {
 /// The exact model of a measured cycle.
 struct Model<'a> {
     contact: &'a Contact,
+    indenter: &'a Arc<dyn Indenter>,
     drive: HarmonicDrive,
     /// Mean of the signal that is not driven.
     mean: f64,
@@ -119,44 +129,34 @@ struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    fn new(contact: &'a Contact, cycle: &Harmonics, angular: f64) -> Result<Self, String> {
-        let indenter = contact
-            .indenter
-            .as_ref()
-            .ok_or("the setup has no [indenter]")?;
+    fn new(contact: &'a Contact, cycle: &Harmonics, angular: f64) -> Result<Self, Failure> {
+        let indenter = contact.indenter.as_ref();
+        let indenter = indenter.ok_or("the setup has no [indenter]")?;
         if indenter.axisymmetric().is_none() {
-            return Err("the shape is no convex body of revolution".to_owned());
+            return Err("the shape is no convex body of revolution".into());
         }
-        let first =
-            |harmonics: &[num_complex::Complex<f64>]| harmonics.first().map_or(0.0, |a| a.norm());
-        let second = |harmonics: &[num_complex::Complex<f64>]| {
-            harmonics.get(1).map_or(0.0, |a| a.norm()) / first(harmonics)
-        };
-        let (load_n, approach_m) = (first(&cycle.load_n), first(&cycle.approach_m));
+        let amplitude =
+            |harmonics: &[Complex<f64>], n: usize| harmonics.get(n).map_or(0.0, |a| a.norm());
+        let second = |harmonics| amplitude(harmonics, 1) / amplitude(harmonics, 0);
+        let (mean_n, mean_m) = (cycle.load_mean_n, cycle.approach_mean_m);
+        let (load_n, approach_m) = (amplitude(&cycle.load_n, 0), amplitude(&cycle.approach_m, 0));
         // The signal that is more of a sine is the driven one.
         let is_load = second(&cycle.load_n) <= second(&cycle.approach_m);
+        if is_load && load_n > mean_n {
+            return Err("the load becomes a pull in a part of the cycle".into());
+        }
         let (drive, mean) = match is_load {
-            true if load_n > cycle.load_mean_n => {
-                return Err("the load becomes a pull in a part of the cycle".to_owned());
+            true => (HarmonicDrive::load(mean_n, load_n), mean_m),
+            false => {
+                let control = Control::Approach;
+                let drive = HarmonicDrive::new(control, mean_m, approach_m, 0.0, 0.0);
+                (drive, mean_n)
             }
-            true => (
-                HarmonicDrive::load(cycle.load_mean_n, load_n),
-                cycle.approach_mean_m,
-            ),
-            false => (
-                HarmonicDrive::new(
-                    Control::Approach,
-                    cycle.approach_mean_m,
-                    approach_m,
-                    0.0,
-                    0.0,
-                ),
-                cycle.load_mean_n,
-            ),
         };
         Ok(Self {
             contact,
-            drive: drive.map_err(|error| error.to_string())?,
+            indenter,
+            drive: drive?,
             mean,
             angular,
         })
@@ -171,51 +171,32 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// What the formula reads from the exact cycle of a solid, and the solid's own moduli.
-    fn read(&self, solid: &Solid) -> Result<(Reading, (f64, f64)), String> {
+    /// What the formula reads from the exact cycle of a solid.
+    fn read(&self, solid: &Solid) -> Result<Reading, Failure> {
         let relaxation = solid.relaxation(self.angular)?;
         let own = relaxation.complex_modulus(self.angular);
-        let material = Material::from_relaxation(
-            relaxation,
-            ModulusKind::Longitudinal,
-            self.contact.poisson_ratio,
-        )
-        .map_err(|error| error.to_string())?;
-        let indenter = self
-            .contact
-            .indenter
-            .clone()
-            .ok_or("the setup has no [indenter]")?;
-        let sweep =
-            Sweep::from(SweepPlan::new(material, indenter, self.drive)).without_error_bars();
-        let sweep = sweep.steps(STEPS).and_then(|sweep| sweep.springs(SPRINGS));
-        let record = sweep
-            .map_err(|error| error.to_string())?
-            .case_at_hz(self.angular / std::f64::consts::TAU)
-            .map_err(|error| error.to_string())?;
-        let Some(result) = record.result else {
-            return Err("the exact cycle is not found".to_owned());
-        };
-        let radius_m = self.radius_m(
-            &result.cycle.samples.contact_radius_m,
-            result.analysis.approach_mean_m,
-        );
-        let moduli = radius_m.and_then(|radius_m| {
-            result
-                .analysis
-                .equivalent_moduli_pa(radius_m, self.contact.poisson_ratio)
-        });
+        let nu = self.contact.poisson_ratio;
+        let material = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, nu)?;
+        let plan = SweepPlan::new(material, self.indenter.clone(), self.drive);
+        let sweep = Sweep::from(plan).without_error_bars();
+        let sweep = sweep.steps(STEPS)?.springs(SPRINGS)?;
+        let record = sweep.case_at_hz(self.angular / std::f64::consts::TAU)?;
+        let result = record.result.ok_or("the exact cycle is not found")?;
+        let analysis = &result.analysis;
+        let radii_m = &result.cycle.samples.contact_radius_m;
+        let moduli = self
+            .radius_m(radii_m, analysis.approach_mean_m)
+            .and_then(|radius_m| analysis.equivalent_moduli_pa(radius_m, nu));
         let (storage_pa, loss_pa) = moduli.ok_or("the exact cycle has no contact radius")?;
-        let mean = match self.drive.control() {
-            Control::Load => result.analysis.approach_mean_m,
-            Control::Approach => result.analysis.load_mean_n,
-        };
-        let reading = Reading {
+        Ok(Reading {
             storage_pa,
             loss_pa,
-            mean,
-        };
-        Ok((reading, (own.re, own.im)))
+            mean: match self.drive.control() {
+                Control::Load => analysis.approach_mean_m,
+                Control::Approach => analysis.load_mean_n,
+            },
+            own,
+        })
     }
 
     /// The radius of an exact cycle by the rule that the measured one has it by; an area function stands for the geometry.
@@ -223,7 +204,7 @@ impl<'a> Model<'a> {
         match self.contact.radius {
             Radius::Column => super::statistics::mean(radii_m.get(1..)?),
             Radius::Geometry | Radius::AreaFunction { .. } => {
-                radius_of_geometry(self.contact.indenter.as_ref()?.axisymmetric()?, approach_m)
+                radius_of_geometry(self.indenter.axisymmetric()?, approach_m)
             }
         }
     }
@@ -231,7 +212,7 @@ impl<'a> Model<'a> {
 
 impl Solid {
     /// A branch at the frequency with all of the loss, the rest of the stiffness slow.
-    fn relaxation(&self, angular: f64) -> Result<Relaxation, String> {
+    fn relaxation(&self, angular: f64) -> Result<Relaxation, MaterialError> {
         // Of q = omega tau: the branch adds E'' q to the storage modulus, no more than half of that and no more than what the
         // equilibrium leaves.
         let left = (self.storage_pa - self.equilibrium_pa) / self.loss_pa;
@@ -250,6 +231,6 @@ impl Solid {
         if slow_pa > 1e-6 * rest_pa {
             branches.push(branch(slow_pa, SLOW));
         }
-        Relaxation::new(equilibrium_pa, branches).map_err(|error| error.to_string())
+        Relaxation::new(equilibrium_pa, branches)
     }
 }

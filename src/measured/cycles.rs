@@ -4,9 +4,9 @@ use num_complex::Complex;
 use serde::{Deserialize, Serialize};
 
 use super::Signal;
-use super::corrections::Harmonics;
-use super::drift::Drift;
-use super::least_squares::{Design, Normal, harmonic_columns};
+use super::corrections::{Corrections, Harmonics};
+use super::drift::{self, Drift, Span};
+use super::least_squares::Normal;
 
 /// One cycle as measured, drift taken off.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -71,25 +71,45 @@ pub(super) fn cut(signal: &Signal, period_s: f64, interval_s: f64) -> Cut {
     }
 }
 
-/// One cycle fitted; `None` where its samples do not determine it.
-pub(super) fn fit(
+impl Cut {
+    /// Every cycle that is whole, fitted and corrected, and the numbers of the others.
+    pub(super) fn fitted(
+        &self,
+        signal: &Signal,
+        of_model: (f64, usize),
+        drifts: &[Drift; 2],
+        corrections: &Corrections,
+    ) -> (Vec<Cycle>, Vec<usize>) {
+        let (mut cycles, mut incomplete) = (Vec::new(), Vec::new());
+        for (number, range) in (1..).zip(&self.ranges) {
+            let whole = (!self.incomplete.contains(&number)).then(|| range.clone());
+            match whole.and_then(|range| fit(signal, range, of_model, drifts)) {
+                Some(cycle) => cycles.push(Cycle {
+                    number,
+                    corrected: corrections.applied(of_model.0, &cycle.raw),
+                    ..cycle
+                }),
+                None => incomplete.push(number),
+            }
+        }
+        (cycles, incomplete)
+    }
+}
+
+/// One cycle fitted, still without its number and as the instrument gives it; `None` where its samples do not determine it.
+fn fit(
     signal: &Signal,
     range: std::ops::Range<usize>,
-    (angular, harmonics): (f64, usize),
+    of_model: (f64, usize),
     drifts: &[Drift; 2],
 ) -> Option<Cycle> {
-    let first_s = signal.time_s.first()?;
+    let span = Span::of(signal);
     let times = signal.time_s.get(range.clone())?;
-    let columns = 1 + 2 * harmonics;
+    let columns = 1 + 2 * of_model.1;
     if times.len() < columns {
         return None;
     }
-    let mut design = Design::new(columns, times.len());
-    for time_s in times {
-        design.push(|row| {
-            harmonic_columns(row, angular * (time_s - first_s), harmonics);
-        });
-    }
+    let design = drift::design(times, &span, of_model, &[]);
     let normal = Normal::new(&design.gram(), (0..columns).collect())?;
     let solved = |values: &[f64], drift: &Drift| {
         let own = values.get(range.clone()).unwrap_or_default();
@@ -102,15 +122,16 @@ pub(super) fn fit(
     let load = solved(&signal.load_n, &drifts[0]);
     let approach = solved(&signal.approach_m, &drifts[1]);
     let middle_s = 0.5 * (times[0] + times[times.len() - 1]);
-    let radii = signal
-        .contact_radius_m
-        .as_ref()
-        .and_then(|r| r.get(range.clone()));
-    let known: Option<Vec<f64>> =
-        radii.map(|radii| radii.iter().copied().filter(|r| r.is_finite()).collect());
+    let radii = signal.contact_radius_m.as_ref();
+    let radii = radii.and_then(|radii| radii.get(range.clone()));
+    let known = radii
+        .into_iter()
+        .flatten()
+        .copied()
+        .filter(|r| r.is_finite());
     Some(Cycle {
         number: 0,
-        start_s: times[0] - first_s,
+        start_s: times[0] - span.first_s,
         samples: times.len(),
         raw: Harmonics {
             load_mean_n: load[0],
@@ -121,12 +142,12 @@ pub(super) fn fit(
         corrected: Harmonics::default(),
         load_drift_n: drifts[0].at(middle_s),
         approach_drift_m: drifts[1].at(middle_s),
-        contact_radius_m: known.and_then(|known| super::statistics::mean(&known)),
+        contact_radius_m: super::statistics::mean(&known.collect::<Vec<f64>>()),
     })
 }
 
 /// Coefficients of sine and cosine, pair by pair, as harmonics |a| sin(n omega t + arg a).
-pub(super) fn complex(coefficients: &[f64]) -> Vec<Complex<f64>> {
+fn complex(coefficients: &[f64]) -> Vec<Complex<f64>> {
     let pairs = coefficients.chunks_exact(2);
     pairs.map(|pair| Complex::new(pair[0], pair[1])).collect()
 }
@@ -134,7 +155,7 @@ pub(super) fn complex(coefficients: &[f64]) -> Vec<Complex<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measured::drift::{DriftModel, Span};
+    use crate::measured::drift::DriftModel;
     use std::f64::consts::TAU;
 
     fn record(samples: usize, interval_s: f64) -> Signal {

@@ -54,10 +54,10 @@ const EVIDENCE: f64 = 6.0;
 
 impl Span {
     pub(super) fn of(signal: &Signal) -> Self {
-        let at = |time: Option<&f64>| time.copied().unwrap_or(0.0);
+        let times = &signal.time_s;
         Self {
-            first_s: at(signal.time_s.first()),
-            last_s: at(signal.time_s.last()),
+            first_s: times.first().copied().unwrap_or(0.0),
+            last_s: times.last().copied().unwrap_or(0.0),
         }
     }
 
@@ -97,7 +97,7 @@ impl DriftModel {
     }
 
     /// Its columns at a time.
-    pub(super) fn fill(self, row: &mut [f64], span: &Span, time_s: f64) {
+    fn fill(self, row: &mut [f64], span: &Span, time_s: f64) {
         let since_s = time_s - span.first_s;
         let u = 2.0 * since_s / span.duration_s() - 1.0;
         match self {
@@ -134,6 +134,28 @@ impl Drift {
     }
 }
 
+/// Samples at these times (s) as a linear model: mean and harmonics, then the columns of the drifts one after another.
+pub(super) fn design(
+    times_s: &[f64],
+    span: &Span,
+    (angular, harmonics): (f64, usize),
+    drifts: &[DriftModel],
+) -> Design {
+    let sizes = drifts.iter().map(|drift| drift.size());
+    let mut design = Design::new(1 + 2 * harmonics + sizes.sum::<usize>(), times_s.len());
+    for time_s in times_s {
+        design.push(|row| {
+            let mut from = harmonic_columns(row, angular * (time_s - span.first_s), harmonics);
+            for drift in drifts {
+                let to = from + drift.size();
+                drift.fill(&mut row[from..to], span, *time_s);
+                from = to;
+            }
+        });
+    }
+    design
+}
+
 /// Candidates side by side: all their columns in one design.
 struct Candidates {
     design: Design,
@@ -151,55 +173,42 @@ impl Candidates {
         harmonics: usize,
         times_s: Vec<f64>,
     ) -> Self {
-        let common = 1 + 2 * harmonics;
-        let columns = common + DEGREE + times_s.len();
-        let mut design = Design::new(columns, signal.time_s.len());
-        for time_s in &signal.time_s {
-            design.push(|row| {
-                let since_s = time_s - span.first_s;
-                harmonic_columns(row, angular * since_s, harmonics);
-                let u = 2.0 * since_s / span.duration_s() - 1.0;
-                row[common..common + DEGREE].copy_from_slice(&polynomials(u));
-                for (cell, time) in row[common + DEGREE..].iter_mut().zip(&times_s) {
-                    *cell = (-since_s / time).exp();
-                }
-            });
-        }
+        let mut all = vec![DriftModel::Polynomial { degree: DEGREE }];
+        all.extend(
+            times_s
+                .iter()
+                .map(|&time_s| DriftModel::Exponential { time_s }),
+        );
+        let design = design(&signal.time_s, span, (angular, harmonics), &all);
         Self {
             gram: design.gram(),
             design,
-            common,
+            common: 1 + 2 * harmonics,
             times_s,
         }
     }
 
     /// Exponentials of all time constants, then those with a line.
     fn exponentials(&self) -> impl Iterator<Item = DriftModel> + '_ {
-        let times = self.times_s.iter();
-        let with_line = times.clone();
-        times
-            .map(|time_s| DriftModel::Exponential { time_s: *time_s })
-            .chain(with_line.map(|time_s| DriftModel::ExponentialAndLine { time_s: *time_s }))
+        let times = || self.times_s.iter().copied();
+        let alone = times().map(|time_s| DriftModel::Exponential { time_s });
+        alone.chain(times().map(|time_s| DriftModel::ExponentialAndLine { time_s }))
     }
 
     /// Columns of a model; `None` for a time constant that is not among those tried.
     fn columns(&self, model: DriftModel) -> Option<Vec<usize>> {
-        let mut columns: Vec<usize> = (0..self.common).collect();
-        let place = |time_s: f64| {
+        let first = self.common;
+        let exponential = |time_s: f64| {
             let found = self.times_s.iter().position(|time| *time == time_s);
-            found.map(|k| self.common + DEGREE + k)
+            found.map(|k| first + DEGREE + k)
         };
-        match model {
-            DriftModel::None => {}
-            DriftModel::Polynomial { degree } => {
-                columns.extend(self.common..self.common + degree);
-            }
-            DriftModel::Exponential { time_s } => columns.push(place(time_s)?),
-            DriftModel::ExponentialAndLine { time_s } => {
-                columns.extend([place(time_s)?, self.common]);
-            }
-        }
-        Some(columns)
+        let own: Vec<usize> = match model {
+            DriftModel::None => Vec::new(),
+            DriftModel::Polynomial { degree } => (first..first + degree).collect(),
+            DriftModel::Exponential { time_s } => vec![exponential(time_s)?],
+            DriftModel::ExponentialAndLine { time_s } => vec![exponential(time_s)?, first],
+        };
+        Some((0..first).chain(own).collect())
     }
 }
 
@@ -223,7 +232,8 @@ pub(super) fn select(
         let Some(search) = Search::new(&candidates, values, degree) else {
             return DriftModel::None;
         };
-        let polynomial = search.best(&candidates, Search::polynomials(degree));
+        let polynomials = (1..=degree).map(|degree| DriftModel::Polynomial { degree });
+        let polynomial = search.best(&candidates, polynomials);
         if matches!(polynomial.1, DriftModel::None) {
             return DriftModel::None;
         }
@@ -294,16 +304,11 @@ impl Search {
         let model = candidates.design.model(&coefficients);
         let residual: Vec<f64> = centered().zip(model).map(|(y, m)| y - m).collect();
         let phi = correlation(&residual);
-        let independent = residual.len() as f64 * (1.0 - phi) / (1.0 + phi);
         Some(Self {
             right,
             squares,
-            independent: independent.max(4.0),
+            independent: (residual.len() as f64 * (1.0 - phi) / (1.0 + phi)).max(4.0),
         })
-    }
-
-    fn polynomials(degree: usize) -> impl Iterator<Item = DriftModel> {
-        (1..=degree).map(|degree| DriftModel::Polynomial { degree })
     }
 
     /// The best of these, or no drift; with its criterion. A later one must be better by strong evidence, but among those of one
@@ -317,11 +322,8 @@ impl Search {
         let mut best = (self.criterion(candidates, none), none);
         for model in models {
             let criterion = self.criterion(candidates, model);
-            let needed = if model.size() == best.1.size() {
-                0.0
-            } else {
-                EVIDENCE
-            };
+            let is_larger = model.size() != best.1.size();
+            let needed = if is_larger { EVIDENCE } else { 0.0 };
             if criterion < best.0 - needed {
                 best = (criterion, model);
             }

@@ -4,8 +4,8 @@
 use realfft::RealFftPlanner;
 use serde::{Deserialize, Serialize};
 
-use super::drift::{DriftModel, Span};
-use super::least_squares::{Design, Normal, harmonic_columns};
+use super::drift::{self, DriftModel, Span};
+use super::least_squares::{Design, Normal};
 use super::noise::Noise;
 use super::signal::Sampling;
 use super::{MeasuredError, Signal};
@@ -133,12 +133,8 @@ fn refined_by_scan(signal: &Signal, sampling: &Sampling, about_hz: f64) -> f64 {
         1
     };
     let unexplained = |hz: f64| {
-        let model = RecordModel::new(
-            &few,
-            std::f64::consts::TAU * hz,
-            harmonics,
-            [DriftModel::Polynomial { degree: 2 }; 2],
-        );
+        let angular = std::f64::consts::TAU * hz;
+        let model = RecordModel::with_parabolas(&few, angular, harmonics);
         model.fits(&few).map_or(f64::INFINITY, |fits| {
             fits.iter().map(|fit| fit.unexplained).sum()
         })
@@ -171,19 +167,27 @@ pub(super) struct Fit {
     pub(super) columns: usize,
 }
 
+impl Fit {
+    /// Of the first harmonic.
+    pub(super) fn amplitude(&self) -> f64 {
+        self.coefficients[1].hypot(self.coefficients[2])
+    }
+}
+
 impl RecordModel {
-    pub(super) fn new(
-        signal: &Signal,
-        angular: f64,
-        harmonics: usize,
-        drifts: [DriftModel; 2],
-    ) -> Self {
+    /// With a parabola for each drift.
+    pub(super) fn with_parabolas(signal: &Signal, angular: f64, harmonics: usize) -> Self {
         Self {
             angular,
             harmonics,
-            drifts,
+            drifts: [DriftModel::Polynomial { degree: 2 }; 2],
             span: Span::of(signal),
         }
+    }
+
+    /// Chooses the drifts at the frequency of the model, beside so many harmonics.
+    pub(super) fn select_drifts(&mut self, signal: &Signal, harmonics: usize) {
+        self.drifts = drift::select(signal, &self.span, self.angular, harmonics);
     }
 
     /// Mean and harmonics.
@@ -198,34 +202,16 @@ impl RecordModel {
     }
 
     fn design(&self, times_s: &[f64]) -> Design {
-        let columns = self.drift_columns(1).end;
-        let mut design = Design::new(columns, times_s.len());
-        for time_s in times_s {
-            design.push(|row| {
-                harmonic_columns(
-                    row,
-                    self.angular * (time_s - self.span.first_s),
-                    self.harmonics,
-                );
-                for (which, drift) in self.drifts.iter().enumerate() {
-                    drift.fill(&mut row[self.drift_columns(which)], &self.span, *time_s);
-                }
-            });
-        }
-        design
+        let harmonics = (self.angular, self.harmonics);
+        drift::design(times_s, &self.span, harmonics, &self.drifts)
     }
 
     /// Load and approach fitted; `None` where the samples do not determine the model.
     pub(super) fn fits(&self, signal: &Signal) -> Option<[Fit; 2]> {
-        let design = self.design(&signal.time_s);
-        Some(self.fits_of(&design, signal)?.0)
+        self.fits_of(&self.design(&signal.time_s), signal)
     }
 
-    fn fits_of(
-        &self,
-        design: &Design,
-        signal: &Signal,
-    ) -> Option<([Fit; 2], nalgebra::DMatrix<f64>)> {
+    fn fits_of(&self, design: &Design, signal: &Signal) -> Option<[Fit; 2]> {
         let gram = design.gram();
         let fit = |which: usize, values: &[f64]| {
             let columns: Vec<usize> = (0..self.common())
@@ -249,8 +235,7 @@ impl RecordModel {
                 columns: count,
             })
         };
-        let fits = [fit(0, &signal.load_n)?, fit(1, &signal.approach_m)?];
-        Some((fits, gram))
+        Some([fit(0, &signal.load_n)?, fit(1, &signal.approach_m)?])
     }
 
     /// The frequency by least squares, and its standard error (rad/s); leaves it in the model. `None` where it does not settle.
@@ -259,7 +244,7 @@ impl RecordModel {
         let line = std::f64::consts::TAU / sampling.duration_s;
         for _ in 0..STEPS {
             let design = self.design(&signal.time_s);
-            let (fits, _) = self.fits_of(&design, signal)?;
+            let fits = self.fits_of(&design, signal)?;
             let (mut slope, mut curvature, mut error) = (0.0, 0.0, 0.0);
             for fit in &fits {
                 let (own_slope, own_curvature) = self.derivative(&design, fit, signal);
@@ -270,7 +255,7 @@ impl RecordModel {
                     sampling.interval_s,
                     self.angular,
                 );
-                let size = amplitude(&fit.coefficients, 1);
+                let size = fit.amplitude();
                 // An exact record has no noise to weigh by, but rounding.
                 let variance = noise.variance.max(1e-24 * size * size);
                 let power = noise.power(self.angular, 1).max(1.0);
@@ -310,22 +295,12 @@ impl RecordModel {
             })
             .collect();
         let squares: f64 = derivative.iter().map(|z| z * z).sum();
-        let slope = derivative
-            .iter()
-            .zip(&fit.residual)
-            .map(|(z, r)| z * r)
-            .sum();
-        let explained = fit
-            .normal
-            .explained(&design.with(derivative.iter().copied()));
+        let slope = derivative.iter().zip(&fit.residual).map(|(z, r)| z * r);
+        let slope = slope.sum();
+        let with_columns = design.with(derivative.iter().copied());
+        let explained = fit.normal.explained(&with_columns);
         (slope, squares - explained)
     }
-}
-
-/// Amplitude of harmonic `n` among coefficients of a model.
-pub(super) fn amplitude(coefficients: &[f64], n: usize) -> f64 {
-    let at = |place: usize| coefficients.get(place).copied().unwrap_or(0.0);
-    at(2 * n - 1).hypot(at(2 * n))
 }
 
 #[cfg(test)]
@@ -352,7 +327,8 @@ mod tests {
         let (signal, sampling, _) = signal.prepared().unwrap();
         let about = of_spectrum(&signal, &sampling).unwrap();
         let drifts = [DriftModel::None, DriftModel::Polynomial { degree: 1 }];
-        let mut model = RecordModel::new(&signal, TAU * about, 3, drifts);
+        let mut model = RecordModel::with_parabolas(&signal, TAU * about, 3);
+        model.drifts = drifts;
         model.settle(&signal, &sampling).unwrap();
         model.angular / TAU
     }

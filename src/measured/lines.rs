@@ -3,6 +3,7 @@
 use super::frequency::{LINES_A_FREQUENCY, power, uniform};
 use super::quality::Finding;
 use super::signal::Sampling;
+use super::statistics::upper_median;
 
 /// By how much a line stands above the median of its neighbours: of noise alone less than one in ten thousand records has such.
 const ABOVE: f64 = 45.0;
@@ -40,12 +41,8 @@ pub(super) fn highest(rest: &Rest<'_>, sampling: &Sampling) -> Option<Finding> {
     let is_own = |hz: f64| {
         let nearest = (hz / rest.hz).round();
         let apart = (hz - nearest * rest.hz).abs() / record_hz;
-        apart
-            < if nearest <= rest.harmonics as f64 {
-                BROAD
-            } else {
-                2.0
-            }
+        let is_fitted = nearest <= rest.harmonics as f64;
+        apart < if is_fitted { BROAD } else { 2.0 }
     };
     // A sine of amplitude A makes A points/4 through the window.
     let amplitude = |power: f64| 4.0 * power.sqrt() / points as f64 * deviation;
@@ -74,12 +71,10 @@ pub(super) fn highest(rest: &Rest<'_>, sampling: &Sampling) -> Option<Finding> {
 fn around(lines: &[f64], place: usize) -> f64 {
     let (inner, outer) = (3 * LINES_A_FREQUENCY, NEIGHBOURS * LINES_A_FREQUENCY);
     let range = place.saturating_sub(outer).max(1)..(place + outer).min(lines.len());
-    let mut near: Vec<f64> = range
+    let near = range
         .filter(|k| k.abs_diff(place) > inner)
-        .filter_map(|k| lines.get(k).copied())
-        .collect();
-    near.sort_by(f64::total_cmp);
-    near.get(near.len() / 2).copied().unwrap_or(f64::INFINITY)
+        .filter_map(|k| lines.get(k).copied());
+    upper_median(near).unwrap_or(f64::INFINITY)
 }
 
 #[cfg(test)]

@@ -31,6 +31,7 @@ pub mod drift;
 pub mod frequency;
 mod least_squares;
 mod lines;
+mod mean;
 pub mod moduli;
 mod noise;
 pub mod quality;

@@ -1,41 +1,64 @@
 //! What is to be known of a record before its numbers are used: data with a sentence each.
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
 
-/// One thing that was found.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// One thing that was found, displayed as a sentence.
+#[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize, Deserialize)]
 #[serde(tag = "code", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Finding {
     /// Rows without a number.
+    #[error("{} no number in a column and {} left out", plural(.rows, "row has", "rows have"), if *.rows == 1 { "is" } else { "are" })]
     EmptyCells { rows: usize },
     /// Times that step back.
+    #[error("times step back at {}; the samples are put in order", plural(.places, "place", "places"))]
     UnorderedTimes { places: usize },
     /// Gaps in times that are regular otherwise.
+    #[error(
+        "{} missing between regular times; the largest gap is {largest_gap_s:.4e} s",
+        plural(.samples, "sample is", "samples are")
+    )]
     MissingSamples { samples: usize, largest_gap_s: f64 },
     /// Standard deviation of the intervals over the interval.
+    #[error(
+        "sampling times jitter by {:.2} % of the interval (standard deviation); they are taken as given",
+        100.0 * .relative
+    )]
     Jitter { relative: f64 },
     /// Times without an interval of their own.
+    #[error("times have no interval of their own; missing samples cannot be told")]
     NotUniform { spread: f64 },
     /// A signal stays at its largest or smallest value.
+    #[error(
+        "the {signal} stays at its {end} value in {}: it is clipped, and loss and harmonics are those of the clipped signal",
+        plural(.cycles, "cycle", "cycles")
+    )]
     Clipped {
         signal: String,
         end: String,
         cycles: usize,
     },
     /// Not all harmonics are resolved.
+    #[error("{points:.1} samples a cycle resolve {}", resolved(*.harmonics))]
     FewPoints { points: f64, harmonics: usize },
     /// Cycles too few to tell a trend.
+    #[error("{} too few to tell whether the loop still changes", plural(.cycles, "cycle is", "cycles are"))]
     FewCycles { cycles: usize },
     /// Single samples far from the rest.
+    #[error(
+        "{} of the {signal}, the first at {first_s:.6} s, lie far from the rest and are left out",
+        plural(.samples, "sample", "samples")
+    )]
     Spikes {
         signal: String,
         samples: usize,
         first_s: f64,
     },
     /// A line in what is left of a signal.
+    #[error(
+        "beside the oscillation the {signal} has a line at {hz:.5} Hz with an amplitude of {amplitude:.2e} (SI){}",
+        folded(*.folded_harmonic)
+    )]
     Line {
         signal: String,
         hz: f64,
@@ -44,22 +67,42 @@ pub enum Finding {
         folded_harmonic: Option<usize>,
     },
     /// The given frequency is not that of the record.
+    #[error(
+        "the record oscillates at {found_hz:.7} Hz and not at the {given_hz} Hz that were given"
+    )]
     OtherFrequency { given_hz: f64, found_hz: f64 },
     /// Cycles that miss samples.
+    #[error("{} samples and count in no mean", missing(.cycles))]
     Incomplete { cycles: Vec<usize> },
     /// Cycles that stand apart: the quantity, and by how much, relative to the median.
+    #[error("{} apart from the other cycles and count in no mean", standing(.cycles))]
     Outliers { cycles: Vec<Outlier> },
     /// A quantity changes up to the end: relative change over the cycles judged.
+    #[error(
+        "the {quantity} still changes by {:.2} % over the last cycles: there is no stabilised cycle to take a mean of",
+        100.0 * .change
+    )]
     NotStabilised { quantity: String, change: f64 },
     /// The approach runs ahead of the load.
+    #[error(
+        "the approach runs ahead of the load, so that the loop gives energy; look for the sign of a column, or a lag between the \
+         channels (`time_lag` of the setup)"
+    )]
     Leads,
     /// What the instrument adds is larger than the contact.
+    #[error(
+        "mass, damping and stiffness of the instrument take {ratio:.1} times the load that is left for the contact: errors of theirs \
+         count as much more"
+    )]
     CorrectionDominates { ratio: f64 },
     /// The load becomes a pull in part of the cycle.
+    #[error("the load becomes a pull in a part of the cycle: the contact may open or stick")]
     Pull,
     /// No contact radius.
+    #[error("there is no contact radius, and no modulus: {reason}")]
     NoRadius { reason: String },
     /// The bias of the formula is not known.
+    #[error("the bias of the small-amplitude formula is not computed: {reason}")]
     NoBias { reason: String },
 }
 
@@ -104,174 +147,54 @@ impl Finding {
     }
 }
 
-/// `cycle 3`, `cycles 3, 5 and 7`; of many the first ones.
-fn cycles(numbers: &[usize]) -> String {
-    const NAMED: usize = 8;
-    let named: Vec<String> = numbers
-        .iter()
-        .take(NAMED)
-        .map(ToString::to_string)
-        .collect();
-    let s = if numbers.len() == 1 { "" } else { "s" };
-    let rest = match numbers.len().saturating_sub(NAMED) {
+/// Cycles of which no more are named.
+const NAMED: usize = 8;
+
+fn plural(count: &usize, one: &str, many: &str) -> String {
+    format!("{count} {}", if *count == 1 { one } else { many })
+}
+
+fn resolved(harmonics: usize) -> String {
+    match harmonics {
+        1 => "no harmonic beyond the first; what is there is folded into it".to_owned(),
+        n => format!("harmonics up to {n} alone"),
+    }
+}
+
+fn folded(harmonic: Option<usize>) -> String {
+    match harmonic {
+        Some(n) => format!(": harmonic {n} is there by aliasing; sample faster"),
+        None => ", which is no harmonic".to_owned(),
+    }
+}
+
+/// `cycle 3 misses`, `cycles 3, 5, 7 miss`; of many the first ones.
+fn missing(cycles: &[usize]) -> String {
+    let named: Vec<String> = cycles.iter().take(NAMED).map(usize::to_string).collect();
+    let rest = match cycles.len().saturating_sub(NAMED) {
         0 => String::new(),
         more => format!(" and {more} more"),
     };
-    format!("cycle{s} {}{rest}", named.join(", "))
+    let (s, es) = if cycles.len() == 1 {
+        ("", "es")
+    } else {
+        ("s", "")
+    };
+    format!("cycle{s} {}{rest} miss{es}", named.join(", "))
 }
 
-fn plural(count: usize, one: &str, many: &str) -> String {
-    format!("{count} {}", if count == 1 { one } else { many })
-}
-
-impl fmt::Display for Finding {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let percent = |part: f64| format!("{:.2} %", 100.0 * part);
-        match self {
-            Self::EmptyCells { rows } => {
-                let (rows, be) = match rows {
-                    1 => ("1 row has".to_owned(), "is"),
-                    many => (format!("{many} rows have"), "are"),
-                };
-                write!(f, "{rows} no number in a column and {be} left out")
-            }
-            Self::UnorderedTimes { places } => {
-                let places = plural(*places, "place", "places");
-                write!(
-                    f,
-                    "times step back at {places}; the samples are put in order"
-                )
-            }
-            Self::MissingSamples {
-                samples,
-                largest_gap_s,
-            } => {
-                let samples = plural(*samples, "sample is", "samples are");
-                write!(
-                    f,
-                    "{samples} missing between regular times; the largest gap is {largest_gap_s:.4e} s"
-                )
-            }
-            Self::Jitter { relative } => {
-                let relative = percent(*relative);
-                write!(
-                    f,
-                    "sampling times jitter by {relative} of the interval (standard deviation); they are taken as given"
-                )
-            }
-            Self::NotUniform { .. } => {
-                write!(
-                    f,
-                    "times have no interval of their own; missing samples cannot be told"
-                )
-            }
-            Self::Clipped {
-                signal,
-                end,
-                cycles,
-            } => {
-                let cycles = plural(*cycles, "cycle", "cycles");
-                write!(
-                    f,
-                    "the {signal} stays at its {end} value in {cycles}: it is clipped, and loss and harmonics are those of the clipped signal"
-                )
-            }
-            Self::FewPoints { points, harmonics } => {
-                write!(f, "{points:.1} samples a cycle resolve ")?;
-                match harmonics {
-                    1 => write!(
-                        f,
-                        "no harmonic beyond the first; what is there is folded into it"
-                    ),
-                    n => write!(f, "harmonics up to {n} alone"),
-                }
-            }
-            Self::FewCycles { cycles } => {
-                let cycles = plural(*cycles, "cycle is", "cycles are");
-                write!(f, "{cycles} too few to tell whether the loop still changes")
-            }
-            Self::Spikes {
-                signal,
-                samples,
-                first_s,
-            } => {
-                let samples = plural(*samples, "sample", "samples");
-                write!(
-                    f,
-                    "{samples} of the {signal}, the first at {first_s:.6} s, lie far from the rest and are left out"
-                )
-            }
-            Self::Line {
-                signal,
-                hz,
-                amplitude,
-                folded_harmonic,
-            } => {
-                write!(
-                    f,
-                    "beside the oscillation the {signal} has a line at {hz:.5} Hz with an amplitude of {amplitude:.2e} (SI)"
-                )?;
-                match folded_harmonic {
-                    Some(n) => write!(f, ": harmonic {n} is there by aliasing; sample faster"),
-                    None => write!(f, ", which is no harmonic"),
-                }
-            }
-            Self::OtherFrequency { given_hz, found_hz } => {
-                write!(
-                    f,
-                    "the record oscillates at {found_hz:.7} Hz and not at the {given_hz} Hz that were given"
-                )
-            }
-            Self::Incomplete { cycles: numbers } => {
-                let (cycles, s) = (cycles(numbers), if numbers.len() == 1 { "es" } else { "" });
-                write!(f, "{cycles} miss{s} samples and count in no mean")
-            }
-            Self::Outliers { cycles } => {
-                let one = |outlier: &Outlier| {
-                    let part = 100.0 * outlier.relative;
-                    format!(
-                        "cycle {} ({} {part:+.2} %)",
-                        outlier.cycle, outlier.quantity
-                    )
-                };
-                let named: Vec<String> = cycles.iter().take(8).map(one).collect();
-                let (count, named) = (cycles.len(), named.join(", "));
-                let verb = if count == 1 { "stands" } else { "stand" };
-                write!(
-                    f,
-                    "{named} {verb} apart from the other cycles and count in no mean"
-                )
-            }
-            Self::NotStabilised { quantity, change } => {
-                let change = percent(*change);
-                write!(
-                    f,
-                    "the {quantity} still changes by {change} over the last cycles: there is no stabilised cycle to take a mean of"
-                )
-            }
-            Self::Leads => write!(
-                f,
-                "the approach runs ahead of the load, so that the loop gives energy; look for the sign of a column, or a lag between the \
-                 channels (`time_lag` of the setup)"
-            ),
-            Self::CorrectionDominates { ratio } => write!(
-                f,
-                "mass, damping and stiffness of the instrument take {ratio:.1} times the load that is left for the contact: errors of theirs \
-                 count as much more"
-            ),
-            Self::Pull => write!(
-                f,
-                "the load becomes a pull in a part of the cycle: the contact may open or stick"
-            ),
-            Self::NoRadius { reason } => {
-                write!(f, "there is no contact radius, and no modulus: {reason}")
-            }
-            Self::NoBias { reason } => write!(
-                f,
-                "the bias of the small-amplitude formula is not computed: {reason}"
-            ),
-        }
-    }
+/// `cycle 3 (energy loss +4.00 %) stands`; of many the first ones.
+fn standing(cycles: &[Outlier]) -> String {
+    let one = |outlier: &Outlier| {
+        let percent = 100.0 * outlier.relative;
+        format!(
+            "cycle {} ({} {percent:+.2} %)",
+            outlier.cycle, outlier.quantity
+        )
+    };
+    let named: Vec<String> = cycles.iter().take(NAMED).map(one).collect();
+    let verb = if cycles.len() == 1 { "stands" } else { "stand" };
+    format!("{} {verb}", named.join(", "))
 }
 
 #[cfg(test)]

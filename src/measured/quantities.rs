@@ -86,6 +86,14 @@ impl Quantity {
     pub fn place(self) -> usize {
         self as usize
     }
+
+    /// Whether it is an angle, which is the same after a turn.
+    pub(super) fn is_angle(self) -> bool {
+        matches!(
+            self,
+            PhaseLag | HarmonicPhase2 | HarmonicPhase3 | HarmonicPhase4 | HarmonicPhase5
+        )
+    }
 }
 
 /// The value of every quantity; `None` where there is none.

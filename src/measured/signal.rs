@@ -82,18 +82,18 @@ impl Signal {
             approach_m: taken(&self.approach_m),
             contact_radius_m: radii.filter(|r| r.len() == times).map(|r| taken(r)),
         };
-        prepared.check()?;
-        let sampling = prepared.sampling(&mut findings)?;
-        Ok((prepared, sampling, findings))
-    }
-
-    fn check(&self) -> Result<(), MeasuredError> {
-        for (signal, values) in [("load", &self.load_n), ("approach", &self.approach_m)] {
+        for (signal, values) in prepared.signals() {
             if values.windows(2).all(|pair| pair[0] == pair[1]) {
                 return Err(MeasuredError::Constant { signal });
             }
         }
-        Ok(())
+        let sampling = prepared.sampling(&mut findings)?;
+        Ok((prepared, sampling, findings))
+    }
+
+    /// Load and approach by name.
+    fn signals(&self) -> [(&'static str, &[f64]); 2] {
+        [("load", &self.load_n), ("approach", &self.approach_m)]
     }
 
     /// Intervals between samples: their median, gaps, jitter.
@@ -144,7 +144,7 @@ impl Signal {
 
     /// Looks for values at which a signal stops, over a noticeable part of every other cycle.
     pub(super) fn clipped(&self, period_s: f64, findings: &mut Vec<Finding>) {
-        for (signal, values) in [("load", &self.load_n), ("approach", &self.approach_m)] {
+        for (signal, values) in self.signals() {
             let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
             let least = values.iter().copied().fold(f64::INFINITY, f64::min);
             for (end, limit) in [("largest", largest), ("smallest", least)] {

@@ -106,12 +106,9 @@ fn change(column: &[f64], shape: &dyn Fn(f64) -> f64) -> Option<f64> {
     let left: f64 = pairs().map(|(x, y)| (y - slope * x).powi(2)).sum();
     let freedom = column.len() as f64 - 2.0;
     let error = (left / freedom / xx).sqrt();
-    let range = shapes
-        .iter()
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-            (low.min(*x), high.max(*x))
-        });
-    (slope.abs() > student_of_trend(freedom) * error).then(|| slope.abs() * (range.1 - range.0))
+    // The shapes rise or fall throughout.
+    let range = (shapes[shapes.len() - 1] - shapes[0]).abs();
+    (slope.abs() > student_of_trend(freedom) * error).then(|| slope.abs() * range)
 }
 
 /// The cycles that stand apart from the median of all, with the quantity that shows it most.

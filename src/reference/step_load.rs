@@ -132,21 +132,29 @@ impl StepLoad {
 
     /// When the contact reaches a distance from the axis, at most `time_s`.
     fn reached_s(&self, r_m: f64, time_s: f64) -> f64 {
-        let (mut low, mut high) = (0.0, time_s);
         if self.contact_radius_m(0.0) >= r_m {
             return 0.0;
         }
         // Halving 60 times exhausts the digits.
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if self.contact_radius_m(middle) < r_m {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        high
+        bisection(0.0, time_s, 60, |s| self.contact_radius_m(s) < r_m).1
     }
+}
+
+/// Where a condition that holds at `low` ceases to hold on the way to `high`, by so many halvings.
+fn bisection(
+    mut low: f64,
+    mut high: f64,
+    halvings: u32,
+    holds: impl Fn(f64) -> bool,
+) -> (f64, f64) {
+    for _ in 0..halvings {
+        let middle = 0.5 * (low + high);
+        match holds(middle) {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    (low, high)
 }
 
 /// Integral by Simpson's rule.
@@ -154,8 +162,7 @@ fn simpson(from: f64, to: f64, f: &dyn Fn(f64) -> f64) -> f64 {
     let width = (to - from) / INTERVALS as f64;
     let weighted = |k: usize| {
         let weight = match k {
-            0 => 1.0,
-            _ if k == INTERVALS => 1.0,
+            0 | INTERVALS => 1.0,
             _ if k % 2 == 1 => 4.0,
             _ => 2.0,
         };
@@ -178,15 +185,7 @@ pub fn maxwell_falling_ramp_cubed_radius(s: f64) -> f64 {
     if relaxed(s) <= 1.0 {
         return relaxed(s).max(0.0);
     }
-    let (mut low, mut high) = (0.0, 1.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if relaxed(middle) < relaxed(s) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
+    let (low, high) = bisection(0.0, 1.0, 60, |earlier| relaxed(earlier) < relaxed(s));
     growing(0.5 * (low + high))
 }
 

@@ -38,6 +38,25 @@ pub struct DynamicReport<'a> {
 const INCONSISTENT: f64 = 3.0;
 
 impl<'a> DynamicReport<'a> {
+    /// Every file of the folder but figures and page: name and bytes. `block` is the `[material]` block, `shifting` the one that
+    /// shifts with the temperature.
+    pub fn files(&self, block: &str, shifting: Option<&str>) -> Vec<(&'static str, Vec<u8>)> {
+        let master = self.made.master.as_ref();
+        let summary = format!("{:#}\n", summary::summary(self));
+        let files = [
+            ("material.toml", Some(block.into())),
+            ("shifting.toml", shifting.map(Into::into)),
+            ("prony.csv", Some(tables::prony(self.relaxation()))),
+            ("shift.csv", master.map(tables::shift_factors)),
+            ("master.csv", Some(tables::master_curve(self))),
+            ("summary.json", Some(summary.into())),
+        ];
+        let present = files.into_iter();
+        present
+            .filter_map(|(name, bytes)| Some((name, bytes?)))
+            .collect()
+    }
+
     /// The points that the series was fitted to, in the order of its residuals: on the master curve, or as measured.
     pub fn points(&self) -> Cow<'a, [DynamicPoint]> {
         match &self.made.master {
@@ -102,17 +121,10 @@ pub struct Band {
 impl Band {
     /// The band at a frequency, as [`replicas::band`] has it; `None` without at least two replicas.
     pub fn of(made: &Characterisation, angular_frequency_rad_per_s: f64) -> Option<Self> {
-        let own = made
-            .fit
-            .relaxation
-            .complex_modulus(angular_frequency_rad_per_s);
-        let moduli = made.replicas.iter().map(|replica| {
-            let modulus = replica
-                .relaxation
-                .complex_modulus(angular_frequency_rad_per_s);
-            (modulus.re, modulus.im)
-        });
-        let (storage, loss): (Vec<f64>, Vec<f64>) = moduli.unzip();
+        let at = |series: &Relaxation| series.complex_modulus(angular_frequency_rad_per_s);
+        let own = at(&made.fit.relaxation);
+        let moduli = made.replicas.iter().map(|replica| at(&replica.relaxation));
+        let (storage, loss): (Vec<f64>, Vec<f64>) = moduli.map(|m| (m.re, m.im)).unzip();
         Some(Self {
             storage_pa: replicas::band(own.re, &storage)?,
             loss_pa: replicas::band(own.im, &loss)?,

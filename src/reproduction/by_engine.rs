@@ -30,39 +30,26 @@ impl<T> ByEngine<T> {
 
     /// The same of each.
     pub fn map<U>(self, mut to: impl FnMut(T) -> U) -> ByEngine<U> {
-        ByEngine {
-            exact: to(self.exact),
-            axisymmetric: to(self.axisymmetric),
-            half_space: to(self.half_space),
-        }
+        ByEngine::of(to(self.exact), [self.axisymmetric, self.half_space].map(to))
     }
 
     /// Each beside that of another.
     pub fn zip<U>(self, other: ByEngine<U>) -> ByEngine<(T, U)> {
-        ByEngine {
-            exact: (self.exact, other.exact),
-            axisymmetric: (self.axisymmetric, other.axisymmetric),
-            half_space: (self.half_space, other.half_space),
-        }
+        let axisymmetric = (self.axisymmetric, other.axisymmetric);
+        let half_space = (self.half_space, other.half_space);
+        ByEngine::of((self.exact, other.exact), [axisymmetric, half_space])
     }
 
     pub fn as_ref(&self) -> ByEngine<&T> {
-        ByEngine {
-            exact: &self.exact,
-            axisymmetric: &self.axisymmetric,
-            half_space: &self.half_space,
-        }
+        ByEngine::of(&self.exact, [&self.axisymmetric, &self.half_space])
     }
 }
 
 impl<T, E> ByEngine<Result<T, E>> {
     /// All three, or the first error.
     pub fn all(self) -> Result<ByEngine<T>, E> {
-        Ok(ByEngine {
-            exact: self.exact?,
-            axisymmetric: self.axisymmetric?,
-            half_space: self.half_space?,
-        })
+        let exact = self.exact?;
+        Ok(ByEngine::of(exact, [self.axisymmetric?, self.half_space?]))
     }
 }
 

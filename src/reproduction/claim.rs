@@ -159,13 +159,14 @@ impl Claim {
 
     /// Whether there is no value to compare: no exact one, or of a difference none that is computed.
     pub fn is_undefined(&self) -> bool {
+        let ByEngine {
+            exact,
+            axisymmetric,
+            half_space,
+        } = self.values;
         match self.source {
-            Source::Difference => self
-                .values
-                .axisymmetric
-                .or(self.values.half_space)
-                .is_none(),
-            _ => self.values.exact.is_none(),
+            Source::Difference => axisymmetric.or(half_space).is_none(),
+            _ => exact.is_none(),
         }
     }
 
@@ -194,11 +195,7 @@ impl Claim {
     /// By how much the computed values differ; `None` where one of the two is undefined.
     pub fn errors(&self) -> [Option<f64>; 2] {
         let ByEngine { exact, .. } = self.values;
-        let unit = if self.measure.unit.is_some() {
-            Some(1.0)
-        } else {
-            exact.map(f64::abs)
-        };
+        let unit = self.measure.unit.map(|_| 1.0).or(exact.map(f64::abs));
         [self.values.axisymmetric, self.values.half_space]
             .map(|value| Some((value? - exact?) / unit?))
     }
@@ -229,15 +226,12 @@ impl Claim {
             _ if self.is_undefined() => UNDEFINED.to_owned(),
             _ => exact,
         };
-        let errors = self
-            .error_texts()
-            .into_iter()
-            .filter(|text| !text.is_empty());
-        let errors = errors.collect::<Vec<_>>().join(", ");
-        let errors = match errors.is_empty() {
-            true => errors,
-            false => format!("{errors} {}", self.measure.name()),
-        };
+        let errors = self.error_texts().into_iter();
+        let errors: Vec<String> = errors.filter(|text| !text.is_empty()).collect();
+        let mut errors = errors.join(", ");
+        if !errors.is_empty() {
+            errors.push_str(&format!(" {}", self.measure.name()));
+        }
         let verdict = self.judged().name().to_owned();
         let (quantity, note) = (self.quantity.clone(), self.note.clone());
         [
@@ -291,9 +285,8 @@ const TABLE: [Column; 12] = [
 
 /// `claims.csv`.
 pub(super) fn table(figures: &[Figure]) -> Vec<u8> {
-    let columns: Vec<&str> = std::iter::once("figure")
-        .chain(TABLE.map(|(name, _)| name))
-        .collect();
+    let mut columns = vec!["figure"];
+    columns.extend(TABLE.map(|(name, _)| name));
     let rows = figures.iter().flat_map(|figure| {
         figure.claims.iter().map(|claim| {
             let cells = TABLE.map(|(_, cell)| Cell::from(cell(claim)));

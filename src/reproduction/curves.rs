@@ -27,50 +27,26 @@ impl Member {
             .style(LineStyle::nth(self.step))
     }
 
-    /// Points computed by the axisymmetric engine.
+    /// Points computed by the axisymmetric engine, which is named in the legend where this is the last of the family.
     pub(super) fn springs<P: Into<Option<(f64, f64)>>>(self, points: Vec<P>) -> Series {
-        Series::scatter(points)
-            .color(self.color())
-            .marker(Marker::Cross)
+        self.symbols(points, Marker::Cross, SPRINGS.to_owned())
     }
 
-    /// Points computed by the half-space engine.
-    pub(super) fn cells<P: Into<Option<(f64, f64)>>>(self, points: Vec<P>) -> Series {
-        Series::scatter(points)
-            .color(self.color())
-            .marker(Marker::Ring)
+    /// Points computed by the half-space engine with so many cells per side, likewise.
+    pub(super) fn cells<P: Into<Option<(f64, f64)>>>(self, points: Vec<P>, side: usize) -> Series {
+        self.symbols(points, Marker::Ring, cells_label(side))
     }
 
-    fn is_last(self) -> bool {
-        self.step + 1 == self.of
-    }
-
-    /// Both, named in the legend where this is the last of the family.
-    pub(super) fn engines<P: Into<Option<(f64, f64)>>>(
+    fn symbols<P: Into<Option<(f64, f64)>>>(
         self,
-        springs: Vec<P>,
-        cells: Vec<P>,
-        side: usize,
-    ) -> [Series; 2] {
-        let (springs, cells) = (self.springs(springs), self.cells(cells));
-        match self.is_last() {
-            true => [springs.label(SPRINGS), cells.label(cells_label(side))],
-            false => [springs, cells],
-        }
-    }
-
-    /// The axisymmetric engine in place of a closed form, and the half-space engine, which is named where this is the last of the
-    /// family.
-    pub(super) fn line_and_cells(
-        self,
-        line: Vec<(f64, f64)>,
-        cells: Vec<(f64, f64)>,
-        side: usize,
-    ) -> [Series; 2] {
-        let (line, cells) = (self.line(line), self.cells(cells));
-        match self.is_last() {
-            true => [line, cells.label(cells_label(side))],
-            false => [line, cells],
+        points: Vec<P>,
+        marker: Marker,
+        label: String,
+    ) -> Series {
+        let symbols = Series::scatter(points).color(self.color()).marker(marker);
+        match self.step + 1 == self.of {
+            true => symbols.label(label),
+            false => symbols,
         }
     }
 }

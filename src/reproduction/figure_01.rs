@@ -3,13 +3,14 @@
 use std::sync::atomic::AtomicBool;
 
 use super::by_engine::both;
-use super::curves::{Member, SPRINGS, cells_label, curve, spread};
+use super::curves::{Member, curve, spread};
 use super::number::Data;
 use super::{
     ByEngine, Claim, Figure, Measure, Plans, ReproductionError, Result, Source, series_of,
 };
 use crate::material::Creep;
 use crate::report::chart::{Axis, Chart, LegendPlace};
+use crate::report::table::cells;
 
 const MEGA: f64 = 1e-6;
 
@@ -30,9 +31,9 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
     });
     let line = curve(0.0, 1000.0, 200, modulus_mpa);
     let mut data = Data::new(&["source", "time_s", "relaxation_modulus_mpa"]);
-    data.points(&[&"closed form"], &line);
-    data.points(&[&"axisymmetric"], &springs);
-    data.points(&[&"half-space"], &cells);
+    data.points(&cells!["closed form"], &line);
+    data.points(&cells!["axisymmetric"], &springs);
+    data.points(&cells!["half-space"], &cells);
     let last = [&springs, &cells].map(|points| points.last().map(|point| point.1));
     let values = [0.0, 1000.0].map(modulus_mpa);
     let claims = claims(values, last, &material.shear_creep_function()?);
@@ -43,11 +44,8 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
         Axis::linear("relaxation modulus Ψ / MPa").range(1900.0, 2500.0),
     )
     .series(member.line(line).label("Prony series, equation (8)"))
-    .series(seen.springs(spread(&springs, 60)).label(SPRINGS))
-    .series(
-        seen.cells(spread(&cells, 34))
-            .label(cells_label(plan.contact.solver.cells)),
-    )
+    .series(seen.springs(spread(&springs, 60)))
+    .series(seen.cells(spread(&cells, 34), plan.contact.solver.cells))
     .legend(LegendPlace::TopRight);
     let caption = "Relaxation modulus of PMMA. Line: the Prony series. Symbols: read from the load under a flat punch that is \
                    pressed in at once and held still.";

@@ -10,6 +10,7 @@ use super::{Claim, Figure, Measure, Plans, Result, Scale, Source, series_of};
 use crate::reference::step_load::maxwell_falling_ramp_cubed_radius;
 use crate::reference::transient::maxwell_half_sine_cubed_radius;
 use crate::report::chart::{Axis, Chart, LegendPlace};
+use crate::report::table::cells;
 
 /// (time / tau, contact radius / a_H).
 type Signal = Vec<(f64, f64)>;
@@ -116,17 +117,18 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
         let signals = &computed.signals;
         let exact = spread(&signals.exact, 301);
         let springs = spread(&signals.axisymmetric, 31);
-        let number = case.number.to_string();
-        data.points(&[&number, &"exact"], &exact);
-        data.points(&[&number, &"axisymmetric"], &springs);
-        data.points(&[&number, &"half-space"], &signals.half_space);
+        let number = case.number;
+        data.points(&cells![number, "exact"], &exact);
+        data.points(&cells![number, "axisymmetric"], &springs);
+        data.points(&cells![number, "half-space"], &signals.half_space);
         let member = Member { step, of: 3 };
         let drawn = |signal: &Signal| signal.iter().map(|(t, a)| (t / case.axis, *a)).collect();
         let label = format!("case {number}: {}", case.law);
         let (springs, cells) = (drawn(&springs), drawn(&signals.half_space));
         chart = chart
             .series(member.line(drawn(&exact)).label(label))
-            .all_series(member.engines(springs, cells, side));
+            .series(member.springs(springs))
+            .series(member.cells(cells, side));
         for extremum in case.extrema {
             claims.extend(extremum_claims(case, &computed, extremum));
         }

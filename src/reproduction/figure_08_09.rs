@@ -5,9 +5,10 @@ use std::sync::atomic::AtomicBool;
 use super::by_engine::{ByEngine, both};
 use super::curves::{Member, SPRINGS, cells_label, extremum, spread};
 use super::cycles::{Cycles, STEPS_ON_CELLS, cycles_to};
-use super::number::{Cell, Data, short};
+use super::number::{Data, short};
 use super::{Claim, Figure, Measure, Plans, ReproductionError, Result, Scale, Source};
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Marker, Series};
+use crate::report::table::{Cell, cells};
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
 use crate::sweep::plan::scenario::{ScenarioPlan, resolved_text};
 
@@ -61,7 +62,7 @@ fn figure_8(slow: &History, fast: &History, cycles: &Cycles<'_>) -> Result<Figur
                     continue;
                 };
                 let point = (approach_m / scale.approach_m, row.load_n / scale.load_n);
-                data.row(&[&f, &source, &row.time_s, &point.0, &point.1]);
+                data.row(cells![f, source, row.time_s, point.0, point.1]);
                 points.push(point);
             }
             Ok::<_, ReproductionError>(points)
@@ -75,7 +76,10 @@ fn figure_8(slow: &History, fast: &History, cycles: &Cycles<'_>) -> Result<Figur
                 Axis::linear(format!("({part}) load W / W₀, f = {f}")).range(0.0, 1.0),
             )
             .series(member.line(springs).label(SPRINGS))
-            .series(seen.cells(cells).label(cells_label(history.side)))
+            .series(
+                seen.cells(cells, history.side)
+                    .label(cells_label(history.side)),
+            )
             .legend(LegendPlace::TopLeft)
             .size(800, 480),
         );
@@ -139,10 +143,8 @@ fn figure_9(history: &History, cycles: &Cycles<'_>) -> Result<Figure> {
     ]);
     for (source, rows) in [("axisymmetric", &springs), ("half-space", &cells)] {
         for row in rows {
-            let [load, approach, radius, pressure] = SIGNALS.map(|(_, signal)| signal(row, scale));
-            let cells: [&dyn Cell; 6] =
-                [&source, &row.time_s, &load, &approach, &radius, &pressure];
-            data.row(&cells);
+            let signals = SIGNALS.map(|(_, signal)| Cell::from(signal(row, scale)));
+            data.row(cells![source, row.time_s].into_iter().chain(signals));
         }
     }
     let mut chart = Chart::new(

@@ -11,6 +11,7 @@ use super::{Claim, Figure, Measure, Result, Source};
 use crate::contact::surface::Surface;
 use crate::cycle::Loop;
 use crate::report::chart::{Axis, Chart, Color, LegendPlace, LineStyle, Mark, Marker, Series};
+use crate::report::table::cells;
 
 /// All three.
 pub(super) fn figures(cycles: &Cycles<'_>) -> Result<Vec<Figure>> {
@@ -35,7 +36,7 @@ fn figure_10(cycles: &Cycles<'_>) -> Result<Figure> {
         .collect();
     for (source, points) in [("axisymmetric", &swept), ("half-space", &on_cells)] {
         for (f, numbers) in points {
-            data.row(&[&source, f, &numbers.radius, &numbers.pressure]);
+            data.row(cells![source, *f, numbers.radius, numbers.pressure]);
         }
     }
     let drawn = |points: &[(f64, Numbers)], read: fn(&Numbers) -> Option<f64>| {
@@ -128,13 +129,14 @@ fn figure_11(cycles: &Cycles<'_>) -> Result<Figure> {
         for (step, state) in QUARTERS.into_iter().enumerate() {
             let line = spread(&loaded(on_springs.get(step), 1), 120);
             let cells = spread(&loaded(on_cells.get(step), 0), 18);
-            data.points(&[&case.f, &state, &"axisymmetric"], &line);
-            data.points(&[&case.f, &state, &"half-space"], &cells);
+            data.points(&cells![case.f, state, "axisymmetric"], &line);
+            data.points(&cells![case.f, state, "half-space"], &cells);
             // The paper shows f = 0.6 alone.
             if (case.f - 0.6).abs() < 1e-9 {
                 let member = Member { step, of: 3 };
-                let [line, cells] = member.line_and_cells(line, cells, cycles.cells);
-                chart = chart.series(line.label(state)).series(cells);
+                chart = chart
+                    .series(member.line(line).label(state))
+                    .series(member.cells(cells, cycles.cells));
             }
         }
     }
@@ -236,12 +238,13 @@ fn loops_panel(cycles: &Cycles<'_>, data: &mut Data) -> Result<Chart> {
         };
         let line = points(&case.samples.axisymmetric, 101);
         let cells = points(&case.samples.half_space, 17);
-        data.points(&[&case.f, &"axisymmetric", &"loop"], &line);
-        data.points(&[&case.f, &"half-space", &"loop"], &cells);
+        data.points(&cells![case.f, "axisymmetric", "loop"], &line);
+        data.points(&cells![case.f, "half-space", "loop"], &cells);
         let of = cases.len();
-        let [line, cells] = Member { step, of }.line_and_cells(line, cells, cycles.cells);
-        let label = format!("f = {}", short(case.f));
-        chart = chart.series(line.label(label)).series(cells);
+        let member = Member { step, of };
+        chart = chart
+            .series(member.line(line).label(format!("f = {}", short(case.f))))
+            .series(member.cells(cells, cycles.cells));
     }
     Ok(chart)
 }
@@ -251,7 +254,7 @@ fn losses_panel(cycles: &Cycles<'_>, data: &mut Data) -> Result<Chart> {
     let losses = losses(cycles);
     for (source, points) in [("axisymmetric", &line), ("half-space", &losses.half_space)] {
         for (f, loss) in points {
-            data.row(&[f, &source, &"loss", f, loss]);
+            data.row(cells![*f, source, "loss", *f, *loss]);
         }
     }
     let (f, largest) = peak(about(&losses.exact, TAU.recip())?)?;

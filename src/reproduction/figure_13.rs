@@ -13,6 +13,7 @@ use super::stabilised::{by_sweep, stabilised};
 use super::{Claim, Figure, Measure, Plans, ReproductionError, Result, Source};
 use crate::cycle;
 use crate::report::chart::{Axis, Chart, LegendPlace, LineStyle, Mark, Marker, Series};
+use crate::report::table::cells;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{EngineKind, SweepPlan};
 use crate::sweep::search::peak as search;
@@ -57,27 +58,32 @@ pub(super) fn figures(plans: &Plans, interrupt: &AtomicBool) -> Result<Vec<Figur
         "energy_j",
         "share_of_largest",
     ]);
-    for (quantity, curve, shares) in [
-        ("stabilised loop", &loops.energy_j, &closed),
-        ("work from first touch", &work.energy_j, &touched),
+    for (quantity, curve) in [
+        ("stabilised loop", &loops),
+        ("work from first touch", &work),
     ] {
-        for (source, energies, shares) in [
-            ("axisymmetric", &curve.axisymmetric, &shares.axisymmetric),
-            ("half-space", &curve.half_space, &shares.half_space),
+        let (_, largest_j) = curve.largest.exact;
+        for (source, energies) in [
+            ("axisymmetric", &curve.energy_j.axisymmetric),
+            ("half-space", &curve.energy_j.half_space),
         ] {
-            for ((omega, energy_j), (_, share)) in energies.iter().zip(shares) {
+            for (omega, energy_j) in energies {
                 // Joules are far from 1: to five digits, whatever their size.
-                let energy_j = format!("{energy_j:.4e}");
-                data.row(&[&quantity, &source, omega, &energy_j, share]);
+                let (energy, share) = (format!("{energy_j:.4e}"), energy_j / largest_j);
+                data.row(cells![quantity, source, *omega, energy, share]);
             }
         }
     }
-    let panels = panels(
-        &closed,
-        &touched,
-        plan.contact.solver.cells,
-        scenario.contact.solver.cells,
-    );
+    let [cells, cells_of_work] = [&plan.contact.solver, &scenario.contact.solver].map(|s| s.cells);
+    let panels = panels([
+        ("stabilised loop", &closed, cells, Marker::Ring),
+        (
+            "work from first touch",
+            &touched,
+            cells_of_work,
+            Marker::Square,
+        ),
+    ]);
     let claims = [claims_of_loops(&loops), claims_of_work(&work)].concat();
     Ok(vec![Figure::new(13, CAPTION, panels, data, claims)])
 }
@@ -181,37 +187,26 @@ impl Curve {
     }
 }
 
-fn panels(
-    closed: &ByEngine<Points>,
-    touched: &ByEngine<Points>,
-    cells: usize,
-    cells_work: usize,
-) -> Vec<Chart> {
-    let panel = |y: Axis, height_px: u32| {
-        let line = |points: &Points, place: usize| {
-            Series::line(points.clone())
-                .color(place)
-                .style(LineStyle::nth(place))
-        };
-        let symbols = |points: &Points, place: usize, marker| {
-            Series::scatter(points.clone()).color(place).marker(marker)
+/// A curve with its name, cells per side and symbol.
+type Labelled<'a> = (&'a str, &'a ByEngine<Points>, usize, Marker);
+
+fn panels(curves: [Labelled<'_>; 2]) -> Vec<Chart> {
+    let panel = |(low, high): (f64, f64), height_px: u32| {
+        let series = |(place, (what, points, cells, marker)): (usize, Labelled<'_>)| {
+            let line = Series::line(points.axisymmetric.clone()).style(LineStyle::nth(place));
+            let symbols = Series::scatter(points.half_space.clone()).marker(marker);
+            [
+                line.color(place).label(format!("{what}, {SPRINGS}")),
+                symbols
+                    .color(place)
+                    .label(format!("{what}, {}", cells_label(cells))),
+            ]
         };
         Chart::new(
             Axis::linear("angular frequency ω / rad·s⁻¹").range(0.0, HIGHEST),
-            y,
+            Axis::linear("share of the largest").range(low, high),
         )
-        .series(line(&closed.axisymmetric, 0).label(format!("stabilised loop, {SPRINGS}")))
-        .series(
-            symbols(&closed.half_space, 0, Marker::Ring)
-                .label(format!("stabilised loop, {}", cells_label(cells))),
-        )
-        .series(line(&touched.axisymmetric, 1).label(format!("work from first touch, {SPRINGS}")))
-        .series(
-            symbols(&touched.half_space, 1, Marker::Square).label(format!(
-                "work from first touch, {}",
-                cells_label(cells_work)
-            )),
-        )
+        .all_series(curves.into_iter().enumerate().flat_map(series))
         .mark(Mark::vertical(
             PAPER_PEAK,
             "0.0031 rad/s: maximum in the paper",
@@ -219,9 +214,8 @@ fn panels(
         .size(800, height_px)
     };
     vec![
-        panel(Axis::linear("share of the largest").range(0.0, 1.05), 560)
-            .legend(LegendPlace::Above),
-        panel(Axis::linear("share of the largest").range(0.9, 1.01), 440).legend(None),
+        panel((0.0, 1.05), 560).legend(LegendPlace::Above),
+        panel((0.9, 1.01), 440).legend(None),
     ]
 }
 

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::by_engine::both;
 use super::curves::{Member, curve, spread};
-use super::number::{Cell, Data};
+use super::number::Data;
 use super::scale::{ProfilePoint, Scale, at, largest};
 use super::{
     ByEngine, Claim, Figure, Measure, Plans, ReproductionError, Result, Source, series_of,
@@ -16,6 +16,7 @@ use crate::contact::surface::Surface;
 use crate::history::March;
 use crate::reference::step_load::StepLoad;
 use crate::report::chart::{Axis, Chart, LegendPlace, Series};
+use crate::report::table::{Cell, cells};
 use crate::sweep::engine::{EngineBuilder, LargestContact};
 use crate::sweep::history::SimulationOutcome;
 use crate::sweep::plan::EngineKind;
@@ -96,30 +97,27 @@ impl<'a> Held<'a> {
     }
 
     /// Curves at one of the times: rows of the data behind these cells, series of a chart.
-    fn curves<Y: Cell + Copy + Into<Option<f64>>>(
+    fn curves<Y: Copy + Into<Cell> + Into<Option<f64>>>(
         &self,
         (k, label): (usize, String),
         data: &mut Data,
-        before: &[&dyn Cell],
+        before: &[Cell],
         curves: ByEngine<Vec<(f64, Y)>>,
     ) -> [Series; 3] {
         let of = self.times.len();
         let member = Member { step: k, of };
-        data.points(&[before, &[&"closed form"]].concat(), &curves.exact);
-        data.points(&[before, &[&"axisymmetric"]].concat(), &curves.axisymmetric);
-        data.points(&[before, &[&"half-space"]].concat(), &curves.half_space);
+        let mut rows = |source: &str, points: &[(f64, Y)]| {
+            data.points(&[before, &cells![source]].concat(), points);
+        };
+        rows("closed form", &curves.exact);
+        rows("axisymmetric", &curves.axisymmetric);
+        rows("half-space", &curves.half_space);
         // A value is absent where its y is.
-        let drawn = curves.map(|points| -> Vec<Option<(f64, f64)>> {
-            let points = points.into_iter();
-            points.map(|(x, y)| Some((x, y.into()?))).collect()
-        });
+        let point = |(x, y): (f64, Y)| Some((x, Into::<Option<f64>>::into(y)?));
+        let drawn = curves.map(|points| points.into_iter().map(point).collect());
         let line = member.line(drawn.exact).label(label);
-        let [springs, cells] = member.engines(
-            drawn.axisymmetric,
-            drawn.half_space,
-            self.plan.contact.solver.cells,
-        );
-        [line, springs, cells]
+        let cells = member.cells(drawn.half_space, self.plan.contact.solver.cells);
+        [line, member.springs(drawn.axisymmetric), cells]
     }
 }
 
@@ -236,7 +234,7 @@ fn pressures(held: &Held<'_>) -> (Chart, Data) {
             1.0 => "t = τ".to_owned(),
             _ => format!("t = {time} τ"),
         };
-        chart = chart.all_series(held.curves((k, label), &mut data, &[&time], curves));
+        chart = chart.all_series(held.curves((k, label), &mut data, &cells![time], curves));
     }
     (chart, data)
 }
@@ -331,7 +329,7 @@ fn displacements(held: &Held<'_>, (name, part): (&str, char), data: &mut Data) -
             false => "unloaded",
         };
         let curves = ByEngine::of(line, points);
-        let before: [&dyn Cell; 3] = [&name, &time, &state];
+        let before = cells![name, time, state];
         chart = chart.all_series(held.curves((k, label(time)), data, &before, curves));
     }
     chart

@@ -1,84 +1,46 @@
 //! `summary.json` of a material made of dynamic data.
 
-use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::DynamicReport;
 use super::tables::celsius;
 use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
-use crate::report::ReportError;
-
-#[derive(Serialize)]
-struct Summary<'a> {
-    files: &'a [String],
-    format: &'a str,
-    format_found_by: &'a str,
-    notes: &'a [String],
-    modulus: &'static str,
-    points: usize,
-    isotherms: usize,
-    /// `None` where the file names no temperature.
-    reference_temperature_c: Option<f64>,
-    wlf: Option<Value>,
-    arrhenius: Option<Value>,
-    preferred_law: Option<&'static str>,
-    /// About one where the data are thermorheologically simple.
-    simplicity: Option<f64>,
-    /// About one where storage and loss modulus belong to one another.
-    kramers_kronig: Option<f64>,
-    /// Relative standard deviations of the noise; where the file gives errors, how many times larger than these it is.
-    storage_noise: f64,
-    loss_noise: f64,
-    storage_relative_rms: f64,
-    loss_relative_rms: f64,
-    branches: usize,
-    equilibrium_modulus_pa: f64,
-    window_rad_per_s: (f64, f64),
-    replicas: usize,
-    warnings: Vec<String>,
-    program: &'a str,
-    program_version: &'a str,
-}
 
 /// The summary as an object; what is undefined is null.
-///
-/// # Errors
-/// [`ReportError::Table`] where it is no JSON.
-pub fn summary(report: &DynamicReport<'_>) -> Result<Value, ReportError> {
+pub fn summary(report: &DynamicReport<'_>) -> Value {
     let DynamicReport { source, data, made } = report;
-    let master = made.master.as_ref();
-    let summary = Summary {
-        files: &source.files,
-        format: &source.format,
-        format_found_by: &source.how,
-        notes: &source.notes,
-        modulus: made.kind.name(),
-        points: data.points().count(),
-        isotherms: data.isotherms().len(),
-        reference_temperature_c: report.reference_temperature_k().map(celsius),
-        wlf: master.and_then(|m| m.wlf).as_ref().map(wlf),
-        arrhenius: master.and_then(|m| m.arrhenius).as_ref().map(arrhenius),
-        preferred_law: master.and_then(|m| m.preferred).map(|law| match law {
-            ShiftLaw::Wlf(_) => Wlf::NAME,
-            ShiftLaw::Arrhenius(_) => Arrhenius::NAME,
-        }),
-        simplicity: master.and_then(|m| m.simplicity),
-        kramers_kronig: made.fit.kramers_kronig,
-        storage_noise: made.fit.noise.0,
-        loss_noise: made.fit.noise.1,
-        storage_relative_rms: made.fit.storage_rms,
-        loss_relative_rms: made.fit.loss_rms,
-        branches: report.relaxation().branches().len(),
-        equilibrium_modulus_pa: report.relaxation().equilibrium_modulus(),
-        window_rad_per_s: made.fit.window_rad_per_s,
-        replicas: made.replicas.len(),
-        warnings: report.warnings(),
-        program: env!("CARGO_PKG_NAME"),
-        program_version: env!("CARGO_PKG_VERSION"),
-    };
-    serde_json::to_value(summary).map_err(|error| ReportError::Table {
-        name: "summary.json",
-        reason: error.to_string(),
+    let (master, fit) = (made.master.as_ref(), &made.fit);
+    let preferred = master.and_then(|m| m.preferred).map(|law| match law {
+        ShiftLaw::Wlf(_) => Wlf::NAME,
+        ShiftLaw::Arrhenius(_) => Arrhenius::NAME,
+    });
+    json!({
+        "files": source.files,
+        "format": source.format,
+        "format_found_by": source.how,
+        "notes": source.notes,
+        "modulus": made.kind.name(),
+        "points": data.points().count(),
+        "isotherms": data.isotherms().len(),
+        "reference_temperature_c": report.reference_temperature_k().map(celsius),
+        "wlf": master.and_then(|m| m.wlf).as_ref().map(wlf),
+        "arrhenius": master.and_then(|m| m.arrhenius).as_ref().map(arrhenius),
+        "preferred_law": preferred,
+        // About one where the data are thermorheologically simple, and where storage and loss modulus belong to one another.
+        "simplicity": master.and_then(|m| m.simplicity),
+        "kramers_kronig": fit.kramers_kronig,
+        // Relative standard deviations; where the file gives errors, how many times larger than these the noise is.
+        "storage_noise": fit.noise.0,
+        "loss_noise": fit.noise.1,
+        "storage_relative_rms": fit.storage_rms,
+        "loss_relative_rms": fit.loss_rms,
+        "branches": report.relaxation().branches().len(),
+        "equilibrium_modulus_pa": report.relaxation().equilibrium_modulus(),
+        "window_rad_per_s": fit.window_rad_per_s,
+        "replicas": made.replicas.len(),
+        "warnings": report.warnings(),
+        "program": env!("CARGO_PKG_NAME"),
+        "program_version": env!("CARGO_PKG_VERSION"),
     })
 }
 
@@ -116,7 +78,6 @@ mod tests {
                 data: &data,
                 made,
             })
-            .unwrap()
         };
         let all = report(&made);
         assert_eq!(all["points"], 45);

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::DynamicReport;
+use crate::material::dynamic::DynamicPoint;
 use crate::material::dynamic::master_curve::MasterCurve;
 use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
 use crate::quantity::{Dimension, celsius, format_human};
@@ -21,15 +22,12 @@ impl DynamicReport<'_> {
     /// The same, one fact a line.
     pub fn lines(&self) -> Vec<String> {
         let notes = self.source.notes.iter().map(|note| format!("Note: {note}"));
-        let warnings = self.warnings();
-        let warnings = warnings
-            .iter()
-            .map(|warning| format!("Warning: {warning}."));
+        let warnings = self.warnings().into_iter();
         let mut lines = vec![self.read()];
         lines.extend(notes);
         lines.extend(self.made.master.iter().flat_map(laws));
         lines.extend(self.quality());
-        lines.extend(warnings);
+        lines.extend(warnings.map(|warning| format!("Warning: {warning}.")));
         lines
     }
 
@@ -60,10 +58,8 @@ impl DynamicReport<'_> {
         let (fit, symbol) = (&self.made.fit, self.symbol());
         let count = self.relaxation().branches().len();
         let plural = if count == 1 { "" } else { "es" };
-        let at = match self.reference_temperature_k() {
-            Some(temperature_k) => format!(" at {}", celsius(temperature_k)),
-            None => String::new(),
-        };
+        let at = self.reference_temperature_k();
+        let at = at.map_or(String::new(), |at| format!(" at {}", celsius(at)));
         let omega = |value| format_human(value, Dimension::AngularFrequency, 4);
         let (lowest, highest) = fit.window_rad_per_s;
         let mut lines = vec![
@@ -114,34 +110,27 @@ impl DynamicReport<'_> {
             "Temperature    log10 a_T   std. error   points    ω from      ω to{heading}\n"
         );
         for shift in &master.shifts {
-            let isotherms = self.data.isotherms().iter();
-            let of = |t: f64| (t - shift.temperature_k).abs() < 0.01;
-            let isotherm = isotherms
-                .into_iter()
-                .find(|i| i.temperature_k.is_some_and(of));
+            let mut isotherms = self.data.isotherms().iter();
+            let is_of = |t: f64| (t - shift.temperature_k).abs() < 0.01;
+            let isotherm = isotherms.find(|i| i.temperature_k.is_some_and(is_of));
             let points = isotherm.map(|i| &i.points[..]).unwrap_or_default();
-            let omega = |point: Option<&crate::material::dynamic::DynamicPoint>| {
-                let value = point.map(|p| four_digits(p.angular_frequency_rad_per_s));
-                value.unwrap_or_else(|| "-".to_owned())
+            let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
+            let omega = |point: Option<&DynamicPoint>| {
+                or_dash(point.map(|p| four_digits(p.angular_frequency_rad_per_s)))
             };
-            let error = match shift.log10_a_t_error {
-                Some(error) => format!("{error:.4}"),
-                None => "-".to_owned(),
-            };
-            let b_t = match vertical {
-                true => format!("{:>14.4}", shift.b_t),
-                false => String::new(),
-            };
+            let error = or_dash(shift.log10_a_t_error.map(|error| format!("{error:.4}")));
+            let b_t = vertical.then(|| format!("{:>14.4}", shift.b_t));
             // Adding zero takes the sign off a zero.
             let log10_a_t = (1e4 * shift.log10_a_t).round() / 1e4 + 0.0;
             // Writing to a String cannot fail.
             let _ = writeln!(
                 text,
-                "{:>11}  {log10_a_t:>11.4}  {error:>11}  {:>7}  {:>8}  {:>8}{b_t}",
+                "{:>11}  {log10_a_t:>11.4}  {error:>11}  {:>7}  {:>8}  {:>8}{}",
                 celsius(shift.temperature_k),
                 points.len(),
                 omega(points.first()),
                 omega(points.last()),
+                b_t.unwrap_or_default(),
             );
         }
         text
@@ -166,30 +155,19 @@ impl DynamicReport<'_> {
 /// Reference temperature and the laws through the shift factors.
 fn laws(master: &MasterCurve) -> Vec<String> {
     let reference = celsius(master.reference_temperature_k);
-    let mut lines = vec![format!("Master curve at {reference}.")];
-    let prefers = |wlf: bool| {
-        let preferred = match master.preferred {
-            Some(ShiftLaw::Wlf(_)) => wlf,
-            Some(ShiftLaw::Arrhenius(_)) => !wlf,
-            None => false,
-        };
-        // Alone, a law is preferred to nothing.
-        let both = master.wlf.is_some() && master.arrhenius.is_some();
-        if preferred && both {
-            "; the data prefer it"
-        } else {
-            ""
-        }
+    // Alone, a law is preferred to nothing.
+    let both = master.wlf.is_some() && master.arrhenius.is_some();
+    let line = |law: String, is_preferred: bool| match is_preferred && both {
+        true => format!("{law}; the data prefer it."),
+        false => format!("{law}."),
     };
-    lines.extend(
-        master
-            .wlf
-            .as_ref()
-            .map(|law| format!("{}{}.", wlf(law), prefers(true))),
-    );
-    let arrhenius = master.arrhenius.as_ref().map(arrhenius);
-    lines.extend(arrhenius.map(|law| format!("{law}{}.", prefers(false))));
-    lines
+    let prefers_wlf = matches!(master.preferred, Some(ShiftLaw::Wlf(_)));
+    let prefers_arrhenius = matches!(master.preferred, Some(ShiftLaw::Arrhenius(_)));
+    let of_wlf = master.wlf.iter().map(|law| line(wlf(law), prefers_wlf));
+    let of_arrhenius = master.arrhenius.iter();
+    let of_arrhenius = of_arrhenius.map(|law| line(arrhenius(law), prefers_arrhenius));
+    let opening = [format!("Master curve at {reference}.")].into_iter();
+    opening.chain(of_wlf).chain(of_arrhenius).collect()
 }
 
 /// The constants of a WLF law with their errors.

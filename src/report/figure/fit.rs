@@ -23,11 +23,9 @@ pub fn figures(table: &Tabulated, fit: &Fit) -> Vec<Figure> {
 
 /// Samples at positive times; where there are more than `most`, as many at about equal distances in the logarithm of time.
 fn shown(table: &Tabulated, most: usize) -> Vec<(f64, f64)> {
-    let samples = table.times_s().iter().copied();
-    let positive = samples
-        .zip(table.values().iter().copied())
-        .filter(|(time_s, _)| *time_s > 0.0);
-    let positive: Vec<_> = positive.collect();
+    let values = table.values().iter().copied();
+    let samples = table.times_s().iter().copied().zip(values);
+    let positive: Vec<_> = samples.filter(|(time_s, _)| *time_s > 0.0).collect();
     if positive.len() <= most {
         return positive;
     }
@@ -47,31 +45,26 @@ fn shown(table: &Tabulated, most: usize) -> Vec<(f64, f64)> {
 fn curves(table: &Tabulated, fit: &Fit) -> Figure {
     let symbol = table.face().symbol(table.kind());
     let values = range(table.values().iter().copied());
-    let highest = values.1;
     let (factor, label) = match table.face() {
         MaterialFunction::Relaxation => {
-            let (factor, unit) = prefix(highest);
+            let (factor, unit) = prefix(values.1);
             (factor, format!("relaxation modulus {symbol}(t) / {unit}Pa"))
         }
         // A compliance per GPa where moduli are in GPa.
         MaterialFunction::Creep => {
-            let (factor, unit) = prefix(highest.recip());
-            (
-                factor.recip(),
-                format!("creep compliance {symbol}(t) / {unit}Pa⁻¹"),
-            )
+            let (factor, unit) = prefix(values.1.recip());
+            let label = format!("creep compliance {symbol}(t) / {unit}Pa⁻¹");
+            (factor.recip(), label)
         }
     };
     let symbols = shown(table, SYMBOLS_ON_CURVE);
     let samples = table.times_s().len();
-    let data = if symbols.len() + 1 < samples {
-        format!("data ({} of {samples} samples)", symbols.len())
-    } else {
-        "data".to_owned()
+    let data = match symbols.len() + 1 < samples {
+        true => format!("data ({} of {samples} samples)", symbols.len()),
+        false => "data".to_owned(),
     };
-    let data = Series::scatter(symbols.into_iter().map(|(t, v)| (t, factor * v)))
-        .marker(Marker::Ring)
-        .label(data);
+    let symbols = symbols.into_iter().map(|(t, v)| (t, factor * v));
+    let data = Series::scatter(symbols).marker(Marker::Ring).label(data);
     let (from, to) = positive_range_s(table);
     let curve = (0..=CURVE).map(|i| {
         let time_s = from * (to / from).powf(i as f64 / CURVE as f64);
@@ -85,11 +78,7 @@ fn curves(table: &Tabulated, fit: &Fit) -> Figure {
     Figure {
         name: "fit",
         picture: chart.into(),
-        caption: caption(
-            table,
-            fit,
-            "Data and the series fitted to them, against time t",
-        ),
+        caption: caption(table, fit, "Data and the series fitted to them"),
         data: data_table(table, fit),
     }
 }
@@ -112,7 +101,7 @@ fn residual(table: &Tabulated, fit: &Fit) -> Figure {
         caption: caption(
             table,
             fit,
-            "Relative difference of the fitted series from the data, against time t",
+            "Relative difference of the fitted series from the data",
         ),
         data: csv(&["time_s", "relative_difference"], rows),
     }
@@ -131,7 +120,7 @@ fn caption(table: &Tabulated, fit: &Fit, shows: &str) -> Caption {
             false => format!("{line}."),
         }
     });
-    Caption::new(shows)
+    Caption::new(format!("{shows}, against time t"))
         .say(format!("{} samples of the {what}.", table.times_s().len()))
         .say_all(sentences)
 }

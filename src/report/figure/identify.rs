@@ -1,11 +1,11 @@
 //! Figures of a material identified from measured cycles or a history: data and model, residuals, and the moduli with their bands.
 
-use crate::identify::Compared;
 use crate::identify::data::Number;
+use crate::identify::{Compared, ModulusBand};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LineStyle, Mark, Marker, Series};
-use crate::report::figure::{Figure, Picture};
+use crate::report::figure::{Figure, Picture, axis};
 use crate::report::identify::IdentifyReport;
 use crate::report::identify::tables;
 use crate::report::number::{largest, prefix, range};
@@ -40,28 +40,28 @@ fn places(report: &IdentifyReport<'_>) -> Axis {
 /// What was measured, in the words of its column, and its dimension.
 fn words(number: Number) -> (&'static str, Option<Dimension>) {
     let name = number.column();
-    match number {
-        Number::OfCycle(_) => {
-            let column = quantities::of_name(name);
-            column.map_or((name, None), |c| (c.heading, c.dimension))
-        }
+    let known = match number {
+        Number::OfCycle(_) => quantities::of_name(name).map(|c| (c.heading, c.dimension)),
         Number::Approach | Number::Load => {
-            let column = quantities::HISTORY.iter().find(|c| c.name == name);
-            column.map_or((name, None), |c| (c.heading, c.dimension))
+            let mut columns = quantities::HISTORY.iter();
+            columns
+                .find(|c| c.name == name)
+                .map(|c| (c.heading, c.dimension))
         }
-    }
+    };
+    known.unwrap_or((name, None))
 }
 
 /// What an axis is headed with, and the factor from SI.
-fn axis(number: Number, numbers: &[&Compared]) -> (String, f64) {
-    let (heading, dimension) = words(number);
+fn heading(number: Number, numbers: &[&Compared]) -> (String, f64) {
+    let (name, dimension) = words(number);
     match dimension {
-        Some(Dimension::Angle) => (format!("{heading} / °"), 180.0 / std::f64::consts::PI),
+        Some(Dimension::Angle) => (format!("{name} / °"), 180.0 / std::f64::consts::PI),
         Some(dimension) => {
             let (factor, unit) = prefix(largest(numbers.iter().map(|c| c.measured)));
-            (format!("{heading} / {unit}{}", dimension.si_unit()), factor)
+            (format!("{name} / {unit}{}", dimension.si_unit()), factor)
         }
-        None => (heading.to_owned(), 1.0),
+        None => (name.to_owned(), 1.0),
     }
 }
 
@@ -84,46 +84,35 @@ fn data(report: &IdentifyReport<'_>) -> Figure {
 
 fn frame(report: &IdentifyReport<'_>, number: Number, is_first: bool) -> Chart {
     let numbers = of(report, number);
-    let (label, factor) = axis(number, &numbers);
-    let (low, high) = range(numbers.iter().map(|c| c.measured));
-    let y = match high > WIDE * low {
-        true => Axis::log(label),
-        false => Axis::linear(label),
-    };
+    let (label, factor) = heading(number, &numbers);
+    let y = axis(range(numbers.iter().map(|c| c.measured)), WIDE, label);
     let at = |value: fn(&Compared) -> f64| {
         let places = numbers.iter().map(|c| (c.place, factor * value(c)));
-        places.collect::<Vec<_>>()
+        Series::scatter(places.collect::<Vec<_>>())
     };
     let named = |series: Series, label: &str| match is_first {
         true => series.label(label),
         false => series,
     };
-    let bars = numbers.iter().map(|c| factor * c.error);
-    let measured = Series::scatter(at(|c| c.measured))
-        .error_bars(bars.collect::<Vec<_>>())
+    let measured = at(|c| c.measured)
+        .error_bars(numbers.iter().map(|c| factor * c.error))
         .color(1);
-    let chart = Chart::new(places(report), y);
     let curve = report.curves.iter().find(|curve| curve.number == number);
-    let chart = match curve {
+    let (band, model) = match curve {
         Some(curve) => {
-            let points = curve.points.iter().map(|(omega, v)| (*omega, factor * v));
-            let band = curve.points.iter().map(|(omega, v)| {
-                let open = open_at(&numbers, *omega);
-                (*omega, factor * v / open, factor * v * open)
+            let points = curve.points.iter().map(|(x, v)| (*x, factor * v));
+            let band = points.clone().map(|(x, v)| {
+                let open = open_at(&numbers, x);
+                (x, v / open, v * open)
             });
-            chart
-                .series(Series::band(band.collect::<Vec<_>>()).color(0))
-                .series(named(
-                    Series::line(points.collect::<Vec<_>>()).color(0),
-                    "model",
-                ))
+            (Some(Series::band(band)), Series::line(points))
         }
-        None => {
-            let computed = Series::scatter(at(|c| c.computed)).marker(Marker::Square);
-            chart.series(named(computed.color(0), "model"))
-        }
+        None => (None, at(|c| c.computed).marker(Marker::Square)),
     };
-    chart.series(named(measured, "measured"))
+    Chart::new(places(report), y)
+        .all_series(band)
+        .series(named(model, "model"))
+        .series(named(measured, "measured"))
 }
 
 /// The factor of the band at a frequency, between those of the data on both sides.
@@ -157,17 +146,12 @@ fn residuals(report: &IdentifyReport<'_>) -> Figure {
     let measured = report.plan.measurements.numbers();
     for (place, number) in measured.into_iter().enumerate() {
         let numbers = of(report, number);
-        let places = numbers.iter().map(|c| {
-            let off = 100.0 * (c.computed / c.measured - 1.0);
-            (c.place, off)
-        });
-        let bars = numbers.iter().map(|c| 100.0 * c.error / c.measured);
-        let (heading, _) = words(number);
-        let series = Series::scatter(places.collect::<Vec<_>>())
-            .error_bars(bars.collect::<Vec<_>>())
+        let off = |c: &&Compared| (c.place, 100.0 * (c.computed / c.measured - 1.0));
+        let series = Series::scatter(numbers.iter().map(off))
+            .error_bars(numbers.iter().map(|c| 100.0 * c.error / c.measured))
             .marker(MARKERS[place % MARKERS.len()])
             .color(place)
-            .label(heading);
+            .label(words(number).0);
         chart = chart.series(series);
     }
     Figure {
@@ -179,47 +163,58 @@ fn residuals(report: &IdentifyReport<'_>) -> Figure {
     }
 }
 
-/// Storage and loss modulus with their bands.
+/// A modulus, and the factor of its band.
+type Banded = (fn(&ModulusBand) -> f64, fn(&ModulusBand) -> f64);
+
+const STORAGE: Banded = (|band| band.storage_pa, |band| band.storage_factor);
+const LOSS: Banded = (|band| band.loss_pa, |band| band.loss_factor);
+
+/// Storage and loss modulus with their bands, and below them how wide these are in per cent of the moduli.
 fn moduli(report: &IdentifyReport<'_>) -> Figure {
-    let omegas = tables::frequencies(report);
-    let bands = omegas
-        .iter()
-        .map(|omega| (*omega, report.found.band(*omega)));
-    let bands: Vec<_> = bands.collect();
+    let omegas = tables::frequencies(report).into_iter();
+    let bands: Vec<_> = omegas
+        .map(|omega| (omega, report.found.band(omega)))
+        .collect();
     let (factor, unit) = prefix(largest(bands.iter().map(|(_, b)| b.storage_pa)));
-    let line = |value: fn(&crate::identify::ModulusBand) -> f64| {
-        Series::line(
-            bands
-                .iter()
-                .map(|(omega, b)| (*omega, factor * value(b)))
-                .collect::<Vec<_>>(),
-        )
+    let line = |(value, _): Banded| {
+        Series::line(bands.iter().map(|(omega, b)| (*omega, factor * value(b))))
     };
-    let shaded = |value: fn(&crate::identify::ModulusBand) -> (f64, f64)| {
-        let band = bands.iter().map(|(omega, b)| {
+    let shaded = |(value, open): Banded| {
+        Series::band(bands.iter().map(|(omega, b)| {
             // What is not determined fills the frame, not the axis.
-            let (own, open) = value(b);
-            let open = open.min(WIDE);
-            (*omega, factor * own / open, factor * own * open)
-        });
-        Series::band(band.collect::<Vec<_>>())
+            let open = open(b).min(WIDE);
+            (*omega, factor * value(b) / open, factor * value(b) * open)
+        }))
+    };
+    let half_width = |(_, open): Banded| {
+        let points = bands
+            .iter()
+            .map(|(omega, b)| (*omega, 100.0 * (open(b).min(WIDE) - 1.0)));
+        Series::line(points.filter(|(_, open)| *open > 0.0))
     };
     let (lowest, highest) = report.found.window_rad_per_s;
-    let chart = Chart::new(over(&omegas), Axis::log(format!("modulus / {unit}Pa")))
-        .series(shaded(|b| (b.storage_pa, b.storage_factor)).color(0))
-        .series(shaded(|b| (b.loss_pa, b.loss_factor)).color(1))
-        .series(line(|b| b.storage_pa).label("storage modulus E′"))
-        .series(
-            line(|b| b.loss_pa)
-                .color(1)
-                .style(LineStyle::Dashed)
-                .label("loss modulus E″"),
-        )
-        .mark(Mark::vertical(lowest, "first measured"))
-        .mark(Mark::vertical(highest, "last measured"));
+    let (low, high) = range(bands.iter().map(|(omega, _)| *omega));
+    let chart = Chart::new(
+        Axis::log(OMEGA).range(low, high),
+        Axis::log(format!("modulus / {unit}Pa")),
+    )
+    .series(shaded(STORAGE).color(0))
+    .series(shaded(LOSS).color(1))
+    .series(line(STORAGE).label("storage modulus E′"))
+    .series(dashed(line(LOSS)).label("loss modulus E″"))
+    .mark(Mark::vertical(lowest, "first measured"))
+    .mark(Mark::vertical(highest, "last measured"));
+    let open = Chart::new(
+        Axis::log(OMEGA),
+        Axis::linear("half width of the 95 % band / %"),
+    )
+    .series(half_width(STORAGE))
+    .series(dashed(half_width(LOSS)))
+    .mark(Mark::vertical(lowest, ""))
+    .mark(Mark::vertical(highest, ""));
     Figure {
         name: "moduli",
-        picture: Picture(vec![chart, openness(report, &omegas)]),
+        picture: Picture(vec![chart, open]),
         caption: Caption::new("Storage modulus E′ and loss modulus E″ of the identified material, and how well they are known")
             .say("Shaded: 95 % bands, drawn up to a factor of five. Below: half widths of the bands.")
             .say("Dashed: first and last measured frequency, beyond which the series is an extrapolation."),
@@ -227,28 +222,6 @@ fn moduli(report: &IdentifyReport<'_>) -> Figure {
     }
 }
 
-/// The axis of all these frequencies.
-fn over(omegas: &[f64]) -> Axis {
-    let (low, high) = range(omegas.iter().copied());
-    Axis::log(OMEGA).range(low, high)
-}
-
-/// Half widths of the bands, in per cent of the moduli.
-fn openness(report: &IdentifyReport<'_>, omegas: &[f64]) -> Chart {
-    let line = |value: fn(&crate::identify::ModulusBand) -> f64| {
-        let points = omegas.iter().map(|omega| {
-            let open = value(&report.found.band(*omega)).min(WIDE) - 1.0;
-            (*omega, 100.0 * open)
-        });
-        Series::line(points.filter(|(_, open)| *open > 0.0).collect::<Vec<_>>())
-    };
-    let (lowest, highest) = report.found.window_rad_per_s;
-    Chart::new(
-        Axis::log(OMEGA),
-        Axis::linear("half width of the 95 % band / %"),
-    )
-    .series(line(|b| b.storage_factor))
-    .series(line(|b| b.loss_factor).color(1).style(LineStyle::Dashed))
-    .mark(Mark::vertical(lowest, ""))
-    .mark(Mark::vertical(highest, ""))
+fn dashed(series: Series) -> Series {
+    series.color(1).style(LineStyle::Dashed)
 }

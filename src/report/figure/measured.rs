@@ -10,7 +10,7 @@ use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LineStyle, Marker, Series};
 use crate::report::measured::{Analysis, Computed, MeasuredRow};
 use crate::report::number::{largest, range, with_error};
-use crate::report::table::{Cell, cells, csv};
+use crate::report::table::{cells, csv};
 use crate::report::words::listed;
 
 /// Loops in one figure; more cannot be told apart.
@@ -25,13 +25,12 @@ const SAME: f64 = 0.01;
 
 /// The figures that the rows have.
 pub fn figures(analysis: &Analysis) -> Vec<Figure> {
-    let computed = &analysis.computed;
-    let rows: Vec<&MeasuredRow> = analysis.rows.iter().collect();
+    let (rows, computed) = (&analysis.rows[..], &analysis.computed[..]);
     let all = [
-        loops(&rows, computed),
-        energy_loss(&rows, computed),
-        moduli(&rows, computed),
-        cycles(&rows),
+        loops(rows, computed),
+        energy_loss(rows, computed),
+        moduli(rows, computed),
+        cycles(rows),
     ];
     all.into_iter().flatten().collect()
 }
@@ -40,12 +39,10 @@ fn units() -> Units {
     Units::in_si(FrequencyUnit::Hz)
 }
 
-/// Some of these rows, spread over them.
-fn some<'a>(rows: &[&'a MeasuredRow]) -> Vec<&'a MeasuredRow> {
+/// Of rows with what is drawn of them some, spread over all.
+fn some<'a, T: Clone>(rows: &[(&'a MeasuredRow, T)]) -> Vec<(&'a MeasuredRow, T)> {
     let places = evenly(rows.len(), LOOPS).into_iter();
-    places
-        .filter_map(|place| rows.get(place).copied())
-        .collect()
+    places.map(|place| rows[place].clone()).collect()
 }
 
 fn label(row: &MeasuredRow) -> String {
@@ -66,57 +63,46 @@ fn beside<'a>(row: &MeasuredRow, computed: &'a [Computed]) -> Option<&'a Compute
     near.min_by(|a, b| apart(a).total_cmp(&apart(b)))
 }
 
-fn loops(rows: &[&MeasuredRow], computed: &[Computed]) -> Option<Figure> {
-    let points = |row: &MeasuredRow| {
-        row.measured
-            .as_ref()
-            .map(|m| m.points.clone())
-            .unwrap_or_default()
-    };
-    let with_loop: Vec<&MeasuredRow> = rows
+fn loops(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
+    let points = rows
         .iter()
-        .copied()
-        .filter(|row| !points(row).is_empty())
-        .collect();
-    let chosen = some(&with_loop);
+        .filter_map(|row| Some((row, &row.measured.as_ref()?.points[..])));
+    let chosen = some(
+        &points
+            .filter(|(_, points)| !points.is_empty())
+            .collect::<Vec<_>>(),
+    );
     chosen.first()?;
-    let all: Vec<(f64, f64)> = chosen.iter().flat_map(|row| points(row)).collect();
-    let (to_load, load_unit) = units().load(largest(all.iter().map(|p| p.0.abs())));
-    let (to_approach, approach_unit) = units().approach(largest(all.iter().map(|p| p.1.abs())));
+    let all = || chosen.iter().flat_map(|(_, points)| *points);
+    let (to_load, load_unit) = units().load(largest(all().map(|p| p.0.abs())));
+    let (to_approach, approach_unit) = units().approach(largest(all().map(|p| p.1.abs())));
     let at = |(w, d): (f64, f64)| (to_approach * d, to_load * w);
-    let mut series = Vec::new();
-    for (step, row) in chosen.iter().enumerate() {
-        let color = Color::Ramp {
-            step,
-            of: chosen.len(),
-        };
+    let mut chart = Chart::new(
+        Axis::linear(format!("approach δ / {approach_unit}")),
+        Axis::linear(format!("load W / {load_unit}")),
+    );
+    let mut lines = "lines are the fitted harmonics";
+    for (step, (row, points)) in chosen.iter().enumerate() {
+        let color = ramp(step, &chosen);
         let line = match beside(row, computed) {
-            Some(case) => case.cycle.clone(),
+            Some(case) => {
+                lines = "lines are the computed loops where there are some, the fitted harmonics elsewhere";
+                case.cycle.clone()
+            }
             None => {
                 let samples = row.samples().unwrap_or_default();
                 samples.load_n.into_iter().zip(samples.approach_m).collect()
             }
         };
-        series.push(Series::line(line.into_iter().map(at)).color(color));
-        let measured = Series::scatter(points(row).into_iter().map(at)).marker(Marker::Ring);
-        series.push(measured.color(color).label(label(row)).spaced());
+        let rings = Series::scatter(points.iter().copied().map(at)).marker(Marker::Ring);
+        chart = chart
+            .series(Series::line(line.into_iter().map(at)).color(color))
+            .series(rings.color(color).label(label(row)).spaced());
     }
-    let has_computed = chosen.iter().any(|row| beside(row, computed).is_some());
-    let chart = Chart::new(
-        Axis::linear(format!("approach δ / {approach_unit}")),
-        Axis::linear(format!("load W / {load_unit}")),
-    )
-    .all_series(series);
-    let losses: Vec<String> = chosen.iter().filter_map(|row| loss(row)).collect();
-    let lines = match has_computed {
-        true => "lines are the computed loops where there are some, the fitted harmonics elsewhere",
-        false => "lines are the fitted harmonics",
-    };
-    let data = chosen.iter().flat_map(|row| {
+    let losses: Vec<String> = chosen.iter().filter_map(|(row, _)| loss(row)).collect();
+    let data = chosen.iter().flat_map(|(row, points)| {
         let omega = row.angular_rad_per_s();
-        points(row)
-            .into_iter()
-            .map(move |(w, d)| cells![omega, d, w])
+        points.iter().map(move |(w, d)| cells![omega, *d, *w])
     });
     Some(Figure {
         name: "loops",
@@ -136,6 +122,11 @@ fn loops(rows: &[&MeasuredRow], computed: &[Computed]) -> Option<Figure> {
     })
 }
 
+fn ramp<T>(step: usize, all: &[T]) -> Color {
+    let of = all.len();
+    Color::Ramp { step, of }
+}
+
 /// The loss in words: `3.51 ± 0.02 µJ at f = 1 Hz`.
 fn loss(row: &MeasuredRow) -> Option<String> {
     let mean = row.mean(Quantity::EnergyLoss)?;
@@ -152,156 +143,126 @@ struct Over<'a> {
     computed: Vec<(f64, f64)>,
 }
 
-impl Over<'_> {
-    fn series(&self, factor: f64, logarithmic: bool) -> Vec<Series> {
-        let hz = |omega: f64| FrequencyUnit::Hz.of(omega);
-        let shown = |value: f64| !logarithmic || value > 0.0;
-        let place = |(omega, mean): &(f64, Estimate)| {
-            shown(mean.value).then_some((hz(*omega), factor * mean.value))
-        };
-        let errors = self
-            .measured
+/// What is read from which.
+type Read<'a, T, V> = (&'a [T], fn(&T) -> Option<V>);
+
+impl<'a> Over<'a> {
+    /// What is read from rows and from computed cases.
+    fn new(
+        (label, marker, color): (&'a str, Marker, usize),
+        (rows, mean): Read<'_, MeasuredRow, Estimate>,
+        (computed, value): Read<'_, Computed, f64>,
+    ) -> Self {
+        let measured = rows
             .iter()
-            .map(|(_, mean)| Some(factor * mean.error?));
-        let points = Series::scatter(self.measured.iter().map(place).collect::<Vec<_>>());
-        let points = points
+            .filter_map(|row| Some((row.angular_rad_per_s()?, mean(row)?)));
+        let computed = computed
+            .iter()
+            .filter_map(|case| Some((case.angular_rad_per_s, value(case)?)));
+        Self {
+            label,
+            marker,
+            color,
+            measured: measured.collect(),
+            computed: computed.collect(),
+        }
+    }
+
+    fn series(&self, factor: f64, logarithmic: bool) -> Vec<Series> {
+        let place = |omega: f64, value: f64| {
+            let shown = !logarithmic || value > 0.0;
+            shown.then_some((FrequencyUnit::Hz.of(omega), factor * value))
+        };
+        let points = self.measured.iter();
+        let errors = points.clone().map(|(_, mean)| Some(factor * mean.error?));
+        let points = Series::scatter(points.map(|(omega, mean)| place(*omega, mean.value)))
             .marker(self.marker)
             .color(self.color)
-            .label(self.label);
-        let mut all = vec![points.error_bars(errors.collect::<Vec<_>>())];
-        if !self.computed.is_empty() {
-            let line = self.computed.iter();
-            let line =
-                line.map(|(omega, value)| shown(*value).then_some((hz(*omega), factor * value)));
-            let line = Series::line(line.collect::<Vec<_>>()).color(self.color);
+            .label(self.label)
+            .error_bars(errors.collect::<Vec<_>>());
+        let line = (!self.computed.is_empty()).then(|| {
             let label = match self.label {
                 MEASURED => COMPUTED.to_owned(),
                 label => format!("{label}, {COMPUTED}"),
             };
-            all.push(line.label(label).style(LineStyle::Dashed));
-        }
-        all
+            Series::line(
+                self.computed
+                    .iter()
+                    .map(|(omega, value)| place(*omega, *value)),
+            )
+            .color(self.color)
+            .label(label)
+            .style(LineStyle::Dashed)
+        });
+        [points].into_iter().chain(line).collect()
     }
 }
 
-fn means(
-    rows: &[&MeasuredRow],
-    mean: impl Fn(&MeasuredRow) -> Option<Estimate>,
-) -> Vec<(f64, Estimate)> {
-    let known = rows
-        .iter()
-        .filter_map(|row| Some((row.angular_rad_per_s()?, mean(row)?)));
-    known.collect()
+/// Numbers over frequencies (Hz).
+fn over_frequency(all: &[Over<'_>], factor: f64, title: String) -> Chart {
+    let measured = || all.iter().flat_map(|over| &over.measured);
+    let frequencies = range(measured().map(|(omega, _)| FrequencyUnit::Hz.of(*omega)));
+    let (least, most) = range(measured().map(|(_, mean)| factor * mean.value));
+    let logarithmic = least > 0.0 && most > 2.0 * WIDE * least;
+    Chart::new(
+        axis(frequencies, WIDE, units().frequency_title()),
+        axis((least, most), 2.0 * WIDE, title),
+    )
+    .all_series(all.iter().flat_map(|over| over.series(factor, logarithmic)))
 }
 
-fn of_computed(computed: &[Computed], value: impl Fn(&Computed) -> Option<f64>) -> Vec<(f64, f64)> {
-    let known = computed
-        .iter()
-        .filter_map(|case| Some((case.angular_rad_per_s, value(case)?)));
-    known.collect()
-}
-
-/// Axis of frequencies (Hz) and axis of values.
-fn axes(all: &[Over<'_>], factor: f64, title: String) -> (Axis, Axis, bool) {
-    let omegas = || {
-        all.iter()
-            .flat_map(|over| over.measured.iter().map(|(omega, _)| *omega))
-    };
-    let values = || {
-        all.iter()
-            .flat_map(|over| over.measured.iter().map(|(_, mean)| factor * mean.value))
-    };
-    let (low, high) = range(omegas().map(|omega| FrequencyUnit::Hz.of(omega)));
-    let (least, most) = range(values());
-    let x = axis((low, high), WIDE, units().frequency_title());
-    let y = axis((least, most), 2.0 * WIDE, title);
-    (x, y, least > 0.0 && most > 2.0 * WIDE * least)
-}
-
-fn energy_loss(rows: &[&MeasuredRow], computed: &[Computed]) -> Option<Figure> {
-    let measured = means(rows, |row| row.mean(Quantity::EnergyLoss));
-    if measured.len() < 2 {
+fn energy_loss(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
+    let over = Over::new(
+        (MEASURED, Marker::Disc, 0),
+        (rows, |row| row.mean(Quantity::EnergyLoss)),
+        (computed, |case| case.energy_loss_j),
+    );
+    if over.measured.len() < 2 {
         return None;
     }
-    let (factor, unit) = units().energy(largest(measured.iter().map(|(_, m)| m.value.abs())));
-    let over = [Over {
-        label: MEASURED,
-        marker: Marker::Disc,
-        color: 0,
-        measured,
-        computed: of_computed(computed, |case| case.energy_loss_j),
-    }];
-    let (x, y, logarithmic) = axes(&over, factor, format!("energy loss per cycle / {unit}"));
-    let chart = Chart::new(x, y).all_series(over[0].series(factor, logarithmic));
+    let (factor, unit) = units().energy(largest(over.measured.iter().map(|(_, m)| m.value.abs())));
     Some(Figure {
         name: "energy-loss",
-        picture: chart.into(),
+        picture: over_frequency(&[over], factor, format!("energy loss per cycle / {unit}")).into(),
         caption: Caption::new("Energy loss per cycle over frequency")
             .say("Bars are intervals of 95 %, from the scatter of the cycles and the noise of the samples."),
         data: Vec::new(),
     })
 }
 
-fn moduli(rows: &[&MeasuredRow], computed: &[Computed]) -> Option<Figure> {
-    let unbiased = |row: &MeasuredRow, is_loss: bool| {
-        let unbiased = row.measured.as_ref()?.unbiased?;
-        Some(if is_loss {
-            unbiased.loss_modulus_pa
-        } else {
-            unbiased.storage_modulus_pa
-        })
-    };
-    let over = |label, marker, color, measured, computed| Over {
-        label,
-        marker,
-        color,
-        measured,
-        computed,
-    };
+fn moduli(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
     let mut all = vec![
-        over(
-            "E′ of the formula",
-            Marker::Ring,
-            0,
-            means(rows, |row| row.mean(Quantity::StorageModulus)),
-            of_computed(computed, |case| case.storage_modulus_pa),
+        Over::new(
+            ("E′ of the formula", Marker::Ring, 0),
+            (rows, |row| row.mean(Quantity::StorageModulus)),
+            (computed, |case| case.storage_modulus_pa),
         ),
-        over(
-            "E″ of the formula",
-            Marker::Diamond,
-            1,
-            means(rows, |row| row.mean(Quantity::LossModulus)),
-            of_computed(computed, |case| case.loss_modulus_pa),
+        Over::new(
+            ("E″ of the formula", Marker::Diamond, 1),
+            (rows, |row| row.mean(Quantity::LossModulus)),
+            (computed, |case| case.loss_modulus_pa),
         ),
-        over(
-            "E′ without bias",
-            Marker::Disc,
-            0,
-            means(rows, |row| unbiased(row, false)),
-            Vec::new(),
+        Over::new(
+            ("E′ without bias", Marker::Disc, 0),
+            (rows, |row| Some(row.unbiased()?.storage_modulus_pa)),
+            (&[], |_| None),
         ),
-        over(
-            "E″ without bias",
-            Marker::Square,
-            1,
-            means(rows, |row| unbiased(row, true)),
-            Vec::new(),
+        Over::new(
+            ("E″ without bias", Marker::Square, 1),
+            (rows, |row| Some(row.unbiased()?.loss_modulus_pa)),
+            (&[], |_| None),
         ),
     ];
     all.retain(|over| !over.measured.is_empty());
-    let highest = largest(
-        all.iter()
-            .flat_map(|o| o.measured.iter().map(|(_, m)| m.value)),
-    );
+    let measured = all.iter().flat_map(|over| &over.measured);
+    let highest = largest(measured.map(|(_, mean)| mean.value));
     if rows.len() < 2 || highest <= 0.0 {
         return None;
     }
     let (factor, unit) = units().modulus(highest);
-    let (x, y, logarithmic) = axes(&all, factor, format!("modulus / {unit}"));
-    let series = all.iter().flat_map(|over| over.series(factor, logarithmic));
     Some(Figure {
         name: "moduli",
-        picture: Chart::new(x, y).all_series(series).into(),
+        picture: over_frequency(&all, factor, format!("modulus / {unit}")).into(),
         caption: Caption::new("Storage modulus E′ and loss modulus E″ read from the loops")
             .say("Open symbols: the formula of small amplitudes; filled ones: the same without its bias, which the exact model gives.")
             .say("Bars are intervals of 95 %."),
@@ -309,54 +270,46 @@ fn moduli(rows: &[&MeasuredRow], computed: &[Computed]) -> Option<Figure> {
     })
 }
 
-fn cycles(rows: &[&MeasuredRow]) -> Option<Figure> {
-    let relative = |row: &MeasuredRow| -> Option<Vec<(usize, f64)>> {
-        let measured = row.measured.as_ref()?;
-        let place = Quantity::EnergyLoss.place();
-        let values = measured.cycles.iter().zip(&measured.values);
-        let values: Option<Vec<(usize, f64)>> = values
-            .map(|(cycle, values)| Some((cycle.number, values[place]?)))
-            .collect();
-        let values = values.filter(|values| values.len() > 3)?;
-        let last = values.last()?.1;
-        let center = row
-            .mean(Quantity::EnergyLoss)
-            .map_or(last, |mean| mean.value);
-        Some(
-            values
-                .into_iter()
-                .map(|(number, j)| (number, 100.0 * (j / center - 1.0)))
-                .collect(),
-        )
-    };
-    let with_cycles: Vec<&MeasuredRow> = rows
+/// The number of every cycle, and its loss over the mean, less 1 (%), where there are enough of them.
+fn relative_losses(row: &MeasuredRow) -> Option<Vec<(usize, f64)>> {
+    let measured = row.measured.as_ref()?;
+    let cycles = measured.cycles.iter().zip(&measured.values);
+    let mut losses: Vec<(usize, f64)> = cycles
+        .map(|(cycle, values)| Some((cycle.number, values[Quantity::EnergyLoss.place()]?)))
+        .collect::<Option<_>>()?;
+    let last = losses.get(3..)?.last()?.1;
+    let mean = row.mean(Quantity::EnergyLoss);
+    let center = mean.map_or(last, |mean| mean.value);
+    for (_, loss) in &mut losses {
+        *loss = 100.0 * (*loss / center - 1.0);
+    }
+    Some(losses)
+}
+
+fn cycles(rows: &[MeasuredRow]) -> Option<Figure> {
+    let losses = rows
         .iter()
-        .copied()
-        .filter(|row| relative(row).is_some())
-        .collect();
-    let chosen = some(&with_cycles);
+        .filter_map(|row| Some((row, relative_losses(row)?)));
+    let chosen = some(&losses.collect::<Vec<_>>());
     chosen.first()?;
-    let series = chosen.iter().enumerate().map(|(step, row)| {
-        let points = relative(row).unwrap_or_default().into_iter();
-        Series::line(points.map(|(number, percent)| (number as f64, percent)))
+    let series = chosen.iter().enumerate().map(|(step, (row, losses))| {
+        let points = losses.iter();
+        Series::line(points.map(|(number, percent)| (*number as f64, *percent)))
             .marker(Marker::nth(step))
             .label(label(row))
-            .color(Color::Ramp {
-                step,
-                of: chosen.len(),
-            })
+            .color(ramp(step, &chosen))
     });
     let chart = Chart::new(
         Axis::linear("number of the cycle"),
         Axis::linear("loss of the cycle over the mean, less 1 / %"),
     )
     .all_series(series);
-    let data = chosen.iter().flat_map(|row| {
+    let data = chosen.iter().flat_map(|(row, losses)| {
         let omega = row.angular_rad_per_s();
-        let values = relative(row).unwrap_or_default().into_iter();
-        values.map(move |(number, percent)| cells![omega, number, percent])
+        let losses = losses.iter();
+        losses.map(move |(number, percent)| cells![omega, *number, *percent])
     });
-    let first = |row: &&MeasuredRow| {
+    let first = |(row, _): &(&MeasuredRow, _)| {
         let first = row.measured.as_ref()?.first_stabilised?;
         Some(format!("{first} at {}", label(row)))
     };
@@ -375,7 +328,7 @@ fn cycles(rows: &[&MeasuredRow]) -> Option<Figure> {
             "Energy loss of every cycle, relative to the mean of those that count",
         )
         .say(holds),
-        data: csv::<_, [Cell; 3]>(
+        data: csv(
             &["angular_frequency_rad_per_s", "cycle", "relative_percent"],
             data,
         ),

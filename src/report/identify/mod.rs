@@ -4,8 +4,10 @@ pub mod summary;
 pub mod tables;
 
 use crate::identify::data::Number;
+use crate::identify::resolved::resolved_text;
 use crate::identify::{Curve, Identified, IdentifyPlan, Knowledge, Unknown};
 use crate::quantity::{Dimension, format_human};
+use crate::report::dynamic::tables::prony;
 use crate::report::number::scientific;
 use crate::report::words::{listed, wrapped};
 
@@ -21,13 +23,23 @@ pub struct IdentifyReport<'a> {
 const MISSED: f64 = 1.5;
 
 impl IdentifyReport<'_> {
+    /// Every file of the folder but figures and page: name and bytes; `block` is the `[material]` block.
+    pub fn files(&self, block: &str) -> Vec<(&'static str, Vec<u8>)> {
+        let summary = format!("{:#}\n", summary::summary(self));
+        vec![
+            ("material.toml", block.into()),
+            ("resolved.toml", resolved_text(self.plan).into()),
+            ("prony.csv", prony(&self.found.relaxation)),
+            ("fit.csv", tables::fit(self)),
+            ("moduli.csv", tables::moduli(self)),
+            ("summary.json", summary.into()),
+        ]
+    }
+
     /// What was found, in lines of at most 80 columns; ends with a line end.
     pub fn text(&self) -> String {
-        let lines = self.lines();
-        lines
-            .iter()
-            .map(|line| wrapped(line, 80, "", "  "))
-            .collect()
+        let lines = self.lines().into_iter();
+        lines.map(|line| wrapped(&line, 80, "", "  ")).collect()
     }
 
     /// The same, one fact a line.
@@ -40,21 +52,15 @@ impl IdentifyReport<'_> {
         lines.push(self.series());
         lines.push(self.window());
         lines.extend(self.open());
-        lines.extend(
-            self.warnings()
-                .iter()
-                .map(|warning| format!("Warning: {warning}.")),
-        );
+        let warnings = self.warnings().into_iter();
+        lines.extend(warnings.map(|warning| format!("Warning: {warning}.")));
         lines
     }
 
     fn data(&self) -> String {
         let measured = &self.plan.measurements;
-        let columns: Vec<String> = measured
-            .numbers()
-            .into_iter()
-            .map(|number| number.column().to_owned())
-            .collect();
+        let columns = measured.numbers().into_iter();
+        let columns: Vec<String> = columns.map(|n| n.column().to_owned()).collect();
         let of = match measured.is_history() {
             true => "instants of a history",
             false => "cycles",
@@ -112,30 +118,19 @@ impl IdentifyReport<'_> {
 
     fn window(&self) -> String {
         let (lowest, highest) = self.found.window_rad_per_s;
-        if self.plan.measurements.is_history() {
-            let time = |value: f64| format_human(1.0 / value, Dimension::Time, 4);
-            return format!(
-                "Measured from t = {} to {}; outside, the series is an extrapolation.",
-                time(highest),
-                time(lowest)
-            );
-        }
-        let omega = |value| format_human(value, Dimension::AngularFrequency, 4);
-        format!(
-            "Measured from ω = {} to {}; outside, the series is an extrapolation.",
-            omega(lowest),
-            omega(highest)
-        )
+        let (symbol, from, to, dimension) = match self.plan.measurements.is_history() {
+            true => ("t", 1.0 / highest, 1.0 / lowest, Dimension::Time),
+            false => ("ω", lowest, highest, Dimension::AngularFrequency),
+        };
+        let [from, to] = [from, to].map(|value| format_human(value, dimension, 4));
+        format!("Measured from {symbol} = {from} to {to}; outside, the series is an extrapolation.")
     }
 
     /// What the data do not determine.
     pub fn open(&self) -> Vec<String> {
         let open = self.found.undetermined.iter().map(|open| {
-            let parts: Vec<String> = open
-                .parts
-                .iter()
-                .map(|(name, power)| power_of(name, *power))
-                .collect();
+            let parts = open.parts.iter();
+            let parts: Vec<String> = parts.map(|(name, p)| power_of(name, *p)).collect();
             format!(
                 "Not determined: {} may be off by a factor of {}.",
                 parts.join(" · "),
@@ -187,17 +182,17 @@ impl IdentifyReport<'_> {
         );
         for unknown in &self.found.unknowns {
             let value = |value: f64| format_human(value, dimension(unknown), 4);
-            let known = match unknown.is_determined {
-                true => format!("± {}", percent(unknown.factor - 1.0)),
-                false => "undetermined".to_owned(),
-            };
-            let interval = match unknown.is_determined {
-                true => format!(
-                    "{} to {}",
-                    value(unknown.value / unknown.factor),
-                    value(unknown.value * unknown.factor)
-                ),
-                false => format!("a factor of {}", factor(unknown.factor)),
+            let (known, interval) = match unknown.is_determined {
+                true => {
+                    let low = value(unknown.value / unknown.factor);
+                    let high = value(unknown.value * unknown.factor);
+                    let known = format!("± {}", percent(unknown.factor - 1.0));
+                    (known, format!("{low} to {high}"))
+                }
+                false => {
+                    let interval = format!("a factor of {}", factor(unknown.factor));
+                    ("undetermined".to_owned(), interval)
+                }
             };
             text.push_str(&format!(
                 "{:<7}{:>14}  {known:>14}  {interval}\n",

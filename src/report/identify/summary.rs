@@ -1,8 +1,8 @@
 //! `summary.json` of an identification.
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::{IdentifyReport, dimension};
+use super::{IdentifyReport, dimension, tables};
 use crate::identify::Knowledge;
 
 /// The summary as an object; what is undefined is null.
@@ -23,8 +23,8 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
         json!({
             "branches": c.branches,
             "chi_squared": c.chi_squared,
-            "akaike": finite(c.akaike),
-            "schwarz": finite(c.schwarz),
+            "akaike": c.akaike,
+            "schwarz": c.schwarz,
             "weight": c.weight,
             "two_times_are_one": c.has_close_times,
         })
@@ -38,24 +38,6 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
             .iter()
             .map(|(name, power)| json!({ "name": name, "power": power }));
         json!({ "factor": open.factor, "powers": powers.collect::<Vec<_>>() })
-    });
-    let data = measured.data().iter();
-    let mut omegas: Vec<f64> = data
-        .map(|datum| measured.angular_frequency(datum))
-        .collect();
-    omegas.sort_by(f64::total_cmp);
-    omegas.dedup();
-    let moduli = omegas.into_iter().map(|omega| {
-        let band = found.band(omega);
-        json!({
-            "angular_frequency_rad_per_s": omega,
-            "storage_modulus_pa": band.storage_pa,
-            "storage_modulus_low_pa": band.storage_pa / band.storage_factor,
-            "storage_modulus_high_pa": band.storage_pa * band.storage_factor,
-            "loss_modulus_pa": band.loss_pa,
-            "loss_modulus_low_pa": band.loss_pa / band.loss_factor,
-            "loss_modulus_high_pa": band.loss_pa * band.loss_factor,
-        })
     });
     json!({
         "title": report.plan.title,
@@ -80,7 +62,7 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
         "reduced_chi_squared": found.reduced_chi_squared,
         "degrees_of_freedom": found.degrees_of_freedom,
         "window_rad_per_s": found.window_rad_per_s,
-        "moduli": moduli.collect::<Vec<_>>(),
+        "moduli": moduli(report),
         "notes": measured.notes(),
         "warnings": report.warnings(),
         "program": env!("CARGO_PKG_NAME"),
@@ -88,6 +70,19 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
     })
 }
 
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
+/// The moduli with their bands at every frequency of the data.
+fn moduli(report: &IdentifyReport<'_>) -> Vec<Map<String, Value>> {
+    let measured = &report.plan.measurements;
+    let data = measured.data().iter();
+    let mut omegas: Vec<f64> = data
+        .map(|datum| measured.angular_frequency(datum))
+        .collect();
+    omegas.sort_by(f64::total_cmp);
+    omegas.dedup();
+    let moduli = omegas.into_iter().map(|omega| {
+        let values = tables::moduli_at(report, omega).map(Value::from);
+        let names = tables::MODULI.map(str::to_owned);
+        names.into_iter().zip(values).collect()
+    });
+    moduli.collect()
 }

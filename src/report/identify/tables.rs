@@ -1,7 +1,7 @@
 //! The tables of an identification: measured and computed numbers, and the moduli with their bands.
 
 use super::IdentifyReport;
-use crate::report::table::{cells, csv};
+use crate::report::table::{Cell, cells, csv};
 
 /// Points of the moduli over a decade, and how far beyond the data they go.
 const PER_DECADE: f64 = 20.0;
@@ -20,8 +20,12 @@ pub fn fit(report: &IdentifyReport<'_>) -> Vec<u8> {
             c.computed * c.factor,
         ]
     });
+    let place = match report.plan.measurements.is_history() {
+        true => "time_s",
+        false => "angular_frequency_rad_per_s",
+    };
     let columns = [
-        place_column(report),
+        place,
         "column",
         "measured",
         "error",
@@ -32,38 +36,41 @@ pub fn fit(report: &IdentifyReport<'_>) -> Vec<u8> {
     csv(&columns, rows)
 }
 
-/// The column of the place of a number: a frequency, or a time.
-fn place_column(report: &IdentifyReport<'_>) -> &'static str {
-    match report.plan.measurements.is_history() {
-        true => "time_s",
-        false => "angular_frequency_rad_per_s",
-    }
+/// A frequency, the moduli there, and the ends of their 95 % bands.
+pub(super) const MODULI: [&str; 7] = [
+    "angular_frequency_rad_per_s",
+    "storage_modulus_pa",
+    "storage_modulus_low_pa",
+    "storage_modulus_high_pa",
+    "loss_modulus_pa",
+    "loss_modulus_low_pa",
+    "loss_modulus_high_pa",
+];
+
+/// The values of [`MODULI`] at an angular frequency (rad/s).
+pub(super) fn moduli_at(report: &IdentifyReport<'_>, omega: f64) -> [f64; 7] {
+    let band = report.found.band(omega);
+    let of = |value: f64, factor: f64| [value, value / factor, value * factor];
+    let [storage, storage_low, storage_high] = of(band.storage_pa, band.storage_factor);
+    let [loss, loss_low, loss_high] = of(band.loss_pa, band.loss_factor);
+    [
+        omega,
+        storage,
+        storage_low,
+        storage_high,
+        loss,
+        loss_low,
+        loss_high,
+    ]
 }
 
 /// `moduli.csv`: E' and E'' with their 95 % bands, over the data and a little beyond.
 pub fn moduli(report: &IdentifyReport<'_>) -> Vec<u8> {
-    let rows = frequencies(report).into_iter().map(|omega| {
-        let band = report.found.band(omega);
-        cells![
-            omega,
-            band.storage_pa,
-            band.storage_pa / band.storage_factor,
-            band.storage_pa * band.storage_factor,
-            band.loss_pa,
-            band.loss_pa / band.loss_factor,
-            band.loss_pa * band.loss_factor,
-        ]
-    });
-    let columns = [
-        "angular_frequency_rad_per_s",
-        "storage_modulus_pa",
-        "storage_modulus_low_pa",
-        "storage_modulus_high_pa",
-        "loss_modulus_pa",
-        "loss_modulus_low_pa",
-        "loss_modulus_high_pa",
-    ];
-    csv(&columns, rows)
+    let rows = frequencies(report).into_iter();
+    csv(
+        &MODULI,
+        rows.map(|omega| moduli_at(report, omega).map(Cell::from)),
+    )
 }
 
 /// Angular frequencies (rad/s) for smooth curves of the moduli.

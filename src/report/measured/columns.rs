@@ -2,9 +2,8 @@
 //! An error is half the width of the interval of 95 %.
 
 use super::MeasuredRow;
-use crate::measured::Quantity;
-use crate::measured::bias::Unbiased;
 use crate::measured::drift::DriftModel;
+use crate::measured::{Finding, Quantity};
 use crate::quantity::Dimension;
 use crate::report::quantities::{self, Column, Named, SWEEP};
 use crate::report::table::Cell;
@@ -74,13 +73,13 @@ pub static OWN: &[Of] = &[
     mean!("approach_mean_m", ApproachMean, "mean approach, drift taken off").called("mean approach", Some(Length)),
     mean!("approach_amplitude_m", ApproachAmplitude, "amplitude of its first harmonic").called("amplitude of the approach", Some(Length)),
     mean!("contact_radius_m", ContactRadius, "contact radius a₀ of the moduli").called("contact radius", Some(Length)),
-    Of::new("corrected_storage_modulus_pa", |r| unbiased(r, |u| u.storage_modulus_pa.value).into(),
+    Of::new("corrected_storage_modulus_pa", |r| r.unbiased().map(|u| u.storage_modulus_pa.value).into(),
         "storage modulus without the bias of the formula, which the exact model gives; empty without an indenter in the setup")
-        .called("storage modulus without bias", Some(Stress)).with_error(|r| unbiased(r, |u| u.storage_modulus_pa.error)?),
-    Of::new("corrected_loss_modulus_pa", |r| unbiased(r, |u| u.loss_modulus_pa.value).into(), "the loss modulus likewise")
-        .called("loss modulus without bias", Some(Stress)).with_error(|r| unbiased(r, |u| u.loss_modulus_pa.error)?),
-    Of::new("storage_modulus_bias", |r| unbiased(r, |u| u.storage_bias - 1.0).into(), "by which part the formula is too high, too low where negative"),
-    Of::new("loss_modulus_bias", |r| unbiased(r, |u| u.loss_bias - 1.0).into(), "the same of the loss modulus"),
+        .called("storage modulus without bias", Some(Stress)).with_error(|r| r.unbiased()?.storage_modulus_pa.error),
+    Of::new("corrected_loss_modulus_pa", |r| r.unbiased().map(|u| u.loss_modulus_pa.value).into(), "the loss modulus likewise")
+        .called("loss modulus without bias", Some(Stress)).with_error(|r| r.unbiased()?.loss_modulus_pa.error),
+    Of::new("storage_modulus_bias", |r| r.unbiased().map(|u| u.storage_bias - 1.0).into(), "by which part the formula is too high, too low where negative"),
+    Of::new("loss_modulus_bias", |r| r.unbiased().map(|u| u.loss_bias - 1.0).into(), "the same of the loss modulus"),
     mean!("harmonic_2_phase_rad", HarmonicPhase2,
         "phase of the second harmonic of the approach from the instant at which the first harmonic of the load rises through its mean")
         .called("phase of the second harmonic", Some(Angle)),
@@ -96,10 +95,6 @@ pub static OWN: &[Of] = &[
         .called("drift over the record", Some(Length)),
 ];
 
-fn unbiased<T>(row: &MeasuredRow, value: impl Fn(&Unbiased) -> T) -> Option<T> {
-    Some(value(row.measured.as_ref()?.unbiased.as_ref()?))
-}
-
 fn standard(row: &MeasuredRow, quantity: Quantity) -> Cell {
     row.mean(quantity)
         .and_then(|mean| mean.standard_error)
@@ -107,8 +102,7 @@ fn standard(row: &MeasuredRow, quantity: Quantity) -> Cell {
 }
 
 fn codes(row: &MeasuredRow) -> String {
-    let findings = row.measured.iter().flat_map(|m| &m.findings);
-    let mut codes: Vec<&str> = findings.map(|finding| finding.code()).collect();
+    let mut codes: Vec<&str> = row.findings().map(Finding::code).collect();
     codes.dedup();
     codes.join(" ")
 }
@@ -135,15 +129,15 @@ pub fn sweep(rows: &[MeasuredRow]) -> Vec<u8> {
 pub fn of_records() -> Vec<Named<MeasuredRow>> {
     let of_sweep = SWEEP.iter().filter(|column| !column.name.contains("{}"));
     let mut named: Vec<Named<MeasuredRow>> = Vec::new();
+    let absent = |name: String| Named {
+        name,
+        cell: Box::new(|_: &MeasuredRow| Cell::Absent),
+    };
     for column in of_sweep {
         let own = MEASURED.iter().find(|own| own.name == column.name);
-        named.extend(own.into_iter().flat_map(|own| own.named(0)));
-        let absent = |name: String| Named {
-            name,
-            cell: Box::new(|_: &MeasuredRow| Cell::Absent),
-        };
-        if own.is_none() {
-            named.push(absent(column.name.to_owned()));
+        match own {
+            Some(own) => named.extend(own.named(0)),
+            None => named.push(absent(column.name.to_owned())),
         }
         let error = own.and_then(Column::named_error);
         named.extend(error.or_else(|| column.error_name().map(absent)));

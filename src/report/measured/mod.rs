@@ -7,7 +7,8 @@ pub mod text;
 use serde::{Deserialize, Serialize};
 
 use crate::cycle::Loop;
-use crate::measured::{Estimate, MeasuredLoop, Quantity};
+use crate::measured::bias::Unbiased;
+use crate::measured::{self, Estimate, Finding, MeasuredLoop, Options, Quantity, Signal};
 use crate::report::table::{self, Cell, csv};
 use crate::sweep::record::Status;
 
@@ -50,6 +51,30 @@ pub struct MeasuredRow {
 const SAMPLES: usize = 200;
 
 impl MeasuredRow {
+    /// What the record of this file comes to, still without its place.
+    pub fn of(file: String, signal: &Signal, options: &Options) -> Self {
+        let (measured, reason) = match measured::analyse(signal, options) {
+            Ok(measured) => (Some(measured), None),
+            Err(error) => (None, Some(error.to_string())),
+        };
+        Self {
+            index: 0,
+            file,
+            measured,
+            reason,
+        }
+    }
+
+    /// The moduli without the bias of the formula.
+    pub fn unbiased(&self) -> Option<Unbiased> {
+        self.measured.as_ref()?.unbiased
+    }
+
+    /// What is to be known of the record.
+    pub fn findings(&self) -> impl Iterator<Item = &Finding> {
+        self.measured.iter().flat_map(|measured| &measured.findings)
+    }
+
     /// How it ended, in the words of a sweep.
     pub fn status(&self) -> Status {
         match &self.measured {
@@ -98,10 +123,16 @@ pub fn ordered(mut rows: Vec<MeasuredRow>) -> Vec<MeasuredRow> {
     rows
 }
 
-/// Every table of the folder: name and bytes.
-pub fn tables(rows: &[MeasuredRow]) -> Vec<(String, Vec<u8>)> {
-    let mut files = vec![("sweep.csv".to_owned(), columns::sweep(rows))];
-    for row in rows {
+/// The file that holds everything, of which tables and figures can be made again.
+pub const ANALYSIS: &str = "analysis.json";
+
+/// Every file of the folder but figures and page: name and bytes.
+///
+/// # Errors
+/// Where the analysis is no JSON.
+pub fn files(analysis: &Analysis) -> serde_json::Result<Vec<(String, Vec<u8>)>> {
+    let mut files = vec![("sweep.csv".to_owned(), columns::sweep(&analysis.rows))];
+    for row in &analysis.rows {
         if let Some(samples) = row.samples() {
             files.push((format!("loops/{}.csv", row.index), table::samples(&samples)));
         }
@@ -109,7 +140,10 @@ pub fn tables(rows: &[MeasuredRow]) -> Vec<(String, Vec<u8>)> {
             files.push((format!("cycles/{}.csv", row.index), cycles(measured)));
         }
     }
-    files
+    let summary = format!("{:#}\n", summary::summary(analysis));
+    files.push(("summary.json".to_owned(), summary.into_bytes()));
+    files.push((ANALYSIS.to_owned(), serde_json::to_vec(analysis)?));
+    Ok(files)
 }
 
 /// `cycles/<index>.csv`: every cycle by itself.

@@ -16,31 +16,26 @@ const NAMED: usize = 3;
 
 /// One line a record: frequency, loss and phase with half their intervals of 95 %, cycles that count, file.
 pub fn table(rows: &[MeasuredRow]) -> String {
+    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
     let mut text =
         "    f / Hz   loss / cycle           phase / deg        cycles   file\n".to_owned();
     for row in rows {
         let measured = row.measured.as_ref();
-        let hz = measured.map(|m| four_digits(m.frequency.hz));
         let loss = row.mean(Quantity::EnergyLoss);
-        let loss = loss.map(|mean| with_error(mean.value, mean.error, Dimension::Energy));
-        let phase = degrees(row);
-        let cycles = measured.map(|m| format!("{} of {}", m.used.len(), m.cycles.len()));
-        let dash = || "-".to_owned();
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
             "{:>10}   {:<20}   {:<16}   {:>8}   {}",
-            hz.unwrap_or_else(dash),
-            loss.unwrap_or_else(dash),
-            phase.unwrap_or_else(dash),
-            cycles.unwrap_or_else(dash),
+            or_dash(measured.map(|m| four_digits(m.frequency.hz))),
+            or_dash(loss.map(|mean| with_error(mean, Dimension::Energy))),
+            or_dash(degrees(row)),
+            or_dash(measured.map(|m| format!("{} of {}", m.used.len(), m.cycles.len()))),
             short(&row.file),
         );
     }
-    text.push_str(
-        "After ± stands half the interval of 95 %, from scatter of cycles and noise of samples.\n",
-    );
-    wrapped_last(text)
+    let meaning =
+        "After ± stands half the interval of 95 %, from scatter of cycles and noise of samples.";
+    text + &wrapped(meaning, 80, "", "")
 }
 
 /// Phase lag and half its interval in degrees.
@@ -59,83 +54,61 @@ pub fn phase(row: &MeasuredRow) -> String {
 
 /// Moduli, where there are some: by the formula, and without its bias. Both, so that the bias is seen.
 pub fn moduli(rows: &[MeasuredRow]) -> String {
-    let pascal = |mean: Option<Estimate>| match mean {
-        Some(mean) => with_error(mean.value, mean.error, Dimension::Stress),
-        None => "-".to_owned(),
+    let pascal = |mean: Option<Estimate>| {
+        mean.map_or("-".to_owned(), |mean| with_error(mean, Dimension::Stress))
     };
-    let rows: Vec<&MeasuredRow> = rows
-        .iter()
-        .filter(|row| row.mean(Quantity::LossModulus).is_some())
-        .collect();
-    if rows.is_empty() {
-        return String::new();
-    }
-    let mut text =
-        "\n    f / Hz   modulus   formula               bias      without bias\n".to_owned();
+    let mut text = String::new();
     for row in rows {
-        let measured = row.measured.as_ref();
-        let hz = measured.map_or(String::new(), |m| four_digits(m.frequency.hz));
-        let unbiased = measured.and_then(|m| m.unbiased);
-        let line = |name, formula, bias: Option<f64>, corrected| {
-            let bias = bias.map_or("-".to_owned(), |bias| {
-                format!("{:+.2} %", 100.0 * (bias - 1.0))
-            });
-            format!(
-                "{name:<7}   {:<19}   {bias:>7}   {}\n",
-                pascal(formula),
-                pascal(corrected)
-            )
+        let (Some(measured), Some(_)) = (&row.measured, row.mean(Quantity::LossModulus)) else {
+            continue;
         };
-        let storage = line(
-            "E'",
-            row.mean(Quantity::StorageModulus),
-            unbiased.map(|u| u.storage_bias),
-            unbiased.map(|u| u.storage_modulus_pa),
-        );
-        let loss = line(
-            "E''",
-            row.mean(Quantity::LossModulus),
-            unbiased.map(|u| u.loss_bias),
-            unbiased.map(|u| u.loss_modulus_pa),
-        );
-        let _ = write!(text, "{hz:>10}   {storage}{:>10}   {loss}", "");
+        if text.is_empty() {
+            text.push_str(
+                "\n    f / Hz   modulus   formula               bias      without bias\n",
+            );
+        }
+        let mut hz = four_digits(measured.frequency.hz);
+        let [storage, loss] = [
+            measured
+                .unbiased
+                .map(|u| (u.storage_bias, u.storage_modulus_pa)),
+            measured.unbiased.map(|u| (u.loss_bias, u.loss_modulus_pa)),
+        ];
+        for (name, formula, unbiased) in [
+            ("E'", Quantity::StorageModulus, storage),
+            ("E''", Quantity::LossModulus, loss),
+        ] {
+            let percent = |(bias, _): (f64, _)| format!("{:+.2} %", 100.0 * (bias - 1.0));
+            let _ = writeln!(
+                text,
+                "{hz:>10}   {name:<7}   {:<19}   {:>7}   {}",
+                pascal(row.mean(formula)),
+                unbiased.map_or("-".to_owned(), percent),
+                pascal(unbiased.map(|(_, modulus)| modulus)),
+            );
+            hz.clear();
+        }
     }
     text
-}
-
-/// The last line of a table wrapped.
-fn wrapped_last(text: String) -> String {
-    let trimmed = text.trim_end();
-    match trimmed.rsplit_once('\n') {
-        Some((table, last)) => format!("{table}\n{}", wrapped(last, 80, "", "")),
-        None => text,
-    }
 }
 
 /// The end of a path, as much as a line has room for.
 fn short(file: &str) -> String {
     const ROOM: usize = 12;
     let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
-    let length = name.chars().count();
-    match length <= ROOM {
-        true => name.to_owned(),
-        false => format!(
-            "…{}",
-            name.chars().skip(length + 1 - ROOM).collect::<String>()
-        ),
+    match name.chars().count() {
+        length if length <= ROOM => name.to_owned(),
+        length => "…"
+            .chars()
+            .chain(name.chars().skip(length + 1 - ROOM))
+            .collect(),
     }
 }
 
-fn with_error(value: f64, error: Option<f64>, dimension: Dimension) -> String {
-    match Measured::new(value, error, dimension) {
-        Some(measured) => {
-            let tens = measured.tens();
-            let Measured {
-                value, error, unit, ..
-            } = measured;
-            format!("{value} ± {error}{tens} {unit}")
-        }
-        None => format_human(value, dimension, 4),
+fn with_error(mean: Estimate, dimension: Dimension) -> String {
+    match Measured::new(mean.value, mean.error, dimension) {
+        Some(m) => format!("{} ± {}{} {}", m.value, m.error, m.tens(), m.unit),
+        None => format_human(mean.value, dimension, 4),
     }
 }
 
@@ -152,26 +125,19 @@ fn angle(degrees: f64, error: Option<f64>) -> String {
 pub fn findings(rows: &[MeasuredRow]) -> String {
     let mut kinds: BTreeMap<&str, Vec<(&str, String)>> = BTreeMap::new();
     for row in rows {
-        for finding in row.measured.iter().flat_map(|m| &m.findings) {
-            let files = kinds.entry(finding.code()).or_default();
-            files.push((&row.file, finding.to_string()));
-        }
-        if let Some(reason) = &row.reason {
-            kinds
-                .entry("failed")
-                .or_default()
-                .push((&row.file, reason.clone()));
+        let failed = row.reason.iter().map(|reason| ("failed", reason.clone()));
+        let found = row
+            .findings()
+            .map(|finding| (finding.code(), finding.to_string()));
+        for (kind, sentence) in found.chain(failed) {
+            kinds.entry(kind).or_default().push((&row.file, sentence));
         }
     }
     let mut text = String::new();
     for files in kinds.values() {
         for (file, sentence) in files.iter().take(NAMED) {
-            text.push_str(&wrapped(
-                &format!("warning: {}: {sentence}", short(file)),
-                80,
-                "",
-                "  ",
-            ));
+            let warning = format!("warning: {}: {sentence}", short(file));
+            text.push_str(&wrapped(&warning, 80, "", "  "));
         }
         if files.len() > NAMED {
             let _ = writeln!(text, "  the like of {} more files", files.len() - NAMED);
@@ -207,11 +173,12 @@ pub fn record(measured: &MeasuredLoop) -> Vec<String> {
         }
     }
     let all = measured.cycles.len();
-    lines.push(match (measured.first_stabilised, measured.used.len()) {
-        (Some(first), used) => {
+    let used = measured.used.len();
+    lines.push(match measured.first_stabilised {
+        Some(first) => {
             format!("Stabilised from cycle {first} on; {used} of {all} cycles count in the means.")
         }
-        (None, _) => format!("Not stabilised within {all} cycles."),
+        None => format!("Not stabilised within {all} cycles."),
     });
     lines
 }

@@ -1,8 +1,7 @@
 //! Storage and loss modulus over the reduced frequency, with the series fitted to them.
 
-use super::{MARKERS, caption, frequencies, frequency_title};
-use crate::material::dynamic::DynamicPoint;
-use crate::report::chart::{Axis, Chart, LineStyle, Series};
+use super::{LOSS, Part, STORAGE, caption, frequencies, frequency_title};
+use crate::report::chart::{Axis, Chart, Series};
 use crate::report::dynamic::{Band, DynamicReport};
 use crate::report::figure::Figure;
 use crate::report::number::{largest, prefix, scientific};
@@ -13,43 +12,24 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     let points = report.points();
     let symbol = report.symbol();
     let (factor, unit) = prefix(largest(points.iter().map(|p| p.storage_modulus_pa)));
-    let measured = |value: fn(&DynamicPoint) -> f64| {
-        let points = points.iter();
-        let places = points.map(|p| (p.angular_frequency_rad_per_s, factor * value(p)));
-        Series::scatter(places.collect::<Vec<_>>()).spaced()
-    };
-    let series = report.relaxation();
-    let curve = |part: fn((f64, f64)) -> f64| {
-        let curve = frequencies(report).into_iter().map(|omega| {
-            let modulus = series.complex_modulus(omega);
-            let value = factor * part((modulus.re, modulus.im));
-            (value > 0.0).then_some((omega, value))
-        });
-        Series::line(curve)
+    let curve = |part: Part| part.curve(report, factor, "fit").color(part.color);
+    let measured = |part: Part| {
+        let places = points
+            .iter()
+            .map(|p| (p.angular_frequency_rad_per_s, factor * (part.of_point)(p)));
+        Series::scatter(places)
+            .spaced()
+            .marker(part.marker)
+            .color(part.color)
+            .label(part.label(report))
     };
     let chart = Chart::new(
         Axis::log(frequency_title(report)),
         Axis::log(format!("modulus / {unit}Pa")),
     )
-    .series(curve(|m| m.0).label(format!("fit {symbol}′")))
-    .series(
-        curve(|m| m.1)
-            .label(format!("fit {symbol}″"))
-            .style(LineStyle::Dashed)
-            .color(1),
-    )
-    .series(
-        measured(|p| p.storage_modulus_pa)
-            .marker(MARKERS[0])
-            .label(format!("storage modulus {symbol}′")),
-    )
-    .series(
-        measured(|p| p.loss_modulus_pa)
-            .marker(MARKERS[1])
-            .color(1)
-            .label(format!("loss modulus {symbol}″")),
-    );
-    let branches = series.branches().len();
+    .all_series([STORAGE, LOSS].map(curve))
+    .all_series([STORAGE, LOSS].map(measured));
+    let branches = report.relaxation().branches().len();
     let percent = |share: f64| scientific(100.0 * share, 2);
     let fit = &report.made.fit;
     Figure {

@@ -1,8 +1,8 @@
 //! The isotherms as they were measured: storage modulus above, loss modulus below.
 
-use super::{caption, coloured, temperatures};
+use super::{LOSS, Part, STORAGE, caption, coloured, temperatures};
 use crate::material::dynamic::DynamicPoint;
-use crate::report::chart::{Axis, Chart, LineStyle, Marker, Series};
+use crate::report::chart::{Axis, Chart, LineStyle, Marker};
 use crate::report::dynamic::DynamicReport;
 use crate::report::dynamic::tables::celsius;
 use crate::report::figure::{Figure, Picture};
@@ -14,33 +14,23 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
     let scale = temperatures(report)?;
     let symbol = report.symbol();
     let points: Vec<DynamicPoint> = report.data.points().copied().collect();
-    let panel = |x_label: &str, y_label: String, value: fn(&DynamicPoint) -> f64| {
-        let (factor, unit) = prefix(largest(points.iter().map(value)));
+    let panel = |x_label: &str, part: Part| {
+        let (factor, unit) = prefix(largest(points.iter().map(part.of_point)));
         let series = coloured(report, &points, Marker::Disc, |p| {
-            Some((p.angular_frequency_rad_per_s, factor * value(p)))
+            Some((p.angular_frequency_rad_per_s, factor * (part.of_point)(p)))
         });
-        let lines = series.into_iter().map(|series| Series {
-            line: Some(LineStyle::Solid),
-            ..series
-        });
-        let axes = (
-            Axis::log(x_label),
-            Axis::log(format!("{y_label} / {unit}Pa")),
-        );
-        Chart::new(axes.0, axes.1)
+        let lines = series
+            .into_iter()
+            .map(|series| series.style(LineStyle::Solid));
+        let y_label = format!("{} / {unit}Pa", part.label(report));
+        Chart::new(Axis::log(x_label), Axis::log(y_label))
             .all_series(lines)
             .color_scale(scale.clone())
             .size(800, 430)
     };
     let panels = vec![
-        panel("", format!("storage modulus {symbol}′"), |p| {
-            p.storage_modulus_pa
-        }),
-        panel(
-            "angular frequency ω / rad·s⁻¹",
-            format!("loss modulus {symbol}″"),
-            |p| p.loss_modulus_pa,
-        ),
+        panel("", STORAGE),
+        panel("angular frequency ω / rad·s⁻¹", LOSS),
     ];
     let rows = points.iter().map(|point| {
         cells![

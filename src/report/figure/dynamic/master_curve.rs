@@ -1,9 +1,9 @@
 //! The isotherms on one curve, each point in the colour of the temperature at which it was measured.
 
 use super::{
-    MARKERS, caption, coloured, frequencies, frequency_title, legend_of_marker, temperatures,
+    LOSS, Part, STORAGE, caption, coloured, frequency_title, legend_of_marker, temperatures,
 };
-use crate::report::chart::{Axis, Chart, Color, LineStyle, Series};
+use crate::report::chart::{Axis, Chart, Color};
 use crate::report::dynamic::DynamicReport;
 use crate::report::figure::Figure;
 use crate::report::number::{largest, prefix};
@@ -14,40 +14,23 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
     let symbol = report.symbol();
     let points = &master.points;
     let (factor, unit) = prefix(largest(points.iter().map(|p| p.storage_modulus_pa)));
-    let storage = coloured(report, points, MARKERS[0], |p| {
-        Some((p.angular_frequency_rad_per_s, factor * p.storage_modulus_pa))
-    });
-    let loss = coloured(report, points, MARKERS[1], |p| {
-        Some((p.angular_frequency_rad_per_s, factor * p.loss_modulus_pa))
-    });
-    let line = |part: fn((f64, f64)) -> f64| {
-        let points = frequencies(report).into_iter().map(|omega| {
-            let modulus = report.relaxation().complex_modulus(omega);
-            let value = factor * part((modulus.re, modulus.im));
-            (value > 0.0).then_some((omega, value))
-        });
-        Series::line(points.collect::<Vec<_>>()).color(Color::Rgb(0x1A, 0x1A, 0x1A))
+    let symbols = |part: Part| {
+        coloured(report, points, part.marker, |p| {
+            Some((p.angular_frequency_rad_per_s, factor * (part.of_point)(p)))
+        })
+    };
+    let legend = |part: Part| legend_of_marker(part.label(report), part.marker);
+    let curve = |part: Part| {
+        part.curve(report, factor, "series")
+            .color(Color::Rgb(0x1A, 0x1A, 0x1A))
     };
     let mut chart = Chart::new(
         Axis::log(frequency_title(report)),
         Axis::log(format!("modulus / {unit}Pa")),
     )
-    .all_series(storage)
-    .all_series(loss)
-    .series(legend_of_marker(
-        format!("storage modulus {symbol}′"),
-        MARKERS[0],
-    ))
-    .series(legend_of_marker(
-        format!("loss modulus {symbol}″"),
-        MARKERS[1],
-    ))
-    .series(line(|m| m.0).label(format!("series {symbol}′")))
-    .series(
-        line(|m| m.1)
-            .label(format!("series {symbol}″"))
-            .style(LineStyle::Dashed),
-    );
+    .all_series([STORAGE, LOSS].map(symbols).concat())
+    .all_series([STORAGE, LOSS].map(legend))
+    .all_series([STORAGE, LOSS].map(curve));
     chart.color_scale = temperatures(report);
     Some(Figure {
         name: "master-curve",

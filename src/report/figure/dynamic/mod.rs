@@ -8,11 +8,13 @@ mod shift_factors;
 mod spectrum;
 mod van_gurp_palmen;
 
+use num_complex::Complex;
+
 use super::Figure;
 use crate::material::dynamic::DynamicPoint;
 use crate::quantity::celsius;
 use crate::report::caption::Caption;
-use crate::report::chart::{Color, ColorScale, Marker, Series};
+use crate::report::chart::{Color, ColorScale, LineStyle, Marker, Series};
 use crate::report::dynamic::DynamicReport;
 use crate::report::dynamic::tables::celsius as celsius_number;
 
@@ -30,8 +32,56 @@ pub fn figures(report: &DynamicReport<'_>) -> Vec<Figure> {
     of_all.into_iter().flatten().collect()
 }
 
-/// Storage modulus as a disc, loss modulus as a square, wherever both stand in one frame.
-const MARKERS: [Marker; 2] = [Marker::Disc, Marker::Square];
+/// Storage or loss modulus, and how it is drawn wherever both stand in one frame.
+struct Part {
+    name: &'static str,
+    primes: char,
+    of_point: fn(&DynamicPoint) -> f64,
+    of_modulus: fn(Complex<f64>) -> f64,
+    marker: Marker,
+    style: LineStyle,
+    color: usize,
+}
+
+const STORAGE: Part = Part {
+    name: "storage modulus",
+    primes: '′',
+    of_point: |point| point.storage_modulus_pa,
+    of_modulus: |modulus| modulus.re,
+    marker: Marker::Disc,
+    style: LineStyle::Solid,
+    color: 0,
+};
+
+const LOSS: Part = Part {
+    name: "loss modulus",
+    primes: '″',
+    of_point: |point| point.loss_modulus_pa,
+    of_modulus: |modulus| modulus.im,
+    marker: Marker::Square,
+    style: LineStyle::Dashed,
+    color: 1,
+};
+
+impl Part {
+    /// `storage modulus E′`.
+    fn label(&self, report: &DynamicReport<'_>) -> String {
+        format!("{} {}{}", self.name, report.symbol(), self.primes)
+    }
+
+    /// The fitted series as a curve, its values multiplied by the factor; called what it is beside the symbol.
+    fn curve(&self, report: &DynamicReport<'_>, factor: f64, called: &str) -> Series {
+        let points = frequencies(report).into_iter().map(|omega| {
+            let value = factor * (self.of_modulus)(report.relaxation().complex_modulus(omega));
+            (value > 0.0).then_some((omega, value))
+        });
+        Series::line(points).style(self.style).label(format!(
+            "{called} {}{}",
+            report.symbol(),
+            self.primes
+        ))
+    }
+}
 
 /// The axis of frequencies: reduced where isotherms were shifted.
 fn frequency_title(report: &DynamicReport<'_>) -> &'static str {
@@ -83,9 +133,7 @@ fn coloured(
             (Some(scale), Some(temperature_k)) => scale.color(celsius_number(temperature_k)),
             _ => Color::Palette(0),
         };
-        Series::scatter(places.collect::<Vec<_>>())
-            .marker(marker)
-            .color(color)
+        Series::scatter(places).marker(marker).color(color)
     });
     of_isotherm.collect()
 }

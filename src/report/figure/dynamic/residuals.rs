@@ -1,6 +1,6 @@
 //! What the fitted series misses of each point, and the band of its replicas.
 
-use super::{MARKERS, caption, frequencies, frequency_title};
+use super::{LOSS, Part, STORAGE, caption, frequencies, frequency_title};
 use crate::report::chart::{Axis, Chart, Color, Series};
 use crate::report::dynamic::{Band, DynamicReport};
 use crate::report::figure::Figure;
@@ -11,9 +11,12 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     let symbol = report.symbol();
     let points = report.points();
     let residuals = || points.iter().zip(&report.made.fit.residuals);
-    let measured = |part: fn(&(f64, f64)) -> f64| {
-        let places = residuals().map(|(p, r)| (p.angular_frequency_rad_per_s, 100.0 * part(r)));
-        Series::scatter(places.collect::<Vec<_>>())
+    let measured = |part: Part, value: fn(&(f64, f64)) -> f64| {
+        let places = residuals().map(|(p, r)| (p.angular_frequency_rad_per_s, 100.0 * value(r)));
+        Series::scatter(places)
+            .marker(part.marker)
+            .color(part.color)
+            .label(part.label(report))
     };
     let (lowest, highest) = report.made.fit.window_rad_per_s;
     let mut chart = Chart::new(
@@ -21,17 +24,8 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
         Axis::linear("difference fit − data / % of the data"),
     )
     .series(Series::line([(lowest, 0.0), (highest, 0.0)]).color(Color::Rgb(0x40, 0x40, 0x40)))
-    .series(
-        measured(|r| r.0)
-            .marker(MARKERS[0])
-            .label(format!("storage modulus {symbol}′")),
-    )
-    .series(
-        measured(|r| r.1)
-            .marker(MARKERS[1])
-            .color(1)
-            .label(format!("loss modulus {symbol}″")),
-    );
+    .series(measured(STORAGE, |r| r.0))
+    .series(measured(LOSS, |r| r.1));
     let mut caption = caption(
         report,
         &format!("Relative difference of the fitted series from the data, {symbol}′ and {symbol}″"),

@@ -22,22 +22,22 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
         .iter()
         .map(|s| (celsius(s.temperature_k), s.log10_a_t));
     let errors = shifts.iter().map(|s| s.log10_a_t_error);
-    let data = Series::scatter(places.collect::<Vec<_>>()).error_bars(errors.collect::<Vec<_>>());
+    let data = Series::scatter(places).error_bars(errors);
     let mut chart = Chart::new(
         Axis::linear("temperature T / °C"),
         Axis::linear("shift factor log₁₀ a_T"),
     );
     chart.series.extend(laws(master));
     let chart = chart.series(data.label("isotherms"));
-    let sentences = [
-        master.wlf.as_ref().map(wlf),
-        master.arrhenius.as_ref().map(arrhenius),
-    ];
+    let (of_wlf, of_arrhenius) = (master.wlf.as_ref(), master.arrhenius.as_ref());
+    let sentences = of_wlf
+        .map(wlf)
+        .into_iter()
+        .chain(of_arrhenius.map(arrhenius));
     let preferred = master.preferred.map(|law| match law {
         ShiftLaw::Wlf(_) => "The data prefer WLF.".to_owned(),
         ShiftLaw::Arrhenius(_) => "The data prefer Arrhenius.".to_owned(),
     });
-    let sentences = sentences.into_iter().flatten().map(|law| format!("{law}."));
     let any = shifts.iter().any(|s| s.log10_a_t_error.is_some());
     let bars = any.then(|| {
         "Error bars: standard errors; those shorter than their symbol are not drawn.".to_owned()
@@ -46,7 +46,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
         name: "shift-factors",
         picture: chart.into(),
         caption: caption(report, "Shift factors a_T over temperature T")
-            .say_all(sentences)
+            .say_all(sentences.map(|law| format!("{law}.")))
             .say_all(preferred)
             .say_all(bars),
         data: Vec::new(),
@@ -61,11 +61,12 @@ fn laws(master: &MasterCurve) -> Vec<Series> {
             let temperature_k = coldest + (warmest - coldest) * f64::from(i) / f64::from(POINTS);
             Some((temperature_k - ZERO_CELSIUS_K, law(temperature_k)?))
         });
-        Series::line(points.collect::<Vec<_>>())
+        Series::line(points)
     };
     let wlf = master.wlf.map(|law| {
-        let curve = curve(&|temperature_k| law.log10_a_t(temperature_k));
-        curve.label("WLF").color(1)
+        curve(&|temperature_k| law.log10_a_t(temperature_k))
+            .label("WLF")
+            .color(1)
     });
     let arrhenius = master.arrhenius.map(|law| {
         curve(&|temperature_k| Some(law.log10_a_t(temperature_k)))

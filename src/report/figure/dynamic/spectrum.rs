@@ -33,8 +33,8 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
         Axis::log("relaxation time τ / s"),
         Axis::log(format!("modulus of the branch {symbol}ᵢ / {unit}Pa")).range(foot, top),
     )
-    .series(Series::line(stems.collect::<Vec<_>>()))
-    .series(Series::scatter(heads.collect::<Vec<_>>()));
+    .series(Series::line(stems))
+    .series(Series::scatter(heads));
     let (first_s, last_s) = report.window_s();
     if let Some(equilibrium) = equilibrium {
         chart = chart.mark(Mark::horizontal(

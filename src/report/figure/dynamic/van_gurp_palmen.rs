@@ -30,14 +30,11 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
         let norm = factor * modulus.norm();
         (norm > 0.0).then_some((norm, modulus.arg().to_degrees()))
     });
+    let series = Series::line(series).color(Color::Rgb(0x1A, 0x1A, 0x1A));
     let label = format!("magnitude of the complex modulus |{symbol}*| / {unit}Pa");
     let mut chart = Chart::new(axis(norms, WIDE, label), Axis::linear("phase angle δ / °"))
         .all_series(symbols)
-        .series(
-            Series::line(series.collect::<Vec<_>>())
-                .color(Color::Rgb(0x1A, 0x1A, 0x1A))
-                .label("series"),
-        );
+        .series(series.label("series"));
     chart.color_scale = temperatures(report);
     let simplicity = report.made.master.as_ref().and_then(|m| m.simplicity);
     let rows = points.iter().map(|point| {

@@ -1,0 +1,278 @@
+//! The mean over the cycles of a record that count: its numbers with their errors, and what is drawn of it.
+
+use std::ops::Range;
+
+use num_complex::Complex;
+
+use super::bias;
+use super::corrections::Harmonics;
+use super::frequency::{Fit, RecordModel};
+use super::noise::Noise;
+use super::quality::Finding;
+use super::quantities::{Quantity, Values};
+use super::statistics::{Estimate, StandardError, upper_median};
+use super::{MeasuredLoop, Options, Signal};
+
+/// Parts of a cycle over which samples are averaged to be drawn.
+const PARTS: usize = 100;
+/// An instrument that takes more than this many times the load of the contact is worth saying.
+const DOMINATES: f64 = 1.0;
+
+/// The mean over the cycles that count.
+pub(super) struct Mean<'a> {
+    pub(super) model: &'a RecordModel,
+    pub(super) signal: &'a Signal,
+    pub(super) options: &'a Options,
+    /// Places among the cycles that were fitted.
+    pub(super) used: &'a [usize],
+    /// Samples of each of them.
+    pub(super) ranges: Vec<Range<usize>>,
+}
+
+impl Mean<'_> {
+    /// Fills in what a record has of it: means and errors, the mean cycle, points to be drawn, findings.
+    pub(super) fn fill(&self, measured: &mut MeasuredLoop) {
+        let cycles = || self.used.iter().map(|place| &measured.cycles[*place]);
+        let mean = mean_cycle(&cycles().map(|cycle| &cycle.raw).collect::<Vec<_>>());
+        let corrected = (self.options.corrections).applied(self.model.angular, &mean);
+        let radii = cycles().filter_map(|cycle| cycle.contact_radius_m);
+        let column_m = super::statistics::mean(&radii.collect::<Vec<f64>>());
+        self.remarks(&mean, &corrected, column_m, &mut measured.findings);
+        let center = self.options.values(&corrected, column_m);
+        let errors = self.errors(&mean, column_m, &center);
+        for (place, (quantity, ..)) in Quantity::ALL.iter().enumerate() {
+            let values = self.used.iter().map(|used| measured.values[*used][place]);
+            let Some(mut values) = values.collect::<Option<Vec<f64>>>() else {
+                continue;
+            };
+            if let (true, Some(center)) = (quantity.is_angle(), center[place]) {
+                values
+                    .iter_mut()
+                    .for_each(|v| *v = center + wrapped(*v - center));
+            }
+            let errors = errors.as_ref().and_then(|errors| errors[place]);
+            measured.means[place] = Estimate::of(&values, errors);
+        }
+        measured.points = self.points(measured, &mean, &corrected);
+        self.take_out_bias(measured, &corrected);
+        measured.mean_cycle = corrected;
+    }
+
+    fn take_out_bias(&self, measured: &mut MeasuredLoop, cycle: &Harmonics) {
+        let contact = self.options.contact.as_ref();
+        let storage = measured.mean(Quantity::StorageModulus);
+        let moduli = storage.zip(measured.mean(Quantity::LossModulus));
+        // Without a radius there is nothing that could be biased, and that has been said.
+        let (Some(contact), Some(moduli)) = (contact.filter(|contact| contact.bias), moduli) else {
+            return;
+        };
+        match bias::unbiased(contact, cycle, self.model.angular, moduli) {
+            Ok(unbiased) => measured.unbiased = Some(unbiased),
+            Err(reason) => measured.findings.push(Finding::NoBias {
+                reason: reason.to_string(),
+            }),
+        }
+    }
+
+    fn remarks(
+        &self,
+        raw: &Harmonics,
+        corrected: &Harmonics,
+        column_m: Option<f64>,
+        findings: &mut Vec<Finding>,
+    ) {
+        let corrections = &self.options.corrections;
+        let share = corrections.share(self.model.angular, raw, corrected);
+        if let Some(ratio) = share.filter(|ratio| *ratio > DOMINATES) {
+            findings.push(Finding::CorrectionDominates { ratio });
+        }
+        if corrected.energy_loss_j() < 0.0 {
+            findings.push(Finding::Leads);
+        }
+        let Some(contact) = &self.options.contact else {
+            return;
+        };
+        if corrected.load_mean_n < corrected.load_n.first().map_or(0.0, |a| a.norm()) {
+            findings.push(Finding::Pull);
+        }
+        if let Err(reason) = contact.radius_m(corrected, column_m) {
+            findings.push(Finding::NoRadius { reason });
+        }
+    }
+
+    /// Standard errors from the noise of the samples, carried through every formula: of the mean cycle fitted at once to all
+    /// samples that count, drift included, so that what a drift leaves uncertain counts too.
+    fn errors(
+        &self,
+        mean: &Harmonics,
+        column_m: Option<f64>,
+        center: &Values,
+    ) -> Option<[Option<StandardError>; Quantity::ALL.len()]> {
+        let signal = self.used_samples();
+        let fits = self.model.fits(&signal)?;
+        let intervals = self.signal.time_s.windows(2).map(|w| w[1] - w[0]);
+        let interval_s = upper_median(intervals)?;
+        let mut squares = [0.0; Quantity::ALL.len()];
+        let mut freedom = f64::INFINITY;
+        for (which, fit) in fits.iter().enumerate() {
+            let noise = Noise::of(
+                &fit.residual,
+                &signal.time_s,
+                fit.columns,
+                interval_s,
+                self.model.angular,
+            );
+            freedom = freedom.min(noise.freedom);
+            let covariance = self.covariance(fit, &noise);
+            let slopes = self.slopes(which, mean, column_m, (center, &covariance));
+            for (place, square) in squares.iter_mut().enumerate() {
+                let row = |i: usize| slopes[i][place];
+                let p = slopes.len();
+                *square += (0..p)
+                    .flat_map(|i| (0..p).map(move |j| (i, j)))
+                    .map(|(i, j)| row(i) * covariance[(i, j)] * row(j))
+                    .sum::<f64>();
+            }
+        }
+        Some(std::array::from_fn(|place| {
+            center[place].map(|_| StandardError {
+                value: squares[place].max(0.0).sqrt(),
+                freedom,
+            })
+        }))
+    }
+
+    /// The samples of the cycles that count.
+    fn used_samples(&self) -> Signal {
+        let ranges = || self.ranges.iter().cloned();
+        let taken = |column: &[f64]| ranges().flat_map(|own| &column[own]).copied().collect();
+        Signal {
+            time_s: taken(&self.signal.time_s),
+            load_n: taken(&self.signal.load_n),
+            approach_m: taken(&self.signal.approach_m),
+            contact_radius_m: None,
+        }
+    }
+
+    /// Covariance of mean and harmonics of one signal.
+    fn covariance(&self, fit: &Fit, noise: &Noise) -> nalgebra::DMatrix<f64> {
+        let inverse = fit.normal.inverse();
+        let harmonic = |column: usize| column.div_ceil(2);
+        let scale = |column: usize| {
+            (noise.variance * noise.power(self.model.angular, harmonic(column))).sqrt()
+        };
+        let p = self.model.common();
+        nalgebra::DMatrix::from_fn(p, p, |i, j| inverse[(i, j)] * scale(i) * scale(j))
+    }
+
+    /// Derivatives of every quantity by mean and harmonics of one signal, by central differences over the standard errors.
+    fn slopes(
+        &self,
+        which: usize,
+        mean: &Harmonics,
+        column_m: Option<f64>,
+        (center, covariance): (&Values, &nalgebra::DMatrix<f64>),
+    ) -> Vec<[f64; Quantity::ALL.len()]> {
+        let moved = |column: usize, by: f64| {
+            let mut moved = mean.clone();
+            let (level, harmonics) = match which {
+                0 => (&mut moved.load_mean_n, &mut moved.load_n),
+                _ => (&mut moved.approach_mean_m, &mut moved.approach_m),
+            };
+            match column.checked_sub(1) {
+                None => *level += by,
+                Some(k) => match harmonics.get_mut(k / 2) {
+                    Some(harmonic) if k % 2 == 0 => harmonic.re += by,
+                    Some(harmonic) => harmonic.im += by,
+                    None => {}
+                },
+            }
+            let corrected = (self.options.corrections).applied(self.model.angular, &moved);
+            self.options.values(&corrected, column_m)
+        };
+        let slope = |column: usize| {
+            let step = covariance[(column, column)].sqrt();
+            if !(step.is_finite() && step > 0.0) {
+                return [0.0; Quantity::ALL.len()];
+            }
+            let (up, down) = (moved(column, step), moved(column, -step));
+            std::array::from_fn(|place| match (up[place], down[place], center[place]) {
+                (Some(up), Some(down), Some(_)) => {
+                    let is_angle = Quantity::ALL[place].0.is_angle();
+                    let change = if is_angle {
+                        wrapped(up - down)
+                    } else {
+                        up - down
+                    };
+                    change / (2.0 * step)
+                }
+                _ => 0.0,
+            })
+        };
+        (0..self.model.common()).map(slope).collect()
+    }
+
+    /// Averages over parts of the cycle: the corrected mean cycle, and what the samples have beside the harmonics.
+    fn points(
+        &self,
+        measured: &MeasuredLoop,
+        raw: &Harmonics,
+        corrected: &Harmonics,
+    ) -> Vec<(f64, f64)> {
+        let parts = PARTS.min(measured.points_per_cycle as usize).max(1);
+        let (load, approach) = raw.sampled(parts);
+        let (true_load, true_approach) = corrected.sampled(parts);
+        let mut sums = vec![(0.0, 0.0, 0_usize); parts];
+        let first_s = self.signal.time_s.first().copied().unwrap_or(0.0);
+        for i in self.ranges.iter().cloned().flatten() {
+            let time_s = self.signal.time_s[i];
+            let turns = (time_s - first_s) * self.model.angular / std::f64::consts::TAU;
+            let part = parts as f64 * (turns - turns.floor());
+            let (low, weight) = (part as usize % parts, part - part.floor());
+            let between =
+                |samples: &[f64]| samples[low] + weight * (samples[low + 1] - samples[low]);
+            let sum = &mut sums[(part.round() as usize) % parts];
+            sum.0 += self.signal.load_n[i] - measured.drifts[0].at(time_s) - between(&load);
+            sum.1 += self.signal.approach_m[i] - measured.drifts[1].at(time_s) - between(&approach);
+            sum.2 += 1;
+        }
+        let known = sums.iter().enumerate().filter(|(_, sum)| sum.2 > 0);
+        known
+            .map(|(k, (w, d, count))| {
+                let count = *count as f64;
+                (true_load[k] + w / count, true_approach[k] + d / count)
+            })
+            .collect()
+    }
+}
+
+/// The mean of cycles as the instrument gives them: their harmonics share one origin of time.
+fn mean_cycle(cycles: &[&Harmonics]) -> Harmonics {
+    let count = cycles.len().max(1) as f64;
+    let level = |value: fn(&Harmonics) -> f64| {
+        let values = cycles.iter().map(|cycle| value(cycle));
+        values.sum::<f64>() / count
+    };
+    let harmonics = |of: fn(&Harmonics) -> &[Complex<f64>]| {
+        let fitted = cycles.iter().map(|cycle| of(cycle).len()).min();
+        let sum = |n: usize| {
+            cycles
+                .iter()
+                .map(|cycle| of(cycle)[n])
+                .sum::<Complex<f64>>()
+        };
+        (0..fitted.unwrap_or(0)).map(|n| sum(n) / count).collect()
+    };
+    Harmonics {
+        load_mean_n: level(|cycle| cycle.load_mean_n),
+        approach_mean_m: level(|cycle| cycle.approach_mean_m),
+        load_n: harmonics(|cycle| &cycle.load_n),
+        approach_m: harmonics(|cycle| &cycle.approach_m),
+    }
+}
+
+/// An angle between -pi and pi.
+fn wrapped(angle: f64) -> f64 {
+    use std::f64::consts::{PI, TAU};
+    (angle + PI).rem_euclid(TAU) - PI
+}
