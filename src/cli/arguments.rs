@@ -10,14 +10,11 @@ use clap::builder::{
 use clap::{ArgAction, Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
-use super::compare;
 use crate::input::dynamic::{self, DynamicFormat};
 use crate::input::keys::material::{MOST_BRANCHES, MOST_REPLICAS};
 use crate::material::ModulusKind;
 use crate::material::export::Program;
 use crate::quantity::{Dimension, parse};
-use crate::sweep::share::shard::Shard;
-use crate::sweep::store::checkpoint_file;
 
 /// Dynamic mechanical analysis by contact: what a viscoelastic half-space dissipates under an oscillating indenter.
 #[derive(Debug, Parser)]
@@ -38,19 +35,21 @@ pub(super) struct Arguments {
 impl Arguments {
     /// What to print at the end: the last that was asked for.
     pub(super) fn output_format(&self) -> OutputFormat {
-        let output = self.format.iter().rev().find_map(|word| match word {
+        let output = |word: &FormatWord| match word {
             FormatWord::Output(format) => Some(*format),
             FormatWord::Data(_) => None,
-        });
-        output.unwrap_or(OutputFormat::Text)
+        };
+        let asked = self.format.iter().rev().find_map(output);
+        asked.unwrap_or(OutputFormat::Text)
     }
 
     /// The format of the data that `--format` names.
     pub(super) fn data_format(&self) -> Option<DynamicFormat> {
-        self.format.iter().rev().find_map(|word| match word {
+        let data = |word: &FormatWord| match word {
             FormatWord::Output(_) => None,
             FormatWord::Data(format) => Some(*format),
-        })
+        };
+        self.format.iter().rev().find_map(data)
     }
 }
 
@@ -109,19 +108,19 @@ Exit codes:
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Compute the energy loss per cycle over the load frequencies of a sweep file
-    Sweep(SweepFlags),
+    Sweep(super::sweep::SweepFlags),
     /// Print the cases of a sweep file and about what they cost, and compute nothing
-    Plan(PlanFlags),
+    Plan(super::plan::PlanFlags),
     /// Join the shards of a sweep that have folders of their own
-    Merge(MergeFlags),
+    Merge(super::stored::MergeFlags),
     /// Draw tables and figures again from stored records, without solving
-    Report(ReportFlags),
+    Report(super::stored::ReportFlags),
     /// Say whether two results of a sweep are the same, and where they differ
-    Compare(CompareFlags),
+    Compare(super::compare::CompareFlags),
     /// Read loss, phase and moduli from measured loops, with their uncertainties
     Analyse(super::analyse::AnalyseFlags),
     /// Follow one drive history: load or approach against time, from a scenario file
-    Simulate(SimulateFlags),
+    Simulate(super::simulate::SimulateFlags),
     /// Find the material that has these measured cycles: moduli and times with confidence bands
     Identify(super::identify::IdentifyFlags),
     /// Make the computed figures of the base paper, with every number held against its exact value
@@ -141,105 +140,6 @@ Example:
     },
 }
 
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Examples:
-  contact-dma sweep sweeps/pmma.toml
-  contact-dma sweep sweeps/pmma.toml --set indenter.radius='5 mm' --out reports/small
-  contact-dma sweep sweeps/pmma.toml --set solver.engine=half-space --threads 2
-  contact-dma sweep sweeps/pmma.toml --shard 2/8
-
-The same command again goes on where it was stopped: cases with intact records are read, not
-computed, and a long case goes on from its last checkpoint.
-
-Written to the output folder: index.html (one page of everything, to look at or to send),
-sweep.csv (one row per frequency), loops/ (the stabilised cycles), pressures/ and work/
-(contact pressure at some instants of each, and where its work goes in), summary.json (peaks,
-counts), figures as SVG and PNG with their data as CSV, records/ (everything, for later),
-resolved.toml (the sweep with every default).
-
-The [figures] table says how figures look and changes no result: the same sweep with another
-table reads its records and draws again.")]
-pub(super) struct SweepFlags {
-    /// The sweep file (TOML); - reads standard input, from which paths start in the working folder
-    pub(super) file: PathBuf,
-    /// Folder for the results [default: reports/<name of the file>]
-    #[arg(long, value_name = "DIR", value_parser = folder())]
-    pub(super) out: Option<PathBuf>,
-    /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
-    pub(super) threads: Option<NonZeroUsize>,
-    /// Change one key of the sweep file, for example drive.amplitude='2 N' or indenter.asperities.0.radius='1 mm' (items of a list count
-    /// from 0); KEY= removes a key; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(super) set: Vec<String>,
-    /// Choose steps and nodes such that the error of every loss is below this part of it; the same as
-    /// --set cycle.accuracy=X
-    #[arg(long, value_name = "X")]
-    pub(super) accuracy: Option<f64>,
-    /// Write tables alone: no figures and no page
-    #[arg(long)]
-    pub(super) no_figures: bool,
-    /// Write cycles.npz, all cycles for NumPy, of more than 200 cases too
-    #[arg(long)]
-    pub(super) cycles: bool,
-    /// Compute only the part K of N; `merge` joins parts in separate folders
-    #[arg(long, value_name = "K/N")]
-    pub(super) shard: Option<Shard>,
-    /// Print what would be computed and about what it costs, and compute nothing
-    #[arg(long)]
-    pub(super) dry_run: bool,
-    /// Print what was done: instants, iterations and convolutions per instant
-    #[arg(long)]
-    pub(super) stats: bool,
-    /// Seconds between two checkpoints of a case that takes long
-    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
-    pub(super) checkpoint_every: u64,
-    /// Replace the results of a different sweep, or of a newer program, in the output folder
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    pub(super) quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct PlanFlags {
-    /// The sweep file (TOML); - reads standard input, from which paths start in the working folder
-    pub(super) file: PathBuf,
-    /// Change one key of the sweep file; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(super) set: Vec<String>,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Example:
-  contact-dma sweep sweeps/pmma.toml --shard 1/2 --out reports/part-1   # on one machine
-  contact-dma sweep sweeps/pmma.toml --shard 2/2 --out reports/part-2   # on another
-  contact-dma merge reports/part-1 reports/part-2 --out reports/pmma
-
-The records of all cases are brought together; then the curve is refined where the sweep asks
-for it and the peaks are located, which is solver work, and tables and figures are written. The
-result is that of one process, bit for bit.")]
-pub(super) struct MergeFlags {
-    /// Folders of the parts
-    #[arg(required = true, value_name = "DIR")]
-    pub(super) parts: Vec<PathBuf>,
-    /// Folder for the whole
-    #[arg(long, value_name = "DIR", value_parser = folder())]
-    pub(super) out: PathBuf,
-    /// Number of threads [default: one per processor, at most four for each]
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
-    pub(super) threads: Option<NonZeroUsize>,
-    /// Replace the results of a different sweep in the output folder
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    pub(super) quiet: bool,
-}
-
 /// What a command prints at its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum OutputFormat {
@@ -247,118 +147,6 @@ pub(super) enum OutputFormat {
     Text,
     /// For other programs
     Json,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Examples:
-  contact-dma report reports/pmma
-  contact-dma report reports/pmma --set figures.column=one --set figures.dpi=600
-  contact-dma report reports/pmma --out paper/figures
-
-The [figures] table of resolved.toml says how figures look; what is changed is kept there.")]
-pub(super) struct ReportFlags {
-    /// Folder of a sweep, or of an analysis of measured loops
-    #[arg(value_name = "DIR")]
-    pub(super) folder: PathBuf,
-    /// Folder for tables and figures, without the records [default: the folder of the sweep]; nothing is then written into the
-    /// folder of the sweep
-    #[arg(long, value_name = "DIR", value_parser = folder())]
-    pub(super) out: Option<PathBuf>,
-    /// Replace the results of a different sweep in the folder of --out
-    #[arg(long, requires = "out")]
-    pub(super) force: bool,
-    /// Write tables alone: no figures and no page
-    #[arg(long)]
-    pub(super) no_figures: bool,
-    /// Write cycles.npz, all cycles for NumPy, of more than 200 cases too
-    #[arg(long)]
-    pub(super) cycles: bool,
-    /// Change one key of [figures], for example figures.width='85 mm'; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(super) set: Vec<String>,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    pub(super) quiet: bool,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Examples:
-  contact-dma compare reports/baseline/pmma reports/pmma
-  contact-dma compare a/sweep.csv b/sweep.csv --relative 1e-3 --tolerance peak_pressure_max_pa=1e-2
-
-Cases are matched by drive and frequency, peaks by frequency. Values on the same steps and nodes
-are the same within --relative and --absolute; on different ones, within their error bars too.
-With --out, both curves of the loss and their difference are drawn as SVG and PNG, with data,
-and index.html says all of it in one page: verdict, columns, peaks, cases, where both come from.")]
-pub(super) struct CompareFlags {
-    /// Folder of a sweep, or a sweep.csv
-    pub(super) baseline: PathBuf,
-    /// The same of what is compared with it
-    pub(super) new: PathBuf,
-    /// Relative difference allowed
-    #[arg(long, value_name = "R", default_value = "1e-6", value_parser = compare::tolerance)]
-    pub(super) relative: f64,
-    /// Absolute difference allowed, in SI units, on top
-    #[arg(long, value_name = "A", default_value = "0", value_parser = compare::tolerance)]
-    pub(super) absolute: f64,
-    /// Relative difference allowed in one column; may be repeated
-    #[arg(long, value_name = "COLUMN=R", value_parser = compare::column_tolerance)]
-    pub(super) tolerance: Vec<(String, f64)>,
-    /// Folder for figure and page of both
-    #[arg(long, value_name = "DIR", value_parser = folder())]
-    pub(super) out: Option<PathBuf>,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    pub(super) quiet: bool,
-}
-
-#[derive(Debug, Args)]
-#[command(after_help = "\
-Examples:
-  contact-dma simulate sweeps/zener-unloading.toml
-  contact-dma simulate sweeps/zener-unloading.toml --set solver.engine=half-space \\
-      --set output.fields_at='[\"4 s\"]' --out reports/fields
-
-The same command again goes on where it was stopped, from the last checkpoint.
-
-Written to the output folder: index.html (one page of everything, to look at or to send),
-history.csv (one row per time step, two at a jump), profiles/ and fields/ at the times asked
-for (CSV; NumPy .npy and ParaView .vti), history, profiles and pressure-map as SVG and PNG,
-summary.json, resolved.toml (the scenario with every default).")]
-pub(super) struct SimulateFlags {
-    /// The scenario file (TOML); - reads standard input, from which paths start in the working folder
-    pub(super) file: PathBuf,
-    /// Folder for the results [default: reports/<name of the file>]
-    #[arg(long, value_name = "DIR", value_parser = folder())]
-    pub(super) out: Option<PathBuf>,
-    /// Change one key of the scenario file, for example indenter.radius='5 mm'; may be repeated
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    pub(super) set: Vec<String>,
-    /// Give no errors of the rows, which saves more than half of the time; the same as
-    /// --set output.error_bars=false
-    #[arg(long)]
-    pub(super) no_error_bars: bool,
-    /// Write tables alone: no figures and no page
-    #[arg(long)]
-    pub(super) no_figures: bool,
-    /// Number of threads, which share a large half-space grid [default: one per processor, at most four for each]; the
-    /// results do not depend on it
-    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
-    pub(super) threads: Option<std::num::NonZeroUsize>,
-    /// Print what would be computed and about the memory it takes, and compute nothing
-    #[arg(long)]
-    pub(super) dry_run: bool,
-    /// Seconds between two checkpoints of a history that takes long
-    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
-    pub(super) checkpoint_every: u64,
-    /// Replace the results of a different sweep or scenario in the output folder
-    #[arg(long)]
-    pub(super) force: bool,
-    /// Print nothing but errors
-    #[arg(long, short)]
-    pub(super) quiet: bool,
 }
 
 #[derive(Debug, Subcommand)]

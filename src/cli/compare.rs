@@ -1,16 +1,50 @@
 //! `contact-dma compare`: whether two results of a sweep are the same.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-use super::arguments::{CompareFlags, OutputFormat};
-use super::{Ended, Failure, json, print};
+use clap::Args;
+
+use super::arguments::{OutputFormat, folder};
+use super::{Ended, Failure, json, tell};
 use crate::input::document::read_limited;
-use crate::report::comparison::{self, Comparison, RunFacts, Source, SweepTable, Tolerances};
+use crate::report::comparison::{Comparison, RunFacts, Source, SweepTable, Tolerances};
 use crate::report::figure::{self, press::Press};
 use crate::report::page::comparison::Compared;
 use crate::report::page::{self, Pictures};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::store::{RESOLVED, write_atomically};
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma compare reports/baseline/pmma reports/pmma
+  contact-dma compare a/sweep.csv b/sweep.csv --relative 1e-3 --tolerance peak_pressure_max_pa=1e-2
+
+Cases are matched by drive and frequency, peaks by frequency. Values on the same steps and nodes
+are the same within --relative and --absolute; on different ones, within their error bars too.
+With --out, both curves of the loss and their difference are drawn as SVG and PNG, with data,
+and index.html says all of it in one page: verdict, columns, peaks, cases, where both come from.")]
+pub(super) struct CompareFlags {
+    /// Folder of a sweep, or a sweep.csv
+    baseline: PathBuf,
+    /// The same of what is compared with it
+    new: PathBuf,
+    /// Relative difference allowed
+    #[arg(long, value_name = "R", default_value = "1e-6", value_parser = tolerance)]
+    relative: f64,
+    /// Absolute difference allowed, in SI units, on top
+    #[arg(long, value_name = "A", default_value = "0", value_parser = tolerance)]
+    absolute: f64,
+    /// Relative difference allowed in one column; may be repeated
+    #[arg(long, value_name = "COLUMN=R", value_parser = column_tolerance)]
+    tolerance: Vec<(String, f64)>,
+    /// Folder for figure and page of both
+    #[arg(long, value_name = "DIR", value_parser = folder())]
+    out: Option<PathBuf>,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
 
 /// A result larger than this is none of a sweep.
 const MAX_BYTES: usize = 256_000_000;
@@ -24,8 +58,7 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
     };
     let baseline = open(&flags.baseline, None)?;
     let new = open(&flags.new, Some(&baseline.table))?;
-    let comparison =
-        Comparison::of(&baseline.table, &new.table, &tolerances).map_err(Failure::input)?;
+    let comparison = Comparison::of(&baseline.table, &new.table, &tolerances)?;
     let mut text = comparison.text();
     if let Some(out) = &flags.out {
         let left_out = write(out, &comparison, &tolerances, [&baseline, &new])?;
@@ -39,11 +72,8 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
     if let Some(out) = &flags.out {
         text.push_str(&format!("\nComparison in {}\n", out.display()));
     }
-    match format {
-        OutputFormat::Json => json::print(&json::comparison(&comparison))?,
-        OutputFormat::Text if !flags.quiet => print(&text)?,
-        OutputFormat::Text => Ended::Done,
-    };
+    let found = || Ok(json::comparison(&comparison));
+    tell(format, flags.quiet, found, || text)?;
     Ok(match differs {
         true => Ended::Differs,
         false => Ended::Done,
@@ -64,19 +94,16 @@ fn write(
         write: &write,
         pictures: &pictures,
     };
-    let left_out = figure::comparison::write(comparison, &press).map_err(Failure::run)?;
-    let names = comparison.columns.iter().map(|column| column.name.as_str());
-    let columns = comparison::columns(&baseline.table, &new.table, names);
+    let left_out = figure::comparison::write(comparison, &press)?;
     let page = page::comparison::page(&Compared {
         comparison,
         tolerances,
         baseline: &baseline.table,
         new: &new.table,
         sources: [&baseline.source, &new.source],
-        columns: &columns.map_err(Failure::input)?,
         pictures: &pictures,
-    });
-    write("index.html", page.map_err(Failure::run)?.as_bytes()).map_err(Failure::run)?;
+    })?;
+    write("index.html", page.as_bytes()).map_err(Failure::run)?;
     Ok(left_out)
 }
 
@@ -90,13 +117,13 @@ struct Opened {
 fn open(path: &Path, other: Option<&SweepTable>) -> Result<Opened, Failure> {
     let name = path.display().to_string();
     if !path.is_dir() {
-        let table =
-            SweepTable::parse_beside(other, &name, &read(path)?, None).map_err(Failure::input)?;
-        let source = Source {
-            name,
-            ..Source::default()
-        };
-        return Ok(Opened { table, source });
+        return Ok(Opened {
+            table: SweepTable::parse_beside(other, &name, &read(path)?, None)?,
+            source: Source {
+                name,
+                ..Source::default()
+            },
+        });
     }
     let beside = |file: &str| {
         let file = path.join(file);
@@ -104,15 +131,13 @@ fn open(path: &Path, other: Option<&SweepTable>) -> Result<Opened, Failure> {
     };
     let csv = path.join("sweep.csv");
     let (bytes, summary) = (read(&csv)?, beside("summary.json")?);
-    let csv_name = csv.display().to_string();
-    let table = SweepTable::parse_beside(other, &csv_name, &bytes, summary.as_deref())
-        .map_err(Failure::input)?;
+    let csv = csv.display().to_string();
+    let table = SweepTable::parse_beside(other, &csv, &bytes, summary.as_deref())?;
     let run = beside("run.json")?;
-    let told = [run.as_deref(), summary.as_deref()].into_iter().flatten();
     let resolved = beside(RESOLVED)?;
     let source = Source {
         name,
-        run: RunFacts::read(told),
+        run: RunFacts::read([run, summary].iter().flatten().map(Vec::as_slice)),
         resolved: resolved.map(|bytes| String::from_utf8_lossy(&bytes).into_owned()),
     };
     Ok(Opened { table, source })
@@ -131,7 +156,7 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 }
 
 /// `COLUMN=RELATIVE`.
-pub(super) fn column_tolerance(text: &str) -> Result<(String, f64), String> {
+fn column_tolerance(text: &str) -> Result<(String, f64), String> {
     let (column, value) = text
         .split_once('=')
         .ok_or("write COLUMN=RELATIVE, for example energy_loss_j=1e-3")?;
@@ -139,7 +164,7 @@ pub(super) fn column_tolerance(text: &str) -> Result<(String, f64), String> {
 }
 
 /// A tolerance: a number, not negative.
-pub(super) fn tolerance(text: &str) -> Result<f64, String> {
+fn tolerance(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value.is_finite() && value >= 0.0 => Ok(value),
         _ => Err(format!(

@@ -28,21 +28,22 @@ pub(super) fn rows_of(file: &Path) -> Result<Vec<Value>, Failure> {
     let columns = reader.headers().map_err(failed)?.clone();
     let rows = reader.records().map(|row| {
         let row = row.map_err(failed)?;
-        let cells = columns.iter().zip(&row);
-        let object: Map<_, _> = cells
-            .map(|(c, cell)| (c.to_owned(), value_of(cell)))
-            .collect();
-        Ok(Value::Object(object))
+        Ok(row_of(columns.iter().zip(&row)))
     });
     rows.collect()
 }
 
-fn value_of(cell: &str) -> Value {
-    let number = || cell.parse::<f64>().ok().filter(|number| number.is_finite());
-    match cell {
-        "" => Value::Null,
-        _ => number().map_or_else(|| Value::from(cell), Value::from),
-    }
+/// The cells of a row under the names of their columns.
+pub(super) fn row_of<'a>(cells: impl Iterator<Item = (&'a str, impl AsRef<str>)>) -> Value {
+    let value = |cell: &str| match cell.parse::<f64>() {
+        _ if cell.is_empty() => Value::Null,
+        Ok(number) if number.is_finite() => number.into(),
+        _ => cell.into(),
+    };
+    let object: Map<_, _> = cells
+        .map(|(column, cell)| (column.to_owned(), value(cell.as_ref())))
+        .collect();
+    object.into()
 }
 
 /// A JSON file that was written.
@@ -55,14 +56,15 @@ pub(super) fn file(path: &Path) -> Result<Value, Failure> {
 /// The values of axes, blocks of a list by their names; of one axis alone its value, of none nothing.
 fn varied(plan: &SweepPlan, values: &AxisValues) -> Value {
     let over = plan.axes.iter().flat_map(|axes| &axes.over);
-    let told = over.zip(values.all()).map(|(varied, value)| {
-        let name = varied.block_name(*value);
-        name.map_or_else(|| json!(value), |name| json!(name))
+    let values = over.zip(values.all());
+    let told = values.map(|(varied, value)| match varied.block_name(*value) {
+        Some(name) => json!(name),
+        None => json!(value),
     });
-    match told.collect::<Vec<_>>().as_slice() {
-        [] => Value::Null,
-        [one] => one.clone(),
-        several => json!(several),
+    let mut told: Vec<_> = told.collect();
+    match told.len() {
+        0 | 1 => told.pop().unwrap_or_default(),
+        _ => told.into(),
     }
 }
 

@@ -30,13 +30,16 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
+use serde_json::Value;
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, OutputFormat};
 
 use crate::input::diagnostic::{Diagnostics, Styling};
 use crate::input::document::{self, Document};
+use crate::report::ReportError;
+use crate::report::comparison::ComparisonError;
 use crate::sweep::search::run::RunError;
-use crate::sweep::store::Store;
+use crate::sweep::store::{Store, StoreError};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -70,6 +73,40 @@ impl Failure {
 impl From<Diagnostics> for Failure {
     fn from(diagnostics: Diagnostics) -> Self {
         Self::Document(diagnostics)
+    }
+}
+
+impl From<StoreError> for Failure {
+    /// A folder whose contents must not be used is an input that is wrong; anything else that stops a run is not.
+    fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::NewerProgram { .. }
+            | StoreError::OtherSweep { .. }
+            | StoreError::InUse { .. }
+            | StoreError::NoSweep { .. } => Self::input(error),
+            other => Self::run(other),
+        }
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Store(error) => error.into(),
+            threads => Self::run(threads),
+        }
+    }
+}
+
+impl From<ReportError> for Failure {
+    fn from(error: ReportError) -> Self {
+        Self::run(error)
+    }
+}
+
+impl From<ComparisonError> for Failure {
+    fn from(error: ComparisonError) -> Self {
+        Self::input(error)
     }
 }
 
@@ -172,8 +209,21 @@ fn open_store(
     force: bool,
 ) -> Result<Store, Failure> {
     let default = default_folder(file);
-    let store = Store::open(out.unwrap_or(&default), resolved, force);
-    store.map_err(|error| sweep::failure(RunError::Store(error)))
+    Ok(Store::open(out.unwrap_or(&default), resolved, force)?)
+}
+
+/// Prints what a command has found: as one object for programs, as text for people, or nothing where it is to be quiet.
+fn tell(
+    format: OutputFormat,
+    quiet: bool,
+    found: impl FnOnce() -> Result<Value, Failure>,
+    text: impl FnOnce() -> String,
+) -> Result<Ended, Failure> {
+    match format {
+        OutputFormat::Json => json::print(&found()?),
+        OutputFormat::Text if quiet => Ok(Ended::Done),
+        OutputFormat::Text => print(&text()),
+    }
 }
 
 /// Prints for people, no wider than their terminal.

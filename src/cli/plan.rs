@@ -1,16 +1,28 @@
 //! `contact-dma plan`: what a sweep file would compute, and about what that costs.
 
 use std::fmt::Write;
+use std::path::PathBuf;
 
-use super::arguments::{OutputFormat, PlanFlags};
-use super::{Ended, Failure, json, meant_for, open_document, print};
+use clap::Args;
+
+use super::arguments::OutputFormat;
+use super::{Ended, Failure, json, meant_for, open_document, tell};
 use crate::indenter::Indenter;
 use crate::input::sweep_file;
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::{four_digits, varied};
 use crate::sweep::case::Setup;
-use crate::sweep::plan::{Axes, Condition, EngineKind, SolverPlan};
+use crate::sweep::plan::{Axes, Condition, EngineKind, SolverPlan, SweepPlan};
 use crate::sweep::share::cost::Cost;
+
+#[derive(Debug, Args)]
+pub(super) struct PlanFlags {
+    /// The sweep file (TOML); - reads standard input, from which paths start in the working folder
+    file: PathBuf,
+    /// Change one key of the sweep file; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+}
 
 /// Cases listed before the rest is counted.
 const LISTED: usize = 100;
@@ -26,18 +38,46 @@ pub(super) fn run(flags: &PlanFlags, format: OutputFormat) -> Result<Ended, Fail
 /// Prints cases and cost of a sweep.
 pub(super) fn show(setup: &Setup, format: OutputFormat) -> Result<Ended, Failure> {
     let cost = Cost::of(setup).map_err(Failure::input)?;
-    match format {
-        OutputFormat::Json => json::print(&json::plan(setup, &cost)),
-        OutputFormat::Text => print(&text(setup, &cost)),
-    }
+    let found = || Ok(json::plan(setup, &cost));
+    tell(format, false, found, || text(setup, &cost))
 }
 
 fn text(setup: &Setup, cost: &Cost) -> String {
     let plan = setup.plan();
-    let memory = megabytes(cost.memory_bytes);
     let free = super::memory::free_here();
-    let mut text = format!("{}\n\n", plan.title);
+    let refined = match plan.refine {
+        true => ", added frequencies not",
+        false => "",
+    };
+    let processors = std::thread::available_parallelism().map_or(1, usize::from);
+    let cases = match cost.cases.len() {
+        1 => "1 case".to_owned(),
+        cases => format!("{cases} cases"),
+    };
+    format!(
+        "{}\n\n{}\n{cases} on {} ({} engine), {} steps per cycle.\n\
+         Time: about {} on one thread, about {} on {processors}, peaks and figures included{refined};\n\
+         from cases tried here, {} per step.\n\
+         Memory: about {} on {processors}{free}. Disk: about {}.\n\
+         Shards: {} (below about ten minutes each, more of them gain little).\n",
+        plan.title,
+        table(plan, cost),
+        nodes(&plan.contact.solver, plan.contact.indenter.as_ref()),
+        plan.contact.solver.engine.name(),
+        plan.cycle.steps,
+        spoken(cost.on_threads_s(1)),
+        spoken(cost.on_threads_s(processors)),
+        spoken(cost.step_s),
+        megabytes(cost.on_threads_bytes(processors)),
+        megabytes(cost.disk_bytes),
+        cost.shards(),
+    )
+}
+
+/// One line per case.
+fn table(plan: &SweepPlan, cost: &Cost) -> String {
     let unit = plan.figures.frequency_unit;
+    let memory = megabytes(cost.memory_bytes);
     // What an axis varies of something else than the drive takes the place of the drive, which is then the same for all.
     let own: Vec<_> = plan.axes.iter().flat_map(Axes::own_columns).collect();
     let names: Vec<String> = own.iter().map(|(_, varied)| varied.name()).collect();
@@ -46,24 +86,20 @@ fn text(setup: &Setup, cost: &Cost) -> String {
         false => names.join(", "),
     };
     let of_case = |Condition { values, drive, .. }: &Condition| match own.is_empty() {
-        true => format!(
-            "{:>10}   {:>9}",
-            short(drive.mean()),
-            short(drive.amplitude())
-        ),
+        true => {
+            let (mean, amplitude) = (short(drive.mean()), short(drive.amplitude()));
+            format!("{mean:>10}   {amplitude:>9}")
+        }
         false => {
             let own = own.iter();
             let own = own.filter_map(|(axis, of)| Some(varied(of, values.get(*axis)?)));
             own.collect::<Vec<_>>().join(", ")
         }
     };
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        text,
-        " case   {:>10}   {head:>22}   cycles     about   memory",
-        format!("{} / {}", unit.symbol(), unit.name())
-    );
+    let frequency = format!("{} / {}", unit.symbol(), unit.name());
+    let mut text = format!(" case   {frequency:>10}   {head:>22}   cycles     about   memory\n");
     for case in cost.cases.iter().take(LISTED) {
+        // Writing to a String cannot fail.
         let _ = writeln!(
             text,
             "{:>5}   {:>10}   {:>22}   {:>6.0}   {:>7}   {memory}",
@@ -77,32 +113,6 @@ fn text(setup: &Setup, cost: &Cost) -> String {
     if cost.cases.len() > LISTED {
         let _ = writeln!(text, "  and {} more", cost.cases.len() - LISTED);
     }
-    let refined = match plan.refine {
-        true => ", added frequencies not",
-        false => "",
-    };
-    let processors = std::thread::available_parallelism().map_or(1, usize::from);
-    let _ = write!(
-        text,
-        "\n{} on {} ({} engine), {} steps per cycle.\n\
-         Time: about {} on one thread, about {} on {processors}, peaks and figures included{refined};\n\
-         from cases tried here, {} per step.\n\
-         Memory: about {} on {processors}{free}. Disk: about {}.\n\
-         Shards: {} (below about ten minutes each, more of them gain little).\n",
-        match cost.cases.len() {
-            1 => "1 case".to_owned(),
-            cases => format!("{cases} cases"),
-        },
-        nodes(&plan.contact.solver, plan.contact.indenter.as_ref()),
-        plan.contact.solver.engine.name(),
-        plan.cycle.steps,
-        spoken(cost.on_threads_s(1)),
-        spoken(cost.on_threads_s(processors)),
-        spoken(cost.step_s),
-        megabytes(cost.on_threads_bytes(processors)),
-        megabytes(cost.disk_bytes),
-        cost.shards(),
-    );
     text
 }
 
@@ -133,18 +143,13 @@ pub(super) fn megabytes(bytes: u64) -> String {
 
 /// A time in the unit that people would use for it.
 fn spoken(time_s: f64) -> String {
-    const MINUTE_S: f64 = 60.0;
-    const HOUR_S: f64 = 3600.0;
-    const DAY_S: f64 = 24.0 * HOUR_S;
-    if time_s < 2.0 * MINUTE_S {
-        format_human(time_s, Dimension::Time, 2)
-    } else if time_s < 2.0 * HOUR_S {
-        format!("{} min", two_digits(time_s / MINUTE_S))
-    } else if time_s < 2.0 * DAY_S {
-        format!("{} h", two_digits(time_s / HOUR_S))
-    } else {
-        format!("{} days", two_digits(time_s / DAY_S))
-    }
+    let (unit_s, unit) = match time_s {
+        ..120.0 => return format_human(time_s, Dimension::Time, 2),
+        ..7200.0 => (60.0, "min"),
+        ..172_800.0 => (3600.0, "h"),
+        _ => (86_400.0, "days"),
+    };
+    format!("{} {unit}", two_digits(time_s / unit_s))
 }
 
 /// Two significant digits of a positive number, without an exponent.

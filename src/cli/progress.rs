@@ -2,11 +2,13 @@
 
 use std::io::{self, IsTerminal, Write};
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::quantity::FrequencyUnit;
 use crate::report::words::case;
+use crate::sweep::plan::SweepPlan;
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Progress;
 
@@ -26,48 +28,50 @@ enum How {
 }
 
 impl Shown {
-    pub(super) fn new(total: usize, unit: FrequencyUnit, quiet: bool) -> Self {
-        let how = if quiet {
-            How::Silent
-        } else if io::stderr().is_terminal() {
-            How::Bar(bar(total))
-        } else {
-            How::Lines
+    /// Progress of so many cases of a sweep.
+    pub(super) fn new(plan: &SweepPlan, total: usize, quiet: bool) -> Self {
+        let template = "{wide_bar} {pos}/{len} cases, {eta} left  {msg}";
+        let bar = bar(total, template, quiet);
+        let how = match bar.is_hidden() {
+            _ if quiet => How::Silent,
+            true => How::Lines,
+            false => How::Bar(bar),
         };
+        if let How::Bar(bar) = &how {
+            bar.enable_steady_tick(Duration::from_millis(200));
+        }
         Self {
             total,
-            unit,
+            unit: plan.figures.frequency_unit,
             done: AtomicUsize::new(0),
             found: AtomicUsize::new(0),
             how,
         }
     }
 
-    /// How many cases had records before.
-    pub(super) fn found(&self) -> usize {
-        self.found.load(Ordering::Relaxed)
-    }
-
-    /// Takes the bar away, so that the table stands alone.
-    pub(super) fn finish(&self) {
+    /// Takes the bar away, so that the table stands alone. Returns how many cases had records before.
+    pub(super) fn finish(&self) -> usize {
         if let How::Bar(bar) = &self.how {
             bar.finish_and_clear();
         }
+        self.found.load(Ordering::Relaxed)
     }
 }
 
-fn bar(total: usize) -> ProgressBar {
+/// A bar on a terminal, nothing elsewhere and where asked to be quiet.
+pub(super) fn bar(total: usize, template: &str, quiet: bool) -> ProgressBar {
+    if quiet || !io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
     let bar = ProgressBar::with_draw_target(Some(total as u64), ProgressDrawTarget::stderr());
-    let template = "{wide_bar} {pos}/{len} cases, {eta} left  {msg}";
     if let Ok(style) = ProgressStyle::with_template(template) {
         bar.set_style(style);
     }
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
     bar
 }
 
 /// A line of progress; a closed standard error is no reason to stop.
-fn line(text: &str) {
+pub(super) fn line(text: &str) {
     let _ = writeln!(io::stderr(), "{text}");
 }
 
@@ -90,15 +94,10 @@ impl Progress for Shown {
     fn cases_found(&self, done: usize, of: usize) {
         self.done.fetch_add(done, Ordering::Relaxed);
         self.found.store(done, Ordering::Relaxed);
-        let text = format!("{done} of {of} cases were already done");
-        match &self.how {
-            How::Bar(bar) => {
-                bar.set_position(done as u64);
-                bar.suspend(|| line(&text));
-            }
-            How::Lines => line(&text),
-            How::Silent => {}
+        if let How::Bar(bar) = &self.how {
+            bar.set_position(done as u64);
         }
+        self.told(&format!("{done} of {of} cases were already done"));
     }
 
     fn told(&self, what: &str) {

@@ -1,19 +1,20 @@
 //! `contact-dma reproduce`: the computed figures of the base paper, from the files that are built into the program.
 
-use std::io::Write;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::arguments::{OutputFormat, folder, threads};
+use super::progress::line;
 use super::sweep::interrupt_flag;
-use super::{Ended, Failure, json, print};
+use super::{Ended, Failure, json, tell};
 use crate::input::document::Document;
 use crate::input::figures_block::{self, Figures};
 use crate::input::keys;
 use crate::input::{scenario_file, sweep_file};
-use crate::report::words::wrapped;
+use crate::report::table::Cell;
+use crate::report::words::{wrapped, wrapped_line};
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
@@ -71,37 +72,34 @@ fn figure_number(text: &str) -> Result<u8, String> {
 pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let plans = plans()?;
     let figures = figures(&flags.set)?;
-    let wanted = if flags.figures.is_empty() {
-        FIGURES.to_vec()
-    } else {
-        flags.figures.clone()
+    let wanted = match &flags.figures[..] {
+        [] => &FIGURES,
+        some => some,
     };
     let threads = useful_threads(flags.threads);
     let interrupt = interrupt_flag()?;
     let finished = |number: u8| {
         if !flags.quiet {
-            // A closed standard error is no reason to stop.
-            let _ = writeln!(std::io::stderr(), "figure {number}");
+            line(&format!("figure {number}"));
         }
     };
-    let made = match reproduction::make(&plans, &wanted, threads, &interrupt, &finished) {
+    let made = match reproduction::make(&plans, wanted, threads, &interrupt, &finished) {
         Err(ReproductionError::Interrupted) => return Ok(Ended::Interrupted),
         made => made.map_err(Failure::run)?,
     };
     reproduction::write(&made, &figures, &flags.out).map_err(Failure::run)?;
-    if format == OutputFormat::Json {
-        let claims = json::rows_of(&flags.out.join("claims.csv"))?;
+    let found = || {
+        let (columns, claims) = reproduction::claims(&made);
+        let row =
+            |row: &Vec<Cell>| json::row_of(columns.iter().copied().zip(row.iter().map(Cell::text)));
         let numbers: Vec<u8> = made.iter().map(|figure| figure.number).collect();
-        return json::print(&serde_json::json!({
+        Ok(serde_json::json!({
             "figures": numbers,
-            "claims": claims,
+            "claims": claims.iter().map(row).collect::<Vec<_>>(),
             "folder": flags.out.display().to_string(),
-        }));
-    }
-    if !flags.quiet {
-        print(&text(&made, &flags.out))?;
-    }
-    Ok(Ended::Done)
+        }))
+    };
+    tell(format, flags.quiet, found, || text(&made, &flags.out))
 }
 
 /// How the figures are asked to look.
@@ -123,9 +121,8 @@ fn plans() -> Result<Plans, Failure> {
     let mut plans = Plans::default();
     for (name, text) in SCENARIOS {
         let document = Document::parse(&format!("{name}.toml"), text)?;
-        plans
-            .scenarios
-            .insert(name, scenario_file::plan(&document)?);
+        let plan = scenario_file::plan(&document)?;
+        plans.scenarios.insert(name, plan);
     }
     for (name, text) in SWEEPS {
         let document = Document::parse(&format!("{name}.toml"), text)?;
@@ -136,12 +133,8 @@ fn plans() -> Result<Plans, Failure> {
 
 /// What is printed at the end.
 fn text(made: &[Figure], folder: &Path) -> String {
-    let mut text = wrapped(
-        &format!("{} figures: {}", made.len(), Count::of(made).text()),
-        80,
-        "",
-        "  ",
-    );
+    let counted = format!("{} figures: {}", made.len(), Count::of(made).text());
+    let mut text = wrapped_line(&counted);
     let statements = made.iter().flat_map(|figure| &figure.statements);
     for statement in statements.filter(|s| s.verdict == Verdict::Disagrees) {
         let line = format!(

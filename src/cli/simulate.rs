@@ -1,22 +1,71 @@
 //! `contact-dma simulate`: from a scenario file to the folder of results.
 
-use std::io::{self, IsTerminal, Write};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use clap::Args;
 
-use super::arguments::{OutputFormat, SimulateFlags};
+use super::arguments::{OutputFormat, folder, threads};
 use super::plan::{megabytes, nodes};
+use super::progress::{bar, line};
 use super::sweep::interrupt_flag;
-use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, print};
+use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, tell};
 use crate::input::scenario_file;
 use crate::report::{self, terminal_simulation};
 use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::scenario;
 use crate::sweep::search::run;
-use crate::sweep::store::Store;
+use crate::sweep::store::{Store, checkpoint_file};
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma simulate sweeps/zener-unloading.toml
+  contact-dma simulate sweeps/zener-unloading.toml --set solver.engine=half-space \\
+      --set output.fields_at='[\"4 s\"]' --out reports/fields
+
+The same command again goes on where it was stopped, from the last checkpoint.
+
+Written to the output folder: index.html (one page of everything, to look at or to send),
+history.csv (one row per time step, two at a jump), profiles/ and fields/ at the times asked
+for (CSV; NumPy .npy and ParaView .vti), history, profiles and pressure-map as SVG and PNG,
+summary.json, resolved.toml (the scenario with every default).")]
+pub(super) struct SimulateFlags {
+    /// The scenario file (TOML); - reads standard input, from which paths start in the working folder
+    file: PathBuf,
+    /// Folder for the results [default: reports/<name of the file>]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
+    out: Option<PathBuf>,
+    /// Change one key of the scenario file, for example indenter.radius='5 mm'; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Give no errors of the rows, which saves more than half of the time; the same as
+    /// --set output.error_bars=false
+    #[arg(long)]
+    no_error_bars: bool,
+    /// Write tables alone: no figures and no page
+    #[arg(long)]
+    no_figures: bool,
+    /// Number of threads, which share a large half-space grid [default: one per processor, at most four for each]; the
+    /// results do not depend on it
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
+    threads: Option<NonZeroUsize>,
+    /// Print what would be computed and about the memory it takes, and compute nothing
+    #[arg(long)]
+    dry_run: bool,
+    /// Seconds between two checkpoints of a history that takes long
+    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
+    checkpoint_every: u64,
+    /// Replace the results of a different sweep or scenario in the output folder
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
 
 /// Runs the command.
 pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, Failure> {
@@ -29,16 +78,17 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     let plan = scenario_file::plan(&document)?;
     let simulation = Simulation::new(plan).map_err(Failure::input)?;
     if flags.dry_run {
-        return match format {
-            OutputFormat::Text => print(&foretold(&simulation)),
-            OutputFormat::Json => json::print(&serde_json::json!({
+        let found = || {
+            let steps = simulation.schedule().moments.len();
+            Ok(serde_json::json!({
                 "title": simulation.plan().title,
                 "engine": simulation.plan().contact.solver.engine.name(),
-                "time_steps": simulation.schedule().moments.len(),
-                "time_steps_for_errors": simulation.moments() - simulation.schedule().moments.len(),
+                "time_steps": steps,
+                "time_steps_for_errors": simulation.moments() - steps,
                 "memory_bytes": simulation.predicted_memory_bytes(),
-            })),
+            }))
         };
+        return tell(format, false, found, || foretold(&simulation));
     }
     let resolved = scenario::resolved_text(simulation.plan());
     let store = open_store(&flags.file, flags.out.as_deref(), &resolved, flags.force)?;
@@ -46,33 +96,54 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     let simulation = simulation.interrupted_by(Arc::clone(&interrupt));
     let checkpoint = HistoryCheckpoint::of(&store, Duration::from_secs(flags.checkpoint_every));
     let state = found(&checkpoint, simulation.moments(), flags.quiet);
-    let bar = bar(simulation.moments(), flags.quiet);
+    let template = "{wide_bar} {pos}/{len} steps, {eta} left";
+    let bar = bar(simulation.moments(), template, flags.quiet);
     memory::warn_if_short(simulation.predicted_memory_bytes(), 1);
-    let pool = run::pool(run::useful_threads(flags.threads)).map_err(Failure::run)?;
-    let (outcome, checkpoint) = pool.install({
-        let (simulation, interrupt, bar) = (&simulation, &interrupt, &bar);
-        move || {
-            let told = |done, _| bar.set_position(done as u64);
-            let outcome = simulation.run_from(state, Some(&checkpoint), interrupt, &told);
-            (outcome, checkpoint)
-        }
+    let pool = run::pool(run::useful_threads(flags.threads))?;
+    let told = |done, _| bar.set_position(done as u64);
+    let (simulation, flag, told) = (&simulation, &interrupt, &told);
+    let (outcome, checkpoint) = pool.install(move || {
+        let outcome = simulation.run_from(state, Some(&checkpoint), flag, told);
+        (outcome, checkpoint)
     });
     bar.finish_and_clear();
     let write = match flags.no_figures {
         true => report::scenario::write_tables,
         false => report::scenario::write,
     };
-    let left_out = write(&store, simulation.plan(), &outcome).map_err(Failure::run)?;
+    let left_out = write(&store, simulation.plan(), &outcome)?;
     if outcome.ended != SimulationEnd::Interrupted {
         checkpoint.remove();
     }
-    ended(
-        flags.quiet,
-        format,
-        (&simulation, &outcome),
-        &left_out,
-        &store,
-    )
+    let folder = store.folder().display();
+    if let SimulationEnd::Failed(message) = &outcome.ended {
+        return Err(Failure::run(format!(
+            "{message}\n  what came before is in {folder}"
+        )));
+    }
+    let text = || {
+        let text = terminal_simulation::text(simulation.plan(), &outcome);
+        let left_out: String = left_out.iter().map(|line| format!("{line}\n")).collect();
+        format!("{text}{left_out}\nResults in {folder}\n")
+    };
+    tell(format, flags.quiet, || found_in(&store, &outcome), text)?;
+    Ok(match outcome.ended {
+        SimulationEnd::Interrupted => Ended::Interrupted,
+        _ => Ended::Done,
+    })
+}
+
+/// What the folder holds, as one object.
+fn found_in(store: &Store, outcome: &SimulationOutcome) -> Result<serde_json::Value, Failure> {
+    let file = |name: &str| store.folder().join(name);
+    Ok(serde_json::json!({
+        "summary": json::file(&file("summary.json"))?,
+        "history": json::rows_of(&file("history.csv"))?,
+        "cycles": match outcome.cycles.is_empty() {
+            true => Vec::new(),
+            false => json::rows_of(&file("cycles.csv"))?,
+        },
+    }))
 }
 
 /// What would be computed, and about the memory it takes.
@@ -112,55 +183,7 @@ fn found(
         }
     };
     if !quiet {
-        // A closed standard error is no reason to stop.
-        let _ = writeln!(io::stderr(), "{text}");
+        line(&text);
     }
     state
-}
-
-/// A bar on a terminal, nothing elsewhere.
-fn bar(moments: usize, quiet: bool) -> ProgressBar {
-    if quiet || !io::stderr().is_terminal() {
-        return ProgressBar::hidden();
-    }
-    let bar = ProgressBar::with_draw_target(Some(moments as u64), ProgressDrawTarget::stderr());
-    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} steps, {eta} left") {
-        bar.set_style(style);
-    }
-    bar
-}
-
-fn ended(
-    quiet: bool,
-    format: OutputFormat,
-    (simulation, outcome): (&Simulation, &SimulationOutcome),
-    left_out: &[String],
-    store: &Store,
-) -> Result<Ended, Failure> {
-    let folder = store.folder().display();
-    if let SimulationEnd::Failed(message) = &outcome.ended {
-        return Err(Failure::run(format!(
-            "{message}\n  what came before is in {folder}"
-        )));
-    }
-    if format == OutputFormat::Json {
-        json::print(&serde_json::json!({
-            "summary": json::file(&store.folder().join("summary.json"))?,
-            "history": json::rows_of(&store.folder().join("history.csv"))?,
-            "cycles": match outcome.cycles.is_empty() {
-                true => Vec::new(),
-                false => json::rows_of(&store.folder().join("cycles.csv"))?,
-            },
-        }))?;
-    } else if !quiet {
-        let mut text = terminal_simulation::text(simulation.plan(), outcome);
-        for line in left_out {
-            text.push_str(&format!("{line}\n"));
-        }
-        print(&format!("{text}\nResults in {folder}\n"))?;
-    }
-    Ok(match outcome.ended {
-        SimulationEnd::Interrupted => Ended::Interrupted,
-        _ => Ended::Done,
-    })
 }

@@ -1,18 +1,21 @@
 //! Sweeps that are in a folder already: `contact-dma merge` and `contact-dma report`.
 
-use std::path::Path;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::arguments::{MergeFlags, OutputFormat, ReportFlags};
+use clap::Args;
+
+use super::arguments::{OutputFormat, folder, threads};
 use super::progress::Shown;
-use super::sweep::{Job, failure, interrupt_flag};
+use super::sweep::{Job, interrupt_flag};
 use super::{Ended, Failure};
 use crate::input::document::Document;
 use crate::input::sweep_file;
 use crate::sweep::case::Setup;
 use crate::sweep::plan::resolved::{self, identity};
 use crate::sweep::plan::{Case, Condition};
-use crate::sweep::search::run::{self, Options, Progress, RunError};
+use crate::sweep::search::run::{self, Options, Progress};
 use crate::sweep::store::difference;
 use crate::sweep::store::merge;
 use crate::sweep::store::provenance::Stopwatch;
@@ -21,13 +24,75 @@ use crate::sweep::store::{RESOLVED, Store};
 /// Names of cases in a message before the rest is counted.
 const NAMED: usize = 10;
 
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  contact-dma sweep sweeps/pmma.toml --shard 1/2 --out reports/part-1   # on one machine
+  contact-dma sweep sweeps/pmma.toml --shard 2/2 --out reports/part-2   # on another
+  contact-dma merge reports/part-1 reports/part-2 --out reports/pmma
+
+The records of all cases are brought together; then the curve is refined where the sweep asks
+for it and the peaks are located, which is solver work, and tables and figures are written. The
+result is that of one process, bit for bit.")]
+pub(super) struct MergeFlags {
+    /// Folders of the parts
+    #[arg(required = true, value_name = "DIR")]
+    parts: Vec<PathBuf>,
+    /// Folder for the whole
+    #[arg(long, value_name = "DIR", value_parser = folder())]
+    out: PathBuf,
+    /// Number of threads [default: one per processor, at most four for each]
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
+    threads: Option<NonZeroUsize>,
+    /// Replace the results of a different sweep in the output folder
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma report reports/pmma
+  contact-dma report reports/pmma --set figures.column=one --set figures.dpi=600
+  contact-dma report reports/pmma --out paper/figures
+
+The [figures] table of resolved.toml says how figures look; what is changed is kept there.")]
+pub(super) struct ReportFlags {
+    /// Folder of a sweep, or of an analysis of measured loops
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    /// Folder for tables and figures, without the records [default: the folder of the sweep]; nothing is then written into the
+    /// folder of the sweep
+    #[arg(long, value_name = "DIR", value_parser = folder())]
+    out: Option<PathBuf>,
+    /// Replace the results of a different sweep in the folder of --out
+    #[arg(long, requires = "out")]
+    force: bool,
+    /// Write tables alone: no figures and no page
+    #[arg(long)]
+    no_figures: bool,
+    /// Write cycles.npz, all cycles for NumPy, of more than 200 cases too
+    #[arg(long)]
+    cycles: bool,
+    /// Change one key of [figures], for example figures.width='85 mm'; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
 /// Joins the parts and does what is left to do.
 pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
-    let mut parts = Vec::new();
-    for folder in &flags.parts {
-        parts.push(Store::reopen_to_read(folder).map_err(|e| failure(RunError::Store(e)))?);
-    }
+    let parts = flags
+        .parts
+        .iter()
+        .map(|folder| Store::reopen_to_read(folder));
+    let parts = parts.collect::<Result<Vec<_>, _>>()?;
     let Some((_, resolved)) = parts.first() else {
         return Err(Failure::Input("there is nothing to merge".to_owned()));
     };
@@ -42,14 +107,11 @@ pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, F
         }
     }
     let setup = setup_of(&flags.parts[0], resolved, &[])?;
-    let out = Store::open(&flags.out, resolved, flags.force);
-    let out = out.map_err(|error| failure(RunError::Store(error)))?;
+    let out = Store::open(&flags.out, resolved, flags.force)?;
     let cases = setup.plan().cases();
-    let unit = setup.plan().figures.frequency_unit;
-    let progress = Shown::new(cases.len(), unit, flags.quiet);
+    let progress = Shown::new(setup.plan(), cases.len(), flags.quiet);
     let parts: Vec<Store> = parts.into_iter().map(|(part, _)| part).collect();
-    let missing = merge::gather(&parts, &out, &cases, &|what| progress.told(what));
-    let missing = missing.map_err(|error| failure(RunError::Store(error)))?;
+    let missing = merge::gather(&parts, &out, &cases, &|what| progress.told(what))?;
     if !missing.is_empty() {
         return Err(Failure::Run(lacking(&missing, cases.len(), &out)));
     }
@@ -57,22 +119,12 @@ pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, F
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
     let options = Options::on_threads(run::useful_threads(flags.threads));
     let outcome = run::run_with(&setup, &out, &options, &interrupt, &progress);
-    progress.finish();
     let job = Job {
-        setup: &setup,
-        store: &out,
-        records: &out,
-        quiet: flags.quiet,
-        format,
-        figures: true,
-        cycles: false,
-        stats: false,
-        command: "merge",
-        clock,
         threads: options.threads,
-        found: progress.found(),
+        found: progress.finish(),
+        ..Job::new("merge", clock, (&setup, &out), (format, flags.quiet))
     };
-    job.finish(outcome.map_err(failure)?)
+    job.finish(outcome?)
 }
 
 /// Draws tables and figures of a folder again.
@@ -82,18 +134,14 @@ pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended,
         return done;
     }
     let clock = Stopwatch::start();
-    let refused = |error| failure(RunError::Store(error));
     // A folder that is only read from may be one that nobody can write to.
-    let opened = match &flags.out {
-        None => Store::reopen(&flags.folder),
-        Some(_) => Store::reopen_to_read(&flags.folder),
+    let (store, resolved) = match &flags.out {
+        None => Store::reopen(&flags.folder)?,
+        Some(_) => Store::reopen_to_read(&flags.folder)?,
     };
-    let (store, resolved) = opened.map_err(refused)?;
     let setup = setup_of(&flags.folder, &resolved, &flags.set)?;
-    let plan = setup.plan();
-    let unit = plan.figures.frequency_unit;
-    let progress = Shown::new(plan.cases().len(), unit, flags.quiet);
-    let outcome = run::collect(&setup, &store, &progress).map_err(failure)?;
+    let progress = Shown::new(setup.plan(), setup.plan().cases().len(), flags.quiet);
+    let outcome = run::collect(&setup, &store, &progress)?;
     progress.finish();
     if outcome.records.is_empty() {
         return Err(Failure::Input(format!(
@@ -102,30 +150,21 @@ pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended,
         )));
     }
     let changed = resolved::resolved_text(setup.plan());
-    let out = flags.out.as_deref();
-    let out = out
-        .map(|out| Store::open(out, &changed, flags.force))
-        .transpose();
-    let out = out.map_err(refused)?;
+    let out = match &flags.out {
+        None => &store,
+        Some(out) => &Store::open(out, &changed, flags.force)?,
+    };
     let job = Job {
-        setup: &setup,
-        store: out.as_ref().unwrap_or(&store),
         records: &store,
-        quiet: flags.quiet,
-        format,
         figures: !flags.no_figures,
         cycles: flags.cycles,
-        stats: false,
-        command: "report",
-        clock,
-        threads: 1,
         found: outcome.records.len(),
+        ..Job::new("report", clock, (&setup, out), (format, flags.quiet))
     };
     let ended = job.finish(outcome)?;
     if changed != resolved || flags.out.is_some() {
         // What the folder says of its figures must be what they are.
-        let store = out.as_ref().unwrap_or(&store);
-        store.write(RESOLVED, changed.as_bytes()).map_err(refused)?;
+        out.write(RESOLVED, changed.as_bytes())?;
     }
     Ok(match ended {
         Ended::Interrupted => Ended::SomeCasesWithoutResult,

@@ -1,22 +1,89 @@
 //! `contact-dma sweep`: from a sweep file to the folder of results.
 
-use std::path::Path;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use super::arguments::{OutputFormat, SweepFlags};
+use clap::Args;
+use serde_json::json;
+
+use super::arguments::{OutputFormat, folder, threads};
 use super::progress::Shown;
-use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, print, write_out};
+use super::{Ended, Failure, meant_for, memory, open_document, open_store, print, tell};
 use crate::input::sweep_file;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
 use crate::sweep::plan::resolved;
 use crate::sweep::plan::{Block, Condition};
-use crate::sweep::search::run::{self, Options, Outcome, RunError};
+use crate::sweep::record::CaseRecord;
+use crate::sweep::search::run::{self, Options, Outcome};
 use crate::sweep::share::shard::{self, Shard};
 use crate::sweep::store::provenance::{Circumstances, Stopwatch};
-use crate::sweep::store::{Store, StoreError};
+use crate::sweep::store::{Store, checkpoint_file};
+
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  contact-dma sweep sweeps/pmma.toml
+  contact-dma sweep sweeps/pmma.toml --set indenter.radius='5 mm' --out reports/small
+  contact-dma sweep sweeps/pmma.toml --set solver.engine=half-space --threads 2
+  contact-dma sweep sweeps/pmma.toml --shard 2/8
+
+The same command again goes on where it was stopped: cases with intact records are read, not
+computed, and a long case goes on from its last checkpoint.
+
+Written to the output folder: index.html (one page of everything, to look at or to send),
+sweep.csv (one row per frequency), loops/ (the stabilised cycles), pressures/ and work/
+(contact pressure at some instants of each, and where its work goes in), summary.json (peaks,
+counts), figures as SVG and PNG with their data as CSV, records/ (everything, for later),
+resolved.toml (the sweep with every default).
+
+The [figures] table says how figures look and changes no result: the same sweep with another
+table reads its records and draws again.")]
+pub(super) struct SweepFlags {
+    /// The sweep file (TOML); - reads standard input, from which paths start in the working folder
+    file: PathBuf,
+    /// Folder for the results [default: reports/<name of the file>]
+    #[arg(long, value_name = "DIR", value_parser = folder())]
+    out: Option<PathBuf>,
+    /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
+    threads: Option<NonZeroUsize>,
+    /// Change one key of the sweep file, for example drive.amplitude='2 N' or indenter.asperities.0.radius='1 mm' (items of a list count
+    /// from 0); KEY= removes a key; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Choose steps and nodes such that the error of every loss is below this part of it; the same as
+    /// --set cycle.accuracy=X
+    #[arg(long, value_name = "X")]
+    accuracy: Option<f64>,
+    /// Write tables alone: no figures and no page
+    #[arg(long)]
+    no_figures: bool,
+    /// Write cycles.npz, all cycles for NumPy, of more than 200 cases too
+    #[arg(long)]
+    cycles: bool,
+    /// Compute only the part K of N; `merge` joins parts in separate folders
+    #[arg(long, value_name = "K/N")]
+    shard: Option<Shard>,
+    /// Print what would be computed and about what it costs, and compute nothing
+    #[arg(long)]
+    dry_run: bool,
+    /// Print what was done: instants, iterations and convolutions per instant
+    #[arg(long)]
+    stats: bool,
+    /// Seconds between two checkpoints of a case that takes long
+    #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
+    checkpoint_every: u64,
+    /// Replace the results of a different sweep, or of a newer program, in the output folder
+    #[arg(long)]
+    force: bool,
+    /// Print nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
 
 /// Runs the command.
 pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Failure> {
@@ -40,42 +107,19 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
     };
     memory::warn_if_short(setup.predicted_memory_bytes(), options.threads);
     let mut job = Job {
-        setup: &setup,
-        store: &store,
-        quiet: flags.quiet,
-        format,
-        records: &store,
         figures: !flags.no_figures,
         cycles: flags.cycles,
         stats: flags.stats,
-        command: "sweep",
-        clock,
         threads: options.threads,
-        found: 0,
+        ..Job::new("sweep", clock, (&setup, &store), (format, flags.quiet))
     };
     if let Some(shard) = flags.shard {
         return run_shard(job, shard, &options, &interrupt);
     }
-    let plan = setup.plan();
-    let unit = plan.figures.frequency_unit;
-    let progress = Shown::new(plan.cases().len(), unit, flags.quiet);
+    let progress = Shown::new(setup.plan(), setup.plan().cases().len(), flags.quiet);
     let outcome = run::run_with(&setup, &store, &options, &interrupt, &progress);
-    progress.finish();
-    job.found = progress.found();
-    job.finish(outcome.map_err(failure)?)
-}
-
-/// A folder whose contents must not be used is an input that is wrong; anything else that stops a run is not.
-pub(super) fn failure(error: RunError) -> Failure {
-    match error {
-        RunError::Store(
-            StoreError::NewerProgram { .. }
-            | StoreError::OtherSweep { .. }
-            | StoreError::InUse { .. }
-            | StoreError::NoSweep { .. },
-        ) => Failure::input(error),
-        other => Failure::run(other),
-    }
+    job.found = progress.finish();
+    job.finish(outcome?)
 }
 
 /// A run that has come to its end, and what it takes to tell of it.
@@ -99,35 +143,92 @@ pub(super) struct Job<'a> {
     pub(super) found: usize,
 }
 
-impl Job<'_> {
+impl<'a> Job<'a> {
+    /// One on a single thread that computed everything, with figures and page.
+    pub(super) fn new(
+        command: &'static str,
+        clock: Stopwatch,
+        (setup, store): (&'a Setup, &'a Store),
+        (format, quiet): (OutputFormat, bool),
+    ) -> Self {
+        Self {
+            setup,
+            store,
+            records: store,
+            quiet,
+            format,
+            figures: true,
+            cycles: false,
+            stats: false,
+            command,
+            clock,
+            threads: 1,
+            found: 0,
+        }
+    }
+
     /// Writes tables, figures and where they come from, and prints the result.
     pub(super) fn finish(&self, mut outcome: Outcome) -> Result<Ended, Failure> {
         let plan = self.setup.plan();
-        report::load_drawn_cycles(self.records, plan, &mut outcome).map_err(Failure::run)?;
+        report::load_drawn_cycles(self.records, plan, &mut outcome)?;
         let outcome = &outcome;
         let left_out = match self.figures {
-            true => report::write_sweep(self.store, plan, outcome),
-            false => report::write_tables_of_sweep(self.store, plan, outcome),
+            true => report::write_sweep(self.store, plan, outcome)?,
+            false => report::write_tables_of_sweep(self.store, plan, outcome)?,
         };
-        let left_out = left_out.map_err(Failure::run)?;
         if self.cycles && !plan.is_small() {
             let written = report::cycles::write(self.store, self.records, plan, outcome);
             written.map_err(Failure::run)?;
         }
         self.sign(outcome.records.len(), outcome.interrupted, None)?;
-        if self.format == OutputFormat::Json {
-            let hash = self.store.sweep_hash();
-            write_out(&report::machine::sweep(plan, outcome, hash).map_err(Failure::run)?)?;
-            return Ok(ended(outcome));
-        }
-        if !self.quiet {
-            let folder = self.store.folder();
-            print(&text(self.setup, outcome, &left_out, folder))?;
-        }
-        if self.stats {
+        let found = || {
+            Ok(report::machine::sweep(
+                plan,
+                outcome,
+                self.store.sweep_hash(),
+            ))
+        };
+        let text = || self.text(outcome, &left_out);
+        tell(self.format, self.quiet, found, text)?;
+        if self.stats && self.format == OutputFormat::Text {
             print(&terminal::work(outcome))?;
         }
-        Ok(ended(outcome))
+        Ok(ended(outcome.interrupted, &outcome.records))
+    }
+
+    /// What is printed at the end.
+    fn text(&self, outcome: &Outcome, left_out: &[String]) -> String {
+        let plan = self.setup.plan();
+        let mut text = format!("{}\n\n", plan.title);
+        for (_, Condition { material, .. }) in plan.each_of(Block::Material) {
+            let fit = material.fit().map(report::fit::text);
+            let known = material.approximation();
+            let approximation = known.map(|_| report::fit::approximation(&material));
+            for part in fit.into_iter().chain(approximation) {
+                text.push_str(&format!("{part}\n"));
+            }
+        }
+        text.push_str(&terminal::table(plan, outcome));
+        for part in [
+            terminal::peaks(plan, outcome),
+            terminal::problems(plan, outcome),
+            terminal::warnings_of_sweep(plan, outcome),
+            left_out.iter().map(|line| format!("{line}\n")).collect(),
+        ] {
+            if !part.is_empty() {
+                text.push('\n');
+                text.push_str(&part);
+            }
+        }
+        if outcome.interrupted {
+            text.push_str(&format!(
+                "\nInterrupted: {} of {} cases are done.\n",
+                outcome.records.len(),
+                plan.cases().len()
+            ));
+        }
+        text.push_str(&format!("\nResults in {}\n", self.store.folder().display()));
+        text
     }
 
     /// Writes run.json.
@@ -153,45 +254,35 @@ fn run_shard(
     interrupt: &AtomicBool,
 ) -> Result<Ended, Failure> {
     let own = shard::cases(job.setup, shard).len();
-    let unit = job.setup.plan().figures.frequency_unit;
-    let progress = Shown::new(own, unit, job.quiet);
+    let progress = Shown::new(job.setup.plan(), own, job.quiet);
     let part = run::run_shard(job.setup, job.store, shard, options, interrupt, &progress);
-    progress.finish();
-    let part = part.map_err(failure)?;
-    job.found = progress.found();
+    job.found = progress.finish();
+    let part = part?;
     let done = part.records.len();
     job.sign(done, part.interrupted, Some(shard))?;
     if let Some(whole) = part.whole {
         return job.finish(whole);
     }
-    if job.format == OutputFormat::Json {
-        json::print(&serde_json::json!({
-            "shard": shard.to_string(),
-            "cases_done": done,
-            "cases_of_shard": own,
-            "cases_missing": part.missing,
-            "interrupted": part.interrupted,
-        }))?;
-    } else if !job.quiet {
-        let folder = job.store.folder().display();
-        let next = match part.interrupted {
-            true => "Interrupted: the same command goes on from here.".to_owned(),
-            false => format!(
-                "{} cases of the other shards are missing in this folder. The process that ends last locates the peaks and \
-                 draws the\nfigures; where the shards have folders of their own, `contact-dma merge` does.",
-                part.missing
-            ),
-        };
-        print(&format!(
-            "Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}\n"
-        ))?;
-    }
-    let without_result = part.records.iter().any(|r| !r.status.has_result());
-    Ok(match (part.interrupted, without_result) {
-        (true, _) => Ended::Interrupted,
-        (false, true) => Ended::SomeCasesWithoutResult,
-        (false, false) => Ended::Done,
-    })
+    let found = json!({
+        "shard": shard.to_string(),
+        "cases_done": done,
+        "cases_of_shard": own,
+        "cases_missing": part.missing,
+        "interrupted": part.interrupted,
+    });
+    let next = match part.interrupted {
+        true => "Interrupted: the same command goes on from here.".to_owned(),
+        false => format!(
+            "{} cases of the other shards are missing in this folder. The process that ends last locates the peaks and \
+             draws the\nfigures; where the shards have folders of their own, `contact-dma merge` does.",
+            part.missing
+        ),
+    };
+    let folder = job.store.folder().display();
+    let text =
+        format!("Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}\n");
+    tell(job.format, job.quiet, || Ok(found), || text)?;
+    Ok(ended(part.interrupted, &part.records))
 }
 
 /// A flag that Ctrl-C, SIGTERM and SIGHUP set. A second signal ends the program at once; every file is whole even then.
@@ -207,49 +298,10 @@ pub(super) fn interrupt_flag() -> Result<Arc<AtomicBool>, Failure> {
     Ok(flag)
 }
 
-fn ended(outcome: &Outcome) -> Ended {
-    if outcome.interrupted {
-        Ended::Interrupted
-    } else if !outcome.records.iter().all(|r| r.status.has_result()) {
-        Ended::SomeCasesWithoutResult
-    } else {
-        Ended::Done
+fn ended(interrupted: bool, records: &[CaseRecord]) -> Ended {
+    match interrupted {
+        true => Ended::Interrupted,
+        false if records.iter().all(|r| r.status.has_result()) => Ended::Done,
+        false => Ended::SomeCasesWithoutResult,
     }
-}
-
-/// What is printed at the end.
-fn text(setup: &Setup, outcome: &Outcome, left_out: &[String], folder: &Path) -> String {
-    let plan = setup.plan();
-    let mut text = format!("{}\n\n", plan.title);
-    for (_, Condition { material, .. }) in plan.each_of(Block::Material) {
-        if let Some(fit) = material.fit() {
-            text.push_str(&report::fit::text(fit));
-            text.push('\n');
-        }
-        if material.approximation().is_some() {
-            text.push_str(&report::fit::approximation(&material));
-            text.push('\n');
-        }
-    }
-    text.push_str(&terminal::table(plan, outcome));
-    for part in [
-        terminal::peaks(plan, outcome),
-        terminal::problems(plan, outcome),
-        terminal::warnings_of_sweep(plan, outcome),
-        left_out.iter().map(|line| format!("{line}\n")).collect(),
-    ] {
-        if !part.is_empty() {
-            text.push('\n');
-            text.push_str(&part);
-        }
-    }
-    if outcome.interrupted {
-        text.push_str(&format!(
-            "\nInterrupted: {} of {} cases are done.\n",
-            outcome.records.len(),
-            plan.cases().len()
-        ));
-    }
-    text.push_str(&format!("\nResults in {}\n", folder.display()));
-    text
 }

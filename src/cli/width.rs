@@ -2,6 +2,7 @@
 
 use std::io::IsTerminal;
 
+use crate::report::terminal::{ALWAYS_SHOWN, LEAVES_FIRST};
 use crate::report::words::wrapped;
 
 /// Narrower than this nothing can be read.
@@ -21,24 +22,33 @@ pub(super) fn of_terminal() -> Option<usize> {
 pub(super) fn fitted(text: &str, columns: usize) -> String {
     let mut fitted = String::new();
     for block in text.split_inclusive("\n\n") {
-        let lines: Vec<&str> = block.lines().collect();
-        let widest = lines.iter().map(|line| line.chars().count()).max();
-        if widest.is_none_or(|widest| widest <= columns) {
+        let (body, end) = block.split_at(block.trim_end_matches('\n').len());
+        let lines: Vec<&str> = body.lines().collect();
+        if lines.iter().all(|line| line.chars().count() <= columns) {
             fitted.push_str(block);
             continue;
         }
-        match gutters(&lines) {
-            gutters if gutters.is_empty() => lines.iter().for_each(|line| {
-                let indent: String = line.chars().take_while(|c| *c == ' ').collect();
-                match line.trim().is_empty() {
-                    true => fitted.push('\n'),
-                    false => {
-                        fitted.push_str(&wrapped(line, columns, &indent, &format!("{indent}  ")))
-                    }
-                }
-            }),
-            gutters => fitted.push_str(&narrower(&lines, &gutters, columns)),
+        // A sentence below a table is no row of it.
+        let is_row = |line: &&&str| line.trim().contains("  ");
+        let rows = match lines.iter().take_while(is_row).count() {
+            0 => lines.len(),
+            rows => rows,
+        };
+        let (table, below) = lines.split_at(rows);
+        let gutters = gutters(table);
+        let sentences = match gutters.is_empty() {
+            true => &lines,
+            false => {
+                fitted.push_str(&narrower(table, &gutters, columns));
+                below
+            }
+        };
+        for line in sentences {
+            let indent: String = line.chars().take_while(|c| *c == ' ').collect();
+            let next = format!("{indent}  ");
+            fitted.push_str(&wrapped(line, columns, &indent, &next));
         }
+        fitted.push_str(end.get(1..).unwrap_or(""));
     }
     fitted
 }
@@ -56,37 +66,51 @@ fn gutters(lines: &[&str]) -> Vec<usize> {
     }
 }
 
-/// A table without the columns that do not fit, from the right.
+/// A table without the columns that do not fit, the least important left out first, and a line that says which. The first column,
+/// and what else tells rows apart or how they ended, stays.
 fn narrower(lines: &[&str], gutters: &[usize], columns: usize) -> String {
-    let cut = |line: &str, at: usize| -> String {
-        let left: String = line.chars().take(at).collect();
-        left.trim_end().to_owned()
+    let ends = gutters.iter().copied().chain([usize::MAX]);
+    let all: Vec<(usize, usize)> = [0].iter().chain(gutters).copied().zip(ends).collect();
+    let cell = |line: &str, (start, end): (usize, usize)| -> String {
+        line.chars().skip(start).take(end - start).collect()
     };
-    let fits = |at: &&usize| {
-        lines
-            .iter()
-            .all(|line| cut(line, **at).chars().count() <= columns)
+    let row = |line: &str, shown: &[(usize, usize)]| {
+        let cells: String = shown.iter().map(|column| cell(line, *column)).collect();
+        cells.trim_end().to_owned()
     };
-    let at = gutters
-        .iter()
-        .rev()
-        .find(fits)
-        .or(gutters.first())
-        .copied()
-        .unwrap_or(columns);
-    let left_out: Vec<String> = lines.first().map_or_else(Vec::new, |head| {
-        let rest: String = head.chars().skip(at).collect();
-        rest.split("  ")
-            .map(str::trim)
-            .filter(|name| !name.is_empty())
-            .map(str::to_owned)
-            .collect()
-    });
-    let mut table: String = lines.iter().map(|line| cut(line, at) + "\n").collect();
-    let end = table.trim_end().len();
-    let blank = table.split_off(end.min(table.len()));
+    // Two columns may be one where a heading stands above the gutter.
+    let names = |column: &(usize, usize)| -> Vec<String> {
+        let head = lines.iter().find(|line| !line.is_empty());
+        let heading = head.map(|head| cell(head, *column)).unwrap_or_default();
+        let names = heading.split("  ").map(str::trim);
+        let names = names.filter(|name| !name.is_empty());
+        names.map(str::to_owned).collect()
+    };
+    let is_among = |column: &(usize, usize), known: &[&str]| {
+        names(column).iter().any(|name| known.contains(&&name[..]))
+    };
+    let mut leaving = all.get(1..).unwrap_or_default().to_vec();
+    leaving.retain(|column| !is_among(column, &ALWAYS_SHOWN));
+    // The last of these leaves first.
+    leaving.sort_by_key(|column| is_among(column, &LEAVES_FIRST));
+    let mut shown = all.clone();
+    let fits = |shown: &[(usize, usize)]| {
+        let mut widths = lines.iter().map(|line| row(line, shown).chars().count());
+        widths.all(|width| width <= columns)
+    };
+    while !fits(&shown)
+        && let Some(least) = leaving.pop()
+    {
+        shown.retain(|column| *column != least);
+    }
+    let table: String = lines.iter().map(|line| row(line, &shown) + "\n").collect();
+    let left_out = all.iter().filter(|column| !shown.contains(column));
+    let left_out: Vec<String> = left_out.flat_map(names).collect();
+    if left_out.is_empty() {
+        return table;
+    }
     let told = format!("left out in {columns} columns: {}", left_out.join(", "));
-    table + "\n" + &wrapped(&told, columns, "  ", "  ") + blank.get(1..).unwrap_or("")
+    table + &wrapped(&told, columns, "  ", "  ")
 }
 
 #[cfg(test)]
@@ -96,16 +120,26 @@ mod tests {
     const TABLE: &str = " omega   loss / cycle     status\n  0.01   3.5090 uJ        converged\n 12.30   1 uJ ± 2         failed\n\n";
 
     #[test]
-    fn a_table_loses_columns_from_the_right_and_says_which() {
+    fn a_table_loses_its_least_important_columns_and_says_which_but_never_how_a_row_ended() {
         assert_eq!(fitted(TABLE, 80), TABLE);
-        assert_eq!(
-            fitted(TABLE, 26),
-            " omega   loss / cycle\n  0.01   3.5090 uJ\n 12.30   1 uJ ± 2\n  left out in 26 columns:\n  status\n\n"
-        );
-        let narrow = fitted(TABLE, 20);
-        assert!(narrow.starts_with(" omega\n  0.01\n 12.30\n"), "{narrow}");
-        let words = narrow.split_whitespace().collect::<Vec<_>>().join(" ");
-        assert!(words.ends_with("left out in 20 columns: loss / cycle, status"));
+        let narrow = " omega   status\n  0.01   converged\n 12.30   failed\n";
+        let told = "  left out in 26 columns:\n  loss / cycle\n\n";
+        assert_eq!(fitted(TABLE, 26), format!("{narrow}{told}"));
+        assert!(fitted(TABLE, 20).starts_with(narrow));
+        // What cannot be left out stays, however narrow the terminal is.
+        assert!(fitted(TABLE, 10).starts_with(narrow));
+    }
+
+    #[test]
+    fn columns_leave_by_their_importance_and_sentences_below_a_table_stay_whole() {
+        let table = " case   omega   cycles     about   memory\n    0   0.001       12     1.2 s   3.0 MB\n    1   0.002        9     1.1 s   3.0 MB\nAs long as it takes on this machine.\n";
+        let narrow = |columns| fitted(table, columns);
+        let shown = |columns| narrow(columns).lines().next().unwrap().to_owned();
+        assert_eq!(shown(38), " case   omega   cycles     about");
+        assert_eq!(shown(30), " case   omega   about");
+        assert_eq!(shown(20), " case   omega");
+        let sentence = "  left out in 38 columns: memory\nAs long as it takes on this machine.\n";
+        assert!(narrow(38).ends_with(sentence), "{}", narrow(38));
     }
 
     #[test]

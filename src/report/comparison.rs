@@ -10,14 +10,12 @@ mod result;
 mod source;
 pub(in crate::report) mod text;
 
-pub use columns::{Column, columns};
 pub use result::{ComparisonError, SweepTable};
 pub use source::{RunFacts, Source};
 
-use result::Row;
+use columns::Beside;
 
 use crate::quantity::FrequencyUnit;
-use crate::report::quantities::{self, Compared};
 use crate::report::table::Cell;
 use crate::sweep::plan::AxisValues;
 use crate::sweep::search::peak::Peak;
@@ -41,8 +39,16 @@ impl Default for Tolerances {
     }
 }
 
+impl Tolerances {
+    /// The relative tolerance that a column has of its own.
+    fn own(&self, column: &str) -> Option<f64> {
+        let own = self.columns.iter().find(|(name, _)| name == column);
+        own.map(|(_, relative)| *relative)
+    }
+}
+
 /// Which case: what else axes vary, mean and amplitude of the drive, angular frequency (rad/s).
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, PartialOrd, serde::Serialize)]
 pub struct Place {
     #[serde(skip_serializing_if = "AxisValues::is_empty")]
     pub varied: AxisValues,
@@ -79,7 +85,7 @@ pub struct Comparison {
 }
 
 /// One column over all cases in both results.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
 pub struct ColumnComparison {
     pub name: String,
     /// Largest difference relative to the larger value, and where; `None` where nothing differs.
@@ -91,6 +97,14 @@ pub struct ColumnComparison {
     pub absent: usize,
     /// Cases that count as different.
     pub different: usize,
+    /// The values of every case of either result, in the order of [`Comparison::curve`].
+    #[serde(skip)]
+    pub baseline: Vec<Option<f64>>,
+    #[serde(skip)]
+    pub new: Vec<Option<f64>>,
+    /// Sum of the two error bars, for columns that have them.
+    #[serde(skip)]
+    pub error: Vec<Option<f64>>,
 }
 
 /// A peak of the baseline and the nearest of the new result, or one that stands alone.
@@ -124,61 +138,47 @@ impl Comparison {
         new: &SweepTable,
         tolerances: &Tolerances,
     ) -> Result<Self, ComparisonError> {
-        let pairs: Vec<(&Row, &Row)> = baseline
-            .rows
-            .iter()
-            .filter_map(|row| Some((row, new.row(row.place, baseline)?)))
-            .collect();
-        let alone = |one: &SweepTable, other: &SweepTable| -> Vec<Place> {
-            let rows = one.rows.iter().map(|row| row.place);
-            rows.filter(|place| other.row(*place, one).is_none())
-                .collect()
-        };
-        let names = compared_columns(baseline, new, tolerances)?;
-        let (shared, single): (Vec<String>, Vec<String>) = names
+        let beside = Beside::new(baseline, new);
+        let (shared, single): (Vec<String>, Vec<String>) = (beside.compared_columns(tolerances)?)
             .into_iter()
             .partition(|name| baseline.has(name) && new.has(name));
-        let measured = baseline.is_measured() || new.is_measured();
         let (mut missing_columns, added_columns): (Vec<String>, Vec<String>) =
             single.into_iter().partition(|name| baseline.has(name));
-        if measured {
+        if beside.measured {
             // No loop tells which branch dissipates.
             missing_columns.clear();
         }
-        let mut columns = Vec::with_capacity(shared.len());
-        for name in shared {
-            columns.push(column(name, baseline, new, &pairs, tolerances)?);
-        }
-        let statuses = pairs.iter().filter(|(a, b)| a.status != b.status);
+        let columns = shared.into_iter();
+        let columns = columns.map(|name| beside.column(name, tolerances));
+        let pairs =
+            || (beside.cases.iter()).filter_map(|(place, [a, b])| Some((*place, (*a)?, (*b)?)));
+        let statuses = pairs().map(|(place, a, b)| {
+            let [a, b] = [baseline.text(a, "status"), new.text(b, "status")];
+            (place, a.to_owned(), b.to_owned())
+        });
+        let has_names = new.names.iter().any(|names| !names.is_empty());
         Ok(Self {
-            compared: pairs.len(),
-            missing: alone(baseline, new),
-            added: alone(new, baseline),
+            compared: pairs().count(),
+            missing: beside.without(1),
+            added: beside.without(0),
             missing_columns,
             added_columns,
-            statuses: statuses
-                .map(|(a, b)| (a.place, a.status.clone(), b.status.clone()))
-                .collect(),
-            columns,
+            statuses: statuses.filter(|(_, a, b)| a != b).collect(),
+            columns: columns.collect::<Result<_, _>>()?,
             peaks: peaks(baseline, new, tolerances),
-            curve: columns::curve(baseline, new)?,
-            measured,
-            names: match new.names.iter().any(|names| !names.is_empty()) {
-                true => new.names.clone(),
-                false => Vec::new(),
-            },
+            curve: beside.curve()?,
+            measured: beside.measured,
+            names: new.names.iter().filter(|_| has_names).cloned().collect(),
             unit: baseline.unit(),
         })
     }
 
     /// What axes vary of a case: numbers in SI units, or the names of blocks.
-    pub(in crate::report) fn varied(&self, place: &Place) -> Vec<Cell> {
+    fn varied(&self, place: &Place) -> Vec<Cell> {
         let values = place.varied.all().iter().enumerate();
         let cell = |(axis, value): (usize, &f64)| {
-            let name = self
-                .names
-                .get(axis)
-                .and_then(|names| names.get(*value as usize));
+            let names = self.names.get(axis);
+            let name = names.and_then(|names| names.get(*value as usize));
             name.map_or_else(|| Cell::from(*value), |name| name.clone().into())
         };
         values.map(cell).collect()
@@ -197,111 +197,6 @@ impl Comparison {
     }
 }
 
-/// Whether a column has a number in any row of the tables that have it; an unreadable one counts, and is told where it is compared.
-fn has_numbers(tables: [&SweepTable; 2], column: &str) -> bool {
-    let with = tables.into_iter().filter(|table| table.has(column));
-    let mut cells = with.flat_map(|table| table.rows.iter().map(|row| table.number(row, column)));
-    cells.any(|cell| !matches!(cell, Ok(None)))
-}
-
-/// Physical quantities; not how they came about, nor their error bars, nor differences of nearly equal numbers, nor what neither
-/// result has.
-fn compared_columns(
-    baseline: &SweepTable,
-    new: &SweepTable,
-    tolerances: &Tolerances,
-) -> Result<Vec<String>, ComparisonError> {
-    let mut names: Vec<String> = Vec::new();
-    for column in baseline.columns.iter().chain(&new.columns) {
-        let known = quantities::of_name(column);
-        let is_compared = known.is_some_and(|column| column.compared.is_some());
-        let is_new = is_compared && !names.contains(column);
-        if is_new && has_numbers([baseline, new], column) {
-            names.push(column.clone());
-        }
-    }
-    for (column, _) in &tolerances.columns {
-        if !(baseline.has(column) || new.has(column)) {
-            return Err(ComparisonError::NoColumn {
-                column: column.clone(),
-            });
-        }
-        if !names.contains(column) {
-            names.push(column.clone());
-        }
-    }
-    Ok(names)
-}
-
-fn column(
-    name: String,
-    baseline: &SweepTable,
-    new: &SweepTable,
-    pairs: &[(&Row, &Row)],
-    tolerances: &Tolerances,
-) -> Result<ColumnComparison, ComparisonError> {
-    let own = tolerances
-        .columns
-        .iter()
-        .find(|(column, _)| *column == name);
-    let relative = own.map_or(tolerances.relative, |(_, relative)| *relative);
-    let known = quantities::of_name(&name);
-    let is_relative = known.is_some_and(|c| c.compared == Some(Compared::Absolutely));
-    let bar = known.and_then(|column| column.error_name());
-    let measured = baseline.is_measured() || new.is_measured();
-    let mut found = ColumnComparison {
-        name,
-        largest: None,
-        beyond: 0,
-        within_bars: 0,
-        absent: 0,
-        different: 0,
-    };
-    for (old_row, new_row) in pairs {
-        let value = |table: &SweepTable, row| table.number(row, &found.name);
-        let (a, b) = match (value(baseline, old_row)?, value(new, new_row)?) {
-            (Some(a), Some(b)) => (a, b),
-            (None, None) => continue,
-            // A measurement does not know everything.
-            _ if measured => continue,
-            _ => {
-                found.absent += 1;
-                found.different += 1;
-                continue;
-            }
-        };
-        let scale = if is_relative {
-            1.0
-        } else {
-            a.abs().max(b.abs())
-        };
-        let difference = (a - b).abs();
-        if difference > 0.0 {
-            let share = difference / scale;
-            if found.largest.is_none_or(|(largest, _)| share > largest) {
-                found.largest = Some((share, old_row.place));
-            }
-        }
-        let same_discretisation = !measured && old_row.discretisation == new_row.discretisation;
-        // Without an error bar nothing says how far two discretisations may be apart.
-        let is_comparable = same_discretisation || bar.is_some() || own.is_some();
-        if difference <= tolerances.absolute + relative * scale || !is_comparable {
-            continue;
-        }
-        found.beyond += 1;
-        let error = match &bar {
-            Some(error) => baseline
-                .number(old_row, error)?
-                .zip(new.number(new_row, error)?),
-            None => None,
-        };
-        let within = error.is_some_and(|(a, b)| difference <= a + b);
-        found.within_bars += usize::from(within);
-        found.different += usize::from(!within || same_discretisation);
-    }
-    Ok(found)
-}
-
 /// Peaks of both, each matched with the nearest of the same drive.
 fn peaks(baseline: &SweepTable, new: &SweepTable, tolerances: &Tolerances) -> Vec<PeakComparison> {
     let (Some(old), Some(new)) = (&baseline.peaks, &new.peaks) else {
@@ -309,13 +204,12 @@ fn peaks(baseline: &SweepTable, new: &SweepTable, tolerances: &Tolerances) -> Ve
     };
     let mut left: Vec<Peak> = new.clone();
     let distance = |a: &Peak, b: &Peak| {
-        (a.angular_frequency_rad_per_s / b.angular_frequency_rad_per_s)
-            .ln()
-            .abs()
+        let ratio = a.angular_frequency_rad_per_s / b.angular_frequency_rad_per_s;
+        ratio.ln().abs()
     };
+    let drive = |p: &Peak| (p.varied, p.drive_mean, p.drive_amplitude);
     let mut found = Vec::new();
     for peak in old {
-        let drive = |p: &Peak| (p.varied, p.drive_mean, p.drive_amplitude);
         let nearest = (0..left.len())
             .filter(|&i| drive(&left[i]) == drive(peak))
             .filter(|&i| distance(&left[i], peak) < SAME_PEAK.ln())
@@ -341,13 +235,8 @@ fn peak_differs(a: &Peak, b: &Peak, tolerances: &Tolerances) -> bool {
     let located = [a, b].map(|p| p.angular_frequency_uncertainty_rad_per_s);
     let losses = [a, b].map(|p| p.energy_loss_j);
     let allowed = tolerances.relative * omegas[0].max(omegas[1]) + located[0] + located[1];
-    let own = tolerances
-        .columns
-        .iter()
-        .find(|(c, _)| c == "energy_loss_j");
-    let relative = own.map_or(tolerances.relative, |(_, relative)| *relative);
-    let bars = a.energy_loss_error_j.zip(b.energy_loss_error_j);
-    let bars_j = match bars {
+    let relative = (tolerances.own("energy_loss_j")).unwrap_or(tolerances.relative);
+    let bars_j = match a.energy_loss_error_j.zip(b.energy_loss_error_j) {
         // Equal bars are those of equal discretisations, whose errors are equal too.
         Some((a, b)) if (a - b).abs() > 1e-3 * a.max(b) => a + b,
         _ => 0.0,

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::words::wrapped;
+use super::words::wrapped_line;
 use crate::material::Material;
 use crate::material::fit::{Fit, FitReport, FittedSeries};
 use crate::quantity::{Dimension, format_human};
@@ -19,46 +19,45 @@ pub fn approximation(material: &Material) -> String {
     known.map_or_else(String::new, |known| wrapped_line(&format!("{known}.")))
 }
 
-/// One line of at most 80 columns broken between words, what follows the first set in by two.
-pub(super) fn wrapped_line(line: &str) -> String {
-    wrapped(line, 80, "", "  ")
-}
-
 /// The parameters of the series, to be read; exact ones are in the material block.
 pub fn branches(fit: &Fit) -> String {
-    let (limit, limit_name, rows, strength_name, time_name, flow);
-    match fit.series() {
+    let (limit, rows, names, flow): (_, Vec<(String, f64)>, _, _) = match fit.series() {
         FittedSeries::Creep(creep) => {
             let compliance = |value| format_human(value, Dimension::Compliance, 5);
-            limit = compliance(creep.instantaneous_compliance());
-            limit_name = "Instantaneous compliance";
+            let limit = compliance(creep.instantaneous_compliance());
             let branches = creep.branches().iter();
-            rows = branches
-                .map(|b| (compliance(b.compliance_per_pa), b.time_s))
-                .collect::<Vec<_>>();
-            (strength_name, time_name) = ("compliance", "retardation time");
-            flow = creep.viscosity_pa_s();
+            (
+                format!("Instantaneous compliance: {limit}\n"),
+                branches
+                    .map(|b| (compliance(b.compliance_per_pa), b.time_s))
+                    .collect(),
+                ["compliance", "retardation time"],
+                creep.viscosity_pa_s(),
+            )
         }
         FittedSeries::Relaxation(relaxation) => {
             let modulus = |value| format_human(value, Dimension::Stress, 5);
-            limit = modulus(relaxation.equilibrium_modulus());
-            limit_name = "Equilibrium modulus";
+            let limit = modulus(relaxation.equilibrium_modulus());
             let branches = relaxation.branches().iter();
-            rows = branches
-                .map(|b| (modulus(b.modulus_pa), b.time_s))
-                .collect();
-            (strength_name, time_name) = ("modulus", "relaxation time");
-            flow = None;
+            (
+                format!("Equilibrium modulus: {limit}\n"),
+                branches
+                    .map(|b| (modulus(b.modulus_pa), b.time_s))
+                    .collect(),
+                ["modulus", "relaxation time"],
+                None,
+            )
         }
-    }
-    let mut text = format!("{limit_name}: {limit}\n");
+    };
+    let mut text = limit;
     // Writing to a String cannot fail.
     if let Some(viscosity) = flow {
         let viscosity = format_human(viscosity, Dimension::Viscosity, 5);
         let _ = writeln!(text, "Viscosity: {viscosity}");
     }
     if !rows.is_empty() {
-        let _ = writeln!(text, "Branch {strength_name:>18} {time_name:>18}");
+        let [strength, time] = names;
+        let _ = writeln!(text, "Branch {strength:>18} {time:>18}");
     }
     for (index, (strength, time_s)) in rows.iter().enumerate() {
         let time = format_human(*time_s, Dimension::Time, 5);

@@ -2,7 +2,6 @@
 
 use serde_json::{Map, Value, json};
 
-use super::ReportError;
 use super::quantities;
 use super::summary;
 use super::table::Cell;
@@ -10,28 +9,16 @@ use crate::sweep::plan::SweepPlan;
 use crate::sweep::search::run::Outcome;
 
 /// `{"summary": as in summary.json, "cases": one object per row of sweep.csv}`; an absent value is null.
-///
-/// # Errors
-/// [`ReportError`] where the summary cannot be made.
-pub fn sweep(plan: &SweepPlan, outcome: &Outcome, sweep_hash: &str) -> Result<String, ReportError> {
-    let failed = |error: serde_json::Error| ReportError::Table {
-        name: "the results as JSON",
-        reason: error.to_string(),
-    };
-    let summary = summary::summary(plan, outcome, sweep_hash)?;
-    let summary: Value = serde_json::from_slice(&summary).map_err(failed)?;
+pub fn sweep(plan: &SweepPlan, outcome: &Outcome, sweep_hash: &str) -> Value {
+    let summary = summary::of(plan, outcome, sweep_hash);
     let branches = outcome.branches();
     let columns = quantities::of_cases(branches, plan.figures.frequency_unit, plan.axes.as_ref());
-    let case = |record| -> Map<String, Value> {
+    let cases = outcome.records.iter().map(|record| {
         let cells = columns.iter();
-        cells
-            .map(|column| (column.name.clone(), value((column.cell)(record))))
-            .collect()
-    };
-    let cases: Vec<_> = outcome.records.iter().map(case).collect();
-    let results = json!({ "summary": summary, "cases": cases });
-    let text = serde_json::to_string_pretty(&results).map_err(failed)?;
-    Ok(text + "\n")
+        let cells = cells.map(|column| (column.name.clone(), value((column.cell)(record))));
+        cells.collect::<Map<_, _>>()
+    });
+    json!({ "summary": summary, "cases": cases.collect::<Vec<_>>() })
 }
 
 fn value(cell: Cell) -> Value {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::figure;
 use super::figure::Figure;
 use super::figure::moduli::ModulusPoint;
-use super::number::{four_digits, six_digits};
+use super::number::{four_digits, range, six_digits};
 use super::words;
 use crate::material::{Creep, LossPeak, Material, MaterialError, MaterialFunction, Relaxation};
 use crate::quantity::{Dimension, format_human};
@@ -24,20 +24,12 @@ impl<'a> MaterialReport<'a> {
     }
 
     /// Times of all branches, shortest and longest (s); those of one second where there are no branches.
-    fn time_range_s(&self) -> (f64, f64) {
+    pub(super) fn time_range_s(&self) -> (f64, f64) {
         let relaxation = self.material.relaxation().map(Relaxation::branches);
         let relaxation = relaxation.unwrap_or_default().iter().map(|b| b.time_s);
         let retardation = self.material.creep().branches().iter().map(|b| b.time_s);
-        let times = || relaxation.clone().chain(retardation.clone());
-        let (shortest, longest) = (
-            times().fold(f64::INFINITY, f64::min),
-            times().fold(0.0, f64::max),
-        );
-        if longest > 0.0 {
-            (shortest, longest)
-        } else {
-            (1.0, 1.0)
-        }
+        let times = range(relaxation.chain(retardation));
+        if times.1 > 0.0 { times } else { (1.0, 1.0) }
     }
 
     /// Moduli at `per_decade` frequencies per decade, from two decades below to two above the reciprocal times.
@@ -78,12 +70,9 @@ impl<'a> MaterialReport<'a> {
         let power = 10_f64.powf(span.log10().floor());
         let end = (span / power).ceil() * power;
         let creep = self.material.creep();
-        let point = |t: f64| (t, relaxation.modulus(t), creep.compliance(t));
-        Some(
-            (0..=400)
-                .map(|i| point(end * f64::from(i) / 400.0))
-                .collect(),
-        )
+        let times = (0..=400).map(|i| end * f64::from(i) / 400.0);
+        let point = |t| (t, relaxation.modulus(t), creep.compliance(t));
+        Some(times.map(point).collect())
     }
 
     /// The figures: moduli over frequency, relaxation modulus over time.
@@ -138,22 +127,24 @@ impl<'a> MaterialReport<'a> {
         moduli_table(&mut text, symbol, compliance, &self.moduli(2));
         let peaks = self.material.loss_peaks(self.material.kind())?;
         let _ = writeln!(text, "\nPeaks over angular frequency");
-        let modulus = |p: &LossPeak| format_human(p.value, Dimension::Stress, 5);
-        peak_lines(
-            &mut text,
-            &format!("{symbol}″"),
+        let modulus = |value| format_human(value, Dimension::Stress, 5);
+        let per_mpa = |value: f64| format!("{:.4e} 1/MPa", value * 1e6);
+        let tangent = |value| format!("{value:.4}");
+        text.push_str(&peak_lines(
+            format!("{symbol}″"),
             &peaks.loss_modulus,
             modulus,
-        );
-        let per_mpa = |p: &LossPeak| format!("{:.4e} 1/MPa", p.value * 1e6);
-        peak_lines(
-            &mut text,
-            &format!("{compliance}″"),
+        ));
+        text.push_str(&peak_lines(
+            format!("{compliance}″"),
             &peaks.loss_compliance,
             per_mpa,
-        );
-        let tangent = |p: &LossPeak| format!("{:.4}", p.value);
-        peak_lines(&mut text, "tan δ", &peaks.loss_tangent, tangent);
+        ));
+        text.push_str(&peak_lines(
+            "tan δ".to_owned(),
+            &peaks.loss_tangent,
+            tangent,
+        ));
         Ok(text)
     }
 }
@@ -166,58 +157,36 @@ fn relaxation_lines(text: &mut String, symbol: char, relaxation: &Relaxation) {
         mpa(relaxation.equilibrium_modulus())
     );
     for branch in relaxation.branches() {
-        let _ = write!(
-            text,
-            "\n       + {} exp(-t / {})",
-            mpa(branch.modulus_pa),
-            six_digits(branch.time_s)
-        );
+        let (modulus, time) = (mpa(branch.modulus_pa), six_digits(branch.time_s));
+        let _ = write!(text, "\n       + {modulus} exp(-t / {time})");
     }
-    let _ = writeln!(
-        text,
-        "\n  {symbol}(0) = {} MPa",
-        mpa(relaxation.instantaneous_modulus())
-    );
+    let at_once = mpa(relaxation.instantaneous_modulus());
+    let _ = writeln!(text, "\n  {symbol}(0) = {at_once} MPa");
 }
 
 fn creep_lines(text: &mut String, symbol: char, creep: &Creep) {
     let per_mpa = |per_pa: f64| format!("{:.4e}", per_pa * 1e6);
-    match creep.equilibrium_compliance() {
-        // As the paper writes it: equilibrium less what is still to come.
-        Some(equilibrium) => {
-            let _ = write!(text, "  {symbol}(t) = {}", per_mpa(equilibrium));
-            for branch in creep.branches() {
-                let _ = write!(
-                    text,
-                    "\n       - {} exp(-{} t)    retardation time {} s",
-                    per_mpa(branch.compliance_per_pa),
-                    six_digits(branch.time_s.recip()),
-                    six_digits(branch.time_s)
-                );
-            }
-        }
-        None => {
-            let _ = write!(
+    // As the paper writes it where that is there: equilibrium less what is still to come.
+    let equilibrium = creep.equilibrium_compliance();
+    let first = equilibrium.unwrap_or(creep.instantaneous_compliance());
+    let _ = write!(text, "  {symbol}(t) = {}", per_mpa(first));
+    for branch in creep.branches() {
+        let (compliance, time) = (per_mpa(branch.compliance_per_pa), six_digits(branch.time_s));
+        let rate = six_digits(branch.time_s.recip());
+        let _ = match equilibrium {
+            Some(_) => write!(
                 text,
-                "  {symbol}(t) = {}",
-                per_mpa(creep.instantaneous_compliance())
-            );
-            for branch in creep.branches() {
-                let _ = write!(
-                    text,
-                    "\n       + {} (1 - exp(-t / {}))",
-                    per_mpa(branch.compliance_per_pa),
-                    six_digits(branch.time_s)
-                );
-            }
-            if let Some(viscosity) = creep.viscosity_pa_s() {
-                let _ = write!(
-                    text,
-                    "\n       + t / {} MPa s",
-                    six_digits(viscosity * 1e-6)
-                );
-            }
-        }
+                "\n       - {compliance} exp(-{rate} t)    retardation time {time} s"
+            ),
+            None => write!(text, "\n       + {compliance} (1 - exp(-t / {time}))"),
+        };
+    }
+    if let Some(viscosity) = creep.viscosity_pa_s().filter(|_| equilibrium.is_none()) {
+        let _ = write!(
+            text,
+            "\n       + t / {} MPa s",
+            six_digits(viscosity * 1e-6)
+        );
     }
     text.push('\n');
 }
@@ -241,21 +210,13 @@ fn moduli_table(text: &mut String, symbol: char, compliance: char, points: &[Mod
     }
 }
 
-fn peak_lines(
-    text: &mut String,
-    name: &str,
-    peaks: &[LossPeak],
-    value: impl Fn(&LossPeak) -> String,
-) {
+fn peak_lines(name: String, peaks: &[LossPeak], value: fn(f64) -> String) -> String {
     if peaks.is_empty() {
-        let _ = writeln!(text, "  {name}: none");
+        return format!("  {name}: none\n");
     }
-    for peak in peaks {
-        let _ = writeln!(
-            text,
-            "  {name} = {} at ω = {} rad/s",
-            value(peak),
-            six_digits(peak.angular_frequency_rad_per_s)
-        );
-    }
+    let line = |peak: &LossPeak| {
+        let omega = six_digits(peak.angular_frequency_rad_per_s);
+        format!("  {name} = {} at ω = {omega} rad/s\n", value(peak.value))
+    };
+    peaks.iter().map(line).collect()
 }

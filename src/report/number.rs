@@ -38,46 +38,50 @@ pub fn range(values: impl IntoIterator<Item = f64>) -> (f64, f64) {
     values.into_iter().fold(none, wider)
 }
 
+/// A number as mantissa of so many digits and power of ten.
+fn mantissa_and_exponent(value: f64, significant: usize) -> (String, i32) {
+    let text = format!("{value:.*e}", significant.saturating_sub(1));
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    (mantissa.to_owned(), exponent.parse().unwrap_or(0))
+}
+
 /// A number with a power of ten in superscript where it is not of everyday size: `8.44 × 10⁻³`, `0.278`, `10⁻⁴`.
 pub fn scientific(value: f64, significant: usize) -> String {
-    let text = format!("{value:.*e}", significant.saturating_sub(1));
-    let Some((mantissa, exponent)) = text.split_once('e') else {
-        return text;
-    };
-    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let (mantissa, exponent) = mantissa_and_exponent(value, significant);
+    if !value.is_finite() {
+        return mantissa;
+    }
     if (-1..=3).contains(&exponent) {
         let decimals = (significant as i32 - 1 - exponent).max(0) as usize;
-        return trimmed(&format!("{value:.decimals$}"));
+        return trimmed(&format!("{value:.decimals$}")).to_owned();
     }
-    let mantissa = trimmed(mantissa);
     let power = superscript(exponent);
-    if mantissa == "1" {
-        format!("10{power}")
-    } else {
-        format!("{mantissa} × 10{power}")
+    match trimmed(&mantissa) {
+        "1" => format!("10{power}"),
+        mantissa => format!("{mantissa} × 10{power}"),
     }
 }
 
 /// Without zeros at the end of the decimals.
-fn trimmed(number: &str) -> String {
-    if number.contains('.') {
-        number
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_owned()
-    } else {
-        number.to_owned()
+fn trimmed(number: &str) -> &str {
+    match number.contains('.') {
+        true => number.trim_end_matches('0').trim_end_matches('.'),
+        false => number,
     }
 }
 
 /// A whole number raised: `⁻³`.
 pub(super) fn superscript(exponent: i32) -> String {
-    const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
-    let raised = |c: char| match c.to_digit(10) {
-        Some(digit) => DIGITS[digit as usize % 10],
-        None => '⁻',
-    };
-    exponent.to_string().chars().map(raised).collect()
+    let digit = |c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10)? as usize);
+    let digits = exponent.to_string();
+    digits.chars().map(|c| digit(c).unwrap_or('⁻')).collect()
+}
+
+/// A number in the unit, with the prefix, in which it reads well, and that unit.
+fn in_unit(value: f64, dimension: Dimension, significant: usize) -> (f64, String) {
+    let human = format_human(value, dimension, significant);
+    let (number, unit) = human.split_once(' ').unwrap_or((&human, ""));
+    (number.parse().unwrap_or(value), unit.to_owned())
 }
 
 /// A value with its error, in one unit and of one power of ten: the error has one digit and is never less than it is, the value has
@@ -102,14 +106,10 @@ impl Measured {
             return None;
         }
         // The unit and the power that the value alone would be written with.
-        let human = format_human(value, dimension, 17);
-        let (number, unit) = human.split_once(' ').unwrap_or((&human, ""));
-        let number: f64 = number.parse().unwrap_or(value);
-        let exponent = number.abs().log10().floor() as i32;
-        let power = if (-2..5).contains(&exponent) {
-            0
-        } else {
-            exponent
+        let (number, unit) = in_unit(value, dimension, 17);
+        let power = match number.abs().log10().floor() as i32 {
+            -2..5 => 0,
+            exponent => exponent,
         };
         let scale = 10_f64.powi(power);
         let least = 10_f64.powi(-MOST_DECIMALS);
@@ -119,12 +119,10 @@ impl Measured {
             value: format!("{:.decimals$}", number / scale),
             error: format!("{error:.decimals$}"),
             power,
-            unit: unit.to_owned(),
+            unit,
         })
     }
-}
 
-impl Measured {
     /// The power of ten where it cannot be raised: `e-3`, or nothing.
     pub fn tens(&self) -> String {
         match self.power {
@@ -147,9 +145,8 @@ fn power_of_ten(number: f64) -> i32 {
 
 /// Value and error to be read: `3.5090 ± 0.0003 µJ`, `(8.440 ± 0.003) × 10⁻³ rad/s`.
 pub(super) fn with_error(value: f64, error: Option<f64>, dimension: Dimension) -> String {
-    written(value, error, dimension, &|power| {
-        format!(" × {}", scientific(10_f64.powi(power), 1))
-    })
+    let tens = |power| format!(" × {}", scientific(10_f64.powi(power), 1));
+    written((value, error), dimension, tens)
 }
 
 /// The same where powers cannot be raised: `(8.440 ± 0.003)e-3 rad/s`.
@@ -158,25 +155,19 @@ pub(super) fn with_error_on_terminal(
     error: Option<f64>,
     dimension: Dimension,
 ) -> String {
-    written(value, error, dimension, &|power| format!("e{power}"))
+    written((value, error), dimension, |power| format!("e{power}"))
 }
 
 fn written(
-    value: f64,
-    error: Option<f64>,
+    (number, of): (f64, Option<f64>),
     dimension: Dimension,
-    tens: &dyn Fn(i32) -> String,
+    tens: fn(i32) -> String,
 ) -> String {
-    let Some(measured) = Measured::new(value, error, dimension) else {
-        return format_human(value, dimension, 5);
+    let Some(measured) = Measured::new(number, of, dimension) else {
+        return format_human(number, dimension, 5);
     };
-    let Measured {
-        value,
-        error,
-        power,
-        unit,
-    } = measured;
-    match power {
+    let (value, error, unit) = (measured.value, measured.error, measured.unit);
+    match measured.power {
         0 => format!("{value} ± {error} {unit}"),
         power => format!("({value} ± {error}){} {unit}", tens(power)),
     }
@@ -189,11 +180,8 @@ pub fn at_frequency(
     digits: usize,
 ) -> String {
     let value = unit.of(angular_frequency_rad_per_s);
-    format!(
-        "{} = {}",
-        unit.symbol(),
-        plain(value, unit.dimension(), digits)
-    )
+    let value = plain(value, unit.dimension(), digits);
+    format!("{} = {value}", unit.symbol())
 }
 
 /// Four digits, with an exponent where the number is small or large.
@@ -209,7 +197,7 @@ pub fn six_digits(value: f64) -> String {
     let text = significant(value, 6, 1e-3..1e7);
     match text.contains('e') {
         true => text,
-        false => trimmed(&text),
+        false => trimmed(&text).to_owned(),
     }
 }
 
@@ -226,9 +214,7 @@ fn significant(value: f64, digits: usize, fixed: std::ops::Range<f64>) -> String
 
 /// A number as a person would write it: `10 N`, `10⁻⁴ rad/s`. At most `significant` digits.
 pub(super) fn plain(value: f64, dimension: Dimension, significant: usize) -> String {
-    let human = format_human(value, dimension, significant);
-    let (number, unit) = human.split_once(' ').unwrap_or((&human, ""));
-    let number: f64 = number.parse().unwrap_or(value);
+    let (number, unit) = in_unit(value, dimension, significant);
     format!("{} {unit}", scientific(number, significant))
 }
 
@@ -260,19 +246,15 @@ pub(super) fn digits(value: Option<f64>, significant: usize) -> String {
     let Some(value) = value else {
         return "–".to_owned();
     };
-    let decimals = significant.saturating_sub(1);
-    let written = format!("{value:.decimals$e}");
-    let (mantissa, exponent) = written.split_once('e').unwrap_or((&written, "0"));
-    match exponent.parse::<i32>().unwrap_or(0) {
-        exponent @ -2..5 => {
-            let decimals = (decimals as i32 - exponent).max(0) as usize;
-            format!("{value:.decimals$}").replace('-', "−")
+    let (mantissa, exponent) = mantissa_and_exponent(value, significant);
+    let text = match exponent {
+        -2..5 => {
+            let decimals = (significant.saturating_sub(1) as i32 - exponent).max(0) as usize;
+            format!("{value:.decimals$}")
         }
-        exponent => {
-            let tens = scientific(10_f64.powi(exponent), 1);
-            format!("{} × {tens}", mantissa.replace('-', "−"))
-        }
-    }
+        exponent => format!("{mantissa} × {}", scientific(10_f64.powi(exponent), 1)),
+    };
+    text.replace('-', "−")
 }
 
 #[cfg(test)]

@@ -24,17 +24,21 @@ pub struct PeakWords {
 }
 
 impl PeakWords {
+    /// What it is among the peaks.
+    pub fn name(&self) -> &'static str {
+        match self.is_largest {
+            true => "Peak",
+            false => "Lower peak",
+        }
+    }
+
     /// `3.5090 ± 0.0003 µJ at ω = (8.440 ± 0.003) × 10⁻³ rad/s, amplitude 5 N`.
     pub fn sentence(&self) -> String {
-        let Self {
-            loss,
-            symbol,
-            frequency,
-            under,
-            material,
-            ..
-        } = self;
-        format!("{loss} at {symbol} = {frequency}{under}{material}")
+        let (loss, symbol, frequency) = (&self.loss, self.symbol, &self.frequency);
+        format!(
+            "{loss} at {symbol} = {frequency}{}{}",
+            self.under, self.material
+        )
     }
 }
 
@@ -99,11 +103,7 @@ pub fn shown(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<
 /// Why there is no peak.
 pub fn none(plan: &SweepPlan, outcome: &Outcome) -> &'static str {
     let is_elastic = plan.cycle.at_cycle.is_none() && outcome.branches() == 0;
-    if !outcome
-        .records
-        .iter()
-        .any(|record| record.status.has_result())
-    {
+    if !outcome.records.iter().any(|r| r.status.has_result()) {
         "No peak: no case converged."
     } else if is_elastic {
         "No peak: the material has no branches; an elastic body loses nothing."

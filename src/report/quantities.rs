@@ -18,7 +18,9 @@ pub struct Column<R: 'static> {
     pub name: &'static str,
     /// What it means, for the reference of columns.
     pub meaning: &'static str,
-    value: Value<R>,
+    value: fn(&R) -> Cell,
+    /// In its place, where there is one column for each branch of the creep compliance, counted from 0.
+    of_branch: Option<fn(&R, usize) -> Cell>,
     /// `None` for counts, texts and ratios.
     pub dimension: Option<Dimension>,
     /// The quantity in words; the name where there are no better ones.
@@ -27,12 +29,6 @@ pub struct Column<R: 'static> {
     pub in_cases: Option<&'static str>,
     error: Option<fn(&R) -> Option<f64>>,
     pub compared: Option<Compared>,
-}
-
-enum Value<R: 'static> {
-    Of(fn(&R) -> Cell),
-    /// One column for each branch of the creep compliance, counted from 0.
-    OfBranch(fn(&R, usize) -> Cell),
 }
 
 /// How two values of a column are compared.
@@ -53,7 +49,8 @@ impl<R> Column<R> {
         Self {
             name,
             meaning,
-            value: Value::Of(value),
+            value,
+            of_branch: None,
             dimension: None,
             heading: name,
             in_cases: None,
@@ -68,7 +65,7 @@ impl<R> Column<R> {
         meaning: &'static str,
     ) -> Self {
         let mut column = Self::new(name, |_| Cell::Absent, meaning);
-        column.value = Value::OfBranch(value);
+        column.of_branch = Some(value);
         column
     }
 
@@ -108,10 +105,7 @@ impl<R> Column<R> {
 
     /// The value in a row that is a number.
     pub fn number(&self, row: &R) -> Option<f64> {
-        match self.value {
-            Value::Of(value) => value(row).number(),
-            Value::OfBranch(_) => None,
-        }
+        (self.value)(row).number()
     }
 
     /// Its error in a row.
@@ -130,26 +124,20 @@ impl<R> Column<R> {
 
     /// Its columns of values in a table: one, but for branches.
     pub(super) fn named(&self, branches: usize) -> Vec<Named<R>> {
-        match self.value {
-            Value::Of(value) => vec![Named {
-                name: self.name.to_owned(),
-                cell: Box::new(value),
-            }],
-            Value::OfBranch(value) => (0..branches)
-                .map(|k| Named {
-                    name: self.name.replace("{}", &(k + 1).to_string()),
-                    cell: Box::new(move |row| value(row, k)),
+        match self.of_branch {
+            None => vec![Named::new(self.name, self.value)],
+            Some(value) => (0..branches)
+                .map(|k| {
+                    let name = self.name.replace("{}", &(k + 1).to_string());
+                    Named::new(name, move |row| value(row, k))
                 })
                 .collect(),
         }
     }
 
     pub(super) fn named_error(&self) -> Option<Named<R>> {
-        let (name, error) = (self.error_name()?, self.error?);
-        Some(Named {
-            name,
-            cell: Box::new(move |row| error(row).into()),
-        })
+        let error = self.error?;
+        Some(Named::new(self.error_name()?, move |row| error(row).into()))
     }
 }
 
@@ -159,6 +147,26 @@ pub struct Named<R: 'static> {
     pub cell: Box<dyn Fn(&R) -> Cell>,
 }
 
+impl<R> Named<R> {
+    fn new(name: impl Into<String>, cell: impl Fn(&R) -> Cell + 'static) -> Self {
+        Self {
+            name: name.into(),
+            cell: Box::new(cell),
+        }
+    }
+}
+
+/// These columns, errors beside their values.
+fn with_errors<R>(columns: &[Column<R>], branches: usize) -> Vec<Named<R>> {
+    let named = |column: &Column<R>| {
+        column
+            .named(branches)
+            .into_iter()
+            .chain(column.named_error())
+    };
+    columns.iter().flat_map(named).collect()
+}
+
 /// The columns of `sweep.csv`, errors beside their values; frequencies in the unit asked for come first, and before the drive
 /// stands what other axes vary of something else.
 pub fn of_cases(
@@ -166,21 +174,16 @@ pub fn of_cases(
     unit: FrequencyUnit,
     axes: Option<&Axes>,
 ) -> Vec<Named<CaseRecord>> {
-    let columns = SWEEP.iter();
-    let mut named: Vec<_> = columns
-        .flat_map(|c| c.named(branches).into_iter().chain(c.named_error()))
-        .collect();
+    let mut named = with_errors(SWEEP, branches);
     if let Some(leading) = named.iter().position(|c| c.name == unit.column()) {
         named[..=leading].rotate_right(1);
     }
     let own = axes.into_iter().flat_map(Axes::own_columns);
     let own = own.map(|(axis, varied)| {
         let (name, varied) = (varied.column(), varied.clone());
-        let cell = move |record: &CaseRecord| Cell::of_axis(&varied, record.varied.get(axis));
-        Named {
-            name,
-            cell: Box::new(cell),
-        }
+        Named::new(name, move |record: &CaseRecord| {
+            Cell::of_axis(&varied, record.varied.get(axis))
+        })
     });
     if let Some(place) = named.iter().position(|c| c.name == "drive_mean") {
         named.splice(place..place, own.collect::<Vec<_>>());
@@ -209,42 +212,24 @@ pub fn of_name(name: &str) -> Option<&'static Column<CaseRecord>> {
         })
 }
 
-/// The value of a quantity that has an error bar, and its error, as functions of a record.
-macro_rules! bar {
-    ($quantity:ident) => {
-        (
-            |r| {
-                r.result
-                    .as_ref()
-                    .and_then(|c| Quantity::$quantity.of(c))
-                    .into()
-            },
-            |r| {
-                let errors = r.result.as_ref()?.errors.as_ref()?;
-                errors.of(Quantity::$quantity)
-            },
-        )
-    };
-}
-
-/// How value and error are found in a record.
-type WithError = (fn(&CaseRecord) -> Cell, fn(&CaseRecord) -> Option<f64>);
-
 /// A column with an error bar.
-const fn barred(
-    name: &'static str,
-    (value, error): WithError,
-    (heading, dimension): (&'static str, Option<Dimension>),
-    meaning: &'static str,
-) -> Column<CaseRecord> {
-    let compared = match dimension {
-        Some(_) => Compared::Relatively,
-        None => Compared::Absolutely,
+macro_rules! barred {
+    ($name:literal, $quantity:ident, ($heading:literal, $dimension:expr), $meaning:literal $(,)?) => {
+        OfCase::new(
+            $name,
+            |r| of_result(r, |c| Quantity::$quantity.of(c)),
+            $meaning,
+        )
+        .called($heading, $dimension)
+        .with_error(|r| {
+            let errors = r.result.as_ref()?.errors.as_ref()?;
+            errors.of(Quantity::$quantity)
+        })
+        .compared(match $dimension {
+            Some(_) => Relatively,
+            None::<Dimension> => Absolutely,
+        })
     };
-    Column::new(name, value, meaning)
-        .called(heading, dimension)
-        .with_error(error)
-        .compared(compared)
 }
 
 /// A number of the result, where there is one.
@@ -267,7 +252,7 @@ pub static SWEEP: &[OfCase] = &[
         .called("frequency", Some(Dimension::Frequency)),
     OfCase::new("drive_mean", |r| r.drive_mean.into(), "mean of the prescribed load (N) or approach (m)"),
     OfCase::new("drive_amplitude", |r| r.drive_amplitude.into(), "amplitude of the prescribed load (N) or approach (m)"),
-    barred("energy_loss_j", bar!(EnergyLoss), ("energy loss per cycle", Some(Energy)),
+    barred!("energy_loss_j", EnergyLoss, ("energy loss per cycle", Some(Energy)),
         "area of the closed loop, ∮ W dδ over one cycle, from its Fourier coefficients")
         .in_cases("loss per cycle"),
     OfCase::new("energy_loss_material_error_j", |r| r.energy_loss_material_error_j().into(),
@@ -275,23 +260,23 @@ pub static SWEEP: &[OfCase] = &[
          with the replicas of the material; no part of `energy_loss_error_j`, which is numerical; empty for a material without replicas")
         .called("uncertainty of the loss from the material", Some(Energy))
         .in_cases("uncertainty from the material"),
-    barred("phase_lag_rad", bar!(PhaseLag), ("phase lag of the approach", Some(Angle)),
+    barred!("phase_lag_rad", PhaseLag, ("phase lag of the approach", Some(Angle)),
         "by how much the first harmonic of the approach lags behind that of the load, θ₁ − φ₁")
         .in_cases("phase lag"),
-    barred("storage_modulus_pa", bar!(StorageModulus), ("storage modulus from the loop", Some(Stress)),
+    barred!("storage_modulus_pa", StorageModulus, ("storage modulus from the loop", Some(Stress)),
         "what instrumented indentation reads from the loop, (1 − ν²) W₁ cos(θ₁ − φ₁)/(2 a₀ δ₁); empty where the indenter leaves the surface")
         .in_cases("E′"),
-    barred("loss_modulus_pa", bar!(LossModulus), ("loss modulus from the loop", Some(Stress)),
+    barred!("loss_modulus_pa", LossModulus, ("loss modulus from the loop", Some(Stress)),
         "the same with the sine")
         .in_cases("E″"),
-    barred("approach_min_m", bar!(ApproachMin), ("smallest approach", Some(Length)),
+    barred!("approach_min_m", ApproachMin, ("smallest approach", Some(Length)),
         "smallest approach of the cycle"),
-    barred("approach_max_m", bar!(ApproachMax), ("largest approach", Some(Length)),
+    barred!("approach_max_m", ApproachMax, ("largest approach", Some(Length)),
         "largest approach of the cycle")
         .in_cases("largest approach"),
-    barred("contact_radius_min_m", bar!(ContactRadiusMin), ("smallest contact radius", Some(Length)),
+    barred!("contact_radius_min_m", ContactRadiusMin, ("smallest contact radius", Some(Length)),
         "smallest contact radius of the cycle: that of the circle of the contact's area"),
-    barred("contact_radius_max_m", bar!(ContactRadiusMax), ("largest contact radius", Some(Length)),
+    barred!("contact_radius_max_m", ContactRadiusMax, ("largest contact radius", Some(Length)),
         "largest contact radius of the cycle")
         .in_cases("largest radius"),
     OfCase::new("contact_duty", |r| of_result(r, |c| Some(c.contact_duty.part)),
@@ -303,14 +288,14 @@ pub static SWEEP: &[OfCase] = &[
     OfCase::new("tabor_parameter", |r| of_result(r, |c| c.tabor_parameter),
         "(R w²/(E*² z₀³))^(1/3) of an indenter that is attracted, with |1/C*| at the frequency for E*; empty without `[adhesion]`")
         .called("Tabor's parameter", None).compared(Relatively),
-    barred("peak_pressure_min_pa", bar!(PeakPressureMin), ("smallest peak pressure", Some(Stress)),
+    barred!("peak_pressure_min_pa", PeakPressureMin, ("smallest peak pressure", Some(Stress)),
         "smallest over the cycle of the largest pressure in the contact; empty where that is unbounded, under a cone or a flat punch"),
-    barred("peak_pressure_max_pa", bar!(PeakPressureMax), ("largest peak pressure", Some(Stress)),
+    barred!("peak_pressure_max_pa", PeakPressureMax, ("largest peak pressure", Some(Stress)),
         "the largest over the cycle")
         .in_cases("largest pressure"),
-    barred("harmonic_2", bar!(Harmonic2), ("second harmonic of the approach, relative", None),
+    barred!("harmonic_2", Harmonic2, ("second harmonic of the approach, relative", None),
         "amplitude of the second harmonic of the approach relative to the first, δ₂/δ₁"),
-    barred("harmonic_3", bar!(Harmonic3), ("third harmonic of the approach, relative", None), "δ₃/δ₁"),
+    barred!("harmonic_3", Harmonic3, ("third harmonic of the approach, relative", None), "δ₃/δ₁"),
     OfCase::of_branch("branch_{}_loss_j", |r, k| of_result(r, |c| Some(c.branches.get(k)?.energy_loss_j)),
         "what the dashpot of each branch of the creep compliance dissipates per cycle, from the memory alone, shortest \
          retardation time first (`summary.json` lists the times)")
@@ -440,10 +425,7 @@ pub static CYCLES: &[OfCycle] = &[
 
 /// The columns of `cycles.csv`, errors beside their values.
 pub fn of_cycles() -> Vec<Named<HistoryCycle>> {
-    let columns = CYCLES.iter();
-    columns
-        .flat_map(|c| c.named(0).into_iter().chain(c.named_error()))
-        .collect()
+    with_errors(CYCLES, 0)
 }
 
 /// `cycles.csv`: one row per cycle of the sine segments of a history.

@@ -1,6 +1,6 @@
 //! What is said of samples that are taken as they are.
 
-use super::fit::wrapped_line;
+use super::words::wrapped_line;
 use crate::material::MaterialFunction;
 use crate::material::sampled::Sampled;
 use crate::quantity::{Dimension, format_human};

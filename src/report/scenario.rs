@@ -45,15 +45,19 @@ pub fn write_tables(
     outcome: &SimulationOutcome,
 ) -> Result<Vec<String>, ReportError> {
     scenario_tables::write(store, plan, outcome)?;
-    let maps = (0..outcome.fields.len()).map(figure::pressure_map::file);
-    let drawn = scenario::FIGURES.into_iter().map(str::to_owned).chain(maps);
-    let drawn = drawn.flat_map(|name| files::of_figure(&name));
+    let drawn = names(outcome).flat_map(|name| files::of_figure(&name));
     // The data of the figure of the history are the table itself.
     for file in drawn.filter(|file| file != HISTORY) {
         store.remove(&file)?;
     }
     store.remove("index.html")?;
     Ok(Vec::new())
+}
+
+/// The names of all figures that there may be.
+fn names(outcome: &SimulationOutcome) -> impl Iterator<Item = String> {
+    let maps = (0..outcome.fields.len()).map(figure::pressure_map::file);
+    scenario::FIGURES.into_iter().map(str::to_owned).chain(maps)
 }
 
 fn figures(
@@ -79,14 +83,9 @@ fn figures(
     figures.extend(profiles);
     left_out.extend(not_drawn);
     press.figures(&figures, &setting)?;
-    left_out.extend(figure::pressure_map::write(
-        &outcome.fields,
-        &press,
-        (&units, &setting),
-    )?);
-    let maps = (0..outcome.fields.len()).map(figure::pressure_map::file);
-    let files = scenario::FIGURES.into_iter().map(str::to_owned).chain(maps);
-    for file in files.flat_map(|file| press::not_asked(&plan.figures, &file)) {
+    let maps = figure::pressure_map::write(&outcome.fields, &press, (&units, &setting))?;
+    left_out.extend(maps);
+    for file in names(outcome).flat_map(|name| press::not_asked(&plan.figures, &name)) {
         store.remove(&file)?;
     }
     Ok(left_out)

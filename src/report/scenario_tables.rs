@@ -8,7 +8,7 @@ use super::ReportError;
 use super::npy;
 use super::profile_lines::lines;
 use super::quantities;
-use super::table::{Cell, cells, csv};
+use super::table::{self, Cell, cells, csv};
 use super::vti;
 use crate::contact::surface::Surface;
 use crate::sweep::history::outside_model;
@@ -54,36 +54,31 @@ pub fn write(
 
 /// `index.csv`: which time and state each file of a folder belongs to.
 fn index(records: &[SurfaceRecord]) -> Vec<u8> {
-    let columns = [
-        "index",
-        "time_s",
-        "load_n",
-        "approach_m",
-        "contact_radius_m",
-        "cells_x",
-        "cells_y",
-        "spacing_x_m",
-        "spacing_y_m",
-    ];
-    let rows = records.iter().enumerate().map(|(k, record)| {
-        let row = &record.row;
-        let grid = match &record.surface {
-            Surface::Radial(_) => None,
-            Surface::Cells(cells) => Some(cells.grid),
-        };
-        cells![
-            k,
-            row.time_s,
-            row.load_n,
-            row.approach_m,
-            row.contact_radius_m,
-            grid.map(|g| g.cells_x()),
-            grid.map(|g| g.cells_y()),
-            grid.map(|g| g.spacing_x_m()),
-            grid.map(|g| g.spacing_y_m()),
-        ]
-    });
-    csv(&columns, rows)
+    let grid = |record: &SurfaceRecord| match &record.surface {
+        Surface::Radial(_) => None,
+        Surface::Cells(cells) => Some(cells.grid),
+    };
+    let rows = records.iter().map(|record| (record.row, grid(record)));
+    table::of_rows(
+        rows.enumerate(),
+        &[
+            ("index", |(k, _)| (*k).into()),
+            ("time_s", |(_, (row, _))| row.time_s.into()),
+            ("load_n", |(_, (row, _))| row.load_n.into()),
+            ("approach_m", |(_, (row, _))| row.approach_m.into()),
+            ("contact_radius_m", |(_, (row, _))| {
+                row.contact_radius_m.into()
+            }),
+            ("cells_x", |(_, (_, grid))| grid.map(|g| g.cells_x()).into()),
+            ("cells_y", |(_, (_, grid))| grid.map(|g| g.cells_y()).into()),
+            ("spacing_x_m", |(_, (_, grid))| {
+                grid.map(|g| g.spacing_x_m()).into()
+            }),
+            ("spacing_y_m", |(_, (_, grid))| {
+                grid.map(|g| g.spacing_y_m()).into()
+            }),
+        ],
+    )
 }
 
 /// `profiles/<k>.csv`.
@@ -176,11 +171,7 @@ fn summary(
         SimulationEnd::Failed(message) => ("failed", Some(message.as_str())),
     };
     let radii = outcome.rows.iter().map(|row| row.contact_radius_m);
-    let peaks: Option<Vec<f64>> = outcome
-        .rows
-        .iter()
-        .map(|row| row.peak_pressure_pa)
-        .collect();
+    let mut peaks = outcome.rows.iter().map(|row| row.peak_pressure_pa);
     let warnings = outside_model::warnings(plan, outcome).into_iter();
     let warnings = warnings.map(|warning| Warned {
         code: warning.code(),
@@ -194,7 +185,8 @@ fn summary(
         time_steps: outcome.rows.len(),
         end_time_s: outcome.rows.last().map(|row| row.time_s),
         largest_contact_radius_m: radii.fold(0.0, f64::max),
-        largest_peak_pressure_pa: peaks.map(|peaks| peaks.into_iter().fold(0.0, f64::max)),
+        largest_peak_pressure_pa: peaks
+            .try_fold(0.0, |largest: f64, peak| Some(largest.max(peak?))),
         engine: plan.contact.solver.engine.name(),
         hereditary_integral: match &plan.contact.material {
             BodyMaterial::Series(material) if material.fit().is_some() => "fitted series",

@@ -10,7 +10,7 @@ use crate::sweep::search::peak::{Peak, RELATIVE_ACCURACY};
 use crate::sweep::search::run::Outcome;
 
 #[derive(Serialize)]
-struct Summary<'a> {
+pub(super) struct Summary<'a> {
     title: &'a str,
     peaks: &'a [Peak],
     peak_relative_accuracy: f64,
@@ -48,13 +48,13 @@ struct Cases {
     failed: usize,
 }
 
-/// The file's bytes.
-pub fn summary(
-    plan: &SweepPlan,
-    outcome: &Outcome,
-    sweep_hash: &str,
-) -> Result<Vec<u8>, ReportError> {
-    let summary = Summary {
+/// What the file says.
+pub(super) fn of<'a>(
+    plan: &'a SweepPlan,
+    outcome: &'a Outcome,
+    sweep_hash: &'a str,
+) -> Summary<'a> {
+    Summary {
         title: &plan.title,
         peaks: &outcome.peaks,
         peak_relative_accuracy: RELATIVE_ACCURACY,
@@ -79,8 +79,19 @@ pub fn summary(
         program: env!("CARGO_PKG_NAME"),
         program_version: env!("CARGO_PKG_VERSION"),
         sweep_hash,
-    };
-    json(&summary)
+    }
+}
+
+/// The file's bytes.
+///
+/// # Errors
+/// [`ReportError`] where the summary cannot be made.
+pub fn summary(
+    plan: &SweepPlan,
+    outcome: &Outcome,
+    sweep_hash: &str,
+) -> Result<Vec<u8>, ReportError> {
+    json(&of(plan, outcome, sweep_hash))
 }
 
 /// A `summary.json`: indented, with a line end.

@@ -138,65 +138,76 @@ pub fn csv_leading<C: AsRef<str>, R: AsRef<[Cell]>>(
     csv(&columns, rows)
 }
 
+/// The name of a column, and its cell in a row.
+pub type ColumnOf<'a, R> = (&'a str, fn(&R) -> Cell);
+
+/// A table whose rows are made of these, column by column.
+pub fn of_rows<R>(rows: impl IntoIterator<Item = R>, columns: &[ColumnOf<'_, R>]) -> Vec<u8> {
+    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+    let cells = |row| columns.iter().map(move |(_, cell)| cell(&row));
+    let rows = rows.into_iter();
+    csv(&names, rows.map(|row| cells(row).collect::<Vec<_>>()))
+}
+
 /// `loops/<index>.csv`: the stabilised cycle of one case.
 pub fn samples(samples: &Loop) -> Vec<u8> {
-    let columns = [
-        "time_s",
-        "load_n",
-        "approach_m",
-        "contact_radius_m",
-        "peak_pressure_pa",
-    ];
-    let rows = (0..samples.time_s.len()).map(|i| {
-        let at = |signal: &[f64]| signal.get(i).copied();
-        cells![
-            at(&samples.time_s),
-            at(&samples.load_n),
-            at(&samples.approach_m),
-            at(&samples.contact_radius_m),
-            samples.peak_pressure_pa.get(i).copied().flatten(),
-        ]
-    });
-    csv(&columns, rows)
+    let rows = (0..samples.time_s.len()).map(|at| (samples, at));
+    of_rows(
+        rows,
+        &[
+            ("time_s", |(l, at)| l.time_s.get(*at).copied().into()),
+            ("load_n", |(l, at)| l.load_n.get(*at).copied().into()),
+            ("approach_m", |(l, at)| {
+                l.approach_m.get(*at).copied().into()
+            }),
+            ("contact_radius_m", |(l, at)| {
+                l.contact_radius_m.get(*at).copied().into()
+            }),
+            ("peak_pressure_pa", |(l, at)| {
+                l.peak_pressure_pa.get(*at).copied().flatten().into()
+            }),
+        ],
+    )
 }
 
 /// `pressures/<index>.csv`: the pressure over the contact at the instants recorded of the stabilised cycle, one row per place.
 pub fn pressures(profiles: &[PressureProfile], control: Control) -> Vec<u8> {
-    let columns = [
-        "instant",
-        "time_s",
-        "load_n",
-        "approach_m",
-        "contact_radius_m",
-        "line",
-        "position_m",
-        "pressure_pa",
-    ];
-    let rows = profiles.iter().flat_map(|profile| {
-        profile.lines.iter().flat_map(move |line| {
-            let places = line.position_m.iter().zip(&line.pressure_pa);
-            places.map(move |(position_m, pressure_pa)| {
-                cells![
-                    profile.quarter.name(control),
-                    profile.time_s,
-                    profile.load_n,
-                    profile.approach_m,
-                    profile.contact_radius_m,
-                    line.along.symbol(),
-                    *position_m,
-                    *pressure_pa,
-                ]
-            })
-        })
+    let lines = profiles
+        .iter()
+        .flat_map(|p| p.lines.iter().map(move |line| (p, line)));
+    let rows = lines.flat_map(|(profile, line)| {
+        let places = line.position_m.iter().zip(&line.pressure_pa);
+        places.map(move |place| (profile, line, place, control))
     });
-    csv(&columns, rows)
+    of_rows(
+        rows,
+        &[
+            ("instant", |(p, _, _, control)| {
+                p.quarter.name(*control).into()
+            }),
+            ("time_s", |(p, ..)| p.time_s.into()),
+            ("load_n", |(p, ..)| p.load_n.into()),
+            ("approach_m", |(p, ..)| p.approach_m.into()),
+            ("contact_radius_m", |(p, ..)| p.contact_radius_m.into()),
+            ("line", |(_, line, ..)| line.along.symbol().into()),
+            ("position_m", |(_, _, (position_m, _), _)| {
+                (**position_m).into()
+            }),
+            ("pressure_pa", |(_, _, (_, pressure_pa), _)| {
+                (**pressure_pa).into()
+            }),
+        ],
+    )
 }
 
 /// `work/<index>.csv`: the density of the work per cycle along one line.
 pub fn work(line: &WorkLine) -> Vec<u8> {
     let rows = line.points.iter();
-    csv(
-        &[line.along.column(), "work_j_per_m2"],
-        rows.map(|(position_m, density)| cells![*position_m, *density]),
+    of_rows(
+        rows,
+        &[
+            (line.along.column(), |(position_m, _)| (*position_m).into()),
+            ("work_j_per_m2", |(_, density)| (*density).into()),
+        ],
     )
 }

@@ -7,7 +7,7 @@ use super::figure::units::Units;
 use super::number::{Measured, four_digits, with_error_on_terminal};
 use super::peaks;
 use super::rigid_indenter;
-use super::words::{without_result, wrapped};
+use super::words::{without_result, wrapped_line};
 use crate::history::Work;
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::sweep::plan::{Axes, Condition, SweepPlan, Varied};
@@ -24,6 +24,11 @@ pub fn table(plan: &SweepPlan, outcome: &Outcome) -> String {
     }
 }
 
+/// Headings on the terminal of what tells rows apart, besides the first column, or says how they ended: a narrow one shows them too.
+pub const ALWAYS_SHOWN: [&str; 4] = ["status", "converged", "file", "modulus"];
+/// Headings of the columns that a narrow terminal leaves out first; of the others it leaves out those on the right.
+pub const LEAVES_FIRST: [&str; 2] = ["cycles", "memory"];
+
 /// The head of a column of frequencies: `ω / rad/s`.
 fn frequency_head(unit: FrequencyUnit) -> String {
     format!("{} / {}", unit.symbol(), unit.name())
@@ -32,33 +37,27 @@ fn frequency_head(unit: FrequencyUnit) -> String {
 fn cases(unit: FrequencyUnit, records: &[CaseRecord]) -> String {
     let has_material_error = (records.iter()).any(|r| r.energy_loss_material_error_j().is_some());
     // Both would make the lines too long.
-    let fourth = if has_material_error {
-        "material"
-    } else {
-        "cycles"
+    let (fourth, width) = match has_material_error {
+        true => ("material", 8),
+        false => ("cycles", 6),
     };
-    let mut text = format!(
-        "{:>10}   loss / cycle              phase / deg   {fourth:>6}   status\n",
-        frequency_head(unit)
-    );
+    let frequency = frequency_head(unit);
+    let mut text =
+        format!("{frequency:>10}   loss / cycle              phase / deg   {fourth:>6}   status\n");
     for record in records {
+        let omega = four_digits(unit.of(record.angular_frequency_rad_per_s));
         let loss = loss(record.energy_loss_j(), record.energy_loss_error_j());
-        let analysis = record.result.as_ref().map(|r| &r.analysis);
-        let phase = analysis.map(|a| format!("{:.4}", a.phase_lag_rad.to_degrees()));
+        let phase = record.result.as_ref().map(|r| r.analysis.phase_lag_rad);
+        let phase = or_dash(phase.map(|rad| format!("{:.4}", rad.to_degrees())));
         let fourth = match has_material_error {
-            true => format!(
-                "{:>8}",
-                material_error(record).unwrap_or_else(|| "-".to_owned())
-            ),
-            false => format!("{:>6}", record.cycles),
+            true => or_dash(material_error(record)),
+            false => record.cycles.to_string(),
         };
+        let status = record.status.name();
         // Writing to a String cannot fail.
         let _ = writeln!(
             text,
-            "{:>10}   {loss}   {:>11}   {fourth}   {}",
-            four_digits(unit.of(record.angular_frequency_rad_per_s)),
-            phase.unwrap_or_else(|| "-".to_owned()),
-            record.status.name()
+            "{omega:>10}   {loss}   {phase:>11}   {fourth:>width$}   {status}"
         );
     }
     if has_material_error {
@@ -69,12 +68,14 @@ fn cases(unit: FrequencyUnit, records: &[CaseRecord]) -> String {
     text
 }
 
+fn or_dash(text: Option<String>) -> String {
+    text.unwrap_or_else(|| "-".to_owned())
+}
+
 /// The uncertainty of a loss that comes from the material, relative: `± 4.2 %`.
 fn material_error(record: &CaseRecord) -> Option<String> {
-    let (loss_j, error_j) = (
-        record.energy_loss_j()?,
-        record.energy_loss_material_error_j()?,
-    );
+    let loss_j = record.energy_loss_j()?;
+    let error_j = record.energy_loss_material_error_j()?;
     (loss_j != 0.0).then(|| format!("± {:.1} %", 100.0 * (error_j / loss_j).abs()))
 }
 
@@ -91,28 +92,21 @@ fn conditions(plan: &SweepPlan, axes: &Axes, outcome: &Outcome) -> String {
         values.collect::<Vec<_>>().join(", ")
     };
     let values: Vec<String> = curves.iter().map(|curve| value(&curve.condition)).collect();
-    let lengths = values
-        .iter()
-        .chain([&name])
-        .map(|text| text.chars().count());
-    let width = lengths.max().unwrap_or(0).max(10);
-    let mut text = format!(
-        "{name:>width$}   converged    loss / cycle, peak          {:>10}\n",
-        frequency_head(unit)
-    );
+    let texts = values.iter().chain([&name]);
+    let width = texts.map(|text| text.chars().count()).fold(10, usize::max);
+    let frequency = frequency_head(unit);
+    let mut text =
+        format!("{name:>width$}   converged    loss / cycle, peak          {frequency:>10}\n");
     for (curve, value) in curves.iter().zip(values) {
         let peak = outcome.highest_peak(&curve.condition);
-        let loss = loss(
-            peak.map(|p| p.energy_loss_j),
-            peak.and_then(|p| p.energy_loss_error_j),
-        );
+        let error_j = peak.and_then(|p| p.energy_loss_error_j);
+        let loss = loss(peak.map(|p| p.energy_loss_j), error_j);
         let at = peak.map(|p| four_digits(unit.of(p.angular_frequency_rad_per_s)));
-        let count = format!("{} of {}", curve.results().len(), curve.records.len());
-        let _ = writeln!(
-            text,
-            "{value:>width$}   {count:>9}   {loss}     {:>10}",
-            at.unwrap_or_else(|| "-".to_owned())
+        let (at, count) = (
+            or_dash(at),
+            format!("{} of {}", curve.results().len(), curve.records.len()),
         );
+        let _ = writeln!(text, "{value:>width$}   {count:>9}   {loss}     {at:>10}");
     }
     text
 }
@@ -136,16 +130,10 @@ fn loss(loss_j: Option<f64>, error_j: Option<f64>) -> String {
 pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
     let mut text = String::new();
     for peak in peaks::shown(plan, outcome, with_error_on_terminal) {
-        let what = if peak.is_largest {
-            "Peak"
-        } else {
-            "Lower peak"
-        };
-        let _ = writeln!(text, "{what}: {}", peak.sentence());
+        let _ = writeln!(text, "{}: {}", peak.name(), peak.sentence());
     }
     for problem in &outcome.peak_problems {
-        let line = format!("Peak not located: {problem}");
-        text.push_str(&wrapped(&line, 80, "", "  "));
+        text.push_str(&wrapped_line(&format!("Peak not located: {problem}")));
     }
     if text.is_empty() && !outcome.interrupted {
         let _ = writeln!(text, "{}", peaks::none(plan, outcome));
@@ -159,43 +147,35 @@ pub fn work(outcome: &Outcome) -> String {
     for record in &outcome.records {
         work += record.work;
     }
-    let instants = work.instants.max(1) as f64;
-    let mut text = format!(
-        "Work: {} instants, {:.1} iterations an instant",
-        work.instants,
-        work.iterations as f64 / instants
-    );
-    if work.convolutions > 0 {
-        let _ = write!(
-            text,
-            ", {:.1} convolutions an instant",
-            work.convolutions_per_instant().unwrap_or_default()
-        );
-    }
-    text.push('\n');
-    text
+    let instants = work.instants;
+    let iterations = work.iterations as f64 / instants.max(1) as f64;
+    let each = work.convolutions_per_instant().unwrap_or_default();
+    let convolutions = match work.convolutions {
+        0 => String::new(),
+        _ => format!(", {each:.1} convolutions an instant"),
+    };
+    format!("Work: {instants} instants, {iterations:.1} iterations an instant{convolutions}\n")
 }
 
 /// Cases without a result, with the reason.
 pub fn problems(plan: &SweepPlan, outcome: &Outcome) -> String {
     let lines = without_result(plan.figures.frequency_unit, outcome);
-    lines.map(|line| wrapped(&line, 80, "", "  ")).collect()
+    lines.map(|line| wrapped_line(&line)).collect()
 }
 
 /// What lies outside the model, or was not estimated: one line for each kind, whatever the number of cases.
 pub fn warnings_of_sweep(plan: &SweepPlan, outcome: &Outcome) -> String {
     let unit = plan.figures.frequency_unit;
     let note = rigid_indenter::note(plan, outcome);
-    let note = note.map(|note| wrapped(&format!("note: {note}"), 80, "", "  "));
+    let note = note.map(|note| wrapped_line(&format!("note: {note}")));
     warned(warning::over_cases(&outcome.records, unit)) + &note.unwrap_or_default()
 }
 
 /// Warnings, one after another.
 pub fn warned(warnings: impl IntoIterator<Item = impl Display>) -> String {
     let lines = warnings.into_iter();
-    lines
-        .map(|warning| wrapped(&format!("warning: {warning}"), 80, "", "  "))
-        .collect()
+    let lines = lines.map(|warning| format!("warning: {warning}"));
+    lines.map(|line| wrapped_line(&line)).collect()
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! What terminal, pages and captions say alike of cases, drives and settings, as plain text.
 
+use std::cmp::Ordering;
+
 use super::number::{self, four_digits, plain, scientific};
 use crate::drive::HarmonicDrive;
 use crate::indenter::{Parameter, Value};
@@ -20,12 +22,9 @@ pub fn case(unit: FrequencyUnit, angular_frequency_rad_per_s: f64) -> String {
 pub fn without_result(unit: FrequencyUnit, outcome: &Outcome) -> impl Iterator<Item = String> {
     let cases = outcome.records.iter().filter(|r| r.result.is_none());
     cases.map(move |r| {
-        format!(
-            "{}: {}: {}",
-            case(unit, r.angular_frequency_rad_per_s),
-            r.status.name(),
-            r.message.as_deref().unwrap_or("no reason recorded")
-        )
+        let (case, status) = (case(unit, r.angular_frequency_rad_per_s), r.status.name());
+        let why = r.message.as_deref().unwrap_or("no reason recorded");
+        format!("{case}: {status}: {why}")
     })
 }
 
@@ -36,12 +35,8 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
     let range = |is_varied: fn(&Varied) -> bool| {
         let axes = plan.axes.as_ref()?;
         let axis = axes.over.iter().position(is_varied)?;
-        let values = axes.values_of(axis);
-        let (first, last) = (
-            values.iter().copied().reduce(f64::min)?,
-            values.into_iter().reduce(f64::max)?,
-        );
-        Some(format!("{} to {}", value(first), value(last)))
+        let (least, largest) = number::range(axes.values_of(axis));
+        Some(format!("{} to {}", value(least), value(largest)))
     };
     let mean = range(Varied::is_mean).unwrap_or_else(|| value(drive.mean()));
     let amplitude = range(Varied::is_amplitude).unwrap_or_else(|| value(drive.amplitude()));
@@ -50,18 +45,13 @@ pub fn drive_line(drive: &HarmonicDrive, plan: &SweepPlan) -> String {
         true => ", held at zero where that is a pull",
         false => "",
     };
-    let pressure = plan
-        .contact
-        .indenter
-        .period_area_m2()
-        .filter(|_| plan.axes.is_none());
-    let pressure = pressure.map(|area_m2| {
+    let period_m2 = plan.contact.indenter.period_area_m2();
+    let pressure = period_m2.filter(|_| plan.axes.is_none()).map(|area_m2| {
         let [mean, amplitude] = [drive.mean(), drive.amplitude()]
             .map(|load_n| plain(load_n / area_m2, Dimension::Stress, 4));
         format!(", a mean pressure of {mean} ± {amplitude}")
     });
-    let pressure = pressure.unwrap_or_default();
-    let name = drive.control().name();
+    let (name, pressure) = (drive.control().name(), pressure.unwrap_or_default());
     format!("{name} {mean} ± {amplitude}{held}{pressure}")
 }
 
@@ -86,10 +76,7 @@ pub fn each_of(
     }
     let mut told: Vec<String> = all.iter().map(|(name, c)| words(*name, c)).collect();
     told.dedup();
-    match told.pop() {
-        Some(last) if !told.is_empty() => format!("{} and {last}", told.join(", ")),
-        last => last.unwrap_or_default(),
-    }
+    listed(&told)
 }
 
 /// What axes vary besides mean and amplitude, and from where to where: `radius of the indenter 1 mm to 10 mm`.
@@ -100,12 +87,9 @@ pub fn varied_line(plan: &SweepPlan) -> Option<String> {
         if varied.is_whole() {
             return None;
         }
-        let values = axes.values_of(axis);
-        let value = |value| number::varied(varied, value);
-        let least = values.iter().copied().reduce(f64::min)?;
-        let largest = values.into_iter().reduce(f64::max)?;
-        let words = varied.words();
-        Some(format!("{words} {} to {}", value(least), value(largest)))
+        let (least, largest) = number::range(axes.values_of(axis));
+        let [least, largest] = [least, largest].map(|value| number::varied(varied, value));
+        Some(format!("{} {least} to {largest}", varied.words()))
     };
     let lines: Vec<String> = axes.own_columns().filter_map(line).collect();
     (!lines.is_empty()).then(|| lines.join(", "))
@@ -130,12 +114,10 @@ pub fn compressibility(material: &Material) -> String {
 pub fn bulk_modulus(bulk: &Relaxation, digits: usize) -> String {
     let modulus = |value| plain(value, Dimension::Stress, digits);
     let at_rest = modulus(bulk.equilibrium_modulus());
+    let at_once = modulus(bulk.instantaneous_modulus());
     match bulk.branches() {
         [] => at_rest,
-        _ => format!(
-            "{} relaxing to {at_rest}",
-            modulus(bulk.instantaneous_modulus())
-        ),
+        _ => format!("{at_once} relaxing to {at_rest}"),
     }
 }
 
@@ -146,11 +128,8 @@ pub fn named(key: &str) -> String {
 
 /// Settings in one line: `radius 10 mm, height 1 µm`.
 pub fn row(table: &[Parameter]) -> String {
-    let entries: Vec<String> = table
-        .iter()
-        .map(|p| format!("{} {}", named(p.key), value(&p.value)))
-        .collect();
-    entries.join(", ")
+    let entry = |p: &Parameter| format!("{} {}", named(p.key), value(&p.value));
+    table.iter().map(entry).collect::<Vec<_>>().join(", ")
 }
 
 /// A setting as text.
@@ -158,11 +137,8 @@ pub fn value(value: &Value) -> String {
     match value {
         Value::Quantity(value, dimension) => plain(*value, *dimension, 6),
         Value::Quantities(values, dimension) => {
-            let texts: Vec<String> = values
-                .iter()
-                .map(|value| plain(*value, *dimension, 6))
-                .collect();
-            texts.join(", ")
+            let texts = values.iter().map(|value| plain(*value, *dimension, 6));
+            texts.collect::<Vec<_>>().join(", ")
         }
         Value::Number(number) => number.to_string(),
         Value::Integer(integer) => integer.to_string(),
@@ -182,17 +158,14 @@ pub fn nodes_name(engine: EngineKind) -> &'static str {
 /// Smallest and largest of some values; `decimals` 0 prints whole numbers, others that many significant digits.
 pub fn range(values: impl Iterator<Item = f64>, digits: usize) -> String {
     let (low, high) = number::range(values);
-    if low > high {
-        return "not estimated".to_owned();
-    }
     let text = |value: f64| match digits {
         0 => format!("{value:.0}"),
         _ => scientific(value, digits),
     };
-    if low == high {
-        text(low)
-    } else {
-        format!("{} to {}", text(low), text(high))
+    match low.partial_cmp(&high) {
+        Some(Ordering::Less) => format!("{} to {}", text(low), text(high)),
+        Some(Ordering::Equal) => text(low),
+        _ => "not estimated".to_owned(),
     }
 }
 
@@ -225,6 +198,11 @@ pub fn wrapped(text: &str, columns: usize, first: &str, next: &str) -> String {
         }
     }
     lines.join("\n") + "\n"
+}
+
+/// One line of at most 80 columns broken between words, what follows the first set in by two.
+pub fn wrapped_line(line: &str) -> String {
+    wrapped(line, 80, "", "  ")
 }
 
 #[cfg(test)]

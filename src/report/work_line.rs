@@ -63,110 +63,101 @@ impl WorkAlong {
 impl WorkLine {
     /// The line of a surface under an indenter: over the radius where the indenter is of revolution and the cells are square.
     pub fn of(surface: &SurfaceLoss, indenter: &dyn Indenter) -> Self {
-        let radial = |radius_m: &[f64], density: &[Option<f64>]| Self {
-            along: WorkAlong::Radius,
-            points: radius_m
-                .iter()
-                .copied()
-                .zip(density.iter().copied())
-                .collect(),
-        };
         let cells = match surface {
             SurfaceLoss::Radial {
                 radius_m,
                 density_j_per_m2,
-            } => return radial(radius_m, density_j_per_m2),
-            SurfaceLoss::Cells(cells) => Cells::of(cells),
-        };
-        match cells {
-            None => radial(&[], &[]),
-            Some(cells)
-                if cells.lie_about_the_axis()
-                    && indenter.is_of_revolution_within(cells.reach_m()) =>
-            {
-                cells.rings()
+            } => {
+                let points = radius_m.iter().copied();
+                return Self {
+                    along: WorkAlong::Radius,
+                    points: points.zip(density_j_per_m2.iter().copied()).collect(),
+                };
             }
-            Some(cells) => cells.along_x(),
+            SurfaceLoss::Cells(cells) => Cells(cells),
+        };
+        if !cells.have_a_density() {
+            return Self {
+                along: WorkAlong::Radius,
+                points: Vec::new(),
+            };
+        }
+        match cells.lie_about_the_axis() && indenter.is_of_revolution_within(cells.reach_m()) {
+            true => cells.rings(),
+            false => cells.along_x(),
         }
     }
 }
 
-/// A rectangle of cells of which at least one has a density.
-struct Cells<'a> {
-    first_m: (f64, f64),
-    spacing_m: (f64, f64),
-    columns: usize,
-    density: &'a [f32],
-}
+/// A rectangle of cells.
+struct Cells<'a>(&'a CellLoss);
 
-impl<'a> Cells<'a> {
-    fn of(cells: &'a CellLoss) -> Option<Self> {
+impl Cells<'_> {
+    fn have_a_density(&self) -> bool {
         let is_length = |m: f64| m.is_finite() && m > 0.0;
-        let whole = cells.cells_x > 0
-            && cells.density_j_per_m2.len() >= cells.cells_x
-            && is_length(cells.spacing_x_m)
-            && is_length(cells.spacing_y_m);
-        whole.then_some(Self {
-            first_m: (cells.first_x_m, cells.first_y_m),
-            spacing_m: (cells.spacing_x_m, cells.spacing_y_m),
-            columns: cells.cells_x,
-            density: &cells.density_j_per_m2,
-        })
+        self.columns() > 0
+            && self.rows() > 0
+            && is_length(self.0.spacing_x_m)
+            && is_length(self.0.spacing_y_m)
+    }
+
+    fn columns(&self) -> usize {
+        self.0.cells_x
     }
 
     fn rows(&self) -> usize {
-        self.density.len() / self.columns
+        self.0.density_j_per_m2.len() / self.columns()
+    }
+
+    /// The centre of a column of cells.
+    fn x_m(&self, column: f64) -> f64 {
+        self.0.first_x_m + column * self.0.spacing_x_m
     }
 
     /// Whether rings can be drawn through them: square cells, in about a square that holds the axis.
     fn lie_about_the_axis(&self) -> bool {
         /// A cell more on one side is rounding; twice that on both.
         const UNEVEN: usize = 4;
-        let (x_m, y_m) = self.spacing_m;
-        let holds_axis = |(at, cells): (i64, usize)| (-2 * cells as i64..=0).contains(&at);
+        let holds_axis = |at: i64, cells: usize| (-2 * cells as i64..=0).contains(&at);
         let (x, y) = self.first_half_cell();
         // Both spacings come from one side length, by way of a division each.
-        (x_m / y_m - 1.0).abs() < 1e-9
-            && self.columns.abs_diff(self.rows()) <= UNEVEN
-            && [(x, self.columns), (y, self.rows())]
-                .into_iter()
-                .all(holds_axis)
+        (self.0.spacing_x_m / self.0.spacing_y_m - 1.0).abs() < 1e-9
+            && self.columns().abs_diff(self.rows()) <= UNEVEN
+            && holds_axis(x, self.columns())
+            && holds_axis(y, self.rows())
     }
 
     /// The centre of the first cell in half cells from the axis: whole numbers, of which a root and a comparison are exact.
     fn first_half_cell(&self) -> (i64, i64) {
         let half_cells = |first_m: f64, spacing_m: f64| (2.0 * first_m / spacing_m).round() as i64;
         (
-            half_cells(self.first_m.0, self.spacing_m.0),
-            half_cells(self.first_m.1, self.spacing_m.1),
+            half_cells(self.0.first_x_m, self.0.spacing_x_m),
+            half_cells(self.0.first_y_m, self.0.spacing_y_m),
         )
     }
 
     /// Half the diagonal of the rectangle.
     fn reach_m(&self) -> f64 {
-        let (x_m, y_m) = self.spacing_m;
-        0.5 * (self.columns as f64 * x_m).hypot(self.rows() as f64 * y_m)
+        let width_m = self.columns() as f64 * self.0.spacing_x_m;
+        0.5 * width_m.hypot(self.rows() as f64 * self.0.spacing_y_m)
     }
 
     /// Means over all cells of the surface whose centres are between k and k + 1 cells from the axis, at the mean of their
     /// distances; those of the rectangle's surroundings have no work done on them. The sum of mean times area over the rings is
     /// the sum over the cells. Ends with the first ring beyond the last work.
     fn rings(&self) -> WorkLine {
-        let spacing_m = self.spacing_m.0;
         let (x, y) = self.first_half_cell();
         let distance = |x: i64, y: i64| 0.5 * ((x * x + y * y) as f64).sqrt();
-        let place = |cell: usize| {
-            let (column, row) = (cell % self.columns, cell / self.columns);
-            (x + 2 * column as i64, y + 2 * row as i64)
-        };
-        let worked = self.density.iter().enumerate().filter(|(_, d)| **d != 0.0);
-        let ring_of = |(cell, _): (usize, &f32)| {
-            let (x, y) = place(cell);
-            distance(x, y) as usize
-        };
-        let rings = worked.clone().map(ring_of).max().map_or(0, |last| last + 2);
-        let mut sums = vec![(0_usize, 0.0, 0.0); rings];
-        let end = 2 * rings as i64;
+        let worked = self.0.density_j_per_m2.iter().enumerate();
+        let worked = worked.filter(|(_, density)| **density != 0.0);
+        let worked = worked.map(|(cell, density)| {
+            let (column, row) = (cell % self.columns(), cell / self.columns());
+            let away = distance(x + 2 * column as i64, y + 2 * row as i64);
+            (away as usize, f64::from(*density))
+        });
+        let last = worked.clone().map(|(ring, _)| ring).max();
+        let mut sums = vec![(0_usize, 0.0, 0.0); last.map_or(0, |last| last + 2)];
+        let end = 2 * sums.len() as i64;
         let centres = |first: i64| (-end..=end).filter(move |at| (at - first) % 2 == 0);
         for (x, y) in centres(y).flat_map(|y| centres(x).map(move |x| (x, y))) {
             let cells_away = distance(x, y);
@@ -175,14 +166,12 @@ impl<'a> Cells<'a> {
                 *distances += cells_away;
             }
         }
-        for (cell, density) in worked {
-            if let Some((_, _, sum)) = sums.get_mut(ring_of((cell, density))) {
-                *sum += f64::from(*density);
-            }
+        for (ring, density) in worked {
+            sums[ring].2 += density;
         }
         let mean = |(count, distances, sum): (usize, f64, f64)| {
             let n = count.max(1) as f64;
-            (spacing_m * distances / n, Some(sum / n))
+            (self.0.spacing_x_m * distances / n, Some(sum / n))
         };
         WorkLine {
             along: WorkAlong::Rings,
@@ -195,46 +184,41 @@ impl<'a> Cells<'a> {
         let centre = self.centre_of_work();
         let (below, share) = (centre.floor(), centre.fract());
         let row = |row: f64| {
-            let start = (row as usize).min(self.rows() - 1) * self.columns;
-            &self.density[start..start + self.columns]
+            let start = (row as usize).min(self.rows() - 1) * self.columns();
+            self.0.density_j_per_m2[start..]
+                .iter()
+                .copied()
+                .map(f64::from)
         };
-        let pairs = row(below).iter().zip(row(below + 1.0)).enumerate();
-        let point = |(column, (a, b)): (usize, (&f32, &f32))| {
-            let density = (1.0 - share) * f64::from(*a) + share * f64::from(*b);
-            (
-                self.first_m.0 + column as f64 * self.spacing_m.0,
-                Some(density),
-            )
-        };
+        let pairs = row(below).zip(row(below + 1.0)).take(self.columns());
+        let points = pairs.enumerate().map(|(column, (a, b))| {
+            let density = (1.0 - share) * a + share * b;
+            (self.x_m(column as f64), Some(density))
+        });
         // No work is done beyond the rectangle.
-        let beside = |column: f64| (self.first_m.0 + column * self.spacing_m.0, Some(0.0));
-        let ends = (beside(-1.0), beside(self.columns as f64));
+        let beside = |column: f64| (self.x_m(column), Some(0.0));
+        let ends = [beside(-1.0), beside(self.columns() as f64)].map(std::iter::once);
+        let [first, last] = ends;
         WorkLine {
             along: WorkAlong::X,
-            points: std::iter::once(ends.0)
-                .chain(pairs.map(point))
-                .chain(std::iter::once(ends.1))
-                .collect(),
+            points: first.chain(points).chain(last).collect(),
         }
     }
 
     /// The row, from 0, that the work lies about: between two rows mostly.
     fn centre_of_work(&self) -> f64 {
         let last = (self.rows() - 1) as f64;
-        let rows = self.density.chunks_exact(self.columns);
-        let work = rows.map(|row| row.iter().copied().map(f64::from).sum::<f64>());
-        let (sum, moment) = work
-            .enumerate()
-            .fold((0.0, 0.0), |(sum, moment), (row, work)| {
-                (sum + work, moment + row as f64 * work)
-            });
+        let rows = self.0.density_j_per_m2.chunks_exact(self.columns());
+        let (mut sum, mut moment) = (0.0, 0.0);
+        for (row, cells) in rows.enumerate() {
+            let work: f64 = cells.iter().copied().map(f64::from).sum();
+            sum += work;
+            moment += row as f64 * work;
+        }
         // Work that gives energy back in places may have no centre.
         let centre = moment / sum;
-        if sum > 0.0 && (0.0..=last).contains(&centre) {
-            centre
-        } else {
-            0.5 * last
-        }
+        let is_there = sum > 0.0 && (0.0..=last).contains(&centre);
+        if is_there { centre } else { 0.5 * last }
     }
 }
 

@@ -283,16 +283,21 @@ const TABLE: [Column; 12] = [
     ("note", |c| c.note.clone()),
 ];
 
-/// `claims.csv`.
-pub(super) fn table(figures: &[Figure]) -> Vec<u8> {
-    let mut columns = vec!["figure"];
-    columns.extend(TABLE.map(|(name, _)| name));
+/// The columns and rows of `claims.csv`.
+pub fn claims(figures: &[Figure]) -> (Vec<&'static str>, Vec<Vec<Cell>>) {
+    let columns = std::iter::once("figure").chain(TABLE.map(|(name, _)| name));
     let rows = figures.iter().flat_map(|figure| {
         figure.claims.iter().map(|claim| {
             let cells = TABLE.map(|(_, cell)| Cell::from(cell(claim)));
             [cells![usize::from(figure.number)].as_slice(), &cells].concat()
         })
     });
+    (columns.collect(), rows.collect())
+}
+
+/// `claims.csv`.
+pub(super) fn table(figures: &[Figure]) -> Vec<u8> {
+    let (columns, rows) = claims(figures);
     csv(&columns, rows)
 }
 

@@ -35,7 +35,7 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 pub use by_engine::ByEngine;
-pub use claim::{Claim, Measure, Source, Stated, Verdict};
+pub use claim::{Claim, Measure, Source, Stated, Verdict, claims};
 pub use scale::Scale;
 pub use statement::{Count, Judged};
 

@@ -8,8 +8,7 @@ use super::statement::Count;
 use super::wording::{self, EXPLANATION, FIGURE_13};
 use super::{Claim, Figure, ReproductionError, SCENARIOS, SWEEPS};
 use crate::report::page::Pictures;
-use crate::report::page::frame::{Frame, Input, InputFile};
-use crate::report::page::html::json_for_script;
+use crate::report::page::frame::{Frame, Input};
 use crate::sweep::plan::resolved;
 
 const SCRIPT: &str = include_str!("page.js");
@@ -62,19 +61,15 @@ pub(super) fn page(
         main,
         input: Input {
             hashes: vec![("exactly these inputs", resolved::hash(&inputs))],
-            files: names
-                .iter()
-                .map(|(name, text)| InputFile { name, text })
-                .collect(),
+            files: names.iter().map(|(name, text)| (&name[..], *text)).collect(),
             text: "The scenario and sweep files behind these figures, which are built into the program: \
                    <code>contact-dma reproduce</code> gives this page again. Each also runs by itself, with \
                    <code>contact-dma simulate FILE</code> where it has segments and <code>contact-dma sweep FILE</code> where \
                    it has a sweep.",
         },
-        data: json_for_script(&data)?,
         script: &[SCRIPT],
     };
-    Ok(frame.page())
+    Ok(frame.page(&data)?)
 }
 
 fn controls() -> Markup {

@@ -500,6 +500,32 @@ fn a_case_that_does_not_converge_has_no_loss_and_does_not_stop_the_others() {
 }
 
 #[test]
+fn a_narrow_terminal_still_says_which_case_has_no_result() {
+    let folder = TempDir::new().unwrap();
+    let march = "steps = 50\nmethod = \"march\"\nmax_cycles = 4";
+    let file = write(&folder, "small.toml", &SMALL.replace("steps = 50", march));
+    let set = "sweep.angular_frequency=[0.002, 0.004, 1.0]";
+    for (columns, left_out) in [
+        (80, ""),
+        (60, "left out in 60 columns: phase / deg, cycles"),
+        (40, "left out in 40 columns: loss / cycle,"),
+    ] {
+        let mut run = program();
+        run.current_dir(folder.path())
+            .env("COLUMNS", columns.to_string());
+        let run = run.args(["sweep", &file, "--set", set, "--no-figures"]);
+        let output = run.assert().code(3).get_output().stdout.clone();
+        let text = String::from_utf8(output).unwrap();
+        let table: Vec<&str> = text.split("\n\n").nth(1).unwrap().lines().collect();
+        assert!(table[0].ends_with("status"), "{text}");
+        assert!(table[1].ends_with("converged") && table[1].trim().starts_with("2.000e-3"));
+        assert!(table[3].ends_with("not-converged") && table[3].trim().starts_with("1.000"));
+        assert!(text.contains(left_out), "{text}");
+        assert_eq!(text.contains("left out"), columns < 80);
+    }
+}
+
+#[test]
 fn a_sweep_in_which_nothing_converges_still_ends_cleanly() {
     let folder = TempDir::new().unwrap();
     let file = write(

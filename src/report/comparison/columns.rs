@@ -1,108 +1,159 @@
-//! Columns of two results in full, case beside case, to be drawn.
+//! Two results case beside case, and their columns held against each other.
+
+use std::cmp::Ordering;
 
 use super::result::Row;
-use super::{ComparisonError, CurvePoint, Place, SweepTable};
-use crate::report::quantities;
+use super::{ColumnComparison, ComparisonError, CurvePoint, Place, SweepTable, Tolerances};
+use crate::report::quantities::{self, Compared};
 
-/// One column: the value of every case of either result, in the order of [`super::Comparison::curve`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct Column {
-    pub name: String,
-    pub baseline: Vec<Option<f64>>,
-    pub new: Vec<Option<f64>>,
-    /// Sum of the two error bars, for columns that have them.
-    pub error: Vec<Option<f64>>,
+/// Baseline and new result.
+pub(super) struct Beside<'a> {
+    tables: [&'a SweepTable; 2],
+    /// Every case of either with its rows, by drive and frequency.
+    pub(super) cases: Vec<(Place, [Option<&'a Row>; 2])>,
+    /// Whether one of the two was measured.
+    pub(super) measured: bool,
 }
 
-/// A case and its rows.
-type Case<'a> = (Place, Option<&'a Row>, Option<&'a Row>);
-
-/// These columns of both results.
-///
-/// # Errors
-/// [`ComparisonError`] where a cell is no number.
-pub fn columns<'a>(
-    baseline: &SweepTable,
-    new: &SweepTable,
-    names: impl Iterator<Item = &'a str>,
-) -> Result<Vec<Column>, ComparisonError> {
-    let cases = cases(baseline, new);
-    names
-        .map(|name| column(&cases, baseline, new, name))
-        .collect()
-}
-
-/// The curves of the energy loss.
-pub(super) fn curve(
-    baseline: &SweepTable,
-    new: &SweepTable,
-) -> Result<Vec<CurvePoint>, ComparisonError> {
-    let cases = cases(baseline, new);
-    let loss = column(&cases, baseline, new, "energy_loss_j")?;
-    let values = loss.baseline.iter().zip(&loss.new).zip(&loss.error);
-    let points = cases.iter().zip(values);
-    Ok(points
-        .map(|((place, _, _), ((a, b), error))| CurvePoint {
-            place: *place,
-            baseline_j: *a,
-            new_j: *b,
-            error_j: *error,
-        })
-        .collect())
-}
-
-/// Every case of either result, by drive and frequency.
-fn cases<'a>(baseline: &'a SweepTable, new: &'a SweepTable) -> Vec<Case<'a>> {
-    let old = baseline.rows.iter();
-    let old = old.map(|row| (row.place, Some(row), new.row(row.place, baseline)));
-    let added = new
-        .rows
-        .iter()
-        .filter(|r| baseline.row(r.place, new).is_none());
-    let mut cases: Vec<Case> = old
-        .chain(added.map(|row| (row.place, None, Some(row))))
-        .collect();
-    let key = |place: &Place| {
-        (
-            place.varied,
-            place.drive_mean,
-            place.drive_amplitude,
-            place.angular_frequency_rad_per_s,
-        )
-    };
-    cases.sort_by(|(a, ..), (b, ..)| {
-        key(a)
-            .partial_cmp(&key(b))
-            .unwrap_or(std::cmp::Ordering::Equal)
-    });
-    cases
-}
-
-fn column(
-    cases: &[Case<'_>],
-    baseline: &SweepTable,
-    new: &SweepTable,
-    name: &str,
-) -> Result<Column, ComparisonError> {
-    let bar = quantities::of_name(name).and_then(|column| column.error_name());
-    let number = |table: &SweepTable, row: Option<&Row>, column: &str| match row {
-        Some(row) => table.number(row, column),
-        None => Ok(None),
-    };
-    let mut found = Column {
-        name: name.to_owned(),
-        baseline: Vec::with_capacity(cases.len()),
-        new: Vec::with_capacity(cases.len()),
-        error: Vec::with_capacity(cases.len()),
-    };
-    for (_, a, b) in cases {
-        found.baseline.push(number(baseline, *a, name)?);
-        found.new.push(number(new, *b, name)?);
-        let errors = match &bar {
-            Some(error) => number(baseline, *a, error)?.zip(number(new, *b, error)?),
-            None => None,
-        };
-        found.error.push(errors.map(|(a, b)| a + b));
+impl<'a> Beside<'a> {
+    pub(super) fn new(baseline: &'a SweepTable, new: &'a SweepTable) -> Self {
+        let old = baseline.rows.iter();
+        let old = old.map(|row| (row.place, [Some(row), new.row(row.place, baseline)]));
+        let added = new.rows.iter();
+        let added = added.filter(|row| baseline.row(row.place, new).is_none());
+        let added = added.map(|row| (row.place, [None, Some(row)]));
+        let mut cases: Vec<_> = old.chain(added).collect();
+        cases.sort_by(|(a, _), (b, _)| a.partial_cmp(b).unwrap_or(Ordering::Equal));
+        Self {
+            tables: [baseline, new],
+            cases,
+            measured: baseline.measured || new.measured,
+        }
     }
-    Ok(found)
+
+    /// The cases that one of the two lacks.
+    pub(super) fn without(&self, table: usize) -> Vec<Place> {
+        let cases = self.cases.iter();
+        let lacking = cases.filter(|(_, rows)| rows[table].is_none());
+        lacking.map(|(place, _)| *place).collect()
+    }
+
+    /// Physical quantities; not how they came about, nor their error bars, nor differences of nearly equal numbers, nor what
+    /// neither result has.
+    pub(super) fn compared_columns(
+        &self,
+        tolerances: &Tolerances,
+    ) -> Result<Vec<String>, ComparisonError> {
+        let mut names: Vec<String> = Vec::new();
+        for column in self.tables.iter().flat_map(|table| &table.columns) {
+            let known = quantities::of_name(column);
+            let is_compared = known.is_some_and(|column| column.compared.is_some());
+            let has_numbers = || self.tables.iter().any(|table| table.has_numbers(column));
+            if is_compared && !names.contains(column) && has_numbers() {
+                names.push(column.clone());
+            }
+        }
+        for (column, _) in &tolerances.columns {
+            if !self.tables.iter().any(|table| table.has(column)) {
+                return Err(ComparisonError::NoColumn {
+                    column: column.clone(),
+                });
+            }
+            if !names.contains(column) {
+                names.push(column.clone());
+            }
+        }
+        Ok(names)
+    }
+
+    /// The numbers of a case under a column.
+    fn numbers(
+        &self,
+        rows: &[Option<&Row>; 2],
+        column: &str,
+    ) -> Result<[Option<f64>; 2], ComparisonError> {
+        let number = |k: usize| match rows[k] {
+            Some(row) => self.tables[k].number(row, column),
+            None => Ok(None),
+        };
+        Ok([number(0)?, number(1)?])
+    }
+
+    /// One column of both, and how far it differs.
+    pub(super) fn column(
+        &self,
+        name: String,
+        tolerances: &Tolerances,
+    ) -> Result<ColumnComparison, ComparisonError> {
+        let own = tolerances.own(&name);
+        let relative = own.unwrap_or(tolerances.relative);
+        let known = quantities::of_name(&name);
+        let is_relative = known.is_some_and(|c| c.compared == Some(Compared::Absolutely));
+        let bar = known.and_then(|column| column.error_name());
+        let mut found = ColumnComparison {
+            name,
+            ..ColumnComparison::default()
+        };
+        for (place, rows) in &self.cases {
+            let [a, b] = self.numbers(rows, &found.name)?;
+            let [error_a, error_b] = match &bar {
+                Some(bar) => self.numbers(rows, bar)?,
+                None => [None; 2],
+            };
+            let error = error_a.zip(error_b).map(|(a, b)| a + b);
+            found.baseline.push(a);
+            found.new.push(b);
+            found.error.push(error);
+            let [Some(old), Some(new)] = rows else {
+                continue;
+            };
+            let (Some(a), Some(b)) = (a, b) else {
+                // A measurement does not know everything.
+                if a.is_some() != b.is_some() && !self.measured {
+                    found.absent += 1;
+                    found.different += 1;
+                }
+                continue;
+            };
+            let scale = if is_relative {
+                1.0
+            } else {
+                a.abs().max(b.abs())
+            };
+            let difference = (a - b).abs();
+            let share = difference / scale;
+            if difference > 0.0 && found.largest.is_none_or(|(largest, _)| share > largest) {
+                found.largest = Some((share, *place));
+            }
+            let same_discretisation = !self.measured && self.has_same_discretisation(old, new);
+            // Without an error bar nothing says how far two discretisations may be apart.
+            let is_comparable = same_discretisation || bar.is_some() || own.is_some();
+            if difference > tolerances.absolute + relative * scale && is_comparable {
+                let within = error.is_some_and(|error| difference <= error);
+                found.beyond += 1;
+                found.within_bars += usize::from(within);
+                found.different += usize::from(!within || same_discretisation);
+            }
+        }
+        Ok(found)
+    }
+
+    /// Whether steps and nodes are the same, as written.
+    fn has_same_discretisation(&self, old: &Row, new: &Row) -> bool {
+        let [baseline, of_new] = self.tables;
+        let is_same = |column: &&str| baseline.text(old, column) == of_new.text(new, column);
+        ["steps", "nodes"].iter().all(is_same)
+    }
+
+    /// The curves of the energy loss.
+    pub(super) fn curve(&self) -> Result<Vec<CurvePoint>, ComparisonError> {
+        let loss = self.column("energy_loss_j".to_owned(), &Tolerances::default())?;
+        let point = |(k, (place, _)): (usize, &(Place, _))| CurvePoint {
+            place: *place,
+            baseline_j: loss.baseline[k],
+            new_j: loss.new[k],
+            error_j: loss.error[k],
+        };
+        Ok(self.cases.iter().enumerate().map(point).collect())
+    }
 }

@@ -41,6 +41,8 @@ pub struct SweepTable {
     /// Rows by the bits of their places.
     exact: HashMap<Vec<u64>, usize>,
     pub(super) peaks: Option<Vec<Peak>>,
+    /// Whether the rows are measured loops: their frequencies and loads are what they were and not what was asked for.
+    pub(super) measured: bool,
 }
 
 /// One case.
@@ -49,9 +51,6 @@ pub(super) struct Row {
     line: usize,
     cells: Vec<String>,
     pub(super) place: Place,
-    pub(super) status: String,
-    /// Steps and nodes, as written.
-    pub(super) discretisation: (String, String),
 }
 
 #[derive(Deserialize)]
@@ -93,17 +92,12 @@ fn has_names(column: &str) -> bool {
 }
 
 /// The place of a name in a list, to which it comes where it is new.
-fn place_of(names: &mut Vec<String>, name: &str) -> usize {
+fn place_among(names: &mut Vec<String>, name: &str) -> usize {
     let known = names.iter().position(|known| known == name);
     known.unwrap_or_else(|| {
         names.push(name.to_owned());
         names.len() - 1
     })
-}
-
-/// The names that another result has for an axis.
-fn names_of(result: Option<&SweepTable>, axis: &str) -> Vec<String> {
-    result.map_or(Vec::new(), |result| result.names(axis).to_vec())
 }
 
 impl Summary {
@@ -115,7 +109,7 @@ impl Summary {
                 continue;
             };
             let places: Vec<f64> = (axis.names.iter())
-                .map(|name| place_of(known, name) as f64)
+                .map(|name| place_among(known, name) as f64)
                 .collect();
             for peak in &mut self.peaks {
                 peak.varied = peak.varied.placed(k, &places);
@@ -155,27 +149,25 @@ impl SweepTable {
         let mut reader = csv::Reader::from_reader(table);
         let header = reader.headers().map_err(|e| wrong(e.to_string()))?;
         let columns: Vec<String> = header.iter().map(str::to_owned).collect();
-        let places = columns.iter().cloned().zip(0..).collect();
         let axes = columns.iter().filter(|name| is_of_axis(name));
         let axes: Vec<String> = axes.cloned().collect();
-        let mut names: Vec<Vec<String>> = axes.iter().map(|axis| names_of(beside, axis)).collect();
-        let peaks = match summary {
-            Some(bytes) => {
-                let summary: Summary = serde_json::from_slice(bytes)
-                    .map_err(|e| wrong(format!("the summary.json beside it: {e}")))?;
-                Some(summary.peaks_among(&axes, &mut names))
-            }
-            None => None,
-        };
+        let known = |axis| beside.map_or(Vec::new(), |beside| beside.names_of(axis));
+        let mut names: Vec<Vec<String>> = axes.iter().map(known).collect();
+        let peaks = summary.map(|bytes| {
+            let summary: Summary = serde_json::from_slice(bytes)
+                .map_err(|e| wrong(format!("the summary.json beside it: {e}")))?;
+            Ok(summary.peaks_among(&axes, &mut names))
+        });
         let mut result = Self {
             name: name.to_owned(),
-            axes,
-            names,
+            places: columns.iter().cloned().zip(0..).collect(),
             columns,
-            places,
+            axes,
+            names: Vec::new(),
             rows: Vec::new(),
             exact: HashMap::new(),
-            peaks,
+            peaks: peaks.transpose()?,
+            measured: false,
         };
         if !result.has(FREQUENCY) {
             return Err(wrong(format!(
@@ -184,47 +176,35 @@ impl SweepTable {
         }
         for record in reader.records() {
             let record = record.map_err(|e| wrong(e.to_string()))?;
-            let line = record.position().map_or(0, |p| p.line() as usize);
-            let cells = record.iter().map(str::to_owned).collect();
-            let row = result.row_of(line, cells)?;
-            result
-                .exact
-                .entry(bits(row.place))
-                .or_insert(result.rows.len());
+            let mut row = Row {
+                line: record.position().map_or(0, |p| p.line() as usize),
+                cells: record.iter().map(str::to_owned).collect(),
+                place: Place::default(),
+            };
+            row.place = result.place_of(&row, &mut names)?;
+            let next = result.rows.len();
+            result.exact.entry(bits(&row.place)).or_insert(next);
+            result.measured |= result.text(&row, "method") == "measured";
             result.rows.push(row);
         }
-        if result.is_measured() {
+        result.names = names;
+        if result.measured {
             // Peaks are located by solving between frequencies.
             result.peaks = None;
         }
         Ok(result)
     }
 
-    fn row_of(&mut self, line: usize, cells: Vec<String>) -> Result<Row, ComparisonError> {
-        let mut named = Vec::with_capacity(self.axes.len());
-        for (axis, names) in self.axes.iter().zip(&mut self.names) {
-            let cell = self.places.get(axis).and_then(|place| cells.get(*place));
-            let name = cell.filter(|_| has_names(axis));
-            named.push(name.map(|name| place_of(names, name) as f64));
+    fn place_of(&self, row: &Row, names: &mut [Vec<String>]) -> Result<Place, ComparisonError> {
+        let number = |column| Ok(self.number(row, column)?.unwrap_or(0.0));
+        let mut varied = Vec::with_capacity(self.axes.len());
+        for (axis, names) in self.axes.iter().zip(names) {
+            varied.push(match has_names(axis) {
+                true => place_among(names, self.text(row, axis)) as f64,
+                false => number(axis)?,
+            });
         }
-        let mut row = Row {
-            line,
-            cells,
-            place: Place {
-                varied: AxisValues::default(),
-                drive_mean: 0.0,
-                drive_amplitude: 0.0,
-                angular_frequency_rad_per_s: 0.0,
-            },
-            status: String::new(),
-            discretisation: (String::new(), String::new()),
-        };
-        let number = |column| Ok(self.number(&row, column)?.unwrap_or(0.0));
-        let text = |column| self.cell(&row, column).unwrap_or_default().to_owned();
-        let varied = self.axes.iter().zip(named);
-        let varied = varied.map(|(axis, named)| named.map_or_else(|| number(axis), Ok));
-        let varied: Vec<f64> = varied.collect::<Result<_, _>>()?;
-        let place = Place {
+        Ok(Place {
             varied: AxisValues::new(&varied).ok_or_else(|| ComparisonError::Table {
                 name: self.name.clone(),
                 reason: "it has more axes than a sweep".to_owned(),
@@ -232,19 +212,13 @@ impl SweepTable {
             drive_mean: number("drive_mean")?,
             drive_amplitude: number("drive_amplitude")?,
             angular_frequency_rad_per_s: number(FREQUENCY)?,
-        };
-        let (status, discretisation) = (text("status"), (text("steps"), text("nodes")));
-        row.place = place;
-        (row.status, row.discretisation) = (status, discretisation);
-        Ok(row)
+        })
     }
 
     /// What the blocks of a list are called whose places a column of an axis has.
-    fn names(&self, axis: &str) -> &[String] {
-        let mut known = self.axes.iter().zip(&self.names);
-        known
-            .find(|(known, _)| *known == axis)
-            .map_or(&[], |(_, names)| names)
+    fn names_of(&self, axis: &String) -> Vec<String> {
+        let known = self.axes.iter().position(|known| known == axis);
+        known.map_or(Vec::new(), |axis| self.names[axis].clone())
     }
 
     /// The unit of the frequencies that come first.
@@ -259,57 +233,46 @@ impl SweepTable {
         self.places.contains_key(column)
     }
 
-    fn cell<'a>(&self, row: &'a Row, column: &str) -> Option<&'a str> {
-        row.cells.get(*self.places.get(column)?).map(String::as_str)
+    /// Whether a column has a number in any row; an unreadable one counts, and is told where it is compared.
+    pub(super) fn has_numbers(&self, column: &str) -> bool {
+        let mut rows = self.rows.iter();
+        rows.any(|row| !matches!(self.number(row, column), Ok(None)))
+    }
+
+    /// What stands in a cell; nothing where the column is absent.
+    pub(super) fn text<'a>(&self, row: &'a Row, column: &str) -> &'a str {
+        let cell = self.places.get(column).and_then(|at| row.cells.get(*at));
+        cell.map_or("", String::as_str)
     }
 
     /// The number in a cell; `None` where the cell is empty or the column absent.
     pub(super) fn number(&self, row: &Row, column: &str) -> Result<Option<f64>, ComparisonError> {
-        match self.cell(row, column) {
-            None | Some("") => Ok(None),
-            Some(cell) => match cell.parse::<f64>() {
-                Ok(number) if number.is_finite() => Ok(Some(number)),
-                _ => Err(ComparisonError::Number {
-                    name: self.name.clone(),
-                    line: row.line,
-                    column: column.to_owned(),
-                    cell: cell.to_owned(),
-                }),
-            },
+        let cell = self.text(row, column);
+        match cell.parse::<f64>() {
+            _ if cell.is_empty() => Ok(None),
+            Ok(number) if number.is_finite() => Ok(Some(number)),
+            _ => Err(ComparisonError::Number {
+                name: self.name.clone(),
+                line: row.line,
+                column: column.to_owned(),
+                cell: cell.to_owned(),
+            }),
         }
-    }
-
-    /// Whether the rows are measured loops: their frequencies and loads are what they were and not what was asked for.
-    pub(super) fn is_measured(&self) -> bool {
-        self.rows
-            .iter()
-            .any(|row| self.cell(row, "method") == Some("measured"))
     }
 
     /// The case at this place of another result. Where one of the two was measured, the nearest in frequency, and among equal
     /// ones the nearest in load.
     pub(super) fn row(&self, place: Place, other: &Self) -> Option<&Row> {
-        if self.is_measured() || other.is_measured() {
+        if self.measured || other.measured {
             return self.nearest(place);
         }
-        if let Some(row) = self
-            .exact
-            .get(&bits(place))
-            .and_then(|at| self.rows.get(*at))
-        {
-            return Some(row);
+        if let Some(at) = self.exact.get(&bits(&place)) {
+            return self.rows.get(*at);
         }
-        let near = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
-        self.rows.iter().find(|row| {
-            let other = row.place;
-            near(
-                other.angular_frequency_rad_per_s,
-                place.angular_frequency_rad_per_s,
-            ) && other.varied.all().len() == place.varied.all().len()
-                && (other.varied.all().iter().zip(place.varied.all())).all(|(a, b)| near(*a, *b))
-                && near(other.drive_mean, place.drive_mean)
-                && near(other.drive_amplitude, place.drive_amplitude)
-        })
+        let near = |(a, b): (f64, f64)| (a - b).abs() <= SAME * a.abs().max(b.abs());
+        let same_axes = |row: &&Row| row.place.varied.all().len() == place.varied.all().len();
+        let mut rows = self.rows.iter().filter(same_axes);
+        rows.find(|row| numbers(&row.place).zip(numbers(&place)).all(near))
     }
 
     fn nearest(&self, place: Place) -> Option<&Row> {
@@ -317,7 +280,7 @@ impl SweepTable {
             0.0 => 0.0,
             larger => (a - b).abs() / larger,
         };
-        let distance = |row: &&Row| {
+        let distance = |row: &Row| {
             let other = row.place;
             let frequency = apart(
                 other.angular_frequency_rad_per_s,
@@ -327,21 +290,26 @@ impl SweepTable {
                 + apart(other.drive_amplitude, place.drive_amplitude);
             (frequency <= SAME_MEASURED).then_some(frequency + drive)
         };
-        let near = self.rows.iter().filter(|row| distance(row).is_some());
-        near.min_by(|a, b| {
-            let [a, b] = [a, b].map(|row| distance(row).unwrap_or(f64::INFINITY));
-            a.total_cmp(&b)
-        })
+        let near = self
+            .rows
+            .iter()
+            .filter_map(|row| Some((distance(row)?, row)));
+        let nearest = near.min_by(|(a, _), (b, _)| a.total_cmp(b));
+        nearest.map(|(_, row)| row)
     }
 }
 
-/// The numbers of a place, bit for bit.
-fn bits(place: Place) -> Vec<u64> {
+/// What a place is made of.
+fn numbers(place: &Place) -> impl Iterator<Item = f64> {
     let drive = [
         place.drive_mean,
         place.drive_amplitude,
         place.angular_frequency_rad_per_s,
     ];
-    let numbers = place.varied.all().iter().copied().chain(drive);
-    numbers.map(f64::to_bits).collect()
+    place.varied.all().iter().copied().chain(drive)
+}
+
+/// The numbers of a place, bit for bit.
+fn bits(place: &Place) -> Vec<u64> {
+    numbers(place).map(f64::to_bits).collect()
 }

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use super::SweepTable;
+use crate::report::number::range;
 
 /// The origin of one of two results.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -47,14 +48,10 @@ impl RunFacts {
 impl SweepTable {
     /// Steps per cycle, and nodes, of all cases: smallest and largest as written.
     pub fn resolution(&self, column: &str) -> Option<(f64, f64)> {
-        let numbers = self
-            .rows
-            .iter()
-            .filter_map(|row| self.number(row, column).ok()?);
-        numbers.fold(None, |range, value| match range {
-            None => Some((value, value)),
-            Some((low, high)) => Some((value.min(low), value.max(high))),
-        })
+        let numbers = self.rows.iter();
+        let numbers = numbers.filter_map(|row| self.number(row, column).ok()?);
+        let (low, high) = range(numbers);
+        (low <= high).then_some((low, high))
     }
 
     /// Cases.

@@ -6,7 +6,7 @@ use super::{Comparison, PeakComparison, Place};
 use crate::quantity::FrequencyUnit;
 use crate::report::number::four_digits;
 use crate::report::table::{Cell, cells, csv_leading};
-use crate::report::words::{case, wrapped};
+use crate::report::words::{case, wrapped_line};
 use crate::sweep::search::peak::Peak;
 
 /// Names of cases shown before the rest is counted.
@@ -24,7 +24,7 @@ impl Comparison {
         ] {
             if !columns.is_empty() {
                 let line = format!("columns {what}: {}", columns.join(", "));
-                text.push_str(&wrapped(&line, 80, "", "  "));
+                text.push_str(&wrapped_line(&line));
             }
         }
         for (place, old, new) in self.statuses.iter().take(NAMED) {
@@ -56,19 +56,21 @@ impl Comparison {
         text
     }
 
+    /// What axes vary of a case, in words that others follow; before a number stands `axis`.
+    pub(in crate::report) fn varied_words(&self, place: &Place, axis: &str) -> String {
+        let words = |value: Cell| match value {
+            Cell::Number(number) => format!("{axis}{number}, "),
+            name => format!("{}, ", name.text()),
+        };
+        self.varied(place).into_iter().map(words).collect()
+    }
+
     /// A case in words.
     pub(in crate::report) fn words(&self, place: &Place) -> String {
-        let varied = self.varied(place).into_iter();
-        let varied: String = varied
-            .map(|value| match value {
-                Cell::Text(name) => format!("{name}, "),
-                Cell::Number(number) => format!("axis {number}, "),
-                other => format!("axis {}, ", other.text()),
-            })
-            .collect();
         format!(
-            "{} ({varied}mean {}, amplitude {})",
+            "{} ({}mean {}, amplitude {})",
             case(self.unit, place.angular_frequency_rad_per_s),
+            self.varied_words(place, "axis "),
             place.drive_mean,
             place.drive_amplitude
         )

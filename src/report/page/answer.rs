@@ -20,12 +20,11 @@ pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> Markup {
         }
         return html! { p class="peaks" { (why.join("\n")) } };
     }
-    let peaks = peaks::all(plan, outcome, with_error);
     html! {
         ul class="peaks" {
-            @for peak in peaks {
+            @for peak in peaks::all(plan, outcome, with_error) {
                 li {
-                    @if peak.is_largest { "Peak: " } @else { "Lower peak: " }
+                    (peak.name()) ": "
                     strong { (peak.loss) } " per cycle at " (peak.symbol) " = " strong { (peak.frequency) } (peak.under) (peak.material)
                 }
             }
@@ -34,30 +33,30 @@ pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     }
 }
 
-/// Warnings as a list; nothing where there are none.
-pub(super) fn warned(warnings: impl IntoIterator<Item = impl std::fmt::Display>) -> Markup {
-    let lines: Vec<String> = warnings.into_iter().map(|w| w.to_string()).collect();
+/// Lines under a title; nothing where there are none.
+fn told(class: &str, title: &str, lines: impl Iterator<Item = String>) -> Markup {
+    let mut lines = lines.peekable();
     html! {
-        @if !lines.is_empty() {
-            div class="warnings" { p { "To be kept in mind:" } (list(&lines)) }
+        @if lines.peek().is_some() {
+            div class=(class) { p { (title) } (list(lines)) }
         }
     }
 }
 
+/// Warnings as a list; nothing where there are none.
+pub(super) fn warned(warnings: impl IntoIterator<Item = impl std::fmt::Display>) -> Markup {
+    let lines = warnings.into_iter().map(|w| w.to_string());
+    told("warnings", "To be kept in mind:", lines)
+}
+
 /// What has no result or could not be located, each with its reason; nothing where there is no such thing.
 pub(super) fn problems(plan: &SweepPlan, outcome: &Outcome) -> Markup {
-    let cases = without_result(plan.figures.frequency_unit, outcome);
     let peaks = outcome.peak_problems.iter();
-    let lines: Vec<String> = cases
-        .chain(peaks.map(|why| format!("A peak was not located: {why}")))
-        .chain(outcome.interrupted.then(|| {
-            "The sweep was interrupted: the cases that are missing here were not computed."
-                .to_owned()
-        }))
-        .collect();
-    html! {
-        @if !lines.is_empty() {
-            div class="problems" { p { "Without a result, and so not drawn:" } (list(&lines)) }
-        }
-    }
+    let peaks = peaks.map(|why| format!("A peak was not located: {why}"));
+    let interrupted = outcome.interrupted.then(|| {
+        "The sweep was interrupted: the cases that are missing here were not computed.".to_owned()
+    });
+    let lines = without_result(plan.figures.frequency_unit, outcome);
+    let lines = lines.chain(peaks).chain(interrupted);
+    told("problems", "Without a result, and so not drawn:", lines)
 }

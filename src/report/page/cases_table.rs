@@ -75,6 +75,35 @@ pub(super) fn table(plan: &SweepPlan, outcome: &Outcome) -> Markup {
 }
 
 impl Column {
+    /// Values in SI units; in the table a unit has the prefix that suits the largest, angles but for those of an axis are in
+    /// degrees.
+    fn new(
+        name: &str,
+        heading: &str,
+        dimension: Option<Dimension>,
+        digits: Option<usize>,
+        values: Vec<Option<f64>>,
+    ) -> Self {
+        let (factor, unit) = match dimension {
+            None => (1.0, String::new()),
+            Some(Dimension::Angle) if digits.is_some() => (1_f64.to_degrees(), " / °".to_owned()),
+            Some(dimension) => {
+                let largest = largest(values.iter().flatten().map(|v| v.abs()));
+                let (factor, prefix) = prefix(largest);
+                (factor, format!(" / {prefix}{}", dimension.si_unit()))
+            }
+        };
+        let values = values.into_iter();
+        Self {
+            name: name.to_owned(),
+            heading: format!("{heading}{unit}"),
+            digits,
+            factor,
+            values: values.map(|v| v.map(|v| v * factor)).collect(),
+            names: Vec::new(),
+        }
+    }
+
     fn text(&self, case: usize) -> String {
         if let Some(name) = self.names.get(case) {
             return name.clone();
@@ -87,92 +116,42 @@ impl Column {
     }
 }
 
-/// A column of bare numbers, or of numbers in the unit of the heading.
-fn bare(name: &str, heading: &str, values: Vec<Option<f64>>) -> Column {
-    Column {
-        name: name.to_owned(),
-        heading: heading.to_owned(),
-        digits: None,
-        factor: 1.0,
-        values,
-        names: Vec::new(),
-    }
-}
-
 fn columns(plan: &SweepPlan, records: &[CaseRecord]) -> Vec<Column> {
     let unit = plan.figures.frequency_unit;
-    // A unit that takes a prefix gets the one that suits the largest value.
-    let column = |name: &str, heading: &str, si: &str, digits, values: Vec<Option<f64>>| {
-        let (factor, prefix) = prefix(largest(values.iter().flatten().map(|v| v.abs())));
-        let (factor, heading) = match si {
-            "" => (1.0, heading.to_owned()),
-            si => (factor, format!("{heading} / {prefix}{si}")),
-        };
-        Column {
-            digits,
-            factor,
-            ..bare(
-                name,
-                &heading,
-                values.iter().map(|v| v.map(|v| v * factor)).collect(),
-            )
-        }
-    };
+    let heading = format!("{} / {}", unit.symbol(), unit.name().replace("/s", "·s⁻¹"));
     let numbers = |value: &dyn Fn(&CaseRecord) -> Option<f64>| records.iter().map(value).collect();
-    let mut columns = vec![bare(
+    let frequencies = numbers(&|r| Some(unit.of(r.angular_frequency_rad_per_s)));
+    let mut columns = vec![Column::new(
         unit.column(),
-        &format!("{} / {}", unit.symbol(), unit.name().replace("/s", "·s⁻¹")),
-        numbers(&|r| Some(unit.of(r.angular_frequency_rad_per_s))),
+        &heading,
+        None,
+        None,
+        frequencies,
     )];
-    for (axis, varied) in plan
-        .axes
-        .iter()
-        .flat_map(|axes| axes.over.iter().enumerate())
-    {
-        let si = varied.dimension.map_or("", Dimension::si_unit);
+    for (axis, varied) in (plan.axes.iter()).flat_map(|axes| axes.over.iter().enumerate()) {
         let (name, heading) = (varied.column(), varied.name());
-        let values = numbers(&|r| r.varied.get(axis));
+        let values: Vec<_> = numbers(&|r| r.varied.get(axis));
         let name_of = |value: &Option<f64>| Some(varied.block_name((*value)?)?.to_owned());
         columns.push(Column {
             names: values.iter().filter_map(name_of).collect(),
-            ..column(&name, &heading, si, None, values)
+            ..Column::new(&name, &heading, varied.dimension, None, values)
         });
     }
-    let shown = SWEEP.iter().filter_map(|c| Some((c, c.in_cases?)));
-    for (known, heading) in shown {
-        let values: Vec<Option<f64>> = numbers(&|r| known.number(r));
+    for known in SWEEP {
+        let Some(heading) = known.in_cases else {
+            continue;
+        };
+        let values: Vec<_> = numbers(&|r| known.number(r));
         // Most materials have no replicas.
         if known.name == "energy_loss_material_error_j" && values.iter().all(Option::is_none) {
             continue;
         }
-        match known.dimension {
-            None => columns.push(bare(known.name, heading, values)),
-            Some(Dimension::Angle) => columns.push(Column {
-                digits: Some(5),
-                factor: 1_f64.to_degrees(),
-                ..bare(
-                    known.name,
-                    &format!("{heading} / °"),
-                    values
-                        .into_iter()
-                        .map(|v: Option<f64>| v.map(f64::to_degrees))
-                        .collect(),
-                )
-            }),
-            Some(dimension) => {
-                columns.push(column(
-                    known.name,
-                    heading,
-                    dimension.si_unit(),
-                    Some(5),
-                    values,
-                ));
-            }
-        }
+        let (dimension, digits) = (known.dimension, known.dimension.map(|_| 5));
+        columns.push(Column::new(known.name, heading, dimension, digits, values));
         // Of the errors that of the loss has a column here.
-        if let (Some(Dimension::Energy), Some(name)) = (known.dimension, known.error_name()) {
-            let values = numbers(&|r| known.error(r));
-            columns.push(column(&name, "its error", "J", Some(2), values));
+        if let (Some(Dimension::Energy), Some(name)) = (dimension, known.error_name()) {
+            let errors = numbers(&|r| known.error(r));
+            columns.push(Column::new(&name, "its error", dimension, Some(2), errors));
         }
     }
     columns

@@ -1,5 +1,7 @@
 //! Numbers small enough for a page: six digits, about a hundred points a curve, at most some forty cells a side.
 
+use serde::Serialize;
+
 /// Rounded to six significant digits.
 pub(super) fn rounded(value: f64) -> f64 {
     digits(value, 6)
@@ -50,6 +52,34 @@ pub(super) struct Coarse {
     pub(super) values: Vec<Option<f64>>,
 }
 
+/// Where the cells of such a field lie.
+#[derive(Serialize)]
+pub(super) struct CoarseCells {
+    first_x_m: f64,
+    first_y_m: f64,
+    spacing_x_m: f64,
+    spacing_y_m: f64,
+    cells_x: usize,
+}
+
+impl Coarse {
+    /// The place of the cells made of fine ones, of which these are the first centre and the spacing.
+    pub(super) fn cells(&self, first_m: [f64; 2], spacing_m: [f64; 2]) -> CoarseCells {
+        let factor = self.factor as f64;
+        // The centre of a coarse cell lies between those of the cells in it.
+        let shift = 0.5 * (factor - 1.0);
+        let first = |axis: usize| rounded(first_m[axis] + shift * spacing_m[axis]);
+        let [spacing_x_m, spacing_y_m] = spacing_m.map(|spacing| rounded(factor * spacing));
+        CoarseCells {
+            first_x_m: first(0),
+            first_y_m: first(1),
+            spacing_x_m,
+            spacing_y_m,
+            cells_x: self.cells_x,
+        }
+    }
+}
+
 /// Means over squares of cells, so that no side has more than `limit`; four digits, finer than a colour. Cells without a value
 /// do not count.
 pub(super) fn coarse(
@@ -71,13 +101,11 @@ pub(super) fn coarse(
             .fold((0.0, 0_usize), |(sum, n), v| (sum + v, n + 1));
         (known > 0).then(|| digits(sum / known as f64, 4))
     };
+    let places = (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j)));
     Coarse {
         cells_x: nx,
         factor,
-        values: (0..ny)
-            .flat_map(|j| (0..nx).map(move |i| (i, j)))
-            .map(|(i, j)| mean(i, j))
-            .collect(),
+        values: places.map(|(i, j)| mean(i, j)).collect(),
     }
 }
 

@@ -1,24 +1,22 @@
 //! The page of a comparison: the verdict, both curves and their difference, columns, peaks, cases, where both come from.
 
-use maud::{Markup, html};
+use maud::{Markup, Render, html};
 use serde::Serialize;
 
 use super::compact::rounded;
-use super::frame::{Frame, Input, InputFile, PLOT};
-use super::html::json_for_script;
+use super::frame::{Frame, Input, PLOT};
 use super::pictures::Pictures;
 use super::question::list;
 use super::sweep_data::FrequencyData;
-use super::{copying, still};
+use super::{copying, scroll, section, still};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::report::ReportError;
 use crate::report::comparison::text::peak_words;
 use crate::report::comparison::{
-    Column, ColumnComparison, Comparison, PeakComparison, Place, Source, SweepTable, Tolerances,
+    ColumnComparison, Comparison, PeakComparison, Place, Source, SweepTable, Tolerances,
 };
 use crate::report::number::{at_frequency, cell, scientific, with_error};
-use crate::report::quantities;
-use crate::report::table::Cell;
+use crate::report::quantities::{self, Compared::Absolutely};
 use crate::sweep::search::peak::Peak;
 use crate::sweep::store::difference;
 
@@ -36,8 +34,6 @@ pub struct Compared<'a> {
     pub new: &'a SweepTable,
     /// Of baseline and new result.
     pub sources: [&'a Source; 2],
-    /// The columns to be drawn.
-    pub columns: &'a [Column],
     /// The figures that have gone by.
     pub pictures: &'a Pictures,
 }
@@ -74,21 +70,12 @@ struct ColumnData<'a> {
 /// # Errors
 /// [`ReportError`] naming the part that could not be made.
 pub fn page(compared: &Compared<'_>) -> Result<String, ReportError> {
-    let Compared {
-        comparison,
-        sources: [old, new],
-        ..
-    } = compared;
-    let csv = comparison.table();
+    let [old, new] = compared.sources;
     let named = [("baseline/resolved.toml", old), ("new/resolved.toml", new)];
-    let files = named.iter().filter_map(|(name, source)| {
-        let text = source.resolved.as_deref()?;
-        Some(InputFile { name, text })
-    });
-    let hashes = [("the baseline", old), ("the new result", new)];
-    let hashes = hashes
-        .iter()
-        .filter_map(|(what, source)| Some((*what, source.run.sweep_hash.clone()?)));
+    let files = named.into_iter();
+    let files = files.filter_map(|(name, source)| Some((name, source.resolved.as_deref()?)));
+    let hashes = [("the baseline", old), ("the new result", new)].into_iter();
+    let hashes = hashes.filter_map(|(what, s)| Some((what, s.run.sweep_hash.clone()?)));
     let frame = Frame {
         title: "Comparison of two results",
         asked: format!("Baseline {}, new {}", old.name, new.name),
@@ -99,18 +86,15 @@ pub fn page(compared: &Compared<'_>) -> Result<String, ReportError> {
             text: "The sweep files of both results, with every default written out. \
                    <code>contact-dma sweep resolved.toml</code> gives each again.",
         },
-        data: json_for_script(&data(compared, &String::from_utf8_lossy(&csv)))?,
         script: &[PLOT, SCRIPT],
     };
-    Ok(frame.page())
+    let csv = compared.comparison.table();
+    frame.page(&data(compared, &String::from_utf8_lossy(&csv)))
 }
 
 fn sections(compared: &Compared<'_>) -> Markup {
-    let Compared {
-        comparison,
-        sources: [old, new],
-        ..
-    } = compared;
+    let comparison = compared.comparison;
+    let [old, new] = compared.sources;
     let verdict = match comparison.differs() {
         true => "The results differ.",
         false => "The results are the same within the tolerances.",
@@ -123,92 +107,70 @@ fn sections(compared: &Compared<'_>) -> Markup {
             p class="asked" { (tolerances(compared.tolerances)) }
         }
         (curves(comparison.unit, compared.pictures))
-        section aria-labelledby="columns-heading" {
-            h2 id="columns-heading" { "Column by column" }
-            section class="scroll" tabindex="0" aria-label="Columns, may be scrolled" {
-                (columns(comparison))
-            }
+        (section("columns-heading", "Column by column", html! {
+            (scroll("Columns", columns(comparison)))
             (copying("Copy the curve as CSV", "Download comparison.csv"))
-        }
-        section aria-labelledby="peaks-heading" {
-            h2 id="peaks-heading" { "Peaks" }
-            (peaks(comparison.unit, &comparison.peaks))
-        }
-        section aria-labelledby="cases-heading" {
-            h2 id="cases-heading" { "Cases" }
-            (cases(comparison))
-        }
-        section aria-labelledby="sources-heading" {
-            h2 id="sources-heading" { "Where both come from" }
-            section class="scroll" tabindex="0" aria-label="Sources, may be scrolled" {
-                (sources(compared))
-            }
+        }))
+        (section("peaks-heading", "Peaks", peaks(comparison.unit, &comparison.peaks)))
+        (section("cases-heading", "Cases", cases(comparison)))
+        (section("sources-heading", "Where both come from", html! {
+            (scroll("Sources", sources(compared)))
             (asked(old, new))
-        }
+        }))
     }
 }
 
 fn curves(unit: FrequencyUnit, pictures: &Pictures) -> Markup {
-    html! {
-        section aria-labelledby="curves-heading" {
-            h2 id="curves-heading" { "Both curves, and their difference" }
-            div class="live controls" role="group" aria-label="Curves" {
-                label { "Curve of " select id="quantity" {} }
-                label id="drive-choice" hidden { "drive " select id="drive" {} }
-                label { input type="checkbox" id="log-x" checked; " log " (unit.symbol()) }
-                label { input type="checkbox" id="log-y"; " log values" }
-            }
-            div id="curve" class="live plot tall" {}
-            div id="difference" class="live plot" {}
-            p class="live hint" id="bars" {}
-            (still(
-                pictures,
-                "comparison",
-                "No case has a loss in both results: there is nothing to draw.",
-            ))
+    let content = html! {
+        div class="live controls" role="group" aria-label="Curves" {
+            label { "Curve of " select id="quantity" {} }
+            label id="drive-choice" hidden { "drive " select id="drive" {} }
+            label { input type="checkbox" id="log-x" checked; " log " (unit.symbol()) }
+            label { input type="checkbox" id="log-y"; " log values" }
         }
-    }
+        div id="curve" class="live plot tall" {}
+        div id="difference" class="live plot" {}
+        p class="live hint" id="bars" {}
+        (still(pictures, "comparison", "No case has a loss in both results: there is nothing to draw."))
+    };
+    section(
+        "curves-heading",
+        "Both curves, and their difference",
+        content,
+    )
 }
 
 fn data<'a>(compared: &Compared<'a>, csv: &'a str) -> Data<'a> {
-    let unit = compared.comparison.unit;
-    let places = || compared.comparison.curve.iter().map(|point| point.place);
-    let drive = |place: Place| {
-        let varied = compared.comparison.varied(&place).into_iter();
-        let varied = varied.map(|value| match value {
-            Cell::Number(number) => format!("{number}, "),
-            name => format!("{}, ", name.text()),
-        });
-        let varied: String = varied.collect();
+    let comparison = compared.comparison;
+    let unit = comparison.unit;
+    let places = || comparison.curve.iter().map(|point| &point.place);
+    let frequencies = places().map(|p| unit.of(p.angular_frequency_rad_per_s));
+    let drives = places().map(|place| {
+        let varied = comparison.varied_words(place, "");
         format!("{varied}{} ± {}", place.drive_mean, place.drive_amplitude)
-    };
+    });
     Data {
         kind: "comparison",
         csv,
         frequency: FrequencyData::of(unit),
-        frequencies: places()
-            .map(|p| unit.of(p.angular_frequency_rad_per_s))
-            .collect(),
-        drives: places().map(drive).collect(),
-        columns: compared.columns.iter().map(ColumnData::of).collect(),
+        frequencies: frequencies.collect(),
+        drives: drives.collect(),
+        columns: comparison.columns.iter().map(ColumnData::of).collect(),
     }
 }
 
 impl<'a> ColumnData<'a> {
-    fn of(column: &'a Column) -> Self {
+    fn of(column: &'a ColumnComparison) -> Self {
         let known = quantities::of_name(&column.name);
         // A branch, and what another version wrote, by its name.
         let heading = known.filter(|known| known.name == column.name);
         let (unit, factor) = known.map_or(("", 1.0), |known| known.unit());
         Self {
             name: &column.name,
-            heading: heading
-                .map_or(column.name.as_str(), |known| known.heading)
-                .replace('_', " "),
+            heading: (heading.map_or(&column.name[..], |known| known.heading)).replace('_', " "),
             unit,
             factor,
-            is_relative: known
-                .is_some_and(|known| known.compared == Some(quantities::Compared::Absolutely)),
+            is_relative: known.is_some_and(|c| c.compared == Some(Absolutely)),
             baseline: &column.baseline,
             new: &column.new,
             error: column.error.iter().map(|e| e.map(rounded)).collect(),
@@ -219,27 +181,23 @@ impl<'a> ColumnData<'a> {
 /// What makes the results differ; nothing where they do not.
 fn reasons(comparison: &Comparison) -> Markup {
     let mut lines = Vec::new();
-    let mut count = |n: usize, what: &str| {
-        if n > 0 {
-            lines.push(format!(
-                "{n} {} {what}",
-                if n == 1 { "case is" } else { "cases are" }
-            ));
+    for (n, what) in [
+        (comparison.missing.len(), "missing in the new result"),
+        (comparison.added.len(), "only in the new result"),
+        (comparison.statuses.len(), "of another status"),
+    ] {
+        match n {
+            0 => {}
+            1 => lines.push(format!("1 case is {what}")),
+            n => lines.push(format!("{n} cases are {what}")),
         }
-    };
-    count(comparison.missing.len(), "missing in the new result");
-    count(comparison.added.len(), "only in the new result");
-    count(comparison.statuses.len(), "of another status");
+    }
     if !comparison.missing_columns.is_empty() {
         let names = comparison.missing_columns.join(", ");
         lines.push(format!("columns missing in the new result: {names}"));
     }
-    let different: Vec<&ColumnComparison> = comparison
-        .columns
-        .iter()
-        .filter(|column| column.different > 0)
-        .collect();
-    for column in different.iter().take(COLUMNS) {
+    let different = comparison.columns.iter().filter(|c| c.different > 0);
+    for column in different.clone().take(COLUMNS) {
         let largest = column.largest.map(|(share, place)| {
             let at = at_frequency(comparison.unit, place.angular_frequency_rad_per_s, 4);
             let share = scientific(share, 2);
@@ -253,7 +211,7 @@ fn reasons(comparison: &Comparison) -> Markup {
             largest.unwrap_or_default()
         ));
     }
-    match different.len().saturating_sub(COLUMNS) {
+    match different.count().saturating_sub(COLUMNS) {
         0 => {}
         more => lines.push(format!("{more} more columns differ: see below")),
     }
@@ -292,27 +250,21 @@ fn columns(comparison: &Comparison) -> Markup {
         "finding",
     ];
     let rows = comparison.columns.iter().map(|column| {
-        let (share, omega) = column.largest.map_or((None, None), |(share, place)| {
-            (
-                Some(share),
-                Some(unit.of(place.angular_frequency_rad_per_s)),
-            )
-        });
+        let share = column.largest.map(|(share, _)| scientific(share, 2));
+        let place = column.largest.map(|(_, place)| place);
         let found = match column.different {
             _ if comparison.compared == 0 => html! { "not compared" },
             different => finding(different > 0),
         };
-        html! {
-            tr {
-                th scope="row" { (column.name) }
-                td { (share.map_or("none".to_owned(), |share| scientific(share, 2))) }
-                td { (cell(omega)) }
-                td { (column.beyond) }
-                td { (column.within_bars) }
-                td { (column.absent) }
-                td class="text" { (found) }
-            }
-        }
+        vec![
+            column.name.render(),
+            share.as_deref().unwrap_or("none").render(),
+            cell(place.map(|place| unit.of(place.angular_frequency_rad_per_s))).render(),
+            column.beyond.render(),
+            column.within_bars.render(),
+            column.absent.render(),
+            found,
+        ]
     });
     table(&headings, rows)
 }
@@ -324,24 +276,34 @@ fn finding(differs: bool) -> Markup {
     }
 }
 
-/// A table; headings of numbers begin with `!`, and one without a word is no heading.
-fn table(headings: &[&str], rows: impl Iterator<Item = Markup>) -> Markup {
+/// A table whose rows begin with their names; headings of numbers begin with `!`.
+fn table(headings: &[&str], rows: impl Iterator<Item = Vec<Markup>>) -> Markup {
+    let columns = || {
+        headings
+            .iter()
+            .map(|heading| (heading.strip_prefix('!'), heading))
+    };
     html! {
         table class="tight" {
             thead {
                 tr {
-                    @for heading in headings {
-                        @if heading.is_empty() {
-                            td class="text" {}
-                        } @else if let Some(number) = heading.strip_prefix('!') {
-                            th scope="col" { (number) }
-                        } @else {
-                            th scope="col" class="text" { (heading) }
+                    @for (number, heading) in columns() {
+                        @if let Some(number) = number { th scope="col" { (number) } }
+                        @else { th scope="col" class="text" { (heading) } }
+                    }
+                }
+            }
+            tbody {
+                @for row in rows {
+                    tr {
+                        @for (k, ((number, _), cell)) in columns().zip(row).enumerate() {
+                            @if k == 0 { th scope="row" { (cell) } }
+                            @else if number.is_some() { td { (cell) } }
+                            @else { td class="text" { (cell) } }
                         }
                     }
                 }
             }
-            tbody { @for row in rows { (row) } }
         }
     }
 }
@@ -383,95 +345,55 @@ fn peaks(unit: FrequencyUnit, peaks: &[PeakComparison]) -> Markup {
                 scientific(100.0 * (of(b) / of(a) - 1.0), 2)
             })
         };
-        html! {
-            tr {
-                th scope="row" { (text(&pair.baseline, &omega)) }
-                td class="text" { (text(&pair.new, &omega)) }
-                td { (percent(|peak| peak.angular_frequency_rad_per_s)) }
-                td class="text" { (text(&pair.baseline, &loss)) }
-                td class="text" { (text(&pair.new, &loss)) }
-                td { (percent(|peak| peak.energy_loss_j)) }
-                td class="text" { (finding(pair.differs)) }
-            }
-        }
+        vec![
+            text(&pair.baseline, &omega).render(),
+            text(&pair.new, &omega).render(),
+            percent(|peak| peak.angular_frequency_rad_per_s).render(),
+            text(&pair.baseline, &loss).render(),
+            text(&pair.new, &loss).render(),
+            percent(|peak| peak.energy_loss_j).render(),
+            finding(pair.differs),
+        ]
     });
-    html! {
-        section class="scroll" tabindex="0" aria-label="Peaks, may be scrolled" { (table(&headings, rows)) }
-    }
+    scroll("Peaks", table(&headings, rows))
 }
 
 fn cases(comparison: &Comparison) -> Markup {
-    let mut lists = Vec::new();
-    let mut add = |what: &str, lines: Vec<String>| {
-        if lines.is_empty() {
-            return;
-        }
-        let mut shown: Vec<String> = lines.iter().take(CASES).cloned().collect();
-        if lines.len() > CASES {
-            shown.push(format!("and {} more", lines.len() - CASES));
-        }
-        lists.push(html! { h3 { (what) ": " (lines.len()) } (list(&shown)) });
-    };
-    let places = |places: &[Place]| {
-        places
-            .iter()
-            .map(|place| comparison.words(place))
-            .collect::<Vec<_>>()
-    };
-    add("Missing in the new result", places(&comparison.missing));
-    add("Only in the new result", places(&comparison.added));
+    let words = |places: &[Place]| places.iter().map(|place| comparison.words(place)).collect();
     let statuses = comparison.statuses.iter();
     let statuses =
         statuses.map(|(place, a, b)| format!("{}: {a} before, {b} now", comparison.words(place)));
-    add("Of another status", statuses.collect());
-    add(
-        "Columns missing in the new result",
-        comparison.missing_columns.clone(),
-    );
-    add(
-        "Columns only in the new result",
-        comparison.added_columns.clone(),
-    );
+    let lists: [(&str, Vec<String>); 5] = [
+        ("Missing in the new result", words(&comparison.missing)),
+        ("Only in the new result", words(&comparison.added)),
+        ("Of another status", statuses.collect()),
+        (
+            "Columns missing in the new result",
+            comparison.missing_columns.clone(),
+        ),
+        (
+            "Columns only in the new result",
+            comparison.added_columns.clone(),
+        ),
+    ];
     html! {
         p { (comparison.compared) " cases are in both results." }
-        @for list in lists { (list) }
+        @for (what, lines) in lists {
+            @if !lines.is_empty() {
+                @let more = lines.len().checked_sub(CASES).filter(|more| *more > 0);
+                @let more = more.map(|more| format!("and {more} more"));
+                h3 { (what) ": " (lines.len()) } (list(lines.into_iter().take(CASES).chain(more)))
+            }
+        }
     }
 }
 
 fn sources(compared: &Compared<'_>) -> Markup {
-    let mut rows = Vec::new();
-    let mut row = |name: &str, values: [String; 2]| {
-        rows.push(html! {
-            tr {
-                th scope="row" { (name) }
-                @for value in values { td class="text wide" { (value) } }
-            }
-        });
-    };
     let unknown = || "not told".to_owned();
     let of = |fact: fn(&Source) -> Option<String>| {
-        compared
-            .sources
-            .map(|source| fact(source).unwrap_or_else(unknown))
+        (compared.sources).map(|source| fact(source).unwrap_or_else(unknown))
     };
-    row("result", of(|s| Some(s.name.clone())));
-    row(
-        "program",
-        of(|s| Some(format!("contact-dma {}", s.run.program_version.as_ref()?))),
-    );
-    row("commit", of(|s| s.run.commit.clone()));
-    row("hash of the sweep", of(|s| s.run.sweep_hash.clone()));
-    row("engine", of(|s| s.run.engine.clone()));
-    row(
-        "tolerance of the cycle",
-        of(|s| Some(format!("{:e}", s.run.cycle_tolerance?))),
-    );
-    row(
-        "tolerance of an instant",
-        of(|s| Some(format!("{:e}", s.run.solver_tolerance?))),
-    );
     let tables = [compared.baseline, compared.new];
-    row("cases", tables.map(|table| table.cases().to_string()));
     let range = |column: &str| {
         tables.map(|table| match table.resolution(column) {
             None => unknown(),
@@ -479,9 +401,46 @@ fn sources(compared: &Compared<'_>) -> Markup {
             Some((low, high)) => format!("{low} to {high}"),
         })
     };
-    row("time steps per cycle", range("steps"));
-    row("springs, or cells per side", range("nodes"));
-    table(&["", "baseline", "new"], rows.into_iter())
+    let rows = [
+        ("result", of(|s| Some(s.name.clone()))),
+        (
+            "program",
+            of(|s| Some(format!("contact-dma {}", s.run.program_version.as_ref()?))),
+        ),
+        ("commit", of(|s| s.run.commit.clone())),
+        ("hash of the sweep", of(|s| s.run.sweep_hash.clone())),
+        ("engine", of(|s| s.run.engine.clone())),
+        (
+            "tolerance of the cycle",
+            of(|s| Some(format!("{:e}", s.run.cycle_tolerance?))),
+        ),
+        (
+            "tolerance of an instant",
+            of(|s| Some(format!("{:e}", s.run.solver_tolerance?))),
+        ),
+        ("cases", tables.map(|table| table.cases().to_string())),
+        ("time steps per cycle", range("steps")),
+        ("springs, or cells per side", range("nodes")),
+    ];
+    html! {
+        table class="tight" {
+            thead {
+                tr {
+                    td class="text" {}
+                    th scope="col" class="text" { "baseline" }
+                    th scope="col" class="text" { "new" }
+                }
+            }
+            tbody {
+                @for (name, values) in rows {
+                    tr {
+                        th scope="row" { (name) }
+                        @for value in values { td class="text wide" { (value) } }
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// Whether both were asked the same.

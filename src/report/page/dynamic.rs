@@ -3,9 +3,7 @@
 use maud::{Markup, html};
 
 use super::Pictures;
-use super::frame::{Frame, Input, InputFile};
-use super::html::json_for_script;
-use super::plain::{Data, SCRIPT, shown};
+use super::plain;
 use super::question::list;
 use crate::material::dynamic::master_curve::MasterCurve;
 use crate::quantity::celsius;
@@ -14,7 +12,6 @@ use crate::report::dynamic::DynamicReport;
 use crate::report::figure::Figure;
 use crate::report::number::digits;
 use crate::report::words::listed;
-use crate::sweep::plan::resolved;
 
 /// The page; the pictures of the figures have gone by, `block` is the `[material]` block.
 ///
@@ -26,53 +23,27 @@ pub fn page(
     block: &str,
     pictures: &Pictures,
 ) -> Result<String, ReportError> {
-    let main = html! {
-        section aria-labelledby="answer" class="answer" {
-            h2 id="answer" { "The material" }
-            (list(&report.lines()))
-            @for figure in figures { (shown(figure, pictures)) }
-            @if let Some(master) = &report.made.master {
-                h3 { "Shift factors" }
-                (shifts(master))
-            }
-        }
+    let content = html! {
+        (list(report.lines()))
+        (plain::shown(figures, pictures))
+        @if let Some(master) = &report.made.master { h3 { "Shift factors" } (shifts(master)) }
     };
-    let at = match report.reference_temperature_k() {
-        Some(temperature_k) => format!(" at {}", celsius(temperature_k)),
-        None => String::new(),
-    };
-    let frame = Frame {
-        title: &format!("Fit to {}", listed(&report.source.files)),
-        asked: format!("a series{at} from storage and loss modulus over frequency"),
-        main,
-        input: Input {
-            hashes: vec![("exactly this material", resolved::hash(block))],
-            files: vec![InputFile {
-                name: "material.toml",
-                text: block,
-            }],
-            text: "The material as a block of a sweep file, every number exact.",
-        },
-        script: &[SCRIPT],
-        data: json_for_script(&Data { kind: "dynamic" })?,
-    };
-    Ok(frame.page())
+    let at = report.reference_temperature_k();
+    let at = at.map_or(String::new(), |t_k| format!(" at {}", celsius(t_k)));
+    let title = format!("Fit to {}", listed(&report.source.files));
+    let asked = format!("a series{at} from storage and loss modulus over frequency");
+    let input = plain::found_material(block);
+    plain::page("dynamic", (&title, asked), ("The material", content), input)
 }
 
 /// A dash stands for an error that is not known.
 fn shifts(master: &MasterCurve) -> Markup {
-    html! {
-        table {
-            thead { tr { th { "T" } th { "log₁₀ a_T" } th { "standard error" } } }
-            tbody {
-                @for shift in &master.shifts {
-                    tr {
-                        td { (celsius(shift.temperature_k)) }
-                        td { (digits(Some(shift.log10_a_t), 5)) }
-                        td { (digits(shift.log10_a_t_error, 2)) }
-                    }
-                }
-            }
-        }
-    }
+    let rows = master.shifts.iter().map(|shift| {
+        vec![
+            celsius(shift.temperature_k),
+            digits(Some(shift.log10_a_t), 5),
+            digits(shift.log10_a_t_error, 2),
+        ]
+    });
+    plain::table(&["T", "log₁₀ a_T", "standard error"], rows)
 }

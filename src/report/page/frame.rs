@@ -1,8 +1,10 @@
 //! What every page has around its own sections: head, title, style, how to cite, the input, data, script.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use serde::Serialize;
 
-use super::html::data_link;
+use super::html::{data_link, json_for_script};
+use crate::report::ReportError;
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 const STYLE: &str = include_str!("page.css");
@@ -23,8 +25,6 @@ pub struct Frame<'a> {
     /// The page's own sections; the first has a heading with the id `answer`.
     pub main: Markup,
     pub input: Input<'a>,
-    /// JSON for the script, in which no `<` is left.
-    pub data: String,
     /// What the page's script needs besides the common part; the last defines `start(data)`.
     pub script: &'a [&'a str],
 }
@@ -33,15 +33,9 @@ pub struct Frame<'a> {
 pub struct Input<'a> {
     /// Hashes, and what each stands for: "exactly this input".
     pub hashes: Vec<(&'a str, String)>,
-    /// The files: at least one, or there is no section for them.
-    pub files: Vec<InputFile<'a>>,
+    /// Names and texts of the files as they can be run again: at least one, or there is no section for them.
+    pub files: Vec<(&'a str, &'a str)>,
     /// What to do with them, as HTML.
-    pub text: &'a str,
-}
-
-/// A file as it can be run again.
-pub struct InputFile<'a> {
-    pub name: &'a str,
     pub text: &'a str,
 }
 
@@ -50,8 +44,12 @@ const POLICY: &str =
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
 
 impl Frame<'_> {
-    /// The page.
-    pub fn page(&self) -> String {
+    /// The page, with what its script knows.
+    ///
+    /// # Errors
+    /// [`ReportError::Table`] where the data are no JSON.
+    pub fn page(&self, data: &impl Serialize) -> Result<String, ReportError> {
+        let data = json_for_script(data)?;
         let script = [&[CORE], self.script, &[BEGIN]].concat().concat();
         let page = html! {
             (DOCTYPE)
@@ -81,16 +79,29 @@ impl Frame<'_> {
                             ". This page needs no network: everything it shows is inside it."
                         }
                     }
-                    script type="application/json" id="data" { (PreEscaped(&self.data)) }
+                    script type="application/json" id="data" { (PreEscaped(data)) }
                     script { (PreEscaped(script)) }
                 }
             }
         };
-        page.into_string()
+        Ok(page.into_string())
     }
 }
 
-impl Input<'_> {
+impl<'a> Input<'a> {
+    /// One file, and the hash of what is in it under a name.
+    pub fn of_file(
+        (what, hash): (&'a str, String),
+        file: (&'a str, &'a str),
+        about: &'a str,
+    ) -> Self {
+        Self {
+            hashes: vec![(what, hash)],
+            files: vec![file],
+            text: about,
+        }
+    }
+
     fn cite(&self) -> Markup {
         html! {
             section aria-labelledby="cite-heading" {
@@ -115,14 +126,18 @@ impl Input<'_> {
             @if !self.files.is_empty() {
                 section aria-labelledby="file-heading" {
                     h2 id="file-heading" { "The input, to run again" }
-                    @if let [file] = &self.files[..] {
-                        p { (text) " " (file.link(Some("download-input"))) }
-                        pre id="input" tabindex="0" aria-labelledby="file-heading" {
-                            code { (file.text) }
-                        }
+                    @if let [(name, file)] = &self.files[..] {
+                        p { (text) " " (link(name, file, Some("download-input"))) }
+                        pre id="input" tabindex="0" aria-labelledby="file-heading" { code { (file) } }
                     } @else {
                         p { (text) }
-                        @for file in &self.files { (file.folded()) }
+                        @for (name, file) in &self.files {
+                            details {
+                                summary { (name) }
+                                p { (link(name, file, None)) }
+                                pre tabindex="0" aria-label=(name) { code { (file) } }
+                            }
+                        }
                     }
                 }
             }
@@ -130,22 +145,7 @@ impl Input<'_> {
     }
 }
 
-impl InputFile<'_> {
-    fn link(&self, id: Option<&str>) -> Markup {
-        let link = data_link("text/plain", self.text);
-        html! {
-            a id=[id] download=(self.name) href=(link) { "Download " (self.name) }
-        }
-    }
-
-    /// One of several: opened by its reader.
-    fn folded(&self) -> Markup {
-        html! {
-            details {
-                summary { (self.name) }
-                p { (self.link(None)) }
-                pre tabindex="0" aria-label=(self.name) { code { (self.text) } }
-            }
-        }
-    }
+fn link(name: &str, text: &str, id: Option<&str>) -> Markup {
+    let link = data_link("text/plain", text);
+    html! { a id=[id] download=(name) href=(link) { "Download " (name) } }
 }

@@ -2,12 +2,12 @@
 
 use maud::Markup;
 
-use super::question::Facts;
+use super::question::{Facts, list};
 use crate::history::TimeRule;
 use crate::report::words::{self, case, nodes_name, range};
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::{EngineKind, SweepPlan};
-use crate::sweep::record::{CaseRecord, CaseResult, Status};
+use crate::sweep::record::{CaseRecord, Status};
 use crate::sweep::search::run::Outcome;
 
 /// The section of a sweep.
@@ -17,7 +17,7 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     let planned = plan.cases().len();
     facts.add(
         "cases",
-        &format!(
+        format!(
             "{} planned, {} converged, {} not converged, {} failed",
             planned.max(records.len()),
             outcome.count(Status::Converged),
@@ -26,66 +26,49 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
         ),
     );
     let integer = |value: fn(&CaseRecord) -> f64| range(records.iter().map(value), 0);
+    let known = |value: fn(&CaseRecord) -> Option<f64>| range(records.iter().filter_map(value), 2);
     engine(&mut facts, &plan.contact, &integer(|r| r.nodes as f64));
+    let (method, tolerance) = (plan.cycle.method.name(), plan.cycle.tolerance);
     match plan.cycle.at_cycle {
-        Some(number) => facts.add(
-            "cycle",
-            &format!("number {number} after the hold, as it is"),
-        ),
+        Some(number) => facts.add("cycle", format!("number {number} after the hold, as it is")),
         None => facts.add(
             "stabilised cycle",
-            &format!(
-                "method {}, tolerance {:e}",
-                plan.cycle.method.name(),
-                plan.cycle.tolerance
-            ),
+            format!("method {method}, tolerance {tolerance:e}"),
         ),
     }
-    facts.add("time steps per cycle", &integer(|r| r.steps as f64));
-    facts.add("cycles solved per case", &integer(|r| r.cycles as f64));
+    facts.add("time steps per cycle", integer(|r| r.steps as f64));
+    facts.add("cycles solved per case", integer(|r| r.cycles as f64));
     facts.add(
         "distance to the stabilised cycle",
-        &range(records.iter().filter_map(|r| r.steady_distance), 2),
+        known(|r| r.steady_distance),
     );
-    let relative = records
-        .iter()
-        .filter_map(|r| Some((r.energy_loss_error_j()? / r.energy_loss_j()?).abs()));
-    facts.add("estimated error of the loss, relative", &range(relative, 2));
-    let of_material = records
-        .iter()
-        .filter_map(|r| Some((r.energy_loss_material_error_j()? / r.energy_loss_j()?).abs()));
-    let of_material: Vec<f64> = of_material.collect();
-    if !of_material.is_empty() {
+    facts.add(
+        "estimated error of the loss, relative",
+        known(|r| Some((r.energy_loss_error_j()? / r.energy_loss_j()?).abs())),
+    );
+    let of_material =
+        |r: &CaseRecord| Some((r.energy_loss_material_error_j()? / r.energy_loss_j()?).abs());
+    if records.iter().any(|r| of_material(r).is_some()) {
+        let (range, replicas) = (known(of_material), words::replicas(plan));
         facts.add(
             "uncertainty of the loss from the material, relative",
-            &format!(
-                "{} ({} replicas)",
-                range(of_material.into_iter(), 2),
-                words::replicas(plan)
-            ),
+            format!("{range} ({replicas} replicas)"),
         );
     }
-    let imbalance = records
-        .iter()
-        .filter_map(|r| r.result.as_ref().and_then(CaseResult::energy_imbalance));
     facts.add(
         "energy balance, branches over loop less one",
-        &range(imbalance.map(f64::abs), 2),
+        known(|r| r.result.as_ref()?.energy_imbalance().map(f64::abs)),
     );
     if let Some(accuracy) = plan.cycle.accuracy {
-        facts.add("accuracy asked for", &format!("{accuracy:e}"));
+        facts.add("accuracy asked for", format!("{accuracy:e}"));
     }
-    let messages: Vec<String> = records
-        .iter()
-        .filter_map(|r| {
-            let case = case(plan.figures.frequency_unit, r.angular_frequency_rad_per_s);
-            Some(format!("{case}: {}", r.message.as_ref()?))
-        })
-        .collect();
-    if messages.is_empty() {
-        facts.add("messages", "none");
-    } else {
-        facts.add_list("messages", &messages);
+    let message = |r: &CaseRecord| {
+        let case = case(plan.figures.frequency_unit, r.angular_frequency_rad_per_s);
+        Some(format!("{case}: {}", r.message.as_ref()?))
+    };
+    match records.iter().any(|r| r.message.is_some()) {
+        true => facts.add("messages", list(records.iter().filter_map(message))),
+        false => facts.add("messages", "none"),
     }
     facts.html()
 }
@@ -93,26 +76,22 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
 /// Adds which engine solved a contact, and on how many nodes: those of a map, or so many.
 pub(super) fn engine<M>(facts: &mut Facts, contact: &ContactPlan<M>, nodes: &str) {
     let solver = &contact.solver;
-    facts.add(
-        "engine",
-        match solver.engine {
-            EngineKind::Axisymmetric => {
-                "axisymmetric: independent springs (method of dimensionality reduction), exact for convex bodies of revolution"
-            }
-            EngineKind::HalfSpace => {
-                "half-space: cells of uniform pressure, Love's influence coefficients, FFT convolution, conjugate gradients"
-            }
-        },
-    );
-    facts.add(
-        "time rule",
-        match solver.time_rule {
-            TimeRule::Linear => "linear between time steps, second order",
-            TimeRule::Constant => "constant over a time step, first order",
-        },
-    );
+    let engine = match solver.engine {
+        EngineKind::Axisymmetric => {
+            "axisymmetric: independent springs (method of dimensionality reduction), exact for convex bodies of revolution"
+        }
+        EngineKind::HalfSpace => {
+            "half-space: cells of uniform pressure, Love's influence coefficients, FFT convolution, conjugate gradients"
+        }
+    };
+    facts.add("engine", engine);
+    let rule = match solver.time_rule {
+        TimeRule::Linear => "linear between time steps, second order",
+        TimeRule::Constant => "constant over a time step, first order",
+    };
+    facts.add("time rule", rule);
     match contact.indenter.own_cells() {
-        Some((x, y)) => facts.add("cells of the map", &format!("{x} × {y}")),
+        Some((x, y)) => facts.add("cells of the map", format!("{x} × {y}")),
         None => facts.add(nodes_name(solver.engine), nodes),
     }
 }

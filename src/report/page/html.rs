@@ -8,7 +8,7 @@ use crate::report::ReportError;
 ///
 /// # Errors
 /// [`ReportError::Table`] where the data are no JSON.
-pub fn json_for_script(data: &impl Serialize) -> Result<String, ReportError> {
+pub(super) fn json_for_script(data: &impl Serialize) -> Result<String, ReportError> {
     let json = serde_json::to_string(data).map_err(|error| ReportError::Table {
         name: "index.html",
         reason: error.to_string(),
@@ -18,7 +18,7 @@ pub fn json_for_script(data: &impl Serialize) -> Result<String, ReportError> {
 }
 
 /// A link that holds the text itself.
-pub fn data_link(media_type: &str, text: &str) -> String {
+pub(super) fn data_link(media_type: &str, text: &str) -> String {
     let mut link = format!("data:{media_type};charset=utf-8,");
     for byte in text.bytes() {
         if byte.is_ascii_alphanumeric() || b"-_.~".contains(&byte) {

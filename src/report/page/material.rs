@@ -4,14 +4,15 @@ use maud::{Markup, html};
 use serde::Serialize;
 
 use super::compact::{picked, rounded, spread};
-use super::frame::{Frame, Input, InputFile, MODULI, PLOT};
-use super::html::json_for_script;
+use super::frame::{Frame, Input, MODULI, PLOT};
 use super::sweep_data::MaterialData;
 use super::{Pictures, moduli, question};
 use crate::material::fit::Fit;
 use crate::material::tabulated::Tabulated;
 use crate::material::{Material, MaterialFunction};
 use crate::report::ReportError;
+use crate::report::material::MaterialReport;
+use crate::report::number::range;
 use crate::sweep::plan::resolved;
 
 const SCRIPT: &str = include_str!("material.js");
@@ -83,34 +84,29 @@ pub fn page(material: &Material, about: &About<'_>) -> Result<String, ReportErro
         title: about.title,
         asked: format!("{label} over time, complex modulus over frequency"),
         main,
-        input: Input {
-            hashes: vec![("exactly this input", resolved::hash(about.block))],
-            files: vec![InputFile {
-                name: "material.toml",
-                text: about.block,
-            }],
-            text: "The material as a block of a sweep file, every number exact. \
-                   <code>contact-dma material show material.toml</code> shows it again.",
-        },
+        input: Input::of_file(
+            ("exactly this input", resolved::hash(about.block)),
+            ("material.toml", about.block),
+            "The material as a block of a sweep file, every number exact. \
+             <code>contact-dma material show material.toml</code> shows it again.",
+        ),
         script: &[PLOT, MODULI, SCRIPT],
-        data: json_for_script(&Data {
-            kind: "material",
-            material: MaterialData::of(material),
-            label,
-            unit,
-            curves: curves(material, about.fit),
-        })?,
     };
-    Ok(frame.page())
+    frame.page(&Data {
+        kind: "material",
+        material: MaterialData::of(material),
+        label,
+        unit,
+        curves: curves(material, about.fit),
+    })
 }
 
 /// The text in paragraphs; nothing where the list of facts holds the same, line by line.
 fn described(material: &Material, text: &str) -> Markup {
     let lines = text.replace("Source:", "\u{0}Source:");
     let paragraphs = lines.split('\u{0}').map(str::trim);
-    let paragraphs =
-        paragraphs.filter(|paragraph| !paragraph.is_empty() && material.fit().is_none());
-    html! { @for paragraph in paragraphs { p { (paragraph) } } }
+    let is_told = |paragraph: &&str| !paragraph.is_empty() && material.fit().is_none();
+    html! { @for paragraph in paragraphs.filter(is_told) { p { (paragraph) } } }
 }
 
 /// The data and their fit, or the function alone, at times evenly spread in their logarithm.
@@ -135,31 +131,19 @@ fn curves(material: &Material, fit: Option<(&Tabulated, &Fit)>) -> Vec<Curve> {
             time_s: picked(table.times_s(), &places),
             values: picked(table.values(), &places),
         };
-        let positive = || table.times_s().iter().copied().filter(|t| *t > 0.0);
-        let from = positive().fold(f64::INFINITY, f64::min);
-        let to = positive().fold(from, f64::max);
+        let positive = table.times_s().iter().copied().filter(|t| *t > 0.0);
+        let (from, to) = range(positive);
         let fitted = curve("fit", times(from, to), &|t| fit.series().value(t));
         return vec![data, fitted];
     }
-    let relaxation = material.relaxation();
-    let branches = relaxation.map(|r| r.branches()).unwrap_or_default();
-    let branch_times = branches.iter().map(|b| b.time_s);
-    let branch_times = branch_times.chain(material.creep().branches().iter().map(|b| b.time_s));
-    let (shortest, longest) =
-        branch_times.fold((f64::INFINITY, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
-    let (shortest, longest) = match longest > 0.0 {
-        true => (shortest, longest),
-        false => (1.0, 1.0),
-    };
+    let (shortest, longest) = MaterialReport::new(material).time_range_s();
     let times = times(0.01 * shortest, 100.0 * longest);
-    match (material.given(), relaxation) {
+    vec![match (material.given(), material.relaxation()) {
         (MaterialFunction::Relaxation, Some(relaxation)) => {
-            vec![curve("relaxation modulus", times, &|t| {
-                relaxation.modulus(t)
-            })]
+            curve("relaxation modulus", times, &|t| relaxation.modulus(t))
         }
-        _ => vec![curve("creep compliance", times, &|t| {
+        _ => curve("creep compliance", times, &|t| {
             material.creep().compliance(t)
-        })],
-    }
+        }),
+    }]
 }

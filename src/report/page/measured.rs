@@ -2,11 +2,9 @@
 
 use maud::{Markup, html};
 
-use super::Pictures;
-use super::frame::{Frame, Input, InputFile};
-use super::html::json_for_script;
-use super::plain::{Data, SCRIPT, shown};
+use super::frame::Input;
 use super::question::list;
+use super::{Pictures, plain, scroll};
 use crate::measured::{Estimate, Quantity};
 use crate::quantity::Dimension;
 use crate::report::ReportError;
@@ -30,51 +28,33 @@ pub fn page(
         many => vec![format!("{} records of measured loops.", many.len())],
     };
     lines.extend(rows.iter().flat_map(told));
-    let main = html! {
-        section aria-labelledby="answer" class="answer" {
-            h2 id="answer" { "The loops" }
-            (list(&lines))
-            @for figure in figures { (shown(figure, pictures)) }
-            h3 { "Loss, phase and moduli" }
-            p { "After ± stands half the interval of 95 %; E′ and E″ are without the bias of the small-amplitude formula where the setup \
-                 gives the shape." }
-            section class="scroll" tabindex="0" aria-label="Records, may be scrolled" { (table(rows)) }
-        }
+    let content = html! {
+        (list(&lines))
+        (plain::shown(figures, pictures))
+        h3 { "Loss, phase and moduli" }
+        p { "After ± stands half the interval of 95 %; E′ and E″ are without the bias of the small-amplitude formula where the setup \
+             gives the shape." }
+        (scroll("Records", table(rows)))
     };
-    let setup = analysis.setup.as_deref();
-    let frame = Frame {
-        title: &analysis.title,
-        asked: "energy loss, phase and moduli from measured loops".to_owned(),
-        main,
-        input: Input {
-            hashes: setup
-                .map(|setup| ("exactly this setup", resolved::hash(setup)))
-                .into_iter()
-                .collect(),
-            files: setup
-                .map(|text| InputFile {
-                    name: "setup.toml",
-                    text,
-                })
-                .into_iter()
-                .collect(),
-            text: "The setup of instrument and contact.",
-        },
-        script: &[SCRIPT],
-        data: json_for_script(&Data { kind: "measured" })?,
+    let setup = analysis.setup.iter();
+    let input = Input {
+        hashes: (setup.clone())
+            .map(|setup| ("exactly this setup", resolved::hash(setup)))
+            .collect(),
+        files: setup.map(|text| ("setup.toml", &text[..])).collect(),
+        text: "The setup of instrument and contact.",
     };
-    Ok(frame.page())
+    let asked = "energy loss, phase and moduli from measured loops".to_owned();
+    let title = (&analysis.title[..], asked);
+    plain::page("measured", title, ("The loops", content), input)
 }
 
 /// What is to be known of a record, its file before it.
-fn told(row: &MeasuredRow) -> Vec<String> {
+fn told(row: &MeasuredRow) -> impl Iterator<Item = String> {
     let findings = row.measured.iter().flat_map(|m| &m.findings);
-    let findings = findings.map(|finding| format!("{}: {finding}.", row.file));
-    let reason = row
-        .reason
-        .iter()
-        .map(|reason| format!("{}: {reason}.", row.file));
-    findings.chain(reason).collect()
+    let findings = findings.map(|finding| finding.to_string());
+    let all = findings.chain(row.reason.clone());
+    all.map(|what| format!("{}: {what}.", row.file))
 }
 
 fn table(rows: &[MeasuredRow]) -> Markup {
@@ -82,50 +62,32 @@ fn table(rows: &[MeasuredRow]) -> Markup {
         Some(mean) => with_error(mean.value, mean.error, dimension),
         None => "–".to_owned(),
     };
-    let modulus = |row: &MeasuredRow, is_loss: bool| {
+    let has_moduli = (rows.iter()).any(|row| row.mean(Quantity::LossModulus).is_some());
+    let moduli = |row: &MeasuredRow| {
         let unbiased = row.measured.as_ref().and_then(|m| m.unbiased);
-        let unbiased = unbiased.map(|u| {
-            if is_loss {
-                u.loss_modulus_pa
-            } else {
-                u.storage_modulus_pa
-            }
-        });
-        let of_formula = if is_loss {
-            Quantity::LossModulus
-        } else {
-            Quantity::StorageModulus
-        };
-        cell(unbiased.or_else(|| row.mean(of_formula)), Dimension::Stress)
+        let storage = unbiased.map(|u| u.storage_modulus_pa);
+        let loss = unbiased.map(|u| u.loss_modulus_pa);
+        [
+            storage.or_else(|| row.mean(Quantity::StorageModulus)),
+            loss.or_else(|| row.mean(Quantity::LossModulus)),
+        ]
     };
-    let has_moduli = rows
-        .iter()
-        .any(|row| row.mean(Quantity::LossModulus).is_some());
-    let hz = |row: &MeasuredRow| {
-        row.measured
-            .as_ref()
-            .map_or("–".to_owned(), |m| four_digits(m.frequency.hz))
-    };
-    html! {
-        table {
-            thead { tr {
-                th { "file" } th { "f / Hz" } th { "loss per cycle" } th { "phase lag" }
-                @if has_moduli { th { "E′" } th { "E″" } }
-                th { "cycles" } th { "status" }
-            } }
-            tbody {
-                @for row in rows {
-                    tr {
-                        td { (row.file) }
-                        td { (hz(row)) }
-                        td { (cell(row.mean(Quantity::EnergyLoss), Dimension::Energy)) }
-                        td { (text::phase(row)) }
-                        @if has_moduli { td { (modulus(row, false)) } td { (modulus(row, true)) } }
-                        td { (row.measured.as_ref().map_or(0, |m| m.used.len())) }
-                        td { (row.status().name()) }
-                    }
-                }
-            }
+    let cells = rows.iter().map(|row| {
+        let measured = row.measured.as_ref();
+        let hz = measured.map_or("–".to_owned(), |m| four_digits(m.frequency.hz));
+        let loss = cell(row.mean(Quantity::EnergyLoss), Dimension::Energy);
+        let mut cells = vec![row.file.clone(), hz, loss, text::phase(row)];
+        if has_moduli {
+            cells.extend(moduli(row).map(|modulus| cell(modulus, Dimension::Stress)));
         }
+        let cycles = measured.map_or(0, |m| m.used.len());
+        cells.extend([cycles.to_string(), row.status().name().to_owned()]);
+        cells
+    });
+    let mut headings = vec!["file", "f / Hz", "loss per cycle", "phase lag"];
+    if has_moduli {
+        headings.extend(["E′", "E″"]);
     }
+    headings.extend(["cycles", "status"]);
+    plain::table(&headings, cells)
 }

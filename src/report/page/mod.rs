@@ -8,7 +8,7 @@ pub mod comparison;
 pub mod dynamic;
 pub mod frame;
 pub(super) mod how;
-pub mod html;
+mod html;
 pub mod identify;
 pub mod material;
 pub mod measured;
@@ -30,8 +30,8 @@ use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::resolved;
 use crate::sweep::plan::scenario::{self, ScenarioPlan};
 use crate::sweep::search::run::Outcome;
-use frame::{Frame, HEAT, Input, InputFile, MODULI, PLOT, TABLE};
-use html::json_for_script;
+use crate::sweep::store::RESOLVED;
+use frame::{Frame, HEAT, Input, MODULI, PLOT, TABLE};
 use maud::{Markup, html};
 
 const SWEEP_SCRIPT: &str = include_str!("sweep.js");
@@ -58,19 +58,15 @@ pub fn sweep(
         title: &plan.title,
         asked: question::line(plan),
         main: sweep::sections(plan, (outcome, &shown), pictures),
-        input: Input {
-            hashes: vec![("exactly this input", hash.to_owned())],
-            files: vec![InputFile {
-                name: "resolved.toml",
-                text: &text,
-            }],
-            text: "The sweep file with every default written out. <code>contact-dma sweep resolved.toml</code> gives these \
-                   results again, under the same hash.",
-        },
-        data: json_for_script(&data)?,
+        input: Input::of_file(
+            ("exactly this input", hash.to_owned()),
+            (RESOLVED, &text),
+            "The sweep file with every default written out. <code>contact-dma sweep resolved.toml</code> gives these \
+             results again, under the same hash.",
+        ),
         script: &[PLOT, HEAT, TABLE, MODULI, SWEEP_SCRIPT],
     };
-    Ok(frame.page())
+    frame.page(&data)
 }
 
 /// The page of one history, whose figure has gone by.
@@ -88,19 +84,28 @@ pub fn simulation(
         title: &plan.title,
         asked: simulation::line(plan),
         main: simulation::sections(plan, outcome, pictures),
-        input: Input {
-            hashes: vec![("exactly this input", hash.to_owned())],
-            files: vec![InputFile {
-                name: "resolved.toml",
-                text: &text,
-            }],
-            text: "The scenario with every default written out. <code>contact-dma simulate resolved.toml</code> gives these \
-                   results again, under the same hash.",
-        },
-        data: json_for_script(&simulation::SimulationData::new(plan, outcome))?,
+        input: Input::of_file(
+            ("exactly this input", hash.to_owned()),
+            (RESOLVED, &text),
+            "The scenario with every default written out. <code>contact-dma simulate resolved.toml</code> gives these \
+             results again, under the same hash.",
+        ),
         script: &[PLOT, HEAT, MODULI, SIMULATION_SCRIPT],
     };
-    Ok(frame.page())
+    frame.page(&simulation::SimulationData::new(plan, outcome))
+}
+
+/// A section under its heading, of this id.
+fn section(id: &str, heading: &str, content: Markup) -> Markup {
+    html! {
+        section aria-labelledby=(id) { h2 id=(id) { (heading) } (content) }
+    }
+}
+
+/// What may be wider than the page.
+fn scroll(what: &str, table: Markup) -> Markup {
+    let label = format!("{what}, may be scrolled");
+    html! { section class="scroll" tabindex="0" aria-label=(label) { (table) } }
 }
 
 /// A figure for a reader without script; `otherwise` where there is nothing to draw.

@@ -1,29 +1,72 @@
-//! What pages have in common on which nothing moves: the figures are the same with a script and without.
+//! Pages on which nothing moves: the figures are the same with a script and without.
 
-use maud::{Markup, html};
+use maud::{Markup, Render, html};
 use serde::Serialize;
 
 use super::Pictures;
+use super::frame::{Frame, Input};
+use crate::report::ReportError;
 use crate::report::caption::Setting;
 use crate::report::figure::Figure;
-
-/// The script of such a page.
-pub(super) const SCRIPT: &str = "function start() {}\n";
+use crate::sweep::plan::resolved;
 
 /// What the script knows.
 #[derive(Serialize)]
-pub(super) struct Data {
-    pub(super) kind: &'static str,
+struct Data {
+    kind: &'static str,
 }
 
-/// A figure with its caption.
-pub(super) fn shown(figure: &Figure, pictures: &Pictures) -> Markup {
+/// The page of a result of this kind, with a title, what was asked, and one section under a heading.
+pub(super) fn page(
+    kind: &'static str,
+    (title, asked): (&str, String),
+    (heading, content): (&str, Markup),
+    input: Input<'_>,
+) -> Result<String, ReportError> {
+    let frame = Frame {
+        title,
+        asked,
+        main: html! {
+            section aria-labelledby="answer" class="answer" { h2 id="answer" { (heading) } (content) }
+        },
+        input,
+        script: &["function start() {}\n"],
+    };
+    frame.page(&Data { kind })
+}
+
+/// The material that was found, as a block of a sweep file.
+pub(super) fn found_material(block: &str) -> Input<'_> {
+    Input::of_file(
+        ("exactly this material", resolved::hash(block)),
+        ("material.toml", block),
+        "The material as a block of a sweep file, every number exact.",
+    )
+}
+
+/// Figures with their captions.
+pub(super) fn shown(figures: &[Figure], pictures: &Pictures) -> Markup {
     html! {
-        @if let Some(picture) = pictures.inline(figure.name) {
-            figure {
-                (picture)
-                figcaption { (figure.caption.text(&Setting::default())) }
+        @for figure in figures {
+            @if let Some(picture) = pictures.inline(figure.name) {
+                figure {
+                    (picture)
+                    figcaption { (figure.caption.text(&Setting::default())) }
+                }
             }
+        }
+    }
+}
+
+/// A table with these headings.
+pub(super) fn table<C: Render>(
+    headings: &[&str],
+    rows: impl IntoIterator<Item = Vec<C>>,
+) -> Markup {
+    html! {
+        table {
+            thead { tr { @for heading in headings { th { (heading) } } } }
+            tbody { @for row in rows { tr { @for cell in row { td { (cell) } } } } }
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What was asked: material, indenter, drive, as lists of names and values.
 
-use maud::{Markup, html};
+use maud::{Markup, Render, html};
 
 use crate::indenter::{Indenter, Value};
 use crate::material::{Compressibility, Material, MaterialFunction};
@@ -17,13 +17,8 @@ pub(super) struct Facts(Vec<(String, Markup)>);
 
 impl Facts {
     /// Adds a fact.
-    pub(super) fn add(&mut self, name: &str, value: &str) {
-        self.0.push((name.to_owned(), html! { (value) }));
-    }
-
-    /// Adds a fact of several lines.
-    pub(super) fn add_list(&mut self, name: &str, values: &[String]) {
-        self.0.push((name.to_owned(), list(values)));
+    pub(super) fn add(&mut self, name: &str, value: impl Render) {
+        self.0.push((name.to_owned(), value.render()));
     }
 
     /// The list.
@@ -37,7 +32,7 @@ impl Facts {
 }
 
 /// Lines as a list.
-pub(super) fn list(lines: &[String]) -> Markup {
+pub(super) fn list(lines: impl IntoIterator<Item = impl Render>) -> Markup {
     html! {
         ul {
             @for line in lines { li { (line) } }
@@ -58,37 +53,31 @@ pub(super) fn line(plan: &SweepPlan) -> String {
         ),
         _ => "no frequency".to_owned(),
     };
-    let material = |_: Option<&str>, c: &Condition| {
+    let material = words::each_of(plan, Block::Material, |_, c| {
         let name = c.material.name();
         name.unwrap_or("A material of its own").to_owned()
-    };
-    format!(
-        "{}{}, under {}; {}; {range}",
-        words::each_of(plan, Block::Material, material),
-        caption::layer(plan.contact.layer, &[]),
-        words::each_of(plan, Block::Indenter, |_, c| format!(
-            "a {}",
-            c.indenter.shape()
-        )),
-        words::drive_line(&plan.drive, plan)
-    ) + &words::varied_line(plan).map_or(String::new(), |line| format!("; {line}"))
+    });
+    let shape = |_: Option<&str>, c: &Condition| format!("a {}", c.indenter.shape());
+    let indenter = words::each_of(plan, Block::Indenter, shape);
+    let layer = caption::layer(plan.contact.layer, &[]);
+    let drive = words::drive_line(&plan.drive, plan);
+    let varied = words::varied_line(plan).map_or(String::new(), |line| format!("; {line}"));
+    format!("{material}{layer}, under {indenter}; {drive}; {range}{varied}")
 }
 
 /// The section of a sweep.
 pub(super) fn sweep(plan: &SweepPlan) -> Markup {
     let mut drive = Facts::default();
     drive.add("control", plan.drive.control().name());
-    drive.add("mean ± amplitude", &words::drive_line(&plan.drive, plan));
+    drive.add("mean ± amplitude", words::drive_line(&plan.drive, plan));
     if let Some(attraction) = words::adhesion_line(plan.contact.adhesion) {
-        drive.add("attraction", &attraction);
+        drive.add("attraction", attraction);
     }
-    drive.add("phase", &plain(plan.drive.phase_rad(), Dimension::Angle, 4));
-    drive.add(
-        "rest before the oscillation",
-        &plain(plan.drive.hold_s(), Dimension::Time, 4),
-    );
+    drive.add("phase", plain(plan.drive.phase_rad(), Dimension::Angle, 4));
+    let hold = plain(plan.drive.hold_s(), Dimension::Time, 4);
+    drive.add("rest before the oscillation", hold);
     if let Some(line) = words::varied_line(plan) {
-        drive.add("other axes", &line);
+        drive.add("other axes", line);
     }
     parts(
         html! {
@@ -132,13 +121,10 @@ pub(super) fn body(layer: Option<LayerPlan>) -> Markup {
         return Markup::default();
     };
     let mut facts = Facts::default();
-    facts.add("body", &format!("a layer {}", layer.lies(|_| false)));
-    facts.add("thickness", &plain(layer.thickness_m, Dimension::Length, 6));
+    facts.add("body", format!("a layer {}", layer.lies(|_| false)));
+    facts.add("thickness", plain(layer.thickness_m, Dimension::Length, 6));
     if let Some(base) = layer.yielding {
-        facts.add(
-            "Poisson ratio of the base",
-            &format!("{}", base.poisson_ratio),
-        );
+        facts.add("Poisson ratio of the base", base.poisson_ratio.to_string());
     }
     facts.html()
 }
@@ -150,9 +136,9 @@ pub(super) fn material(material: &Material) -> Markup {
         facts.add("name", name);
     }
     match material.compressibility() {
-        Compressibility::PoissonRatio(nu) => facts.add("Poisson ratio", &format!("{nu}")),
+        Compressibility::PoissonRatio(nu) => facts.add("Poisson ratio", nu.to_string()),
         Compressibility::BulkModulus(bulk) => {
-            facts.add("bulk modulus", &words::bulk_modulus(bulk, 6));
+            facts.add("bulk modulus", words::bulk_modulus(bulk, 6));
         }
     }
     let kind = material.kind().name();
@@ -160,38 +146,29 @@ pub(super) fn material(material: &Material) -> Markup {
     match (material.given(), material.relaxation()) {
         (MaterialFunction::Relaxation, Some(relaxation)) => {
             let modulus = |value| plain(value, Dimension::Stress, 6);
-            facts.add("given as", &format!("{kind} relaxation modulus"));
-            facts.add("equilibrium", &modulus(relaxation.equilibrium_modulus()));
+            facts.add("given as", format!("{kind} relaxation modulus"));
+            facts.add("equilibrium", modulus(relaxation.equilibrium_modulus()));
             let branches = relaxation.branches().iter();
             let lines = branches.map(|b| format!("{}, {}", modulus(b.modulus_pa), time(b.time_s)));
-            facts.add_list(
-                "branches: modulus, relaxation time",
-                &lines.collect::<Vec<_>>(),
-            );
+            facts.add("branches: modulus, relaxation time", list(lines));
         }
         _ => {
             let creep = material.creep();
             let compliance = |value| plain(value, Dimension::Compliance, 6);
-            facts.add("given as", &format!("{kind} creep compliance"));
-            facts.add(
-                "instantaneous",
-                &compliance(creep.instantaneous_compliance()),
-            );
+            let instantaneous = creep.instantaneous_compliance();
+            facts.add("given as", format!("{kind} creep compliance"));
+            facts.add("instantaneous", compliance(instantaneous));
             if let Some(viscosity) = creep.viscosity_pa_s() {
-                facts.add("viscosity", &plain(viscosity, Dimension::Viscosity, 6));
+                facts.add("viscosity", plain(viscosity, Dimension::Viscosity, 6));
             }
             let branches = creep.branches().iter();
             let lines = branches
                 .map(|b| format!("{}, {}", compliance(b.compliance_per_pa), time(b.time_s)));
-            facts.add_list(
-                "branches: compliance, retardation time",
-                &lines.collect::<Vec<_>>(),
-            );
+            facts.add("branches: compliance, retardation time", list(lines));
         }
     }
     if let Some(fit) = material.fit() {
-        let lines: Vec<String> = fit.to_string().lines().map(str::to_owned).collect();
-        facts.add_list("fitted to data", &lines);
+        facts.add("fitted to data", list(fit.to_string().lines()));
     }
     facts.html()
 }
@@ -209,12 +186,12 @@ fn indenter(indenter: &dyn Indenter) -> Markup {
     let mut facts = Facts::default();
     facts.add("shape", indenter.shape());
     for parameter in indenter.parameters() {
+        let name = words::named(parameter.key);
         match &parameter.value {
             Value::Tables(tables) => {
-                let lines: Vec<String> = tables.iter().map(|table| words::row(table)).collect();
-                facts.add_list(&words::named(parameter.key), &lines);
+                facts.add(&name, list(tables.iter().map(|table| words::row(table))));
             }
-            value => facts.add(&words::named(parameter.key), &words::value(value)),
+            value => facts.add(&name, words::value(value)),
         }
     }
     facts.html()

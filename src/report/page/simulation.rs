@@ -4,11 +4,11 @@ use maud::{Markup, html};
 use serde::Serialize;
 
 use super::answer::warned;
-use super::compact::{coarse, picked, picked_optional, rounded, spread};
+use super::compact::{CoarseCells, coarse, picked, picked_optional, rounded, spread};
 use super::how;
 use super::question::{self, Facts};
 use super::sweep_data::MaterialData;
-use super::{Pictures, moduli, still};
+use super::{Pictures, moduli, scroll, section, still};
 use crate::contact::surface::{CellSurface, Surface};
 use crate::quantity::Dimension;
 use crate::report::caption;
@@ -63,11 +63,8 @@ struct Profile {
 struct Field {
     time_s: f64,
     load_n: f64,
-    first_x_m: f64,
-    first_y_m: f64,
-    spacing_x_m: f64,
-    spacing_y_m: f64,
-    cells_x: usize,
+    #[serde(flatten)]
+    cells: CoarseCells,
     pressure_pa: Vec<Option<f64>>,
     displacement_m: Vec<Option<f64>>,
 }
@@ -137,28 +134,18 @@ fn field(record: &SurfaceRecord, cells: usize) -> Option<Field> {
     else {
         return None;
     };
-    let of = |values: &[f64]| {
-        coarse(
-            grid.cells_x(),
-            values.len(),
-            |i| values.get(i).copied(),
-            cells,
-        )
-    };
-    let (pressure, displacement) = (of(pressure_pa), of(displacement_m));
-    let factor = pressure.factor as f64;
-    // The centre of a coarse cell lies between those of the cells in it.
-    let shift = 0.5 * (factor - 1.0);
+    let value = |values: &[f64], i: usize| values.get(i).copied();
+    let of = |all: &[f64]| coarse(grid.cells_x(), all.len(), |i| value(all, i), cells);
+    let pressure = of(pressure_pa);
     Some(Field {
         time_s: record.row.time_s,
         load_n: rounded(record.row.load_n),
-        first_x_m: rounded(grid.x_m(0) + shift * grid.spacing_x_m()),
-        first_y_m: rounded(grid.y_m(0) + shift * grid.spacing_y_m()),
-        spacing_x_m: rounded(factor * grid.spacing_x_m()),
-        spacing_y_m: rounded(factor * grid.spacing_y_m()),
-        cells_x: pressure.cells_x,
+        cells: pressure.cells(
+            [grid.x_m(0), grid.y_m(0)],
+            [grid.spacing_x_m(), grid.spacing_y_m()],
+        ),
         pressure_pa: pressure.values,
-        displacement_m: displacement.values,
+        displacement_m: of(displacement_m).values,
     })
 }
 
@@ -183,15 +170,11 @@ pub(super) fn sections(
         }
         (cycles(outcome, pictures))
         (surface())
-        section aria-labelledby="asked-heading" {
-            h2 id="asked-heading" { "What was asked" }
+        (section("asked-heading", "What was asked", html! {
             (question(plan))
             div id="material" class="live" { h3 { "Moduli of the material" } (moduli("grid")) }
-        }
-        section aria-labelledby="how-heading" {
-            h2 id="how-heading" { "How the numbers were obtained" }
-            (how(plan, outcome))
-        }
+        }))
+        (section("how-heading", "How the numbers were obtained", how(plan, outcome)))
     }
 }
 
@@ -206,34 +189,32 @@ fn cycles(outcome: &SimulationOutcome, pictures: &Pictures) -> Markup {
     if all.is_empty() {
         return Markup::default();
     }
-    let rows = all.iter().take(TABLE / 2);
-    let rows = rows.chain(
-        all.iter()
-            .skip((TABLE / 2).max(all.len().saturating_sub(TABLE / 2))),
-    );
+    let last = (TABLE / 2).max(all.len().saturating_sub(TABLE / 2));
+    let rows = all.iter().take(TABLE / 2).chain(all.iter().skip(last));
     let cell = |column: &Column<HistoryCycle>, cycle: &HistoryCycle| {
         let value = column.number(cycle).zip(column.dimension);
         value.map_or_else(String::new, |(value, dimension)| {
             with_error(value, column.error(cycle), dimension)
         })
     };
-    html! {
-        section aria-labelledby="cycles-heading" {
-            h2 id="cycles-heading" { "Cycle by cycle" }
-            (still(pictures, "cycle-losses", "No segment has two cycles to draw."))
-            section class="scroll" tabindex="0" aria-label="Cycles, may be scrolled" { table {
-                thead { tr {
-                    th scope="col" { "segment" } th scope="col" { "cycle" }
-                    @for column in &shown { th scope="col" { (column.heading) } }
-                } }
-                tbody { @for cycle in rows { tr {
-                    td { (cycle.segment) } td { (cycle.number) }
-                    @for column in &shown { td { (cell(column, cycle)) } }
-                } } }
+    let table = html! {
+        table {
+            thead { tr {
+                th scope="col" { "segment" } th scope="col" { "cycle" }
+                @for column in &shown { th scope="col" { (column.heading) } }
             } }
-            @if all.len() > TABLE { p { "The first and the last of " (all.len()) " cycles; all are in cycles.csv." } }
+            tbody { @for cycle in rows { tr {
+                td { (cycle.segment) } td { (cycle.number) }
+                @for column in &shown { td { (cell(column, cycle)) } }
+            } } }
         }
-    }
+    };
+    let content = html! {
+        (still(pictures, "cycle-losses", "No segment has two cycles to draw."))
+        (scroll("Cycles", table))
+        @if all.len() > TABLE { p { "The first and the last of " (all.len()) " cycles; all are in cycles.csv." } }
+    };
+    section("cycles-heading", "Cycle by cycle", content)
 }
 
 /// Profiles and fields, which the script fills.
@@ -288,36 +269,22 @@ fn answer(outcome: &SimulationOutcome) -> Markup {
         let values = outcome.rows.iter().filter_map(value);
         values.reduce(f64::max)
     };
+    let force = largest(|r| Some(r.load_n));
+    let approach = largest(|r| r.approach_m);
+    let radius = largest(|r| Some(r.contact_radius_m));
+    let pressure = largest(|r| r.peak_pressure_pa);
+    let end = outcome.rows.last().map(|r| r.time_s);
     let mut facts = Facts::default();
-    let mut add = |name, value: Option<f64>, dimension| {
-        let text = value.map_or("nowhere defined".to_owned(), |v| plain(v, dimension, 5));
-        facts.add(name, &text);
-    };
-    add(
-        "largest load",
-        largest(|r| Some(r.load_n)),
-        Dimension::Force,
-    );
-    add(
-        "largest approach",
-        largest(|r| r.approach_m),
-        Dimension::Length,
-    );
-    add(
-        "largest contact radius",
-        largest(|r| Some(r.contact_radius_m)),
-        Dimension::Length,
-    );
-    add(
-        "largest peak pressure",
-        largest(|r| r.peak_pressure_pa),
-        Dimension::Stress,
-    );
-    add(
-        "end",
-        outcome.rows.last().map(|r| r.time_s),
-        Dimension::Time,
-    );
+    for (name, value, dimension) in [
+        ("largest load", force, Dimension::Force),
+        ("largest approach", approach, Dimension::Length),
+        ("largest contact radius", radius, Dimension::Length),
+        ("largest peak pressure", pressure, Dimension::Stress),
+        ("end", end, Dimension::Time),
+    ] {
+        let text = value.map(|value| plain(value, dimension, 5));
+        facts.add(name, text.as_deref().unwrap_or("nowhere defined"));
+    }
     facts.html()
 }
 
@@ -342,15 +309,13 @@ fn question(plan: &ScenarioPlan) -> Markup {
     };
     let mut drive = Facts::default();
     drive.add("control", plan.drive.control().name());
-    drive.add("segments", &plan.drive.segments().len().to_string());
-    drive.add(
-        "duration",
-        &plain(plan.drive.duration_s(), Dimension::Time, 6),
-    );
+    drive.add("segments", plan.drive.segments().len());
+    let duration = plain(plan.drive.duration_s(), Dimension::Time, 6);
+    drive.add("duration", duration);
     let dimension = drive_dimension(plan.drive.control());
-    drive.add("largest value", &plain(plan.drive.maximum(), dimension, 6));
+    drive.add("largest value", plain(plan.drive.maximum(), dimension, 6));
     if let Some(attraction) = words::adhesion_line(contact.adhesion) {
-        drive.add("attraction", &attraction);
+        drive.add("attraction", attraction);
     }
     question::parts(
         html! { (material) (question::body(contact.layer)) },
@@ -364,11 +329,9 @@ fn how(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Markup {
     let mut facts = Facts::default();
     let nodes = plan.contact.solver.nodes().to_string();
     how::engine(&mut facts, &plan.contact, &nodes);
-    facts.add("time steps", &outcome.rows.len().to_string());
-    facts.add("contact iterations", &outcome.iterations.to_string());
-    facts.add(
-        "half width of the domain",
-        &plain(outcome.domain_half_width_m, Dimension::Length, 4),
-    );
+    facts.add("time steps", outcome.rows.len());
+    facts.add("contact iterations", outcome.iterations);
+    let half_width = plain(outcome.domain_half_width_m, Dimension::Length, 4);
+    facts.add("half width of the domain", half_width);
     facts.html()
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::compact::{coarse, picked, picked_optional, rounded, spread};
+use super::compact::{CoarseCells, coarse, picked, picked_optional, rounded, spread};
 use crate::contact::surface::{Along, PressureLine};
 use crate::drive::Control;
 use crate::report::work_line::{WorkAlong, WorkLine};
@@ -46,11 +46,8 @@ pub(super) struct WorkData {
 
 #[derive(Serialize)]
 struct MapData {
-    first_x_m: f64,
-    first_y_m: f64,
-    spacing_x_m: f64,
-    spacing_y_m: f64,
-    cells_x: usize,
+    #[serde(flatten)]
+    cells: CoarseCells,
     values: Vec<Option<f64>>,
 }
 
@@ -100,15 +97,11 @@ impl MapData {
         let density = &cells.density_j_per_m2;
         let value = |i: usize| density.get(i).map(|v| f64::from(*v));
         let field = coarse(cells.cells_x, density.len(), value, fineness.map);
-        let factor = field.factor as f64;
-        // The centre of a coarse cell lies between those of the cells in it.
-        let shift = 0.5 * (factor - 1.0);
         Self {
-            first_x_m: rounded(cells.first_x_m + shift * cells.spacing_x_m),
-            first_y_m: rounded(cells.first_y_m + shift * cells.spacing_y_m),
-            spacing_x_m: rounded(factor * cells.spacing_x_m),
-            spacing_y_m: rounded(factor * cells.spacing_y_m),
-            cells_x: field.cells_x,
+            cells: field.cells(
+                [cells.first_x_m, cells.first_y_m],
+                [cells.spacing_x_m, cells.spacing_y_m],
+            ),
             values: field.values,
         }
     }
@@ -116,8 +109,8 @@ impl MapData {
 
 impl PressureData {
     /// Of a contact whose work has a line along this: under an indenter of revolution, y is as x.
-    pub(super) fn of(
-        profiles: &[PressureProfile],
+    pub(super) fn of<'a>(
+        profiles: &'a [PressureProfile],
         work: WorkAlong,
         control: Control,
         fineness: &Fineness,
@@ -129,16 +122,12 @@ impl PressureData {
             contact_radius_m: rounded(profile.contact_radius_m),
         };
         let shown = |along: &Along| *along != Along::Y || work == WorkAlong::X;
-        let lines = [Along::Radius, Along::X, Along::Y]
-            .into_iter()
-            .filter(shown);
+        let lines = [Along::Radius, Along::X, Along::Y].into_iter();
+        let lines = lines.filter(shown);
         let of_all = |along: Along| -> Option<Vec<&PressureLine>> {
             let line =
-                |profile: &PressureProfile| profile.lines.iter().position(|l| l.along == along);
-            profiles
-                .iter()
-                .map(|profile| profile.lines.get(line(profile)?))
-                .collect()
+                |profile: &'a PressureProfile| profile.lines.iter().find(|l| l.along == along);
+            profiles.iter().map(line).collect()
         };
         let lines: Vec<Vec<&PressureLine>> = lines.filter_map(of_all).collect();
         let limit = fineness.pressure / lines.len().max(1);
@@ -178,12 +167,9 @@ impl LineData {
 /// The first of the places where there is contact at any instant, with one more on either side, and how many they are.
 fn pressed(lines: &[&PressureLine]) -> (usize, usize) {
     let is_pressed = |p: &Option<f64>| *p != Some(0.0);
-    let first = lines
-        .iter()
-        .filter_map(|l| l.pressure_pa.iter().position(is_pressed));
-    let last = lines
-        .iter()
-        .filter_map(|l| l.pressure_pa.iter().rposition(is_pressed));
+    let pressures = || lines.iter().map(|line| line.pressure_pa.iter());
+    let first = pressures().filter_map(|mut p| p.position(is_pressed));
+    let last = pressures().filter_map(|mut p| p.rposition(is_pressed));
     let length = lines.first().map_or(0, |line| line.position_m.len());
     match (first.min(), last.max()) {
         (Some(first), Some(last)) => {

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::{Pictures, answer, cases_table, how, moduli, question, still};
+use super::{Pictures, answer, cases_table, how, moduli, question, scroll, section, still};
 use crate::report::rigid_indenter;
 use crate::sweep::plan::{Block, SweepPlan, Varied};
 use crate::sweep::record::warning;
@@ -29,16 +29,12 @@ pub(super) fn sections(
             div id="branches" class="plot tall" {}
         }
         (all_frequencies(plan, shown, outcome.records.len()))
-        section aria-labelledby="asked-heading" {
-            h2 id="asked-heading" { "What was asked" }
+        (section("asked-heading", "What was asked", html! {
             (question::sweep(plan))
             h3 class="live" { "Moduli of " (of_which(plan)) }
             (moduli("live grid"))
-        }
-        section aria-labelledby="how-heading" {
-            h2 id="how-heading" { "How the numbers were obtained" }
-            (how::sweep(plan, outcome))
-        }
+        }))
+        (section("how-heading", "How the numbers were obtained", how::sweep(plan, outcome)))
     }
 }
 
@@ -126,44 +122,38 @@ fn cycle() -> Markup {
 }
 
 fn loops(pictures: &Pictures) -> Markup {
-    html! {
-        section aria-labelledby="loops-heading" {
-            h2 id="loops-heading" { "Loops side by side" }
-            div class="live controls" role="group" aria-label="Loops" id="loops-controls" {
-                label { input type="checkbox" id="normalised"; " centred and scaled to the largest amplitude" }
-                button type="button" id="clear" { "Keep none" }
-            }
-            div id="loops" class="live plot tall" {}
-            ul id="kept" class="live chips" {}
-            (still(pictures, "loops", NOTHING))
+    let content = html! {
+        div class="live controls" role="group" aria-label="Loops" id="loops-controls" {
+            label { input type="checkbox" id="normalised"; " centred and scaled to the largest amplitude" }
+            button type="button" id="clear" { "Keep none" }
         }
-    }
+        div id="loops" class="live plot tall" {}
+        ul id="kept" class="live chips" {}
+        (still(pictures, "loops", NOTHING))
+    };
+    section("loops-heading", "Loops side by side", content)
 }
 
 fn all_frequencies(plan: &SweepPlan, outcome: &Outcome, all: usize) -> Markup {
     let shown = outcome.records.len();
-    html! {
-        section aria-labelledby="table-heading" {
-            h2 id="table-heading" { "All frequencies" }
-            @if plan.is_small() {
-                (super::copying("Copy as CSV", "Download sweep.csv"))
-                p class="live hint" {
-                    "Activate a heading to sort by it. The CSV has every column, in the order shown, to the last digit."
-                }
-            } @else {
-                p class="hint" {
-                    @if shown < all { "This page shows " (shown) " of " (all) " cases. " }
-                    "All cases, to the last digit, are in sweep.csv beside this page."
-                }
-                div class="live controls" role="group" aria-label="Pages of the table" id="pages" {
-                    button type="button" id="page-before" { "← Before" }
-                    span id="page-place" role="status" {}
-                    button type="button" id="page-after" { "After →" }
-                }
+    let content = html! {
+        @if plan.is_small() {
+            (super::copying("Copy as CSV", "Download sweep.csv"))
+            p class="live hint" {
+                "Activate a heading to sort by it. The CSV has every column, in the order shown, to the last digit."
             }
-            section class="scroll" tabindex="0" aria-label="Table, may be scrolled" {
-                (cases_table::table(plan, outcome))
+        } @else {
+            p class="hint" {
+                @if shown < all { "This page shows " (shown) " of " (all) " cases. " }
+                "All cases, to the last digit, are in sweep.csv beside this page."
+            }
+            div class="live controls" role="group" aria-label="Pages of the table" id="pages" {
+                button type="button" id="page-before" { "← Before" }
+                span id="page-place" role="status" {}
+                button type="button" id="page-after" { "After →" }
             }
         }
-    }
+        (scroll("Table", cases_table::table(plan, outcome)))
+    };
+    section("table-heading", "All frequencies", content)
 }

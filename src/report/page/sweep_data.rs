@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::cases_table::{self, ShownColumn};
 use super::compact::{all_rounded, picked, picked_optional, rounded, spread};
 use super::surface_data::{Fineness, PressureData, WorkData, share};
+use crate::cycle::Loop;
 use crate::material::{Material, MaterialFunction};
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K};
 use crate::report::figure::moduli::ModulusPoint;
@@ -106,11 +107,8 @@ pub(super) struct MaterialData {
 #[derive(Serialize)]
 struct CaseData {
     index: usize,
-    time_s: Vec<f64>,
-    load_n: Vec<f64>,
-    approach_m: Vec<f64>,
-    contact_radius_m: Vec<f64>,
-    peak_pressure_pa: Vec<Option<f64>>,
+    #[serde(flatten)]
+    samples: Loop,
     /// Amplitudes of load (N) and approach (m), first harmonic first.
     harmonics: Vec<[f64; 2]>,
     pressure: PressureData,
@@ -120,9 +118,12 @@ struct CaseData {
 impl<'a> SweepData<'a> {
     /// The data of a sweep whose table is `csv`.
     pub(super) fn new(plan: &SweepPlan, outcome: &'a Outcome, csv: &'a str) -> Self {
-        let cases = outcome.records.iter();
-        let held = |r: &CaseRecord| r.result.as_ref().is_some_and(|r| r.cycle.is_held());
-        let count = outcome.records.iter().filter(|r| held(r)).count();
+        let results = outcome
+            .records
+            .iter()
+            .filter_map(|r| Some((r, r.result.as_ref()?)));
+        let held = results.filter(|(_, result)| result.cycle.is_held());
+        let count = held.clone().count();
         Self {
             kind: "sweep",
             csv,
@@ -131,10 +132,9 @@ impl<'a> SweepData<'a> {
             peaks: &outcome.peaks,
             branches: outcome.branches(),
             retardation_times_s: all_rounded(&outcome.retardation_times_s()),
-            varied: match &plan.axes {
-                Some(axes) => axes.over.iter().map(VariedData::of).collect(),
-                None => Vec::new(),
-            },
+            varied: (plan.axes.iter().flat_map(|axes| &axes.over))
+                .map(VariedData::of)
+                .collect(),
             drive_unit: plan.drive.control().unit(),
             node_name: match plan.contact.indenter.own_cells() {
                 Some(_) => "cells along the longer side of the map",
@@ -145,9 +145,8 @@ impl<'a> SweepData<'a> {
                 true => Vec::new(),
                 false => cases_table::shown(plan, outcome),
             },
-            cases: cases
-                .filter(|r| held(r))
-                .filter_map(|r| Some(case(plan, r, r.result.as_ref()?, count)))
+            cases: held
+                .map(|(r, result)| case(plan, r, result, count))
                 .collect(),
         }
     }
@@ -158,13 +157,8 @@ type QuantityData = (&'static str, String, &'static str, &'static str, f64);
 
 fn quantity(column: &Column<CaseRecord>) -> Option<QuantityData> {
     let (unit, factor) = column.unit();
-    Some((
-        column.name,
-        column.error_name()?,
-        column.heading,
-        unit,
-        factor,
-    ))
+    let error = column.error_name()?;
+    Some((column.name, error, column.heading, unit, factor))
 }
 
 impl MaterialData {
@@ -201,11 +195,13 @@ fn case(plan: &SweepPlan, record: &CaseRecord, result: &CaseResult, cases: usize
     let harmonics = result.analysis.harmonics.iter();
     CaseData {
         index: record.index,
-        time_s: picked(&samples.time_s, &places),
-        load_n: picked(&samples.load_n, &places),
-        approach_m: picked(&samples.approach_m, &places),
-        contact_radius_m: picked(&samples.contact_radius_m, &places),
-        peak_pressure_pa: picked_optional(&samples.peak_pressure_pa, &places),
+        samples: Loop {
+            time_s: picked(&samples.time_s, &places),
+            load_n: picked(&samples.load_n, &places),
+            approach_m: picked(&samples.approach_m, &places),
+            contact_radius_m: picked(&samples.contact_radius_m, &places),
+            peak_pressure_pa: picked_optional(&samples.peak_pressure_pa, &places),
+        },
         harmonics: harmonics
             .map(|h| [rounded(h.load_amplitude_n), rounded(h.approach_amplitude_m)])
             .collect(),

@@ -53,8 +53,10 @@ pub(super) fn of_page<'a>(
         return Ok((Cow::Borrowed(outcome), table));
     }
     let all = curves(plan, outcome, &Units::of_sweep(plan)?);
-    let sample = sample(&all);
-    let per_row = small_table(plan, branches, &sample).len() / sample.len().max(1);
+    // Some cases that stand for all.
+    let first = all.first().map_or(&[][..], |curve| &curve.records);
+    let sample = &first[..first.len().min(50)];
+    let per_row = small_table(plan, branches, sample).len() / sample.len().max(1);
     let rows = TABLE_BYTES / per_row.max(1);
     let per_curve = outcome.records.len().div_ceil(all.len().max(1));
     let most = (rows / per_curve.max(1)).max(2);
@@ -67,18 +69,14 @@ pub(super) fn of_page<'a>(
     }
     // Those with cycles may be more curves than the table has room for.
     let most = 3 * rows / (2 * chosen.len().max(1));
-    let records = chosen.iter().filter_map(|k| all.get(*k));
-    let records: Vec<CaseRecord> = records
-        .flat_map(|curve| of_curve(curve, most, &with_cycles))
-        .cloned()
-        .collect();
-    let table = small_table(plan, branches, &records.iter().collect::<Vec<_>>());
-    let is_shown = |peak: &&Peak| {
-        let mut curves = chosen.iter().filter_map(|k| all.get(*k));
-        curves.any(|curve| peak.is_of(&curve.condition))
-    };
+    let chosen: Vec<&Curve> = chosen.into_iter().filter_map(|k| all.get(k)).collect();
+    let records = chosen.iter();
+    let records = records.flat_map(|curve| of_curve(curve, most, &with_cycles));
+    let records: Vec<&CaseRecord> = records.collect();
+    let table = small_table(plan, branches, &records);
+    let is_shown = |peak: &&Peak| chosen.iter().any(|curve| peak.is_of(&curve.condition));
     let thinned = Outcome {
-        records,
+        records: records.into_iter().cloned().collect(),
         peaks: outcome.peaks.iter().filter(is_shown).copied().collect(),
         peak_problems: outcome.peak_problems.clone(),
         interrupted: outcome.interrupted,
@@ -101,14 +99,6 @@ fn of_curve<'a>(
     kept.map(|(_, record)| *record).collect()
 }
 
-/// Some cases that stand for all.
-fn sample<'a>(curves: &[Curve<'a>]) -> Vec<&'a CaseRecord> {
-    let first = curves.first().into_iter();
-    first
-        .flat_map(|curve| curve.records.iter().copied().take(50))
-        .collect()
-}
-
 /// The table in few digits.
 fn small_table(plan: &SweepPlan, branches: usize, records: &[&CaseRecord]) -> Vec<u8> {
     let unit = plan.figures.frequency_unit;
@@ -116,10 +106,8 @@ fn small_table(plan: &SweepPlan, branches: usize, records: &[&CaseRecord]) -> Ve
     let names: Vec<&str> = columns.iter().map(|column| column.name.as_str()).collect();
     let rows = records.iter().map(|record| {
         let cells = columns.iter().map(|column| match (column.cell)(record) {
-            Cell::Number(number) => Cell::Number(match is_looked_at(&column.name) {
-                true => digits(number, FEW_DIGITS),
-                false => digits(number, DIGITS),
-            }),
+            Cell::Number(number) if is_looked_at(&column.name) => digits(number, FEW_DIGITS).into(),
+            Cell::Number(number) => digits(number, DIGITS).into(),
             other => other,
         });
         cells.collect::<Vec<Cell>>()
