@@ -267,8 +267,6 @@ impl Engine for Axisymmetric {
     }
 
     fn pressure_lines(&self, force: &[f64], solution: &Solution) -> Vec<PressureLine> {
-        let mut reported = Monotone::default();
-        let force = reported.of(force, &self.width_m);
         vec![self.pressure_line(force, solution.contact_radius_m)]
     }
 
@@ -303,21 +301,11 @@ impl Engine for Axisymmetric {
     }
 
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
-        let mut reported = Monotone::default();
-        let response = Response {
-            pressure: reported.of(response.pressure, &self.width_m),
-            ..*response
-        };
-        Ok(Surface::Radial(self.radial_surface(&response)))
+        Ok(Surface::Radial(self.radial_surface(response)))
     }
 
     fn field(&mut self, response: &Response<'_>, grid: &Grid) -> Result<Surface, ContactError> {
-        let mut reported = Monotone::default();
-        let response = Response {
-            pressure: reported.of(response.pressure, &self.width_m),
-            ..*response
-        };
-        Ok(Surface::Cells(self.revolved_surface(&response, grid)))
+        Ok(Surface::Cells(self.revolved_surface(response, grid)))
     }
 }
 

@@ -43,10 +43,10 @@ pub(crate) mod sums;
 pub mod surface;
 
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use half_space::grid::Grid;
-use surface::{PressureLine, Response, Surface};
+use surface::{CellSurface, PressureLine, Response, Surface};
 
 /// The quantity that the drive imposes at an instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -236,4 +236,34 @@ impl Prescribed {
             fine => Ok(fine),
         }
     }
+}
+
+/// [`ContactError::Interrupted`] where a flag asks to end an instant.
+fn go_on(interrupt: Option<&AtomicBool>) -> Result<(), ContactError> {
+    match interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+        true => Err(ContactError::Interrupted),
+        false => Ok(()),
+    }
+}
+
+/// The highest pressure, at least 0.
+fn highest(pressure: &[f64]) -> f64 {
+    pressure.iter().copied().fold(0.0, f64::max)
+}
+
+/// [`Engine::surface`] of an engine whose nodes are the cells of a grid.
+fn surface_of_cells(
+    engine: &mut impl Engine,
+    grid: &Grid,
+    response: &Response<'_>,
+) -> Result<Surface, ContactError> {
+    let nodes = response.pressure.iter().zip(response.history);
+    let hereditary = nodes.map(|(p, h)| response.compliance_per_pa * p + h);
+    let mut displacement_m = vec![0.0; response.pressure.len()];
+    engine.elastic_displacement(&hereditary.collect::<Vec<f64>>(), &mut displacement_m)?;
+    Ok(Surface::Cells(CellSurface {
+        grid: grid.whole(),
+        pressure_pa: grid.unfolded(response.pressure),
+        displacement_m: grid.unfolded(&displacement_m),
+    }))
 }

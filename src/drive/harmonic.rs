@@ -70,18 +70,12 @@ impl HarmonicDrive {
 
     /// The same, where it touches.
     fn touching(self) -> Result<Self, DriveError> {
-        let Self {
-            control,
-            mean,
-            amplitude,
-            ..
-        } = self;
         match self.maximum() + self.pull_off_n > 0.0 {
             true => Ok(self),
             false => Err(DriveError::NoTouch {
-                control,
-                mean,
-                amplitude,
+                control: self.control,
+                mean: self.mean,
+                amplitude: self.amplitude,
             }),
         }
     }

@@ -5,12 +5,11 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// The form of the drive within a piece; times count from where the piece begins.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
-    Constant(f64),
     Linear {
         from: f64,
         to: f64,
     },
-    /// Coefficients of ascending powers of the time in seconds.
+    /// Coefficients of ascending powers of the time in seconds; one of a value that is held.
     Polynomial(Vec<f64>),
     Sine {
         mean: f64,
@@ -21,10 +20,14 @@ pub(super) enum Form {
 }
 
 impl Form {
+    pub(super) fn held(value: f64) -> Self {
+        Self::Polynomial(vec![value])
+    }
+
     /// Adds a constant to the values.
     pub(super) fn raise(&mut self, by: f64) {
         match self {
-            Self::Constant(value) | Self::Sine { mean: value, .. } => *value += by,
+            Self::Sine { mean, .. } => *mean += by,
             Self::Linear { from, to } => {
                 *from += by;
                 *to += by;
@@ -66,7 +69,6 @@ impl Piece {
     /// The value this long after the piece began. The ends of a straight piece are exact.
     pub(super) fn value(&self, time_s: f64) -> f64 {
         match &self.form {
-            Form::Constant(value) => *value,
             Form::Linear { from, to } => {
                 if time_s >= self.duration_s {
                     *to
@@ -87,7 +89,6 @@ impl Piece {
     /// The sum of the sizes of the terms that make the values of the piece: rounding is a small part of it.
     pub(super) fn scale(&self) -> f64 {
         match &self.form {
-            Form::Constant(value) => value.abs(),
             Form::Linear { from, to } => from.abs().max(to.abs()),
             Form::Polynomial(coefficients) => {
                 let sizes: Vec<f64> = coefficients.iter().map(|c| c.abs()).collect();
@@ -121,7 +122,7 @@ impl Piece {
     /// Times at which the value may stop rising or falling; more than needed does no harm.
     fn turning_points(&self) -> Vec<f64> {
         match &self.form {
-            Form::Constant(_) | Form::Linear { .. } => Vec::new(),
+            Form::Linear { .. } => Vec::new(),
             Form::Polynomial(coefficients) => {
                 // In units of the duration, in which the powers are of one size.
                 let mut power = 1.0;

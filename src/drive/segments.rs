@@ -318,33 +318,17 @@ impl Segment {
         start_s: f64,
         before: f64,
     ) -> Result<Vec<Piece>, SegmentProblem> {
-        let piece = |form, duration_s: f64, longest_step_s| Piece {
-            form,
-            segment,
-            start_s,
-            offset_s: 0.0,
-            duration_s,
-            longest_step_s,
-            is_continued_table: false,
-        };
         let resolved = |duration_s: f64| Some(duration_s / STEPS_PER_SEGMENT);
-        match self {
+        let (form, duration_s, longest_step_s) = match self {
             Self::Step { to, duration_s } => {
                 finite("value", *to)?;
-                Ok(vec![piece(
-                    Form::Constant(*to),
-                    checked_duration(*duration_s)?,
-                    None,
-                )])
+                (Form::held(*to), *duration_s, None)
             }
             Self::Ramp { to, duration_s } => {
                 finite("value", *to)?;
-                let form = Form::Linear {
-                    from: before,
-                    to: *to,
-                };
-                let duration_s = checked_duration(*duration_s)?;
-                Ok(vec![piece(form, duration_s, resolved(duration_s))])
+                let (from, to) = (before, *to);
+                let form = Form::Linear { from, to };
+                (form, *duration_s, resolved(*duration_s))
             }
             Self::Polynomial {
                 coefficients,
@@ -356,47 +340,42 @@ impl Segment {
                 for &coefficient in coefficients {
                     finite("coefficient", coefficient)?;
                 }
-                let duration_s = checked_duration(*duration_s)?;
                 let form = Form::Polynomial(coefficients.clone());
-                Ok(vec![piece(form, duration_s, resolved(duration_s))])
+                (form, *duration_s, resolved(*duration_s))
             }
-            Self::Sine { .. } => self.sine(&piece),
-            Self::Table { times_s, values } => table(segment, start_s, times_s, values),
-        }
-    }
-
-    fn sine(
-        &self,
-        piece: &dyn Fn(Form, f64, Option<f64>) -> Piece,
-    ) -> Result<Vec<Piece>, SegmentProblem> {
-        let Self::Sine {
-            mean,
-            amplitude,
-            angular_frequency_rad_per_s,
-            phase_rad,
-            cycles,
-        } = *self
-        else {
-            return Ok(Vec::new());
+            &Self::Sine {
+                mean,
+                amplitude,
+                angular_frequency_rad_per_s,
+                phase_rad,
+                cycles,
+            } => {
+                finite("mean", mean)?;
+                positive("amplitude", amplitude)?;
+                positive("angular frequency", angular_frequency_rad_per_s)?;
+                finite("phase", phase_rad)?;
+                positive("number of cycles", cycles)?;
+                let cycle_s = std::f64::consts::TAU / angular_frequency_rad_per_s;
+                let form = Form::Sine {
+                    mean,
+                    amplitude,
+                    angular_frequency_rad_per_s,
+                    phase_rad,
+                };
+                (form, cycles * cycle_s, Some(cycle_s / STEPS_PER_CYCLE))
+            }
+            Self::Table { times_s, values } => return table(segment, start_s, times_s, values),
         };
-        finite("mean", mean)?;
-        positive("amplitude", amplitude)?;
-        positive("angular frequency", angular_frequency_rad_per_s)?;
-        finite("phase", phase_rad)?;
-        positive("number of cycles", cycles)?;
-        let period_s = std::f64::consts::TAU / angular_frequency_rad_per_s;
-        let form = Form::Sine {
-            mean,
-            amplitude,
-            angular_frequency_rad_per_s,
-            phase_rad,
-        };
-        let duration_s = checked_duration(cycles * period_s)?;
-        Ok(vec![piece(
+        let duration_s = checked_duration(duration_s)?;
+        Ok(vec![Piece {
             form,
+            segment,
+            start_s,
+            offset_s: 0.0,
             duration_s,
-            Some(period_s / STEPS_PER_CYCLE),
-        )])
+            longest_step_s,
+            is_continued_table: false,
+        }])
     }
 }
 
@@ -422,8 +401,8 @@ fn table(
         // A jump lies between two pieces; at an end of the table one of them has no length.
         let form = match (length_s > 0.0, pair) {
             (true, _) => straight,
-            (false, 0) => Form::Constant(values[0]),
-            (false, pair) if pair == last => Form::Constant(values[1]),
+            (false, 0) => Form::held(values[0]),
+            (false, pair) if pair == last => Form::held(values[1]),
             (false, _) => {
                 after_jump = true;
                 continue;
@@ -444,32 +423,27 @@ fn table(
 }
 
 fn check_table(times_s: &[f64], values: &[f64]) -> Result<(), SegmentProblem> {
-    if times_s.len() != values.len() {
-        return Err(SegmentProblem::Lengths {
-            times: times_s.len(),
-            values: values.len(),
-        });
-    }
-    if times_s.len() < 2 {
-        return Err(SegmentProblem::TooFewPoints {
-            points: times_s.len(),
-        });
-    }
+    let points = times_s.len();
+    let lengths = SegmentProblem::Lengths {
+        times: points,
+        values: values.len(),
+    };
+    refuse_unless(points == values.len(), lengths)?;
+    refuse_unless(points >= 2, SegmentProblem::TooFewPoints { points })?;
     for (&time_s, &value) in times_s.iter().zip(values) {
         finite("time", time_s)?;
         finite("value", value)?;
     }
-    if times_s[0] != 0.0 {
-        return Err(SegmentProblem::FirstTime { time_s: times_s[0] });
-    }
-    for (point, pair) in times_s.windows(2).enumerate() {
-        if pair[1] < pair[0] {
-            return Err(SegmentProblem::Order {
-                point: point + 1,
-                time_s: pair[1],
-                before_s: pair[0],
-            });
-        }
+    let time_s = times_s[0];
+    refuse_unless(time_s == 0.0, SegmentProblem::FirstTime { time_s })?;
+    for (point, pair) in (1..).zip(times_s.windows(2)) {
+        let (before_s, time_s) = (pair[0], pair[1]);
+        let order = SegmentProblem::Order {
+            point,
+            time_s,
+            before_s,
+        };
+        refuse_unless(time_s >= before_s, order)?;
     }
     match times_s.windows(3).find(|three| three[0] == three[2]) {
         Some(three) => Err(SegmentProblem::TripleJump { time_s: three[0] }),
@@ -477,28 +451,26 @@ fn check_table(times_s: &[f64], values: &[f64]) -> Result<(), SegmentProblem> {
     }
 }
 
-fn checked_duration(duration_s: f64) -> Result<f64, SegmentProblem> {
-    if duration_s.is_finite() && duration_s > 0.0 {
-        Ok(duration_s)
-    } else {
-        Err(SegmentProblem::Duration { duration_s })
+fn refuse_unless(holds: bool, problem: SegmentProblem) -> Result<(), SegmentProblem> {
+    match holds {
+        true => Ok(()),
+        false => Err(problem),
     }
+}
+
+fn checked_duration(duration_s: f64) -> Result<f64, SegmentProblem> {
+    let holds = duration_s.is_finite() && duration_s > 0.0;
+    refuse_unless(holds, SegmentProblem::Duration { duration_s })?;
+    Ok(duration_s)
 }
 
 fn finite(what: &'static str, value: f64) -> Result<(), SegmentProblem> {
-    if value.is_finite() {
-        Ok(())
-    } else {
-        Err(SegmentProblem::NotFinite { what, value })
-    }
+    refuse_unless(value.is_finite(), SegmentProblem::NotFinite { what, value })
 }
 
 fn positive(what: &'static str, value: f64) -> Result<(), SegmentProblem> {
-    if value.is_finite() && value > 0.0 {
-        Ok(())
-    } else {
-        Err(SegmentProblem::NotPositive { what, value })
-    }
+    let holds = value.is_finite() && value > 0.0;
+    refuse_unless(holds, SegmentProblem::NotPositive { what, value })
 }
 
 #[cfg(test)]

@@ -1,10 +1,12 @@
 //! A guess of the next pressure from the last three: nothing but work depends on it.
 
+use serde::{Deserialize, Serialize};
+
 use super::loaded::Loaded;
 
 /// Pressures of the last instants, and the steps between them.
-#[derive(Debug, Default)]
-pub(super) struct Extrapolation {
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Extrapolation {
     /// The pressures one and two instants before the last.
     before: [Vec<f64>; 2],
     /// Where any of them is not zero.
@@ -21,7 +23,7 @@ const LARGEST_GROWTH: f64 = 2.0;
 impl Extrapolation {
     /// Turns the last pressure into a guess of the next, `step_s` seconds later. A step of no length is a jump of the drive,
     /// after which a new course begins. Cells out of contact stay so: when they enter is not to be told from their pressure.
-    pub(super) fn guess(&mut self, step_s: f64, pressure: &mut [f64]) {
+    pub(crate) fn guess(&mut self, step_s: f64, pressure: &mut [f64]) {
         if step_s <= 0.0 {
             self.forget();
             return;
@@ -45,33 +47,12 @@ impl Extrapolation {
         self.steps_s = [step_s, self.steps_s[0]];
     }
 
-    /// Everything it looks back on, for [`Extrapolation::restore`].
-    pub(super) fn state(&self) -> Vec<Vec<f64>> {
-        let [one, two] = self.before.clone();
-        let [last_s, older_s] = self.steps_s;
-        vec![one, two, vec![self.known as f64, last_s, older_s]]
-    }
-
-    /// Looks back on what [`Extrapolation::state`] gave; false, and nothing done, where it is of other nodes.
-    pub(super) fn restore(&mut self, state: &[Vec<f64>], nodes: usize) -> bool {
-        let [one, two, numbers] = state else {
-            return false;
-        };
-        let &[known, last_s, older_s] = numbers.as_slice() else {
-            return false;
-        };
-        let fits = [one, two].iter().all(|p| [0, nodes].contains(&p.len()));
-        if fits {
-            self.before = [one.clone(), two.clone()];
-            self.loaded = Loaded::default();
-            for pressure in &self.before {
-                self.loaded.extend(pressure);
-            }
-            // Written from 0, 1 or 2.
-            self.known = known as usize;
-            self.steps_s = [last_s, older_s];
-        }
-        fits
+    /// Whether it can look back on this number of nodes.
+    pub(super) fn fits(&self, nodes: usize) -> bool {
+        let mut before = self.before.iter();
+        before.all(|pressure| [0, nodes].contains(&pressure.len()))
+            && self.loaded.range().end <= nodes
+            && self.known <= 2
     }
 
     /// The past says nothing of what comes.

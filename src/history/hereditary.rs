@@ -1,6 +1,6 @@
 //! What time marching asks of the body's past, however it is kept.
 
-use super::memory::{Memory, StepWeights, TimeRule};
+use super::memory::TimeRule;
 use crate::contact::Prescribed;
 
 /// A stage of a step: one instant is solved for each.
@@ -73,45 +73,4 @@ pub trait Hereditary {
     /// Goes back to what a past of the same compliance kept. False, and nothing done, where the state is none of this
     /// compliance on this number of nodes.
     fn restore(&mut self, state: &[Vec<f64>]) -> bool;
-}
-
-impl Hereditary for Memory {
-    type Step = StepWeights;
-
-    fn weights(&self, step_s: f64, rule: TimeRule) -> StepWeights {
-        StepWeights::new(self.compliance(), step_s, rule)
-    }
-
-    fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage<StepWeights>> {
-        Memory::stages(self, step_s, rule)
-    }
-
-    fn compliance_per_pa(step: &StepWeights) -> f64 {
-        step.compliance_per_pa()
-    }
-
-    fn step_s(step: &StepWeights) -> f64 {
-        step.step_s()
-    }
-
-    fn predict(&mut self, step: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {
-        Memory::predict(self, step, old_pressure, history);
-    }
-
-    fn commit(&mut self, step: &StepWeights, new_pressure: &[f64]) {
-        Memory::commit(self, step, new_pressure);
-    }
-
-    fn shortest_time_s(&self) -> Option<f64> {
-        // Branches are sorted by time.
-        self.compliance().branches().first().map(|b| b.time_s)
-    }
-
-    fn state(&self) -> Vec<Vec<f64>> {
-        Memory::state(self).map(<[f64]>::to_vec).into()
-    }
-
-    fn restore(&mut self, state: &[Vec<f64>]) -> bool {
-        Memory::restore(self, state)
-    }
 }

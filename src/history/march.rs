@@ -47,7 +47,7 @@ pub struct StepState {
     /// The hereditary part of the instant.
     pub history: Vec<f64>,
     /// What the guesses look back on, of an engine that asks for one.
-    pub course: Option<Vec<Vec<f64>>>,
+    pub course: Option<Extrapolation>,
     /// The instant before.
     pub solution: Option<Solution>,
     pub work: Work,
@@ -296,7 +296,7 @@ impl<'a, M: Hereditary> March<'a, M> {
             memory: self.memory.state(),
             guess: guess.to_vec(),
             history: self.history.clone(),
-            course: self.extrapolation.as_ref().map(Extrapolation::state),
+            course: self.extrapolation.clone(),
             solution: self.solution,
             work: self.work,
         }
@@ -306,28 +306,26 @@ impl<'a, M: Hereditary> March<'a, M> {
     /// that has not begun is as it was, where the state is one of others.
     pub fn restore_step(&mut self, state: &StepState) -> bool {
         let nodes = self.pressure.len();
-        let course = match (&mut self.extrapolation, &state.course) {
-            (Some(extrapolation), Some(course)) => extrapolation.restore(course, nodes),
-            (None, None) => true,
-            _ => false,
-        };
-        let fits = course
+        let fits = state.course.is_some() == self.extrapolation.is_some()
+            && state.course.iter().all(|course| course.fits(nodes))
             && [&state.guess, &state.history]
                 .iter()
                 .all(|f| f.len() == nodes)
             && self.memory.restore(&state.memory);
         if fits {
-            self.pressure.copy_from_slice(&state.guess);
+            self.extrapolation.clone_from(&state.course);
             self.history.copy_from_slice(&state.history);
-            self.solution = state.solution;
-            if let Some(last) = &state.solution {
-                self.engine.resume_from(last);
-            }
-            self.work = state.work;
-        } else if let Some(extrapolation) = &mut self.extrapolation {
-            *extrapolation = Extrapolation::default();
+            self.resume(&state.guess, state.solution, state.work);
         }
         fits
+    }
+
+    fn resume(&mut self, pressure: &[f64], solution: Option<Solution>, work: Work) {
+        self.pressure.copy_from_slice(pressure);
+        if let Some(last) = &solution {
+            self.engine.resume_from(last);
+        }
+        (self.solution, self.work) = (solution, work);
     }
 
     /// What the nodal pressure of each node is multiplied by to give its part of the load.
@@ -423,12 +421,7 @@ impl March<'_> {
             && state.pressure.len() == self.pressure.len();
         if fits {
             self.memory.recall(&state.variables);
-            self.pressure.copy_from_slice(&state.pressure);
-            self.solution = state.solution;
-            if let Some(last) = &state.solution {
-                self.engine.resume_from(last);
-            }
-            self.work = state.work;
+            self.resume(&state.pressure, state.solution, state.work);
             self.reset_predictor();
         }
         fits

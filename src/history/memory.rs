@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use multiversion::multiversion;
 
-use super::hereditary::Stage;
+use super::hereditary::{Hereditary, Stage};
 use super::loaded::Loaded;
 use crate::contact::sums;
 use crate::material::Creep;
@@ -302,18 +302,6 @@ impl Memory {
         &self.compliance
     }
 
-    /// The stages of a step of `step_s` seconds, zero for a jump: one, or two where one would ring.
-    pub fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage<StepWeights>> {
-        match self.rings && rule == TimeRule::Linear && step_s > 0.0 {
-            true => StepWeights::damped_stages(&self.compliance, step_s).into(),
-            false => vec![Stage::whole(StepWeights::new(
-                &self.compliance,
-                step_s,
-                rule,
-            ))],
-        }
-    }
-
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         (self.branches.len() + self.flow.len()) * size_of::<f64>()
@@ -345,24 +333,6 @@ impl Memory {
         self.find_loaded();
     }
 
-    /// Memory variables, then what has flowed.
-    pub(super) fn state(&self) -> [&[f64]; 2] {
-        [&self.branches, &self.flow]
-    }
-
-    /// Takes over what [`Memory::state`] gave; false, and nothing done, where it is of other nodes or branches.
-    pub(super) fn restore(&mut self, state: &[Vec<f64>]) -> bool {
-        let [branches, flow] = state else {
-            return false;
-        };
-        let fits = branches.len() == self.branches.len() && flow.len() == self.flow.len();
-        if fits {
-            self.flow.copy_from_slice(flow);
-            self.recall(branches);
-        }
-        fits
-    }
-
     /// After the variables were written from outside.
     fn find_loaded(&mut self) {
         self.loaded = Loaded::default();
@@ -371,10 +341,32 @@ impl Memory {
         }
         self.loaded.extend(&self.flow);
     }
+}
 
-    /// First half of a step: ages the memory by everything that is known before the new pressure is, and writes the
-    /// hereditary part H (1/Pa times the unit of the pressure) per node.
-    pub fn predict(&mut self, weights: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {
+impl Hereditary for Memory {
+    type Step = StepWeights;
+
+    fn weights(&self, step_s: f64, rule: TimeRule) -> StepWeights {
+        StepWeights::new(&self.compliance, step_s, rule)
+    }
+
+    fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage<StepWeights>> {
+        match self.rings && rule == TimeRule::Linear && step_s > 0.0 {
+            true => StepWeights::damped_stages(&self.compliance, step_s).into(),
+            false => vec![Stage::whole(self.weights(step_s, rule))],
+        }
+    }
+
+    fn compliance_per_pa(step: &StepWeights) -> f64 {
+        step.compliance_per_pa
+    }
+
+    fn step_s(step: &StepWeights) -> f64 {
+        step.step_s
+    }
+
+    /// Ages the memory by everything that is known before the new pressure is.
+    fn predict(&mut self, weights: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {
         self.loaded.extend(old_pressure);
         let loaded = self.loaded.range();
         history[..loaded.start].fill(0.0);
@@ -400,8 +392,7 @@ impl Memory {
         }
     }
 
-    /// Second half of a step: takes in the new pressure.
-    pub fn commit(&mut self, weights: &StepWeights, new_pressure: &[f64]) {
+    fn commit(&mut self, weights: &StepWeights, new_pressure: &[f64]) {
         self.loaded.extend(new_pressure);
         for block in blocks(self.loaded.range()) {
             let new_pressure = &new_pressure[block.clone()];
@@ -417,6 +408,28 @@ impl Memory {
                 }
             }
         }
+    }
+
+    fn shortest_time_s(&self) -> Option<f64> {
+        // Branches are sorted by time.
+        self.compliance.branches().first().map(|b| b.time_s)
+    }
+
+    /// Memory variables, then what has flowed.
+    fn state(&self) -> Vec<Vec<f64>> {
+        vec![self.branches.clone(), self.flow.clone()]
+    }
+
+    fn restore(&mut self, state: &[Vec<f64>]) -> bool {
+        let [branches, flow] = state else {
+            return false;
+        };
+        let fits = branches.len() == self.branches.len() && flow.len() == self.flow.len();
+        if fits {
+            self.flow.copy_from_slice(flow);
+            self.recall(branches);
+        }
+        fits
     }
 }
 

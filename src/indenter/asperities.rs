@@ -1,9 +1,6 @@
 //! Several asperities on one rigid body: the lower envelope of paraboloids, each with its own centre, radius and height.
 
-use super::{
-    Axisymmetric, Domain, Indenter, IndenterError, Parameter, Value, finite_position,
-    positive_length,
-};
+use super::{Domain, Indenter, IndenterError, Parameter, Value, finite_position, positive_length};
 use crate::quantity::Dimension;
 
 /// One spherical summit, in small-slope form.
@@ -58,22 +55,22 @@ impl Asperities {
         &self.asperities
     }
 
+    /// How far the summit of an asperity lies behind the one that touches first (m).
+    fn depth_m(&self, asperity: &Asperity) -> f64 {
+        self.highest_m - asperity.height_m
+    }
+
     /// Half widths along x and y of the rectangle that just holds the elastic contact.
     ///
     /// Every asperity alone, carrying all the load, would approach further than the body does; the least of these bounds
     /// the approach, and with it how deep each asperity goes and how wide (Hertz) its contact becomes.
     fn elastic_half_widths_m(&self, load_n: f64, compliance_per_pa: f64) -> (f64, f64) {
-        let depth = |a: &Asperity| self.highest_m - a.height_m;
         let alone = |a: &Asperity| {
             let contact_m = (0.75 * load_n * a.radius_m * compliance_per_pa).cbrt();
-            depth(a) + contact_m * contact_m / a.radius_m
+            self.depth_m(a) + contact_m * contact_m / a.radius_m
         };
-        let approach_m = self
-            .asperities
-            .iter()
-            .map(alone)
-            .fold(f64::INFINITY, f64::min);
-        self.half_widths_under_approach_m(approach_m)
+        let approaches_m = self.asperities.iter().map(alone);
+        self.half_widths_under_approach_m(approaches_m.fold(f64::INFINITY, f64::min))
     }
 }
 
@@ -84,10 +81,13 @@ impl Indenter for Asperities {
 
     /// What each asperity alone would have for a contact (Hertz), as deep as it then is.
     fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
-        let depth = |a: &Asperity| self.highest_m - a.height_m;
         let (mut x_m, mut y_m) = (0.0_f64, 0.0_f64);
-        for asperity in self.asperities.iter().filter(|a| depth(a) < approach_m) {
-            let contact_m = (asperity.radius_m * (approach_m - depth(asperity))).sqrt();
+        for asperity in self
+            .asperities
+            .iter()
+            .filter(|a| self.depth_m(a) < approach_m)
+        {
+            let contact_m = (asperity.radius_m * (approach_m - self.depth_m(asperity))).sqrt();
             x_m = x_m.max(asperity.center_x_m.abs() + contact_m);
             y_m = y_m.max(asperity.center_y_m.abs() + contact_m);
         }
@@ -108,17 +108,10 @@ impl Indenter for Asperities {
     }
 
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64 {
-        let gap = |a: &Asperity| {
-            (self.highest_m - a.height_m) + a.distance_squared(x_m, y_m) / (2.0 * a.radius_m)
-        };
-        self.asperities
-            .iter()
-            .map(gap)
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
-        None
+        let gap =
+            |a: &Asperity| self.depth_m(a) + a.distance_squared(x_m, y_m) / (2.0 * a.radius_m);
+        let gaps_m = self.asperities.iter().map(gap);
+        gaps_m.fold(f64::INFINITY, f64::min)
     }
 
     fn not_axisymmetric_because(&self) -> String {
@@ -132,14 +125,7 @@ impl Indenter for Asperities {
 
     /// A rectangle of square cells, because each contact is about round.
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
-        let (half_width_x_m, half_width_y_m) =
-            self.elastic_half_widths_m(load_n, compliance_per_pa);
-        Domain::Around {
-            half_width_x_m,
-            half_width_y_m,
-            cell_aspect_ratio: 1.0,
-            limit_m: None,
-        }
+        Domain::around(self.elastic_half_widths_m(load_n, compliance_per_pa))
     }
 }
 

@@ -23,16 +23,6 @@ impl Cone {
             Err(IndenterError::HalfAngle { half_angle_rad })
         }
     }
-
-    /// Half angle alpha (rad).
-    pub fn half_angle_rad(&self) -> f64 {
-        self.half_angle_rad
-    }
-
-    /// Slope of the side, cot(alpha).
-    pub fn slope(&self) -> f64 {
-        self.slope
-    }
 }
 
 impl Indenter for Cone {
@@ -63,10 +53,6 @@ impl Axisymmetric for Cone {
     /// G(x) = (pi/2) x cot(alpha).
     fn transformed_gap_m(&self, x_m: f64) -> f64 {
         std::f64::consts::FRAC_PI_2 * x_m * self.slope
-    }
-
-    fn contact_limit_m(&self) -> Option<f64> {
-        None
     }
 
     /// The apex makes the pressure grow like the logarithm of 1/r.

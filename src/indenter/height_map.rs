@@ -1,6 +1,6 @@
 //! The height map: a measured or computed indenter, given by one value per cell of a regular grid.
 
-use super::{Axisymmetric, DataFile, Domain, Indenter, IndenterError, Parameter, Value};
+use super::{DataFile, Domain, Indenter, IndenterError, Parameter, Value};
 use crate::quantity::Dimension;
 
 /// Fewest points of a map in each direction: a contact needs a border of cells around it.
@@ -120,15 +120,6 @@ impl MapLevel {
             *z -= slope[0] * x + slope[1] * y;
         }
     }
-
-    fn parameter(self) -> Parameter {
-        let name = match self {
-            Self::None => "none",
-            Self::Mean => "mean",
-            Self::Plane => "plane",
-        };
-        Parameter::new("level", Value::Text(name.to_owned()))
-    }
 }
 
 impl MapQuantity {
@@ -144,14 +135,8 @@ impl MapEdge {
         ("periodic", Self::Periodic),
     ];
 
-    /// The name as written in a sweep file.
     pub(super) fn parameter(self) -> Parameter {
-        let name = match self {
-            Self::Unknown => "unknown",
-            Self::Rim => "rim",
-            Self::Periodic => "periodic",
-        };
-        Parameter::new("edge", Value::Text(name.to_owned()))
+        Parameter::choice("edge", &Self::NAMES, self)
     }
 }
 
@@ -344,22 +329,23 @@ impl Indenter for HeightMap {
     /// The file and how to read it; a map made of values in memory has no file.
     fn parameters(&self) -> Vec<Parameter> {
         let source = self.source.as_ref();
-        let mut parameters: Vec<Parameter> = Vec::new();
-        parameters.extend(source.iter().flat_map(|source| source.data.parameters()));
-        let quantity = match self.quantity {
-            MapQuantity::Height => "height",
-            MapQuantity::Gap => "gap",
-        };
-        parameters.push(Parameter::new("quantity", Value::Text(quantity.to_owned())));
+        let data = source.iter().flat_map(|source| source.data.parameters());
+        let mut parameters: Vec<Parameter> = data.collect();
+        parameters.push(Parameter::choice(
+            "quantity",
+            &MapQuantity::NAMES,
+            self.quantity,
+        ));
         if source.is_none_or(|source| !source.gives_places) {
             let spacing = vec![self.spacing_x_m, self.spacing_y_m];
             let spacing = Value::Quantities(spacing, Dimension::Length);
             parameters.push(Parameter::new("spacing", spacing));
             let unit = source.map_or(HEIGHT_UNITS[0].0, |source| source.height_unit.name);
-            parameters.push(Parameter::new("height_unit", Value::Text(unit.to_owned())));
+            parameters.push(Parameter::text("height_unit", unit));
         }
         let level = source.map_or(MapLevel::None, |source| source.level);
-        parameters.extend([level.parameter(), self.edge.parameter()]);
+        let level = Parameter::choice("level", &MapLevel::NAMES, level);
+        parameters.extend([level, self.edge.parameter()]);
         parameters
     }
 
@@ -374,10 +360,6 @@ impl Indenter for HeightMap {
             between(self.gap_m[row + left], self.gap_m[row + right], along_x)
         };
         between(along_row(lower), along_row(upper), along_y)
-    }
-
-    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
-        None
     }
 
     /// Half the longer side of the map: what any contact with it fits into.

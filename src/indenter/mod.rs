@@ -69,6 +69,17 @@ impl Parameter {
     pub fn new(key: &'static str, value: Value) -> Self {
         Self { key, value }
     }
+
+    /// A text.
+    fn text(key: &'static str, text: &str) -> Self {
+        Self::new(key, Value::Text(text.to_owned()))
+    }
+
+    /// A choice, by its name among those that a sweep file may give.
+    fn choice<T: PartialEq>(key: &'static str, names: &[(&'static str, T)], chosen: T) -> Self {
+        let named = names.iter().find(|(_, choice)| *choice == chosen);
+        Self::text(key, named.map_or("", |(name, _)| name))
+    }
 }
 
 /// The file a shape was read from.
@@ -83,8 +94,8 @@ pub struct DataFile {
 impl DataFile {
     fn parameters(&self) -> [Parameter; 2] {
         [
-            Parameter::new("file", Value::Text(self.file.clone())),
-            Parameter::new("sha256", Value::Text(self.sha256.clone())),
+            Parameter::text("file", &self.file),
+            Parameter::text("sha256", &self.sha256),
         ]
     }
 }
@@ -113,9 +124,14 @@ pub enum Domain {
 impl Domain {
     /// A square, for a contact that is about round.
     fn square(half_width_m: f64) -> Self {
+        Self::around((half_width_m, half_width_m))
+    }
+
+    /// A rectangle of these half widths, of square cells.
+    fn around((half_width_x_m, half_width_y_m): (f64, f64)) -> Self {
         Self::Around {
-            half_width_x_m: half_width_m,
-            half_width_y_m: half_width_m,
+            half_width_x_m,
+            half_width_y_m,
             cell_aspect_ratio: 1.0,
             limit_m: None,
         }
@@ -200,12 +216,22 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
     /// Gap g(x, y) in metres before deformation, 0 at the lowest point; infinite where the indenter ends.
     fn gap_m(&self, x_m: f64, y_m: f64) -> f64;
 
+    /// The shape that this one is made of, where there is one: it answers whatever this one does not answer itself.
+    fn made_of(&self) -> Option<&dyn Indenter> {
+        None
+    }
+
     /// The shape as a convex body of revolution about its own axis, where it is one.
-    fn axisymmetric(&self) -> Option<&dyn Axisymmetric>;
+    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+        self.made_of()?.axisymmetric()
+    }
 
     /// Why there is no [`Indenter::axisymmetric`], to follow "the SHAPE".
     fn not_axisymmetric_because(&self) -> String {
-        "is not a body of revolution".to_owned()
+        match self.made_of() {
+            Some(shape) => shape.not_axisymmetric_because(),
+            None => "is not a body of revolution".to_owned(),
+        }
     }
 
     /// Whether the shape is one of revolution about the origin, convex or not, as far as a few gaps within this radius (m) tell.
@@ -234,12 +260,15 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
 
     /// Where the half-space engine puts its cells under this load (N) and contact compliance (1/Pa).
     fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
-        Domain::square(self.elastic_half_width_m(load_n, compliance_per_pa))
+        match self.made_of() {
+            Some(shape) => shape.domain(load_n, compliance_per_pa),
+            None => Domain::square(self.elastic_half_width_m(load_n, compliance_per_pa)),
+        }
     }
 
     /// Whether the shape repeats itself without end, and [`Indenter::own_cells`] are one period of it.
     fn is_periodic(&self) -> bool {
-        false
+        self.made_of().is_some_and(|shape| shape.is_periodic())
     }
 
     /// Area (m^2) of one period of a shape that repeats itself.
@@ -259,7 +288,7 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
 
     /// Points along x and y at which the shape is known, where it is a map: the half-space engine has a cell on each of them.
     fn own_cells(&self) -> Option<(usize, usize)> {
-        None
+        self.made_of()?.own_cells()
     }
 
     /// Half widths (m) along x and y of the rectangle about the origin that holds the contact under any approach up to this one
@@ -277,13 +306,15 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
 
     /// Whether an infinite gap means that the data end there and not the indenter, so that contact beside it is in doubt.
     fn ends_in_data(&self) -> bool {
-        false
+        self.made_of().is_some_and(|shape| shape.ends_in_data())
     }
 
     /// Whether the contact pressure is finite everywhere; an apex or a sharp edge makes it unbounded.
     fn pressure_is_bounded(&self) -> bool {
-        self.axisymmetric()
-            .is_none_or(|body| body.has_bounded_pressure())
+        match self.made_of() {
+            Some(shape) => shape.pressure_is_bounded(),
+            None => (self.axisymmetric()).is_none_or(|body| body.has_bounded_pressure()),
+        }
     }
 }
 
@@ -294,7 +325,9 @@ pub trait Axisymmetric {
     fn transformed_gap_m(&self, x_m: f64) -> f64;
 
     /// The radius at which the indenter ends and the contact with it, where the shape has one.
-    fn contact_limit_m(&self) -> Option<f64>;
+    fn contact_limit_m(&self) -> Option<f64> {
+        None
+    }
 
     /// The radius beyond which the shape is not known, where there is one; contact that reaches it is in doubt.
     fn known_radius_m(&self) -> Option<f64> {

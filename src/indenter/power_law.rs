@@ -36,11 +36,6 @@ impl PowerLaw {
         })
     }
 
-    /// Exponent n of the profile.
-    pub fn exponent(&self) -> f64 {
-        self.exponent
-    }
-
     fn profile_m(&self, r_m: f64) -> f64 {
         self.height_m * (r_m / self.radius_m).powf(self.exponent)
     }
@@ -80,10 +75,6 @@ impl Axisymmetric for PowerLaw {
     /// G(x) = g(x) sqrt(pi) Gamma(n/2 + 1) / Gamma(n/2 + 1/2).
     fn transformed_gap_m(&self, x_m: f64) -> f64 {
         self.transformed_ratio * self.profile_m(x_m)
-    }
-
-    fn contact_limit_m(&self) -> Option<f64> {
-        None
     }
 
     /// The pressure on the axis is proportional to the integral of x^(n-2), which diverges for the cone alone.

@@ -404,10 +404,6 @@ impl Axisymmetric for Profile {
         })
     }
 
-    fn contact_limit_m(&self) -> Option<f64> {
-        None
-    }
-
     fn known_radius_m(&self) -> Option<f64> {
         Some(self.end_m)
     }

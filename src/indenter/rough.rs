@@ -23,8 +23,7 @@ use num_complex::Complex;
 use rustfft::FftPlannerScalar;
 
 use super::{
-    Axisymmetric, Domain, HeightMap, Indenter, IndenterError, MapEdge, MapQuantity, Parameter,
-    Value, positive_length,
+    HeightMap, Indenter, IndenterError, MapEdge, MapQuantity, Parameter, Value, positive_length,
 };
 
 /// Cells per side.
@@ -85,11 +84,6 @@ impl Rough {
             roughness.edge,
         )?;
         Ok(Self { roughness, map })
-    }
-
-    /// What makes it.
-    pub fn roughness(&self) -> &Roughness {
-        &self.roughness
     }
 
     /// The surface as a map.
@@ -251,8 +245,8 @@ impl Indenter for Rough {
         self.map.gap_m(x_m, y_m)
     }
 
-    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
-        None
+    fn made_of(&self) -> Option<&dyn Indenter> {
+        Some(&self.map)
     }
 
     fn not_axisymmetric_because(&self) -> String {
@@ -261,26 +255,6 @@ impl Indenter for Rough {
 
     fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
         self.map.elastic_half_width_m(load_n, compliance_per_pa)
-    }
-
-    fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
-        self.map.domain(load_n, compliance_per_pa)
-    }
-
-    fn own_cells(&self) -> Option<(usize, usize)> {
-        self.map.own_cells()
-    }
-
-    fn ends_in_data(&self) -> bool {
-        self.map.ends_in_data()
-    }
-
-    fn is_periodic(&self) -> bool {
-        self.map.is_periodic()
-    }
-
-    fn pressure_is_bounded(&self) -> bool {
-        self.map.pressure_is_bounded()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Axisymmetric, Domain, Indenter, IndenterError, Parameter, Value, finite_position};
+use super::{Domain, Indenter, IndenterError, Parameter, Value, finite_position};
 use crate::quantity::Dimension;
 
 /// An indenter whose own origin lies at an offset.
@@ -53,10 +53,8 @@ impl Indenter for Shifted {
     fn parameters(&self) -> Vec<Parameter> {
         let offset = vec![self.offset_x_m, self.offset_y_m];
         let mut parameters = self.inner.parameters();
-        parameters.push(Parameter::new(
-            "offset",
-            Value::Quantities(offset, Dimension::Length),
-        ));
+        let offset = Value::Quantities(offset, Dimension::Length);
+        parameters.push(Parameter::new("offset", offset));
         parameters
     }
 
@@ -65,12 +63,8 @@ impl Indenter for Shifted {
             .gap_m(x_m - self.offset_x_m, y_m - self.offset_y_m)
     }
 
-    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
-        self.inner.axisymmetric()
-    }
-
-    fn not_axisymmetric_because(&self) -> String {
-        self.inner.not_axisymmetric_because()
+    fn made_of(&self) -> Option<&dyn Indenter> {
+        Some(&*self.inner)
     }
 
     fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {
@@ -106,25 +100,9 @@ impl Indenter for Shifted {
         }
     }
 
-    fn own_cells(&self) -> Option<(usize, usize)> {
-        self.inner.own_cells()
-    }
-
     fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
         let (x_m, y_m) = self.inner.half_widths_under_approach_m(approach_m);
         (x_m + self.offset_x_m.abs(), y_m + self.offset_y_m.abs())
-    }
-
-    fn ends_in_data(&self) -> bool {
-        self.inner.ends_in_data()
-    }
-
-    fn is_periodic(&self) -> bool {
-        self.inner.is_periodic()
-    }
-
-    fn pressure_is_bounded(&self) -> bool {
-        self.inner.pressure_is_bounded()
     }
 }
 

@@ -51,10 +51,6 @@ impl Axisymmetric for Sphere {
         x_m * x_m / self.radius_m
     }
 
-    fn contact_limit_m(&self) -> Option<f64> {
-        None
-    }
-
     fn has_bounded_pressure(&self) -> bool {
         true
     }

@@ -5,59 +5,37 @@ use nalgebra::{DMatrix, DVector};
 /// Relative to the largest.
 const SMALLEST_SINGULAR_VALUE: f64 = 1e-10;
 
+/// Past updates that it looks back on.
+const DEPTH: usize = 8;
+
 /// Differences of the last iterates and updates.
-pub(super) struct Anderson {
-    depth: usize,
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Anderson {
     iterate: Vec<f64>,
     update: Vec<f64>,
-    /// Columns, oldest first: change of the iterate, change of the update.
+    /// Oldest first: change of the iterate, change of the update.
     changes: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
 impl Anderson {
-    pub(super) fn new(depth: usize) -> Self {
-        Self {
-            depth,
-            iterate: Vec::new(),
-            update: Vec::new(),
-            changes: Vec::new(),
-        }
-    }
-
-    /// Everything it looks back on: iterate, update, then the changes of both in turn, oldest first.
-    pub(super) fn state(&self) -> Vec<Vec<f64>> {
-        let mut state = vec![self.iterate.clone(), self.update.clone()];
-        for (moved, changed) in &self.changes {
-            state.extend([moved.clone(), changed.clone()]);
-        }
-        state
-    }
-
-    /// Looks back on what [`Anderson::state`] gave. Without it, forgets everything.
-    pub(super) fn restore(&mut self, state: &[Vec<f64>]) {
-        self.reset();
-        if let [iterate, update, changes @ ..] = state {
-            self.iterate.clone_from(iterate);
-            self.update.clone_from(update);
-            let pairs = changes.chunks_exact(2);
-            self.changes
-                .extend(pairs.map(|pair| (pair[0].clone(), pair[1].clone())));
-        }
+    /// Whether it can look back on this number of variables.
+    pub(super) fn fits(&self, variables: usize) -> bool {
+        let changes = self.changes.iter().flat_map(|(a, b)| [a, b]);
+        let mut all = changes.chain([&self.iterate, &self.update]);
+        all.all(|vector| [0, variables].contains(&vector.len()))
     }
 
     /// Forgets everything: the next step is plain.
     pub(super) fn reset(&mut self) {
-        self.iterate.clear();
-        self.update.clear();
-        self.changes.clear();
+        *self = Self::default();
     }
 
     /// Moves `x` by the accelerated step, given its plain update `f`; `weights` are those of the entries in the least squares.
-    pub(super) fn advance(&mut self, x: &mut [f64], f: &[f64], weights: &[f64]) {
+    pub fn advance(&mut self, x: &mut [f64], f: &[f64], weights: &[f64]) {
         if !self.iterate.is_empty() {
             let moved = difference(x, &self.iterate);
             let changed = difference(f, &self.update);
-            if self.changes.len() == self.depth {
+            if self.changes.len() == DEPTH {
                 self.changes.remove(0);
             }
             self.changes.push((moved, changed));
@@ -131,7 +109,7 @@ mod tests {
 
     #[test]
     fn a_linear_map_of_dimension_three_is_solved_in_five_steps_although_it_diverges() {
-        let mut anderson = Anderson::new(5);
+        let mut anderson = Anderson::default();
         let mut x = vec![0.0; 3];
         for _ in 0..5 {
             let f = update(&x);
@@ -143,7 +121,7 @@ mod tests {
 
     #[test]
     fn after_a_reset_the_next_step_is_plain() {
-        let mut anderson = Anderson::new(5);
+        let mut anderson = Anderson::default();
         let mut x = vec![1.0, 2.0, 3.0];
         for _ in 0..3 {
             let f = update(&x);
@@ -159,7 +137,7 @@ mod tests {
 
     #[test]
     fn an_update_that_repeats_itself_does_not_break_the_step() {
-        let mut anderson = Anderson::new(4);
+        let mut anderson = Anderson::default();
         let mut x = vec![0.0; 3];
         for _ in 0..4 {
             anderson.advance(&mut x, &[1.0, 0.0, 0.0], &[1.0; 3]);

@@ -59,25 +59,11 @@ pub struct SearchState {
     /// The best memory so far: its distance, itself, its update.
     pub best: (f64, Vec<f64>, Vec<f64>),
     /// What the acceleration looks back on.
-    pub anderson: Vec<Vec<f64>>,
+    pub anderson: Anderson,
     /// Cycles since the best, and how often the search went back to it.
     pub since_best: (usize, usize),
     pub cycles: usize,
     pub distance: f64,
-}
-
-impl SearchState {
-    /// Whether this can be a state with this number of memory variables.
-    fn fits(&self, variables: usize) -> bool {
-        let (since_best, setbacks) = self.since_best;
-        if since_best.max(setbacks) > self.cycles {
-            return false;
-        }
-        let vectors = [&self.start, &self.best.1, &self.best.2];
-        let anderson = self.anderson.iter().filter(|v| !v.is_empty());
-        let mut all = vectors.into_iter().chain(anderson);
-        all.all(|vector| vector.len() == variables)
-    }
 }
 
 /// Looks over a search.
@@ -87,9 +73,6 @@ pub struct Watch<'a> {
     /// Told before every cycle but the first; what it is handed makes the state.
     pub between_cycles: &'a dyn Fn(&dyn Fn() -> SearchState),
 }
-
-/// Past updates that the acceleration looks back on.
-const DEPTH: usize = 8;
 
 /// Cycles that may pass without a better memory before the acceleration starts anew from the best: at the edge of a strongly
 /// relaxing contact cells come and go between cycles, and what was learned of them leads in circles.
@@ -137,56 +120,62 @@ pub fn find_from(
         &remaining,
         march.loads_per_nodal_pressure(),
     );
-    let mut search = Search::begin(march, cycle, begin)?;
+    let mut search = SearchState::begin(march, cycle, begin)?;
+    let mut converged = false;
     let nodes = march.pressure().len();
     let mut run = Run::new(march, cycle, &remaining);
     let mut update = vec![0.0; search.start.len()];
     let weights = correction.weights(nodes);
     let keep_mean_load = matches!(cycle.mean, Prescribed::LoadN(_));
-    while search.steady.cycles < settings.max_cycles {
-        if search.steady.cycles > 0 {
-            (watch.between_cycles)(&|| search.state(march));
+    while search.cycles < settings.max_cycles {
+        if search.cycles > 0 {
+            (watch.between_cycles)(&|| SearchState {
+                march: march.state(),
+                ..search.clone()
+            });
         }
         march.recall(&search.start);
         if !run.cycle(march, cycle, watch.stop)? {
             break;
         }
-        search.steady.cycles += 1;
+        search.cycles += 1;
         let end = march.memory().variables();
         remaining.change(&search.start, end, &run.mean, &mut update);
         let memory = remaining.distance(&update, nodes) / run.scale;
         let closure = cycle::closure_error(&run.load_n, &run.approach_m);
-        search.steady.distance = match closure {
+        search.distance = match closure {
             Some(closure) if memory.is_finite() => memory.max(closure),
             _ => f64::INFINITY,
         };
-        if search.steady.distance <= settings.tolerance {
-            search.steady.converged = true;
+        converged = search.distance <= settings.tolerance;
+        if converged {
             break;
         }
         correction.apply(&run.contact, keep_mean_load, &mut update);
         search.advance(memory, &update, &weights);
     }
-    Ok(search.steady)
+    Ok(Steady {
+        converged,
+        cycles: search.cycles,
+        distance: search.distance,
+    })
 }
 
-/// What a search carries from cycle to cycle.
-struct Search {
-    start: Vec<f64>,
-    /// The best memory so far: its distance, itself, its update.
-    best: (f64, Vec<f64>, Vec<f64>),
-    anderson: Anderson,
-    /// Cycles since the best, and how often the search went back to it.
-    since_best: (usize, usize),
-    steady: Steady,
-}
+impl SearchState {
+    /// Whether this can be a state with this number of memory variables.
+    fn fits(&self, variables: usize) -> bool {
+        let (since_best, setbacks) = self.since_best;
+        let vectors = [&self.start, &self.best.1, &self.best.2];
+        since_best.max(setbacks) <= self.cycles
+            && vectors.iter().all(|vector| vector.len() == variables)
+            && self.anderson.fits(variables)
+    }
 
-impl Search {
     fn begin(march: &mut March<'_>, cycle: &Cycle<'_>, begin: Begin) -> Result<Self, ContactError> {
         let variables = march.memory().variables().len();
         let memory = match begin {
             Begin::State(state) if state.fits(variables) && march.restore(&state.march) => {
-                return Ok(Self::resumed(*state));
+                return Ok(*state);
             }
             Begin::State(_) => None,
             Begin::Memory(memory) => memory,
@@ -199,44 +188,14 @@ impl Search {
             }
         };
         Ok(Self {
+            march: MarchState::default(),
             best: (f64::INFINITY, start.clone(), vec![0.0; start.len()]),
             start,
-            anderson: Anderson::new(DEPTH),
+            anderson: Anderson::default(),
             since_best: (0, 0),
-            steady: Steady {
-                converged: false,
-                cycles: 0,
-                distance: f64::INFINITY,
-            },
+            cycles: 0,
+            distance: f64::INFINITY,
         })
-    }
-
-    fn resumed(state: SearchState) -> Self {
-        let mut anderson = Anderson::new(DEPTH);
-        anderson.restore(&state.anderson);
-        Self {
-            start: state.start,
-            best: state.best,
-            anderson,
-            since_best: state.since_best,
-            steady: Steady {
-                converged: false,
-                cycles: state.cycles,
-                distance: state.distance,
-            },
-        }
-    }
-
-    fn state(&self, march: &March<'_>) -> SearchState {
-        SearchState {
-            start: self.start.clone(),
-            march: march.state(),
-            best: self.best.clone(),
-            anderson: self.anderson.state(),
-            since_best: self.since_best,
-            cycles: self.steady.cycles,
-            distance: self.steady.distance,
-        }
     }
 
     /// The memory to start the next cycle from, after one at distance `memory` that suggests `update`.

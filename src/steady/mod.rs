@@ -41,5 +41,6 @@ mod correction;
 mod iteration;
 mod remaining;
 
+pub use anderson::Anderson;
 pub use iteration::{Begin, Cycle, SearchState, Steady, SteadySettings, Watch, find, find_from};
 pub use remaining::{MeanPressure, Remaining};

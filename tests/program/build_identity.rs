@@ -115,7 +115,7 @@ fn whatever_may_make_another_number_makes_another_identity() {
         sources.with("src/sweep/record/mod.rs", |text| {
             text.replace("pub steps", "pub the_steps")
         }),
-        sources.with("src/steady/iteration.rs", |text| {
+        sources.with("src/steady/anderson.rs", |text| {
             text.replace("DEPTH: usize = 8", "DEPTH: usize = 9")
         }),
         sources.with("Cargo.lock", with_version_of("rustfft")),

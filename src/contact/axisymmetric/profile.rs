@@ -16,7 +16,7 @@
 
 use std::f64::consts::{FRAC_1_PI, FRAC_2_PI, FRAC_PI_2};
 
-use super::{Axisymmetric, Edge};
+use super::{Axisymmetric, Edge, Monotone};
 use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Along, CellSurface, PressureLine, RadialSurface, Response};
 
@@ -130,6 +130,8 @@ impl Axisymmetric {
     /// evenly spread along a pressure that falls to the edge as that of Hertz does; even ones where a rim bounds the contact, at
     /// which the pressure grows beyond all bounds.
     pub(super) fn pressure_line(&self, force: &[f64], contact_radius_m: f64) -> PressureLine {
+        let mut reported = Monotone::default();
+        let force = reported.of(force, &self.width_m);
         let ends_at_a_rim = self.edge == Edge::Rim && force.last().is_some_and(|&f| f > 0.0);
         let meridian = self.meridian_of_force(force, contact_radius_m);
         let intervals = if contact_radius_m > 0.0 { LINE } else { 0 };
@@ -194,8 +196,13 @@ impl Axisymmetric {
     }
 
     fn meridian(&self, response: &Response<'_>) -> Meridian {
+        let mut reported = Monotone::default();
+        let response = Response {
+            pressure: reported.of(response.pressure, &self.width_m),
+            ..*response
+        };
         Meridian {
-            shortening: self.shortening_stretches(response),
+            shortening: self.shortening_stretches(&response),
             ..self.meridian_of_force(response.pressure, response.contact_radius_m)
         }
     }

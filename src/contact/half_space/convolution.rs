@@ -9,16 +9,16 @@
 //! spectrum of `B` is real because `B` is even, is stored for half the frequencies, and carries the scale of the inverse
 //! transform; only the rows of the grid proper are transformed back.
 //!
-//! On a mirrored grid the transforms are cosine transforms of a quarter of the cells ([`mirrored_row`], [`mirrored_column`]).
+//! On a mirrored grid the transforms are cosine transforms of a quarter of the cells ([`mirrored`]).
 //!
 //! A [`Convolution`] is immutable and shared between threads, a [`Scratch`] belongs to one thread. A result depends on
 //! the pressure alone, never on what the scratch held before.
 
 mod even_column;
 mod length;
-mod mirrored_column;
-mod mirrored_row;
+mod mirrored;
 mod padded_row;
+mod period;
 mod periodic_row;
 mod shared;
 mod spectral;
@@ -35,11 +35,11 @@ use super::influence::Influence;
 use super::layer::{Layer, LayerInfluence};
 use even_column::EvenColumn;
 pub(super) use length::window_length;
-use mirrored_column::MirroredColumn;
-use mirrored_row::MirroredRow;
+use mirrored::{MirroredColumn, MirroredRow};
 use padded_row::PaddedRow;
+pub use period::PeriodicOperator;
 pub use spectral::Scratch;
-use spectral::{Column, Product, Shape, SpectralProduct};
+use spectral::{Column, SpectralProduct};
 pub use window::{Preconditioner, WindowOperators};
 
 /// Why a convolution cannot be set up or applied.
@@ -66,11 +66,6 @@ pub enum ConvolutionError {
         /// Cells of the grid.
         expected: usize,
     },
-    /// The scratch was made for a grid of another shape.
-    #[error(
-        "cannot use scratch space made for another grid: take it from `Convolution::scratch` of the convolution in use"
-    )]
-    ForeignScratch,
     /// A Fourier transform refused the buffers planned for it.
     #[error(
         "cannot transform a row of the padded grid with the buffers planned for it: this is a defect of the program, \
@@ -84,7 +79,7 @@ pub struct Convolution {
     grid: Grid,
     /// The layer that the grid lies on, where it is no half-space.
     layer: Option<Arc<LayerInfluence>>,
-    product: Box<dyn Product>,
+    product: SpectralProduct,
     /// Operators of windows of this grid, by their cells along x and y, built when first asked for.
     windows: Mutex<Vec<Window>>,
     /// The operator of cells twice as long, built when first asked for.
@@ -134,14 +129,9 @@ impl Convolution {
 
     /// Work space, for one thread that asks and those of its pool that help it.
     pub fn scratch(&self) -> Scratch {
-        let mut scratch = Scratch::empty();
+        let mut scratch = Scratch::default();
         self.product.fit(&mut scratch);
         scratch
-    }
-
-    /// Makes work space of any shape fit this grid; allocates only what it never held before.
-    pub fn fit(&self, scratch: &mut Scratch) {
-        self.product.fit(scratch);
     }
 
     /// Bytes of the spectra, those of windows and coarser grids included.
@@ -193,27 +183,22 @@ impl Convolution {
     }
 
     /// Displacement of every cell's centre, in m per 1/Pa of contact compliance, by `pressure` (Pa), both row by row
-    /// over [`Convolution::grid`]. Allocates nothing. Rows without load above and below the loaded ones cost nothing.
+    /// over [`Convolution::grid`]. The scratch is made to fit, which allocates only what it never held before. Rows without load
+    /// above and below the loaded ones cost nothing.
     ///
     /// The rounding error is a few units in the last place of the largest displacement. On one machine the result is the
     /// same to the last bit for the same pressure; another processor may round differently.
     ///
     /// # Errors
-    /// [`ConvolutionError`] if a slice does not have one value per cell or the scratch belongs to another shape of grid.
-    /// `displacement` is then untouched.
+    /// [`ConvolutionError`] if a slice does not have one value per cell. `displacement` is then untouched.
     pub fn apply(
         &self,
         pressure: &[f64],
         displacement: &mut [f64],
         scratch: &mut Scratch,
     ) -> Result<(), ConvolutionError> {
-        let shape = self.product.shape();
-        check_lengths(shape, pressure, displacement)?;
-        if scratch.shape != *shape {
-            return Err(ConvolutionError::ForeignScratch);
-        }
-        let rows = 0..shape.cells_y;
-        Ok(self.product.apply(pressure, displacement, rows, scratch)?)
+        let rows = 0..self.grid.cells_y();
+        self.product.apply(pressure, displacement, rows, scratch)
     }
 }
 
@@ -221,7 +206,7 @@ impl Convolution {
 fn free_space(
     grid: &Grid,
     layer: Option<Arc<LayerInfluence>>,
-) -> Result<Box<dyn Product>, FftError> {
+) -> Result<SpectralProduct, FftError> {
     let influence = Influence::on(grid, layer);
     if grid.is_mirrored() {
         let (x, y) = (2 * grid.cells_x(), 2 * grid.cells_y());
@@ -229,8 +214,8 @@ fn free_space(
     }
     let row = PaddedRow::new(grid.cells_x());
     let column = EvenColumn::new(length::fast_column(2 * grid.cells_y() - 1));
-    let spectrum = even_column::columns(&influence, &row, column.length())?;
-    Ok(Box::new(SpectralProduct::new(grid, row, column, spectrum)))
+    let spectrum = even_column::spectrum(&influence, &row, column.length(), |_, value| value)?;
+    Ok(SpectralProduct::new(grid, row, column, spectrum))
 }
 
 /// The product with a function of frequency and spectrum of the influence coefficients on a mirrored grid, filled up with zeros to at
@@ -240,11 +225,11 @@ fn mirrored(
     influence: &Influence,
     (cells_x, cells_y): (usize, usize),
     function: impl Fn((usize, usize), f64) -> f64,
-) -> Result<Box<dyn Product>, FftError> {
+) -> Result<SpectralProduct, FftError> {
     let row = MirroredRow::new(2 * length::fast_row_half(cells_x));
     let column = MirroredColumn::new(2 * length::fast_row_half(cells_y));
-    let spectrum = mirrored_column::spectrum(influence, &row, &column, function)?;
-    Ok(Box::new(SpectralProduct::new(grid, row, column, spectrum)))
+    let spectrum = mirrored::spectrum(influence, &row, &column, function)?;
+    Ok(SpectralProduct::new(grid, row, column, spectrum))
 }
 
 /// Bytes that the operator of a grid takes with all that belongs to it: spectra with and without padding, those of coarser
@@ -283,24 +268,6 @@ pub fn predicted_memory_bytes(grid: &Grid, branches: usize) -> u64 {
     let fields = (FIELDS + branches as f64) * field;
     let operator = predicted_bytes(grid) as f64;
     (fields + operator) as u64
-}
-
-/// Refuses fields that do not have one value per cell.
-fn check_lengths(
-    shape: &Shape,
-    pressure: &[f64],
-    displacement: &[f64],
-) -> Result<(), ConvolutionError> {
-    let expected = shape.cells();
-    if pressure.len() != expected {
-        let found = pressure.len();
-        return Err(ConvolutionError::PressureLength { found, expected });
-    }
-    if displacement.len() != expected {
-        let found = displacement.len();
-        return Err(ConvolutionError::DisplacementLength { found, expected });
-    }
-    Ok(())
 }
 
 impl fmt::Debug for Convolution {
@@ -504,8 +471,8 @@ mod tests {
             let (quarter, field, whole, unfolded) = quarter_and_whole(shape);
             let applied = |grid: &Grid, field: &[f64]| {
                 let mut image = vec![0.0; grid.cells()];
-                let mut scratch = Scratch::empty();
-                Preconditioner::new(grid)
+                let mut scratch = Scratch::default();
+                Preconditioner::on(grid, None)
                     .unwrap()
                     .apply(field, &mut image, 0..grid.cells_y(), &mut scratch)
                     .unwrap();
@@ -708,7 +675,7 @@ mod tests {
     }
 
     #[test]
-    fn wrong_lengths_and_a_foreign_scratch_are_refused() {
+    fn wrong_lengths_are_refused_and_a_foreign_scratch_is_made_to_fit() {
         let convolution = convolution((8, 6, 1.0, 1.0));
         let mut scratch = convolution.scratch();
         let mut u = vec![7.0; 48];
@@ -726,15 +693,14 @@ mod tests {
                 expected: 48
             })
         ));
-        let mut foreign = self::convolution((6, 8, 1.0, 1.0)).scratch();
-        assert!(matches!(
-            convolution.apply(&[1.0; 48], &mut u, &mut foreign),
-            Err(ConvolutionError::ForeignScratch)
-        ));
         assert!(u.iter().all(|&u| u == 7.0));
+        let expected = bits(&displacement(&convolution, &[1.0; 48]));
         // Spacing is no part of the shape: scratch space may be shared between grids of the same numbers of cells.
-        let mut finer = self::convolution((8, 6, 0.5, 0.5)).scratch();
-        assert!(convolution.apply(&[1.0; 48], &mut u, &mut finer).is_ok());
+        for shape in [(6, 8, 1.0, 1.0), (8, 6, 0.5, 0.5), (3, 70, 1.0, 1.0)] {
+            let mut foreign = self::convolution(shape).scratch();
+            convolution.apply(&[1.0; 48], &mut u, &mut foreign).unwrap();
+            assert_eq!(bits(&u), expected, "{shape:?}");
+        }
     }
 
     #[test]

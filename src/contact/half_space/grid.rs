@@ -10,6 +10,8 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use crate::contact::surface::{Along, PressureLine};
+
 /// Most cells a grid may have: 2^26, that is 8192 x 8192, whose fields take 0.5 GiB each.
 pub const MAX_CELLS: usize = 1 << 26;
 
@@ -72,15 +74,8 @@ type Parts = (usize, usize, f64, f64, bool);
 
 impl From<Grid> for Parts {
     fn from(grid: Grid) -> Self {
-        let spacings_m = (grid.spacing_x_m, grid.spacing_y_m);
-        let mirrored = grid.mirrored;
-        (
-            grid.cells_x,
-            grid.cells_y,
-            spacings_m.0,
-            spacings_m.1,
-            mirrored,
-        )
+        let (x_m, y_m) = (grid.spacing_x_m, grid.spacing_y_m);
+        (grid.cells_x, grid.cells_y, x_m, y_m, grid.mirrored)
     }
 }
 
@@ -241,25 +236,33 @@ impl Grid {
     /// value there. Those are of the two rows beside the x axis; one and the same where a row lies on it, or mirrors the other.
     pub fn centre_row(&self) -> Vec<(f64, [usize; 2])> {
         let whole = self.whole();
-        let place = |ix| {
-            (
-                whole.x_m(ix),
-                middle(whole.cells_y).map(|iy| self.cell_at(ix, iy)),
-            )
-        };
+        let rows = middle(whole.cells_y);
+        let place = |ix| (whole.x_m(ix), rows.map(|iy| self.cell_at(ix, iy)));
         (0..whole.cells_x).map(place).collect()
     }
 
     /// The column through the centre, as [`Grid::centre_row`]: y (m) of each place.
     pub fn centre_column(&self) -> Vec<(f64, [usize; 2])> {
         let whole = self.whole();
-        let place = |iy| {
-            (
-                whole.y_m(iy),
-                middle(whole.cells_x).map(|ix| self.cell_at(ix, iy)),
-            )
-        };
+        let columns = middle(whole.cells_x);
+        let place = |iy| (whole.y_m(iy), columns.map(|ix| self.cell_at(ix, iy)));
         (0..whole.cells_y).map(place).collect()
+    }
+
+    /// The pressure of a field along the row and along the column through the centre.
+    pub(in super::super) fn pressure_lines(&self, pressure: &[f64]) -> Vec<PressureLine> {
+        let lines = [
+            (Along::X, self.centre_row()),
+            (Along::Y, self.centre_column()),
+        ];
+        let mean = |(_, [a, b]): &(f64, [usize; 2])| Some(0.5 * (pressure[*a] + pressure[*b]));
+        lines
+            .map(|(along, places)| PressureLine {
+                along,
+                position_m: places.iter().map(|(position_m, _)| *position_m).collect(),
+                pressure_pa: places.iter().map(mean).collect(),
+            })
+            .into()
     }
 
     /// The cell of this grid that holds the value of a cell of [`Grid::whole`].

@@ -21,14 +21,16 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use active_set::{ActiveSet, Scratches, Work};
-use frame::{Bounds, Frame};
+use frame::Frame;
 use outside::OutsideGapBound;
 use polonsky_keer::{Given, PolonskyKeer};
 use windows::Windows;
 
 use super::convolution::{Convolution, ConvolutionError};
-use crate::contact::surface::{Along, CellSurface, PressureLine, Response, Surface};
-use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution, sums};
+use crate::contact::surface::{PressureLine, Response, Surface};
+use crate::contact::{
+    ContactError, Engine, Instant, Prescribed, Solution, highest, sums, surface_of_cells,
+};
 
 /// When the iteration stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -133,7 +135,7 @@ impl HalfSpace {
             fast_steps: usize::MAX,
             end_of_data: Vec::new(),
             fields: ActiveSet::default(),
-            scratches: Scratches::new(),
+            scratches: Scratches::default(),
             history: Vec::new(),
             source: Vec::new(),
             lift_m: Vec::new(),
@@ -204,13 +206,9 @@ impl HalfSpace {
             let row = windows.source.cells_x;
             part.add_scaled(&self.fields.pressure, compliance_per_pa, row, &mut source);
             let mut sources = vec![0.0; grid.cells()];
-            windows
-                .source
-                .scatter(&source, grid.cells_x(), &mut sources);
-            let mut scratch = self.operator.scratch();
-            let applied = self
-                .operator
-                .apply(&sources, &mut displacement_m, &mut scratch);
+            (windows.source).scatter(&source, grid.cells_x(), &mut sources);
+            let (operator, mut scratch) = (&self.operator, self.operator.scratch());
+            let applied = operator.apply(&sources, &mut displacement_m, &mut scratch);
             debug_assert!(applied.is_ok(), "fields of the grid's size");
         }
         displacement_m.into_iter()
@@ -225,10 +223,9 @@ impl HalfSpace {
         work: &mut Work,
     ) -> Result<Found, ContactError> {
         self.safeguarded += 1;
-        let mut safeguard = match self.safeguard.take() {
-            Some(safeguard) => safeguard,
-            None => Box::new(PolonskyKeer::new(&self.operator)),
-        };
+        let cells = self.gap_m.len();
+        let new = || Box::new(PolonskyKeer::new(cells));
+        let safeguard = self.safeguard.get_or_insert_with(new);
         safeguard.convolutions = 0;
         let given = Given {
             operator: &self.operator,
@@ -240,7 +237,6 @@ impl HalfSpace {
         };
         let solved = safeguard.solve(&given, instant.history, pressure, work.steps);
         work.convolutions += safeguard.convolutions;
-        self.safeguard = Some(safeguard);
         let found = match solved? {
             None => {
                 pressure.fill(0.0);
@@ -280,14 +276,12 @@ impl HalfSpace {
 
     /// Whether any cell on the border of the grid or of the data carries pressure; the axes of a mirrored grid are no border.
     fn touches_edge(&self, pressure: &[f64]) -> bool {
-        let (nx, ny) = (
-            self.operator.grid().cells_x(),
-            self.operator.grid().cells_y(),
-        );
+        let grid = self.operator.grid();
+        let (nx, ny) = (grid.cells_x(), grid.cells_y());
         let row = |iy: usize| (0..nx).any(|ix| pressure[iy * nx + ix] > 0.0);
         let column = |ix: usize| (0..ny).any(|iy| pressure[iy * nx + ix] > 0.0);
-        let axes = self.operator.grid().is_mirrored();
-        let border = row(ny - 1) || column(nx - 1) || (!axes && (row(0) || column(0)));
+        let first = !grid.is_mirrored() && (row(0) || column(0));
+        let border = row(ny - 1) || column(nx - 1) || first;
         border || self.end_of_data.iter().any(|&cell| pressure[cell] > 0.0)
     }
 
@@ -300,20 +294,17 @@ impl HalfSpace {
     ) -> Result<Found, ContactError> {
         pressure.fill(0.0);
         let grid = *self.operator.grid();
-        let history = Bounds::of(instant.history, grid.cells_x());
+        let history = Frame::of(instant.history, grid.cells_x());
         let window = match &history {
-            Some(bounds) => Frame::with_room(bounds, &grid),
+            Some(loaded) => Frame::with_room(loaded, &grid),
             None => Frame::whole(&grid),
         };
-        self.enter(instant, window, history, pressure);
-        self.lift_gap(instant.compliance_per_pa)?;
+        let windows = self.enter(instant, window, history, pressure);
+        self.lift_gap(windows, instant.compliance_per_pa)?;
         work.convolutions += 1;
-        let mut approach_m = sums::least_of(&self.fields.gap_m, |gap| gap);
-        if window != Frame::whole(&grid) && !self.is_clear_beyond(window, window, approach_m) {
-            let mut gap_m = vec![0.0; grid.cells()];
-            self.whole_gap(window, &mut gap_m)?;
-            work.convolutions += 1;
-            approach_m = sums::least_of(&gap_m, |gap| gap);
+        let mut approach_m = sums::least(&self.fields.gap_m);
+        if window != Frame::whole(&grid) && !self.is_clear_beyond(windows, approach_m) {
+            approach_m = sums::least(&self.whole_gap(windows, work)?);
         }
         Ok(Found {
             approach_m,
@@ -424,8 +415,7 @@ impl Engine for HalfSpace {
         pressure: &[f64],
         _solution: &Solution,
     ) -> Result<Option<f64>, ContactError> {
-        let peak = pressure.iter().copied().fold(0.0, f64::max);
-        Ok(self.bounded_pressure.then_some(peak))
+        Ok(self.bounded_pressure.then(|| highest(pressure)))
     }
 
     fn tangent_radius_m(
@@ -440,19 +430,7 @@ impl Engine for HalfSpace {
     }
 
     fn pressure_lines(&self, pressure: &[f64], _solution: &Solution) -> Vec<PressureLine> {
-        let grid = self.operator.grid();
-        let line = |along, places: Vec<(f64, [usize; 2])>| PressureLine {
-            along,
-            position_m: places.iter().map(|(position_m, _)| *position_m).collect(),
-            pressure_pa: places
-                .iter()
-                .map(|(_, [a, b])| Some(0.5 * (pressure[*a] + pressure[*b])))
-                .collect(),
-        };
-        vec![
-            line(Along::X, grid.centre_row()),
-            line(Along::Y, grid.centre_column()),
-        ]
+        self.operator.grid().pressure_lines(pressure)
     }
 
     fn elastic_displacement(
@@ -461,7 +439,6 @@ impl Engine for HalfSpace {
         displacement: &mut [f64],
     ) -> Result<usize, ContactError> {
         let scratch = &mut self.scratches.convolution;
-        self.operator.fit(scratch);
         self.operator.apply(pressure, displacement, scratch)?;
         self.convolutions += 1;
         Ok(1)
@@ -476,21 +453,7 @@ impl Engine for HalfSpace {
     }
 
     fn surface(&mut self, response: &Response<'_>) -> Result<Surface, ContactError> {
-        let nodes = response.pressure.iter().zip(response.history);
-        let hereditary: Vec<f64> = nodes
-            .map(|(p, h)| response.compliance_per_pa * p + h)
-            .collect();
-        let mut displacement_m = vec![0.0; self.gap_m.len()];
-        let scratch = &mut self.scratches.convolution;
-        self.operator.fit(scratch);
-        self.operator
-            .apply(&hereditary, &mut displacement_m, scratch)?;
-        self.convolutions += 1;
-        let grid = self.operator.grid();
-        Ok(Surface::Cells(CellSurface {
-            grid: grid.whole(),
-            pressure_pa: grid.unfolded(response.pressure),
-            displacement_m: grid.unfolded(&displacement_m),
-        }))
+        let grid = *self.operator.grid();
+        surface_of_cells(self, &grid, response)
     }
 }

@@ -162,6 +162,7 @@ mod tests {
     use super::*;
     use crate::contact::Solution;
     use crate::history::Work;
+    use crate::steady::Anderson;
 
     fn march() -> MarchState {
         MarchState {
@@ -192,11 +193,14 @@ mod tests {
             condition: crate::sweep::plan::tests::condition(),
         };
         let checkpoints = || Checkpoints::of(&store, Purpose::Sweep, &case, Duration::ZERO);
+        let mut anderson = Anderson::default();
+        anderson.advance(&mut [0.1, 0.2], &[1e-300, 5.0], &[1.0, 1.0]);
+        anderson.advance(&mut [0.2, 0.4], &[0.3, 4.0], &[1.0, 1.0]);
         let searching = LevelState::Searching(Box::new(SearchState {
             start: vec![0.1, 0.2],
             march: march(),
             best: (f64::INFINITY, vec![1.0, 2.0], vec![3.0, 4.0]),
-            anderson: vec![vec![], vec![1e-300], vec![5.0], vec![6.0]],
+            anderson,
             since_best: (2, 1),
             cycles: 3,
             distance: f64::INFINITY,

@@ -7,7 +7,7 @@
 //! transforms are linear; the instant under way is then solved on the wider domain.
 
 use crate::contact::half_space::grid::Grid;
-use crate::history::{Hereditary, StepState};
+use crate::history::{Extrapolation, Hereditary, StepState};
 use crate::indenter::Indenter;
 
 /// Where the nodes of an engine are.
@@ -140,9 +140,7 @@ pub(in crate::sweep) fn moved<M: Hereditary>(
         guess: fields(&state.guess),
         history: fields(&state.history),
         // Guesses start anew.
-        course: state
-            .course
-            .map(|_| vec![Vec::new(), Vec::new(), vec![0.0; 3]]),
+        course: state.course.map(|_| Extrapolation::default()),
         ..state
     }
 }

@@ -127,6 +127,7 @@ mod tests {
     use crate::contact::Solution;
     use crate::contact::half_space::grid::Grid;
     use crate::contact::surface::{CellSurface, RadialSurface};
+    use crate::history::Extrapolation;
     use crate::history::Work;
     use crate::sweep::history::HistoryRow;
     use crate::sweep::store::checkpoint_file;
@@ -142,6 +143,8 @@ mod tests {
     }
 
     fn state() -> HistoryState<'static> {
+        let mut looking_back = Extrapolation::default();
+        looking_back.guess(0.5, &mut [5.0]);
         let radial = SurfaceRecord {
             row: row(2.0),
             surface: Surface::Radial(RadialSurface {
@@ -177,7 +180,7 @@ mod tests {
                 memory: vec![vec![1.0, 2.0], Vec::new()],
                 guess: vec![3.0],
                 history: vec![4.0],
-                course: Some(vec![vec![5.0]]),
+                course: Some(looking_back),
                 solution: Some(Solution {
                     load_n: 1.0,
                     approach_m: 2.0,

@@ -20,23 +20,25 @@ pub(super) trait FrequencyPerBin: Row {
     fn frequency_and_weight(&self, bin: usize) -> (usize, f64);
 }
 
-/// The spectrum in the order in which an [`EvenColumn`] uses it: for every bin of `row`, the
+/// A function of frequency and scaled spectrum in the order in which an [`EvenColumn`] uses it: for every bin of `row`, the
 /// frequencies `0..=column_length / 2` along the column, scaled so that the inverse transforms need no scaling of their own.
-pub(super) fn columns(
+pub(super) fn spectrum(
     influence: &Influence,
     row: &impl FrequencyPerBin,
     column_length: usize,
+    function: impl Fn((usize, usize), f64) -> f64,
 ) -> Result<Vec<f64>, FftError> {
     let mut kernel = Kernel::new(influence, row.period(), column_length)?;
-    let column_half = column_length / 2 + 1;
-    let mut columns = vec![0.0; row.bins() * column_half];
-    for (bin, spectrum) in columns.chunks_exact_mut(column_half).enumerate() {
+    let mut column = vec![0.0; column_length / 2 + 1];
+    let mut spectrum = Vec::with_capacity(row.bins() * column.len());
+    for bin in 0..row.bins() {
         let (frequency, weight) = row.frequency_and_weight(bin);
-        kernel.column(frequency, spectrum)?;
+        kernel.column(frequency, &mut column)?;
         let scale = weight / (row.period() as f64 * column_length as f64);
-        spectrum.iter_mut().for_each(|value| *value *= scale);
+        let values = column.iter().enumerate();
+        spectrum.extend(values.map(|(l, value)| function((frequency, l), value * scale)));
     }
-    Ok(columns)
+    Ok(spectrum)
 }
 
 /// The influence coefficients, transformed along x.
@@ -148,11 +150,6 @@ impl Column for EvenColumn {
 
     fn period(&self) -> usize {
         self.length
-    }
-
-    /// The frequencies up to half the length.
-    fn kernel_length(&self) -> usize {
-        self.length / 2 + 1
     }
 
     fn work_length(&self) -> usize {

@@ -15,19 +15,20 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 use num_complex::Complex;
-use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
+use realfft::FftError;
 use rustfft::{Fft, FftPlanner};
 
 use super::even_column::FrequencyPerBin;
 use super::length::fast_row_half;
+use super::periodic_row::{PeriodicRow, fill_up};
 use super::spectral::Row;
 
 /// Plans for rows of one length. Immutable; buffers are the caller's.
 pub(super) struct PaddedRow {
     /// A quarter of the padded length, `m/2`.
     quarter: usize,
-    even_forward: Arc<dyn RealToComplex<f64>>,
-    even_inverse: Arc<dyn ComplexToReal<f64>>,
+    /// Of the unpadded row.
+    even: PeriodicRow,
     odd_forward: Arc<dyn Fft<f64>>,
     odd_inverse: Arc<dyn Fft<f64>>,
     /// `w^j` for `j < m/2`.
@@ -38,14 +39,11 @@ impl PaddedRow {
     /// Plans for rows of `cells` values, padded to at least twice that.
     pub(super) fn new(cells: usize) -> Self {
         let quarter = fast_row_half(cells);
-        let half = 2 * quarter;
-        let mut real = RealFftPlanner::new();
         let mut complex = FftPlanner::new();
-        let angle = -PI / half as f64;
+        let angle = -PI / (2 * quarter) as f64;
         Self {
             quarter,
-            even_forward: real.plan_fft_forward(half),
-            even_inverse: real.plan_fft_inverse(half),
+            even: PeriodicRow::of_period(2 * quarter),
             odd_forward: complex.plan_fft_forward(quarter),
             odd_inverse: complex.plan_fft_inverse(quarter),
             twist: (0..quarter)
@@ -73,9 +71,7 @@ impl Row for PaddedRow {
 
     /// Length of the work space of the transforms.
     fn work_length(&self) -> usize {
-        self.even_forward
-            .get_scratch_len()
-            .max(self.even_inverse.get_scratch_len())
+        (self.even.work_length())
             .max(self.odd_forward.get_inplace_scratch_len())
             .max(self.odd_inverse.get_inplace_scratch_len())
     }
@@ -88,17 +84,14 @@ impl Row for PaddedRow {
         buffer: &mut [f64],
         work: &mut [Complex<f64>],
     ) -> Result<(), FftError> {
-        let (given, beyond) = buffer.split_at_mut(row.len());
-        given.copy_from_slice(row);
-        beyond.fill(0.0);
+        fill_up(row, buffer);
         let (even, odd) = bins.split_at_mut(self.quarter + 1);
         let (first, second) = buffer.split_at(self.quarter);
         for (((z, a), b), w) in odd.iter_mut().zip(first).zip(second).zip(&self.twist) {
             *z = Complex::new(a * w.re + b * w.im, a * w.im - b * w.re);
         }
         self.odd_forward.process_with_scratch(odd, work);
-        let work = &mut work[..self.even_forward.get_scratch_len()];
-        self.even_forward.process_with_scratch(buffer, even, work)
+        self.even.bins_of(buffer, even, work)
     }
 
     /// Transforms `bins`, which it overwrites, back into `row`. The sum over frequencies is not divided by their number,
@@ -111,13 +104,7 @@ impl Row for PaddedRow {
         work: &mut [Complex<f64>],
     ) -> Result<(), FftError> {
         let (even, odd) = bins.split_at_mut(self.quarter + 1);
-        // Real by symmetry; the transform refuses what rounding leaves there.
-        for real in [0, self.quarter] {
-            even[real].im = 0.0;
-        }
-        let even_work = &mut work[..self.even_inverse.get_scratch_len()];
-        self.even_inverse
-            .process_with_scratch(even, buffer, even_work)?;
+        self.even.period_of(even, buffer, work)?;
         self.odd_inverse.process_with_scratch(odd, work);
 
         let (row_first, row_second) = row.split_at_mut(self.quarter.min(row.len()));

@@ -11,36 +11,73 @@ use super::spectral::Row;
 
 /// Plans for rows of one length. Immutable; buffers are the caller's.
 pub(super) struct PeriodicRow {
-    /// Half the period.
-    half: usize,
+    period: usize,
     forward: Arc<dyn RealToComplex<f64>>,
     inverse: Arc<dyn ComplexToReal<f64>>,
 }
 
 impl PeriodicRow {
-    /// Plans for rows of `cells` values.
+    /// Plans for rows of `cells` values, and what it takes for a period of which transforms run fast.
     pub(super) fn new(cells: usize) -> Self {
-        let half = fast_row_half(cells);
+        Self::of_period(2 * fast_row_half(cells))
+    }
+
+    /// Plans for rows that repeat after so many values.
+    pub(super) fn of_period(period: usize) -> Self {
         let mut planner = RealFftPlanner::new();
         Self {
-            half,
-            forward: planner.plan_fft_forward(2 * half),
-            inverse: planner.plan_fft_inverse(2 * half),
+            period,
+            forward: planner.plan_fft_forward(period),
+            inverse: planner.plan_fft_inverse(period),
         }
     }
+
+    /// Transforms a period, which it overwrites, into its frequencies.
+    pub(super) fn bins_of(
+        &self,
+        period: &mut [f64],
+        bins: &mut [Complex<f64>],
+        work: &mut [Complex<f64>],
+    ) -> Result<(), FftError> {
+        let work = &mut work[..self.forward.get_scratch_len()];
+        self.forward.process_with_scratch(period, bins, work)
+    }
+
+    /// Transforms frequencies, which it overwrites, back into a period.
+    pub(super) fn period_of(
+        &self,
+        bins: &mut [Complex<f64>],
+        period: &mut [f64],
+        work: &mut [Complex<f64>],
+    ) -> Result<(), FftError> {
+        // Real by symmetry; the transform refuses what rounding leaves there.
+        bins[0].im = 0.0;
+        if self.period.is_multiple_of(2) {
+            bins[self.period / 2].im = 0.0;
+        }
+        let work = &mut work[..self.inverse.get_scratch_len()];
+        self.inverse.process_with_scratch(bins, period, work)
+    }
+}
+
+/// A row, and zeros beyond it.
+pub(super) fn fill_up(row: &[f64], buffer: &mut [f64]) {
+    let (given, beyond) = buffer.split_at_mut(row.len());
+    given.copy_from_slice(row);
+    beyond.fill(0.0);
 }
 
 impl Row for PeriodicRow {
     fn period(&self) -> usize {
-        2 * self.half
+        self.period
     }
 
     fn bins(&self) -> usize {
-        self.half + 1
+        self.period / 2 + 1
     }
 
     fn buffer_length(&self) -> usize {
-        2 * self.half
+        self.period
     }
 
     fn work_length(&self) -> usize {
@@ -55,11 +92,8 @@ impl Row for PeriodicRow {
         buffer: &mut [f64],
         work: &mut [Complex<f64>],
     ) -> Result<(), FftError> {
-        let (given, beyond) = buffer.split_at_mut(row.len());
-        given.copy_from_slice(row);
-        beyond.fill(0.0);
-        let work = &mut work[..self.forward.get_scratch_len()];
-        self.forward.process_with_scratch(buffer, bins, work)
+        fill_up(row, buffer);
+        self.bins_of(buffer, bins, work)
     }
 
     fn inverse(
@@ -69,12 +103,7 @@ impl Row for PeriodicRow {
         buffer: &mut [f64],
         work: &mut [Complex<f64>],
     ) -> Result<(), FftError> {
-        // Real by symmetry; the transform refuses what rounding leaves there.
-        for real in [0, self.half] {
-            bins[real].im = 0.0;
-        }
-        let work = &mut work[..self.inverse.get_scratch_len()];
-        self.inverse.process_with_scratch(bins, buffer, work)?;
+        self.period_of(bins, buffer, work)?;
         row.copy_from_slice(&buffer[..row.len()]);
         Ok(())
     }

@@ -13,6 +13,7 @@ use num_complex::Complex;
 use realfft::FftError;
 
 use super::super::grid::Grid;
+use super::ConvolutionError;
 use super::length::conflict_free_stride;
 use super::shared::{self, Panels, in_parts};
 
@@ -64,9 +65,6 @@ pub(super) trait Column: Send + Sync {
     /// Length after which a column repeats.
     fn period(&self) -> usize;
 
-    /// Numbers of the spectrum that belong to one column.
-    fn kernel_length(&self) -> usize;
-
     /// Length of the work space.
     fn work_length(&self) -> usize;
 
@@ -82,34 +80,11 @@ pub(super) trait Column: Send + Sync {
     );
 }
 
-/// A product ready to be applied.
-pub(super) trait Product: Send + Sync {
-    fn shape(&self) -> &Shape;
-
-    /// Length of the period along x and y.
-    fn periods(&self) -> (usize, usize);
-
-    fn spectrum(&self) -> &[f64];
-
-    /// Makes work space of any shape fit, for the threads there are. Allocates only what it never held before.
-    fn fit(&self, scratch: &mut Scratch);
-
-    /// The product of the spectrum with `field`, in the rows `wanted` of `image`; the other rows of `image` stay as they are.
-    /// The scratch must fit.
-    fn apply(
-        &self,
-        field: &[f64],
-        image: &mut [f64],
-        wanted: Range<usize>,
-        scratch: &mut Scratch,
-    ) -> Result<(), FftError>;
-}
-
 /// Sizes of the transformed grid and of the buffers on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Shape {
-    pub(super) cells_x: usize,
-    pub(super) cells_y: usize,
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+struct Shape {
+    cells_x: usize,
+    cells_y: usize,
     /// Frequencies kept per row, that is columns.
     columns: usize,
     /// Length of a transformed column.
@@ -126,7 +101,7 @@ pub(super) struct Shape {
 
 impl Shape {
     /// So many columns of this length.
-    pub(super) fn new(grid: &Grid, columns: usize, column_length: usize) -> Self {
+    fn new(grid: &Grid, columns: usize, column_length: usize) -> Self {
         let rows = grid.cells_y().next_multiple_of(TILE);
         let panels = shared::panels(grid.cells());
         let panel_columns = columns.div_ceil(panels).next_multiple_of(BLOCK_COLUMNS);
@@ -142,7 +117,7 @@ impl Shape {
         }
     }
 
-    pub(super) fn cells(&self) -> usize {
+    fn cells(&self) -> usize {
         self.cells_x * self.cells_y
     }
 
@@ -152,10 +127,10 @@ impl Shape {
     }
 }
 
-/// Work space for one shape of grid; from [`super::Convolution::scratch`].
-#[derive(Clone)]
+/// Work space of one thread that asks and those of its pool that help it, empty until a product makes it fit its grid.
+#[derive(Clone, Default)]
 pub struct Scratch {
-    pub(super) shape: Shape,
+    shape: Shape,
     /// The transformed rows: panel by panel of columns, row by row in each.
     spectra: Vec<Complex<f64>>,
     /// One for every thread that may take part.
@@ -182,34 +157,14 @@ impl std::fmt::Debug for Scratch {
     }
 }
 
+#[cfg(test)]
 impl Scratch {
-    /// Work space that fits nothing yet.
-    pub(crate) fn empty() -> Self {
-        let nothing = Shape {
-            cells_x: 0,
-            cells_y: 0,
-            columns: 0,
-            column_length: 0,
-            panel_columns: 0,
-            row_stride: 0,
-            column_stride: 0,
-            rows: 0,
-        };
-        Self {
-            shape: nothing,
-            spectra: Vec::new(),
-            lanes: Vec::new(),
-        }
-    }
-
     /// How many threads may share a product that has it.
-    #[cfg(test)]
     pub(super) fn lanes(&self) -> usize {
         self.lanes.len()
     }
 
     /// Fills it with what no result may show.
-    #[cfg(test)]
     pub(super) fn spoil(&mut self) {
         let bad = Complex::new(f64::NAN, f64::INFINITY);
         self.spectra.fill(bad);
@@ -222,24 +177,91 @@ impl Scratch {
     }
 }
 
-/// Plans and spectrum.
-pub(super) struct SpectralProduct<R, C> {
+/// A product ready to be applied: plans and spectrum.
+pub(super) struct SpectralProduct {
     shape: Shape,
-    row: R,
-    column: C,
-    /// [`Column::kernel_length`] values for every bin of a row.
+    row: Box<dyn Row>,
+    column: Box<dyn Column>,
+    /// For every bin of a row, what its column is multiplied by.
     spectrum: Vec<f64>,
 }
 
-impl<R: Row, C: Column> SpectralProduct<R, C> {
+impl SpectralProduct {
     /// The product with this spectrum on this grid.
-    pub(super) fn new(grid: &Grid, row: R, column: C, spectrum: Vec<f64>) -> Self {
+    pub(super) fn new(
+        grid: &Grid,
+        row: impl Row + 'static,
+        column: impl Column + 'static,
+        spectrum: Vec<f64>,
+    ) -> Self {
         Self {
             shape: Shape::new(grid, row.bins(), column.length()),
-            row,
-            column,
+            row: Box::new(row),
+            column: Box::new(column),
             spectrum,
         }
+    }
+
+    /// Length of the period along x and y.
+    pub(super) fn periods(&self) -> (usize, usize) {
+        (self.row.period(), self.column.period())
+    }
+
+    pub(super) fn spectrum(&self) -> &[f64] {
+        &self.spectrum
+    }
+
+    /// Makes work space of any shape fit, for the threads there are. Allocates only what it never held before.
+    pub(super) fn fit(&self, scratch: &mut Scratch) {
+        let threads = shared::threads(self.shape.cells());
+        if scratch.shape == self.shape && scratch.lanes.len() == threads {
+            return;
+        }
+        let shape = self.shape;
+        scratch.shape = shape;
+        let panels = shape.columns.div_ceil(shape.panel_columns);
+        resize(&mut scratch.spectra, panels * shape.panel(), ZERO);
+        scratch.lanes.resize_with(threads, Lane::default);
+        let work = self.row.work_length().max(self.column.work_length());
+        for lane in &mut scratch.lanes {
+            resize(&mut lane.block, BLOCK_COLUMNS * shape.column_stride, ZERO);
+            resize(&mut lane.real, self.row.buffer_length(), 0.0);
+            resize(&mut lane.bins, shape.columns, ZERO);
+            resize(&mut lane.work, work, ZERO);
+        }
+    }
+
+    /// The product of the spectrum with `field`, in the rows `wanted` of `image`; the other rows of `image` stay as they are.
+    /// The scratch may be of any shape.
+    pub(super) fn apply(
+        &self,
+        field: &[f64],
+        image: &mut [f64],
+        wanted: Range<usize>,
+        scratch: &mut Scratch,
+    ) -> Result<(), ConvolutionError> {
+        let shape = &self.shape;
+        let expected = shape.cells();
+        if field.len() != expected {
+            let found = field.len();
+            return Err(ConvolutionError::PressureLength { found, expected });
+        }
+        if image.len() != expected {
+            let found = image.len();
+            return Err(ConvolutionError::DisplacementLength { found, expected });
+        }
+        self.fit(scratch);
+        let cells = |rows: &Range<usize>| rows.start * shape.cells_x..rows.end * shape.cells_x;
+        let Some(loaded) = loaded_rows(field, shape.cells_x) else {
+            image[cells(&wanted)].fill(0.0);
+            return Ok(());
+        };
+        let (spectra, lanes) = (&mut scratch.spectra[..], &mut scratch.lanes[..]);
+        let panels = Panels::new(spectra.chunks_exact_mut(shape.panel()));
+        let (_, panels) = panels.split_at(loaded.start * shape.row_stride);
+        self.transform_rows(&field[cells(&loaded)], panels, lanes)?;
+        self.multiply_panels(spectra, &loaded, &wanted, lanes)?;
+        Ok(self.recover_rows(spectra, wanted.start, &mut image[cells(&wanted)], lanes)?)
     }
 
     /// Transforms rows of the field into rows of the panels.
@@ -311,7 +333,7 @@ impl<R: Row, C: Column> SpectralProduct<R, C> {
         lane: &mut Lane,
     ) {
         let shape = &self.shape;
-        let kernel_length = self.column.kernel_length();
+        let kernel_length = self.spectrum.len() / shape.columns;
         let own =
             index * shape.panel_columns..((index + 1) * shape.panel_columns).min(shape.columns);
         let Some(spectrum) =
@@ -373,61 +395,6 @@ impl<R: Row, C: Column> SpectralProduct<R, C> {
     }
 }
 
-impl<R: Row, C: Column> Product for SpectralProduct<R, C> {
-    fn shape(&self) -> &Shape {
-        &self.shape
-    }
-
-    fn periods(&self) -> (usize, usize) {
-        (self.row.period(), self.column.period())
-    }
-
-    fn spectrum(&self) -> &[f64] {
-        &self.spectrum
-    }
-
-    fn fit(&self, scratch: &mut Scratch) {
-        let threads = shared::threads(self.shape.cells());
-        if scratch.shape == self.shape && scratch.lanes.len() == threads {
-            return;
-        }
-        let shape = self.shape;
-        scratch.shape = shape;
-        let panels = shape.columns.div_ceil(shape.panel_columns);
-        resize(&mut scratch.spectra, panels * shape.panel(), ZERO);
-        scratch.lanes.resize_with(threads, Lane::default);
-        let work = self.row.work_length().max(self.column.work_length());
-        for lane in &mut scratch.lanes {
-            resize(&mut lane.block, BLOCK_COLUMNS * shape.column_stride, ZERO);
-            resize(&mut lane.real, self.row.buffer_length(), 0.0);
-            resize(&mut lane.bins, shape.columns, ZERO);
-            resize(&mut lane.work, work, ZERO);
-        }
-    }
-
-    fn apply(
-        &self,
-        field: &[f64],
-        image: &mut [f64],
-        wanted: Range<usize>,
-        scratch: &mut Scratch,
-    ) -> Result<(), FftError> {
-        let shape = &self.shape;
-        let cells = |rows: &Range<usize>| rows.start * shape.cells_x..rows.end * shape.cells_x;
-        let Some(loaded) = loaded_rows(field, shape.cells_x) else {
-            image[cells(&wanted)].fill(0.0);
-            return Ok(());
-        };
-        let threads = shared::threads(shape.cells()).min(scratch.lanes.len());
-        let (spectra, lanes) = (&mut scratch.spectra[..], &mut scratch.lanes[..threads]);
-        let panels = Panels::new(spectra.chunks_exact_mut(shape.panel()));
-        let (_, panels) = panels.split_at(loaded.start * shape.row_stride);
-        self.transform_rows(&field[cells(&loaded)], panels, lanes)?;
-        self.multiply_panels(spectra, &loaded, &wanted, lanes)?;
-        self.recover_rows(spectra, wanted.start, &mut image[cells(&wanted)], lanes)
-    }
-}
-
 /// Exactly `length` values, of any content.
 fn resize<T: Copy>(values: &mut Vec<T>, length: usize, filler: T) {
     if values.capacity() < length {
@@ -458,13 +425,14 @@ fn transpose_tile(
 ) {
     let mut tile = [[ZERO; TILE]; TILE];
     for (line, values) in tile.iter_mut().enumerate() {
-        let start = at + line * stride;
-        values.copy_from_slice(&from[start..start + TILE]);
+        // Of known length: never a call of a copying function.
+        if let Some(from) = from[at + line * stride..].first_chunk() {
+            *values = *from;
+        }
     }
-    let transposed: [[Complex<f64>; TILE]; TILE] =
-        std::array::from_fn(|line| std::array::from_fn(|k| tile[k][line]));
-    for (line, values) in transposed.iter().enumerate() {
-        let start = to_at + line * to_stride;
-        to[start..start + TILE].copy_from_slice(values);
+    for line in 0..TILE {
+        if let Some(to) = to[to_at + line * to_stride..].first_chunk_mut() {
+            *to = std::array::from_fn::<_, TILE, _>(|k| tile[k][line]);
+        }
     }
 }

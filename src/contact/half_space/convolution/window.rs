@@ -10,29 +10,21 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::even_column::{EvenColumn, FrequencyPerBin};
+use super::even_column::EvenColumn;
 use super::length::fast_column;
 use super::periodic_row::PeriodicRow;
-use super::spectral::{Column, Product, Row, SpectralProduct};
+use super::spectral::{Column, Row, SpectralProduct};
 use super::{Convolution, ConvolutionError, Influence, Scratch, even_column};
 use crate::contact::half_space::grid::Grid;
 use crate::contact::half_space::layer::{Layer, LayerInfluence};
 
 /// A symmetric positive product that nearly inverts the half-space operator on one window.
 pub struct Preconditioner {
-    product: Box<dyn Product>,
+    product: SpectralProduct,
 }
 
 impl Preconditioner {
-    /// For windows like this grid.
-    ///
-    /// # Errors
-    /// As [`Convolution::new`].
-    pub fn new(grid: &Grid) -> Result<Self, ConvolutionError> {
-        Self::on(grid, None)
-    }
-
-    /// The same on a layer, where there is one.
+    /// For windows like this grid, on a layer where there is one.
     ///
     /// # Errors
     /// As [`Convolution::new`].
@@ -50,20 +42,12 @@ impl Preconditioner {
         let row = PeriodicRow::new(grid.cells_x());
         let column = EvenColumn::new(fast_column(grid.cells_y()));
         let softening = Softening::new(grid, [row.period(), column.length()], layer);
-        let mut spectrum = even_column::columns(&influence, &row, column.length())?;
         let cells = row.period() as f64 * column.length() as f64;
-        let half = column.length() / 2 + 1;
-        for (bin, values) in spectrum.chunks_exact_mut(half).enumerate() {
-            let (along_x, _) = row.frequency_and_weight(bin);
-            for (along_y, value) in values.iter_mut().enumerate() {
-                let factor = softening.factor((along_x, along_y));
-                // Scaled like the spectrum it inverts.
-                *value = (*value * factor * cells * cells).recip();
-            }
-        }
-        Ok(Self {
-            product: Box::new(SpectralProduct::new(grid, row, column, spectrum)),
-        })
+        // Scaled like the spectrum it inverts.
+        let inverse = |at, value: f64| (value * softening.factor(at) * cells * cells).recip();
+        let spectrum = even_column::spectrum(&influence, &row, column.length(), inverse)?;
+        let product = SpectralProduct::new(grid, row, column, spectrum);
+        Ok(Self { product })
     }
 
     /// Applies it to `residual`; writes the rows `wanted` of `direction` alone. `scratch` may be of any shape.
@@ -77,9 +61,7 @@ impl Preconditioner {
         wanted: Range<usize>,
         scratch: &mut Scratch,
     ) -> Result<(), ConvolutionError> {
-        super::check_lengths(self.product.shape(), residual, direction)?;
-        self.product.fit(scratch);
-        Ok(self.product.apply(residual, direction, wanted, scratch)?)
+        self.product.apply(residual, direction, wanted, scratch)
     }
 }
 
@@ -170,7 +152,7 @@ mod tests {
     fn the_preconditioner_is_positive_whatever_the_window() {
         for (cells_x, cells_y, spacing_x, spacing_y) in SHAPES {
             let grid = Grid::new(cells_x, cells_y, spacing_x, spacing_y).unwrap();
-            let preconditioner = Preconditioner::new(&grid).unwrap();
+            let preconditioner = Preconditioner::on(&grid, None).unwrap();
             let spectrum = preconditioner.product.spectrum();
             assert!(
                 spectrum.iter().all(|v| *v > 0.0 && v.is_finite()),
@@ -194,7 +176,7 @@ mod tests {
         convolution
             .apply(&pressure, &mut displacement, &mut scratch)
             .unwrap();
-        let preconditioner = Preconditioner::new(&grid).unwrap();
+        let preconditioner = Preconditioner::on(&grid, None).unwrap();
         let mut back = vec![0.0; grid.cells()];
         preconditioner
             .apply(&displacement, &mut back, 0..96, &mut scratch)
@@ -214,9 +196,9 @@ mod tests {
     #[test]
     fn only_the_rows_wanted_are_written() {
         let grid = Grid::new(20, 30, 1.0, 1.0).unwrap();
-        let preconditioner = Preconditioner::new(&grid).unwrap();
+        let preconditioner = Preconditioner::on(&grid, None).unwrap();
         let residual: Vec<f64> = (0..grid.cells()).map(|i| (i % 7) as f64).collect();
-        let mut scratch = Scratch::empty();
+        let mut scratch = Scratch::default();
         let mut whole = vec![0.0; grid.cells()];
         preconditioner
             .apply(&residual, &mut whole, 0..30, &mut scratch)

@@ -11,14 +11,14 @@
 //! is done by [`super::polonsky_keer`], which descends.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 
 use super::super::convolution::{Convolution, Scratch, WindowOperators};
 use super::frame::Frame;
 use super::outside::{Moments, first_centre};
 use super::spans::Spans;
 use super::sums::{dot, least, least_of, sum, sums};
-use crate::contact::ContactError;
+use crate::contact::{ContactError, go_on};
 
 /// What a window's problem is, apart from its fields.
 #[derive(Clone, Copy)]
@@ -60,19 +60,10 @@ pub(super) struct State {
 }
 
 /// Work space of the two operators: apart, so that neither has to be made to fit again and again.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Scratches {
     pub(super) convolution: Scratch,
     pub(super) preconditioner: Scratch,
-}
-
-impl Scratches {
-    pub(super) fn new() -> Self {
-        Self {
-            convolution: Scratch::empty(),
-            preconditioner: Scratch::empty(),
-        }
-    }
 }
 
 /// Work counted, and whether to go on with it.
@@ -89,11 +80,7 @@ pub(super) struct Work {
 impl Work {
     /// [`ContactError::Interrupted`] where the instant is to end.
     pub(super) fn go_on(&self) -> Result<(), ContactError> {
-        let asked = self.interrupt.as_deref();
-        match asked.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
-            true => Err(ContactError::Interrupted),
-            false => Ok(()),
-        }
+        go_on(self.interrupt.as_deref())
     }
 }
 
@@ -126,23 +113,6 @@ pub(super) struct ActiveSet {
     last: Vec<f64>,
     direction: Vec<f64>,
     constant: Vec<f64>,
-}
-
-/// How far gaps are from those of a contact.
-struct Gaps {
-    /// Sum of p |gap|.
-    misfit: f64,
-    /// The highest gap under pressure, at least 0 (m).
-    highest_m: f64,
-    /// The lowest gap outside, at most 0 (m).
-    lowest_m: f64,
-}
-
-/// What the last step along a direction did.
-struct Moved {
-    emptied: bool,
-    /// Least gap outside the contact (m), before the approach is taken off.
-    least_outside_m: f64,
 }
 
 impl ActiveSet {
@@ -211,12 +181,11 @@ impl ActiveSet {
             ..State::default()
         };
         let loaded = state.pressure_sum > 0.0;
-        let mean = if loaded {
-            lifted / state.pressure_sum
-        } else {
-            0.0
+        let mean = |sum: f64| match loaded {
+            true => sum / state.pressure_sum,
+            false => 0.0,
         };
-        state.approach_m = problem.approach_m.unwrap_or(mean);
+        state.approach_m = problem.approach_m.unwrap_or(mean(lifted));
         let own_m = match loaded {
             true => {
                 let moments = moments.of_all_copies(grid);
@@ -235,15 +204,9 @@ impl ActiveSet {
         };
         state.reference_m = problem.compliance_per_pa * own_m + problem.noise_m / problem.tolerance;
         let joining_m = -JOINING * problem.tolerance * state.reference_m;
-        let extremes = self.find_contact(problem, &state, joining_m);
-        let inside_m = if loaded {
-            extremes.misfit / state.pressure_sum
-        } else {
-            0.0
-        };
-        let worst_m = inside_m
-            .max(extremes.highest_m / STANDING_OFF)
-            .max(-extremes.lowest_m);
+        let (misfit, highest_m, lowest_m) = self.find_contact(problem, &state, joining_m);
+        let inside_m = mean(misfit);
+        let worst_m = inside_m.max(highest_m / STANDING_OFF).max(-lowest_m);
         state.residual = if worst_m > 0.0 {
             worst_m / state.reference_m
         } else {
@@ -252,8 +215,14 @@ impl ActiveSet {
         state
     }
 
-    /// Finds the contact: the cells with pressure, and those that penetrate by more than `joining_m` allows.
-    fn find_contact(&mut self, problem: &Problem<'_>, state: &State, joining_m: f64) -> Gaps {
+    /// Finds the contact: the cells with pressure, and those that penetrate by more than `joining_m` allows. Returns the sum of
+    /// p |gap|, the highest gap under pressure, at least 0, and the lowest gap outside, at most 0 (m).
+    fn find_contact(
+        &mut self,
+        problem: &Problem<'_>,
+        state: &State,
+        joining_m: f64,
+    ) -> (f64, f64, f64) {
         let (mut misfit, mut lowest_m, mut highest_m) = (0.0, 0.0_f64, 0.0_f64);
         let cells_x = problem.frame.cells_x;
         self.contact.clear();
@@ -278,11 +247,7 @@ impl ActiveSet {
                 self.contact.push(iy * cells_x + ix);
             }
         }
-        Gaps {
-            misfit,
-            highest_m,
-            lowest_m,
-        }
+        (misfit, highest_m, lowest_m)
     }
 
     /// Conjugate gradients on the contact as it is. False where there is no way down.
@@ -334,9 +299,9 @@ impl ActiveSet {
             work.steps += 1;
             work.carried += 1;
             work.convolutions += 1;
-            let moved = self.advance(problem.compliance_per_pa, step);
-            least_outside_m = moved.least_outside_m;
-            if moved.emptied {
+            let emptied;
+            (emptied, least_outside_m) = self.advance(problem.compliance_per_pa, step);
+            if emptied {
                 self.empty_negative(problem, scratch)?;
                 work.carried += 1;
                 work.convolutions += 1;
@@ -357,16 +322,21 @@ impl ActiveSet {
         }
         self.constant.fill(1.0);
         self.contact.scatter(&self.constant, &mut self.field);
-        let rows = self.contact.rows(problem.frame.cells_x);
-        let preconditioner = problem.operators.preconditioner();
-        preconditioner.apply(
-            &self.field,
-            &mut self.image,
-            rows,
-            &mut scratch.preconditioner,
-        )?;
+        self.apply_preconditioner(problem, scratch)?;
         self.contact.gather(&self.image, &mut self.constant);
         Ok(Some(sum(&self.constant)))
+    }
+
+    /// The preconditioner applied to `field`, in the rows of `image` that have contact.
+    fn apply_preconditioner(
+        &mut self,
+        problem: &Problem<'_>,
+        scratch: &mut Scratches,
+    ) -> Result<(), ContactError> {
+        let rows = self.contact.rows(problem.frame.cells_x);
+        let preconditioner = problem.operators.preconditioner();
+        let scratch = &mut scratch.preconditioner;
+        Ok(preconditioner.apply(&self.field, &mut self.image, rows, scratch)?)
     }
 
     /// The residual: the approach, or under load control the mean over the contact of the gap before it, less that gap.
@@ -418,14 +388,7 @@ impl ActiveSet {
         scratch: &mut Scratches,
     ) -> Result<(f64, f64), ContactError> {
         std::mem::swap(&mut self.preconditioned, &mut self.last);
-        let rows = self.contact.rows(problem.frame.cells_x);
-        let preconditioner = problem.operators.preconditioner();
-        preconditioner.apply(
-            &self.field,
-            &mut self.image,
-            rows,
-            &mut scratch.preconditioner,
-        )?;
+        self.apply_preconditioner(problem, scratch)?;
         self.contact.gather(&self.image, &mut self.preconditioned);
         if let Some(constant_sum) = constant_sum {
             let share = sum(&self.preconditioned) / constant_sum;
@@ -461,8 +424,9 @@ impl ActiveSet {
         Ok((curvature > 0.0 && step.is_finite()).then_some(step))
     }
 
-    /// Moves pressure and gap along the direction.
-    fn advance(&mut self, compliance_per_pa: f64, step: f64) -> Moved {
+    /// Moves pressure and gap along the direction. Returns whether a pressure has turned negative, and the least gap (m) outside the
+    /// contact, before the approach is taken off.
+    fn advance(&mut self, compliance_per_pa: f64, step: f64) -> (bool, f64) {
         let lift = step * compliance_per_pa;
         for (gap, image) in self.gap_m.iter_mut().zip(&self.image) {
             *gap += lift * image;
@@ -477,10 +441,7 @@ impl ActiveSet {
         }
         let others = self.contact.others(self.gap_m.len());
         let outside = others.map(|cells| least(&self.gap_m[cells]));
-        Moved {
-            emptied: lowest < 0.0,
-            least_outside_m: outside.fold(f64::INFINITY, f64::min),
-        }
+        (lowest < 0.0, outside.fold(f64::INFINITY, f64::min))
     }
 
     /// Takes cells of negative pressure out of the contact, keeping the load, and follows with the gap.
@@ -524,7 +485,5 @@ fn convolve(
     scratch: &mut Scratches,
 ) -> Result<(), ContactError> {
     let convolution = problem.operators.convolution(problem.whole);
-    let scratch = &mut scratch.convolution;
-    convolution.fit(scratch);
-    Ok(convolution.apply(field, image, scratch)?)
+    Ok(convolution.apply(field, image, &mut scratch.convolution)?)
 }

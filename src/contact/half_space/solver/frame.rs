@@ -5,82 +5,7 @@ use std::ops::Range;
 use super::super::convolution::window_length;
 use super::super::grid::Grid;
 
-/// The smallest rectangle of cells that holds all values of a field that are not zero.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Bounds {
-    pub(super) x: Range<usize>,
-    pub(super) y: Range<usize>,
-}
-
-impl Bounds {
-    /// Of a field of rows of `cells_x` values; `None` for zero everywhere.
-    pub(super) fn of(field: &[f64], cells_x: usize) -> Option<Self> {
-        // Most rows hold none: looking at all bits but the sign at once is faster than stopping at the first value.
-        let empty =
-            |row: &[f64]| row.iter().fold(0, |bits, value| bits | value.to_bits()) << 1 == 0;
-        Self::of_rows(field, cells_x, empty, |value| value != 0.0)
-    }
-
-    /// Of the cells whose value is chosen.
-    pub(super) fn of_cells(
-        field: &[f64],
-        cells_x: usize,
-        chosen: impl Fn(f64) -> bool,
-    ) -> Option<Self> {
-        Self::of_rows(field, cells_x, |_| false, chosen)
-    }
-
-    fn of_rows(
-        field: &[f64],
-        cells_x: usize,
-        empty: impl Fn(&[f64]) -> bool,
-        chosen: impl Fn(f64) -> bool,
-    ) -> Option<Self> {
-        let mut bounds: Option<Self> = None;
-        for (iy, row) in field.chunks_exact(cells_x).enumerate() {
-            if empty(row) {
-                continue;
-            }
-            let Some(first) = row.iter().position(|&value| chosen(value)) else {
-                continue;
-            };
-            // Only what lies beyond the bounds so far can widen them.
-            let known = bounds
-                .as_ref()
-                .map_or(first + 1, |b| b.x.end.max(first + 1));
-            let beyond = row[known..].iter().rposition(|&value| chosen(value));
-            let end = beyond.map_or(known, |at| known + at + 1);
-            let start = bounds.as_ref().map_or(first, |b| b.x.start.min(first));
-            let top = bounds.as_ref().map_or(iy, |b| b.y.start);
-            bounds = Some(Self {
-                x: start..end,
-                y: top..iy + 1,
-            });
-        }
-        bounds
-    }
-
-    /// The smallest rectangle that holds both.
-    pub(super) fn union(self, other: Option<Self>) -> Self {
-        let Some(other) = other else { return self };
-        let join = |a: Range<usize>, b: Range<usize>| a.start.min(b.start)..a.end.max(b.end);
-        Self {
-            x: join(self.x, other.x),
-            y: join(self.y, other.y),
-        }
-    }
-
-    /// The same rectangle in a grid in which the field's first cell is that of `frame`.
-    pub(super) fn moved(self, frame: &Frame) -> Self {
-        let moved = |range: Range<usize>, by: usize| range.start + by..range.end + by;
-        Self {
-            x: moved(self.x, frame.x),
-            y: moved(self.y, frame.y),
-        }
-    }
-}
-
-/// A window of the grid.
+/// A rectangle of cells of a grid: a window of it, or where a field has values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Frame {
     pub(super) x: usize,
@@ -95,10 +20,10 @@ const ROOM_SHARE: f64 = 0.1;
 const ROOM_CELLS: usize = 3;
 
 /// Cells that a window must have to hold these: on a mirrored grid it begins at the axis.
-fn length_to_hold(range: &Range<usize>, grid: &Grid) -> usize {
+fn length_to_hold(first: usize, cells: usize, grid: &Grid) -> usize {
     match grid.is_mirrored() {
-        true => range.end,
-        false => range.len(),
+        true => first + cells,
+        false => cells,
     }
 }
 
@@ -112,40 +37,117 @@ impl Frame {
         }
     }
 
+    /// The smallest one that holds all values that are not zero of a field of rows of `cells_x` values; `None` for zero everywhere.
+    pub(super) fn of(field: &[f64], cells_x: usize) -> Option<Self> {
+        // Most rows hold none: looking at all bits but the sign at once is faster than stopping at the first value.
+        let empty =
+            |row: &[f64]| row.iter().fold(0, |bits, value| bits | value.to_bits()) << 1 == 0;
+        Self::of_rows(field, cells_x, empty, |value| value != 0.0)
+    }
+
+    /// The smallest one that holds the cells whose value is chosen.
+    pub(super) fn of_cells(
+        field: &[f64],
+        cells_x: usize,
+        chosen: impl Fn(f64) -> bool,
+    ) -> Option<Self> {
+        Self::of_rows(field, cells_x, |_| false, chosen)
+    }
+
+    fn of_rows(
+        field: &[f64],
+        cells_x: usize,
+        empty: impl Fn(&[f64]) -> bool,
+        chosen: impl Fn(f64) -> bool,
+    ) -> Option<Self> {
+        let mut bounds: Option<(Range<usize>, Range<usize>)> = None;
+        let rows = field.chunks_exact(cells_x).enumerate();
+        for (iy, row) in rows.filter(|(_, row)| !empty(row)) {
+            let Some(first) = row.iter().position(|&value| chosen(value)) else {
+                continue;
+            };
+            let (x, y) = bounds.unwrap_or((first..first, iy..iy));
+            // Only what lies beyond the bounds so far can widen them.
+            let known = x.end.max(first + 1);
+            let beyond = row[known..].iter().rposition(|&value| chosen(value));
+            let end = beyond.map_or(known, |at| known + at + 1);
+            bounds = Some((x.start.min(first)..end, y.start..iy + 1));
+        }
+        bounds.map(|(x, y)| Self::between(x, y))
+    }
+
+    fn between(x: Range<usize>, y: Range<usize>) -> Self {
+        Self {
+            x: x.start,
+            y: y.start,
+            cells_x: x.len(),
+            cells_y: y.len(),
+        }
+    }
+
+    /// Columns.
+    pub(super) fn columns(&self) -> Range<usize> {
+        self.x..self.x + self.cells_x
+    }
+
+    /// Rows.
+    pub(super) fn rows(&self) -> Range<usize> {
+        self.y..self.y + self.cells_y
+    }
+
+    /// The smallest one that holds both.
+    fn union(&self, other: &Self) -> Self {
+        let join = |a: Range<usize>, b: Range<usize>| a.start.min(b.start)..a.end.max(b.end);
+        Self::between(
+            join(self.columns(), other.columns()),
+            join(self.rows(), other.rows()),
+        )
+    }
+
+    /// The same rectangle in a grid in which the field's first cell is that of `frame`.
+    pub(super) fn moved(self, frame: &Self) -> Self {
+        Self {
+            x: self.x + frame.x,
+            y: self.y + frame.y,
+            ..self
+        }
+    }
+
     /// A window with room about a contact; on a mirrored grid it begins at the axes.
-    pub(super) fn with_room(contact: &Bounds, grid: &Grid) -> Self {
-        let needed = |range: &Range<usize>| {
+    pub(super) fn with_room(contact: &Self, grid: &Grid) -> Self {
+        let needed = |first: usize, cells: usize| {
             // On a mirrored grid half of the width, with room on one side.
             let sides = if grid.is_mirrored() { 1 } else { 2 };
-            let length = length_to_hold(range, grid);
+            let length = length_to_hold(first, cells, grid);
             let width = 2 / sides * length;
             let room = (ROOM_SHARE * width as f64).ceil() as usize;
             length + sides * room.max(ROOM_CELLS)
         };
-        Self::around(contact, needed(&contact.x), needed(&contact.y), grid)
+        contact.widened(needed, grid)
     }
 
-    /// The smallest window that holds this one and these bounds.
-    pub(super) fn holding(&self, bounds: Option<Bounds>, grid: &Grid) -> Self {
-        let all = self.bounds().union(bounds);
-        if all == self.bounds() {
-            return *self;
+    /// The smallest window that holds this one and these cells.
+    pub(super) fn holding(&self, cells: Option<Self>, grid: &Grid) -> Self {
+        match cells.map(|cells| self.union(&cells)) {
+            Some(all) if all != *self => {
+                all.widened(|first, cells| length_to_hold(first, cells, grid), grid)
+            }
+            _ => *self,
         }
-        let needed = |range| length_to_hold(range, grid);
-        Self::around(&all, needed(&all.x), needed(&all.y), grid)
     }
 
-    fn around(bounds: &Bounds, needed_x: usize, needed_y: usize, grid: &Grid) -> Self {
-        let place = |range: &Range<usize>, needed: usize, cells: usize| {
-            let length = window_length(needed.min(cells), cells);
+    /// A window about this one, with at least as many cells along either side as are needed for its first cell and its length.
+    fn widened(&self, needed: impl Fn(usize, usize) -> usize, grid: &Grid) -> Self {
+        let place = |first: usize, own: usize, cells: usize| {
+            let length = window_length(needed(first, own).min(cells), cells);
             let start = match grid.is_mirrored() {
                 true => 0,
-                false => (range.start + range.end).saturating_sub(length) / 2,
+                false => (2 * first + own).saturating_sub(length) / 2,
             };
             (start.min(cells - length), length)
         };
-        let (x, cells_x) = place(&bounds.x, needed_x, grid.cells_x());
-        let (y, cells_y) = place(&bounds.y, needed_y, grid.cells_y());
+        let (x, cells_x) = place(self.x, self.cells_x, grid.cells_x());
+        let (y, cells_y) = place(self.y, self.cells_y, grid.cells_y());
         Self {
             x,
             y,
@@ -158,34 +160,42 @@ impl Frame {
         self.cells_x * self.cells_y
     }
 
-    pub(super) fn bounds(&self) -> Bounds {
-        Bounds {
-            x: self.x..self.x + self.cells_x,
-            y: self.y..self.y + self.cells_y,
-        }
-    }
-
-    /// Whether these bounds come to within a cell of a side beyond which the grid goes on.
-    pub(super) fn is_touched_by(&self, bounds: &Bounds, grid: &Grid) -> bool {
-        let touched = |frame: Range<usize>, inner: &Range<usize>, cells: usize| {
+    /// Whether these cells come to within a cell of a side beyond which the grid goes on.
+    pub(super) fn is_touched_by(&self, inner: &Self, grid: &Grid) -> bool {
+        let touched = |frame: Range<usize>, inner: Range<usize>, cells: usize| {
             (frame.start > 0 && inner.start <= frame.start)
                 || (frame.end < cells && inner.end >= frame.end)
         };
-        let own = self.bounds();
-        touched(own.x, &bounds.x, grid.cells_x()) || touched(own.y, &bounds.y, grid.cells_y())
+        touched(self.columns(), inner.columns(), grid.cells_x())
+            || touched(self.rows(), inner.rows(), grid.cells_y())
     }
 
     /// Rows of this window within a field on the grid.
-    fn rows<'a>(&self, field: &'a [f64], grid_cells_x: usize) -> impl Iterator<Item = &'a [f64]> {
+    fn rows_of<'a>(
+        &self,
+        field: &'a [f64],
+        grid_cells_x: usize,
+    ) -> impl Iterator<Item = &'a [f64]> {
         let (x, cells_x) = (self.x, self.cells_x);
         let rows = field.chunks_exact(grid_cells_x);
         let rows = rows.skip(self.y).take(self.cells_y);
         rows.map(move |row| &row[x..x + cells_x])
     }
 
+    fn rows_of_mut<'a>(
+        &self,
+        field: &'a mut [f64],
+        grid_cells_x: usize,
+    ) -> impl Iterator<Item = &'a mut [f64]> {
+        let (x, cells_x) = (self.x, self.cells_x);
+        let rows = field.chunks_exact_mut(grid_cells_x);
+        let rows = rows.skip(self.y).take(self.cells_y);
+        rows.map(move |row| &mut row[x..x + cells_x])
+    }
+
     /// Copies this window out of a field of rows of `grid_cells_x` values.
     pub(super) fn gather(&self, field: &[f64], grid_cells_x: usize, part: &mut [f64]) {
-        let rows = self.rows(field, grid_cells_x);
+        let rows = self.rows_of(field, grid_cells_x);
         for (part, row) in part.chunks_exact_mut(self.cells_x).zip(rows) {
             part.copy_from_slice(row);
         }
@@ -193,19 +203,17 @@ impl Frame {
 
     /// Copies this window back into such a field.
     pub(super) fn scatter(&self, part: &[f64], grid_cells_x: usize, field: &mut [f64]) {
-        let rows = field.chunks_exact_mut(grid_cells_x);
-        let rows = rows.skip(self.y).take(self.cells_y);
+        let rows = self.rows_of_mut(field, grid_cells_x);
         for (part, row) in part.chunks_exact(self.cells_x).zip(rows) {
-            row[self.x..self.x + self.cells_x].copy_from_slice(part);
+            row.copy_from_slice(part);
         }
     }
 
     /// Adds a part of this window's size, times a factor, to a field of rows of `cells_x` values.
     pub(super) fn add_scaled(&self, part: &[f64], factor: f64, cells_x: usize, field: &mut [f64]) {
-        let rows = field.chunks_exact_mut(cells_x);
-        let rows = rows.skip(self.y).take(self.cells_y);
+        let rows = self.rows_of_mut(field, cells_x);
         for (part, row) in part.chunks_exact(self.cells_x).zip(rows) {
-            for (value, part) in row[self.x..].iter_mut().zip(part) {
+            for (value, part) in row.iter_mut().zip(part) {
                 *value += factor * part;
             }
         }
@@ -213,7 +221,7 @@ impl Frame {
 
     /// Adds this window of a field of rows of `cells_x` values to a part of the window's size.
     pub(super) fn add_part(&self, field: &[f64], cells_x: usize, part: &mut [f64]) {
-        let rows = self.rows(field, cells_x);
+        let rows = self.rows_of(field, cells_x);
         for (part, row) in part.chunks_exact_mut(self.cells_x).zip(rows) {
             for (part, value) in part.iter_mut().zip(row) {
                 *part += value;
@@ -238,7 +246,7 @@ mod tests {
     #[test]
     fn bounds_hold_every_value_and_no_more() {
         let mut field = vec![0.0; 7 * 5];
-        assert_eq!(Bounds::of(&field, 7), None);
+        assert_eq!(Frame::of(&field, 7), None);
         for (cells, expected) in [
             (&[(3, 2)][..], (3..4, 2..3)),
             (&[(5, 1), (1, 4)], (1..6, 1..5)),
@@ -248,8 +256,8 @@ mod tests {
             for (x, y) in cells {
                 field[y * 7 + x] = 1.0;
             }
-            let found = Bounds::of(&field, 7).unwrap();
-            assert_eq!((found.x, found.y), expected);
+            let found = Frame::of(&field, 7).unwrap();
+            assert_eq!((found.columns(), found.rows()), expected);
         }
     }
 
@@ -259,14 +267,10 @@ mod tests {
         for x in [0, 1, 50, 180, 199] {
             for y in [0, 40, 89] {
                 for length in [1, 7, 40, 200] {
-                    let contact = Bounds {
-                        x: x..(x + length).min(200),
-                        y: y..(y + length).min(90),
-                    };
+                    let contact = Frame::between(x..(x + length).min(200), y..(y + length).min(90));
                     let frame = Frame::with_room(&contact, &grid);
-                    let own = frame.bounds();
-                    assert!(own.x.end <= 200 && own.y.end <= 90);
-                    assert_eq!(own.clone().union(Some(contact.clone())), own);
+                    assert!(frame.columns().end <= 200 && frame.rows().end <= 90);
+                    assert_eq!(frame.union(&contact), frame);
                     assert!(
                         !frame.is_touched_by(&contact, &grid),
                         "{contact:?} {frame:?}"
@@ -280,10 +284,7 @@ mod tests {
     fn a_window_of_a_quarter_begins_at_the_axes() {
         let grid = Grid::new(400, 180, 1.0, 1.0).unwrap().quarter().unwrap();
         for (from, to) in [(0, 1), (0, 30), (20, 60), (80, 90)] {
-            let contact = Bounds {
-                x: from..to,
-                y: from..to,
-            };
+            let contact = Frame::between(from..to, from..to);
             let frame = Frame::with_room(&contact, &grid);
             assert_eq!((frame.x, frame.y), (0, 0));
             assert!(frame.cells_x >= to.min(200) && frame.cells_y >= to.min(90));

@@ -123,11 +123,10 @@ impl OutsideGapBound {
             reach(grid.cells_x(), centre.0, 1.0).hypot(reach(grid.cells_y(), centre.1, step_y));
         let width = farthest.max(1.0) / (RINGS as f64 - 1.0);
         let mut least_gap_m = vec![f64::INFINITY; RINGS];
-        let own = frame.bounds();
         for (iy, row) in gap_m.chunks_exact(grid.cells_x()).enumerate() {
             let dy = (iy as f64 + first) * step_y - centre.1;
-            let inside = match own.y.contains(&iy) {
-                true => own.x.clone(),
+            let inside = match frame.rows().contains(&iy) {
+                true => frame.columns(),
                 false => 0..0,
             };
             for (ix, &gap_m) in row.iter().enumerate() {

@@ -48,10 +48,9 @@ struct IterationState {
 }
 
 impl PolonskyKeer {
-    pub(super) fn new(operator: &Convolution) -> Self {
-        let cells = operator.grid().cells();
+    pub(super) fn new(cells: usize) -> Self {
         Self {
-            scratch: operator.scratch(),
+            scratch: Scratch::default(),
             free_gap_m: vec![0.0; cells],
             displacement: vec![0.0; cells],
             response: vec![0.0; cells],
@@ -247,6 +246,42 @@ impl PolonskyKeer {
         Ok(true)
     }
 
+    /// Gap sums; the approach is prescribed or, under load control, found here.
+    fn residual(&self, given: &Given<'_>, pressure: &[f64]) -> Residual {
+        let compliance = given.compliance;
+        let cells = || {
+            let fields = self.free_gap_m.iter().zip(&self.displacement);
+            pressure.iter().zip(fields)
+        };
+        let mut total = Residual::default();
+        let mut lifted_sum = 0.0;
+        for (&p, (free, u)) in cells() {
+            if p > 0.0 {
+                let elastic = compliance * u;
+                total.cells += 1;
+                lifted_sum += free + elastic;
+                total.work += p * elastic;
+                total.lifted += p * (free + elastic);
+                total.pressure_sum += p;
+            }
+        }
+        let prescribed_m = given.imposed.approach_m();
+        total.approach_m = prescribed_m.unwrap_or(lifted_sum / total.cells.max(1) as f64);
+        let mut lowest = 0.0_f64;
+        for (&p, (free, u)) in cells() {
+            let gap = free + compliance * u - total.approach_m;
+            if p > 0.0 {
+                total.squared_gap += gap * gap;
+                total.misfit += p * gap.abs();
+                total.standing_off_m = total.standing_off_m.max(gap);
+            } else {
+                lowest = lowest.min(gap);
+            }
+        }
+        total.penetration_m = -lowest;
+        total
+    }
+
     /// The iteration. Returns the residual at the end and the iterations taken.
     fn iterate(
         &mut self,
@@ -267,12 +302,7 @@ impl PolonskyKeer {
         let (mut relative, mut iterations) = (f64::INFINITY, taken);
         for iteration in taken..given.settings.max_iterations {
             given.work.go_on()?;
-            let fields = Fields {
-                pressure,
-                free_gap_m: &self.free_gap_m,
-                displacement: &self.displacement,
-            };
-            let residual = Residual::of(&fields, given.compliance, given.imposed.approach_m());
+            let residual = self.residual(given, pressure);
             if residual.cells == 0 && given.imposed.target_sum().is_some() {
                 // A step has emptied the contact, which has a load to carry: begin again.
                 start(given.imposed.target_sum(), given.gap_m, pressure);
@@ -336,56 +366,7 @@ pub(super) struct Residual {
     standing_off_m: f64,
 }
 
-/// One value per cell each.
-#[derive(Debug, Clone, Copy)]
-struct Fields<'a> {
-    pressure: &'a [f64],
-    /// g + B H (m).
-    free_gap_m: &'a [f64],
-    /// B p, without the compliance.
-    displacement: &'a [f64],
-}
-
-impl Fields<'_> {
-    /// Pressure, free gap, displacement of each cell in turn.
-    fn cells(&self) -> impl Iterator<Item = (f64, f64, f64)> + '_ {
-        let fields = self.pressure.iter().zip(self.free_gap_m);
-        let fields = fields.zip(self.displacement);
-        fields.map(|((&p, &free), &u)| (p, free, u))
-    }
-}
-
 impl Residual {
-    /// Gap sums for these fields; `approach_m` is prescribed or, under load control, found here.
-    fn of(fields: &Fields<'_>, compliance: f64, approach_m: Option<f64>) -> Self {
-        let mut total = Self::default();
-        let mut lifted_sum = 0.0;
-        for (p, free, u) in fields.cells() {
-            if p > 0.0 {
-                let elastic = compliance * u;
-                total.cells += 1;
-                lifted_sum += free + elastic;
-                total.work += p * elastic;
-                total.lifted += p * (free + elastic);
-                total.pressure_sum += p;
-            }
-        }
-        total.approach_m = approach_m.unwrap_or(lifted_sum / total.cells.max(1) as f64);
-        let mut lowest = 0.0_f64;
-        for (p, free, u) in fields.cells() {
-            let gap = free + compliance * u - total.approach_m;
-            if p > 0.0 {
-                total.squared_gap += gap * gap;
-                total.misfit += p * gap.abs();
-                total.standing_off_m = total.standing_off_m.max(gap);
-            } else {
-                lowest = lowest.min(gap);
-            }
-        }
-        total.penetration_m = -lowest;
-        total
-    }
-
     /// What the tolerance bounds, gaps below `noise_m` counting as none; 0 out of contact, infinite where nothing is in
     /// contact yet but something penetrates.
     fn relative(&self, tolerance: f64, noise_m: f64) -> f64 {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::super::influence::Influence;
 use super::active_set::{Ending, Problem, State, Work};
-use super::frame::{Bounds, Frame};
+use super::frame::Frame;
 use super::outside::{Moments, OutsideGapBound, first_centre};
 use super::{Found, HalfSpace, Imposed, ROUNDING, start, sums};
 use crate::contact::{ContactError, Instant};
@@ -33,23 +33,23 @@ impl HalfSpace {
     ) -> Result<Option<Found>, ContactError> {
         let grid = *self.operator.grid();
         let row = grid.cells_x();
-        let mut guess = Bounds::of(pressure, row);
+        let mut guess = Frame::of(pressure, row);
         if guess.is_none() {
             self.guess_from_coarse(instant, imposed, pressure, work)?;
-            guess = Bounds::of(pressure, row);
+            guess = Frame::of(pressure, row);
         }
-        let rows = guess.map_or(0..grid.cells_y(), |bounds| bounds.y);
+        let rows = guess.map_or(0..grid.cells_y(), |loaded| loaded.rows());
         let loaded = rows.start * row..rows.end * row;
         let gap_m = &self.gap_m[loaded.clone()];
         start(imposed.target_sum(), gap_m, &mut pressure[loaded]);
-        let history = Bounds::of(instant.history, row);
-        let mut contact = match Bounds::of(pressure, row) {
-            Some(bounds) => Frame::with_room(&bounds, &grid),
+        let history = Frame::of(instant.history, row);
+        let mut contact = match Frame::of(pressure, row) {
+            Some(loaded) => Frame::with_room(&loaded, &grid),
             None => Frame::whole(&grid),
         };
         loop {
-            self.enter(instant, contact, history.clone(), pressure);
-            let (state, ending) = self.solve_in_window(instant, imposed, work)?;
+            let windows = self.enter(instant, contact, history, pressure);
+            let (state, ending) = self.solve_in_window(windows, instant, imposed, work)?;
             contact.scatter(&self.fields.pressure, row, pressure);
             match ending {
                 Ending::Converged => {}
@@ -62,12 +62,12 @@ impl HalfSpace {
                     });
                 }
             }
-            let loaded = Bounds::of(&self.fields.pressure, contact.cells_x);
-            let loaded = loaded.map(|bounds| bounds.moved(&contact));
-            let touched = loaded.filter(|bounds| contact.is_touched_by(bounds, &grid));
+            let loaded = Frame::of(&self.fields.pressure, contact.cells_x);
+            let loaded = loaded.map(|loaded| loaded.moved(&contact));
+            let touched = loaded.filter(|loaded| contact.is_touched_by(loaded, &grid));
             let beyond = match touched {
-                Some(bounds) => Some(Frame::with_room(&bounds, &grid).bounds()),
-                None => self.penetration_beyond(instant.compliance_per_pa, &state, work)?,
+                Some(loaded) => Some(Frame::with_room(&loaded, &grid)),
+                None => self.penetration_beyond(windows, instant, &state, work)?,
             };
             let wider = contact.holding(beyond, &grid);
             if wider == contact {
@@ -86,9 +86,9 @@ impl HalfSpace {
         &mut self,
         instant: &Instant<'_>,
         contact: Frame,
-        history: Option<Bounds>,
+        history: Option<Frame>,
         pressure: &[f64],
-    ) {
+    ) -> Windows {
         let grid = self.operator.grid();
         let row = grid.cells_x();
         let source = contact.holding(history, grid);
@@ -98,23 +98,24 @@ impl HalfSpace {
             field.resize(source.cells(), 0.0);
         }
         source.gather(instant.history, row, &mut self.history);
-        self.windows = Some(Windows { contact, source });
+        let windows = Windows { contact, source };
+        self.windows = Some(windows);
+        windows
     }
 
     /// Solves in the window entered.
     fn solve_in_window(
         &mut self,
+        windows: Windows,
         instant: &Instant<'_>,
         imposed: Imposed,
         work: &mut Work,
     ) -> Result<(State, Ending), ContactError> {
-        let Some(Windows { contact, .. }) = self.windows else {
-            return Ok((State::default(), Ending::Stalled));
-        };
+        let contact = windows.contact;
         let operator = Arc::clone(&self.operator);
         let operators = operator.window(contact.cells_x, contact.cells_y)?;
         loop {
-            let largest_m = self.lift_gap(instant.compliance_per_pa)?;
+            let largest_m = self.lift_gap(windows, instant.compliance_per_pa)?;
             work.convolutions += 1;
             work.carried = 0;
             let level_m = imposed.approach_m().unwrap_or(largest_m).abs();
@@ -141,15 +142,16 @@ impl HalfSpace {
     }
 
     /// Gap before the approach is taken off in the window of the contact, g + B (A p + H). Returns the largest displacement (m).
-    pub(super) fn lift_gap(&mut self, compliance_per_pa: f64) -> Result<f64, ContactError> {
-        let Some(Windows { contact, source }) = self.windows else {
-            return Ok(0.0);
-        };
-        self.gather_source(compliance_per_pa);
+    pub(super) fn lift_gap(
+        &mut self,
+        windows: Windows,
+        compliance_per_pa: f64,
+    ) -> Result<f64, ContactError> {
+        let Windows { contact, source } = windows;
+        self.gather_source(windows, compliance_per_pa);
         let operators = self.operator.window(source.cells_x, source.cells_y)?;
         let convolution = operators.convolution(&self.operator);
         let scratch = &mut self.scratches.convolution;
-        convolution.fit(scratch);
         convolution.apply(&self.source, &mut self.lift_m, scratch)?;
         let largest_m = -sums::least_of(&self.lift_m, |u| -u.abs());
         let part = source.part(&contact);
@@ -160,60 +162,44 @@ impl HalfSpace {
     }
 
     /// A p + H in the window of the sources.
-    fn gather_source(&mut self, compliance_per_pa: f64) {
-        let Some(Windows { contact, source }) = self.windows else {
-            return;
-        };
+    fn gather_source(&mut self, Windows { contact, source }: Windows, compliance_per_pa: f64) {
         self.source.copy_from_slice(&self.history);
         let part = source.part(&contact);
-        let pressure = &self.fields.pressure;
-        part.add_scaled(
-            pressure,
-            compliance_per_pa,
-            source.cells_x,
-            &mut self.source,
-        );
+        let (pressure, row) = (&self.fields.pressure, source.cells_x);
+        part.add_scaled(pressure, compliance_per_pa, row, &mut self.source);
     }
 
     /// Where cells beyond the window of the contact penetrate; `None` where none does.
     fn penetration_beyond(
         &mut self,
-        compliance_per_pa: f64,
+        windows: Windows,
+        instant: &Instant<'_>,
         state: &State,
         work: &mut Work,
-    ) -> Result<Option<Bounds>, ContactError> {
+    ) -> Result<Option<Frame>, ContactError> {
         let grid = *self.operator.grid();
-        let Some(Windows { contact, source }) = self.windows else {
-            return Ok(None);
-        };
-        if contact == Frame::whole(&grid) {
+        if windows.contact == Frame::whole(&grid) {
             return Ok(None);
         }
-        self.gather_source(compliance_per_pa);
-        if self.is_clear_beyond(contact, source, state.approach_m) {
+        self.gather_source(windows, instant.compliance_per_pa);
+        if self.is_clear_beyond(windows, state.approach_m) {
             return Ok(None);
         }
-        let mut gap_m = vec![0.0; grid.cells()];
-        self.whole_gap(source, &mut gap_m)?;
-        work.convolutions += 1;
+        let gap_m = self.whole_gap(windows, work)?;
         let allowed_m = state.approach_m - self.settings.tolerance * state.reference_m;
-        Ok(Bounds::of_cells(&gap_m, grid.cells_x(), |gap| {
+        Ok(Frame::of_cells(&gap_m, grid.cells_x(), |gap| {
             gap < allowed_m
         }))
     }
 
     /// Whether the sources certainly keep the surface beyond a window below the indenter at this approach; nothing is certain of a
     /// layer.
-    pub(super) fn is_clear_beyond(
-        &mut self,
-        window: Frame,
-        source: Frame,
-        approach_m: f64,
-    ) -> bool {
+    pub(super) fn is_clear_beyond(&mut self, windows: Windows, approach_m: f64) -> bool {
         // A layer yields less than a half-space, and rises in places.
         if self.operator.layer().is_some() {
             return false;
         }
+        let Windows { contact, source } = windows;
         let grid = self.operator.grid();
         let step_y = grid.spacing_y_m() / grid.spacing_x_m();
         let mut moments = Moments::default();
@@ -221,8 +207,7 @@ impl HalfSpace {
         let first = first_centre(grid);
         // The hereditary part of a noisy table may lift the surface in places.
         let (mut lifting, mut pressing) = (0.0, Vec::new());
-        for (iy, row) in self.source.chunks_exact(source.cells_x).enumerate() {
-            let mut row = row;
+        for (iy, mut row) in self.source.chunks_exact(source.cells_x).enumerate() {
             if sums::least(row) < 0.0 {
                 lifting -= sums::sums(row, row, |q, _| [q.min(0.0)])[0];
                 pressing.clear();
@@ -233,36 +218,33 @@ impl HalfSpace {
         }
         let moments = moments.of_all_copies(grid);
         let lift_m = grid.copies() as f64 * lifting * Influence::new(grid).coefficient_m(0, 0);
-        let known = self
-            .outside_bounds
-            .iter()
-            .position(|r| *r.frame() == window);
+        let bounds = &mut self.outside_bounds;
+        let known = bounds.iter().position(|bound| *bound.frame() == contact);
         let at = known.unwrap_or_else(|| {
-            if self.outside_bounds.len() >= REMEMBERED_BOUNDS {
-                self.outside_bounds.clear();
+            if bounds.len() >= REMEMBERED_BOUNDS {
+                bounds.clear();
             }
-            self.outside_bounds
-                .push(OutsideGapBound::new(grid, &self.gap_m, window));
-            self.outside_bounds.len() - 1
+            bounds.push(OutsideGapBound::new(grid, &self.gap_m, contact));
+            bounds.len() - 1
         });
-        self.outside_bounds[at].are_clear(&moments, approach_m + lift_m, grid)
+        bounds[at].are_clear(&moments, approach_m + lift_m, grid)
     }
 
     /// The gap before the approach is taken off, of the whole grid.
     pub(super) fn whole_gap(
         &mut self,
-        source: Frame,
-        gap_m: &mut [f64],
-    ) -> Result<(), ContactError> {
-        let row = self.operator.grid().cells_x();
-        let mut sources = vec![0.0; gap_m.len()];
-        source.scatter(&self.source, row, &mut sources);
+        windows: Windows,
+        work: &mut Work,
+    ) -> Result<Vec<f64>, ContactError> {
+        let grid = self.operator.grid();
+        let (mut sources, mut gap_m) = (vec![0.0; grid.cells()], vec![0.0; grid.cells()]);
+        (windows.source).scatter(&self.source, grid.cells_x(), &mut sources);
         let scratch = &mut self.scratches.convolution;
-        self.operator.fit(scratch);
-        self.operator.apply(&sources, gap_m, scratch)?;
+        self.operator.apply(&sources, &mut gap_m, scratch)?;
+        work.convolutions += 1;
         for (gap, own) in gap_m.iter_mut().zip(&self.gap_m) {
             *gap += own;
         }
-        Ok(())
+        Ok(gap_m)
     }
 }

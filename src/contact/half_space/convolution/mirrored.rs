@@ -1,17 +1,125 @@
-//! Two columns of real numbers, mirrored at their beginning, as one of complex numbers: cosine transforms of both, products
-//! with their spectra, and back. The transform is that of [`super::mirrored_row`].
+//! Cosine transforms of rows and columns that are mirrored at their beginning: of a row in one real transform of half its period, of two
+//! columns of real numbers as one of complex numbers.
+//!
+//! The row `x` of `n` values goes on with `x(-1-i) = x(i)` to the left and with zeros to the right, and repeats after `2m`. All
+//! its frequencies are told by the real numbers (the discrete cosine transform of the second kind)
+//!
+//! ```text
+//! X(k) = sum over i of  x(i) cos(pi k (i + 1/2) / m),     0 <= k < m
+//! ```
+//!
+//! With the even values in ascending and the odd ones in descending order, `v(i) = x(2i)`, `v(m-1-i) = x(2i+1)`, of which the
+//! ordinary transform is V, they are `X(k) - i X(m-k) = exp(-i pi k / 2m) V(k)` (J. Makhoul, IEEE Transactions on Acoustics,
+//! Speech and Signal Processing 28 (1980) 27). Two of them make one complex bin, so that columns are transformed in pairs.
 
+use std::f64::consts::PI;
 use std::ops::Range;
 use std::sync::Arc;
 
 use num_complex::Complex;
-use realfft::FftError;
+use realfft::{ComplexToReal, FftError, RealFftPlanner, RealToComplex};
 use rustfft::{Fft, FftPlanner};
 
 use super::super::influence::Influence;
 use super::even_column::Kernel;
-use super::mirrored_row::{MirroredRow, twist};
 use super::spectral::{Column, Row, ZERO};
+
+/// Plans for rows of one length. Immutable; buffers are the caller's.
+pub(super) struct MirroredRow {
+    /// Half the period, `m`; even.
+    half: usize,
+    forward: Arc<dyn RealToComplex<f64>>,
+    inverse: Arc<dyn ComplexToReal<f64>>,
+    /// `exp(-i pi k / 2m)` for `k < m/2`.
+    twist: Vec<Complex<f64>>,
+}
+
+/// `exp(-i pi k / 2m)` for `k < m/2`.
+fn twist(half: usize) -> Vec<Complex<f64>> {
+    let angle = -0.5 * PI / half as f64;
+    (0..half / 2)
+        .map(|k| Complex::cis(angle * k as f64))
+        .collect()
+}
+
+impl MirroredRow {
+    /// Plans for rows that repeat after `2 half` values, `half` even.
+    pub(super) fn new(half: usize) -> Self {
+        let mut planner = RealFftPlanner::new();
+        Self {
+            half,
+            forward: planner.plan_fft_forward(half),
+            inverse: planner.plan_fft_inverse(half),
+            twist: twist(half),
+        }
+    }
+
+    /// The two frequencies of a bin: `k` in its real and `m - k` in its imaginary part; 0 and `m / 2` in the first.
+    fn frequencies(&self, bin: usize) -> [usize; 2] {
+        match bin {
+            0 => [0, self.half / 2],
+            k => [k, self.half - k],
+        }
+    }
+}
+
+impl Row for MirroredRow {
+    fn period(&self) -> usize {
+        2 * self.half
+    }
+
+    fn bins(&self) -> usize {
+        self.half / 2
+    }
+
+    fn buffer_length(&self) -> usize {
+        self.half
+    }
+
+    /// A spectrum and what the transforms ask for.
+    fn work_length(&self) -> usize {
+        let forward = self.forward.get_scratch_len();
+        self.half / 2 + 1 + forward.max(self.inverse.get_scratch_len())
+    }
+
+    fn forward(
+        &self,
+        row: &[f64],
+        bins: &mut [Complex<f64>],
+        buffer: &mut [f64],
+        work: &mut [Complex<f64>],
+    ) -> Result<(), FftError> {
+        makhoul_permute(row, buffer);
+        let (spectrum, work) = work.split_at_mut(self.half / 2 + 1);
+        let work = &mut work[..self.forward.get_scratch_len()];
+        self.forward.process_with_scratch(buffer, spectrum, work)?;
+        for ((bin, value), w) in bins.iter_mut().zip(spectrum.iter()).zip(&self.twist) {
+            *bin = (value * w).conj();
+        }
+        // Of the middle frequency real and imaginary part say the same; a factor that comes back is left out.
+        bins[0] = Complex::new(spectrum[0].re, spectrum[self.half / 2].re);
+        Ok(())
+    }
+
+    fn inverse(
+        &self,
+        bins: &mut [Complex<f64>],
+        row: &mut [f64],
+        buffer: &mut [f64],
+        work: &mut [Complex<f64>],
+    ) -> Result<(), FftError> {
+        let (spectrum, work) = work.split_at_mut(self.half / 2 + 1);
+        for ((value, bin), w) in spectrum.iter_mut().zip(bins.iter()).zip(&self.twist) {
+            *value = (bin * w).conj();
+        }
+        spectrum[0] = bins[0].re.into();
+        spectrum[self.half / 2] = bins[0].im.into();
+        let work = &mut work[..self.inverse.get_scratch_len()];
+        self.inverse.process_with_scratch(spectrum, buffer, work)?;
+        makhoul_unpermute(buffer, row);
+        Ok(())
+    }
+}
 
 /// Plans for columns of one length.
 pub(super) struct MirroredColumn {
@@ -79,11 +187,6 @@ impl Column for MirroredColumn {
         2 * self.half
     }
 
-    /// Four numbers for every pair of frequencies.
-    fn kernel_length(&self) -> usize {
-        2 * self.half
-    }
-
     /// The values in the order of the transform, and what the transforms ask for.
     fn work_length(&self) -> usize {
         let forward = self.forward.get_inplace_scratch_len();
@@ -109,11 +212,11 @@ impl Column for MirroredColumn {
 }
 
 /// Even values in ascending, odd ones in descending order, zeros between.
-fn makhoul_permute(column: &[Complex<f64>], values: &mut [Complex<f64>]) {
-    let (even, odd) = (column.len().div_ceil(2), column.len() / 2);
+fn makhoul_permute<T: Copy + Default>(line: &[T], values: &mut [T]) {
+    let (even, odd) = (line.len().div_ceil(2), line.len() / 2);
     let beyond = values.len() - odd;
-    values[even..beyond].fill(ZERO);
-    let pairs = column.chunks_exact(2);
+    values[even..beyond].fill(T::default());
+    let pairs = line.chunks_exact(2);
     if let [last] = pairs.remainder() {
         values[even - 1] = *last;
     }
@@ -125,11 +228,11 @@ fn makhoul_permute(column: &[Complex<f64>], values: &mut [Complex<f64>]) {
 }
 
 /// The reverse of [`makhoul_permute`].
-fn makhoul_unpermute(values: &[Complex<f64>], column: &mut [Complex<f64>]) {
-    let even = column.len().div_ceil(2);
+fn makhoul_unpermute<T: Copy>(values: &[T], line: &mut [T]) {
+    let even = line.len().div_ceil(2);
     let (ascending, descending) = values.split_at(even);
     let places = ascending.iter().zip(descending.iter().rev());
-    let mut pairs = column.chunks_exact_mut(2);
+    let mut pairs = line.chunks_exact_mut(2);
     for (pair, (a, b)) in pairs.by_ref().zip(places) {
         (pair[0], pair[1]) = (*a, *b);
     }
