@@ -219,7 +219,8 @@ fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_t
     let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
     let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
     sweep(&file, &whole, &[]).success();
-    // One case that takes seconds: it is stopped while it computes, not while it writes.
+    // One case that takes seconds: it is stopped while it computes, not while it writes its results. A checkpoint is due at every
+    // moment, so that one would be written into the folder that is no longer its own.
     let set = [
         "sweep.angular_frequency=[20]",
         "cycle.method=\"march\"",
@@ -229,7 +230,8 @@ fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_t
         "solver.springs=100",
     ];
     let set = set.iter().flat_map(|assignment| ["--set", assignment]);
-    let long: Vec<&str> = ["sweep", &file].into_iter().chain(set).collect();
+    let long = ["sweep", &file, "--checkpoint-every", "0"];
+    let long: Vec<&str> = long.into_iter().chain(set).collect();
     let replaced = start(&long, &out);
     wait_for("the sweep did not start", || {
         out.join("resolved.toml").exists()

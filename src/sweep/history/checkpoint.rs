@@ -91,7 +91,7 @@ impl HistoryCheckpoint {
             found => found,
         };
         found.map_err(|reason| UnusableCheckpoint {
-            path: self.file.path().to_path_buf(),
+            path: self.file.path(),
             reason,
         })
     }
@@ -204,7 +204,8 @@ mod tests {
         assert_eq!(checkpoint.find().unwrap(), Some(state()));
         let path = folder.path().join("checkpoints/history");
         let bytes = fs::read(&path).unwrap();
-        drop(one);
+        // Both work in the folder, and so hold it.
+        drop((one, checkpoint));
         let other = HistoryCheckpoint::of(&store("title = \"b\"\n"), Duration::ZERO);
         // Another scenario has cleared the folder.
         assert_eq!(other.find().unwrap(), None);
@@ -213,8 +214,8 @@ mod tests {
         let reason = |checkpoint: &HistoryCheckpoint| checkpoint.find().err().map(|e| e.reason);
         assert_eq!(reason(&other), Some(Unusable::Foreign));
         fs::write(&path, &bytes[..bytes.len() - 1]).unwrap();
-        assert_eq!(reason(&checkpoint), Some(Unusable::Damaged));
-        checkpoint.remove();
+        assert_eq!(reason(&other), Some(Unusable::Damaged));
+        other.remove();
         assert!(!folder.path().join("checkpoints").exists());
     }
 

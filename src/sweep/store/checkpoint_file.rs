@@ -14,8 +14,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
 
+use crate::sweep::store::Store;
 use crate::sweep::store::provenance::BUILD;
-use crate::sweep::store::{Store, write_atomically};
 
 /// Time between two writes, unless told otherwise.
 pub const EVERY: Duration = Duration::from_secs(10);
@@ -78,9 +78,14 @@ impl Rhythm {
 /// The file of a checkpoint, and what it belongs to.
 #[derive(Debug, Clone)]
 pub(in crate::sweep) struct CheckpointFile {
-    path: PathBuf,
-    key: [u8; HASH_BYTES],
+    store: Store,
+    name: PathBuf,
+    owner: Owner,
 }
+
+/// SHA-256 of what a checkpoint belongs to.
+#[derive(Debug, Clone)]
+struct Owner([u8; HASH_BYTES]);
 
 /// Why a checkpoint is not used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
@@ -96,37 +101,46 @@ impl CheckpointFile {
     /// The file of this name among the checkpoints of a folder. It belongs to this build of the program, to the sweep or scenario
     /// of the folder, and to what `owner` names in it.
     pub(in crate::sweep) fn new(store: &Store, name: impl AsRef<Path>, owner: &str) -> Self {
-        let path = store.folder().join(FOLDER).join(name);
         let owner = format!("{BUILD}\n{}\n{owner}", store.sweep_hash());
-        let key = Sha256::digest(owner).into();
-        Self { path, key }
+        Self {
+            store: store.clone(),
+            name: Path::new(FOLDER).join(name),
+            owner: Owner(Sha256::digest(owner).into()),
+        }
     }
 
-    pub(in crate::sweep) fn path(&self) -> &Path {
-        &self.path
+    pub(in crate::sweep) fn path(&self) -> PathBuf {
+        self.store.folder().join(&self.name)
     }
 
     /// What it holds; `None` where there is none.
     pub(in crate::sweep) fn read<T: DeserializeOwned>(&self) -> Result<Option<T>, Unusable> {
-        match fs::read(&self.path) {
-            Ok(bytes) => self.decode(&bytes).map(Some),
+        match fs::read(self.path()) {
+            Ok(bytes) => self.owner.decode(&bytes).map(Some),
             Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
             // What cannot be read is as good as torn.
             Err(_) => Err(Unusable::Damaged),
         }
     }
 
-    /// Writes what [`Self::encode`] has made. Where it cannot be written, more is computed again, and nothing else is lost.
+    /// Writes what [`Self::encode`] has made. Where it cannot be written, more is computed again, and nothing else is lost; in a
+    /// folder that another sweep has taken, nothing is left behind.
     pub(in crate::sweep) fn write(&self, bytes: &[u8]) {
-        let _ = write_atomically(&self.path, bytes);
+        let _ = (self.store.check_plan()).and_then(|()| self.store.write(&self.name, bytes));
     }
 
     pub(in crate::sweep) fn encode(&self, content: &impl Serialize) -> Option<Vec<u8>> {
+        self.owner.encode(content)
+    }
+}
+
+impl Owner {
+    fn encode(&self, content: &impl Serialize) -> Option<Vec<u8>> {
         // The content may fill much of the memory: room for it is made once.
         let size = postcard::serialize_with_flavor(content, Size::default()).ok()?;
         let mut bytes = Vec::with_capacity(MARK.len() + 2 * HASH_BYTES + size);
         bytes.extend_from_slice(MARK);
-        bytes.extend_from_slice(&self.key);
+        bytes.extend_from_slice(&self.0);
         let mut bytes = postcard::to_extend(content, bytes).ok()?;
         let hash = Sha256::digest(&bytes);
         bytes.extend_from_slice(&hash);
@@ -140,7 +154,7 @@ impl CheckpointFile {
             content.strip_prefix(MARK).filter(|_| is_whole)
         };
         let content = whole().ok_or(Unusable::Damaged)?;
-        let content = content.strip_prefix(&self.key).ok_or(Unusable::Foreign)?;
+        let content = content.strip_prefix(&self.0).ok_or(Unusable::Foreign)?;
         match postcard::take_from_bytes(content) {
             Ok((content, [])) => Ok(content),
             _ => Err(Unusable::Damaged),
@@ -154,18 +168,15 @@ mod tests {
 
     type Content = (Vec<f64>, Option<f64>);
 
-    fn file(key: u8) -> CheckpointFile {
-        CheckpointFile {
-            path: PathBuf::new(),
-            key: [key; HASH_BYTES],
-        }
+    fn owner(byte: u8) -> Owner {
+        Owner([byte; HASH_BYTES])
     }
 
     #[test]
     fn every_bit_comes_back_of_infinities_and_negative_zeros_too() {
         let content = (vec![1.0 / 3.0, -0.0, f64::INFINITY], None);
-        let bytes = file(7).encode(&content).unwrap();
-        let found: Content = file(7).decode(&bytes).unwrap();
+        let bytes = owner(7).encode(&content).unwrap();
+        let found: Content = owner(7).decode(&bytes).unwrap();
         assert_eq!(found.1, content.1);
         let bits = |(values, _): Content| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
         assert_eq!(bits(found), bits(content));
@@ -174,8 +185,8 @@ mod tests {
     #[test]
     fn a_damaged_or_foreign_checkpoint_is_known_for_what_it_is() {
         let content: Content = (vec![1.0, 2.0], Some(3.0));
-        let bytes = file(7).encode(&content).unwrap();
-        let decode = |key, bytes: &[u8]| file(key).decode::<Content>(bytes);
+        let bytes = owner(7).encode(&content).unwrap();
+        let decode = |byte, bytes: &[u8]| owner(byte).decode::<Content>(bytes);
         assert_eq!(decode(7, &bytes), Ok(content));
         assert_eq!(decode(8, &bytes), Err(Unusable::Foreign));
         for byte in 0..bytes.len() {
@@ -188,8 +199,8 @@ mod tests {
 
     #[test]
     fn lengths_that_lie_are_refused_without_taking_memory() {
-        let lies = file(7).encode(&u64::MAX).unwrap();
-        assert_eq!(file(7).decode::<Content>(&lies), Err(Unusable::Damaged));
+        let lies = owner(7).encode(&u64::MAX).unwrap();
+        assert_eq!(owner(7).decode::<Content>(&lies), Err(Unusable::Damaged));
     }
 
     #[test]

@@ -256,7 +256,7 @@ impl Store {
     }
 
     /// Whether the folder is of this sweep still.
-    fn check_plan(&self) -> Result<(), StoreError> {
+    pub(in crate::sweep) fn check_plan(&self) -> Result<(), StoreError> {
         match read_plan(&self.folder) {
             // Most often it is as it was, which is sooner seen than hashed; the sweep is the same with other figures too.
             Ok(resolved) if *resolved == *self.resolved || hash(&resolved) == self.sweep_hash => {
