@@ -17,8 +17,10 @@ const NAMED: usize = 3;
 /// One line a record: frequency, loss and phase with half their intervals of 95 %, cycles that count, file.
 pub fn table(rows: &[MeasuredRow]) -> String {
     let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
-    let mut text =
-        "    f / Hz   loss / cycle           phase / deg        cycles   file\n".to_owned();
+    let mut text = format!(
+        "{:>10}   {:<20}   {:<16}   {:>8}   file\n",
+        "f / Hz", "loss / cycle", "phase / deg", "cycles"
+    );
     for row in rows {
         let measured = row.measured.as_ref();
         let loss = row.mean(Quantity::EnergyLoss);
