@@ -63,7 +63,7 @@ pub(super) struct AnalyseFlags {
     /// Folder of a computed sweep, whose loops and curves are drawn beside the measured ones
     #[arg(long, value_name = "DIR")]
     against: Option<PathBuf>,
-    /// Write tables alone: no figures and no page
+    /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
     /// Print nothing but errors

@@ -23,8 +23,8 @@ use crate::quantity::{Dimension, parse};
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Command,
-    /// What to print at the end; json: one object for other programs, with --quiet too. For `material fit` also a format of its
-    /// data, as --data-format has them
+    /// Output format; json prints one object for other programs, also with --quiet. For `material fit`, also the format of its
+    /// data, as with --data-format
     #[arg(
         long, value_name = "FORMAT", default_value = "text", global = true, value_parser = AnyFormat,
         action = ArgAction::Append
@@ -109,26 +109,26 @@ Exit codes:
 pub(super) enum Command {
     /// Compute the energy loss per cycle over the load frequencies of a sweep file
     Sweep(super::sweep::SweepFlags),
-    /// Print the cases of a sweep file and about what they cost, and compute nothing
+    /// Print the cases of a sweep file and their approximate cost, without computing them
     Plan(super::plan::PlanFlags),
     /// Join the shards of a sweep that have folders of their own
     Merge(super::stored::MergeFlags),
-    /// Draw tables and figures again from stored records, without solving
+    /// Redraw tables and figures from stored records, without solving
     Report(super::stored::ReportFlags),
-    /// Say whether two results of a sweep are the same, and where they differ
+    /// Compare two results of a sweep and report where they differ
     Compare(super::compare::CompareFlags),
     /// Read loss, phase and moduli from measured loops, with their uncertainties
     Analyse(super::analyse::AnalyseFlags),
     /// Follow one drive history: load or approach against time, from a scenario file
     Simulate(super::simulate::SimulateFlags),
-    /// Find the material that has these measured cycles: moduli and times with confidence bands
+    /// Find the material from measured cycles: moduli and times with confidence bands
     Identify(super::identify::IdentifyFlags),
-    /// Make the computed figures of the base paper, with every number held against its exact value
+    /// Recompute the figures of the base paper and compare every number with its exact value
     Reproduce(super::reproduce::ReproduceFlags),
-    /// Look at materials: their series, moduli over frequency, sources
+    /// Show, fit and export materials: series, moduli over frequency, sources
     #[command(subcommand)]
     Material(MaterialCommand),
-    /// Print the JSON Schema of sweep, scenario or setup files, by which editors complete and check them
+    /// Print the JSON Schema of sweep, scenario or setup files, with which editors complete and check them
     Schema(super::schema::SchemaFlags),
     /// Print a completion script for a shell
     #[command(after_help = "\

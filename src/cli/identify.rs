@@ -44,7 +44,7 @@ pub(super) struct IdentifyFlags {
     /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
-    /// Write tables alone: no figures and no page
+    /// Write only tables, without figures and page
     #[arg(long)]
     pub(super) no_figures: bool,
     /// Print nothing but errors

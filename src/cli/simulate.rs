@@ -46,7 +46,7 @@ pub(super) struct SimulateFlags {
     /// --set output.error_bars=false
     #[arg(long)]
     no_error_bars: bool,
-    /// Write tables alone: no figures and no page
+    /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
     /// Number of threads, which share a large half-space grid [default: one per processor, at most four for each]; the

@@ -71,10 +71,10 @@ pub(super) struct ReportFlags {
     /// Replace the results of a different sweep in the folder of --out
     #[arg(long, requires = "out")]
     force: bool,
-    /// Write tables alone: no figures and no page
+    /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
-    /// Write cycles.npz, all cycles for NumPy, of more than 200 cases too
+    /// Write cycles.npz, all cycles for NumPy, also for more than 200 cases
     #[arg(long)]
     cycles: bool,
     /// Change one key of [figures], for example figures.width='85 mm'; may be repeated

@@ -31,8 +31,8 @@ Examples:
   contact-dma sweep sweeps/pmma.toml --set solver.engine=half-space --threads 2
   contact-dma sweep sweeps/pmma.toml --shard 2/8
 
-The same command again goes on where it was stopped: cases with intact records are read, not
-computed, and a long case goes on from its last checkpoint.
+The same command again resumes an interrupted sweep: cases with intact records are read, not
+computed, and a long case continues from its last checkpoint.
 
 Written to the output folder: index.html (one page of everything, to look at or to send),
 sweep.csv (one row per frequency), loops/ (the stabilised cycles), pressures/ and work/
@@ -40,8 +40,8 @@ sweep.csv (one row per frequency), loops/ (the stabilised cycles), pressures/ an
 counts), figures as SVG and PNG with their data as CSV, records/ (everything, for later),
 resolved.toml (the sweep with every default).
 
-The [figures] table says how figures look and changes no result: the same sweep with another
-table reads its records and draws again.")]
+The [figures] table affects only how figures look: the same sweep with another table reads its
+records and redraws.")]
 pub(super) struct SweepFlags {
     /// The sweep file (TOML); - reads standard input, from which paths start in the working folder
     file: PathBuf,
@@ -55,26 +55,26 @@ pub(super) struct SweepFlags {
     /// from 0); KEY= removes a key; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Choose steps and nodes such that the error of every loss is below this part of it; the same as
+    /// Choose steps and nodes so that the relative error of every loss is below this value; same as
     /// --set cycle.accuracy=X
     #[arg(long, value_name = "X")]
     accuracy: Option<f64>,
-    /// Write tables alone: no figures and no page
+    /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
-    /// Write cycles.npz, all cycles for NumPy, of more than 200 cases too
+    /// Write cycles.npz, all cycles for NumPy, also for more than 200 cases
     #[arg(long)]
     cycles: bool,
     /// Compute only the part K of N; `merge` joins parts in separate folders
     #[arg(long, value_name = "K/N")]
     shard: Option<Shard>,
-    /// Print what would be computed and about what it costs, and compute nothing
+    /// Print what would be computed and its approximate cost, and compute nothing
     #[arg(long)]
     dry_run: bool,
     /// Print what was done: instants, iterations and convolutions per instant
     #[arg(long)]
     stats: bool,
-    /// Seconds between two checkpoints of a case that takes long
+    /// Seconds between checkpoints of a long case
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
     checkpoint_every: u64,
     /// Replace the results of a different sweep, or of a newer program, in the output folder

@@ -69,11 +69,11 @@ fn list(rows: &[&dyn AnyRow], text: &mut String) {
     if rows.is_empty() {
         return;
     }
-    text.push_str("| key | value | if left out | meaning |\n|---|---|---|---|\n");
+    text.push_str("| key | value | default | meaning |\n|---|---|---|---|\n");
     for row in rows {
         let absent = match row.default() {
             Some(default) => format!("`{default}`"),
-            None if row.is_required() => "needed".to_owned(),
+            None if row.is_required() => "required".to_owned(),
             None => String::new(),
         };
         let (name, value) = (row.name(), row.kind().expected());

@@ -12,7 +12,7 @@ use super::error::{MaterialError, positive};
 use super::relaxation::{Relaxation, RelaxationBranch};
 use super::{Compressibility, Material, ModulusKind};
 
-/// The Maxwell fluid: a spring and a dashpot in line.
+/// The Maxwell fluid: a spring and a dashpot in series.
 ///
 /// ```text
 ///     ---/\/\/\---[ |---
@@ -79,7 +79,7 @@ impl Maxwell {
     }
 }
 
-/// The Zener (standard linear) solid: a spring in line with a Kelvin unit.
+/// The Zener (standard linear) solid: a spring in series with a Kelvin unit.
 ///
 /// ```text
 ///                  |--/\/\/\--|  G_K

@@ -411,7 +411,7 @@ mod tests {
 
     #[test]
     fn a_zener_solid_has_the_closed_form_relaxation() {
-        // Spring 1/D0 in line with a Kelvin unit 1/D1, lambda: g_inf = 1/(D0 + D1),
+        // Spring 1/D0 in series with a Kelvin unit 1/D1, lambda: g_inf = 1/(D0 + D1),
         // tau = lambda D0/(D0 + D1), E(0) = 1/D0 (Tschoegl 1989, section 3.3).
         for (d0, d1) in [(1e-9, 1e-9), (1e-9, 3e-12), (1e-12, 4e-7)] {
             let lambda = 2.5;

@@ -40,7 +40,7 @@ pub struct Creep {
 impl Creep {
     /// A generalised Kelvin model; branches may come in any order, and equal times are merged.
     ///
-    /// `viscosity_pa_s` is that of the dashpot in line, `None` for a solid.
+    /// `viscosity_pa_s` is that of the dashpot in series, `None` for a solid.
     ///
     /// # Errors
     /// A parameter that is not finite; a branch compliance, time or viscosity that is not
@@ -91,7 +91,7 @@ impl Creep {
         &self.branches
     }
 
-    /// Viscosity `eta` of the dashpot in line, in Pa s; `None` for a solid.
+    /// Viscosity `eta` of the dashpot in series, in Pa s; `None` for a solid.
     pub fn viscosity_pa_s(&self) -> Option<f64> {
         self.viscosity_pa_s
     }

@@ -1,7 +1,7 @@
 //! Fractional models: springpot, fractional Zener, fractional Maxwell, and their representation by a Prony series over a band.
 //!
-//! A springpot has `E* = E (i omega tau)^alpha`, between a spring (`alpha = 0`) and a dashpot (`alpha = 1`). Two in line are the
-//! fractional Maxwell model, a spring beside a spring and a springpot in line the fractional Zener model:
+//! A springpot has `E* = E (i omega tau)^alpha`, between a spring (`alpha = 0`) and a dashpot (`alpha = 1`). Two in series are the
+//! fractional Maxwell model, a spring beside a spring and a springpot in series the fractional Zener model:
 //!
 //! ```text
 //! springpot  E* = E (i omega tau)^alpha                                             0 < alpha < 1
@@ -130,7 +130,7 @@ impl Fractional {
         )
     }
 
-    /// Two springpots in line, of exponents alpha (that of low frequencies) and beta; a spring and a springpot where beta is zero.
+    /// Two springpots in series, of exponents alpha (that of low frequencies) and beta; a spring and a springpot where beta is zero.
     ///
     /// # Errors
     /// A modulus or time that is not positive; exponents that are not `0 <= beta < alpha <= 1`.
@@ -534,7 +534,7 @@ mod tests {
         let made = maxwell.represent(BAND, 1e-8).unwrap();
         let classical = classical::Maxwell::new(1e6, 2.0).unwrap();
         assert_eq!(made.relaxation, classical.relaxation().unwrap());
-        // The springs of the classical solid in line: 1/(1/4e6), and the Kelvin unit that leaves 1e6 at rest.
+        // The springs of the classical solid in series: 1/(1/4e6), and the Kelvin unit that leaves 1e6 at rest.
         let solid = classical::Zener::new(4e6, 4e6 / 3.0, 8.0).unwrap();
         let solid = solid.relaxation().unwrap();
         for exponent in [-3, 0, 2] {

@@ -7,14 +7,14 @@ use crate::quantity::Dimension::{EnergyPerArea, Length};
 use crate::sweep::plan::adhesion::AdhesionPlan;
 
 rows! { ADHESION_KEYS:
-    /// Work of adhesion, the energy that parts a unit of area.
+    /// Work of adhesion: energy to separate a unit area.
     WORK: Row<Scalar, Required> = "work", quantity(EnergyPerArea).above_zero(), Required;
-    /// Distance of the surfaces at equilibrium, which Tabor's parameter depends on.
+    /// Equilibrium distance of the surfaces, used in the Tabor parameter.
     EQUILIBRIUM_DISTANCE: Row<Scalar, Or<f64>> =
         "equilibrium_distance", quantity(Length).above_zero(), Or(AdhesionPlan::EQUILIBRIUM_DISTANCE_M);
 }
 
 pub(super) static ADHESION: Rows = super::table(
-    " Attraction outside the contact of a sphere, by the theory of Derjaguin, Muller and Toporov, under a prescribed load.",
+    " Adhesion of a sphere under a prescribed load, by the theory of Derjaguin, Muller and Toporov.",
     ADHESION_KEYS,
 );

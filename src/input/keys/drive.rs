@@ -60,30 +60,30 @@ const fn of_prescribed(limits: Limits) -> Dependent {
 }
 
 rows! { HARMONIC_KEYS:
-    /// What is prescribed: the load; the mean pressure on a surface that repeats itself, which is the load over the area of one period;
-    /// or the approach. The values below are stresses then, or lengths.
+    /// What is prescribed: the load; the mean pressure on a periodic surface (load over the area of one period); or the approach. The
+    /// values below are then forces, stresses or lengths.
     PRESCRIBES: Row<Choice<Prescribed>, Or<Prescribed>> =
         "control", Choice(&PRESCRIBED), Or(Prescribed::Load);
-    /// Mean; with the amplitude above zero.
+    /// Mean; the sum of mean and amplitude must be above zero.
     MEAN: Row<Dependent, Required> = "mean", of_prescribed(Limits::NONE), Required;
-    /// Amplitude; a load is held at zero where the sine is below.
+    /// Amplitude; a load is held at zero where the sine would be negative.
     AMPLITUDE: Row<Dependent, Required> = "amplitude", of_prescribed(Limits::ABOVE_ZERO), Required;
-    /// Phase at which the oscillation begins.
+    /// Phase at the start of the oscillation.
     PHASE: Row<Scalar, Or<f64>> = "phase", quantity(Angle), Or(0.0);
-    /// Rest under the mean before the oscillation.
+    /// Hold at the mean before the oscillation.
     HOLD: Row<Scalar, Or<f64>> = "hold", quantity(Time).not_negative(), Or(0.0);
 }
 
 pub(super) static HARMONIC: Rows = super::table(
-    " mean + amplitude sin(omega t + phase), after a rest under the mean.",
+    " mean + amplitude sin(omega t + phase), after a hold at the mean.",
     HARMONIC_KEYS,
 );
 
 rows! { _:
-    /// Angular frequencies: a list, or a range. Hz is understood.
+    /// Angular frequencies: a list or a range. Hz is accepted too.
     ANGULAR_FREQUENCY: Row<Points, Required> =
         "angular_frequency", Points(quantity(AngularFrequency).above_zero()), Required;
-    /// Frequencies: a list, or a range. rad/s is understood.
+    /// Frequencies: a list or a range. rad/s is accepted too.
     FREQUENCY: Row<Points, Required> = "frequency", Points(quantity(Frequency).above_zero()), Required;
 }
 
@@ -91,28 +91,28 @@ rows! { _:
 pub(in crate::input) const LISTED: [&str; 2] = [Block::Material.name(), Block::Indenter.name()];
 
 rows! { SWEEP_KEYS:
-    /// Another axis: every frequency under each value of a key of `[drive]`: `drive.amplitude = ["1 N", "2 N"]`. Up to four axes may
-    /// be given, and the cases are all combinations of their values.
+    /// A further axis over a key of `[drive]`, with all frequencies at each value: `drive.amplitude = ["1 N", "2 N"]`. Up to four axes may
+    /// be given; the cases are all combinations of their values.
     DRIVE_AXIS: Row<AxisOf, Optional> = "drive", AxisOf::new(Block::Drive, &HARMONIC), Optional;
-    /// The same over a number of the indenter, or of what it is made of: `indenter.radius = ["1 mm", "2 mm"]`. Or several indenters in
-    /// place of `[indenter]`: a `[[sweep.indenter]]` for each, with its `name`.
+    /// The same over a number of the indenter or of its material: `indenter.radius = ["1 mm", "2 mm"]`. Or several indenters in
+    /// place of `[indenter]`: one `[[sweep.indenter]]` each, with its `name`.
     INDENTER_AXIS: Row<AxisOf, Optional> =
         "indenter", AxisOf::new(Block::Indenter, &INDENTER).or_blocks(&LISTED_INDENTER), Optional;
-    /// The same over a number of the material: `material.temperature = ["0 °C", "25 °C"]`, and, in quotes, of a table or list within
-    /// its block: `"material.relaxation.branches[0].time" = ["1 s", "10 s"]`, items counted from 0. Or several materials in
-    /// place of `[material]`: a `[[sweep.material]]` for each, which has a `name` or is one of the library.
+    /// The same over a number of the material: `material.temperature = ["0 °C", "25 °C"]`, or, with a quoted path, in a table or list
+    /// within its block: `"material.relaxation.branches[0].time" = ["1 s", "10 s"]`, items counted from 0. Or several materials in
+    /// place of `[material]`: one `[[sweep.material]]` each, with a `name` or from the library.
     MATERIAL_AXIS: Row<AxisOf, Optional> =
         "material", AxisOf::new(Block::Material, &MATERIAL).or_blocks(&MATERIAL), Optional;
     /// The same over a number of the layer: `layer.thickness = ["10 um", "1 mm"]`.
     LAYER_AXIS: Row<AxisOf, Optional> = "layer", AxisOf::new(Block::Layer, &LAYER), Optional;
-    /// Whether the values of several axes go together one by one, each axis with as many, in place of all their combinations.
+    /// Whether the values of several axes of equal length are paired one by one, instead of combined.
     PAIRS: Row<Boolean, Or<bool>> = "pairs", Boolean, Or(false);
-    /// Whether frequencies are added where the given ones do not resolve the curve of the loss.
+    /// Whether frequencies are added where the given ones do not resolve the loss curve.
     REFINE: Row<Boolean, Or<bool>> = "refine", Boolean, Or(false);
 }
 
 pub(super) static SWEEP: Rows = Rows {
-    means: " The cases: exactly one of `angular_frequency` and `frequency`, and perhaps other axes.",
+    means: " The cases: exactly one of `angular_frequency` and `frequency`, and optional further axes.",
     keys: SWEEP_KEYS,
     others: Others::OneList(&[&[&ANGULAR_FREQUENCY], &[&FREQUENCY]]),
 };
@@ -124,7 +124,7 @@ rows! { RANGE_KEYS:
     TO: Row<Scalar, Required> = "to", quantity(AngularFrequency).above_zero(), Required;
     /// Number of points, both ends included.
     POINTS: Row<Integer, Required> = "points", Integer(1..=MOST_POINTS), Required;
-    /// Whether ratios of neighbours are the same, or differences.
+    /// Logarithmic (constant ratio) or linear (constant difference).
     SPACING: Row<Choice<Spacing>, Or<Spacing>> = "spacing", Choice(&SPACINGS), Or(Spacing::Logarithmic);
 }
 
@@ -149,7 +149,7 @@ const SEGMENT_KINDS: [(&str, SegmentKind); 5] = [
 const MOST_SEGMENTS: usize = 10_000;
 
 rows! { _:
-    /// The segments, one after another; a jump between two is placed exactly.
+    /// The segments, one after another; jumps between them are resolved exactly.
     SEGMENTS: Row<Tables, Required> =
         "segments",
         Tables {
@@ -161,7 +161,7 @@ rows! { _:
 }
 
 pub(super) static HISTORY: Rows = super::table(
-    " A history of load or approach, from first touch.",
+    " A history of load or approach, starting at first touch.",
     &[&PRESCRIBES, &SEGMENTS],
 );
 
@@ -186,17 +186,17 @@ static SEGMENT: Rows = Rows {
 };
 
 rows! { _:
-    /// The value that is held, or reached at the end.
+    /// The value held, or reached at the end.
     TARGET: Row<Dependent, Required> = "to", of_prescribed(Limits::NONE), Required;
-    /// How long the segment lasts.
+    /// Duration of the segment.
     DURATION: Row<Scalar, Required> = "duration", quantity(Time).above_zero(), Required;
-    /// Of 1, t, t^2, ... in SI units, t from the beginning of the segment.
+    /// Coefficients of 1, t, t^2, ... in SI units, with t from the start of the segment.
     COEFFICIENTS: Row<Array<Scalar>, Required> = "coefficients", list(number("2.0")), Required;
 }
 
-static STEP: Rows = super::table(" A jump, and then a constant value.", &[&TARGET, &DURATION]);
+static STEP: Rows = super::table(" A jump to a constant value.", &[&TARGET, &DURATION]);
 static RAMP: Rows = super::table(
-    " A straight line from where the segment before ends.",
+    " A straight line from the end of the previous segment.",
     &[&TARGET, &DURATION],
 );
 static POLYNOMIAL: Rows = super::table(" A polynomial of time.", &[&COEFFICIENTS, &DURATION]);
@@ -206,15 +206,15 @@ rows! { _:
     SINE_MEAN: Row<Dependent, Required> = "mean", of_prescribed(Limits::NONE), Required;
     /// Amplitude.
     SINE_AMPLITUDE: Row<Dependent, Required> = "amplitude", of_prescribed(Limits::ABOVE_ZERO), Required;
-    /// Number of cycles, whole or not.
+    /// Number of cycles, not necessarily whole.
     CYCLES: Row<Scalar, Required> = "cycles", number("4.0").above_zero(), Required;
 }
 
 rows! { _:
-    /// Angular frequency; Hz is understood.
+    /// Angular frequency; Hz is accepted too.
     SINE_ANGULAR_FREQUENCY: Row<Scalar, Required> =
         "angular_frequency", quantity(AngularFrequency).above_zero(), Required;
-    /// Frequency; rad/s is understood.
+    /// Frequency; rad/s is accepted too.
     SINE_FREQUENCY: Row<Scalar, Required> = "frequency", quantity(Frequency).above_zero(), Required;
 }
 
@@ -227,7 +227,7 @@ static SINE: Rows = Rows {
 rows! { _:
     /// CSV file with the columns `time_s` and `load_n` or `approach_m`.
     FILE: Row<Text, Required> = "file", Text, Required;
-    /// Times that are written out in place of a file; the first is 0 s, two equal ones are a jump.
+    /// Times, in place of a file; the first is 0 s, two equal ones are a jump.
     TIMES: Row<Array<Scalar>, Required> = "times", list(quantity(Time)), Required;
     /// Their values.
     VALUES: Row<Array<Dependent>, Required> = "values", list(of_prescribed(Limits::NONE)), Required;

@@ -33,7 +33,7 @@ const FRACTIONAL_ACCURACY: Limits = Limits::between(fractional::ACCURACY.0, frac
 rows! { FRACTIONAL_KEYS:
     /// `springpot`: E* = stiffness (i omega time)^exponent. `zener`: E* = equilibrium + stiffness (i omega time)^exponent /
     /// (1 + (i omega time)^exponent). `maxwell`: E* = stiffness (i omega time)^exponent / (1 + (i omega time)^(exponent -
-    /// second_exponent)), two springpots in line. Springpot and Maxwell are fluids, for single histories.
+    /// second_exponent)), two springpots in series. Springpot and Maxwell are fluids, for single histories only.
     FRACTIONAL_MODEL: Row<Choice<FractionalModel>, Required> = "model", Choice(&FRACTIONAL_MODELS), Required;
     /// Whether the stiffnesses are Young's or shear moduli.
     FRACTIONAL_KIND: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
@@ -46,7 +46,7 @@ rows! { FRACTIONAL_KEYS:
         "exponent",
         number("0.5").within(Limits::new(Bound::Excluded(0.0), Bound::Included(1.0))).or_else(BETWEEN),
         Required;
-    /// Lowest and highest angular frequency over which a series represents the model; outside, results are extrapolations.
+    /// Lowest and highest angular frequency between which a series represents the model; outside, results are extrapolations.
     BAND: Row<Array<Scalar>, Required> =
         "band", pair(quantity(AngularFrequency).above_zero().or_else(BAND_PAIR), BAND_PAIR), Required;
     /// Largest relative difference of E* between series and model over the band.
@@ -77,7 +77,7 @@ pub(super) static TABLE: Rows = Rows {
 
 static FRACTIONAL_SPRINGPOT: Rows = super::table(" A springpot alone.", &[]);
 static FRACTIONAL_ZENER: Rows = super::table(
-    " A spring beside a spring and a springpot in line.",
+    " A spring in parallel with a spring and a springpot in series.",
     &[&EQUILIBRIUM],
 );
-static FRACTIONAL_MAXWELL: Rows = super::table(" Two springpots in line.", &[&SECOND_EXPONENT]);
+static FRACTIONAL_MAXWELL: Rows = super::table(" Two springpots in series.", &[&SECOND_EXPONENT]);

@@ -9,10 +9,10 @@ use crate::input::document::row::{Optional, Others, Required, Row, Rows};
 use crate::input::material_dynamic::Branches;
 
 rows! { IDENTIFY_KEYS:
-    /// A table with columns of `sweep.csv`, errors beside values where they are known; or a folder that holds `sweep.csv`. Of a
-    /// history `time_s` and `approach_m`, or `load_n` under a prescribed approach.
+    /// A table with columns of `sweep.csv`, with error columns if known, or a folder that holds `sweep.csv`. For a history: `time_s` and
+    /// `approach_m`, or `load_n` under a prescribed approach.
     DATA: Row<Text, Required> = "data", Text, Required;
-    /// Branches of the series: a number, or `auto`, which counts where it is left out: as many as the data ask for.
+    /// Branches of the series: a number, or `auto` (the default): as many as the data require.
     IDENTIFY_BRANCHES: Row<Branches, Optional> = "branches", Branches(1..=MOST_BRANCHES), Optional;
 }
 

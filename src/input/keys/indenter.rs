@@ -47,12 +47,12 @@ rows! { INDENTER_KEYS:
     SHAPE: Row<Choice<Shape>, Required> = "shape", Choice(&SHAPES), Required;
     /// Moves the indenter along x and y.
     OFFSET: Row<Array<Scalar>, Optional> = "offset", pair(quantity(Length), POSITION), Optional;
-    /// What the indenter is made of; left out: it is rigid.
+    /// Material of the indenter; left out: rigid.
     INDENTER_MATERIAL: Row<Table, Optional> = "material", Table(&material::INDENTER_MATERIAL), Optional;
 }
 
 pub(super) static INDENTER: Rows = Rows {
-    means: " The indenter. Those that are no convex bodies of revolution go to the half-space engine.",
+    means: " The indenter. Shapes other than convex bodies of revolution need the half-space engine.",
     keys: INDENTER_KEYS,
     others: BY_SHAPE,
 };
@@ -73,7 +73,7 @@ const BY_SHAPE: Others = Others::ByWord(
 );
 
 rows! { _:
-    /// What tables and figures call the indenter.
+    /// Name of the indenter in tables and figures.
     INDENTER_NAME: Row<Text, Required> = "name", Text, Required;
 }
 
@@ -112,9 +112,9 @@ static POWER_LAW: Rows = super::table(
 );
 
 rows! { FILE_KEYS:
-    /// Data file. Paths start from the folder of this file, in a flag from the working folder.
+    /// Data file; its path is relative to this file, in a flag to the working folder.
     FILE: Row<Text, Required> = "file", Text, Required;
-    /// SHA-256 of the data file, in hexadecimal: makes sure that it is still the same one.
+    /// SHA-256 of the data file, in hexadecimal, to make sure that it has not changed.
     SHA256: Row<Text, Optional> = "sha256", Text, Optional;
 }
 
@@ -124,7 +124,7 @@ static PROFILE: Rows = super::table(
 );
 
 rows! { _:
-    /// Distance of two points of a matrix, or one for x and one for y; not where the file has columns `x_m`, `y_m`, `z_m`.
+    /// Distance between points of a matrix, or one for x and one for y; not for files with columns `x_m`, `y_m`, `z_m`.
     MAP_SPACING: Row<Array<Scalar>, Optional> =
         "spacing", Array { entries: 1..=2, ..pair(LENGTH, POSITION) }, Optional;
     /// Whether values are heights, positive towards the half-space, or gaps.
@@ -133,10 +133,10 @@ rows! { _:
     /// Unit of the values of a matrix.
     HEIGHT_UNIT: Row<Choice<HeightUnit>, Or<HeightUnit>> =
         "height_unit", Choice(&HEIGHT_UNITS), Or(HEIGHT_UNITS[0].1);
-    /// What is taken off the values before they are used: nothing, their mean, or the plane through them.
+    /// What is subtracted from the values first: nothing, their mean, or the best-fit plane.
     LEVEL: Row<Choice<MapLevel>, Or<MapLevel>> =
         "level", Choice(&MapLevel::NAMES), Or(MapLevel::None);
-    /// What lies beyond the map: nothing known, so that contact must stay within, nothing at all (`rim`), or the map again and again
+    /// What lies outside the map: unknown, so the contact must stay within; nothing (`rim`); or periodic repetitions of the map
     /// (`periodic`), under a prescribed load.
     EDGE: Row<Choice<MapEdge>, Or<MapEdge>> =
         "edge", Choice(&MapEdge::NAMES), Or(MapEdge::Unknown);
@@ -169,7 +169,7 @@ rows! { ASPERITIES_KEYS:
 static ASPERITIES: Rows = super::table(" Paraboloids side by side.", ASPERITIES_KEYS);
 
 rows! { ASPERITY_KEYS:
-    /// Place of the summit along x and y.
+    /// Position of the summit along x and y.
     CENTER: Row<Array<Scalar>, Required> = "center", pair(quantity(Length), POSITION), Required;
     /// Radius of curvature at the summit.
     ASPERITY_RADIUS: Row<Scalar, Required> = "radius", LENGTH, Required;
@@ -182,13 +182,13 @@ static ASPERITY: Rows = super::table(" One asperity.", ASPERITY_KEYS);
 rows! { _:
     /// Points per side.
     ROUGH_SIDE: Row<Integer, Required> = "cells", Integer(ROUGH_CELLS), Required;
-    /// Distance of two points.
+    /// Distance between points.
     ROUGH_SPACING: Row<Scalar, Required> = "spacing", LENGTH, Required;
     /// Hurst exponent of the self-affine spectrum.
     HURST_EXPONENT: Row<Scalar, Required> = "hurst_exponent", number("0.8"), Required;
     /// Root mean square height.
     RMS_HEIGHT: Row<Scalar, Required> = "rms_height", LENGTH, Required;
-    /// Wavelength above which the spectrum is flat; left out: none is.
+    /// Wavelength above which the spectrum is flat; left out: no such limit.
     ROLL_OFF_WAVELENGTH: Row<Scalar, Optional> = "roll_off_wavelength", LENGTH, Optional;
     /// Shortest wavelength.
     CUT_OFF_WAVELENGTH: Row<Scalar, Required> = "cut_off_wavelength", LENGTH, Required;

@@ -20,16 +20,16 @@ const MODULUS_RATIO: Scalar = number("4.0")
 rows! { LAYER_KEYS:
     /// Thickness of the layer.
     THICKNESS: Row<Scalar, Required> = "thickness", quantity(Length).above_zero(), Required;
-    /// How it lies on the base: `bonded`, or `frictionless`, sliding along a rigid base and never leaving it.
+    /// Interface to the base: `bonded`, or `frictionless`, sliding along a rigid base without separating.
     BASE: Row<Choice<Base>, Or<Base>> = "base", Choice(&BASES), Or(Base::Bonded);
-    /// Shear modulus of the base over that of the layer, of a base that yields: at all times the same, base and layer relaxing in
-    /// proportion. Without it the base is rigid.
+    /// Shear modulus of a deformable base over that of the layer, constant in time: base and layer relax in proportion. Left out: the
+    /// base is rigid.
     BASE_MODULUS_RATIO: Row<Scalar, Optional> = "base_modulus_ratio", MODULUS_RATIO, Optional;
-    /// Poisson ratio of a base that yields.
+    /// Poisson ratio of a deformable base.
     BASE_POISSON_RATIO: Row<Scalar, Optional> = "base_poisson_ratio", POISSON_RATIO_VALUE, Optional;
 }
 
 pub(super) static LAYER: Rows = super::table(
-    " The body is a layer of the material on a base, without end to all sides, in place of a half-space. Half-space engine alone.",
+    " The body is a laterally infinite layer of the material on a base instead of a half-space. Half-space engine only.",
     LAYER_KEYS,
 );

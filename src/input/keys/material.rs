@@ -52,32 +52,32 @@ pub(crate) const MOST_REPLICAS: usize = 1000;
 const MOST_ISOTHERMS: usize = 1000;
 
 rows! { MATERIAL_KEYS:
-    /// What tables and figures call the material.
+    /// Name of the material in tables and figures.
     NAME: Row<Text, Optional> = "name", Text, Optional;
 }
 
 rows! { _:
     /// Poisson ratio, constant in time.
     POISSON_RATIO: Row<Scalar, Required> = "poisson_ratio", POISSON_RATIO_VALUE, Required;
-    /// Bulk modulus in place of the Poisson ratio, which then grows as the body relaxes: a modulus that is constant in time, or a table
-    /// with the series of one that relaxes too.
+    /// Bulk modulus in place of the Poisson ratio, which then increases as the body relaxes: constant in time, or a table
+    /// with the series of a relaxing one.
     BULK_MODULUS: Row<BulkModulus, Required> = "bulk_modulus", BulkModulus, Required;
-    /// First and last time of the test that the series was fitted to, where that is known.
+    /// First and last time of the test that the series was fitted to, if known.
     MEASURED: Row<Array<Scalar>, Optional> =
         "measured", pair(quantity(Time).above_zero().or_else(WINDOW), WINDOW), Optional;
 }
 
 rows! { BULK_KEYS:
-    /// Bulk modulus at rest.
+    /// Equilibrium bulk modulus.
     BULK_EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).above_zero(), Required;
     /// The branches of the series.
     BULK_BRANCHES: Row<Tables, Required> = "branches", branches(&RELAXATION_BRANCH), Required;
 }
 
 rows! { _:
-    /// A material that comes with the program; `contact-dma material list` names all.
+    /// A material that comes with the program; `contact-dma material list` lists them.
     LIBRARY: Row<Text, Required> = "library", Text, Required;
-    /// Another Poisson ratio than that of the library.
+    /// Poisson ratio in place of that of the library.
     LIBRARY_POISSON_RATIO: Row<Scalar, Optional> = "poisson_ratio", POISSON_RATIO_VALUE, Optional;
 }
 
@@ -86,24 +86,24 @@ rows! { _:
     RELAXATION: Row<Table, Required> = "relaxation", Table(&RELAXATION_TABLE), Required;
     /// Generalised Kelvin model (series of the creep compliance).
     CREEP: Row<Table, Required> = "creep", Table(&CREEP_TABLE), Required;
-    /// Spring and dashpot in series: a fluid, for single histories.
+    /// Spring and dashpot in series: a fluid, for single histories only.
     MAXWELL: Row<Table, Required> = "maxwell", Table(&MAXWELL_TABLE), Required;
     /// Spring in series with a Kelvin unit: the standard linear solid.
     ZENER: Row<Table, Required> = "zener", Table(&ZENER_TABLE), Required;
-    /// Spring and dashpot in parallel; it has no instantaneous compliance, and so no contact: `material show` alone takes it.
+    /// Spring and dashpot in parallel; without instantaneous compliance it cannot make contact, so only `material show` accepts it.
     KELVIN_VOIGT: Row<Table, Required> = "kelvin_voigt", Table(&KELVIN_VOIGT_TABLE), Required;
-    /// A spring: a body that answers at once and loses nothing.
+    /// An elastic body, without losses.
     ELASTIC_BODY: Row<Table, Required> = "elastic", Table(&ELASTIC_TABLE), Required;
     /// Springpot, fractional Zener or fractional Maxwell model, represented by a Prony series over a band.
     FRACTIONAL: Row<Table, Required> = "fractional", Table(&fractional::TABLE), Required;
-    /// Storage and loss modulus over frequency, measured at one temperature or at several: a master curve is made of them, and a
-    /// series fitted to it.
+    /// Storage and loss modulus over frequency, measured at one or several temperatures, from which a master curve is made and a
+    /// series fitted.
     DYNAMIC: Row<Table, Required> = "dynamic", Table(&DYNAMIC_TABLE), Required;
-    /// Series of the relaxation modulus at one temperature or at several, such as a fit to dynamic data gives.
+    /// Series of the relaxation modulus at one or several temperatures, as from a fit to dynamic data.
     ISOTHERMS: Row<Tables, Required> =
         "isotherm", Tables { rows: &ISOTHERM, most: MOST_ISOTHERMS, instead: "" }, Required;
-    /// Temperature of the body, where the material knows several; left out: the reference temperature of dynamic data, or that of
-    /// the only isotherm or of the library. A sweep over `material.temperature` takes its own.
+    /// Temperature of the body, for a material known at several; left out: the reference temperature of dynamic data, or that of
+    /// the only isotherm or of the library. A sweep over `material.temperature` uses its own.
     TEMPERATURE: Row<Scalar, Optional> = "temperature", quantity(Temperature).above_zero(), Optional;
     /// Measured creep compliance or relaxation modulus.
     MEASURED_TABLE: Row<Table, Required> = "table", Table(&TABLE), Required;
@@ -183,7 +183,7 @@ pub(super) static INDENTER_MATERIAL: Rows = Rows {
 };
 
 pub(super) static MATERIAL: Rows = Rows {
-    means: " What the half-space is made of: exactly one of `library`, `elastic`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt`, \
+    means: " Material of the half-space: exactly one of `library`, `elastic`, `relaxation`, `creep`, `maxwell`, `zener`, `kelvin_voigt`, \
             `fractional`, `isotherm`, `dynamic` and `table`.",
     keys: MATERIAL_KEYS,
     others: Others::OneList(&[
@@ -228,12 +228,12 @@ const fn branches(rows: &'static Rows) -> Tables {
 rows! { RELAXATION_KEYS:
     /// Whether the moduli are Young's or shear moduli.
     MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
-    /// Modulus at rest; zero for a fluid.
+    /// Equilibrium modulus; zero for a fluid.
     EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
     /// The branches of the series.
     RELAXATION_BRANCHES: Row<Tables, Required> = "branches", branches(&RELAXATION_BRANCH), Required;
-    /// Series that a fit gives where the noise of its data falls otherwise, drawn at random. The losses with them are the
-    /// uncertainty of the loss that comes from the material.
+    /// Series fitted to random realisations of the noise in the data. The spread of the losses computed with them is the uncertainty of
+    /// the loss due to the material.
     REPLICAS: Row<Tables, Optional> = "replicas", replicas(), Optional;
 }
 
@@ -246,7 +246,7 @@ const fn replicas() -> Tables {
 }
 
 rows! { REPLICA_KEYS:
-    /// Modulus at rest.
+    /// Equilibrium modulus.
     REPLICA_EQUILIBRIUM: Row<Scalar, Required> = "equilibrium", quantity(Stress).not_negative(), Required;
     /// Moduli of the branches.
     REPLICA_MODULI: Row<Array<Scalar>, Required> =
@@ -262,8 +262,8 @@ rows! { _:
     /// Temperature at which the series holds.
     ISOTHERM_TEMPERATURE: Row<Scalar, Required> =
         "temperature", quantity(Temperature).above_zero(), Required;
-    /// How the times of the series shift with the temperature, so that it holds at others too: c1 and c2 (K) of the law of Williams,
-    /// Landel and Ferry about its own temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0).
+    /// Shift of the times of the series with temperature: c1 and c2 (K) of the law of Williams, Landel and Ferry about its own
+    /// temperature, log10 a_T = -c1 (T - T0)/(c2 + T - T0).
     ISOTHERM_WLF: Row<Array<Scalar>, Optional> =
         "wlf", Array { entries: 2..=2, ..list(number("8.86").above_zero()) }, Optional;
     /// The same by the law of Arrhenius, with this activation energy in J/mol.
@@ -311,7 +311,7 @@ static CREEP_BRANCH: Rows = super::table(" A branch.", &[&BRANCH_COMPLIANCE, &BR
 rows! { CREEP_KEYS:
     /// Whether the compliances are uniaxial or in shear.
     COMPLIANCE: Row<Choice<ModulusKind>, Required> = "compliance", Choice(&MODULUS_KINDS), Required;
-    /// Compliance at once.
+    /// Instantaneous compliance.
     INSTANTANEOUS: Row<Scalar, Required> =
         "instantaneous", quantity(Compliance).not_negative(), Required;
     /// Viscosity of a fluid, which adds t / viscosity to the compliance.
@@ -362,17 +362,17 @@ rows! { TABLE_KEYS:
     QUANTITY: Row<Choice<MaterialFunction>, Required> = "quantity", Choice(&QUANTITIES), Required;
     /// Whether they are uniaxial or in shear.
     TABLE_MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
-    /// `fit`: a series is fitted and its misfit reported with the results; `direct` (single histories): the samples themselves.
+    /// `fit`: a series is fitted and its misfit reported with the results; `direct` (single histories only): the samples are used directly.
     EVALUATION: Row<Choice<Evaluation>, Or<Evaluation>> =
         "evaluation", Choice(&EVALUATIONS), Or(Evaluation::Fit);
-    /// Whether the fit is that of a fluid; left out: as the data say, a solid where they do not resolve it.
+    /// Whether to fit a fluid; left out: as the data indicate, a solid if they do not decide.
     FLOW: Row<Boolean, Optional> = "flow", Boolean, Optional;
 }
 
 rows! { _:
     /// CSV file with the columns `time_s` and `creep_compliance_per_pa` or `relaxation_modulus_pa`, or in other units.
     FILE: Row<Text, Required> = "file", Text, Required;
-    /// Times of samples that are written out in place of a file.
+    /// Times of the samples, in place of a file.
     TIMES: Row<Array<Scalar>, Required> = "times", list(quantity(Time)), Required;
     /// Their values.
     VALUES: Row<Array<Dependent>, Required> =
@@ -386,24 +386,24 @@ static TABLE: Rows = Rows {
 };
 
 rows! { DYNAMIC_KEYS:
-    /// The format of the files; left out: found from what they hold.
+    /// Format of the files; left out: detected from their content.
     FORMAT: Row<Choice<DynamicFormat>, Optional> = "format", Choice(&FORMATS), Optional;
     /// Whether the moduli are Young's or shear moduli.
     DYNAMIC_MODULUS: Row<Choice<ModulusKind>, Required> = "modulus", Choice(&MODULUS_KINDS), Required;
     /// Temperature of the master curve; left out: that of the middle isotherm.
     REFERENCE_TEMPERATURE: Row<Scalar, Optional> =
         "reference_temperature", quantity(Temperature).above_zero(), Optional;
-    /// How isotherms are shifted onto one curve: each on its own (`free`, which counts where it is left out), by a law whose
-    /// constants come from the data, not at all, or by the factors of a file.
+    /// How isotherms are shifted onto one curve: each individually (`free`, the default), by a law fitted to the data, not at all, or by
+    /// factors from a file.
     SHIFT: Row<Shift, Optional> = "shift", Shift, Optional;
-    /// Whether they are shifted along the moduli too.
+    /// Whether they are also shifted vertically, along the moduli.
     VERTICAL_SHIFT: Row<Boolean, Or<bool>> = "vertical_shift", Boolean, Or(false);
-    /// Branches of the series: a number, or `auto`, which counts where it is left out: as many as the data resolve.
+    /// Branches of the series: a number, or `auto` (the default): as many as the data resolve.
     DYNAMIC_BRANCHES: Row<Branches, Optional> = "branches", Branches(1..=MOST_BRANCHES), Optional;
-    /// Replicas of the material, from which the uncertainty of the results comes that the noise of the data makes; 50 tell it to a
-    /// tenth of itself.
+    /// Number of replicas of the material for the uncertainty of the results due to the noise of the data; 50 determine it to about
+    /// 10 %.
     DYNAMIC_REPLICAS: Row<Integer, Or<usize>> = "replicas", Integer(0..=MOST_REPLICAS), Or(0);
-    /// Of the random numbers of the replicas.
+    /// Seed of the random numbers for the replicas.
     SEED: Row<Integer, Or<usize>> = "seed", Integer(0..=MOST_SEED), Or(1);
 }
 

@@ -77,25 +77,25 @@ impl FileKind {
 }
 
 rows! { SWEEP_KEYS:
-    /// What figures, tables and the page are headed with.
+    /// Title of figures, tables and the page.
     TITLE: Row<Text, Required> = "title", Text, Required;
-    /// What the half-space is made of.
+    /// Material of the half-space.
     MATERIAL: Row<Table, Required> = "material", Table(&material::MATERIAL), Required;
-    /// The body is a layer on a base in place of a half-space.
+    /// The body is a layer on a base instead of a half-space.
     LAYER: Row<Table, Optional> = "layer", Table(&layer::LAYER), Optional;
     /// The indenter.
     INDENTER: Row<Table, Required> = "indenter", Table(&indenter::INDENTER), Required;
     /// The load or the approach: an oscillation about a mean.
     DRIVE: Row<Table, Required> = "drive", Table(&drive::HARMONIC), Required;
-    /// The surface attracts the indenter, a sphere under a prescribed load.
+    /// Adhesion of a sphere under a prescribed load.
     ADHESION: Row<Table, Optional> = "adhesion", Table(&adhesion::ADHESION), Optional;
-    /// The frequencies, and perhaps a second axis.
+    /// The frequencies, and optional further axes.
     SWEEP: Row<Table, Required> = "sweep", Table(&drive::SWEEP), Required;
-    /// How a cycle is resolved, and when it counts as stabilised.
+    /// Resolution of a cycle, and when it counts as stabilised.
     CYCLE: Row<Table, Optional> = "cycle", Table(&settings::CYCLE), Optional;
-    /// Which contact engine, and how fine.
+    /// Contact engine and its resolution.
     SOLVER: Row<Table, Optional> = "solver", Table(&settings::SOLVER), Optional;
-    /// How figures look; no part of the results.
+    /// Appearance of figures; does not affect results.
     FIGURES: Row<Table, Optional> = "figures", Table(&settings::SWEEP_FIGURES), Optional;
 }
 
@@ -112,9 +112,9 @@ rows! { _:
     HISTORY: Row<Table, Required> = "drive", Table(&drive::HISTORY), Required;
     /// Time steps.
     TIME: Row<Table, Optional> = "time", Table(&settings::TIME), Optional;
-    /// What is written beside the history.
+    /// What is written in addition to the history.
     OUTPUT: Row<Table, Optional> = "output", Table(&settings::OUTPUT), Optional;
-    /// How figures look; no part of the results.
+    /// Appearance of figures; does not affect results.
     SCENARIO_FIGURES: Row<Table, Optional> = "figures", Table(&settings::FIGURES), Optional;
 }
 

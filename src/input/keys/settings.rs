@@ -26,20 +26,20 @@ const METHODS: [(&str, Method); 2] = [
 ];
 
 rows! { CYCLE_KEYS:
-    /// Time steps per cycle; with an accuracy, at least.
+    /// Time steps per cycle; with `accuracy`, the minimum.
     CYCLE_STEPS: Row<Integer, Or<usize>> = "steps", Integer(CyclePlan::STEPS), Or(CyclePlan::DEFAULT.steps);
-    /// `direct`: the stabilised cycle is searched; `march`: it is waited for, cycle after cycle, after the hold.
+    /// `direct`: the stabilised cycle is solved for; `march`: cycles are computed one after another, after the hold, until it is reached.
     METHOD: Row<Choice<Method>, Or<Method>> = "method", Choice(&METHODS), Or(CyclePlan::DEFAULT.method);
-    /// Largest distance to the stabilised cycle: of the memory, and of the loop to a closed one.
+    /// Largest distance to the stabilised cycle, for the memory and for the closure of the loop.
     CYCLE_TOLERANCE: Row<Scalar, Or<f64>> =
         "tolerance", number("1e-4").within(TOLERANCE), Or(CyclePlan::DEFAULT.tolerance);
-    /// Cycles of marching after which a frequency counts as not converged.
+    /// Number of marched cycles after which a frequency counts as not converged.
     MAX_CYCLES: Row<Integer, Or<usize>> = "max_cycles", Integer(CyclePlan::MAX_CYCLES), Or(CyclePlan::DEFAULT.max_cycles);
-    /// With `method = "march"`: this cycle after the hold, counted from 1, is recorded as it is, whether it is stabilised or not.
+    /// With `method = "march"`: records this cycle after the hold, counted from 1, whether it is stabilised or not.
     AT_CYCLE: Row<Integer, Optional> = "at_cycle", Integer(CyclePlan::MAX_CYCLES), Optional;
-    /// Whether every case is solved on coarser steps and nodes too, which gives its errors.
+    /// Whether every case is also solved with coarser steps and nodes to estimate its errors.
     CYCLE_ERROR_BARS: Row<Boolean, Or<bool>> = "error_bars", Boolean, Or(CyclePlan::DEFAULT.error_bars);
-    /// Largest error of every loss, relative: steps, and springs or cells, are then chosen to reach it. The same as `--accuracy`.
+    /// Largest relative error of every loss: steps, and springs or cells, are chosen to reach it. Same as `--accuracy`.
     CYCLE_ACCURACY: Row<Scalar, Optional> =
         "accuracy",
         number("1e-3").within(ACCURACY).or_else("for example accuracy = 1e-3, a thousandth of the loss"),
@@ -47,7 +47,7 @@ rows! { CYCLE_KEYS:
 }
 
 pub(super) static CYCLE: Rows = super::table(
-    " How a cycle is resolved, and when it counts as stabilised.",
+    " Resolution of a cycle, and when it counts as stabilised.",
     CYCLE_KEYS,
 );
 
@@ -62,20 +62,20 @@ const TIME_RULES: [(&str, TimeRule); 2] = [
 ];
 
 rows! { SOLVER_KEYS:
-    /// The contact engine; left out: the axisymmetric one where the indenter is a convex body of revolution.
+    /// The contact engine; left out: the axisymmetric one if the indenter is a convex body of revolution.
     ENGINE: Row<Choice<EngineKind>, Optional> = "engine", Choice(&ENGINES), Optional;
     /// Axisymmetric engine: springs over the domain.
     SOLVER_SPRINGS: Row<Integer, Or<usize>> = "springs", Integer(SolverPlan::SPRINGS), Or(SolverPlan::DEFAULT.springs);
-    /// Half-space engine: cells along the longer side of the domain; a map brings its own.
+    /// Half-space engine: cells along the longer side of the domain; a height map has its own.
     SOLVER_CELLS: Row<Integer, Or<usize>> = "cells", Integer(SolverPlan::CELLS), Or(SolverPlan::DEFAULT.cells);
-    /// Half-space engine: tolerance of one instant; left out: what leaves a tenth of `cycle.tolerance` in the loss.
+    /// Half-space engine: tolerance at one instant; left out: chosen so that its effect on the loss is a tenth of `cycle.tolerance`.
     SOLVER_TOLERANCE: Row<Scalar, Optional> = "tolerance", number("1e-10").within(TOLERANCE), Optional;
-    /// `linear`: second order, in two stages where one would ring; `constant`: the first-order rule of the base paper.
+    /// `linear`: second order, in two stages where one would oscillate; `constant`: the first-order rule of the base paper.
     TIME_RULE: Row<Choice<TimeRule>, Or<TimeRule>> =
         "time_rule", Choice(&TIME_RULES), Or(SolverPlan::DEFAULT.time_rule);
 }
 
-pub(super) static SOLVER: Rows = super::table(" Which contact engine, and how fine.", SOLVER_KEYS);
+pub(super) static SOLVER: Rows = super::table(" Contact engine and its resolution.", SOLVER_KEYS);
 
 rows! { TIME_KEYS:
     /// Time step; left out: chosen from drive and material.
@@ -102,11 +102,12 @@ rows! { OUTPUT_KEYS:
     FIELDS_AT: Row<Array<Scalar>, Optional> = "fields_at", TIMES, Optional;
     /// Axisymmetric engine: cells per side of these fields, which are revolved.
     FIELD_CELLS: Row<Integer, Or<usize>> = "field_cells", Integer(SolverPlan::CELLS), Or(OUTPUT_DEFAULT.field_cells);
-    /// Whether the history is followed with fewer steps and nodes too, which gives the error of every row.
+    /// Whether the history is repeated with fewer steps and nodes to estimate the error of every row.
     OUTPUT_ERROR_BARS: Row<Boolean, Or<bool>> = "error_bars", Boolean, Or(OUTPUT_DEFAULT.error_bars);
 }
 
-pub(super) static OUTPUT: Rows = super::table(" What is written beside the history.", OUTPUT_KEYS);
+pub(super) static OUTPUT: Rows =
+    super::table(" What is written in addition to the history.", OUTPUT_KEYS);
 
 /// Sides, text and resolutions beyond these are a slip of the pen rather than a wish.
 const SIDE: Scalar = quantity(Length)
@@ -123,11 +124,11 @@ rows! { FIGURES_KEYS:
     COLUMN: Row<Choice<f64>, Optional> = "column", Choice(&COLUMNS), Optional;
     /// Width on paper.
     WIDTH: Row<Scalar, Optional> = "width", SIDE, Optional;
-    /// Height on paper; left out: as the contents ask for.
+    /// Height on paper; left out: chosen from the contents.
     HEIGHT: Row<Scalar, Optional> = "height", SIDE, Optional;
     /// Size (pt) of ticks and legends; titles of axes are an eighth larger.
     FONT_SIZE_PT: Row<Scalar, Optional> = "font_size", number("8").within(FONT_SIZE), Optional;
-    /// What is written; left out: SVG and PNG. In a PDF text is text, for LaTeX.
+    /// File formats; left out: SVG and PNG. PDFs contain text as text, for LaTeX.
     FORMATS: Row<Array<Choice<Format>>, Optional> =
         "formats",
         Array {
@@ -137,22 +138,22 @@ rows! { FIGURES_KEYS:
             ..list(Choice(&Format::NAMES))
         },
         Optional;
-    /// Pixels of a PNG per inch on paper; left out: 300 where a size is given, else one and two pixels per px of the drawing.
+    /// Pixels of a PNG per inch on paper; left out: 300 if a size is given, otherwise one and two pixels per px of the drawing.
     RESOLUTION: Row<Integer, Optional> = "dpi", Integer(DPI), Optional;
     /// SI units, or units of the elastic contact.
     AXES: Row<Choice<AxisUnits>, Optional> = "axes", Choice(&AxisUnits::NAMES), Optional;
-    /// Whether figures have titles above the frame; left out: they have.
+    /// Whether figures have titles above the frame; left out: yes.
     TITLES: Row<Boolean, Optional> = "titles", Boolean, Optional;
 }
 
 pub(super) static FIGURES: Rows = Rows {
-    means: " How figures look; no part of the results, and nothing of it is needed.",
+    means: " Appearance of figures; does not affect results, and all of it is optional.",
     keys: FIGURES_KEYS,
     others: Others::AtMostOne(&[&WIDTH, &COLUMN]),
 };
 
 rows! { _:
-    /// Frequencies whose cycles are drawn (the nearest cases); left out: some are chosen. Hz is understood.
+    /// Frequencies whose loops are drawn (the nearest cases); left out: chosen automatically. Hz is accepted too.
     LOOPS: Row<Array<Scalar>, Optional> =
         "loops",
         Array {
@@ -161,13 +162,13 @@ rows! { _:
             ..list(quantity(AngularFrequency))
         },
         Optional;
-    /// The unit that leads in figures, tables and text; left out: that of the frequencies in `[sweep]`.
+    /// Unit of frequencies in figures, tables and text; left out: that used in `[sweep]`.
     FREQUENCY_UNIT: Row<Choice<FrequencyUnit>, Optional> =
         "frequency_unit", Choice(&FrequencyUnit::NAMES), Optional;
 }
 
 pub(super) static SWEEP_FIGURES: Rows = Rows {
-    means: " How figures look; no part of the results, and nothing of it is needed.",
+    means: " Appearance of figures; does not affect results, and all of it is optional.",
     keys: &[
         &LOOPS,
         &FREQUENCY_UNIT,

@@ -10,24 +10,24 @@ use crate::input::document::row::{Optional, Or, Row, Rows};
 use crate::quantity::Dimension::{Damping, FrameCompliance, Length, Mass, Speed, Stiffness, Time};
 
 rows! { INSTRUMENT_KEYS:
-    /// Compliance of frame and mount: the approach is the displacement less this times the load.
+    /// Compliance of frame and mount: the approach is the displacement minus compliance times load.
     FRAME_COMPLIANCE: Row<Scalar, Or<f64>> = "frame_compliance", quantity(FrameCompliance).not_negative(), Or(0.0);
-    /// Moving mass, between the sensor of the force and the contact.
+    /// Moving mass between force sensor and contact.
     MASS: Row<Scalar, Or<f64>> = "mass", quantity(Mass).not_negative(), Or(0.0);
     /// Damping of the suspension of the moving part.
     DAMPING: Row<Scalar, Or<f64>> = "damping", quantity(Damping).not_negative(), Or(0.0);
-    /// Stiffness of the suspension; the displacement counts from where it is at rest.
+    /// Stiffness of the suspension; displacements are measured from its rest position.
     STIFFNESS: Row<Scalar, Or<f64>> = "stiffness", quantity(Stiffness).not_negative(), Or(0.0);
-    /// By how much the channel of the approach is later than that of the load; negative where it is earlier.
+    /// Delay of the approach channel relative to the load channel; negative if it is earlier.
     TIME_LAG: Row<Scalar, Or<f64>> = "time_lag", quantity(Time), Or(0.0);
-    /// Rate at which temperature moves the approach, where it was measured.
+    /// Thermal drift rate of the approach, if it was measured.
     THERMAL_DRIFT: Row<Scalar, Or<f64>> = "thermal_drift", quantity(Speed), Or(0.0);
     /// Reading of the approach at first touch.
     APPROACH_AT_TOUCH: Row<Scalar, Or<f64>> = "approach_at_touch", quantity(Length), Or(0.0);
 }
 
 static INSTRUMENT_TABLE: Rows = super::table(
-    " What the instrument adds to load and approach, taken out of every harmonic.",
+    " Contributions of the instrument to load and approach, removed from every harmonic.",
     INSTRUMENT_KEYS,
 );
 
@@ -65,7 +65,7 @@ rows! { _:
         Optional;
     /// ε of the contact depth h = δ₀ − ε W₀/S at which the area function is taken.
     EPSILON: Row<Scalar, Or<f64>> = "epsilon", number("0.75").within(EPSILON_LIMITS), Or(0.75);
-    /// Whether the bias of the small-amplitude formula is computed with the exact model; it takes some hundredths of a second a record.
+    /// Whether the bias of the small-amplitude formula is computed with the exact model, which takes some hundredths of a second per record.
     BIAS: Row<Boolean, Or<bool>> = "bias", Boolean, Or(true);
 }
 
@@ -81,13 +81,13 @@ static CONTACT_TABLE: Rows = super::table(
 );
 
 rows! { SETUP_KEYS:
-    /// What tables and the page are headed with.
+    /// Title of tables and the page.
     SETUP_TITLE: Row<Text, Optional> = "title", Text, Optional;
-    /// What the instrument adds.
+    /// Contributions of the instrument.
     INSTRUMENT: Row<Table, Optional> = "instrument", Table(&INSTRUMENT_TABLE), Optional;
-    /// The contact, where moduli are asked for.
+    /// The contact, if moduli are wanted.
     CONTACT: Row<Table, Optional> = "contact", Table(&CONTACT_TABLE), Optional;
-    /// The rigid indenter, where its geometry is to be used.
+    /// The rigid indenter, if its geometry is used.
     SETUP_INDENTER: Row<Table, Optional> = "indenter", Table(&super::indenter::INDENTER), Optional;
 }
 
