@@ -53,10 +53,10 @@ pub(super) struct SimulateFlags {
     /// results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     threads: Option<NonZeroUsize>,
-    /// Print what would be computed and about the memory it takes, and compute nothing
+    /// Print what would be computed and the approximate memory it takes, and compute nothing
     #[arg(long)]
     dry_run: bool,
-    /// Seconds between two checkpoints of a history that takes long
+    /// Seconds between checkpoints of a long history
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
     checkpoint_every: u64,
     /// Replace the results of a different sweep or scenario in the output folder
