@@ -47,7 +47,8 @@
 //!
 //! # Map
 //!
-//! A module may use those above it, never those below; a test enforces this.
+//! A module may use those above it, never those below; a test enforces this. Down to [`identify`] they are a package of their own,
+//! `contact-dma-core` in `src/core`, which is built without anything that reads files or draws.
 //!
 //! | module | what it knows |
 //! |---|---|
@@ -76,42 +77,21 @@
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
 //! bit for bit.
 
+#[doc(inline)]
+pub use contact_dma_core::{
+    contact, cycle, drive, history, identify, indenter, material, measured, prelude, quantity,
+    reference, steady, sweep,
+};
+
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod contact;
-pub mod cycle;
-pub mod drive;
 pub mod guide;
-pub mod history;
-pub mod identify;
-pub mod indenter;
 // Some of it is used by the command line alone.
 #[cfg_attr(not(feature = "cli"), allow(dead_code))]
 pub mod input;
-pub mod material;
-pub mod measured;
-pub mod quantity;
-pub mod reference;
 // Some of it is used by figures and pages alone.
 #[cfg(feature = "tables")]
 #[cfg_attr(not(feature = "report"), allow(dead_code, unused_imports))]
 pub mod report;
 #[cfg(feature = "report")]
 pub mod reproduction;
-pub mod steady;
-pub mod sweep;
-
-/// The most frequently used types: `use contact_dma::prelude::*`.
-pub mod prelude {
-    pub use crate::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
-    pub use crate::indenter::{Asperities, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter};
-    pub use crate::indenter::{PowerLaw, Profile, Sphere};
-    pub use crate::material::{Creep, CreepBranch, Material, ModulusKind};
-    pub use crate::material::{Relaxation, RelaxationBranch, library};
-    pub use crate::sweep::history::Simulation;
-    pub use crate::sweep::plan::scenario::ScenarioPlan;
-    pub use crate::sweep::record::CaseRecord;
-    pub use crate::sweep::search::peak::Peak;
-    pub use crate::sweep::search::run::Outcome;
-    pub use crate::sweep::{Sweep, SweepError};
-}

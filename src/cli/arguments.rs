@@ -208,28 +208,25 @@ pub(super) struct ExportFlags {
     /// A name of the library, or a file with a [material] block; - reads standard input
     pub(super) material: String,
     /// The program
-    #[arg(long = "to", value_name = "PROGRAM")]
+    #[arg(long = "to", value_name = "PROGRAM", value_parser = program())]
     pub(super) program: Program,
     /// The file to write [default: standard output]
     #[arg(long, value_name = "FILE")]
     pub(super) out: Option<PathBuf>,
 }
 
-impl ValueEnum for Program {
-    fn value_variants<'a>() -> &'a [Self] {
-        &Self::ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self {
-            Self::Abaqus => "*ELASTIC, *VISCOELASTIC, TIME=PRONY, *TRS",
-            Self::Ansys => "TB,PRONY in shear and bulk, TB,SHIFT",
-            Self::LsDyna => "*MAT_GENERAL_VISCOELASTIC (076)",
-            Self::Comsol => "Table of branches of the Viscoelasticity node",
-            Self::Csv => "Columns modulus_pa, time_s; the equilibrium modulus first",
+/// One of the programs that a material is written for.
+fn program() -> impl TypedValueParser<Value = Program> {
+    named(Program::ALL.map(|program| {
+        let help = match program {
+            Program::Abaqus => "*ELASTIC, *VISCOELASTIC, TIME=PRONY, *TRS",
+            Program::Ansys => "TB,PRONY in shear and bulk, TB,SHIFT",
+            Program::LsDyna => "*MAT_GENERAL_VISCOELASTIC (076)",
+            Program::Comsol => "Table of branches of the Viscoelasticity node",
+            Program::Csv => "Columns modulus_pa, time_s; the equilibrium modulus first",
         };
-        Some(PossibleValue::new(self.name()).help(help))
-    }
+        (program, program.name(), help)
+    }))
 }
 
 #[derive(Debug, Args)]
@@ -241,7 +238,7 @@ pub(super) struct FitFlags {
     #[arg(long, value_name = "QUANTITY")]
     pub(super) quantity: FitQuantity,
     /// Which modulus, or which modulus the compliance belongs to
-    #[arg(long, value_name = "KIND")]
+    #[arg(long, value_name = "KIND", value_parser = modulus())]
     pub(super) modulus: ModulusKind,
     /// Poisson ratio of the material; dynamic data are fitted without one too, and the block then says where it is to be written
     #[arg(
@@ -345,18 +342,27 @@ pub(super) enum FitQuantity {
     Dynamic,
 }
 
-impl ValueEnum for ModulusKind {
-    fn value_variants<'a>() -> &'a [Self] {
-        &[Self::Longitudinal, Self::Shear]
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        let help = match self {
-            Self::Longitudinal => "Uniaxial: E, D",
-            Self::Shear => "Shear: G, J",
+fn modulus() -> impl TypedValueParser<Value = ModulusKind> {
+    named([ModulusKind::Longitudinal, ModulusKind::Shear].map(|kind| {
+        let help = match kind {
+            ModulusKind::Longitudinal => "Uniaxial: E, D",
+            ModulusKind::Shear => "Shear: G, J",
         };
-        Some(PossibleValue::new(self.name()).help(help))
-    }
+        (kind, kind.name(), help)
+    }))
+}
+
+/// One of these values, by its name and with its help.
+fn named<T: Copy + Send + Sync + 'static, const N: usize>(
+    values: [(T, &'static str, &'static str); N],
+) -> impl TypedValueParser<Value = T> {
+    let possible = values.map(|(_, name, help)| PossibleValue::new(name).help(help));
+    PossibleValuesParser::new(possible).try_map(move |found| {
+        let value = values.iter().find(|(_, name, _)| *name == found);
+        value
+            .map(|(value, ..)| *value)
+            .ok_or("not one of the values")
+    })
 }
 
 #[derive(Debug, Args)]

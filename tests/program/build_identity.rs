@@ -1,6 +1,6 @@
 //! The identity of a build: what changes it, and what must not.
 
-#[path = "../../src/build.rs"]
+#[path = "../../src/core/build.rs"]
 mod build;
 
 use std::fs;
@@ -39,7 +39,7 @@ impl Sources {
     }
 
     fn identity(&self) -> String {
-        build::identity(self.0.path()).unwrap()
+        build::identity(&self.0.path().join("src/core"), self.0.path()).unwrap()
     }
 
     /// The identity with a file changed; the file is then as before.
@@ -73,14 +73,14 @@ fn the_same_sources_have_the_same_identity_wherever_they_lie() {
 #[test]
 fn what_makes_no_number_changes_nothing() {
     let sources = Sources::new();
-    let engine = "src/contact/axisymmetric.rs";
+    let engine = "src/core/contact/axisymmetric.rs";
     let same = [
         sources.with(engine, |text| text.replace('\n', "\r\n")),
         sources.with(engine, |text| format!("//! More to read.\n\n{text}")),
         sources.with(engine, |text| {
             text.replace("    /// Position", "    /// The position")
         }),
-        sources.with("src/history/direct.rs", |text| {
+        sources.with("src/core/history/direct.rs", |text| {
             format!("{text}\n#[test]\nfn more() {{}}\n")
         }),
         sources.with("src/report/quantities.rs", |text| {
@@ -89,10 +89,10 @@ fn what_makes_no_number_changes_nothing() {
         sources.with("src/cli/sweep.rs", |text| {
             format!("{text}// more\nconst A: u8 = 1;\n")
         }),
-        sources.with("src/sweep/figures/figure_plan.rs", |text| {
+        sources.with("src/core/sweep/figures/figure_plan.rs", |text| {
             text.replace("FONT_SIZE_PT: f64 = 8.0", "FONT_SIZE_PT: f64 = 9.0")
         }),
-        sources.with("src/sweep/store/mod.rs", |text| {
+        sources.with("src/core/sweep/store/mod.rs", |text| {
             text.replace("cannot", "can not")
         }),
         sources.with("Cargo.lock", with_version_of("clap")),
@@ -106,21 +106,25 @@ fn what_makes_no_number_changes_nothing() {
 fn whatever_may_make_another_number_makes_another_identity() {
     let sources = Sources::new();
     let mut others = vec![
-        sources.with("src/contact/axisymmetric.rs", |text| {
+        sources.with("src/core/contact/axisymmetric.rs", |text| {
             text.replace("0.5 * (", "0.6 * (")
         }),
-        sources.with("src/quantity.rs", |text| {
+        sources.with("src/core/quantity.rs", |text| {
             text.replace("fn parse", "fn parse_it")
         }),
-        sources.with("src/sweep/record/mod.rs", |text| {
+        sources.with("src/core/sweep/record/mod.rs", |text| {
             text.replace("pub steps", "pub the_steps")
         }),
-        sources.with("src/steady/anderson.rs", |text| {
+        sources.with("src/core/steady/anderson.rs", |text| {
             text.replace("DEPTH: usize = 8", "DEPTH: usize = 9")
         }),
         sources.with("Cargo.lock", with_version_of("rustfft")),
     ];
-    fs::write(sources.0.path().join("src/history/more.rs"), "fn f() {}\n").unwrap();
+    fs::write(
+        sources.0.path().join("src/core/history/more.rs"),
+        "fn f() {}\n",
+    )
+    .unwrap();
     others.push(sources.identity());
     others.push(BUILD.to_owned());
     others.sort();

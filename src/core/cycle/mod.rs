@@ -1,0 +1,167 @@
+//! One cycle as signals: loop area, phase, harmonics, equivalent moduli, extrema, and how far it is from the stabilised cycle.
+//!
+//! Knows sampled signals only, so that a measured loop is analysed by the same code as a computed one. Conventions: a loop
+//! holds N + 1 uniform samples of one period, both ends included; the energy loss is the closed integral of W d(delta),
+//! positive where the approach lags behind the load.
+//!
+//! ```
+//! use std::f64::consts::{PI, TAU};
+//!
+//! # extern crate contact_dma_core as contact_dma;
+//! use contact_dma::cycle::{LoopError, analyse};
+//!
+//! let angles = (0..=100).map(|i| TAU * f64::from(i) / 100.0);
+//! let load_n: Vec<f64> = angles.clone().map(|a| 10.0 + 5.0 * a.sin()).collect();
+//! let approach_m: Vec<f64> = angles.map(|a| 1e-5 + 2e-6 * (a - 0.1).sin()).collect();
+//! let analysis = analyse(&load_n, &approach_m)?;
+//! assert!((analysis.phase_lag_rad - 0.1).abs() < 1e-12);
+//! // An ellipse: pi times both amplitudes and the sine of the lag.
+//! assert!((analysis.energy_loss_j / (PI * 5.0 * 2e-6 * 0.1_f64.sin()) - 1.0).abs() < 1e-12);
+//! # Ok::<(), LoopError>(())
+//! ```
+
+mod analysis;
+mod stabilisation;
+
+pub use analysis::{Harmonic, LoopAnalysis, LoopError, analyse, analyse_open};
+pub use stabilisation::closure_error;
+
+/// One cycle of a contact, sampled uniformly, first and last sample one period apart.
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Loop {
+    /// Time since the cycle began (s).
+    pub time_s: Vec<f64>,
+    /// Normal load W (N).
+    pub load_n: Vec<f64>,
+    /// Approach delta (m).
+    pub approach_m: Vec<f64>,
+    /// Contact radius (m).
+    pub contact_radius_m: Vec<f64>,
+    /// Peak pressure (Pa), `None` where it is unbounded.
+    pub peak_pressure_pa: Vec<Option<f64>>,
+}
+
+/// Smallest and largest value of a signal.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Extrema {
+    pub minimum: f64,
+    pub maximum: f64,
+}
+
+impl Extrema {
+    /// Extrema of uniform samples, each refined by the parabola through the extreme sample and its neighbours, since the
+    /// true extremum lies between samples. `None` for an empty signal.
+    pub fn of(samples: &[f64]) -> Option<Self> {
+        let at = |better: fn(&f64, &f64) -> bool| {
+            let mut best = 0;
+            for (i, value) in samples.iter().enumerate() {
+                if better(value, samples.get(best)?) {
+                    best = i;
+                }
+            }
+            samples.get(best)?;
+            Some(refined(samples, best))
+        };
+        Some(Self {
+            minimum: at(|a, b| a < b)?,
+            maximum: at(|a, b| a > b)?,
+        })
+    }
+}
+
+/// The part of a cycle in which the indenter touches the surface.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ContactDuty {
+    pub part: f64,
+    /// By how much it may be wrong: contact that comes or goes between two samples is taken to do so halfway.
+    pub error: f64,
+}
+
+impl ContactDuty {
+    /// Touching all the time.
+    pub const WHOLE: Self = Self {
+        part: 1.0,
+        error: 0.0,
+    };
+
+    /// Of uniform samples of the load of one period, both ends included; `None` without a whole step.
+    pub fn of(load_n: &[f64]) -> Option<Self> {
+        let steps = load_n.len().checked_sub(1).filter(|steps| *steps > 0)? as f64;
+        let (mut touching, mut crossings) = (0.0, 0.0);
+        for step in load_n.windows(2) {
+            let ends = step.iter().filter(|load| **load > 0.0).count();
+            touching += 0.5 * ends as f64;
+            crossings += f64::from(u8::from(ends == 1));
+        }
+        Some(Self {
+            part: touching / steps,
+            error: 0.5 * crossings / steps,
+        })
+    }
+}
+
+/// Vertex of the parabola through sample `i` and its neighbours on a closed loop whose last sample repeats the first.
+fn refined(samples: &[f64], i: usize) -> f64 {
+    let n = samples.len().saturating_sub(1);
+    let here = samples[i];
+    if n < 3 {
+        return here;
+    }
+    let (before, after) = (samples[(i + n - 1) % n], samples[(i + 1) % n]);
+    let curvature = before - 2.0 * here + after;
+    let slope = 0.5 * (after - before);
+    // At an extreme sample the vertex lies within half a step; elsewhere (a kink, a flat top) the sample itself stands.
+    if curvature != 0.0 && (slope / curvature).abs() <= 0.5 {
+        here - 0.5 * slope * slope / curvature
+    } else {
+        here
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extrema_between_samples_are_found_to_fourth_order_in_the_step() {
+        let error = |n: usize| {
+            let samples: Vec<f64> = (0..=n)
+                .map(|i| (std::f64::consts::TAU * (i as f64 + 0.3) / n as f64).sin())
+                .collect();
+            let extrema = Extrema::of(&samples).unwrap();
+            (extrema.maximum - 1.0)
+                .abs()
+                .max((extrema.minimum + 1.0).abs())
+        };
+        let order = (error(64) / error(128)).log2();
+        assert!((order - 4.0).abs() < 0.1, "order {order}");
+    }
+
+    #[test]
+    fn contact_that_comes_and_goes_between_samples_lasts_so_long_but_for_half_a_step_each() {
+        let steps = 50;
+        for cut in [-0.9, -0.3, 0.0, 0.21, 0.77] {
+            let load = |i: usize| ((angle(i, steps)).sin() - cut).max(0.0);
+            let duty = ContactDuty::of(&(0..=steps).map(load).collect::<Vec<_>>()).unwrap();
+            let exact = 0.5 - f64::asin(cut) / std::f64::consts::PI;
+            assert_eq!(duty.error, 1.0 / steps as f64);
+            assert!((duty.part - exact).abs() <= duty.error, "{duty:?} {exact}");
+        }
+        assert_eq!(ContactDuty::of(&[1.0; 9]), Some(ContactDuty::WHOLE));
+        assert_eq!(ContactDuty::of(&[1.0]), None);
+    }
+
+    fn angle(i: usize, n: usize) -> f64 {
+        std::f64::consts::TAU * i as f64 / n as f64
+    }
+
+    #[test]
+    fn extrema_at_the_seam_of_the_loop_look_across_it() {
+        let samples: Vec<f64> = (0..=100)
+            .map(|i| (std::f64::consts::TAU * (i as f64 / 100.0 + 0.003)).cos())
+            .collect();
+        let extrema = Extrema::of(&samples).unwrap();
+        assert!((extrema.maximum - 1.0).abs() < 1e-6);
+        assert_eq!(Extrema::of(&[]), None);
+    }
+}

@@ -1,0 +1,84 @@
+//! What drives the contact: a load (N) or an approach (m) against time. Knows nothing of contact.
+//!
+//! Under load control the drive says how hard the indenter is pressed, and never pulls: a contact without adhesion cannot, and
+//! where the sine of a sweep would, the load is held at zero.
+//! Under approach control it says where the indenter stands, and may well stand clear of the surface. A number whose unit
+//! depends on the [`Control`] carries no unit in its name: it is in newtons or in metres.
+//!
+//! ```
+//! # extern crate contact_dma_core as contact_dma;
+//! use contact_dma::drive::{Control, DriveError, HarmonicDrive, Segment, SegmentedDrive};
+//!
+//! let drive = HarmonicDrive::load(10.0, 5.0)?; // mean and amplitude, N
+//! assert_eq!(drive.value(0.25), 15.0);
+//! // A contact without adhesion carries no pull.
+//! assert_eq!(HarmonicDrive::load(10.0, 11.0)?.value(0.75), 0.0);
+//! let ramp = Segment::Ramp { to: 10.0, duration_s: 2.0 };
+//! let history = SegmentedDrive::new(Control::Load, vec![ramp]);
+//! assert!(history.is_ok_and(|history| history.maximum() == 10.0));
+//! # Ok::<(), DriveError>(())
+//! ```
+
+mod harmonic;
+mod piece;
+mod schedule;
+mod segments;
+
+pub use harmonic::HarmonicDrive;
+pub use schedule::{Fineness, MAX_MOMENTS, Moment, Schedule, ScheduleError, Steps};
+pub use segments::{HistoryError, Joint, Segment, SegmentProblem, SegmentedDrive};
+
+/// What the drive prescribes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Control {
+    /// The normal load W, in N.
+    #[default]
+    Load,
+    /// The approach delta, in m.
+    Approach,
+}
+
+impl Control {
+    /// The name as written in a file, which is also that of the quantity.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Load => "load",
+            Self::Approach => "approach",
+        }
+    }
+
+    /// The SI unit of the drive's values.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::Load => "N",
+            Self::Approach => "m",
+        }
+    }
+}
+
+/// Why a drive is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DriveError {
+    #[error("the mean {} is {mean} {}; it must be finite", .control.name(), .control.unit())]
+    Mean { control: Control, mean: f64 },
+    #[error("the {} amplitude is {amplitude} {}; it must be positive and finite", .control.name(), .control.unit())]
+    Amplitude { control: Control, amplitude: f64 },
+    #[error(
+        "the {} {mean} {unit} with an amplitude of {amplitude} {unit} is never above zero: the indenter never touches the surface",
+        .control.name(), unit = .control.unit()
+    )]
+    NoTouch {
+        control: Control,
+        mean: f64,
+        amplitude: f64,
+    },
+    #[error(
+        "the load falls to {least_n} N, below the pull-off load of {} N: the indenter comes off the surface", -.pull_off_n
+    )]
+    PullOff { least_n: f64, pull_off_n: f64 },
+    #[error("the phase {phase_rad} rad is not a finite angle")]
+    Phase { phase_rad: f64 },
+    #[error("the hold of {hold_s} s must be zero or a positive, finite time")]
+    Hold { hold_s: f64 },
+}

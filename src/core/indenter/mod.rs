@@ -1,0 +1,367 @@
+//! Rigid indenters as gap functions: the undeformed gap g(x, y) between indenter and half-space, zero where they first touch.
+//!
+//! An indenter knows its geometry and nothing of contact, but for two facts of its own shape: which springs of the method of
+//! dimensionality reduction stand for it (the transformed gap G), and how large an elastic contact it makes, which sizes the
+//! computational domain.
+//!
+//! ```
+//! # extern crate contact_dma_core as contact_dma;
+//! use contact_dma::indenter::{Indenter, IndenterError, Sphere};
+//!
+//! let sphere = Sphere::new(0.01)?; // radius, m
+//! assert_eq!(sphere.gap_m(0.0, 0.0), 0.0);
+//! assert!((sphere.gap_m(3e-4, 4e-4) - 1.25e-5).abs() < 1e-20);
+//! # Ok::<(), IndenterError>(())
+//! ```
+
+mod asperities;
+mod cone;
+mod ellipsoid;
+mod flat_punch;
+mod height_map;
+mod power_law;
+mod profile;
+mod reach;
+mod rough;
+mod shifted;
+mod sphere;
+
+pub use asperities::{Asperities, Asperity};
+pub use cone::Cone;
+pub use ellipsoid::Ellipsoid;
+pub use flat_punch::FlatPunch;
+pub use height_map::{
+    HEIGHT_UNITS, HeightMap, HeightUnit, MapEdge, MapLevel, MapQuantity, MapSource,
+};
+pub use power_law::PowerLaw;
+pub use profile::Profile;
+pub use reach::radius_under_approach_m;
+pub use rough::{Rough, Roughness};
+pub use shifted::Shifted;
+pub use sphere::Sphere;
+
+use crate::quantity::Dimension;
+
+/// One setting of a shape, as a sweep file names it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    pub key: &'static str,
+    pub value: Value,
+}
+
+/// The value of a setting, in SI units.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    Quantity(f64, Dimension),
+    Quantities(Vec<f64>, Dimension),
+    Number(f64),
+    Integer(u64),
+    Text(String),
+    Tables(Vec<Vec<Parameter>>),
+}
+
+impl Parameter {
+    /// A length (m).
+    pub fn length(key: &'static str, value_m: f64) -> Self {
+        Self::new(key, Value::Quantity(value_m, Dimension::Length))
+    }
+
+    /// Any other setting.
+    pub fn new(key: &'static str, value: Value) -> Self {
+        Self { key, value }
+    }
+
+    /// A text.
+    fn text(key: &'static str, text: &str) -> Self {
+        Self::new(key, Value::Text(text.to_owned()))
+    }
+
+    /// A choice, by its name among those that a sweep file may give.
+    fn choice<T: PartialEq>(key: &'static str, names: &[(&'static str, T)], chosen: T) -> Self {
+        let named = names.iter().find(|(_, choice)| *choice == chosen);
+        Self::text(key, named.map_or("", |(name, _)| name))
+    }
+}
+
+/// The file a shape was read from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DataFile {
+    /// Path of the file, absolute, so that it can be read again from anywhere.
+    pub file: String,
+    /// SHA-256 of its bytes, in hexadecimal.
+    pub sha256: String,
+}
+
+impl DataFile {
+    fn parameters(&self) -> [Parameter; 2] {
+        [
+            Parameter::text("file", &self.file),
+            Parameter::text("sha256", &self.sha256),
+        ]
+    }
+}
+
+/// The part of the surface that the half-space engine covers with cells: a rectangle centred on the origin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Domain {
+    /// A rectangle that just holds the elastic contact, and that may be enlarged.
+    Around {
+        half_width_x_m: f64,
+        half_width_y_m: f64,
+        /// Side of a cell along x over that along y which resolves the contact equally well in both directions.
+        cell_aspect_ratio: f64,
+        /// Half widths (m) along x and y beyond which the shape is not known, where there are such.
+        limit_m: Option<(f64, f64)>,
+    },
+    /// One cell for every point at which the shape is known, which cannot be enlarged.
+    Cells {
+        cells_x: usize,
+        cells_y: usize,
+        spacing_x_m: f64,
+        spacing_y_m: f64,
+    },
+}
+
+impl Domain {
+    /// A square, for a contact that is about round.
+    fn square(half_width_m: f64) -> Self {
+        Self::around((half_width_m, half_width_m))
+    }
+
+    /// A rectangle of these half widths, of square cells.
+    fn around((half_width_x_m, half_width_y_m): (f64, f64)) -> Self {
+        Self::Around {
+            half_width_x_m,
+            half_width_y_m,
+            cell_aspect_ratio: 1.0,
+            limit_m: None,
+        }
+    }
+}
+
+/// Why a shape is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum IndenterError {
+    #[error("the indenter's {what} is {value_m} m; it must be a positive, finite length")]
+    Length { what: &'static str, value_m: f64 },
+    #[error(
+        "the cone's half angle is {half_angle_rad} rad; it must lie between 0 and pi/2 (90 deg), both excluded"
+    )]
+    HalfAngle { half_angle_rad: f64 },
+    #[error(
+        "the power law's exponent is {exponent}; it must lie between 1 (a cone) and {}, both included",
+        power_law::MAX_EXPONENT
+    )]
+    Exponent { exponent: f64 },
+    #[error("the {what} is {value_m} m; it must be a finite length")]
+    Position { what: &'static str, value_m: f64 },
+    #[error("there are no asperities; give at least one")]
+    NoAsperities,
+    #[error("the profile has {points} points; give at least 2, the first on the axis")]
+    TooFewPoints { points: usize },
+    #[error("the profile begins at r = {radius_m:e} m; it must begin on the axis, at r = 0")]
+    ProfileStart { radius_m: f64 },
+    #[error(
+        "point {point} of the profile is (r, gap) = ({radius_m:e} m, {gap_m:e} m): radii must increase, and both must be finite"
+    )]
+    ProfilePoint {
+        /// Counted from 1.
+        point: usize,
+        radius_m: f64,
+        gap_m: f64,
+    },
+    #[error(
+        "the map has {cells_x} x {cells_y} points; it needs at least {} in each direction and at most {} in all",
+        height_map::MIN_CELLS,
+        height_map::MAX_CELLS
+    )]
+    MapSize { cells_x: usize, cells_y: usize },
+    #[error("the map has {found} values where {expected} are needed")]
+    MapLength { found: usize, expected: usize },
+    #[error("the map has a hole: its value at column {column}, row {row} is {value}")]
+    MapHole {
+        /// Both counted from 1.
+        column: usize,
+        row: usize,
+        value: f64,
+    },
+    #[error(
+        "a rough sphere does not repeat itself: leave out sphere_radius, or edge = \"periodic\""
+    )]
+    PeriodicSphere,
+    #[error("the Hurst exponent is {hurst}; it must lie between 0 and 1, both included")]
+    Hurst { hurst: f64 },
+    #[error("the rough surface has {cells} cells per side; give from {} to {}", rough::CELLS.start(), rough::CELLS.end())]
+    RoughCells { cells: usize },
+    #[error(
+        "the wavelengths of the rough surface must obey 2 spacing <= cut-off < roll-off <= side, but they are \
+         2 x {spacing_m:e} m, {cut_off_m:e} m, {roll_off_m:e} m, {side_m:e} m"
+    )]
+    Wavelengths {
+        spacing_m: f64,
+        cut_off_m: f64,
+        roll_off_m: f64,
+        side_m: f64,
+    },
+}
+
+/// A rigid indenter, pressed along its axis into the half-space.
+pub trait Indenter: std::fmt::Debug + Send + Sync {
+    /// The name of the shape as written in a sweep file.
+    fn shape(&self) -> &'static str;
+
+    /// The settings that make the shape.
+    fn parameters(&self) -> Vec<Parameter>;
+
+    /// Gap g(x, y) in metres before deformation, 0 at the lowest point; infinite where the indenter ends.
+    fn gap_m(&self, x_m: f64, y_m: f64) -> f64;
+
+    /// The shape that this one is made of, where there is one: it answers whatever this one does not answer itself.
+    fn made_of(&self) -> Option<&dyn Indenter> {
+        None
+    }
+
+    /// The shape as a convex body of revolution about its own axis, where it is one.
+    fn axisymmetric(&self) -> Option<&dyn Axisymmetric> {
+        self.made_of()?.axisymmetric()
+    }
+
+    /// Why there is no [`Indenter::axisymmetric`], to follow "the SHAPE".
+    fn not_axisymmetric_because(&self) -> String {
+        match self.made_of() {
+            Some(shape) => shape.not_axisymmetric_because(),
+            None => "is not a body of revolution".to_owned(),
+        }
+    }
+
+    /// Whether the shape is one of revolution about the origin, convex or not, as far as a few gaps within this radius (m) tell.
+    fn is_of_revolution_within(&self, radius_m: f64) -> bool {
+        /// Around the axis, at angles that share no symmetry.
+        const ANGLES: usize = 7;
+        const RADII: usize = 16;
+        /// Of the largest gap there: what rounding may make of equal ones.
+        const ROUNDING: f64 = 1e-9;
+        let at = |k: usize| radius_m * k as f64 / RADII as f64;
+        let on_x = |k: usize| self.gap_m(at(k), 0.0);
+        let gaps = (1..=RADII).map(on_x).filter(|gap_m| gap_m.is_finite());
+        let slack_m = ROUNDING * gaps.fold(0.0_f64, |a, gap_m| a.max(gap_m.abs()));
+        (1..=RADII).all(|k| {
+            let gap_m = on_x(k);
+            (1..=ANGLES).all(|turn| {
+                let (sine, cosine) = (turn as f64).sin_cos();
+                let other_m = self.gap_m(at(k) * cosine, at(k) * sine);
+                other_m == gap_m || (other_m - gap_m).abs() <= slack_m
+            })
+        })
+    }
+
+    /// Half the side of the square that just holds the elastic contact under this load (N) and contact compliance (1/Pa).
+    fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64;
+
+    /// Where the half-space engine puts its cells under this load (N) and contact compliance (1/Pa).
+    fn domain(&self, load_n: f64, compliance_per_pa: f64) -> Domain {
+        match self.made_of() {
+            Some(shape) => shape.domain(load_n, compliance_per_pa),
+            None => Domain::square(self.elastic_half_width_m(load_n, compliance_per_pa)),
+        }
+    }
+
+    /// Whether the shape repeats itself without end, and [`Indenter::own_cells`] are one period of it.
+    fn is_periodic(&self) -> bool {
+        self.made_of().is_some_and(|shape| shape.is_periodic())
+    }
+
+    /// Area (m^2) of one period of a shape that repeats itself.
+    fn period_area_m2(&self) -> Option<f64> {
+        match self.domain(1.0, 1.0) {
+            Domain::Cells {
+                cells_x,
+                cells_y,
+                spacing_x_m,
+                spacing_y_m,
+            } if self.is_periodic() => {
+                Some((cells_x as f64 * spacing_x_m) * (cells_y as f64 * spacing_y_m))
+            }
+            _ => None,
+        }
+    }
+
+    /// Points along x and y at which the shape is known, where it is a map: the half-space engine has a cell on each of them.
+    fn own_cells(&self) -> Option<(usize, usize)> {
+        self.made_of()?.own_cells()
+    }
+
+    /// Half widths (m) along x and y of the rectangle about the origin that holds the contact under any approach up to this one
+    /// (m).
+    ///
+    /// Unless a shape knows better: of a convex body of revolution its contact held for ever; of any other a square beyond which
+    /// the gap is not below the approach, as far as lengths in steps of 9 % and 64 points along a side tell.
+    fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
+        let half_width_m = match self.axisymmetric() {
+            Some(body) => radius_under_approach_m(body, approach_m),
+            None => reach::square_below_m(self, approach_m),
+        };
+        (half_width_m, half_width_m)
+    }
+
+    /// Whether an infinite gap means that the data end there and not the indenter, so that contact beside it is in doubt.
+    fn ends_in_data(&self) -> bool {
+        self.made_of().is_some_and(|shape| shape.ends_in_data())
+    }
+
+    /// Whether the contact pressure is finite everywhere; an apex or a sharp edge makes it unbounded.
+    fn pressure_is_bounded(&self) -> bool {
+        match self.made_of() {
+            Some(shape) => shape.pressure_is_bounded(),
+            None => (self.axisymmetric()).is_none_or(|body| body.has_bounded_pressure()),
+        }
+    }
+}
+
+/// A convex indenter of revolution, as the method of dimensionality reduction sees it
+/// (V. L. Popov and M. Heß, Method of Dimensionality Reduction in Contact Mechanics and Friction, 2015).
+pub trait Axisymmetric {
+    /// Transformed gap G(x) = x * integral from 0 to x of g'(r) / sqrt(x^2 - r^2) dr, in metres, x >= 0.
+    fn transformed_gap_m(&self, x_m: f64) -> f64;
+
+    /// The radius at which the indenter ends and the contact with it, where the shape has one.
+    fn contact_limit_m(&self) -> Option<f64> {
+        None
+    }
+
+    /// The radius beyond which the shape is not known, where there is one; contact that reaches it is in doubt.
+    fn known_radius_m(&self) -> Option<f64> {
+        None
+    }
+
+    /// Whether the contact pressure is finite everywhere; an apex or a sharp edge makes it unbounded.
+    fn has_bounded_pressure(&self) -> bool;
+
+    /// Radii (m) at which the shape has an apex (0) or a sharp edge, and the pressure of a contact around them is unbounded; the
+    /// rim of a shape that ends is none of them. An apex, unless a shape knows better.
+    fn singular_radii_m(&self) -> Vec<f64> {
+        match self.has_bounded_pressure() || self.contact_limit_m().is_some() {
+            true => Vec::new(),
+            false => vec![0.0],
+        }
+    }
+}
+
+/// A length that must be positive and finite.
+fn positive_length(what: &'static str, value_m: f64) -> Result<f64, IndenterError> {
+    if value_m.is_finite() && value_m > 0.0 {
+        Ok(value_m)
+    } else {
+        Err(IndenterError::Length { what, value_m })
+    }
+}
+
+/// A coordinate or height, which may have either sign.
+fn finite_position(what: &'static str, value_m: f64) -> Result<f64, IndenterError> {
+    if value_m.is_finite() {
+        Ok(value_m)
+    } else {
+        Err(IndenterError::Position { what, value_m })
+    }
+}

@@ -1,0 +1,30 @@
+//! What `contact-dma` computes with: materials, contact, histories, cycles, sweeps and the records they leave. It reads no sweep
+//! file and draws nothing; `contact-dma` does, has every module of this crate under the same name, and is the one to depend on.
+
+pub mod contact;
+pub mod cycle;
+pub mod drive;
+pub mod history;
+pub mod identify;
+pub mod indenter;
+pub mod material;
+pub mod measured;
+pub mod quantity;
+pub mod reference;
+pub mod steady;
+pub mod sweep;
+
+/// The most frequently used types: `use contact_dma::prelude::*`.
+pub mod prelude {
+    pub use crate::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
+    pub use crate::indenter::{Asperities, Cone, Ellipsoid, FlatPunch, HeightMap, Indenter};
+    pub use crate::indenter::{PowerLaw, Profile, Sphere};
+    pub use crate::material::{Creep, CreepBranch, Material, ModulusKind};
+    pub use crate::material::{Relaxation, RelaxationBranch, library};
+    pub use crate::sweep::history::Simulation;
+    pub use crate::sweep::plan::scenario::ScenarioPlan;
+    pub use crate::sweep::record::CaseRecord;
+    pub use crate::sweep::search::peak::Peak;
+    pub use crate::sweep::search::run::Outcome;
+    pub use crate::sweep::{Sweep, SweepError};
+}

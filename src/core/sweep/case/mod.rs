@@ -1,0 +1,372 @@
+//! One case of a sweep: the stabilised cycle at the resolution asked for, and at coarser ones for its error bars.
+
+mod accuracy;
+pub mod checkpoint;
+mod edge_layer;
+mod levels;
+mod outside_model;
+mod pressure;
+mod recording;
+mod replicas;
+mod solid;
+mod stabilise;
+mod tangent_radius;
+
+use std::collections::HashMap;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use crate::contact::ContactError;
+use crate::drive::{Control, HarmonicDrive};
+use crate::history::Work;
+use crate::material::{Creep, Material};
+use crate::sweep::case::checkpoint::Checkpoints;
+use crate::sweep::case::levels::Levels;
+pub use crate::sweep::case::recording::sample;
+use crate::sweep::case::solid::Solid;
+use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
+pub use crate::sweep::engine::setup::SetupError;
+use crate::sweep::engine::{self, EngineBuilder, EngineError, LargestContact};
+use crate::sweep::plan::check::check_frequency;
+use crate::sweep::plan::instant_tolerance;
+use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
+use crate::sweep::record::{CaseRecord, Status};
+use crate::sweep::store::archive::Purpose;
+
+/// What all cases of a sweep share.
+pub struct Setup {
+    plan: SweepPlan,
+    solids: Mutex<Solids>,
+    engines: Mutex<HashMap<EngineKey, Arc<EngineBuilder>>>,
+    /// Ends an instant under way, where the engine's instants are long.
+    interrupt: Option<Arc<AtomicBool>>,
+}
+
+/// Solids by the address of their material, which is kept so that no other takes its place.
+type Solids = HashMap<usize, (Arc<Material>, Arc<Solid>)>;
+
+/// What engines differ in: the indenter by its address, the largest value of the drive, relaxed compliance, Poisson ratio and layer
+/// with every digit, and the number of springs or cells.
+type EngineKey = (usize, String, usize);
+
+/// Steps per cycle, and springs or cells.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::sweep) struct Resolution {
+    pub steps: usize,
+    pub nodes: usize,
+}
+
+impl Resolution {
+    pub fn of(record: &CaseRecord) -> Self {
+        Self {
+            steps: record.steps,
+            nodes: record.nodes,
+        }
+    }
+}
+
+/// What a case is solved for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::sweep) struct Aim {
+    pub wanted: Wanted,
+    /// In place of the resolution of the plan: that of cases nearby, whose error bars hold for this one too.
+    pub at: Option<Resolution>,
+}
+
+impl Aim {
+    /// All that the sweep's plan asks for.
+    pub const PLAN: Self = Self {
+        wanted: Wanted::Everything,
+        at: None,
+    };
+
+    /// The loss alone, as this resolution gives it, between cases whose error bars hold for it too.
+    pub fn loss(at: Resolution) -> Self {
+        Self {
+            wanted: Wanted::Loss,
+            at: Some(at),
+        }
+    }
+
+    /// Where the record belongs.
+    pub fn purpose(self) -> Purpose {
+        match self.wanted {
+            Wanted::Everything => Purpose::Sweep,
+            Wanted::Numbers | Wanted::Loss => Purpose::Peak,
+        }
+    }
+}
+
+impl Setup {
+    /// Checks the plan against the physics and prepares what the cases share.
+    ///
+    /// # Errors
+    /// [`SetupError`] where a value is out of its range, the material cannot make a contact or has no stabilised cycle, or the engine cannot treat the
+    /// indenter.
+    pub fn new(mut plan: SweepPlan) -> Result<Self, SetupError> {
+        plan.check()?;
+        plan.contact = plan.contact.on_own_cells();
+        let setup = Self {
+            solids: Mutex::default(),
+            engines: Mutex::default(),
+            interrupt: None,
+            plan,
+        };
+        for condition in setup.plan.conditions().iter() {
+            setup.engines(condition, setup.plan.contact.solver.nodes())?;
+        }
+        Ok(setup)
+    }
+
+    /// The same, with the flag handed to [`Setup::run`] known to the engines too, so that it is heard within an instant.
+    #[must_use]
+    pub fn interrupted_by(mut self, flag: Arc<AtomicBool>) -> Self {
+        self.interrupt = Some(flag);
+        self
+    }
+
+    /// The plan.
+    pub fn plan(&self) -> &SweepPlan {
+        &self.plan
+    }
+
+    /// The solid that the material of a condition is, made once.
+    ///
+    /// # Errors
+    /// As [`Setup::new`], of a condition that is none of the plan.
+    pub(in crate::sweep) fn solid(&self, condition: &Condition) -> Result<Arc<Solid>, SetupError> {
+        let key = Arc::as_ptr(&condition.material).addr();
+        let mut solids = whole(&self.solids);
+        if let Some((_, solid)) = solids.get(&key) {
+            return Ok(Arc::clone(solid));
+        }
+        let solid = Arc::new(Solid::new(&condition.material)?);
+        let kept = (Arc::clone(&condition.material), Arc::clone(&solid));
+        solids.insert(key, kept);
+        Ok(solid)
+    }
+
+    /// Engines for a condition with so many springs or cells, built once.
+    ///
+    /// # Errors
+    /// As [`Setup::new`].
+    pub fn engines(
+        &self,
+        condition: &Condition,
+        nodes: usize,
+    ) -> Result<Arc<EngineBuilder>, SetupError> {
+        let relaxed_per_pa = self.solid(condition)?.relaxed_per_pa;
+        let indenter = Arc::as_ptr(&condition.indenter).addr();
+        let largest = condition.drive.maximum() + condition.drive.pull_off_n();
+        let (layer, poisson_ratio) = (condition.layer, condition.material.poisson_ratio());
+        let numbers = format!("{largest:?} {relaxed_per_pa:?} {poisson_ratio:?} {layer:?}");
+        let key = (indenter, numbers, nodes);
+        let mut engines = whole(&self.engines);
+        if let Some(builder) = engines.get(&key) {
+            return Ok(Arc::clone(builder));
+        }
+        let builder = Arc::new(self.new_engines(condition, relaxed_per_pa, nodes)?);
+        engines.insert(key, Arc::clone(&builder));
+        Ok(builder)
+    }
+
+    /// Tolerance of an instant of a cycle.
+    pub(in crate::sweep) fn instant_tolerance(
+        &self,
+        compliance: &Creep,
+        drive: &HarmonicDrive,
+        angular_frequency_rad_per_s: f64,
+        cycle_tolerance: f64,
+    ) -> f64 {
+        let omega = angular_frequency_rad_per_s;
+        let needed = || instant_tolerance::of_a_cycle(compliance, drive, omega, cycle_tolerance);
+        self.plan.contact.solver.tolerance.unwrap_or_else(needed)
+    }
+
+    fn new_engines(
+        &self,
+        condition: &Condition,
+        relaxed_per_pa: f64,
+        nodes: usize,
+    ) -> Result<EngineBuilder, EngineError> {
+        let largest = LargestContact::of(&condition.drive, relaxed_per_pa);
+        let solver = self.plan.contact.solver.with_nodes(nodes);
+        let layer = engine::layer(condition.layer, condition.material.poisson_ratio())?;
+        EngineBuilder::on(layer, Arc::clone(&condition.indenter), solver, largest)
+    }
+
+    /// Engines for a case: those of its drive, with springs laid out for its cycle.
+    fn engines_of_case(
+        &self,
+        contact: &Contact<'_>,
+        nodes: usize,
+    ) -> Result<Arc<EngineBuilder>, SetupError> {
+        let drive = &contact.condition.drive;
+        // On the way to the stabilised cycle the contact may be smaller than it ever is in that.
+        let is_transient = contact.cycle.at_cycle.is_some();
+        if is_transient || self.plan.contact.solver.engine == EngineKind::HalfSpace {
+            return self.engines(contact.condition, nodes);
+        }
+        let relaxed = contact.solid.relaxed_per_pa;
+        let under = |maximum: f64| LargestContact {
+            maximum: maximum + drive.pull_off_n(),
+            ..LargestContact::of(drive, relaxed)
+        };
+        let compliance = &contact.solid.compliance;
+        let answer = compliance.complex_compliance(contact.angular_frequency_rad_per_s);
+        // |C*| / C_inf under load control, |E*| / E_inf under approach control.
+        let (always, largest) = match drive.control() {
+            // The largest contact grows without falling until it is reached (E. H. Lee and J. R. M. Radok, J. Appl. Mech. 27
+            // (1960) 438); the least is that of the least load held for ever.
+            Control::Load => (
+                drive.mean() - drive.amplitude(),
+                drive.true_mean() + drive.above_true_mean() * answer.norm() / relaxed,
+            ),
+            // A spring is always in contact where the force of the mean is larger than its oscillation.
+            Control::Approach => (
+                drive.mean() - drive.amplitude() * relaxed / answer.norm(),
+                drive.maximum(),
+            ),
+        };
+        let builder = self.new_engines(contact.condition, relaxed, nodes)?;
+        Ok(Arc::new(builder.over_cycle(
+            [always, drive.true_mean(), largest].map(under),
+        )))
+    }
+
+    /// Runs one case to its record; `None` where it was interrupted.
+    pub fn run(&self, case: &Case, interrupt: &AtomicBool) -> Option<CaseRecord> {
+        self.run_for(Aim::PLAN, None, case, interrupt)
+    }
+
+    /// As [`Setup::run`], for the numbers of the cycle alone: no error bars, no fields, no replicas of the material.
+    pub fn numbers(&self, case: &Case, interrupt: &AtomicBool) -> Option<CaseRecord> {
+        let aim = Aim {
+            wanted: Wanted::Numbers,
+            at: None,
+        };
+        self.run_for(aim, None, case, interrupt)
+    }
+
+    /// As [`Setup::run`], from the checkpoints that an earlier run of the same case has left; the record is the same, bit for
+    /// bit. An interruption leaves new ones.
+    pub fn run_from(
+        &self,
+        checkpoints: &Checkpoints,
+        case: &Case,
+        interrupt: &AtomicBool,
+    ) -> Option<CaseRecord> {
+        self.run_for(Aim::PLAN, Some(checkpoints), case, interrupt)
+    }
+
+    /// As [`Setup::run_from`], for what the record is wanted for.
+    pub(in crate::sweep) fn run_for(
+        &self,
+        aim: Aim,
+        checkpoints: Option<&Checkpoints>,
+        case: &Case,
+        interrupt: &AtomicBool,
+    ) -> Option<CaseRecord> {
+        let mut cycle = self.plan.cycle;
+        let mut nodes = self.plan.contact.solver.nodes();
+        if let Some(accuracy) = cycle.accuracy {
+            cycle.tolerance = cycle.tolerance.min(0.1 * accuracy);
+        }
+        if let Some(at) = aim.at {
+            (cycle.steps, nodes) = (at.steps, at.nodes);
+        }
+        if aim.wanted != Wanted::Everything {
+            (cycle.error_bars, cycle.accuracy) = (false, None);
+        }
+        let mut record = CaseRecord {
+            index: case.index,
+            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
+            varied: case.condition.values,
+            drive_mean: case.condition.drive.mean(),
+            drive_amplitude: case.condition.drive.amplitude(),
+            status: Status::Failed,
+            message: None,
+            warnings: Vec::new(),
+            method: cycle.method,
+            steps: cycle.steps,
+            nodes,
+            cycles: 0,
+            steady_distance: None,
+            domain_half_width_m: 0.0,
+            domain_enlarged: 0,
+            work: Work::default(),
+            result: None,
+        };
+        let ended = self.solve_case(aim, (case, cycle), (checkpoints, interrupt), &mut record);
+        match ended {
+            Ok(()) => {}
+            Err(CaseError::Contact(ContactError::Interrupted)) => {
+                if let Some(checkpoints) = checkpoints {
+                    checkpoints.flush();
+                }
+                return None;
+            }
+            Err(error) => {
+                record.result = None;
+                record.status = Status::Failed;
+                record.message = Some(error.to_string());
+            }
+        }
+        if let (Some(adhesion), Some(result)) = (&self.plan.contact.adhesion, &mut record.result)
+            && let Ok(solid) = self.solid(&case.condition)
+        {
+            let omega = case.angular_frequency_rad_per_s;
+            let modulus_pa = solid.compliance.complex_compliance(omega).norm().recip();
+            let pull_off_n = case.condition.drive.pull_off_n();
+            result.tabor_parameter = Some(adhesion.tabor_parameter(pull_off_n, modulus_pa));
+        }
+        let solver = &self.plan.contact.solver;
+        record.warnings =
+            outside_model::warnings(solver, &case.condition, &record, cycle.error_bars);
+        if let (Some(result), false) = (&mut record.result, self.plan.is_small()) {
+            result.cycle.round_profiles();
+        }
+        Some(record)
+    }
+
+    fn solve_case(
+        &self,
+        aim: Aim,
+        (case, cycle): (&Case, CyclePlan),
+        (checkpoints, interrupt): (Option<&Checkpoints>, &AtomicBool),
+        record: &mut CaseRecord,
+    ) -> Result<(), CaseError> {
+        check_frequency(case.angular_frequency_rad_per_s).map_err(SetupError::from)?;
+        let solid = self.solid(&case.condition)?;
+        let contact = Contact {
+            solid: &solid,
+            compliance: &solid.compliance,
+            condition: &case.condition,
+            angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
+            time_rule: self.plan.contact.solver.time_rule,
+            cycle,
+            interrupt,
+            checkpoints,
+            marches_at_last: true,
+            wanted: aim.wanted,
+        };
+        let mut levels = Levels {
+            setup: self,
+            contact,
+            record,
+        };
+        match cycle.accuracy {
+            Some(accuracy) => levels.within_accuracy(accuracy)?,
+            None => levels.at_resolution()?,
+        }
+        match aim.wanted {
+            Wanted::Everything => levels.add_replicas(),
+            Wanted::Numbers | Wanted::Loss => Ok(()),
+        }
+    }
+}
+
+/// What a lock protects: whole, whatever became of the thread that held it, since entries are made before they are put in.
+fn whole<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

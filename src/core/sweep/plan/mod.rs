@@ -1,0 +1,337 @@
+//! A sweep as it will be run, every default filled in. [`check`] has the ranges of its values.
+
+pub mod adhesion;
+pub mod axes;
+pub mod body_material;
+pub mod check;
+pub mod contact;
+pub mod instant_tolerance;
+pub mod layer;
+mod material_text;
+pub mod resolved;
+pub mod scenario;
+
+pub use axes::{Axes, AxisValues, Block, Varied};
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use crate::drive::HarmonicDrive;
+use crate::history::TimeRule;
+use crate::indenter::Indenter;
+use crate::material::Material;
+use crate::sweep::figures::figure_plan::FigurePlan;
+use crate::sweep::plan::contact::ContactPlan;
+use crate::sweep::plan::layer::LayerPlan;
+
+/// Cases of a small sweep, at most.
+pub const SMALL: usize = 200;
+
+/// Everything a sweep needs to know. Two equal plans give equal results, bit for bit.
+#[derive(Debug, Clone)]
+pub struct SweepPlan {
+    pub title: String,
+    pub contact: ContactPlan<Arc<Material>>,
+    pub drive: HarmonicDrive,
+    /// Other axes than the frequency, where there are any: every frequency is then solved under each of their conditions.
+    pub axes: Option<Axes>,
+    /// Ascending, in rad/s.
+    pub angular_frequencies_rad_per_s: Vec<f64>,
+    /// Whether frequencies are added where these do not resolve the curve of the loss.
+    pub refine: bool,
+    pub cycle: CyclePlan,
+    /// How the figures look; no part of the results.
+    pub figures: FigurePlan,
+}
+
+/// What all cases of a curve over frequency have in common.
+#[derive(Debug, Clone)]
+pub struct Condition {
+    /// The varied numbers.
+    pub values: AxisValues,
+    pub material: Arc<Material>,
+    pub layer: Option<LayerPlan>,
+    pub indenter: Arc<dyn Indenter>,
+    pub drive: HarmonicDrive,
+}
+
+/// One frequency under one condition.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Position in the sweep, from 0: condition after condition, and ascending frequency within each.
+    pub index: usize,
+    pub angular_frequency_rad_per_s: f64,
+    pub condition: Condition,
+}
+
+impl SweepPlan {
+    /// A sweep without frequencies and title, everything else at its default.
+    pub fn new(material: Material, indenter: Arc<dyn Indenter>, drive: HarmonicDrive) -> Self {
+        Self::of(ContactPlan::new(Arc::new(material), indenter), drive)
+    }
+
+    /// The same of a contact that is known.
+    pub fn of(contact: ContactPlan<Arc<Material>>, drive: HarmonicDrive) -> Self {
+        Self {
+            title: String::new(),
+            contact,
+            drive,
+            axes: None,
+            angular_frequencies_rad_per_s: Vec::new(),
+            refine: false,
+            cycle: CyclePlan::default(),
+            figures: FigurePlan::default(),
+        }
+    }
+
+    /// The only condition of a sweep over frequency alone.
+    pub fn condition(&self) -> Condition {
+        Condition {
+            values: AxisValues::default(),
+            material: Arc::clone(&self.contact.material),
+            layer: self.contact.layer,
+            indenter: Arc::clone(&self.contact.indenter),
+            drive: self.drive,
+        }
+    }
+
+    /// The conditions: one, but for a sweep with other axes than the frequency.
+    pub fn conditions(&self) -> Cow<'_, [Condition]> {
+        match &self.axes {
+            Some(axes) => Cow::Borrowed(&axes.conditions),
+            None => Cow::Owned(vec![self.condition()]),
+        }
+    }
+
+    /// The blocks of a list, each by its name and in the first condition that has it; without a list what the plan has itself.
+    pub fn each_of(&self, block: Block) -> Vec<(Option<&str>, Condition)> {
+        let listed = (self.axes.as_ref()).and_then(|axes| Some((axes, axes.whole(block)?)));
+        let Some((axes, (axis, varied))) = listed else {
+            return vec![(None, self.condition())];
+        };
+        let names = varied.names.iter().enumerate();
+        let first = names.filter_map(|(place, name)| {
+            let mut conditions = axes.conditions.iter();
+            let first = conditions.find(|c| c.values.get(axis) == Some(place as f64));
+            Some((Some(name.as_str()), first?.clone()))
+        });
+        first.collect()
+    }
+
+    /// The indenter under the condition of these values.
+    pub fn indenter_under(&self, values: &AxisValues) -> &dyn Indenter {
+        let conditions = self.axes.iter().flat_map(|axes| &axes.conditions);
+        let mut of_values = conditions.filter(|condition| condition.values == *values);
+        let condition = of_values.next();
+        condition.map_or(&*self.contact.indenter, |condition| &*condition.indenter)
+    }
+
+    /// How many cases there are.
+    pub fn count(&self) -> usize {
+        let conditions = self.axes.as_ref().map_or(1, |axes| axes.conditions.len());
+        conditions * self.angular_frequencies_rad_per_s.len()
+    }
+
+    /// Whether every case has tables of its own, and the cycles of all fit in the memory.
+    pub fn is_small(&self) -> bool {
+        self.count() <= SMALL
+    }
+
+    /// Every case, in order.
+    pub fn cases(&self) -> Vec<Case> {
+        let mut cases = Vec::with_capacity(self.count());
+        for condition in self.conditions().iter() {
+            for angular_frequency_rad_per_s in &self.angular_frequencies_rad_per_s {
+                cases.push(Case {
+                    index: cases.len(),
+                    angular_frequency_rad_per_s: *angular_frequency_rad_per_s,
+                    condition: condition.clone(),
+                });
+            }
+        }
+        cases
+    }
+}
+
+/// How a cycle is resolved and when it counts as stabilised.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CyclePlan {
+    /// Time steps per cycle; where an accuracy is asked for, at least.
+    pub steps: usize,
+    /// How the stabilised cycle is reached.
+    pub method: Method,
+    /// Largest allowed estimated distance to the stabilised cycle: of the memory relative to the pressure, and of the loop to a
+    /// closed one relative to its area.
+    pub tolerance: f64,
+    /// Cycles of marching after which a frequency counts as not converged.
+    pub max_cycles: usize,
+    /// The cycle of the march, counted from 1, that is recorded as it is, in place of the stabilised one.
+    pub at_cycle: Option<usize>,
+    /// Whether every result is to be computed on coarser resolutions too, which gives its error.
+    pub error_bars: bool,
+    /// Largest allowed error of the loss, relative: steps and nodes are then chosen to reach it.
+    pub accuracy: Option<f64>,
+}
+
+/// How the stabilised cycle is reached.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Method {
+    /// Searched: see [`crate::steady`].
+    Direct,
+    /// Waited for, cycle after cycle.
+    March,
+}
+
+impl Method {
+    /// The name as written in a sweep file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Direct => "direct",
+            Self::March => "march",
+        }
+    }
+}
+
+/// Which engine, and how fine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SolverPlan {
+    pub engine: EngineKind,
+    pub time_rule: TimeRule,
+    /// Axisymmetric engine: springs over the domain.
+    pub springs: usize,
+    /// Half-space engine: cells along the longer side of the domain; those of the indenter where it is a map.
+    pub cells: usize,
+    /// Half-space engine: tolerance of one instant, see [`crate::contact::half_space::SolverSettings`]; where none is given, what
+    /// the loss asks for, see [`crate::sweep::plan::instant_tolerance`].
+    pub tolerance: Option<f64>,
+}
+
+/// The two contact engines. Every `match` names both, so that a third would be met everywhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum EngineKind {
+    Axisymmetric,
+    HalfSpace,
+}
+
+impl EngineKind {
+    /// The name as written in a sweep file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Axisymmetric => "axisymmetric",
+            Self::HalfSpace => "half-space",
+        }
+    }
+}
+
+impl SolverPlan {
+    /// Everything at its default, on a layer where there is one: springs where indenter and body allow them, cells elsewhere.
+    pub fn of(indenter: &dyn Indenter, layer: Option<LayerPlan>) -> Self {
+        let engine = match (indenter.axisymmetric(), layer) {
+            (Some(_), None) => EngineKind::Axisymmetric,
+            _ => EngineKind::HalfSpace,
+        };
+        Self {
+            engine,
+            ..Self::DEFAULT
+        }
+    }
+
+    /// Nodes along the contact's radius (springs) or the domain's longer side (cells), whichever the engine has.
+    pub fn nodes(&self) -> usize {
+        match self.engine {
+            EngineKind::Axisymmetric => self.springs,
+            EngineKind::HalfSpace => self.cells,
+        }
+    }
+
+    /// The same with the cells that an indenter brings, where it brings any.
+    #[must_use]
+    pub fn on_own_cells(mut self, indenter: &dyn Indenter) -> Self {
+        if let Some((cells_x, cells_y)) = indenter.own_cells() {
+            self.cells = cells_x.max(cells_y);
+        }
+        self
+    }
+
+    /// The same engine with another number of them.
+    #[must_use]
+    pub fn with_nodes(mut self, nodes: usize) -> Self {
+        match self.engine {
+            EngineKind::Axisymmetric => self.springs = nodes,
+            EngineKind::HalfSpace => self.cells = nodes,
+        }
+        self
+    }
+}
+
+impl CyclePlan {
+    /// What counts where nothing is asked for.
+    pub const DEFAULT: Self = Self {
+        steps: 200,
+        method: Method::Direct,
+        tolerance: 1e-4,
+        max_cycles: 1000,
+        at_cycle: None,
+        error_bars: true,
+        accuracy: None,
+    };
+}
+
+impl Default for CyclePlan {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+impl SolverPlan {
+    /// What counts where nothing is asked for.
+    pub const DEFAULT: Self = Self {
+        engine: EngineKind::Axisymmetric,
+        time_rule: TimeRule::Linear,
+        springs: 400,
+        cells: 128,
+        tolerance: None,
+    };
+}
+
+impl Default for SolverPlan {
+    fn default() -> Self {
+        Self::DEFAULT
+    }
+}
+
+#[cfg(test)]
+pub(in crate::sweep) mod tests {
+    use super::*;
+    use crate::drive::Control;
+    use crate::indenter::{HeightMap, MapEdge, MapQuantity, Shifted, Sphere};
+    use crate::material::library;
+
+    /// A sphere on PMMA under a load, of which no number varies.
+    pub(in crate::sweep) fn condition() -> Condition {
+        let pmma = library::find("pmma").unwrap().material().unwrap();
+        let drive = HarmonicDrive::new(Control::Load, 10.0, 5.0, 0.0, 0.0).unwrap();
+        SweepPlan::new(pmma, Arc::new(Sphere::new(0.01).unwrap()), drive).condition()
+    }
+
+    #[test]
+    fn the_cells_of_a_map_are_those_of_the_plan_whatever_was_asked_for() {
+        let heights = (0..200 * 150).map(|i| 1e-9 * f64::from(i % 7)).collect();
+        let map = HeightMap::new(
+            (200, 150),
+            (1e-6, 1e-6),
+            heights,
+            MapQuantity::Gap,
+            MapEdge::Unknown,
+        )
+        .unwrap();
+        let map: Arc<dyn Indenter> = Arc::new(map);
+        let sphere: Arc<dyn Indenter> = Arc::new(Sphere::new(0.01).unwrap());
+        let moved = |inner: &Arc<dyn Indenter>| Shifted::new(Arc::clone(inner), 1e-6, 0.0).unwrap();
+        let cells = |indenter: &dyn Indenter| SolverPlan::default().on_own_cells(indenter).cells;
+        assert_eq!([cells(map.as_ref()), cells(&moved(&map))], [200, 200]);
+        assert_eq!([cells(sphere.as_ref()), cells(&moved(&sphere))], [128, 128]);
+    }
+}

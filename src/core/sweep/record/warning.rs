@@ -1,0 +1,406 @@
+//! What is said of a case, of a sweep or of a history that lies outside the model, or has no error bars: the kinds, and their words.
+//! The limits themselves are those of the guide on validity.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::quantity::{Dimension, FrequencyUnit, format_human};
+use crate::sweep::plan::layer::LayerPlan;
+use crate::sweep::record::CaseRecord;
+
+/// Slope of an indenter up to which slopes are small: a/R of a sphere, 11 degrees of a cone.
+pub const LARGEST_SLOPE: f64 = 0.2;
+/// Strain up to which a glassy polymer is linear, and the modulus |E*| (Pa) from which a material counts as glassy. Softer ones
+/// are linear further than slopes are small: [`LARGEST_SLOPE`] is a strain of 4 %.
+pub const LARGEST_GLASSY_STRAIN: f64 = 0.01;
+pub const GLASSY_MODULUS_PA: f64 = 1e9;
+/// Approach over the thickness of a layer up to which its compression is small.
+pub const LARGEST_DEPTH: f64 = 0.1;
+/// Tabor's parameter up to which attraction leaves the shape of the contact alone, and from which it decides it.
+pub const LARGEST_TABOR_PARAMETER: f64 = 0.1;
+pub const JKR_TABOR_PARAMETER: f64 = 5.0;
+/// Representative strain over slope.
+pub const STRAIN_PER_SLOPE: f64 = 0.2;
+
+/// One thing to be said of a case or of a history.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "code", rename_all = "kebab-case")]
+pub enum Warning {
+    /// The frequency is below one over the longest time in which the material was measured.
+    BelowMeasured {
+        angular_frequency_rad_per_s: f64,
+        last_measured_s: f64,
+    },
+    /// The frequency is above one over the shortest.
+    AboveMeasured {
+        angular_frequency_rad_per_s: f64,
+        first_measured_s: f64,
+    },
+    /// Something in a history takes no longer than this time (s), 0 for a jump, and the material was measured later only.
+    ShorterThanMeasured { time_s: f64, first_measured_s: f64 },
+    /// A history lasts longer than the material was measured.
+    LongerThanMeasured { time_s: f64, last_measured_s: f64 },
+    /// The representative strain is beyond what a glassy material takes linearly.
+    LargeStrain { strain: f64 },
+    /// The indenter's slope within the contact is not small.
+    SteepSlope { slope: f64, contact_radius_m: f64 },
+    /// The approach is no small part of the thickness of a layer.
+    DeepInLayer { part: f64 },
+    /// The attraction deforms the surfaces, which the theory of Derjaguin, Muller and Toporov neglects.
+    TaborParameter { parameter: f64 },
+    /// Error bars were wanted, and there are none.
+    NoErrorBars { because: NoErrorBars },
+}
+
+/// Why there are no error bars.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum NoErrorBars {
+    /// The indenter is a map, with one cell on every point.
+    OwnCells,
+    /// There is no coarser resolution, or it has no result.
+    NoCoarserResult,
+}
+
+impl NoErrorBars {
+    fn words(self) -> &'static str {
+        match self {
+            Self::OwnCells => {
+                "a map is solved on its own cells, and there are no coarser ones to compare with"
+            }
+            Self::NoCoarserResult => "there is no coarser result to compare with",
+        }
+    }
+}
+
+impl Warning {
+    /// What is to be said of an approach (m) into a layer on a rigid base, where the body is one: a base that yields takes its part of
+    /// the approach.
+    pub(in crate::sweep) fn of_depth(layer: Option<LayerPlan>, approach_m: f64) -> Option<Self> {
+        let layer = layer.filter(|layer| layer.yielding.is_none())?;
+        let part = approach_m / layer.thickness_m;
+        (part > LARGEST_DEPTH && part.is_finite()).then_some(Self::DeepInLayer { part })
+    }
+
+    /// What is to be said of Tabor's parameter.
+    pub(in crate::sweep) fn of_tabor_parameter(parameter: f64) -> Option<Self> {
+        (parameter > LARGEST_TABOR_PARAMETER).then_some(Self::TaborParameter { parameter })
+    }
+
+    /// A short name, for tables and programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::BelowMeasured { .. } => "below-measured",
+            Self::AboveMeasured { .. } => "above-measured",
+            Self::ShorterThanMeasured { .. } => "shorter-than-measured",
+            Self::LongerThanMeasured { .. } => "longer-than-measured",
+            Self::LargeStrain { .. } => "large-strain",
+            Self::SteepSlope { .. } => "steep-slope",
+            Self::DeepInLayer { .. } => "deep-in-layer",
+            Self::TaborParameter { .. } => "tabor-parameter",
+            Self::NoErrorBars { .. } => "no-error-bars",
+        }
+    }
+
+    /// Among warnings of one kind, the one that says it for all of them has most of this.
+    fn extent(&self) -> f64 {
+        match *self {
+            // How far outside, since each temperature has a window of its own.
+            Self::BelowMeasured {
+                angular_frequency_rad_per_s,
+                last_measured_s,
+            } => -angular_frequency_rad_per_s * last_measured_s,
+            Self::AboveMeasured {
+                angular_frequency_rad_per_s,
+                first_measured_s,
+            } => angular_frequency_rad_per_s * first_measured_s,
+            Self::ShorterThanMeasured { time_s, .. } => -time_s,
+            Self::LongerThanMeasured { time_s, .. } => time_s,
+            Self::LargeStrain { strain } => strain,
+            Self::SteepSlope { slope, .. } => slope,
+            Self::DeepInLayer { part } => part,
+            Self::TaborParameter { parameter } => parameter,
+            Self::NoErrorBars { .. } => 0.0,
+        }
+    }
+}
+
+/// One line, with frequencies in rad/s.
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message(FrequencyUnit::RadPerS))
+    }
+}
+
+impl Warning {
+    /// One line, with frequencies in a unit.
+    fn message(&self, unit: FrequencyUnit) -> String {
+        let time = |time_s| format_human(time_s, Dimension::Time, 3);
+        let frequency = |time_s: f64| format_human(unit.of(time_s.recip()), unit.dimension(), 3);
+        match *self {
+            Self::BelowMeasured {
+                last_measured_s: last_s,
+                ..
+            } => {
+                let (last, limit) = (time(last_s), frequency(last_s));
+                format!(
+                    "the material was measured up to {last}: below {limit} it is an extrapolation"
+                )
+            }
+            Self::AboveMeasured {
+                first_measured_s: first_s,
+                ..
+            } => {
+                let (first, limit) = (time(first_s), frequency(first_s));
+                format!(
+                    "the material was measured from {first} on: above {limit} it is an extrapolation"
+                )
+            }
+            Self::ShorterThanMeasured {
+                time_s,
+                first_measured_s,
+            } => {
+                let when = match time_s {
+                    0.0 => ": up to then after a jump of the drive".to_owned(),
+                    _ => format!(", and the drive changes within {}: there", time(time_s)),
+                };
+                let first = time(first_measured_s);
+                format!("the material was measured from {first} on{when} it is an extrapolation")
+            }
+            Self::LongerThanMeasured {
+                time_s,
+                last_measured_s,
+            } => format!(
+                "the material was measured up to {}, and the history lasts {}: beyond, it is an extrapolation",
+                time(last_measured_s),
+                time(time_s)
+            ),
+            Self::LargeStrain { strain } => format!(
+                "strains up to {} %: a glassy material is linear up to about {} %",
+                two_digits(100.0 * strain),
+                100.0 * LARGEST_GLASSY_STRAIN
+            ),
+            Self::SteepSlope {
+                slope,
+                contact_radius_m,
+            } => format!(
+                "slopes of the indenter in the contact (a/R of a sphere) up to {} at a contact radius of {}: the model takes them \
+                 as small, up to about {LARGEST_SLOPE}",
+                two_digits(slope),
+                format_human(contact_radius_m, Dimension::Length, 3)
+            ),
+            Self::DeepInLayer { part } => format!(
+                "the approach is up to {} of the layer's thickness: the model takes strains as small, up to about {LARGEST_DEPTH} of it",
+                two_digits(part)
+            ),
+            Self::TaborParameter { parameter } => format!(
+                "Tabor's parameter is up to {}: DMT adhesion holds up to about {LARGEST_TABOR_PARAMETER}, and from about \
+                 {JKR_TABOR_PARAMETER} on that of Johnson, Kendall and Roberts, which is not solved here",
+                two_digits(parameter)
+            ),
+            Self::NoErrorBars { because } => format!("no error bars: {}", because.words()),
+        }
+    }
+}
+
+/// Two significant digits of a positive number, all of a large one before its point.
+fn two_digits(value: f64) -> String {
+    let decimals = (1.0 - value.log10().floor()).clamp(0.0, 9.0) as usize;
+    format!("{value:.decimals$}")
+}
+
+/// A kind of warning over the cases of a sweep.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OverCases {
+    pub code: &'static str,
+    /// What is to be said, of the case it is truest of.
+    pub message: String,
+    /// Cases it is to be said of, and the range of their frequencies.
+    pub cases: usize,
+    pub lowest_angular_frequency_rad_per_s: f64,
+    pub highest_angular_frequency_rad_per_s: f64,
+    #[serde(skip)]
+    of: usize,
+    #[serde(skip)]
+    unit: FrequencyUnit,
+    /// Whether the materials of the cases were measured at different times.
+    #[serde(skip)]
+    has_other_limits: bool,
+}
+
+/// The end of the measured times (s) that a warning is of.
+fn measured_s(warning: &Warning) -> Option<f64> {
+    match *warning {
+        Warning::BelowMeasured {
+            last_measured_s, ..
+        } => Some(last_measured_s),
+        Warning::AboveMeasured {
+            first_measured_s, ..
+        } => Some(first_measured_s),
+        _ => None,
+    }
+}
+
+/// What is to be said of these cases, with frequencies in this unit: one entry per kind, in the order in which kinds first occur.
+pub fn over_cases(records: &[CaseRecord], unit: FrequencyUnit) -> Vec<OverCases> {
+    let mut kinds: Vec<(Warning, OverCases)> = Vec::new();
+    for record in records {
+        let omega = record.angular_frequency_rad_per_s;
+        for warning in &record.warnings {
+            let known = (kinds.iter_mut()).find(|(_, over)| over.code == warning.code());
+            match known {
+                Some((worst, over)) => {
+                    over.has_other_limits |= measured_s(warning) != measured_s(worst);
+                    if warning.extent() > worst.extent() {
+                        *worst = *warning;
+                    }
+                    over.cases += 1;
+                    let (low, high) = (
+                        &mut over.lowest_angular_frequency_rad_per_s,
+                        &mut over.highest_angular_frequency_rad_per_s,
+                    );
+                    (*low, *high) = (low.min(omega), high.max(omega));
+                }
+                None => kinds.push((
+                    *warning,
+                    OverCases {
+                        code: warning.code(),
+                        message: String::new(),
+                        cases: 1,
+                        lowest_angular_frequency_rad_per_s: omega,
+                        highest_angular_frequency_rad_per_s: omega,
+                        of: records.len(),
+                        unit,
+                        has_other_limits: false,
+                    },
+                )),
+            }
+        }
+    }
+    let said = |(worst, over): (Warning, OverCases)| {
+        let others = match over.has_other_limits {
+            true => " in the case that is furthest outside",
+            false => "",
+        };
+        OverCases {
+            message: worst.message(unit) + others,
+            ..over
+        }
+    };
+    kinds.into_iter().map(said).collect()
+}
+
+/// One line: the message, and of which cases.
+impl fmt::Display for OverCases {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (low, high) = (
+            self.lowest_angular_frequency_rad_per_s,
+            self.highest_angular_frequency_rad_per_s,
+        );
+        let symbol = self.unit.symbol();
+        let value = |omega| format_human(self.unit.of(omega), self.unit.dimension(), 4);
+        f.write_str(&self.message)?;
+        let cases = match (self.cases == self.of, low == high) {
+            (true, true) => return Ok(()),
+            (true, false) => return f.write_str(" (all cases)"),
+            (false, true) => value(low),
+            (false, false) => format!("{} to {}", value(low), value(high)),
+        };
+        write!(
+            f,
+            " ({} of {} cases, {symbol} = {cases})",
+            self.cases, self.of
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EVERY: [Warning; 9] = [
+        Warning::BelowMeasured {
+            angular_frequency_rad_per_s: 1e-4,
+            last_measured_s: 1000.0,
+        },
+        Warning::AboveMeasured {
+            angular_frequency_rad_per_s: 628.3,
+            first_measured_s: 0.1,
+        },
+        Warning::ShorterThanMeasured {
+            time_s: 0.0,
+            first_measured_s: 0.1,
+        },
+        Warning::LongerThanMeasured {
+            time_s: 2e3,
+            last_measured_s: 1e3,
+        },
+        Warning::LargeStrain { strain: 0.0728 },
+        Warning::SteepSlope {
+            slope: 361.3,
+            contact_radius_m: 3.613e-6,
+        },
+        Warning::TaborParameter { parameter: 12.3 },
+        Warning::NoErrorBars {
+            because: NoErrorBars::OwnCells,
+        },
+        Warning::NoErrorBars {
+            because: NoErrorBars::NoCoarserResult,
+        },
+    ];
+
+    #[test]
+    fn a_warning_is_stored_under_its_code_and_comes_back() {
+        for warning in EVERY {
+            let text = serde_json::to_string(&warning).unwrap();
+            assert!(
+                text.contains(&format!("\"code\":\"{}\"", warning.code())),
+                "{text}"
+            );
+            assert_eq!(serde_json::from_str::<Warning>(&text).unwrap(), warning);
+        }
+    }
+
+    #[test]
+    fn a_warning_is_one_line_with_its_numbers() {
+        let lines = EVERY.map(|warning| warning.to_string());
+        assert!(
+            lines
+                .iter()
+                .all(|line| !line.contains('\n') && line.len() < 200)
+        );
+        for (line, part) in lines.iter().zip([
+            "measured up to 1000 s: below 1.00e-3 rad/s",
+            "measured from 100 ms on: above 10.0 rad/s",
+            "up to then after a jump",
+            "lasts 2000 s",
+            "strains up to 7.3 %: a glassy material is linear up to about 1 %",
+            "up to 361 at a contact radius of 3.61 µm: the model takes them as small, up to about 0.2",
+            "is up to 12: DMT adhesion holds up to about 0.1, and from about 5 on",
+            "own cells",
+            "no coarser result",
+        ]) {
+            assert!(line.contains(part), "{part:?} is missing in {line}");
+        }
+    }
+
+    #[test]
+    fn the_limits_are_those_of_the_guide() {
+        let guide = include_str!("../../../guide/validity.md");
+        for limit in [
+            format!("≲ {} %", 100.0 * LARGEST_GLASSY_STRAIN),
+            format!("≲ {LARGEST_SLOPE}"),
+            format!("≥ {} GPa", GLASSY_MODULUS_PA / 1e9),
+            format!("ε ≈ {STRAIN_PER_SLOPE} a/R"),
+        ] {
+            assert!(guide.contains(&limit), "{limit}");
+        }
+        for warning in EVERY {
+            assert!(
+                guide.contains(&format!("`{}`", warning.code())),
+                "{warning}"
+            );
+        }
+    }
+}

@@ -1,0 +1,181 @@
+//! `run.json`: where and how the numbers in a folder came about. Times are here and nowhere else, so that every other file
+//! can be compared bit for bit.
+
+use std::fs;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
+
+use serde::Serialize;
+
+use crate::sweep::plan::SweepPlan;
+use crate::sweep::store::{Store, StoreError};
+
+/// What the numbers of this program come from: the SHA-256 of its sources as far as they make numbers; see `build.rs`. Records
+/// of another build may be others.
+pub const BUILD: &str = env!("CONTACT_DMA_BUILD");
+
+/// The commit this program was built from: of a release built in a repository, and wherever the build was told
+/// (`CONTACT_DMA_COMMIT`).
+pub const COMMIT: Option<&str> = option_env!("CONTACT_DMA_COMMIT");
+
+/// Runs from the beginning of a command.
+#[derive(Debug, Clone, Copy)]
+pub struct Stopwatch {
+    started: SystemTime,
+    clock: Instant,
+}
+
+/// What only the command knows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Circumstances {
+    /// `sweep`, `merge` or `report`.
+    pub command: &'static str,
+    pub threads: usize,
+    /// As in `--shard`.
+    pub shard: Option<String>,
+    /// Cases of the sweep that were computed, and that had records before.
+    pub cases_computed: usize,
+    pub cases_found: usize,
+    pub interrupted: bool,
+}
+
+#[derive(Serialize)]
+struct Run<'a> {
+    program: &'a str,
+    program_version: &'a str,
+    build: &'a str,
+    commit: Option<&'a str>,
+    sweep_hash: &'a str,
+    engine: &'a str,
+    cycle_tolerance: f64,
+    /// `None`: for every case what its loss asks for.
+    solver_tolerance: Option<f64>,
+    #[serde(flatten)]
+    circumstances: &'a Circumstances,
+    host: Option<String>,
+    processors: Option<usize>,
+    started: String,
+    finished: String,
+    wall_time_s: f64,
+    cpu_time_s: Option<f64>,
+}
+
+impl Stopwatch {
+    /// Starts now.
+    pub fn start() -> Self {
+        Self {
+            started: SystemTime::now(),
+            clock: Instant::now(),
+        }
+    }
+
+    /// Writes the file: `run.json`, or `run-K-of-N.json` for a shard.
+    ///
+    /// # Errors
+    /// [`StoreError`] with the path.
+    pub fn write(
+        &self,
+        store: &Store,
+        plan: &SweepPlan,
+        circumstances: &Circumstances,
+    ) -> Result<(), StoreError> {
+        let run = Run {
+            program: "contact-dma",
+            program_version: env!("CARGO_PKG_VERSION"),
+            build: BUILD,
+            commit: COMMIT,
+            sweep_hash: store.sweep_hash(),
+            engine: plan.contact.solver.engine.name(),
+            cycle_tolerance: plan.cycle.tolerance,
+            solver_tolerance: plan.contact.solver.tolerance,
+            circumstances,
+            host: host(),
+            processors: std::thread::available_parallelism().ok().map(usize::from),
+            started: utc(self.started),
+            finished: utc(SystemTime::now()),
+            wall_time_s: self.clock.elapsed().as_secs_f64(),
+            cpu_time_s: cpu_time_s(),
+        };
+        let name = match &circumstances.shard {
+            Some(shard) => format!("run-{}.json", shard.replace('/', "-of-")),
+            None => "run.json".to_owned(),
+        };
+        let mut bytes = serde_json::to_vec_pretty(&run).map_err(|error| StoreError::Encode {
+            path: store.folder().join(&name),
+            reason: error.to_string(),
+        })?;
+        bytes.push(b'\n');
+        store.write(name, &bytes)
+    }
+}
+
+/// The name of this machine, where the system tells it as Linux does.
+pub(in crate::sweep) fn host() -> Option<String> {
+    let name = fs::read_to_string("/proc/sys/kernel/hostname").ok()?;
+    Some(name.trim().to_owned())
+}
+
+/// Processor time (s) of this process and its threads, where the system tells it as Linux does.
+fn cpu_time_s() -> Option<f64> {
+    /// The unit of /proc/PID/stat on Linux, fixed for programs whatever the kernel's own clock.
+    const TICKS_PER_S: f64 = 100.0;
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
+    // The name in parentheses may hold spaces; user and system time are the 12th and 13th field behind it.
+    let (_, fields) = stat.rsplit_once(") ")?;
+    let mut fields = fields.split(' ').skip(11);
+    let mut ticks = || fields.next()?.parse::<f64>().ok();
+    Some((ticks()? + ticks()?) / TICKS_PER_S)
+}
+
+/// A time as in `2026-02-28T12:34:56Z`.
+fn utc(time: SystemTime) -> String {
+    let seconds = match time.duration_since(UNIX_EPOCH) {
+        Ok(since) => i64::try_from(since.as_secs()).unwrap_or(i64::MAX),
+        // A clock set before 1970.
+        Err(_) => 0,
+    };
+    let (days, second) = (seconds.div_euclid(86_400), seconds.rem_euclid(86_400));
+    let (year, month, day) = civil(days);
+    format!(
+        "{year:04}-{month:02}-{day:02}T{:02}:{:02}:{:02}Z",
+        second / 3600,
+        second / 60 % 60,
+        second % 60
+    )
+}
+
+/// Year, month and day of a number of days since 1970-01-01, in the Gregorian calendar counted from a 1st of March, as in
+/// H. Hinnant, "chrono-Compatible Low-Level Date Algorithms", 2013.
+fn civil(days: i64) -> (i64, i64, i64) {
+    let from_march = days + 719_468;
+    let era = from_march.div_euclid(146_097);
+    let day_of_era = from_march.rem_euclid(146_097);
+    let year_of_era =
+        (day_of_era - day_of_era / 1460 + day_of_era / 36_524 - day_of_era / 146_096) / 365;
+    let day_of_year = day_of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let month_from_march = (5 * day_of_year + 2) / 153;
+    let day = day_of_year - (153 * month_from_march + 2) / 5 + 1;
+    let month = (month_from_march + 2) % 12 + 1;
+    let year = year_of_era + 400 * era + i64::from(month <= 2);
+    (year, month, day)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn dates_are_those_of_the_calendar() {
+        let at = |seconds| utc(UNIX_EPOCH + Duration::from_secs(seconds));
+        assert_eq!(at(0), "1970-01-01T00:00:00Z");
+        assert_eq!(at(951_782_399), "2000-02-28T23:59:59Z");
+        assert_eq!(at(951_782_400), "2000-02-29T00:00:00Z");
+        assert_eq!(at(1_772_323_200), "2026-03-01T00:00:00Z");
+        assert_eq!(
+            utc(UNIX_EPOCH - Duration::from_secs(9)),
+            "1970-01-01T00:00:00Z"
+        );
+        // The last second that a 64-bit clock knows.
+        assert_eq!(at(i64::MAX.unsigned_abs()), "292277026596-12-04T15:30:07Z");
+    }
+}
