@@ -16,9 +16,8 @@ pub(crate) fn sums<const N: usize>(
     terms: impl Fn(f64, f64) -> [f64; N],
 ) -> [f64; N] {
     let mut lanes = [[0.0; LANES]; N];
-    let (whole_a, whole_b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let rest = whole_a.remainder().iter().zip(whole_b.remainder());
-    for (a, b) in whole_a.zip(whole_b) {
+    let ((whole_a, rest_a), (whole_b, rest_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    for (a, b) in whole_a.iter().zip(whole_b) {
         for lane in 0..LANES {
             let terms = terms(a[lane], b[lane]);
             for n in 0..N {
@@ -26,8 +25,11 @@ pub(crate) fn sums<const N: usize>(
             }
         }
     }
-    let mut totals = lanes.map(|lanes| lanes.iter().sum());
-    for (&a, &b) in rest {
+    let mut totals = [0.0; N];
+    for n in 0..N {
+        totals[n] = lanes[n].iter().sum();
+    }
+    for (&a, &b) in rest_a.iter().zip(rest_b) {
         let terms = terms(a, b);
         for n in 0..N {
             totals[n] += terms[n];
@@ -136,8 +138,7 @@ pub(crate) fn least(a: &[f64]) -> f64 {
 #[inline(always)]
 pub(crate) fn least_of(a: &[f64], function: impl Fn(f64) -> f64) -> f64 {
     let mut lanes = [f64::INFINITY; LANES];
-    let whole = a.chunks_exact(LANES);
-    let rest = whole.remainder();
+    let (whole, rest) = a.as_chunks::<LANES>();
     for a in whole {
         for lane in 0..LANES {
             let value = function(a[lane]);

@@ -45,11 +45,13 @@ impl Drawing {
         picture: &tiny_skia::Pixmap,
         pixels_per_metre: Option<u32>,
     ) -> Result<Vec<u8>, png::EncodingError> {
-        let opaque: Vec<u8> = picture
-            .pixels()
-            .iter()
-            .flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
-            .collect();
+        let mut opaque = vec![0; picture.pixels().len() * 3];
+        for (rgb, rgba) in opaque
+            .chunks_exact_mut(3)
+            .zip(picture.data().chunks_exact(4))
+        {
+            rgb.copy_from_slice(&rgba[..3]);
+        }
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
         encoder.set_color(png::ColorType::Rgb);
