@@ -397,7 +397,7 @@ fn a_rough_contact_on_pmma_is_complementary_and_grows_as_the_body_creeps() {
     let pressure_pa = march.pressure().to_vec();
     let approach_m = march.solution().unwrap().approach_m;
     // The gap after the last instant, from the engine's own displacement.
-    let displacement_m: Vec<f64> = engine.displacement_m(compliance_per_pa).collect();
+    let displacement_m = engine.displacement_m(compliance_per_pa).unwrap();
     let (mut misfit, mut work, mut lowest_m) = (0.0, 0.0, 0.0_f64);
     for ((p, u_m), gap_m) in pressure_pa.iter().zip(&displacement_m).zip(&gaps_m) {
         let h_m = gap_m + u_m - approach_m;

@@ -531,7 +531,7 @@ fn after_unloading_a_maxwell_body_keeps_its_dent_for_ever_and_a_zener_body_forge
             dents.push(solution.approach_m);
         }
         drop(march);
-        let centre_m = engine.displacement_m(last).nth(33 * 16 + 16).unwrap();
+        let centre_m = engine.displacement_m(last).unwrap()[33 * 16 + 16];
         (dents, centre_m)
     };
     let (maxwell_dents, left_m) = dents(&maxwell());

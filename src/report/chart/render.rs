@@ -46,11 +46,9 @@ impl Drawing {
         pixels_per_metre: Option<u32>,
     ) -> Result<Vec<u8>, png::EncodingError> {
         let mut opaque = vec![0; picture.pixels().len() * 3];
-        for (rgb, rgba) in opaque
-            .chunks_exact_mut(3)
-            .zip(picture.data().chunks_exact(4))
-        {
-            rgb.copy_from_slice(&rgba[..3]);
+        let pixels = picture.data().as_chunks::<4>().0;
+        for (rgb, rgba) in opaque.as_chunks_mut::<3>().0.iter_mut().zip(pixels) {
+            *rgb = [rgba[0], rgba[1], rgba[2]];
         }
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());

@@ -197,7 +197,10 @@ impl HalfSpace {
     }
 
     /// The surface displacement u = B (A p + H) in metres of the instant last solved, one value per cell of the operator's grid.
-    pub fn displacement_m(&self, compliance_per_pa: f64) -> impl Iterator<Item = f64> + '_ {
+    ///
+    /// # Errors
+    /// [`ContactError::Operator`] where a transform fails.
+    pub fn displacement_m(&self, compliance_per_pa: f64) -> Result<Vec<f64>, ContactError> {
         let grid = self.operator.grid();
         let mut displacement_m = vec![0.0; grid.cells()];
         if let Some(windows) = &self.windows {
@@ -208,10 +211,9 @@ impl HalfSpace {
             let mut sources = vec![0.0; grid.cells()];
             (windows.source).scatter(&source, grid.cells_x(), &mut sources);
             let (operator, mut scratch) = (&self.operator, self.operator.scratch());
-            let applied = operator.apply(&sources, &mut displacement_m, &mut scratch);
-            debug_assert!(applied.is_ok(), "fields of the grid's size");
+            operator.apply(&sources, &mut displacement_m, &mut scratch)?;
         }
-        displacement_m.into_iter()
+        Ok(displacement_m)
     }
 
     /// Solves on the whole grid by the safe way.
