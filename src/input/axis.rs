@@ -201,8 +201,8 @@ impl Describe for AxisOf {
     fn expected(&self) -> String {
         let block = self.block.name();
         match self.listed {
-            Some(_) => format!("a table with keys of [{block}], or a list of such blocks"),
-            None => format!("a table with keys of [{block}]"),
+            Some(_) => format!("a table with keys of `[{block}]`, or a list of such blocks"),
+            None => format!("a table with keys of `[{block}]`"),
         }
     }
 

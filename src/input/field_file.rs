@@ -1,5 +1,5 @@
 //! Data files of indenters: height maps (a matrix of numbers, columns x_m, y_m, z_m, or `.npy`) and profiles (columns r_m,
-//! gap_m), as [`DataFile`] reads them; columns may have other units of length.
+//! gap_m), as `DataFile` reads them; columns may have other units of length.
 //!
 //! The rows of a matrix follow one another in the direction of y, its columns in that of x.
 

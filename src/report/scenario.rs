@@ -35,10 +35,10 @@ pub fn write(
     Ok(left_out)
 }
 
-/// As [`write`], without figures and page; those of an earlier run, which may show less, are removed.
+/// As [`write`](fn@write), without figures and page; those of an earlier run, which may show less, are removed.
 ///
 /// # Errors
-/// As [`write`].
+/// As [`write`](fn@write).
 pub fn write_tables(
     store: &Store,
     plan: &ScenarioPlan,

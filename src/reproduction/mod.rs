@@ -8,7 +8,7 @@
 //! and computes nothing from them.
 //!
 //! What is written must be the same bytes wherever and whenever it is made. Numbers are therefore printed to five
-//! significant digits, and differences below what the computation resolves as "< 1e-9" ([`number`]).
+//! significant digits, and differences below what the computation resolves as "< 1e-9" (`number`).
 
 mod by_engine;
 mod claim;

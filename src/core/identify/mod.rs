@@ -4,17 +4,17 @@
 //! radius, whatever a sweep computes. Sought is the solid, a Prony series, whose computed cycles have the same numbers.
 //!
 //! Or measured is a history: approach under a load that steps, ramps and rests, or load under such an approach. Its solid is found
-//! in the same way, with [`history`] in place of the linearised cycles and a simulation in place of the sweep.
+//! in the same way, with `history` in place of the linearised cycles and a simulation in place of the sweep.
 //!
 //! # How
 //!
 //! The unknowns are the logarithms of the equilibrium modulus and of the moduli and times of the branches; the residuals are
 //! the logarithms of computed over measured numbers, divided by the relative errors of the measured ones.
 //!
-//! 1. The linearised contact ([`linear`]) gives every number from E*(omega) and the equilibrium modulus at once. Branches are
-//!    added one by one, each tried at many times ([`selection`]), and all are refined together by the method of Levenberg and
-//!    Marquardt ([`least_squares`]).
-//! 2. The exact model ([`model`]) is solved for the best series. Its ratio to the linearised one is a factor for each number,
+//! 1. The linearised contact (`linear`) gives every number from E*(omega) and the equilibrium modulus at once. Branches are
+//!    added one by one, each tried at many times (`selection`), and all are refined together by the method of Levenberg and
+//!    Marquardt (`least_squares`).
+//! 2. The exact model (`model`) is solved for the best series. Its ratio to the linearised one is a factor for each number,
 //!    which changes little with the material: with the factors the search is repeated until they stand still.
 //! 3. The series is refined on the exact model itself, with its own derivatives.
 //! 4. Where that ends far from the data, which contacts that open in every cycle may do, the search starts again with the factors of the

@@ -87,7 +87,7 @@ impl Indenter for Ellipsoid {
     /// The ellipse under this approach, to 5 %: its pressure p sqrt(1 - x^2/a^2 - y^2/b^2) on a half-space of compliance C
     /// makes an approach C p b K and a curvature 1/R = 2 C p b (K - E) / (e a)^2 along the longer semi-axis a, e^2 = 1 - (b/a)^2
     /// (K. L. Johnson, Contact Mechanics, 1985, section 4.2), with K = pi/2 + (pi/2 - 1) ln r as in
-    /// [`Ellipsoid::elastic_semi_axes_m`].
+    /// `Ellipsoid::elastic_semi_axes_m`.
     fn half_widths_under_approach_m(&self, approach_m: f64) -> (f64, f64) {
         use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
         if let Some(sphere) = &self.sphere {

@@ -9,7 +9,7 @@
 //! spectrum of `B` is real because `B` is even, is stored for half the frequencies, and carries the scale of the inverse
 //! transform; only the rows of the grid proper are transformed back.
 //!
-//! On a mirrored grid the transforms are cosine transforms of a quarter of the cells ([`mirrored`]).
+//! On a mirrored grid the transforms are cosine transforms of a quarter of the cells (`mirrored`).
 //!
 //! A [`Convolution`] is immutable and shared between threads, a [`Scratch`] belongs to one thread. A result depends on
 //! the pressure alone, never on what the scratch held before.

@@ -23,7 +23,7 @@
 //!
 //! S - 1 decays like x^2 exp(-2x), so that phi is analytic but for a singularity at s = 2i and its like farther off: it is
 //! tabulated once by Chebyshev polynomials. On a rigid base both terms together decay exponentially, with signs that change where the
-//! surface rises beside the load; beyond [`REACH`] they are less than rounding, and taken as nothing. Where the base yields, S(0) is the
+//! surface rises beside the load; beyond `REACH` they are less than rounding, and taken as nothing. Where the base yields, S(0) is the
 //! compliance of the base over that of the layer, and far from the load what is left are powers, from those of S of even order:
 //!
 //! ```text

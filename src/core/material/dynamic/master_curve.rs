@@ -1,7 +1,7 @@
 //! Master curves: isotherms shifted along the frequencies until they lie on one another.
 //!
-//! Neighbours are shifted onto one another in closed form ([`super::neighbours`]), then all factors together are refined against
-//! one non-negative series through storage and loss modulus ([`super::one_curve`]), each value weighted by its noise
+//! Neighbours are shifted onto one another in closed form (`neighbours`), then all factors together are refined against
+//! one non-negative series through storage and loss modulus (`one_curve`), each value weighted by its noise
 //! ([`super::noise`]). The standard errors are those of the joint problem, scaled by its misfit. Where moduli may be shifted too,
 //! the tangent of the phase angle gives the first horizontal shifts, and the vertical ones come with the series.
 

@@ -131,7 +131,7 @@ impl InNodes {
         cell_m: None,
     };
     /// On cells of this width (m). Every quantity feels where the edge of the contact lies between two of them, least what a whole
-    /// cycle and the whole contact make; for the loss that is foretold ([`InNodes::of_edge`]), and the difference between grids,
+    /// cycle and the whole contact make; for the loss that is foretold (`InNodes::of_edge`), and the difference between grids,
     /// most of which is the coarser one's own edge, tells the rest. Both factors are from random solids on 48 cells
     /// (`tests/physics/random_solids.rs`), whose figures are in the guide on validation.
     pub fn cells(width_m: f64) -> Self {
