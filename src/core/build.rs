@@ -42,11 +42,18 @@ const CRATES: [&str; 8] = [
 fn main() -> io::Result<()> {
     let sources = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").unwrap_or_default());
     let root = sources.join("../..");
+    // A published package has a lock file of its own, beside its manifest.
+    let locks = [&sources, &root].map(|folder| folder.join("Cargo.lock"));
+    let lock = locks.into_iter().find(|lock| lock.exists());
+    let lock = lock.unwrap_or_default();
     println!(
         "cargo::rustc-env=CONTACT_DMA_BUILD={}",
-        identity(&sources, &root)?
+        identity(&sources, &lock)?
     );
-    println!("cargo::rerun-if-changed=../../Cargo.lock");
+    // A file that is not there would count as changed in every build.
+    if lock.exists() {
+        println!("cargo::rerun-if-changed={}", lock.display());
+    }
     println!("cargo::rerun-if-changed=.");
     println!("cargo::rerun-if-env-changed=CONTACT_DMA_COMMIT");
     // In other profiles every commit would mean building everything anew.
@@ -85,12 +92,12 @@ fn commit(root: &Path) -> Option<String> {
     described.status.success().then(|| commit.trim().to_owned())
 }
 
-/// The hash (64 hexadecimal digits) of what numbers come from: modules in the folder `sources`, versions in the lock file of the
-/// folder `root`; the same on every machine.
+/// The hash (64 hexadecimal digits) of what numbers come from: modules in the folder `sources`, versions in the lock file; the
+/// same on every machine.
 ///
 /// # Errors
 /// Where a source cannot be read.
-pub fn identity(sources: &Path, root: &Path) -> io::Result<String> {
+pub fn identity(sources: &Path, lock: &Path) -> io::Result<String> {
     let mut files = Vec::new();
     for module in MODULES {
         collect(&sources.join(module), module, &mut files)?;
@@ -105,8 +112,8 @@ pub fn identity(sources: &Path, root: &Path) -> io::Result<String> {
     for (name, path) in files {
         hash.update(format!("{name}\n{}", code(&fs::read_to_string(path)?)));
     }
-    // Not there in a package that is someone's dependency.
-    let lock = fs::read_to_string(root.join("Cargo.lock")).unwrap_or_default();
+    // Not there in a folder that is neither a package nor in the repository.
+    let lock = fs::read_to_string(lock).unwrap_or_default();
     hash.update(versions(&lock));
     Ok(format!("{:x}", hash.finalize()))
 }

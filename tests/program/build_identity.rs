@@ -39,7 +39,8 @@ impl Sources {
     }
 
     fn identity(&self) -> String {
-        build::identity(&self.0.path().join("src/core"), self.0.path()).unwrap()
+        let root = self.0.path();
+        build::identity(&root.join("src/core"), &root.join("Cargo.lock")).unwrap()
     }
 
     /// The identity with a file changed; the file is then as before.
