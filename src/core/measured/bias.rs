@@ -115,6 +115,7 @@ fn over(estimate: Estimate, bias: f64) -> Estimate {
         value: estimate.value / bias,
         standard_error: estimate.standard_error.map(|error| error / bias),
         error: estimate.error.map(|error| error / bias),
+        freedom: estimate.freedom,
     }
 }
 

@@ -29,6 +29,23 @@ pub(super) struct Mean<'a> {
     pub(super) ranges: Vec<Range<usize>>,
 }
 
+/// What the noise of the samples leaves uncertain.
+struct Errors {
+    of: [Option<StandardError>; Quantity::ALL.len()],
+    /// Covariance of loss and phase lag (J rad).
+    loss_with_phase: f64,
+}
+
+impl Errors {
+    fn loss_phase_correlation(&self) -> Option<f64> {
+        let [loss, phase] = [Quantity::EnergyLoss, Quantity::PhaseLag].map(|q| self.of[q.place()]);
+        let correlation = self.loss_with_phase / (loss?.value * phase?.value);
+        correlation
+            .is_finite()
+            .then(|| correlation.clamp(-1.0, 1.0))
+    }
+}
+
 impl Mean<'_> {
     /// Fills in what a record has of it: means and errors, the mean cycle, points to be drawn, findings.
     pub(super) fn fill(&self, measured: &mut MeasuredLoop) {
@@ -50,9 +67,10 @@ impl Mean<'_> {
                     .iter_mut()
                     .for_each(|v| *v = center + wrapped(*v - center));
             }
-            let errors = errors.as_ref().and_then(|errors| errors[place]);
+            let errors = errors.as_ref().and_then(|errors| errors.of[place]);
             measured.means[place] = Estimate::of(&values, errors);
         }
+        measured.loss_phase_correlation = errors.and_then(|errors| errors.loss_phase_correlation());
         measured.points = self.points(measured, &mean, &corrected);
         self.take_out_bias(measured, &corrected);
         measured.mean_cycle = corrected;
@@ -102,17 +120,13 @@ impl Mean<'_> {
 
     /// Standard errors from the noise of the samples, carried through every formula: of the mean cycle fitted at once to all
     /// samples that count, drift included, so that what a drift leaves uncertain counts too.
-    fn errors(
-        &self,
-        mean: &Harmonics,
-        column_m: Option<f64>,
-        center: &Values,
-    ) -> Option<[Option<StandardError>; Quantity::ALL.len()]> {
+    fn errors(&self, mean: &Harmonics, column_m: Option<f64>, center: &Values) -> Option<Errors> {
         let signal = self.used_samples();
         let fits = self.model.fits(&signal)?;
         let intervals = self.signal.time_s.windows(2).map(|w| w[1] - w[0]);
         let interval_s = upper_median(intervals)?;
         let mut squares = [0.0; Quantity::ALL.len()];
+        let mut loss_with_phase = 0.0;
         let mut freedom = f64::INFINITY;
         for (which, fit) in fits.iter().enumerate() {
             let noise = Noise::of(
@@ -125,21 +139,27 @@ impl Mean<'_> {
             freedom = freedom.min(noise.freedom);
             let covariance = self.covariance(fit, &noise);
             let slopes = self.slopes(which, mean, column_m, (center, &covariance));
-            for (place, square) in squares.iter_mut().enumerate() {
-                let row = |i: usize| slopes[i][place];
-                let p = slopes.len();
-                *square += (0..p)
+            let p = slopes.len();
+            let of_two = |a: usize, b: usize| {
+                (0..p)
                     .flat_map(|i| (0..p).map(move |j| (i, j)))
-                    .map(|(i, j)| row(i) * covariance[(i, j)] * row(j))
-                    .sum::<f64>();
+                    .map(|(i, j)| slopes[i][a] * covariance[(i, j)] * slopes[j][b])
+                    .sum::<f64>()
+            };
+            for (place, square) in squares.iter_mut().enumerate() {
+                *square += of_two(place, place);
             }
+            loss_with_phase += of_two(Quantity::EnergyLoss.place(), Quantity::PhaseLag.place());
         }
-        Some(std::array::from_fn(|place| {
-            center[place].map(|_| StandardError {
-                value: squares[place].max(0.0).sqrt(),
-                freedom,
-            })
-        }))
+        Some(Errors {
+            of: std::array::from_fn(|place| {
+                center[place].map(|_| StandardError {
+                    value: squares[place].max(0.0).sqrt(),
+                    freedom,
+                })
+            }),
+            loss_with_phase,
+        })
     }
 
     /// The samples of the cycles that count.

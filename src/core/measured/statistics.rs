@@ -10,6 +10,8 @@ pub struct Estimate {
     pub standard_error: Option<f64>,
     /// Half the width of the interval of 95 %, with Student's factor.
     pub error: Option<f64>,
+    /// Degrees of freedom of the standard error.
+    pub freedom: Option<f64>,
 }
 
 /// A standard error and its degrees of freedom.
@@ -28,16 +30,20 @@ impl StandardError {
 
 impl Estimate {
     /// The mean of cycles. Its uncertainty is the larger one of two: from how the cycles scatter, and from the noise of the samples;
-    /// few cycles scatter little by chance, and a noise that is not white scatters more than its samples say.
+    /// few cycles scatter little by chance, and a noise that is not white scatters more than its samples say. The standard error is
+    /// the larger one by itself, not that of the wider interval: two cycles have a wide interval for want of degrees of freedom, and
+    /// a standard deviation that may be small by chance.
     pub fn of(values: &[f64], from_noise: Option<StandardError>) -> Option<Self> {
         let value = mean(values)?;
         let scatter = scatter(values);
         let of_both = || scatter.into_iter().chain(from_noise);
-        let wider = of_both().max_by(|a, b| a.half_width().total_cmp(&b.half_width()));
+        let larger = of_both().max_by(|a, b| a.value.total_cmp(&b.value));
+        let half_widths = of_both().map(StandardError::half_width);
         Some(Self {
             value,
-            standard_error: wider.map(|error| error.value),
-            error: wider.map(StandardError::half_width),
+            standard_error: larger.map(|error| error.value),
+            error: half_widths.max_by(f64::total_cmp),
+            freedom: larger.map(|error| error.freedom),
         })
     }
 }

@@ -64,14 +64,22 @@ pub static OWN: &[Of] = &[
         let error = r.measured.as_ref().and_then(|m| m.frequency.standard_error_hz);
         error.map(|error| 1.96 * error).into()
     }, "half the width of the interval of 95 %; empty where the frequency was given").called("error of the frequency", Some(Frequency)),
-    Of::new("energy_loss_standard_error_j", |r| standard(r, Quantity::EnergyLoss), "standard error of the mean loss")
+    Of::new("energy_loss_standard_error_j", |r| standard(r, Quantity::EnergyLoss), "standard error of the mean loss: one standard deviation")
         .called("standard error of the loss", Some(Energy)),
     Of::new("phase_lag_standard_error_rad", |r| standard(r, Quantity::PhaseLag), "standard error of the mean phase lag")
         .called("standard error of the phase lag", Some(Angle)),
+    Of::new("loss_phase_correlation", |r| r.measured.as_ref().and_then(|m| m.loss_phase_correlation).into(),
+        "correlation of the errors of loss and phase lag, near 1 where the lag is small: both come from the same harmonic"),
+    Of::new("degrees_of_freedom", |r| r.mean(Quantity::EnergyLoss).and_then(|mean| mean.freedom).into(),
+        "degrees of freedom of the standard error of the loss"),
     mean!("load_mean_n", LoadMean, "mean load").called("mean load", Some(Force)),
     mean!("load_amplitude_n", LoadAmplitude, "amplitude of its first harmonic").called("amplitude of the load", Some(Force)),
+    Of::new("load_amplitude_standard_error_n", |r| standard(r, Quantity::LoadAmplitude), "its standard error")
+        .called("standard error of the amplitude of the load", Some(Force)),
     mean!("approach_mean_m", ApproachMean, "mean approach, drift taken off").called("mean approach", Some(Length)),
     mean!("approach_amplitude_m", ApproachAmplitude, "amplitude of its first harmonic").called("amplitude of the approach", Some(Length)),
+    Of::new("approach_amplitude_standard_error_m", |r| standard(r, Quantity::ApproachAmplitude), "its standard error")
+        .called("standard error of the amplitude of the approach", Some(Length)),
     mean!("contact_radius_m", ContactRadius, "contact radius a₀ of the moduli").called("contact radius", Some(Length)),
     Of::new("corrected_storage_modulus_pa", |r| r.unbiased().map(|u| u.storage_modulus_pa.value).into(),
         "storage modulus without the bias of the formula, which the exact model gives; empty without an indenter in the setup")
