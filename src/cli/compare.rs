@@ -20,8 +20,13 @@ Examples:
   contact-dma compare reports/baseline/pmma reports/pmma
   contact-dma compare a/sweep.csv b/sweep.csv --relative 1e-3 --tolerance peak_pressure_max_pa=1e-2
 
+  contact-dma compare reports/baseline/pmma reports/pmma --peaks 1e-3
+
 Cases are matched by drive and frequency, peaks by frequency. Values on the same steps and nodes
 are the same within --relative and --absolute; on different ones, within their error bars too.
+With --peaks, the verdict (exit code 0 or 4) is on the peaks alone, and on the columns named with
+--tolerance. Results without a case in common, or without a peak where peaks were asked for,
+differ.
 With --out, both curves of the loss and their difference are drawn as SVG and PNG, with data,
 and index.html says all of it in one page: verdict, columns, peaks, cases, where both come from.")]
 pub(super) struct CompareFlags {
@@ -35,9 +40,13 @@ pub(super) struct CompareFlags {
     /// Absolute difference allowed, in SI units, on top
     #[arg(long, value_name = "A", default_value = "0", value_parser = tolerance)]
     absolute: f64,
-    /// Relative difference allowed in one column; may be repeated
+    /// Relative difference allowed in one column (of the frequency: in the frequencies of the peaks); may be repeated
     #[arg(long, value_name = "COLUMN=R", value_parser = column_tolerance)]
     tolerance: Vec<(String, f64)>,
+    /// Judge by the peaks: relative difference allowed in their frequencies and losses, beyond the uncertainty with which they were
+    /// located
+    #[arg(long, value_name = "R", num_args = 0..=1, default_missing_value = "1e-3", value_parser = tolerance)]
+    peaks: Option<f64>,
     /// Folder for figure and page of both
     #[arg(long, value_name = "DIR", value_parser = folder())]
     out: Option<PathBuf>,
@@ -55,6 +64,7 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
         relative: flags.relative,
         absolute: flags.absolute,
         columns: flags.tolerance.clone(),
+        peaks: flags.peaks,
     };
     let baseline = open(&flags.baseline, None)?;
     let new = open(&flags.new, Some(&baseline.table))?;
@@ -64,17 +74,13 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
         let left_out = write(out, &comparison, &tolerances, [&baseline, &new])?;
         text.extend(left_out.map(|reason| format!("{reason}\n")));
     }
-    let differs = comparison.differs();
-    text.push_str(match differs {
-        true => "\nThe results differ.\n",
-        false => "\nThe results are the same within the tolerances.\n",
-    });
+    text.push_str(&format!("\n{}\n", comparison.verdict()));
     if let Some(out) = &flags.out {
         text.push_str(&format!("\nComparison in {}\n", out.display()));
     }
     let found = || Ok(json::comparison(&comparison));
     tell(format, flags.quiet, found, || text)?;
-    Ok(match differs {
+    Ok(match comparison.differs() {
         true => Ended::Differs,
         false => Ended::Done,
     })

@@ -110,6 +110,7 @@ pub(super) fn plan(setup: &Setup, cost: &Cost) -> Value {
 pub(super) fn comparison(comparison: &Comparison) -> Value {
     let mut value = json!(comparison);
     value["differs"] = comparison.differs().into();
+    value["verdict"] = comparison.verdict().into();
     value
 }
 

@@ -25,8 +25,12 @@ use crate::sweep::search::peak::Peak;
 pub struct Tolerances {
     pub relative: f64,
     pub absolute: f64,
-    /// Relative tolerances of single columns, which are then compared even where they otherwise would not be.
+    /// Relative tolerances of single columns, which are then compared even where they otherwise would not be. That of the frequency
+    /// is for the frequencies of the peaks.
     pub columns: Vec<(String, f64)>,
+    /// Where given, the verdict is on the peaks, within this relative tolerance of frequency and loss, and on the columns that
+    /// have a tolerance of their own.
+    pub peaks: Option<f64>,
 }
 
 impl Default for Tolerances {
@@ -35,6 +39,7 @@ impl Default for Tolerances {
             relative: 1e-6,
             absolute: 0.0,
             columns: Vec::new(),
+            peaks: None,
         }
     }
 }
@@ -44,6 +49,13 @@ impl Tolerances {
     fn own(&self, column: &str) -> Option<f64> {
         let own = self.columns.iter().find(|(name, _)| name == column);
         own.map(|(_, relative)| *relative)
+    }
+
+    /// The tolerance that was asked for the frequencies of the peaks, in whichever words.
+    fn of_peak_frequency(&self) -> Option<f64> {
+        let columns = FrequencyUnit::NAMES.map(|(_, unit)| unit.column());
+        let own = || columns.iter().find_map(|column| self.own(column));
+        self.peaks.or_else(own)
     }
 }
 
@@ -72,6 +84,8 @@ pub struct Comparison {
     pub statuses: Vec<(Place, String, String)>,
     pub columns: Vec<ColumnComparison>,
     pub peaks: Vec<PeakComparison>,
+    /// Why no peak was compared, where none was.
+    pub peaks_not_compared: Option<String>,
     /// The curves of the energy loss.
     pub curve: Vec<CurvePoint>,
     /// Whether one of the two was measured: then cases without a counterpart are no difference.
@@ -82,6 +96,11 @@ pub struct Comparison {
     /// In which the baseline has its frequencies first.
     #[serde(skip)]
     pub unit: FrequencyUnit,
+    /// Whether a tolerance was asked for the peaks, and whether they alone decide.
+    #[serde(skip)]
+    wants_peaks: bool,
+    #[serde(skip)]
+    only_peaks: bool,
 }
 
 /// One column over all cases in both results.
@@ -95,8 +114,16 @@ pub struct ColumnComparison {
     pub within_bars: usize,
     /// Cases in which one of the two has no value.
     pub absent: usize,
+    /// Cases beyond the tolerance that are not judged: they were solved on other steps or nodes, and the column has no error bars.
+    pub not_judged: usize,
     /// Cases that count as different.
     pub different: usize,
+    /// Whether the differences are absolute: of quantities that are ratios themselves.
+    #[serde(skip)]
+    pub is_absolute: bool,
+    /// Whether the column has a tolerance of its own.
+    #[serde(skip)]
+    has_own_tolerance: bool,
     /// The values of every case of either result, in the order of [`Comparison::curve`].
     #[serde(skip)]
     pub baseline: Vec<Option<f64>>,
@@ -157,6 +184,7 @@ impl Comparison {
             (place, a.to_owned(), b.to_owned())
         });
         let has_names = new.names.iter().any(|names| !names.is_empty());
+        let peaks = peaks(baseline, new, tolerances);
         Ok(Self {
             compared: pairs().count(),
             missing: beside.without(1),
@@ -165,11 +193,17 @@ impl Comparison {
             added_columns,
             statuses: statuses.filter(|(_, a, b)| a != b).collect(),
             columns: columns.collect::<Result<_, _>>()?,
-            peaks: peaks(baseline, new, tolerances),
+            peaks_not_compared: match &peaks {
+                Ok(_) => None,
+                Err(reason) => Some(reason.clone()),
+            },
+            peaks: peaks.unwrap_or_default(),
             curve: beside.curve()?,
             measured: beside.measured,
             names: new.names.iter().filter(|_| has_names).cloned().collect(),
             unit: baseline.unit(),
+            wants_peaks: tolerances.of_peak_frequency().is_some(),
+            only_peaks: tolerances.peaks.is_some(),
         })
     }
 
@@ -184,25 +218,49 @@ impl Comparison {
         values.map(cell).collect()
     }
 
-    /// Whether the results differ by more than the tolerances allow. Columns that only the new result has do not count.
+    /// Whether the results differ by more than the tolerances allow, or nothing was there to be compared. Columns that only the new
+    /// result has do not count.
     pub fn differs(&self) -> bool {
-        let cases = match self.measured {
-            true => self.compared > 0,
-            false => self.missing.is_empty() && self.added.is_empty(),
-        };
-        let all_there = cases && self.missing_columns.is_empty() && self.statuses.is_empty();
-        !all_there
-            || self.columns.iter().any(|column| column.different > 0)
-            || self.peaks.iter().any(|peak| peak.differs)
+        let is_judged = |column: &&ColumnComparison| !self.only_peaks || column.has_own_tolerance;
+        let peaks = (self.wants_peaks && self.peaks_not_compared.is_some())
+            || self.peaks.iter().any(|peak| peak.differs);
+        let mut columns = self.columns.iter().filter(is_judged);
+        peaks || columns.any(|column| column.different > 0) || !(self.only_peaks || self.is_whole())
+    }
+
+    /// The finding in one sentence.
+    pub fn verdict(&self) -> &'static str {
+        match self.differs() {
+            true if self.wants_peaks && self.peaks_not_compared.is_some() => {
+                "No peak was compared, though a tolerance for peaks was given."
+            }
+            true if self.compared == 0 => "Nothing was compared: no case is in both results.",
+            true => "The results differ.",
+            false if self.only_peaks => "The peaks are the same within the tolerances.",
+            false => "The results are the same within the tolerances.",
+        }
+    }
+
+    /// Whether there are cases in both results and none in one alone, with the same columns and statuses.
+    fn is_whole(&self) -> bool {
+        let none_alone = self.missing.is_empty() && self.added.is_empty();
+        self.compared > 0
+            && (self.measured || none_alone)
+            && self.missing_columns.is_empty()
+            && self.statuses.is_empty()
     }
 }
 
-/// Peaks of both, each matched with the nearest of the same drive.
-fn peaks(baseline: &SweepTable, new: &SweepTable, tolerances: &Tolerances) -> Vec<PeakComparison> {
-    let (Some(old), Some(new)) = (&baseline.peaks, &new.peaks) else {
-        return Vec::new();
-    };
-    let mut left: Vec<Peak> = new.clone();
+/// Peaks of both, each matched with the nearest of the same drive; or why there are none to compare.
+fn peaks(
+    baseline: &SweepTable,
+    new: &SweepTable,
+    tolerances: &Tolerances,
+) -> Result<Vec<PeakComparison>, String> {
+    let (old, mut left) = (baseline.peaks()?, new.peaks()?.to_vec());
+    if old.is_empty() && left.is_empty() {
+        return Err("neither result has a peak".to_owned());
+    }
     let distance = |a: &Peak, b: &Peak| {
         let ratio = a.angular_frequency_rad_per_s / b.angular_frequency_rad_per_s;
         ratio.ln().abs()
@@ -226,7 +284,7 @@ fn peaks(baseline: &SweepTable, new: &SweepTable, tolerances: &Tolerances) -> Ve
         new: Some(peak),
         differs: true,
     }));
-    found
+    Ok(found)
 }
 
 /// A peak is located no better than its uncertainty says, whatever the tolerance.
@@ -234,8 +292,11 @@ fn peak_differs(a: &Peak, b: &Peak, tolerances: &Tolerances) -> bool {
     let omegas = [a, b].map(|p| p.angular_frequency_rad_per_s);
     let located = [a, b].map(|p| p.angular_frequency_uncertainty_rad_per_s);
     let losses = [a, b].map(|p| p.energy_loss_j);
-    let allowed = tolerances.relative * omegas[0].max(omegas[1]) + located[0] + located[1];
-    let relative = (tolerances.own("energy_loss_j")).unwrap_or(tolerances.relative);
+    let relative = tolerances.of_peak_frequency();
+    let relative = relative.unwrap_or(tolerances.relative);
+    let allowed = relative * omegas[0].max(omegas[1]) + located[0] + located[1];
+    let relative = tolerances.own("energy_loss_j").or(tolerances.peaks);
+    let relative = relative.unwrap_or(tolerances.relative);
     let bars_j = match a.energy_loss_error_j.zip(b.energy_loss_error_j) {
         // Equal bars are those of equal discretisations, whose errors are equal too.
         Some((a, b)) if (a - b).abs() > 1e-3 * a.max(b) => a + b,

@@ -18,6 +18,7 @@ mod axes;
 mod build_identity;
 mod bulk_modulus;
 mod command_line;
+mod compare;
 mod cycles_by_number;
 mod data_files;
 mod direct_sum;

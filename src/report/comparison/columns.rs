@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use super::result::Row;
 use super::{ColumnComparison, ComparisonError, CurvePoint, Place, SweepTable, Tolerances};
+use crate::quantity::FrequencyUnit;
 use crate::report::quantities::{self, Compared};
 
 /// Baseline and new result.
@@ -59,7 +60,9 @@ impl<'a> Beside<'a> {
                     column: column.clone(),
                 });
             }
-            if !names.contains(column) {
+            let is_frequency =
+                (FrequencyUnit::NAMES.iter()).any(|(_, unit)| unit.column() == column);
+            if !names.contains(column) && !is_frequency {
                 names.push(column.clone());
             }
         }
@@ -88,10 +91,12 @@ impl<'a> Beside<'a> {
         let own = tolerances.own(&name);
         let relative = own.unwrap_or(tolerances.relative);
         let known = quantities::of_name(&name);
-        let is_relative = known.is_some_and(|c| c.compared == Some(Compared::Absolutely));
+        let is_absolute = known.is_some_and(|c| c.compared == Some(Compared::Absolutely));
         let bar = known.and_then(|column| column.error_name());
         let mut found = ColumnComparison {
             name,
+            is_absolute,
+            has_own_tolerance: own.is_some(),
             ..ColumnComparison::default()
         };
         for (place, rows) in &self.cases {
@@ -115,7 +120,7 @@ impl<'a> Beside<'a> {
                 }
                 continue;
             };
-            let scale = if is_relative {
+            let scale = if is_absolute {
                 1.0
             } else {
                 a.abs().max(b.abs())
@@ -128,11 +133,13 @@ impl<'a> Beside<'a> {
             let same_discretisation = !self.measured && self.has_same_discretisation(old, new);
             // Without an error bar nothing says how far two discretisations may be apart.
             let is_comparable = same_discretisation || bar.is_some() || own.is_some();
-            if difference > tolerances.absolute + relative * scale && is_comparable {
+            if difference > tolerances.absolute + relative * scale {
                 let within = error.is_some_and(|error| difference <= error);
                 found.beyond += 1;
                 found.within_bars += usize::from(within);
-                found.different += usize::from(!within || same_discretisation);
+                found.not_judged += usize::from(!is_comparable);
+                let is_different = is_comparable && (!within || same_discretisation);
+                found.different += usize::from(is_different);
             }
         }
         Ok(found)

@@ -40,7 +40,7 @@ pub struct SweepTable {
     pub(super) rows: Vec<Row>,
     /// Rows by the bits of their places.
     exact: HashMap<Vec<u64>, usize>,
-    pub(super) peaks: Option<Vec<Peak>>,
+    peaks: Option<Vec<Peak>>,
     /// Whether the rows are measured loops: their frequencies and loads are what they were and not what was asked for.
     pub(super) measured: bool,
 }
@@ -227,6 +227,17 @@ impl SweepTable {
         let units = FrequencyUnit::NAMES.map(|(_, unit)| unit).into_iter();
         let mut of_first = units.filter(|unit| first.is_some_and(|name| name == unit.column()));
         of_first.next().unwrap_or_default()
+    }
+
+    /// The peaks, or why they are not known.
+    pub(super) fn peaks(&self) -> Result<&[Peak], String> {
+        self.peaks.as_deref().ok_or_else(|| match self.measured {
+            true => format!("{} was measured, and only computed peaks are located", self.name),
+            false => format!(
+                "{} was given without its summary.json, where the peaks are; name the folder of the sweep",
+                self.name
+            ),
+        })
     }
 
     pub(super) fn has(&self, column: &str) -> bool {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::{Comparison, PeakComparison, Place};
 use crate::quantity::FrequencyUnit;
-use crate::report::number::four_digits;
+use crate::report::number::{four_digits, scientific};
 use crate::report::table::{Cell, cells, csv_leading};
 use crate::report::words::{case, wrapped_line};
 use crate::sweep::search::peak::Peak;
@@ -30,28 +30,53 @@ impl Comparison {
         for (place, old, new) in self.statuses.iter().take(NAMED) {
             let _ = writeln!(text, "{}: {old} before, {new} now", self.words(place));
         }
-        text.push_str("\n column                  largest difference   beyond   within bars\n");
+        if self.compared > 0 {
+            text.push_str(&self.table_of_columns());
+        }
+        for peak in &self.peaks {
+            let _ = writeln!(text, "{}", peak_words(self.unit, peak));
+        }
+        if let Some(reason) = &self.peaks_not_compared {
+            text.push_str(&wrapped_line(&format!("peaks: not compared, {reason}")));
+        }
+        text
+    }
+
+    fn table_of_columns(&self) -> String {
+        let mut text =
+            "\n column                  largest difference     beyond the   of these within\n \
+                                                relative to the larger  tolerance   error bars\n"
+                .to_owned();
         for column in &self.columns {
             let largest = match &column.largest {
                 Some((share, place)) => format!(
-                    "{share:.1e} at {} = {}",
+                    "{share:.1e}{} at {} = {}",
+                    if column.is_absolute {
+                        " (absolute)"
+                    } else {
+                        ""
+                    },
                     self.unit.symbol(),
                     four_digits(self.unit.of(place.angular_frequency_rad_per_s))
                 ),
                 None => "none".to_owned(),
             };
-            let absent = match column.absent {
-                0 => String::new(),
-                absent => format!("   {absent} without a value in one of the two"),
-            };
             let _ = writeln!(
                 text,
-                " {:<23} {largest:<20} {:>6}   {:>11}{absent}",
+                " {:<23} {largest:<23} {:>9}   {:>10}",
                 column.name, column.beyond, column.within_bars
             );
-        }
-        for peak in &self.peaks {
-            let _ = writeln!(text, "{}", peak_words(self.unit, peak));
+            for (number, what) in [
+                (column.absent, "without a value in one of the two"),
+                (
+                    column.not_judged,
+                    "not judged: other steps or nodes, no error bars",
+                ),
+            ] {
+                if number > 0 {
+                    let _ = writeln!(text, "   {number} {what}");
+                }
+            }
         }
         text
     }
@@ -145,9 +170,9 @@ pub(in crate::report) fn peak_words(unit: FrequencyUnit, peak: &PeakComparison) 
     };
     match (&peak.baseline, &peak.new) {
         (Some(old), Some(new)) => {
-            let ratio = |a: f64, b: f64| 100.0 * (b / a - 1.0);
+            let ratio = |a: f64, b: f64| scientific(100.0 * (b / a - 1.0), 2);
             format!(
-                "peak at {}: moved by {:+.1e} %, its loss by {:+.1e} %{}",
+                "peak at {}: moved by {} %, its loss by {} %{}",
                 omega(old),
                 ratio(
                     old.angular_frequency_rad_per_s,

@@ -13,7 +13,7 @@ use crate::quantity::{Dimension, FrequencyUnit};
 use crate::report::ReportError;
 use crate::report::comparison::text::peak_words;
 use crate::report::comparison::{
-    ColumnComparison, Comparison, PeakComparison, Place, Source, SweepTable, Tolerances,
+    ColumnComparison, Comparison, Place, Source, SweepTable, Tolerances,
 };
 use crate::report::number::{at_frequency, cell, scientific, with_error};
 use crate::report::quantities::{self, Compared::Absolutely};
@@ -95,14 +95,10 @@ pub fn page(compared: &Compared<'_>) -> Result<String, ReportError> {
 fn sections(compared: &Compared<'_>) -> Markup {
     let comparison = compared.comparison;
     let [old, new] = compared.sources;
-    let verdict = match comparison.differs() {
-        true => "The results differ.",
-        false => "The results are the same within the tolerances.",
-    };
     html! {
         section aria-labelledby="answer" class="answer" {
             h2 id="answer" { "Whether they are the same" }
-            p class="peaks" { strong { (verdict) } }
+            p class="peaks" { strong { (comparison.verdict()) } }
             (reasons(comparison))
             p class="asked" { (tolerances(compared.tolerances)) }
         }
@@ -111,7 +107,7 @@ fn sections(compared: &Compared<'_>) -> Markup {
             (scroll("Columns", columns(comparison)))
             (copying("Copy the curve as CSV", "Download comparison.csv"))
         }))
-        (section("peaks-heading", "Peaks", peaks(comparison.unit, &comparison.peaks)))
+        (section("peaks-heading", "Peaks", peaks(comparison)))
         (section("cases-heading", "Cases", cases(comparison)))
         (section("sources-heading", "Where both come from", html! {
             (scroll("Sources", sources(compared)))
@@ -215,6 +211,9 @@ fn reasons(comparison: &Comparison) -> Markup {
         0 => {}
         more => lines.push(format!("{more} more columns differ: see below")),
     }
+    if let Some(reason) = &comparison.peaks_not_compared {
+        lines.push(format!("peaks are not compared: {reason}"));
+    }
     let peaks = comparison.peaks.iter().filter(|peak| peak.differs);
     lines.extend(peaks.map(|peak| peak_words(comparison.unit, peak)));
     if lines.is_empty() {
@@ -229,9 +228,15 @@ fn tolerances(tolerances: &Tolerances) -> String {
         .iter()
         .map(|(column, relative)| format!("; {column} {}", scientific(*relative, 3)))
         .collect();
+    if let Some(relative) = tolerances.peaks {
+        return format!(
+            "The peaks decide: their frequencies and losses may differ by {} (relative){own}.",
+            scientific(relative, 3)
+        );
+    }
     format!(
-        "Allowed are a relative difference of {} and an absolute one of {}{own}. On other steps or nodes values within \
-         the sum of both error bars are the same too.",
+        "Values may differ by {} (relative to the larger) plus {} (absolute, in SI units){own}. Values that were solved on \
+         different steps or nodes may also differ by the sum of their error bars.",
         scientific(tolerances.relative, 3),
         scientific(tolerances.absolute, 3)
     )
@@ -242,10 +247,10 @@ fn columns(comparison: &Comparison) -> Markup {
     let at = format!("!at {} / {}", unit.symbol(), unit.name());
     let headings = [
         "column",
-        "!largest difference, relative",
+        "!largest difference, relative to the larger",
         &at,
         "!cases beyond the tolerance",
-        "!of these within the bars",
+        "!of these within error bars",
         "!without a value in one",
         "finding",
     ];
@@ -308,11 +313,10 @@ fn table(headings: &[&str], rows: impl Iterator<Item = Vec<Markup>>) -> Markup {
     }
 }
 
-fn peaks(unit: FrequencyUnit, peaks: &[PeakComparison]) -> Markup {
-    if peaks.is_empty() {
-        return html! {
-            p { "None to compare: one of the two has no summary.json with peaks, or neither has a peak." }
-        };
+fn peaks(comparison: &Comparison) -> Markup {
+    let (unit, peaks) = (comparison.unit, &comparison.peaks);
+    if let Some(reason) = &comparison.peaks_not_compared {
+        return html! { p { "Not compared: " (reason) "." } };
     }
     let symbol = unit.symbol();
     let headings = [
