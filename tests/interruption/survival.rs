@@ -647,6 +647,8 @@ fn more_threads_than_any_machine_has_a_use_for_are_not_started() {
     let run: serde_json::Value = serde_json::from_slice(&run).unwrap();
     let processors = std::thread::available_parallelism().unwrap().get();
     assert_eq!(run["threads"], 4 * processors);
+    let processor = run["processor"].as_str().unwrap();
+    assert!(processor.starts_with(std::env::consts::ARCH), "{processor}");
 }
 
 #[test]

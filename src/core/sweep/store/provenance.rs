@@ -53,6 +53,7 @@ struct Run<'a> {
     circumstances: &'a Circumstances,
     host: Option<String>,
     processors: Option<usize>,
+    processor: String,
     started: String,
     finished: String,
     wall_time_s: f64,
@@ -90,6 +91,7 @@ impl Stopwatch {
             circumstances,
             host: host(),
             processors: std::thread::available_parallelism().ok().map(usize::from),
+            processor: processor(),
             started: utc(self.started),
             finished: utc(SystemTime::now()),
             wall_time_s: self.clock.elapsed().as_secs_f64(),
@@ -112,6 +114,24 @@ impl Stopwatch {
 pub(in crate::sweep) fn host() -> Option<String> {
     let name = fs::read_to_string("/proc/sys/kernel/hostname").ok()?;
     Some(name.trim().to_owned())
+}
+
+/// Architecture and vector instructions of this processor, as far as transforms and products of matrices choose by them how to sum:
+/// the last digits of results depend on these, as in `x86_64 avx avx2 fma`.
+fn processor() -> String {
+    let mut words = vec![std::env::consts::ARCH];
+    #[cfg(target_arch = "x86_64")]
+    words.extend(
+        [
+            ("avx", std::arch::is_x86_feature_detected!("avx")),
+            ("avx2", std::arch::is_x86_feature_detected!("avx2")),
+            ("fma", std::arch::is_x86_feature_detected!("fma")),
+        ]
+        .iter()
+        .filter(|(_, detected)| *detected)
+        .map(|(name, _)| name),
+    );
+    words.join(" ")
 }
 
 /// Processor time (s) of this process and its threads, where the system tells it as Linux does.
