@@ -77,6 +77,8 @@
 //! Material, indenter, drive, contact and cycle do not know one another. Results do not depend on the number of threads,
 //! bit for bit.
 
+#![forbid(unsafe_code)]
+
 #[doc(inline)]
 pub use contact_dma_core::{
     contact, cycle, drive, history, identify, indenter, material, measured, prelude, quantity,

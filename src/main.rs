@@ -1,5 +1,7 @@
 //! The `contact-dma` program: parse, plan, run, exit code.
 
+#![forbid(unsafe_code)]
+
 use std::process::ExitCode;
 
 fn main() -> ExitCode {

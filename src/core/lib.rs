@@ -1,6 +1,8 @@
 //! What `contact-dma` computes with: materials, contact, histories, cycles, sweeps and the records they leave. It reads no sweep
 //! file and draws nothing; `contact-dma` does, has every module of this crate under the same name, and is the one to depend on.
 
+#![forbid(unsafe_code)]
+
 pub mod contact;
 pub mod cycle;
 pub mod drive;
