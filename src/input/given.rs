@@ -7,6 +7,7 @@ use super::document::Document;
 use super::document::reader::TableReader;
 use super::field_file::Field;
 use super::keys;
+pub use super::material_dynamic::DynamicFit;
 use super::material_table::DirectSum;
 use super::{indenter_block, material_block};
 use crate::indenter::{HeightMap, Indenter};
@@ -35,6 +36,20 @@ impl Given {
 /// Everything that is wrong with the block.
 pub fn material(document: &Document) -> Result<BodyMaterial, Diagnostics> {
     document.read_whole(|root| Some(material_block::read_body(root, DirectSum::Taken)?.value))
+}
+
+/// The same, with what was made of the measured moduli of a `[material.dynamic]`, where the block has one.
+///
+/// # Errors
+/// Everything that is wrong with the block.
+pub fn material_with_fit(
+    document: &Document,
+) -> Result<(BodyMaterial, Option<Arc<DynamicFit>>), Diagnostics> {
+    document.read_whole(|root| {
+        let block = root.table(&keys::MATERIAL)?;
+        let (body, _, fit) = material_block::read_with_fit(block, DirectSum::Taken, None)?;
+        Some((body.value, fit))
+    })
 }
 
 /// The indenter of a document that has this block alone.

@@ -1,5 +1,7 @@
 //! The `[material]` block of a sweep file.
 
+use std::sync::Arc;
+
 use super::diagnostic::Location;
 use super::document::Located;
 use super::document::kind::{Scalar, Table, Tables};
@@ -14,6 +16,7 @@ use super::keys::material::{
     POISSON_RATIO, RELAXATION, RELAXATION_ALTERNATIVE, RELAXATION_BRANCHES, SPRING, VISCOSITY,
     YOUNG, ZENER,
 };
+use super::material_dynamic::DynamicFit;
 use super::material_fractional;
 use super::material_table::{self, DirectSum, TableMaterial};
 use super::{material_dynamic, material_temperature};
@@ -78,10 +81,27 @@ pub(crate) fn read_body(
 
 /// The same of the block alone, with the material at each temperature (K) of an axis, where there is one.
 pub(super) fn read_over(
-    mut block: TableReader<'_>,
+    block: TableReader<'_>,
     direct_sum: DirectSum,
     axis: Option<&Located<Vec<f64>>>,
 ) -> Option<(Located<BodyMaterial>, Vec<Material>)> {
+    read_with_fit(block, direct_sum, axis).map(|(body, each, _)| (body, each))
+}
+
+/// The material, that at each temperature of an axis, and what was made of dynamic data.
+type WithFit = (
+    Located<BodyMaterial>,
+    Vec<Material>,
+    Option<Arc<DynamicFit>>,
+);
+
+/// The same with what was made of dynamic data, where the material is of such.
+pub(super) fn read_with_fit(
+    mut block: TableReader<'_>,
+    direct_sum: DirectSum,
+    axis: Option<&Located<Vec<f64>>>,
+) -> Option<WithFit> {
+    let mut fit = None;
     let name = block.value(&NAME);
     let Some(form) = block.one_of(&FORMS) else {
         // What else belongs to the table is open, but for this.
@@ -94,7 +114,10 @@ pub(super) fn read_over(
         Form::Isotherms | Form::Dynamic => {
             let known = match form {
                 Form::Isotherms => material_temperature::isotherms(&mut block),
-                _ => block.table(&DYNAMIC).and_then(material_dynamic::read),
+                _ => {
+                    fit = block.table(&DYNAMIC).and_then(material_dynamic::read);
+                    fit.as_ref().map(DynamicFit::at_temperature)
+                }
             };
             let nu = block.value(&POISSON_RATIO);
             material_temperature::read(&mut block, known, nu, axis, &place)
@@ -118,7 +141,7 @@ pub(super) fn read_over(
         path: "material".to_owned(),
         location: place,
     };
-    Some((body, each))
+    Some((body, each, fit))
 }
 
 /// A material that does not depend on the temperature.

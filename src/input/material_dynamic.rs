@@ -1,6 +1,7 @@
 //! The `[material.dynamic]` block: measured storage and loss modulus, made a material at any temperature that they reach.
 
 use std::ops::RangeInclusive;
+use std::sync::Arc;
 
 use serde_json::{Value as Json, json};
 
@@ -11,7 +12,7 @@ use super::document::kind::{Choice, Describe, Integer, Kind, Spot, Text};
 use super::document::reader::TableReader;
 use super::document::row::Rows;
 use super::document::tree::{Node, Value};
-use super::dynamic::{self, shift_factors_from_bytes};
+use super::dynamic::{self, DynamicFile, shift_factors_from_bytes};
 use super::keys::material::{
     DYNAMIC_BRANCHES, DYNAMIC_FILE, DYNAMIC_FILES, DYNAMIC_MODULUS, DYNAMIC_REPLICAS, FORMAT,
     REFERENCE_TEMPERATURE, SEED, SHIFT, SHIFT_FILE, SHIFT_KEYS, VERTICAL_SHIFT,
@@ -19,10 +20,32 @@ use super::keys::material::{
 use super::keys::table;
 use super::material_temperature::AtTemperature;
 use crate::material::dynamic::master_curve::ShiftChoice;
-use crate::material::dynamic::{Choices, characterise};
+use crate::material::dynamic::{Characterisation, Choices, characterise};
+
+/// Measured storage and loss moduli, and what was made of them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DynamicFit {
+    /// Names of the files.
+    pub files: Vec<String>,
+    /// Whether the format was named, and not found from the content.
+    pub format_named: bool,
+    pub file: DynamicFile,
+    pub made: Characterisation,
+}
+
+impl DynamicFit {
+    /// The material at each temperature that the data reach.
+    pub(super) fn at_temperature(self: &Arc<Self>) -> AtTemperature {
+        let fit = Arc::clone(self);
+        Box::new(move |temperature_k, poisson_ratio| {
+            let material = fit.made.whole_material(temperature_k, poisson_ratio);
+            material.map_err(|error| error.to_string())
+        })
+    }
+}
 
 /// Reads the block and makes master curve, series and replicas of its data. `None` where a problem was reported.
-pub(super) fn read(mut table: TableReader<'_>) -> Option<AtTemperature> {
+pub(super) fn read(mut table: TableReader<'_>) -> Option<Arc<DynamicFit>> {
     let files = match table.one_of(&[(&DYNAMIC_FILE as _, true), (&DYNAMIC_FILES as _, false)]) {
         Some(true) => table.read(&DYNAMIC_FILE).map(|file| vec![file]),
         Some(false) => table.value(&DYNAMIC_FILES),
@@ -36,14 +59,16 @@ pub(super) fn read(mut table: TableReader<'_>) -> Option<AtTemperature> {
     let named = files.iter();
     let named = named.map(|file| data_file::named(file, folder, problems));
     let named = named.collect::<Option<Vec<_>>>()?;
-    let data = match (dynamic::from_files(&named, format, kind), files.first()) {
-        (found, Some(first)) => data_file::accepted(found, first, problems)?.data,
-        (found, None) => found.map_err(|refused| problems.extend(refused)).ok()?.data,
+    let file = match (dynamic::from_files(&named, format, kind), files.first()) {
+        (found, Some(first)) => data_file::accepted(found, first, problems)?,
+        (found, None) => found.map_err(|refused| problems.extend(refused)).ok()?,
     };
-    let made = problems.accept(&place, characterise(&data, &choices))?;
-    Some(Box::new(move |temperature_k, poisson_ratio| {
-        let material = made.whole_material(temperature_k, poisson_ratio);
-        material.map_err(|error| error.to_string())
+    let made = problems.accept(&place, characterise(&file.data, &choices))?;
+    Some(Arc::new(DynamicFit {
+        files: named.into_iter().map(|(name, _)| name).collect(),
+        format_named: format.is_some(),
+        file,
+        made,
     }))
 }
 

@@ -48,6 +48,8 @@ pub(crate) fn read(table: &mut TableReader<'_>, direct_sum: DirectSum) -> Option
                 "write evaluation = \"fit\" (the misfit is told with the results), or follow one history with \
                  `contact-dma simulate`",
             );
+        // Nothing is wrong with it.
+        table.has(&VALUES);
         return None;
     }
     if source.is_none() {
