@@ -12,12 +12,14 @@ A material and an indenter, a load that oscillates about a mean, and out comes w
     >>> len(result.peaks)
     1
 
-Quantities are numbers in SI units or strings with units, ``"10 mm"``. A mistake raises ValueError with the message of the program.
+Quantities are numbers in SI units, strings with units, ``"10 mm"``, or quantities of pint and astropy. A mistake raises ValueError with
+the message of the program; what has no result, or a fit to be looked at, warns with `ContactDmaWarning`.
 Numbers are those of the program ``contact-dma``, bit for bit, on any number of threads.
 """
 
 from ._contact_dma import VERSION as __version__
-from ._result import Status, Table, Warning
+from ._result import ContactDmaWarning, Status, Table, Warning
+from .fits import MaterialFit
 from .folders import read
 from .histories import Field, HistoryResult, SurfaceLine, SurfaceProfile, simulate
 from .indenters import (
@@ -40,6 +42,7 @@ __all__ = [
     "AnalysisResult",
     "Asperities",
     "Cone",
+    "ContactDmaWarning",
     "Cycle",
     "Cycles",
     "Ellipsoid",
@@ -50,6 +53,7 @@ __all__ = [
     "IdentifiedMaterial",
     "Indenter",
     "Material",
+    "MaterialFit",
     "MeasuredCycle",
     "Peak",
     "PowerLaw",

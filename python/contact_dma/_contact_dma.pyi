@@ -5,7 +5,7 @@ from _typeshed import SupportsGetItem
 from os import PathLike
 from typing import Any, Final, SupportsFloat, SupportsIndex, final
 
-__all__ = ["VERSION", "Body", "History", "Shape", "Sweep", "analyse", "frequency_hz", "identify_material", "library_materials", "read_sweep", "restore_analysis", "restore_history", "restore_sweep", "simulate", "sweep", "write_files"]
+__all__ = ["VERSION", "Body", "History", "Shape", "Sweep", "analyse", "identify_material", "library_materials", "placed", "quantity", "read_sweep", "restore_analysis", "restore_history", "restore_sweep", "simulate", "sweep", "write_files"]
 
 VERSION: Final[str]
 
@@ -22,6 +22,10 @@ class Body:
         """
     def complex_modulus(self, /, angular_frequency: NDArray[float64], modulus: str) -> "NDArray[complex128]": ...
     def creep_compliance(self, /, time: NDArray[float64], modulus: str) -> NDArray[float64]: ...
+    def fit(self, /) -> tuple[list[str], list[str], list[str], list[tuple[str, bytes]]] | None:
+        """
+        How the series was fitted; `None` of a material that was not fitted to data.
+        """
     @property
     def is_series(self, /) -> bool:
         """
@@ -108,6 +112,10 @@ class Shape:
         """
         Gap (m) at every point of a map of an array.
         """
+    def key(self, /) -> str:
+        """
+        Shape and settings, by which indenters of text are compared.
+        """
     def map_keys(self, /) -> str:
         """
         The block, without file, that a map of an array has together with its gaps.
@@ -164,11 +172,6 @@ def analyse(records: SupportsGetItem[int, Any], frequency_hz: SupportsFloat | Su
     What measured loops say. The text is that of a setup.
     """
 
-def frequency_hz(text: str) -> float:
-    """
-    A frequency (Hz) with its unit, be it Hz or rad/s.
-    """
-
 def identify_material(source: "object", threads: SupportsIndex | None) -> tuple[str, list[str], list[tuple[str, bytes]]]:
     """
     A material from measured cycles: its block, and every file of the folder.
@@ -177,6 +180,17 @@ def identify_material(source: "object", threads: SupportsIndex | None) -> tuple[
 def library_materials() -> list[tuple[str, str, str]]:
     """
     Names and titles of the materials of the library.
+    """
+
+def placed(text: str, block: str, place: str, name: str | None) -> str:
+    """
+    The text of a block at another place of a file: `block` of `text` becomes `place`, `indenter.material` say; with a name it becomes an
+    entry of a list there.
+    """
+
+def quantity(text: str, si_unit: str) -> float:
+    """
+    A number with its unit, in the SI unit of the quantity that is expected. Frequencies in Hz and in rad/s are read as one another.
     """
 
 def read_sweep(folder: str | PathLike[str]) -> Sweep:

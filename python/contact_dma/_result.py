@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+import os
+import sys
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 if TYPE_CHECKING:
     import pandas as pd
+
+Floats: TypeAlias = npt.NDArray[np.float64]
 
 Progress = Callable[[int, int], object]
 """Called with what is done and how much there is in all."""
@@ -47,6 +52,58 @@ class Warning:
     message: str
 
 
+class ContactDmaWarning(UserWarning):
+    """A case without a result, a fit that is to be looked at, or an argument that has no effect."""
+
+
+def warn(message: str) -> None:
+    """Warns at the line of the user that called the package."""
+    level, frame = 1, sys._getframe()
+    own = os.path.dirname(__file__)
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == own:
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, ContactDmaWarning, stacklevel=level)
+
+
+def failures(statuses: Sequence[Status], noun: str) -> str | None:
+    """What is said of those that have no result; None where all have one."""
+    failed = [f"{noun} {k} is {status}" for k, status in enumerate(statuses) if not status.converged]
+    if not failed:
+        return None
+    more = f"; and {len(failed) - 3} more" if len(failed) > 3 else ""
+    return f"{len(failed)} of {len(statuses)} {noun}s have no result, and are NaN: {'; '.join(failed[:3])}{more}"
+
+
+class Record:
+    """Values and arrays under names: compared bit for bit, and shown without the numbers of the arrays."""
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Record) or type(other) is not type(self):
+            return NotImplemented
+        pairs = ((getattr(self, f.name), getattr(other, f.name)) for f in fields(self))  # type: ignore[arg-type]
+        return all(_same(a, b) for a, b in pairs)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        values = ((f.name, getattr(self, f.name)) for f in fields(self))  # type: ignore[arg-type]
+        return f"{type(self).__name__}({', '.join(f'{name}={_brief(value)}' for name, value in values)})"
+
+
+def _same(a: Any, b: Any) -> bool:
+    if isinstance(a, np.ndarray) and isinstance(b, np.ndarray):
+        return np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+    return bool(a == b) or (isinstance(a, float) and isinstance(b, float) and math.isnan(a) and math.isnan(b))
+
+
+def _brief(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return f"<{' x '.join(map(str, value.shape))} numbers>"
+    if isinstance(value, tuple) and any(isinstance(each, Record) for each in value):
+        return f"<{len(value)}>"
+    return repr(value)
+
+
 class Table(Mapping[str, npt.NDArray[Any]]):
     """Columns by name, as in the CSV files of the program: the last part of a name is its SI unit, NaN stands where a value is
     undefined, texts are arrays of strings. Errors stand beside values: ``energy_loss_j`` and ``energy_loss_error_j``."""
@@ -70,7 +127,7 @@ class Table(Mapping[str, npt.NDArray[Any]]):
         """Whether all columns are the same, bit for bit."""
         if type(other) is not type(self) or not isinstance(other, Table):
             return NotImplemented
-        same = (np.array_equal(self[name], other[name], equal_nan=self[name].dtype.kind == "f") for name in self)
+        same = (_same(self[name], other[name]) for name in self)
         return list(self) == list(other) and all(same)
 
     __hash__ = None  # type: ignore[assignment]
@@ -82,9 +139,22 @@ class Table(Mapping[str, npt.NDArray[Any]]):
         return pd.DataFrame(dict(self._columns))
 
 
+class Columns(Table):
+    """Columns that come with a result."""
+
+    def __init__(self, columns: Mapping[str, npt.NDArray[Any]]) -> None:
+        self._columns = dict(columns)
+
+    def __repr__(self) -> str:
+        return f"<{len(next(iter(self._columns.values()), ()))} rows of {', '.join(self._columns)}>"
+
+
 def arrays(columns: list[tuple[str, Any]]) -> dict[str, npt.NDArray[Any]]:
-    """Columns of the compiled module, lists of texts as arrays."""
-    return {name: np.asarray(values) for name, values in columns}
+    """Columns of the compiled module, lists of texts as arrays; none can be written to."""
+    made = {name: np.asarray(values) for name, values in columns}
+    for array in made.values():
+        array.flags.writeable = False
+    return made
 
 
 def heard(progress: Any) -> Progress | None:

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _contact_dma as _core
-from .materials import Floats
+from ._result import Floats, arrays
 
 Instant = tuple[float, float, float, float]
 
@@ -28,7 +28,7 @@ def table(content: str) -> dict[str, npt.NDArray[Any]]:
         except ValueError:
             return np.array(cells)
 
-    return {name: column([row[k] for row in rows]) for k, name in enumerate(head)}
+    return arrays([(name, column([row[k] for row in rows])) for k, name in enumerate(head)])
 
 
 class StoredHistory:
@@ -107,7 +107,8 @@ class StoredHistory:
         existing = Path(folder) / "resolved.toml"
         if existing.is_file() and existing.read_text(encoding="utf-8") != self.resolved and not force:
             raise ValueError(f"{folder} holds another result: choose another folder, or overwrite=True")
-        tables = [self._folder / name for name in ("resolved.toml", "history.csv", "summary.json")]
+        names = ("resolved.toml", "history.csv", "cycles.csv", "summary.json")
+        tables = [path for name in names if (path := self._folder / name).is_file()]
         surfaces = sorted(path for kind in ("profiles", "fields") for path in self._folder.glob(f"{kind}/*"))
         files = [(path.relative_to(self._folder).as_posix(), path.read_bytes()) for path in tables + surfaces]
         _core.write_files(folder, files)

@@ -2,16 +2,62 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any
+from typing import Any, Protocol, TypeGuard
 
 import numpy as np
+import numpy.typing as npt
+
+from . import _contact_dma as _core
+
+
+class TableLike(Protocol):
+    """Columns by name: a dictionary of arrays, a data frame, a result."""
+
+    def keys(self) -> Iterable[Any]: ...
+    def __getitem__(self, name: Any, /) -> Any: ...
+
+
+def is_table(given: object) -> TypeGuard[TableLike]:
+    """Whether this has columns by name."""
+    return hasattr(given, "keys") and hasattr(given, "__getitem__")
+
+
+_UNITS = {"kilogram": "kg", "gram": "g", "meter": "m", "centimeter": "cm", "second": "s", "radian": "rad", "kelvin": "K", "deg_C": "degC"}
+"""Base units by the names that pint and astropy have for them."""
+
+
+def _magnitude_and_unit(given: Any) -> tuple[Any, str] | None:
+    """A quantity of pint or astropy in base units: its number or numbers, and the unit as the program reads it; None of what is none."""
+    if hasattr(given, "to_base_units"):
+        base = given.to_base_units()
+        magnitude, powers = base.magnitude, list(base.unit_items())
+        is_hertz = any("hertz" in name for name, _ in given.unit_items())
+    elif hasattr(given, "decompose") and hasattr(given, "unit"):
+        base = given.decompose()
+        magnitude, powers = base.value, [(unit.name, power) for unit, power in zip(base.unit.bases, base.unit.powers)]
+        is_hertz = any(unit.name.endswith("Hz") for unit in given.unit.bases)
+    else:
+        # A labelled array of xarray around one of pint.
+        inner = getattr(given, "data", None)
+        return _magnitude_and_unit(inner) if hasattr(inner, "to_base_units") else None
+    powers = [(_UNITS.get(name, name), float(power)) for name, power in powers]
+    # Both libraries take Hz for 1/s, which may be rad/s as well.
+    if is_hertz and powers == [("s", -1.0)]:
+        return magnitude, "Hz"
+    return magnitude, " ".join(name if power == 1 else f"{name}^{power:g}" for name, power in powers)
+
+
+def has_unit(given: Any) -> bool:
+    """Whether this is a quantity of pint or astropy."""
+    return _magnitude_and_unit(given) is not None
 
 
 def value(given: Any) -> str:
-    """A value as TOML: numbers without losing a bit, strings, lists, tables, arrays of NumPy."""
+    """A value as TOML: numbers without losing a bit, strings, quantities, lists, tables, arrays."""
     if isinstance(given, (bool, np.bool_)):
         return "true" if given else "false"
     if isinstance(given, (int, np.integer)):
@@ -19,17 +65,78 @@ def value(given: Any) -> str:
     if isinstance(given, (float, np.floating)):
         return repr(float(given))
     if isinstance(given, str):
+        try:
+            given.encode()
+        except UnicodeEncodeError as error:
+            raise ValueError(f"{given!r} is no text: it has half of a character") from error
         return json.dumps(given, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(given, os.PathLike):
         return value(os.fspath(given))
-    if isinstance(given, np.ndarray):
-        return value(given.tolist())
+    quantity = _magnitude_and_unit(given)
+    if quantity is not None:
+        magnitude, unit = quantity
+        numbers = np.asarray(magnitude, dtype=np.float64)
+        with_unit = [f"{number!r} {unit}" if unit else number for number in numbers.reshape(-1).tolist()]
+        return value(with_unit if numbers.ndim else with_unit[0])
     if isinstance(given, Mapping):
         pairs = (f"{key(name)} = {value(item)}" for name, item in given.items() if item is not None)
         return "{ " + ", ".join(pairs) + " }"
-    if isinstance(given, Iterable):
+    if hasattr(given, "__array__"):
+        return value(np.asarray(given).tolist())
+    if isinstance(given, Iterable) and not isinstance(given, (bytes, bytearray)):
         return "[" + ", ".join(value(item) for item in given) + "]"
     raise ValueError(f"{given!r} is a {type(given).__name__}: write a number, a string with a unit, or a list of them")
+
+
+def is_list(given: Any) -> bool:
+    """Whether these are several values."""
+    return isinstance(given, (list, tuple, range)) or getattr(given, "ndim", 0) > 0
+
+
+def si(given: Any, unit: str, name: str) -> npt.NDArray[np.float64]:
+    """Numbers in an SI unit: of numbers as they are, strings with units, quantities; NaN of None.
+
+    Raises:
+        ValueError: names the entry that is neither, or has another dimension.
+    """
+    quantity = _magnitude_and_unit(given)
+    if quantity is not None:
+        magnitude, own = quantity
+        try:
+            # The numbers are in base units: of these the factor is one.
+            factor = _core.quantity(f"1 {own}", unit) if own else 1.0
+        except ValueError as error:
+            raise ValueError(f"{name}: {error}") from error
+        return np.asarray(magnitude, dtype=np.float64) * factor
+    array = np.asarray(given)
+    if array.dtype.kind in "iuf":
+        return array.astype(np.float64)
+    entries = np.asarray(given, dtype=object)
+    numbers = [_number(entry, unit, f"{name}, entry {k}") for k, entry in enumerate(entries.reshape(-1).tolist())]
+    return np.array(numbers, dtype=np.float64).reshape(entries.shape)
+
+
+def _number(entry: Any, unit: str, place: str) -> float:
+    if entry is None or type(entry).__name__ == "NAType":
+        return float("nan")
+    if isinstance(entry, (int, float, np.integer, np.floating)) and not isinstance(entry, bool):
+        return float(entry)
+    if isinstance(entry, str):
+        try:
+            return _core.quantity(entry, unit) if unit else float(entry)
+        except ValueError as error:
+            raise ValueError(f"{place}: {error}") from error
+    if _magnitude_and_unit(entry) is not None:
+        return float(si(entry, unit, place))
+    raise ValueError(f"{place} is {entry!r}, a {type(entry).__name__}: write a number, a string with a unit, or None where there is none")
+
+
+_SUFFIXES = {"_rad_per_s": "rad/s", "_hz": "Hz", "_pa": "Pa", "_j": "J", "_rad": "rad", "_n": "N", "_m": "m", "_s": "s", "_k": "K"}
+
+
+def unit_of(column: str) -> str:
+    """The SI unit that the name of a column ends with; empty where it ends with none."""
+    return next((unit for suffix, unit in _SUFFIXES.items() if column.endswith(suffix)), "")
 
 
 def key(name: str) -> str:
@@ -38,17 +145,31 @@ def key(name: str) -> str:
     return name if bare.isascii() and bare.isalnum() else value(name)
 
 
-def table(header: str, entries: Mapping[str, Any]) -> str:
-    """A table of a file; entries that are None are left out, and a table without entries is none."""
+def table(header: str, entries: Mapping[str, Any], *, even_empty: bool = False) -> str:
+    """A table of a file; entries that are None are left out, and a table without entries is none unless `even_empty`."""
     lines = [f"{key(name)} = {value(item)}\n" for name, item in entries.items() if item is not None]
-    return f"[{header}]\n" + "".join(lines) + "\n" if lines else ""
+    return f"[{header}]\n" + "".join(lines) + "\n" if lines or even_empty else ""
+
+
+def existing(file: str | os.PathLike[str]) -> str:
+    """The path of a file or folder that is there.
+
+    Raises:
+        FileNotFoundError: where it is not.
+    """
+    name = os.fspath(file)
+    if not os.path.exists(name):
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), name)
+    return name
 
 
 def path(file: str | os.PathLike[str]) -> str:
-    """The absolute path of a file, which stays right where it is read from another folder."""
-    return os.path.abspath(os.fspath(file))
+    """The absolute path of a file that is there, which stays right where it is read from another folder."""
+    return os.path.abspath(existing(file))
 
 
 def overrides(changes: Mapping[str, Any] | None) -> list[str]:
     """Changes of a file as the arguments of `--set`; None removes a key."""
+    if changes is not None and not isinstance(changes, Mapping):
+        raise ValueError(f"overrides is {changes!r}: write keys and values, such as {{\"cycle.steps\": 48}}")
     return [f"{name}={'' if item is None else value(item)}" for name, item in (changes or {}).items()]

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from pathlib import Path
 
 from . import _contact_dma as _core
+from . import _toml
 from ._stored import StoredHistory
 from .histories import HistoryResult
 from .measurements import AnalysisResult, IdentifiedMaterial
@@ -23,6 +25,7 @@ def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | Analys
 
     Raises:
         ValueError: where the folder holds no such result.
+        FileNotFoundError: where it is not there.
 
     Example:
         >>> import tempfile
@@ -34,7 +37,9 @@ def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | Analys
         ...     cd.read(folder) == result
         True
     """
-    path = Path(folder)
+    path = Path(_toml.existing(folder))
+    if not path.is_dir():
+        raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(folder))
     analysis, block = path / "analysis.json", path / "material.toml"
     if analysis.is_file() and not (path / "resolved.toml").exists():
         return AnalysisResult(_core.restore_analysis(analysis.read_bytes()))

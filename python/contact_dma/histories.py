@@ -8,19 +8,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, overload
 
-import numpy.typing as npt
-
 from . import _contact_dma as _core
 from . import _toml
-from ._result import Progress, Table, Warning, arrays, heard, svg
+from ._result import Columns, Floats, Progress, Record, Table, Warning, arrays, heard, svg, warn
+from ._sources import Source, bodies, file_of, one_each, refuse, solver, thread_count, warn_without_effect
 from ._stored import StoredHistory
 from .indenters import Indenter
-from .materials import Floats, Material, Quantity
-from .sweeps import _bodies, _refuse, _solver, _Source, _threads
+from .materials import Material, Quantity
 
 
-@dataclass(frozen=True)
-class SurfaceLine:
+@dataclass(frozen=True, eq=False, repr=False)
+class SurfaceLine(Record):
     """The deformed surface along a line through the origin, arrays of shape (n,).
 
     Attributes:
@@ -38,8 +36,8 @@ class SurfaceLine:
     gap: Floats
 
 
-@dataclass(frozen=True)
-class SurfaceProfile:
+@dataclass(frozen=True, eq=False, repr=False)
+class SurfaceProfile(Record):
     """Profiles at a requested time: time (s), load (N), approach (m), contact radius (m), and lines."""
 
     time: float
@@ -49,8 +47,8 @@ class SurfaceProfile:
     lines: tuple[SurfaceLine, ...]
 
 
-@dataclass(frozen=True)
-class Field:
+@dataclass(frozen=True, eq=False, repr=False)
+class Field(Record):
     """Fields at a requested time, arrays of shape (cells along y, cells along x) that share the memory of the result.
 
     Attributes:
@@ -95,7 +93,7 @@ class HistoryResult(Table):
         return self._core.title
 
     @property
-    def cycles(self) -> Mapping[str, npt.NDArray[Any]]:
+    def cycles(self) -> Columns:
         """The columns of ``cycles.csv``: loss, phase and moduli of every whole cycle of the sine segments, with errors, arrays of shape
         (cycles,).
 
@@ -106,12 +104,17 @@ class HistoryResult(Table):
             >>> result.cycles["energy_loss_j"].shape
             (2,)
         """
-        return arrays(self._core.cycles())
+        return Columns(arrays(self._core.cycles()))
 
     @property
     def failure(self) -> str | None:
         """Why the history ended before its time; None where it did not. What came before is in the columns."""
         return self._core.failure
+
+    def raise_for_status(self) -> None:
+        """Raises RuntimeError where the history ended before its time, with the reason."""
+        if self.failure is not None:
+            raise RuntimeError(f"the history ended before its time: {self.failure}")
 
     @property
     def errors_missing(self) -> str | None:
@@ -166,7 +169,6 @@ class HistoryResult(Table):
 def simulate(
     material: Material,
     indenter: Indenter,
-    /,
     *,
     segments: Sequence[Mapping[str, Any]],
     control: Literal["load", "pressure", "approach"] = "load",
@@ -200,7 +202,6 @@ def simulate(
 def simulate(
     material: Material | str | os.PathLike[str],
     indenter: Indenter | None = None,
-    /,
     *,
     overrides: Mapping[str, Any] | None = None,
     threads: int | None = None,
@@ -232,8 +233,12 @@ def simulate(
         threads: how many.
         progress: a function of time steps done and in all, or a bar of tqdm.
 
+    Warns:
+        ContactDmaWarning: where the history ended before its time; ``result.raise_for_status()`` makes an exception of it.
+
     Raises:
         ValueError: with the program's message, for bad input.
+        FileNotFoundError: where a file is not there.
         KeyboardInterrupt: within a second of Ctrl-C.
 
     Example:
@@ -249,18 +254,25 @@ def simulate(
             raise ValueError("simulate(material, indenter, ...): the second argument is an indenter, such as Sphere(0.01)")
         if overrides is not None:
             raise ValueError("overrides change a file; write options as arguments")
+        one_each(options)
+        given = dict(options)
         title = options.pop("title", None) or f"{material.name or 'history'} under {indenter!r}"
         text = f"title = {_toml.value(title)}\n\n"
         drive = {"control": options.pop("control", None), "segments": options.pop("segments", None)}
         output = {key: options.pop(key, None) for key in ("profiles_at", "fields_at", "field_cells", "error_bars")}
         text += _toml.table("drive", drive) + _toml.table("time", {"step": options.pop("step", None)})
-        text += _toml.table("output", output) + _solver(options)
-        block = _bodies(indenter, options, False)
-        _refuse("simulate", options)
+        text += _toml.table("output", output) + solver(options)
+        block = bodies(indenter, options, False)
+        refuse("simulate", options)
         shape = None if "[indenter]" in block else indenter._core
-        source = _Source("simulate(...)", text + block, (), material._core, shape)
+        source = Source("simulate(...)", text + block, (), material._core, shape)
     else:
-        if indenter is not None or options:
+        file, given = file_of("simulate", material, indenter), {}
+        if options:
             raise ValueError("a scenario file says all; write overrides={\"solver.springs\": 48} to change it")
-        source = _Source(os.fspath(material), None, _toml.overrides(overrides))
-    return HistoryResult(_core.simulate(source, _threads(threads), told))
+        source = Source(file, None, _toml.overrides(overrides))
+    result = HistoryResult(_core.simulate(source, thread_count(threads), told))
+    warn_without_effect("simulate", given, result.resolved)
+    if result.failure is not None:
+        warn(f"simulate: the history ended before its time: {result.failure}")
+    return result

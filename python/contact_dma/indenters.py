@@ -11,11 +11,12 @@ import numpy.typing as npt
 
 from . import _contact_dma as _core
 from . import _toml
-from .materials import Floats, Quantity, _mapped
+from ._result import Floats
+from .materials import Quantity, _mapped
 
 
 class Indenter:
-    """A rigid indenter. Lengths are numbers in metres or strings with units; indenters cannot be changed, and pickle."""
+    """A rigid indenter. Lengths are numbers in metres or strings with units; indenters cannot be changed, compare by value, and pickle."""
 
     __slots__ = ("_core", "_text", "_call")
 
@@ -36,9 +37,23 @@ class Indenter:
             >>> round(float(Sphere("10 mm").gap(3e-4, 4e-4)), 12)
             1.25e-05
         """
-        first, second = np.broadcast_arrays(np.asarray(x, np.float64), np.asarray(y, np.float64))
+        first, second = np.broadcast_arrays(_toml.si(x, "m", "x"), _toml.si(y, "m", "y"))
         line = np.ascontiguousarray(second).reshape(-1)
-        return _mapped(lambda places: self._core.gap(places, line), first)
+        return _mapped(lambda places: self._core.gap(places, line), first, "m")
+
+    def __eq__(self, other: object) -> bool:
+        """Whether shape and settings are the same, and of maps of arrays the gaps."""
+        if not isinstance(other, Indenter):
+            return NotImplemented
+        if self._key() != other._key():
+            return False
+        return self._text is not None or np.array_equal(self._core.gaps(), other._core.gaps())
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+    def _key(self) -> str:
+        return self._core.map_keys() if self._text is None else self._core.key()
 
     def __repr__(self) -> str:
         return self._call
@@ -160,6 +175,8 @@ class Asperities(Indenter):
     def __init__(self, asperities: Sequence[Sequence[Quantity]]) -> None:
         rows = []
         for given in asperities:
+            if len(given) not in (3, 4):
+                raise ValueError(f"an asperity is (x, y, radius) or (x, y, radius, height), and one is {given!r}")
             x, y, radius, *height = given
             rows.append({"center": [x, y], "radius": radius, "height": height[0] if height else None})
         self._made("asperities", asperities=rows)
@@ -253,7 +270,8 @@ class HeightMap(Indenter):
         edge: Literal["unknown", "rim", "periodic"] | None = None,
         offset: tuple[Quantity, Quantity] | None = None,
     ) -> None:
-        spacings = [spacing] if isinstance(spacing, (int, float, str, np.floating)) else spacing
+        is_one = spacing is None or isinstance(spacing, str) or not _toml.is_list(spacing)
+        spacings = [spacing] if is_one and spacing is not None else spacing
         entries: dict[str, Any] = {
             "spacing": spacings,
             "quantity": quantity,
@@ -265,7 +283,9 @@ class HeightMap(Indenter):
         if isinstance(heights, (str, os.PathLike)):
             self._made("height-map", file=_toml.path(heights), **entries)
             return
-        values = np.asarray(heights, dtype=np.float64)
+        values = _toml.si(heights, "m", "heights") if _toml.has_unit(heights) else np.asarray(heights, dtype=np.float64)
+        if _toml.has_unit(heights) and height_unit is not None:
+            raise ValueError("heights have a unit already: leave out height_unit")
         if values.ndim != 2:
             raise ValueError(f"heights have shape {values.shape}: give an array of rows along y and columns along x")
         if offset is not None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import csv
+import html
 import os
 import tempfile
 from collections.abc import Callable, Mapping, Sequence
@@ -14,6 +14,8 @@ import numpy.typing as npt
 
 from . import _contact_dma as _core
 from . import _toml
+from ._result import Floats, warn
+from .fits import POOR_FIT, MaterialFit, dynamic_columns, warn_of_celsius, write_columns
 
 Quantity: TypeAlias = Union[float, str]
 """A number in SI units, or a string with a unit: ``0.01`` or ``"10 mm"``."""
@@ -24,14 +26,21 @@ ModulusKind: TypeAlias = Union[Literal["longitudinal"], Literal["shear"]]
 BulkModulus: TypeAlias = Union[Quantity, tuple[Quantity, Sequence[tuple[Quantity, Quantity]]]]
 """A bulk modulus (Pa) that is constant in time, or that at rest with the modulus (Pa) and relaxation time (s) of each branch."""
 
-Floats: TypeAlias = npt.NDArray[np.float64]
-
 
 def _bulk(given: BulkModulus | None) -> Quantity | dict[str, object] | None:
     if not isinstance(given, tuple):
         return given
     equilibrium, branches = given
     return {"equilibrium": equilibrium, "branches": [{"modulus": m, "time": t} for m, t in branches]}
+
+
+def _pairs(branches: Any, what: str) -> list[tuple[Any, Any]]:
+    """Branches as pairs of modulus or compliance, and time."""
+    if isinstance(branches, Mapping) or not isinstance(branches, (Sequence, np.ndarray)) or isinstance(branches, str):
+        branches = [None]
+    if not all(isinstance(pair, (Sequence, np.ndarray)) and not isinstance(pair, str) and len(pair) == 2 for pair in branches):
+        raise ValueError(f"branches are pairs of {what} and time: write a list such as [(8e6, 1e-3), (5e6, 0.1)]")
+    return [(a, b) for a, b in branches]
 
 
 class Prony(NamedTuple):
@@ -57,14 +66,15 @@ class Material:
         >>> import contact_dma as cd
         >>> pmma = cd.Material.library("pmma")
         >>> pmma
-        Material('PMMA', poisson_ratio=0.38)
+        Material('PMMA', instantaneous=2.49e+09, equilibrium=1.97e+09, poisson_ratio=0.38)
         >>> bool(abs(pmma.complex_modulus(1.0)) > pmma.prony.equilibrium)
         True
     """
 
-    __slots__ = ("_core", "_source")
+    __slots__ = ("_core", "_fit", "_source")
 
     _core: _core.Body
+    _fit: MaterialFit | None
     _source: str
 
     def __init__(self) -> None:
@@ -74,9 +84,20 @@ class Material:
     def _of(cls, name: str, text: str, *, keep: bool = True) -> Material:
         material = object.__new__(cls)
         material._core = _core.Body(name, text)
+        fit = material._core.fit()
+        material._fit = None if fit is None else MaterialFit._of(*fit)
         # Where a key of the block becomes an axis of a sweep, the block is read again.
         material._source = text if keep else material._core.text
         return material
+
+    def _looked_at(self, call: str) -> Material:
+        """Warns of what is to be known of the fit."""
+        if self._fit is not None:
+            for warning in self._fit.warnings:
+                warn(f"{call}: {warning}")
+            if self._fit.misfit > POOR_FIT:
+                warn(f"{call}: the series misses the data by {100 * self._fit.misfit:.2g} % (root mean square): see the material's fit")
+        return self
 
     @classmethod
     def _block(cls, call: str, entries: Mapping[str, Any], *, keep: bool = True, **inner: Any) -> Material:
@@ -101,6 +122,7 @@ class Material:
             >>> Material.library("pvb", temperature="30 °C").temperature
             303.15
         """
+        warn_of_celsius("Material.library(...)", temperature=temperature)
         entries = {"library": name, "poisson_ratio": poisson_ratio, "temperature": temperature}
         return cls._of("Material.library(...)", _toml.table("material", entries))
 
@@ -151,7 +173,7 @@ class Material:
         table = {
             "modulus": modulus,
             "equilibrium": equilibrium,
-            "branches": [{"modulus": m, "time": t} for m, t in branches],
+            "branches": [{"modulus": m, "time": t} for m, t in _pairs(branches, "modulus")],
         }
         entries = {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": _bulk(bulk_modulus), "measured": measured}
         return cls._block("relaxation", entries, relaxation=table)
@@ -190,7 +212,7 @@ class Material:
             "compliance": compliance,
             "instantaneous": instantaneous,
             "viscosity": viscosity,
-            "branches": [{"compliance": c, "time": t} for c, t in branches],
+            "branches": [{"compliance": c, "time": t} for c, t in _pairs(branches, "compliance")],
         }
         entries = {"name": name, "poisson_ratio": poisson_ratio, "bulk_modulus": _bulk(bulk_modulus), "measured": measured}
         return cls._block("creep", entries, creep=table)
@@ -315,21 +337,24 @@ class Material:
             "modulus": modulus,
             "evaluation": evaluation,
             "flow": flow,
-            "times": np.asarray(time, dtype=np.float64),
-            "values": np.asarray(values, dtype=np.float64),
+            "times": _toml.si(time, "s", "time").reshape(-1),
+            "values": _toml.si(values, "1/Pa" if quantity == "creep" else "Pa", "values").reshape(-1),
         }
-        return cls._block("table", {"name": name, "poisson_ratio": poisson_ratio}, table=table)
+        made = cls._block("table", {"name": name, "poisson_ratio": poisson_ratio}, table=table)
+        return made._looked_at("Material.table(...)")
 
     @classmethod
     def from_dynamic(
         cls,
-        file: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | None = None,
+        file: str | os.PathLike[str] | Sequence[str | os.PathLike[str]] | _toml.TableLike | None = None,
         *,
         poisson_ratio: float,
         modulus: ModulusKind = "longitudinal",
         angular_frequency: npt.ArrayLike | None = None,
+        frequency: npt.ArrayLike | None = None,
         storage_modulus: npt.ArrayLike | None = None,
         loss_modulus: npt.ArrayLike | None = None,
+        tan_delta: npt.ArrayLike | None = None,
         temperature: npt.ArrayLike | None = None,
         temperature_of_sweep: Quantity | None = None,
         reference_temperature: Quantity | None = None,
@@ -346,13 +371,16 @@ class Material:
         Isotherms are shifted to a master curve, and a Prony series is fitted with as many branches as the data ask for.
 
         Args:
-            file: a file, or several, in any of the program's formats.
+            file: a file, or several, in any of the program's formats; or a data frame or dictionary whose columns have the names of the
+                arguments below (SI units), or names with units that a file may have, such as ``"Frequency (Hz)"``.
             poisson_ratio: Poisson ratio.
             modulus: whether the moduli are E' and E'' or G' and G''.
             angular_frequency: in place of a file: angular frequencies (rad/s), shape (n,).
+            frequency: frequencies (Hz) in place of these.
             storage_modulus: storage moduli (Pa), shape (n,).
             loss_modulus: loss moduli (Pa), shape (n,).
-            temperature: temperatures (K), shape (n,), of several isotherms.
+            tan_delta: loss factors in place of the loss moduli.
+            temperature: temperatures (K, or strings such as ``"20 °C"``), shape (n,), of several isotherms.
             temperature_of_sweep: the temperature of the contact (K).
             reference_temperature: that of the master curve (K).
             shift: how isotherms are shifted.
@@ -363,6 +391,10 @@ class Material:
             format: that of the file, where its content does not say.
             name: a name for tables.
 
+        Returns:
+            the material; its `fit` has misfit, master curve, shift factors and notes. A poor fit, and temperatures that are degrees
+            Celsius most likely, warn.
+
         Example:
             >>> import numpy as np
             >>> omega = np.logspace(-2, 2, 25)
@@ -370,9 +402,11 @@ class Material:
             >>> measured = solid.complex_modulus(omega)
             >>> again = Material.from_dynamic(angular_frequency=omega, storage_modulus=measured.real,
             ...                               loss_modulus=measured.imag, poisson_ratio=0.45)
-            >>> bool(np.allclose(again.complex_modulus(omega), measured, rtol=0.01))
-            True
+            >>> bool(np.allclose(again.complex_modulus(omega), measured, rtol=0.01)), again.fit.misfit < 1e-3
+            (True, True)
         """
+        call = "Material.from_dynamic(...)"
+        warn_of_celsius(call, temperature_of_sweep=temperature_of_sweep, reference_temperature=reference_temperature)
         entries = {"name": name, "poisson_ratio": poisson_ratio, "temperature": temperature_of_sweep}
         table: dict[str, Any] = {
             "modulus": modulus,
@@ -385,25 +419,36 @@ class Material:
             "seed": seed,
         }
         arrays = {
-            "angular_frequency_rad_per_s": angular_frequency,
-            "storage_modulus_pa": storage_modulus,
-            "loss_modulus_pa": loss_modulus,
-            "temperature_k": temperature,
+            "angular_frequency": angular_frequency,
+            "frequency": frequency,
+            "storage_modulus": storage_modulus,
+            "loss_modulus": loss_modulus,
+            "tan_delta": tan_delta,
+            "temperature": temperature,
         }
         given = {column: values for column, values in arrays.items() if values is not None}
         if file is not None and given:
-            raise ValueError("from_dynamic takes a file or arrays, not both")
+            raise ValueError("from_dynamic takes a file, a data frame or arrays, not two of them")
         if isinstance(file, (str, os.PathLike)):
-            return cls._block("from_dynamic", entries, dynamic={**table, "file": _toml.path(file)})
-        if file is not None:
-            return cls._block("from_dynamic", entries, dynamic={**table, "files": [_toml.path(each) for each in file]})
-        for column in list(arrays)[:3]:
-            if column not in given:
-                raise ValueError("from_dynamic needs a file, or angular_frequency, storage_modulus and loss_modulus")
+            made = cls._block("from_dynamic", entries, dynamic={**table, "file": _toml.path(file)})
+        elif _toml.is_table(file) or file is None:
+            made = cls._of_columns(given if file is None else file, entries, table)
+        else:
+            files = [_toml.path(each) for each in file]  # type: ignore[union-attr]
+            made = cls._block("from_dynamic", entries, dynamic={**table, "files": files})
+        return made._looked_at(call)
+
+    @classmethod
+    def _of_columns(cls, given: _toml.TableLike, entries: Mapping[str, Any], table: Mapping[str, Any]) -> Material:
+        columns = dynamic_columns(given)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "arrays.csv"
-            write_columns(path, given)
-            return cls._block("from_dynamic", entries, keep=False, dynamic={**table, "file": _toml.path(path)})
+            write_columns(path, columns)
+            try:
+                return cls._block("from_dynamic", entries, keep=False, dynamic={**table, "file": _toml.path(path)})
+            except ValueError as error:
+                # The file is gone when this is read; its line 1 has the names of the columns.
+                raise ValueError(str(error).replace(_toml.path(path), "the arrays")) from None
 
     @classmethod
     def from_toml(cls, text: str) -> Material:
@@ -414,12 +459,25 @@ class Material:
             >>> Material.from_toml(pmma.text) == pmma
             True
         """
-        return cls._of("Material.from_toml(...)", text)
+        material = cls._of("Material.from_toml(...)", text)
+        # Whatever the text looks like, [material] as a table of its own.
+        material._source = _core.placed(text, "material", "material", None)
+        return material
 
     @property
     def text(self) -> str:
         """The material as a ``[material]`` block of a sweep file that gives the same material again, bit for bit."""
         return self._core.text
+
+    @property
+    def fit(self) -> MaterialFit | None:
+        """How its series was fitted to data; None where it was not.
+
+        Example:
+            >>> Material.library("pmma").fit is None
+            True
+        """
+        return self._fit
 
     @property
     def name(self) -> str | None:
@@ -472,7 +530,7 @@ class Material:
             >>> Material.library("pmma").complex_modulus([0.01, 0.1]).shape
             (2,)
         """
-        return _mapped(lambda omega: self._core.complex_modulus(omega, modulus), angular_frequency)
+        return _mapped(lambda omega: self._core.complex_modulus(omega, modulus), angular_frequency, "rad/s")
 
     def creep_compliance(self, time: npt.ArrayLike, *, modulus: ModulusKind = "longitudinal") -> Any:
         """Creep compliance D(t) (1/Pa), or J(t).
@@ -489,7 +547,7 @@ class Material:
             >>> bool(d[1] > d[0])
             True
         """
-        return _mapped(lambda t: self._core.creep_compliance(t, modulus), time)
+        return _mapped(lambda t: self._core.creep_compliance(t, modulus), time, "s")
 
     def relaxation_modulus(self, time: npt.ArrayLike, *, modulus: ModulusKind = "longitudinal") -> Any:
         """Relaxation modulus E(t) (Pa), or G(t).
@@ -506,14 +564,25 @@ class Material:
             >>> bool(e[1] < e[0])
             True
         """
-        return _mapped(lambda t: self._core.relaxation_modulus(t, modulus), time)
+        return _mapped(lambda t: self._core.relaxation_modulus(t, modulus), time, "s")
 
     def __repr__(self) -> str:
-        name = f"{self.name!r}, " if self.name else ""
+        parts = [repr(self.name)] if self.name else []
+        if self._core.is_series:
+            series = self.prony
+            at_once = series.equilibrium + series.moduli.sum()
+            parts += [f"instantaneous={at_once:.3g}", f"equilibrium={series.equilibrium:.3g}"]
         if self.poisson_ratio is not None:
-            return f"Material({name}poisson_ratio={self.poisson_ratio})"
-        bulk = self.bulk_modulus
-        return f"Material({name}bulk_modulus={'relaxing' if bulk is None else bulk})"
+            parts.append(f"poisson_ratio={self.poisson_ratio}")
+        else:
+            parts.append(f"bulk_modulus={'relaxing' if self.bulk_modulus is None else self.bulk_modulus}")
+        if self._fit is not None:
+            parts.append(f"misfit={self._fit.misfit:.2g}")
+        return f"Material({', '.join(parts)})"
+
+    def _repr_html_(self) -> str:
+        fit = "" if self._fit is None else self._fit._repr_html_()
+        return f"<p><code>{html.escape(repr(self))}</code></p>{fit}"
 
     def __eq__(self, other: object) -> bool:
         return self.text == other.text if isinstance(other, Material) else NotImplemented
@@ -522,34 +591,20 @@ class Material:
         return hash(self.text)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return (_restored, (self.text, self._source))
+        return (_restored, (self.text, self._source, self._fit))
 
 
-def _restored(text: str, source: str) -> Material:
+def _restored(text: str, source: str, fit: MaterialFit | None) -> Material:
     material = Material._of("the pickled material", text)
-    material._source = source
+    material._source, material._fit = source, fit
     return material
 
 
-def _mapped(of_line: Callable[[Floats], npt.NDArray[Any]], given: npt.ArrayLike) -> Any:
+def _mapped(of_line: Callable[[Floats], npt.NDArray[Any]], given: npt.ArrayLike, unit: str) -> Any:
     """What a function of a line of numbers makes of numbers in any shape; a number of a number."""
-    array = np.asarray(given, dtype=np.float64)
+    array = _toml.si(given, unit, "the argument")
     made = of_line(np.ascontiguousarray(array).reshape(-1)).reshape(array.shape)
     return made[()]
-
-
-def write_columns(path: Path, columns: Mapping[str, Any]) -> None:
-    """Arrays as the columns of a CSV file, numbers without losing a bit, cells empty where one is NaN."""
-    arrays = [np.asarray(values, dtype=np.float64).reshape(-1) for values in columns.values()]
-    lengths = {len(array) for array in arrays}
-    if len(lengths) > 1:
-        counts = ", ".join(f"{name} {len(array)}" for name, array in zip(columns, arrays))
-        raise ValueError(f"columns must have as many rows as one another: {counts}")
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(columns)
-        for row in zip(*arrays):
-            writer.writerow(["" if np.isnan(cell) else repr(float(cell)) for cell in row])
 
 
 def library_materials() -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import html
 import json
 import os
@@ -12,22 +13,23 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias, Union
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _contact_dma as _core
 from . import _toml
-from ._result import Status, Table, Warning, arrays, svg
+from ._result import Columns, Floats, Record as ValueRecord, Status, Table, Warning, arrays, failures, svg, warn
+from ._sources import CYCLE_KEYS, DRIVE_KEYS, Source, bodies, chosen, one_each, refuse, solver, thread_count
 from ._stored import table
+from .fits import write_columns
 from .indenters import Indenter
-from .materials import Floats, Material, Prony, Quantity, write_columns
-from .sweeps import _bodies, _CYCLE_KEYS, _DRIVE_KEYS, _refuse, _solver, _chosen, _Source, _threads
+from .materials import Material, Prony, Quantity
 
-Record: TypeAlias = Union[str, "os.PathLike[str]", Mapping[str, npt.ArrayLike]]
-"""A record of load and approach: a file, or ``{"time": ..., "load": ..., "approach": ...}`` in s, N and m, shape (n,)."""
+Record: TypeAlias = Union[str, "os.PathLike[str]", _toml.TableLike]
+"""A record of load and approach: a file, or columns ``{"time": ..., "load": ..., "approach": ...}`` in s, N and m, shape (n,), of a
+dictionary or data frame; ``time_s``, ``load_n`` and ``approach_m`` are the same."""
 
 
-@dataclass(frozen=True)
-class MeasuredCycle:
+@dataclass(frozen=True, eq=False, repr=False)
+class MeasuredCycle(ValueRecord):
     """The mean cycle of a record, corrected, as uniform samples; arrays of length 0 where there is none.
 
     Attributes:
@@ -64,6 +66,12 @@ class AnalysisResult(Table):
     def status(self) -> tuple[Status, ...]:
         """How every record ended, and why it has no result."""
         return tuple(Status(*each) for each in self._statuses)
+
+    def raise_for_status(self) -> None:
+        """Raises RuntimeError where a record has no result, with the reasons of the first."""
+        said = failures(self.status, "record")
+        if said is not None:
+            raise RuntimeError(said)
 
     @property
     def findings(self) -> tuple[tuple[Warning, ...], ...]:
@@ -105,14 +113,19 @@ def analyse(
     """Reads energy loss, phase lag and moduli from measured loops, with their uncertainties.
 
     Args:
-        records: one or several: files as instruments write them, or arrays.
+        records: one or several: files as instruments write them, dictionaries of arrays, data frames.
         frequency: that of all records (Hz), where it is known.
         setup: what is known of instrument and contact: a file, or its tables, ``{"instrument": {"frame_compliance": "0.5 um/N"},
             "contact": {"poisson_ratio": 0.38}, "indenter": cd.Sphere("1 mm")}``.
         threads: how many.
 
+    Warns:
+        ContactDmaWarning: of records without a result; ``result.raise_for_status()`` makes an exception of them.
+
     Raises:
         ValueError: with the program's message, for files that cannot be read and bad settings.
+        FileNotFoundError: where a file is not there.
+        KeyboardInterrupt: within a second of Ctrl-C.
 
     Example:
         >>> import numpy as np
@@ -123,31 +136,40 @@ def analyse(
         >>> bool(abs(loss / (np.pi * 5.0 * 2e-6 * np.sin(0.1)) - 1) < 1e-6)
         True
     """
-    each = [records] if isinstance(records, (str, os.PathLike, Mapping)) else list(records)
-    hertz = _core.frequency_hz(frequency) if isinstance(frequency, str) else frequency
+    several = not isinstance(records, (str, os.PathLike)) and not _toml.is_table(records)
+    each: list[Record] = list(records) if several else [records]  # type: ignore[arg-type,list-item]
+    hertz = None if frequency is None else float(_toml.si(frequency, "Hz", "frequency"))
     given = [_record(record, k) for k, record in enumerate(each)]
-    return AnalysisResult(_core.analyse(given, hertz, _setup(setup), _threads(threads)))
+    result = AnalysisResult(_core.analyse(given, hertz, _setup(setup), thread_count(threads)))
+    said = failures(result.status, "record")
+    if said is not None:
+        warn(f"analyse: {said}")
+    return result
 
 
 def _record(record: Record, index: int) -> Any:
-    if not isinstance(record, Mapping):
-        return os.fspath(record)
-    missing = [name for name in ("time", "load", "approach") if name not in record]
+    if not _toml.is_table(record):
+        return _toml.existing(record)  # type: ignore[arg-type]
+    units = {"time": "s", "load": "N", "approach": "m"}
+    names = {str(name).removesuffix(f"_{unit.lower()}"): name for name in record.keys() for unit in units.values()}
+    missing = [name for name in units if name not in names]
     if missing:
         raise ValueError(f"record {index} has no {' and no '.join(missing)}: give time (s), load (N) and approach (m)")
-    columns = [np.asarray(record[name], np.float64).reshape(-1).tolist() for name in ("time", "load", "approach")]
-    return (f"record {index}", columns)
+    columns = {name: _toml.si(record[names[name]], unit, f"record {index}, {name}").reshape(-1) for name, unit in units.items()}
+    time = columns["time"]
+    if len({len(column) for column in columns.values()}) > 1:
+        counts = ", ".join(f"{name} {len(column)}" for name, column in columns.items())
+        raise ValueError(f"record {index}: columns must have as many rows as one another: {counts}")
+    if len(time) > 1 and time[-1] < time[0]:
+        raise ValueError(f"record {index}: times descend, from {time[0]:g} s to {time[-1]:g} s: turn the columns round")
+    return (f"record {index}", list(columns.values()))
 
 
 def _setup(setup: str | os.PathLike[str] | Mapping[str, Any] | None) -> tuple[str, str | None]:
     if setup is None:
         return ("setup", None)
     if not isinstance(setup, Mapping):
-        path = Path(setup)
-        try:
-            return (str(path), path.read_text(encoding="utf-8"))
-        except OSError as error:
-            raise ValueError(f"cannot read `{path}`: {error.strerror}") from error
+        return (os.fspath(setup), Path(setup).read_text(encoding="utf-8"))
     text = ""
     for name, entries in setup.items():
         if isinstance(entries, Indenter):
@@ -186,14 +208,14 @@ class IdentifiedMaterial:
         return summary
 
     @property
-    def fit(self) -> dict[str, npt.NDArray[Any]]:
+    def fit(self) -> Columns:
         """Data and model, the columns of ``fit.csv``."""
-        return table(dict(self._files)["fit.csv"].decode("utf-8"))
+        return Columns(table(dict(self._files)["fit.csv"].decode("utf-8")))
 
     @property
-    def moduli(self) -> dict[str, npt.NDArray[Any]]:
+    def moduli(self) -> Columns:
         """E' and E'' with their bands over frequency, the columns of ``moduli.csv``."""
-        return table(dict(self._files)["moduli.csv"].decode("utf-8"))
+        return Columns(table(dict(self._files)["moduli.csv"].decode("utf-8")))
 
     def save(self, folder: str | os.PathLike[str]) -> None:
         """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``moduli.csv``,
@@ -208,7 +230,7 @@ class IdentifiedMaterial:
 
 
 def identify(
-    data: str | os.PathLike[str] | Mapping[str, npt.ArrayLike] | None = None,
+    data: str | os.PathLike[str] | _toml.TableLike | None = None,
     indenter: Indenter | None = None,
     *,
     file: str | os.PathLike[str] | None = None,
@@ -232,8 +254,8 @@ def identify(
     Args:
         data: measured cycles, with columns of a sweep and their errors where they are known: ``angular_frequency_rad_per_s``,
             ``energy_loss_j``, ``energy_loss_error_j``, ``phase_lag_rad``, ``approach_max_m``...: arrays of shape (n,) by name,
-            a result of `analyse`, a CSV file, or a folder of ``contact-dma analyse``. NaN where nothing was measured. Of a history
-            ``time_s`` and ``approach_m``, or ``load_n`` under a prescribed approach.
+            a data frame, a result of `analyse`, a CSV file, or a folder of ``contact-dma analyse``. NaN or None where nothing was
+            measured. Of a history ``time_s`` and ``approach_m``, or ``load_n`` under a prescribed approach.
         indenter: that of the measurement.
         file: an identification file in place of all these, with ``overrides``.
         overrides: changes of the file.
@@ -268,31 +290,54 @@ def identify(
     if file is not None:
         if data is not None or indenter is not None:
             raise ValueError("identify takes a file, or data and indenter, not both")
-        source = _Source(os.fspath(file), None, _toml.overrides(overrides))
-        return IdentifiedMaterial(*_core.identify_material(source, _threads(threads)))
+        source = Source(_toml.existing(file), None, _toml.overrides(overrides))
+        return IdentifiedMaterial(*_core.identify_material(source, thread_count(threads)))
     if data is None or not isinstance(indenter, Indenter):
         raise ValueError("identify(data, indenter, ...) needs measured cycles and the indenter, or file=...")
+    if overrides is not None:
+        raise ValueError("overrides change a file; write options as arguments: branches=3 in place of {'identify.branches': 3}")
     options.update(control=control, mean=mean, amplitude=amplitude)
     options.update(indenter_material=indenter_material, layer=layer, adhesion=adhesion)
-    drive, cycle, solver = _chosen(options, _DRIVE_KEYS), _chosen(options, _CYCLE_KEYS), _solver(options)
+    one_each(options)
+    drive, cycle, engine = chosen(options, DRIVE_KEYS), chosen(options, CYCLE_KEYS), solver(options)
     drive["segments"] = segments
     known = {"poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}
-    bodies = _bodies(indenter, options, False)
-    _refuse("identify", options)
+    around = bodies(indenter, options, False)
+    refuse("identify", options)
     with tempfile.TemporaryDirectory() as folder:
         text = f"title = {_toml.value(title or 'Measured cycles')}\n\n"
         text += _toml.table("identify", {"data": _data(data, Path(folder)), "branches": branches})
         text += _toml.table("material", known) or "[material]\n"
         text += _toml.table("drive", drive)
-        text += _toml.table("cycle", cycle) + solver + bodies
-        source = _Source("identify(...)", text, (), None, None if "[indenter]" in bodies else indenter._core)
-        return IdentifiedMaterial(*_core.identify_material(source, _threads(threads)))
+        text += _toml.table("cycle", cycle) + engine + around
+        source = Source("identify(...)", text, (), None, None if "[indenter]" in around else indenter._core)
+        return IdentifiedMaterial(*_core.identify_material(source, thread_count(threads)))
 
 
-def _data(data: str | os.PathLike[str] | Mapping[str, npt.ArrayLike], folder: Path) -> str:
-    if not isinstance(data, Mapping):
-        return _toml.path(data)
-    columns = {name: values for name, values in data.items() if np.asarray(values).dtype.kind in "fiu"}
+_TEXTS = ("file", "indenter", "material", "message", "status", "warnings")
+"""Columns of results that hold text."""
+
+_MEASURED = {
+    *("energy_loss", "phase_lag", "storage_modulus", "loss_modulus", "approach", "load"),
+    *(f"{name}_{end}" for name in ("approach", "contact_radius", "peak_pressure") for end in ("min", "max")),
+}
+_READ = {"angular_frequency", "frequency", "drive_mean", "drive_amplitude", "time", *_MEASURED, *(f"{name}_error" for name in _MEASURED)}
+"""Columns that an identification reads, without their units."""
+
+
+def _data(data: str | os.PathLike[str] | _toml.TableLike, folder: Path) -> str:
+    if not _toml.is_table(data):
+        return _toml.path(data)  # type: ignore[arg-type]
+    columns = {str(name): data[name] for name in data.keys() if str(name) not in _TEXTS}
+    if isinstance(data, Table):
+        # Of a result all that is text has no number in any row.
+        columns = {name: values for name, values in columns.items() if np.asarray(values).dtype.kind in "iuf"}
+    else:
+        unknown = [name for name in columns if not any(name == known or name.startswith(f"{known}_") for known in _READ)]
+        if unknown:
+            near = {name: difflib.get_close_matches(name, sorted(_READ), 1) for name in unknown}
+            named = (f"{name!r}" + (f" (is {at[0]!r} with its unit meant?)" if at else "") for name, at in near.items())
+            warn(f"identify: these columns are not read: {', '.join(named)}")
     path = folder / "measured.csv"
     write_columns(path, columns)
     return _toml.path(path)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import json
 import os
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, overload
@@ -15,9 +14,10 @@ import numpy.typing as npt
 
 from . import _contact_dma as _core
 from . import _toml
-from ._result import Progress, Status, Table, Warning, arrays, heard, shown, svg
+from ._result import Floats, Progress, Record, Status, Table, Warning, arrays, failures, heard, shown, svg, warn
+from ._sources import Source, file_of, source_of_values, thread_count, warn_without_effect
 from .indenters import Indenter
-from .materials import Floats, Material, Quantity
+from .materials import Material, Quantity
 
 
 @dataclass(frozen=True)
@@ -48,8 +48,8 @@ class Peak:
         return self.angular_frequency / (2 * np.pi)
 
 
-@dataclass(frozen=True)
-class PressureLine:
+@dataclass(frozen=True, eq=False, repr=False)
+class PressureLine(Record):
     """The contact pressure along a line through the origin.
 
     Attributes:
@@ -63,8 +63,8 @@ class PressureLine:
     pressure: Floats
 
 
-@dataclass(frozen=True)
-class PressureProfile:
+@dataclass(frozen=True, eq=False, repr=False)
+class PressureProfile(Record):
     """The contact pressure at a quarter of the oscillation.
 
     Attributes:
@@ -84,8 +84,8 @@ class PressureProfile:
     lines: tuple[PressureLine, ...]
 
 
-@dataclass(frozen=True)
-class Cycle:
+@dataclass(frozen=True, eq=False, repr=False)
+class Cycle(Record):
     """The stabilised cycle of a case, sample by sample; arrays of length 0 where the case has no result.
 
     Attributes:
@@ -114,7 +114,7 @@ class Cycles(Sequence[Cycle]):
         self._result = result
 
     def __len__(self) -> int:
-        return len(self._result.status)
+        return len(self._result._core)
 
     @overload
     def __getitem__(self, index: int) -> Cycle: ...
@@ -126,6 +126,9 @@ class Cycles(Sequence[Cycle]):
         if not -len(self) <= index < len(self):
             raise IndexError(f"there are {len(self)} cases, counted from 0, and none {index}")
         return self._result._cycle(index % len(self))
+
+    def __repr__(self) -> str:
+        return f"<Cycles of {len(self)} cases>"
 
 
 class SweepResult(Table):
@@ -164,6 +167,12 @@ class SweepResult(Table):
     def warnings(self) -> tuple[tuple[Warning, ...], ...]:
         """For every case, what lies outside the model or was not estimated."""
         return tuple(tuple(Warning(*each) for each in of_case) for of_case in self._core.warnings())
+
+    def raise_for_status(self) -> None:
+        """Raises RuntimeError where a case has no result, with the reasons of the first."""
+        said = failures(self.status, "case")
+        if said is not None:
+            raise RuntimeError(said)
 
     @property
     def peaks(self) -> tuple[Peak, ...]:
@@ -247,7 +256,6 @@ class SweepResult(Table):
 def sweep(
     material: Material | Mapping[str, Material],
     indenter: Indenter | Mapping[str, Indenter],
-    /,
     *,
     mean: Quantity,
     amplitude: Quantity,
@@ -291,7 +299,6 @@ def sweep(
 def sweep(
     material: Material | Mapping[str, Material] | str | os.PathLike[str],
     indenter: Indenter | Mapping[str, Indenter] | None = None,
-    /,
     *,
     overrides: Mapping[str, Any] | None = None,
     threads: int | None = None,
@@ -339,8 +346,12 @@ def sweep(
     Returns:
         the result; the numbers are those of the program, bit for bit.
 
+    Warns:
+        ContactDmaWarning: of cases without a result; ``result.raise_for_status()`` makes an exception of them.
+
     Raises:
         ValueError: with the program's message, for bad input.
+        FileNotFoundError: where a file is not there.
         KeyboardInterrupt: within a second of Ctrl-C.
 
     Example:
@@ -356,124 +367,14 @@ def sweep(
             raise ValueError("sweep(material, indenter, ...): the second argument is an indenter, such as Sphere(0.01)")
         if overrides is not None:
             raise ValueError("overrides change a file; write options as arguments: steps=48 in place of {'cycle.steps': 48}")
-        source = _source_of_values(material, indenter, options)
+        result = SweepResult(_core.sweep(source_of_values(material, indenter, dict(options)), thread_count(threads), told))
+        warn_without_effect("sweep", options, result.resolved)
     else:
-        if indenter is not None or options:
-            extra = ", ".join(options) or "an indenter"
-            raise ValueError(f"a sweep file says all; in place of {extra} write overrides={{\"cycle.steps\": 48}}")
-        source = _Source(os.fspath(material), None, _toml.overrides(overrides))
-    return SweepResult(_core.sweep(source, _threads(threads), told))
-
-
-_SWEEP_KEYS = ("angular_frequency", "frequency", "pairs", "refine")
-_DRIVE_KEYS = ("control", "mean", "amplitude", "phase", "hold")
-_CYCLE_KEYS = ("steps", "method", "tolerance", "max_cycles", "at_cycle", "error_bars", "accuracy")
-_SOLVER_KEYS = ("engine", "cells", "springs", "time_rule")
-
-
-@dataclass(frozen=True)
-class _Source:
-    """A file with changes, or text and values; read by the compiled module."""
-
-    name: str
-    text: str | None
-    set: Sequence[str] = ()
-    material: _core.Body | None = None
-    indenter: _core.Shape | None = None
-
-
-def _chosen(options: dict[str, Any], keys: Sequence[str]) -> dict[str, Any]:
-    return {key: options.pop(key, None) for key in keys}
-
-
-def _refuse(call: str, options: Mapping[str, Any]) -> None:
-    if options:
-        names = ", ".join(options)
-        raise TypeError(f"{call}() got unexpected arguments: {names}")
-
-
-def _solver(options: dict[str, Any]) -> str:
-    return _toml.table("solver", {**_chosen(options, _SOLVER_KEYS), "tolerance": options.pop("solver_tolerance", None)})
-
-
-def _source_of_values(
-    material: Material | Mapping[str, Material], indenter: Indenter | Mapping[str, Indenter], options: dict[str, Any]
-) -> _Source:
-    axes = options.pop("axes", None) or {}
-    names = [", ".join(material) if isinstance(material, Mapping) else material.name or "sweep"]
-    names.append(", ".join(indenter) if isinstance(indenter, Mapping) else repr(indenter))
-    title = options.pop("title", None) or " under ".join(names)
-    text = f"title = {_toml.value(title)}\n\n"
-    for kind in ("angular_frequency", "frequency"):
-        if isinstance(options.get(kind), np.ndarray) or np.isscalar(options.get(kind)):
-            options[kind] = np.atleast_1d(options[kind]).tolist()
-    text += _toml.table("drive", _chosen(options, _DRIVE_KEYS))
-    text += _toml.table("sweep", {**_chosen(options, _SWEEP_KEYS), **axes}) or "[sweep]\n\n"
-    text += _toml.table("cycle", _chosen(options, _CYCLE_KEYS)) + _solver(options)
-    # A block that an axis varies is read for every value of it.
-    varies = {str(axis).split(".")[0] for axis in axes}
-    text += _surroundings(options)
-    made_of = options.pop("indenter_material", None)
-    _refuse("sweep", options)
-    body, shape, changes = None, None, []
-    if isinstance(material, Mapping):
-        for k, (name, one) in enumerate(material.items()):
-            if not isinstance(one, Material):
-                raise ValueError(f"{name!r} is no material but {one!r}: write a Material, such as Material.library('pmma')")
-            text += _listed("material", one._source)
-            changes.append(f"sweep.material.{k}.name={_toml.value(name)}")
-    elif "material" in varies or not material._core.is_series:
-        text += material._source + "\n"
-    else:
-        body = material._core
-    if isinstance(indenter, Mapping):
-        for k, (name, each) in enumerate(indenter.items()):
-            if not isinstance(each, Indenter) or each._text is None:
-                raise ValueError(f"{name!r} is {each!r}: write an Indenter, such as Sphere(0.01); a map from a file")
-            text += _listed("indenter", _indenter(each, made_of, True))
-            changes.append(f"sweep.indenter.{k}.name={_toml.value(name)}")
-    else:
-        block = _indenter(indenter, made_of, "indenter" in varies)
-        text, shape = text + block, None if "[indenter]" in block else indenter._core
-    return _Source("sweep(...)", text, changes, body, shape)
-
-
-def _listed(block: str, text: str) -> str:
-    """A block as one of a list in place of it."""
-    text = re.sub(rf"(?m)^(\[+){block}\b", rf"\1sweep.{block}", text)
-    return text.replace(f"[sweep.{block}]", f"[[sweep.{block}]]", 1) + "\n"
-
-
-def _bodies(indenter: Indenter, options: dict[str, Any], by_text: bool) -> str:
-    """The text of the indenter, where it has to be text, of what it is made of, of a layer, and of adhesion."""
-    made_of = options.pop("indenter_material", None)
-    return _surroundings(options) + _indenter(indenter, made_of, by_text)
-
-
-def _surroundings(options: dict[str, Any]) -> str:
-    """The text of a layer and of adhesion."""
-    layer, adhesion = options.pop("layer", None), options.pop("adhesion", None)
-    text = _toml.table("layer", layer) if layer is not None else ""
-    if adhesion is not None:
-        text += _toml.table("adhesion", adhesion if isinstance(adhesion, Mapping) else {"work": adhesion})
-    return text
-
-
-def _indenter(indenter: Indenter, made_of: Material | str | None, by_text: bool) -> str:
-    """The text of the indenter, where it has to be text, and of what it is made of."""
-    text = ""
-    if made_of is not None and indenter._text is None:
-        raise ValueError("an indenter of an array is rigid: write the array to a file and give HeightMap its path")
-    if by_text or made_of is not None:
-        text += indenter._text or ""
-    if isinstance(made_of, Material):
-        text += re.sub(r"(?m)^(\[+)material\b", r"\1indenter.material", made_of._source)
-    elif made_of is not None:
-        text += _toml.table("indenter.material", {"library": made_of})
-    return text
-
-
-def _threads(threads: int | None) -> int | None:
-    if threads is not None and threads < 1:
-        raise ValueError(f"threads is {threads}: give at least 1, or leave it out for one per processor")
-    return threads
+        file = file_of("sweep", material, indenter)
+        if options:
+            raise ValueError(f"a sweep file says all; in place of {', '.join(options)} write overrides={{\"cycle.steps\": 48}}")
+        result = SweepResult(_core.sweep(Source(file, None, _toml.overrides(overrides)), thread_count(threads), told))
+    said = failures(result.status, "case")
+    if said is not None:
+        warn(f"sweep: {said}")
+    return result

@@ -1,8 +1,12 @@
 //! Materials.
 
+use std::sync::Arc;
+
 use contact_dma::input::document::Document;
-use contact_dma::input::given;
+use contact_dma::input::given::{self, DynamicFit};
+use contact_dma::material::fit::FitRemark;
 use contact_dma::material::{Material, MaterialError, ModulusKind};
+use contact_dma::report::dynamic::{DynamicReport, Source};
 use contact_dma::sweep::plan::body_material::BodyMaterial;
 use contact_dma::sweep::plan::resolved::material_text;
 use num_complex::Complex;
@@ -10,6 +14,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
+use crate::measured::{Files, bytes};
 use crate::{failure, wait};
 
 /// A material that was read from its block of a sweep file.
@@ -18,7 +23,12 @@ pub struct Body {
     material: BodyMaterial,
     /// A block that gives the same material again.
     text: String,
+    /// What was made of dynamic data, of a material of such.
+    dynamic: Option<Arc<DynamicFit>>,
 }
+
+/// What is known of a fit: its report, one fact a line; notes; warnings; and files: name and bytes.
+type Fit<'py> = (Vec<String>, Vec<String>, Vec<String>, Files<'py>);
 
 /// Equilibrium modulus, moduli and times of a generalised Maxwell solid.
 type Prony<'py> = (f64, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
@@ -28,17 +38,21 @@ impl Body {
     #[new]
     fn new(py: Python<'_>, name: String, text: String) -> PyResult<Self> {
         let block = text.clone();
-        let read = wait::run_unheard(py, move || {
+        let read = wait::run_unheard(py, move |_| {
             let document = Document::parse(&name, &block)?;
-            given::material(&document)
+            given::material_with_fit(&document)
         })?;
-        let material = read.map_err(|found| failure::of_input(&found))?;
+        let (material, dynamic) = read.map_err(|found| failure::of_input(&found))?;
         let text = match material.series() {
             // A fit needs not be made again.
             Some(series) => material_text(series),
             None => text,
         };
-        Ok(Self { material, text })
+        Ok(Self {
+            material,
+            text,
+            dynamic,
+        })
     }
 
     /// A block of a sweep file that gives the same material again.
@@ -51,6 +65,32 @@ impl Body {
     #[getter]
     fn is_series(&self) -> bool {
         self.material.series().is_some()
+    }
+
+    /// How the series was fitted; `None` of a material that was not fitted to data.
+    fn fit<'py>(&self, py: Python<'py>) -> Option<Fit<'py>> {
+        if let Some(dynamic) = &self.dynamic {
+            return Some(self.dynamic_fit(py, dynamic));
+        }
+        let report = self.material.series()?.fit()?;
+        let (warnings, notes) = report.remarks.iter().partition(|r| r.is_warning());
+        let sentences = |remarks: Vec<&FitRemark>| remarks.iter().map(|r| r.to_string()).collect();
+        let summary = serde_json::json!({
+            "relative_rms": report.misfit.rms,
+            "largest_relative_misfit": report.misfit.largest,
+            "largest_relative_misfit_at_s": report.misfit.largest_at_s,
+            "branches": report.branches,
+            "samples": report.samples,
+        });
+        let files = vec![("summary.json", summary.to_string().into_bytes())];
+        let lines = report.to_string();
+        let lines = lines.lines().map(str::to_owned).collect();
+        Some((
+            lines,
+            sentences(notes),
+            sentences(warnings),
+            bytes(py, files),
+        ))
     }
 
     #[getter]
@@ -133,6 +173,27 @@ impl Body {
     /// The material as plans take it.
     pub fn material(&self) -> BodyMaterial {
         self.material.clone()
+    }
+
+    fn dynamic_fit<'py>(&self, py: Python<'py>, dynamic: &DynamicFit) -> Fit<'py> {
+        let how = match dynamic.format_named {
+            true => "as named",
+            false => "found from the content",
+        };
+        let source = Source {
+            files: dynamic.files.clone(),
+            format: dynamic.file.format.name().to_owned(),
+            how: how.to_owned(),
+            notes: dynamic.file.notes.clone(),
+        };
+        let report = DynamicReport {
+            source: &source,
+            data: &dynamic.file.data,
+            made: &dynamic.made,
+        };
+        let files = report.files(&self.text, None);
+        let notes = source.notes.clone();
+        (report.lines(), notes, report.warnings(), bytes(py, files))
     }
 
     fn series(&self) -> PyResult<&Material> {

@@ -7,16 +7,55 @@ use contact_dma::sweep::store::StoreError;
 use pyo3::PyErr;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 
+/// What the program's messages advise that is written otherwise in Python.
+const IN_PYTHON: [(&str, &str); 9] = [
+    (
+        "choose another folder with --out, or replace them with --force",
+        "choose another folder, or replace them with overwrite=True",
+    ),
+    (
+        "and --force does not replace",
+        "and overwrite=True does not replace",
+    ),
+    ("another folder with --out", "another folder"),
+    ("with another folder (--out)", "with another folder"),
+    (
+        "or compute again with --force",
+        "or compute again with overwrite=True",
+    ),
+    ("--force", "overwrite=True"),
+    (
+        "method = \"direct\" in [cycle] needs a few cycles alone",
+        "method=\"direct\" needs a few cycles alone",
+    ),
+    (
+        "follow one history with `contact-dma simulate`",
+        "follow one history with contact_dma.simulate",
+    ),
+    (
+        "`contact-dma material list` names all of them",
+        "contact_dma.library_materials() names all of them",
+    ),
+];
+
+/// A message of the program in the words of this package.
+pub fn in_python(text: &str) -> String {
+    let said = IN_PYTHON.iter();
+    said.fold(text.to_owned(), |text, (program, python)| {
+        text.replace(program, python)
+    })
+}
+
 /// Bad input.
 pub fn of_input(diagnostics: &Diagnostics) -> PyErr {
     let text = diagnostics.render(Styling::Plain);
     let text = text.trim_end();
-    PyValueError::new_err(text.strip_prefix("error: ").unwrap_or(text).to_owned())
+    PyValueError::new_err(in_python(text.strip_prefix("error: ").unwrap_or(text)))
 }
 
 /// A value that is refused.
 pub fn of_value(error: impl std::fmt::Display) -> PyErr {
-    PyValueError::new_err(error.to_string())
+    PyValueError::new_err(in_python(&error.to_string()))
 }
 
 /// A result that this build cannot be sure to read as it was meant.
@@ -28,7 +67,7 @@ pub fn of_other_build() -> PyErr {
 
 /// Anything that no other input would cure.
 pub fn of_run(error: impl std::fmt::Display) -> PyErr {
-    PyRuntimeError::new_err(error.to_string())
+    PyRuntimeError::new_err(in_python(&error.to_string()))
 }
 
 /// A folder that cannot be used, or not for this.
@@ -38,7 +77,16 @@ pub fn of_store(error: &StoreError) -> PyErr {
         | StoreError::OtherSweep { .. }
         | StoreError::InUse { .. }
         | StoreError::NoSweep { .. } => of_value(error),
-        _ => PyOSError::new_err(error.to_string()),
+        error => {
+            let message = in_python(&error.to_string());
+            let source = std::error::Error::source(error);
+            let number = source.and_then(|s| s.downcast_ref::<std::io::Error>()?.raw_os_error());
+            // With its number Python knows the kind, such as FileNotFoundError.
+            match number {
+                Some(number) => PyOSError::new_err((number, message)),
+                None => PyOSError::new_err(message),
+            }
+        }
     }
 }
 

@@ -31,7 +31,7 @@ use crate::folder::MapFile;
 use crate::shape::Shape;
 use crate::source::Source;
 use crate::wait::{self, Counter, Watch};
-use crate::{arrays, failure};
+use crate::{arrays, blocks, failure};
 
 /// A history and what it came to.
 #[pyclass(frozen, module = "contact_dma._contact_dma")]
@@ -333,7 +333,7 @@ pub fn restore_history(
         indenter: shape.as_ref().map(|shape| shape.get().indenter()),
     };
     let text = match &shape {
-        Some(_) => crate::sweep::without_indenter(resolved),
+        Some(_) => blocks::without(resolved, "indenter")?,
         None => resolved.to_owned(),
     };
     let document = Document::parse("the pickled history", &text);

@@ -6,6 +6,7 @@
 //! on threads of its own while the interpreter hears of signals, and numbers go back as arrays, of fields and cycles without a copy.
 
 mod arrays;
+mod blocks;
 mod body;
 mod failure;
 mod folder;
@@ -21,13 +22,13 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _contact_dma {
     #[pymodule_export]
+    use crate::blocks::placed;
+    #[pymodule_export]
     use crate::body::Body;
     #[pymodule_export]
     use crate::history::{History, restore_history, simulate};
     #[pymodule_export]
-    use crate::measured::{
-        analyse, frequency_hz, identify_material, restore_analysis, write_files,
-    };
+    use crate::measured::{analyse, identify_material, quantity, restore_analysis, write_files};
     #[pymodule_export]
     use crate::shape::Shape;
     #[pymodule_export]

@@ -1,10 +1,12 @@
 //! Measured loops, and materials identified from measured cycles.
 
+use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use contact_dma::identify::{IdentifyError, curves, identify};
+use contact_dma::input::diagnostic::Diagnostics;
 use contact_dma::input::document::Document;
 use contact_dma::input::{identify_file, loop_file, setup_file};
 use contact_dma::measured::{Options, Signal};
@@ -12,8 +14,9 @@ use contact_dma::quantity::{Dimension, parse};
 use contact_dma::report::identify::IdentifyReport;
 use contact_dma::report::measured::{Analysis, MeasuredRow, columns, files, ordered};
 use contact_dma::sweep::plan::resolved::material_text;
+use contact_dma::sweep::search::run::{pool, useful_threads};
 use contact_dma::sweep::store::write_atomically;
-use numpy::{IntoPyArray, PyArray1};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -24,14 +27,13 @@ use crate::wait;
 use crate::{arrays, failure};
 
 /// A record of load and approach: of a file, or columns in memory with their name.
-#[derive(FromPyObject)]
 enum RecordSource {
     File(PathBuf),
     Columns(String, [Vec<f64>; 3]),
 }
 
 /// Files with their bytes.
-type Files<'py> = Vec<(String, Bound<'py, PyBytes>)>;
+pub type Files<'py> = Vec<(String, Bound<'py, PyBytes>)>;
 
 /// Samples of a mean cycle: time, load, approach.
 type Cycle<'py> = (Line<'py>, Line<'py>, Line<'py>);
@@ -71,10 +73,16 @@ pub fn analyse<'py>(
         frequency_hz,
         ..given.options
     };
-    let interrupt = AtomicBool::new(false);
-    let rows = wait::run_on_threads(py, (threads, &interrupt), None, || {
-        let rows = records.into_par_iter().map(|record| row(record, &options));
-        rows.collect::<Result<Vec<MeasuredRow>, _>>()
+    let pool = pool(useful_threads(threads)).map_err(|error| failure::of_sweep(&error))?;
+    // A record cannot be left half read: after Ctrl-C those at work go on to their ends unheard, and no other is begun.
+    let rows = wait::run_unheard(py, move |interrupt| {
+        let read = |record| match interrupt.load(Ordering::Relaxed) {
+            true => Ok(None),
+            false => row(record, &options).map(Some),
+        };
+        let rows: Result<Option<Vec<MeasuredRow>>, Diagnostics> =
+            pool.install(|| records.into_par_iter().map(read).collect());
+        rows.map(Option::unwrap_or_default)
     })?;
     let analysis = Analysis {
         title: given.title.unwrap_or_else(|| "Measured loops".to_owned()),
@@ -111,16 +119,16 @@ fn analysed<'py>(py: Python<'py>, analysis: &Analysis) -> PyResult<Analysed<'py>
 }
 
 fn record_source(record: &Bound<'_, PyAny>) -> PyResult<RecordSource> {
-    match record.extract::<(String, [Vec<f64>; 3])>() {
-        Ok((name, columns)) => Ok(RecordSource::Columns(name, columns)),
+    match record.extract::<(String, [PyReadonlyArray1<'_, f64>; 3])>() {
+        Ok((name, columns)) => {
+            let columns = columns.map(|column| column.as_array().to_vec());
+            Ok(RecordSource::Columns(name, columns))
+        }
         Err(_) => record.extract::<PathBuf>().map(RecordSource::File),
     }
 }
 
-fn row(
-    record: RecordSource,
-    options: &Options,
-) -> Result<MeasuredRow, contact_dma::input::diagnostic::Diagnostics> {
+fn row(record: RecordSource, options: &Options) -> Result<MeasuredRow, Diagnostics> {
     let (file, signal) = match record {
         RecordSource::File(path) => (path.display().to_string(), loop_file::read(&path)?),
         RecordSource::Columns(name, [time_s, load_n, approach_m]) => (
@@ -149,7 +157,7 @@ fn findings(row: &MeasuredRow) -> Vec<(&'static str, String)> {
     row.findings().map(|f| (f.code(), f.to_string())).collect()
 }
 
-fn bytes<N: Into<String>>(py: Python<'_>, files: Vec<(N, Vec<u8>)>) -> Files<'_> {
+pub fn bytes<N: Into<String>>(py: Python<'_>, files: Vec<(N, Vec<u8>)>) -> Files<'_> {
     let files = files.into_iter();
     files
         .map(|(name, bytes)| (name.into(), PyBytes::new(py, &bytes)))
@@ -191,13 +199,20 @@ pub fn identify_material<'py>(
     Ok((block, report.lines(), bytes(py, files)))
 }
 
-/// A frequency (Hz) with its unit, be it Hz or rad/s.
+/// A number with its unit, in the SI unit of the quantity that is expected. Frequencies in Hz and in rad/s are read as one another.
 #[pyfunction]
-pub fn frequency_hz(text: &str) -> PyResult<f64> {
-    parse(text, Dimension::Frequency).or_else(|error| {
-        let angular = parse(text, Dimension::AngularFrequency);
-        let hz = angular.map(|angular| angular / std::f64::consts::TAU);
-        hz.map_err(|_| failure::of_value(error))
+pub fn quantity(text: &str, si_unit: &str) -> PyResult<f64> {
+    let mut all = Dimension::ALL.into_iter();
+    let expected = all.find(|d| d.si_unit() == si_unit);
+    let expected = expected.ok_or_else(|| failure::of_value(format!("no unit \"{si_unit}\"")))?;
+    let other = match expected {
+        Dimension::Frequency => Some((Dimension::AngularFrequency, TAU.recip())),
+        Dimension::AngularFrequency => Some((Dimension::Frequency, TAU)),
+        _ => None,
+    };
+    parse(text, expected).or_else(|error| {
+        let other = other.and_then(|(other, factor)| Some(parse(text, other).ok()? * factor));
+        other.ok_or_else(|| failure::of_value(error))
     })
 }
 

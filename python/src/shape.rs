@@ -27,13 +27,18 @@ pub struct Shape {
 impl Shape {
     /// The indenter of a block.
     #[new]
-    fn new(name: &str, text: &str) -> PyResult<Self> {
-        let document = Document::parse(name, text).map_err(|found| failure::of_input(&found))?;
-        let indenter = given::indenter(&document);
+    fn new(py: Python<'_>, name: &str, text: &str) -> PyResult<Self> {
+        // Files are read while other threads of Python go on.
+        let indenter = py.detach(|| given::indenter(&Document::parse(name, text)?));
         Ok(Self {
             indenter: indenter.map_err(|found| failure::of_input(&found))?,
             map: None,
         })
+    }
+
+    /// Shape and settings, by which indenters of text are compared.
+    fn key(&self) -> String {
+        format!("{} {:?}", self.indenter.shape(), self.indenter.parameters())
     }
 
     /// A map of heights, one row for each y, with the other keys of its block.

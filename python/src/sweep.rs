@@ -29,7 +29,7 @@ use crate::folder::MapFile;
 use crate::shape::Shape;
 use crate::source::Source;
 use crate::wait::{self, Counter, Watch};
-use crate::{arrays, failure};
+use crate::{arrays, blocks, failure};
 
 /// Where the records of a result are.
 enum Records {
@@ -105,10 +105,11 @@ impl Sweep {
     }
 
     /// How every case ended, and why it has no result or what else is to be known of it.
-    fn status(&self) -> Vec<(&'static str, Option<&str>)> {
+    fn status(&self) -> Vec<(&'static str, Option<String>)> {
         let records = self.outcome.records.iter();
         let of = |record: &CaseRecord| record.status.name();
-        records.map(|r| (of(r), r.message.as_deref())).collect()
+        let message = |record: &CaseRecord| record.message.as_deref().map(failure::in_python);
+        records.map(|r| (of(r), message(r))).collect()
     }
 
     /// The warnings of every case: code and sentence.
@@ -434,7 +435,8 @@ pub fn restore_sweep(
     };
     let memory = MemoryArchive::from_bytes(records).ok_or_else(failure::of_other_build)?;
     let text = match &shape {
-        Some(_) => without_indenter(resolved),
+        // The indenter is a value.
+        Some(_) => blocks::without(resolved, "indenter")?,
         None => resolved.to_owned(),
     };
     let document = Document::parse("the pickled sweep", &text);
@@ -446,18 +448,6 @@ pub fn restore_sweep(
         Records::Memory(memory),
         (shape, threads),
     )
-}
-
-/// The text of a sweep without its `[indenter]`, which is a value.
-pub fn without_indenter(resolved: &str) -> String {
-    let mut is_indenter = false;
-    let lines = resolved.split_inclusive('\n').filter(|line| {
-        if line.starts_with('[') {
-            is_indenter = line.trim_end() == "[indenter]";
-        }
-        !is_indenter
-    });
-    lines.collect()
 }
 
 /// The result in a folder of the program.

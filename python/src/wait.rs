@@ -115,24 +115,26 @@ pub fn run_on_threads<T: Send>(
     })
 }
 
-/// Does work that cannot be interrupted; after Ctrl-C it goes on to its end unheard.
+/// Does work that cannot be interrupted at any moment; after Ctrl-C it goes on unheard, to its end or until it looks at the flag that it
+/// is given.
 pub fn run_unheard<T: Send + 'static>(
     py: Python<'_>,
-    work: impl FnOnce() -> T + Send + 'static,
+    work: impl FnOnce(&AtomicBool) -> T + Send + 'static,
 ) -> PyResult<T> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let shared = Arc::clone(&flag);
+    let (flag, interrupt) = (Arc::new(AtomicBool::new(false)), Arc::default());
+    let (shared, heard) = (Arc::clone(&flag), Arc::clone(&interrupt));
     let waiting = thread::current();
     let worker = thread::spawn(move || {
         let _ended = Ended {
             flag: &shared,
             waiting,
         };
-        work()
+        work(&heard)
     });
     while !flag.load(Ordering::Acquire) {
         py.detach(|| thread::park_timeout(POLL));
-        py.check_signals()?;
+        py.check_signals()
+            .inspect_err(|_| interrupt.store(true, Ordering::Relaxed))?;
     }
     worker.join().map_err(|_| {
         PyRuntimeError::new_err(

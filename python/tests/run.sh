@@ -15,7 +15,7 @@ fi
 python3 -m venv "$work/venv" || { echo "No virtual environment can be made."; exit 77; }
 python="$work/venv/bin/python"
 if ! "$python" -m pip install --quiet --disable-pip-version-check --retries 1 \
-    maturin numpy pandas pandas-stubs pytest mypy matplotlib joblib distributed tqdm types-tqdm joblib-stubs; then
+    maturin numpy pandas pandas-stubs pytest mypy matplotlib joblib distributed tqdm types-tqdm joblib-stubs pint astropy; then
     echo "Packages cannot be installed from PyPI."
     exit 77
 fi

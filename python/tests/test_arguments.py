@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -33,10 +35,30 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (lambda: small_sweep(steps=32.5), ["cycle.steps"]),
     (lambda: small_sweep(method=object()), ["object"]),
     (lambda: small_sweep(axes={"indenter.radios": [1.0]}), ["radios", "radius"]),
+    (lambda: small_sweep(axes={"amplitude": [1.0]}), ["drive.amplitude"]),
+    (lambda: small_sweep(axes={"material.relaxation.branches.0.time": [1.0]}), ["material.relaxation.branches[0].time"]),
+    (lambda: small_sweep(axes={"indenter.radius": None}), ["indenter.radius", "no values"]),
+    (lambda: small_sweep(axes=0), ["axes is 0"]),
+    (lambda: small_sweep(axes=()), ["axes is ()"]),
+    (lambda: small_sweep(axes=[1]), ["axes is [1]"]),
+    (lambda: small_sweep(mean=[5.0, 10.0]), ['axes={"drive.mean": [...]}']),
+    (lambda: small_sweep(solver_tolerance=np.array([1e-6, 1e-7])), ["solver.tolerance"]),
+    # Nothing in it is not the half-space, which is what is computed where it is left out.
+    (lambda: small_sweep(layer={}), ["layer", "thickness"]),
+    (lambda: small_sweep(layer={"thickness": None}), ["layer", "thickness"]),
+    (lambda: small_sweep(layer=3), ["layer is 3"]),
+    (lambda: small_sweep(adhesion={}), ["adhesion", "work"]),
+    (lambda: small_sweep(adhesion={"work": None}), ["adhesion", "work"]),
+    (lambda: small_sweep(title="half \ud800"), ["half of a character"]),
     (lambda: small_sweep(threads=0), ["threads is 0"]),
+    (lambda: small_sweep(threads="2"), ["threads is '2'"]),
+    (lambda: small_sweep(threads=10**20), ["threads is 1000"]),
+    (lambda: cd.sweep("pmma", SPHERE, mean=1.0), ['Material.library("pmma")']),  # type: ignore[call-overload]
+    (lambda: cd.sweep(SPHERE, PMMA, mean=1.0), ["material comes first"]),  # type: ignore[call-overload]
+    (lambda: cd.sweep(None, SPHERE, mean=1.0), ["the first argument is a Material"]),  # type: ignore[call-overload]
+    (lambda: cd.simulate("pmma", SPHERE, segments=[]), ['Material.library("pmma")']),  # type: ignore[call-overload]
     (lambda: small_sweep(progress=3), ["progress"]),
     (lambda: cd.sweep(PMMA, 3.0, mean=1.0, amplitude=0.5), ["second argument"]),  # type: ignore[call-overload]
-    (lambda: cd.sweep("nowhere.toml"), ["nowhere.toml"]),
     (lambda: cd.sweep(ROOT / "sweeps/pmma.toml", overrides={"cycle.stps": 3}), ["stps", "steps"]),
     (lambda: cd.sweep(ROOT / "sweeps/pmma.toml", steps=3), ["overrides"]),  # type: ignore[call-overload]
     (lambda: cd.Sphere("-1 mm"), ["radius"]),
@@ -48,29 +70,33 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (map_of(np.full((8, 8), np.nan), spacing=1e-6), ["row 0, column 0"]),
     (map_of(-np.outer((np.arange(9.0) - 4) ** 2, np.ones(9)), spacing=1e-6), ["steeper", "height_unit"]),
     (map_of(np.outer(np.arange(8.0), np.ones(8)), spacing=1e-6), ["steeper", "level"]),
-    (lambda: cd.Profile("nowhere.csv"), ["nowhere.csv"]),
+    (lambda: cd.Asperities([(0, 0)]), ["(x, y, radius)", "(0, 0)"]),
     (lambda: cd.Material.library("pmna"), ['"pmma"']),
+    (lambda: cd.Material.library("no such polymer"), ["library_materials()"]),
+    (lambda: cd.Material.relaxation("1 MPa", {"1 MPa": "1 s"}, poisson_ratio=0.3), ["pairs of modulus and time"]),  # type: ignore[arg-type]
+    (lambda: cd.Material.creep(1e-9, [1e-9], poisson_ratio=0.3), ["pairs of compliance and time"]),  # type: ignore[list-item]
     (lambda: cd.Material.relaxation("1 MPa", [("1 MPa", 0.0)], poisson_ratio=0.3), ["time"]),
     (lambda: cd.Material.relaxation("1 MPa", [], poisson_ratio=0.7), ["poisson_ratio"]),
     (lambda: cd.Material.from_toml("[material]\n"), ["library"]),
     (lambda: cd.Material.from_toml("[material"), ["material"]),
     (lambda: cd.Material.from_dynamic(poisson_ratio=0.3), ["a file, or angular_frequency"]),
+    (lambda: cd.Material.from_dynamic(storage_modulus=[1.0], loss_modulus=[1.0], poisson_ratio=0.3), ["angular_frequency or frequency"]),
     (
         lambda: cd.Material.from_dynamic(
             angular_frequency=[1, 2], storage_modulus=[1, 2, 3], loss_modulus=[1, 2], poisson_ratio=0.3
         ),
-        ["storage_modulus_pa 3"],
+        ["storage_modulus 3"],
     ),
     (lambda: PMMA.complex_modulus(1.0, modulus="bulk"), ["longitudinal", "shear"]),  # type: ignore[arg-type]
     (lambda: cd.simulate(PMMA, SPHERE, segments=[{"kind": "jump"}]), ["jump"]),
     (lambda: cd.simulate(PMMA, SPHERE, segments=[]), ["segments"]),
     (lambda: cd.analyse({"time": [0.0]}), ["no load and no approach"]),
-    (lambda: cd.analyse("nowhere.csv"), ["nowhere.csv"]),
+    (lambda: cd.analyse({"time": [0.0, 1.0], "load": [0.0], "approach": [0.0, 1.0]}), ["record 0", "load 1"]),
+    (lambda: cd.analyse({"time": [1.0, 0.0], "load": [0.0, 1.0], "approach": [0.0, 1.0]}), ["record 0", "times descend"]),
     (lambda: cd.analyse([], frequency="3 m"), ["3 m"]),
     (lambda: cd.analyse([], setup={"instrment": {}, "instrument": {"mas": 1.0}}), ["mas"]),
     (lambda: cd.identify(), ["measured cycles and the indenter"]),
     (lambda: cd.identify({"energy_loss_j": [1.0]}, SPHERE, mean=1.0, amplitude=0.5), ["poisson_ratio"]),
-    (lambda: cd.read("/nowhere"), ["/nowhere"]),
 ]
 
 
@@ -80,6 +106,73 @@ def test_a_mistake_raises_a_value_error_that_names_it(wrong: Callable[[], object
         wrong()
     for word in words:
         assert word in str(refused.value)
+
+
+MISSING: list[Callable[[str], object]] = [
+    lambda name: cd.sweep(name),
+    lambda name: cd.simulate(name),
+    lambda name: cd.Profile(name),
+    lambda name: cd.HeightMap(name),
+    lambda name: cd.analyse(name),
+    lambda name: cd.analyse([], setup=name),
+    lambda name: cd.identify(file=name),
+    lambda name: cd.identify(name, SPHERE, poisson_ratio=0.3, mean=1.0, amplitude=0.5),
+    lambda name: cd.Material.from_dynamic(name, poisson_ratio=0.3),
+    lambda name: cd.read(name),
+]
+
+
+@pytest.mark.parametrize("call", MISSING)
+def test_a_file_that_is_not_there_is_one_that_python_knows_as_missing(call: Callable[[str], object]) -> None:
+    with pytest.raises(FileNotFoundError) as refused:
+        call("nowhere.toml")
+    assert refused.value.errno == errno.ENOENT and refused.value.filename == "nowhere.toml"
+
+
+def test_what_is_no_folder_of_results_is_an_error_of_its_own(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(NotADirectoryError):
+        cd.read(tmp_path / "file")
+    with pytest.raises(ValueError):
+        cd.read(tmp_path)
+    with pytest.raises(NotADirectoryError) as refused:
+        small_sweep().save(tmp_path / "file" / "below")
+    assert refused.value.errno == errno.ENOTDIR
+
+
+def test_messages_advise_what_can_be_written_in_python(tmp_path: Path, result: cd.SweepResult) -> None:
+    result.save(tmp_path)
+    samples = cd.Material.table([0.1, 1.0, 10.0, 100.0], [4e9, 3e9, 2e9, 1e9], quantity="relaxation", poisson_ratio=0.3, evaluation="direct")
+    bad: list[Callable[[], object]] = [
+        lambda: small_sweep(mean=11.0).save(tmp_path),
+        lambda: cd.sweep(samples, SPHERE, mean=10.0, amplitude=5.0, angular_frequency=[0.1]),
+    ]
+    for call, advice in zip(bad, ["overwrite=True", "contact_dma.simulate"]):
+        with pytest.raises(ValueError) as refused:
+            call()
+        said = str(refused.value)
+        assert advice in said and "--" not in said.replace("-->", "") and "unknown key" not in said, said
+
+
+def test_arrays_that_are_refused_are_not_a_file_that_is_gone() -> None:
+    with pytest.raises(ValueError) as refused:
+        cd.Material.from_dynamic(angular_frequency=[1.0, 2.0, 4.0], storage_modulus=[1e9, -2e9, 3e9], loss_modulus=[1e8] * 3, poisson_ratio=0.3)
+    assert "the arrays:3" in str(refused.value) and "arrays.csv" not in str(refused.value)
+
+
+def test_options_without_effect_warn() -> None:
+    given: dict[str, object] = {"hold": "1 s", "cells": 32, "solver_tolerance": 1e-6}
+    for word, value in given.items():
+        with pytest.warns(cd.ContactDmaWarning, match=f"{word} has no effect"):
+            small_sweep(angular_frequency=[0.01], steps=16, **{word: value})
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        small_sweep(angular_frequency=[0.01], steps=16, hold="1 s", method="march")
+
+
+def test_material_and_indenter_may_be_given_by_name() -> None:
+    named = cd.sweep(material=PMMA, indenter=SPHERE, mean=10.0, amplitude=5.0, angular_frequency=[0.01], steps=16, springs=16)
+    assert named == cd.sweep(PMMA, SPHERE, mean=10.0, amplitude=5.0, angular_frequency=[0.01], steps=16, springs=16)
 
 
 def test_an_argument_that_does_not_exist_is_a_type_error() -> None:

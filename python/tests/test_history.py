@@ -69,6 +69,27 @@ def test_fields_and_profiles_share_the_memory_of_the_result_and_come_back_from_a
     assert again == result and np.array_equal(again.fields[1].displacement, last.displacement)
 
 
+def test_a_history_that_was_read_is_saved_whole(tmp_path: Path) -> None:
+    sine = {"kind": "sine", "mean": 5.0, "amplitude": 2.0, "frequency": "0.1 Hz", "cycles": 2}
+    result = cd.simulate(PMMA, cd.Sphere("10 mm"), springs=32, segments=[sine], profiles_at=[5.0])
+    result.save(tmp_path / "a")
+    cd.read(tmp_path / "a").save(tmp_path / "b")
+    again = cd.read(tmp_path / "b")
+    assert isinstance(again, cd.HistoryResult) and again.cycles == result.cycles and len(again.cycles["energy_loss_j"]) == 2
+    assert again.profiles == result.profiles and result.cycles.to_pandas().shape[0] == 2
+
+
+def test_a_history_that_ends_early_warns_and_can_raise() -> None:
+    far = [{"kind": "ramp", "to": "1 mm", "duration": "1 s"}]
+    x = np.linspace(-1e-4, 1e-4, 17)
+    tip = cd.HeightMap(-np.add.outer(x**2, x**2) / 2e-3, spacing=x[1] - x[0])
+    with pytest.warns(cd.ContactDmaWarning, match="before its time"):
+        result = cd.simulate(PMMA, tip, segments=far, control="approach", step=0.1)
+    with pytest.raises(RuntimeError, match="before its time"):
+        result.raise_for_status()
+    held().raise_for_status()
+
+
 def test_arrays_drive_and_samples_as_they_are() -> None:
     time = np.linspace(0.0, 10.0, 21)
     table = {"kind": "table", "times": time, "values": np.sin(np.pi * time / 10.0) + 0.1 * time}

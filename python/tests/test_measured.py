@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from conftest import ROOT
 
@@ -38,7 +39,10 @@ def test_a_setup_gives_moduli_and_a_bad_record_says_why() -> None:
     good = {"time": t, "load": 1 + 0.5 * np.sin(3 * t), "approach": 1e-5 + 2e-6 * np.sin(3 * t - 0.2)}
     flat = {"time": t, "load": np.ones_like(t), "approach": np.zeros_like(t)}
     setup = {"contact": {"poisson_ratio": 0.4}, "indenter": cd.Sphere("1 mm")}
-    result = cd.analyse([good, flat], frequency="3 rad/s", setup=setup)
+    with pytest.warns(cd.ContactDmaWarning, match="1 of 2 records"):
+        result = cd.analyse([good, flat], frequency="3 rad/s", setup=setup)
+    with pytest.raises(RuntimeError, match="record 1 is failed"):
+        result.raise_for_status()
     assert result["storage_modulus_pa"][0] > 0 and np.isnan(result["energy_loss_j"][1])
     assert result.status[0].converged and "same in all samples" in str(result.status[1])
 
@@ -59,6 +63,48 @@ def test_a_solid_is_found_through_what_else_is_in_the_contact() -> None:
     data = {name: crept[name][later][::5] for name in columns}
     found = cd.identify(data, sphere, poisson_ratio=0.45, branches=1, segments=segments, indenter_material=rubber)
     assert abs(found.prony.equilibrium / 10e6 - 1) < 1e-3
+
+
+SOLID = cd.Material.relaxation("10 MPa", [("30 MPa", "1 s")], poisson_ratio=0.45)
+DRIVE: dict[str, Any] = {"mean": "0.2 N", "amplitude": "0.1 N"}
+
+
+def measured() -> tuple[dict[str, Any], dict[str, Any]]:
+    """Cycles of a solid as lists, and what `identify` is given beside."""
+    cycles = cd.sweep(SOLID, cd.Sphere("2 mm"), angular_frequency=[0.1, 0.3, 1.0, 3.0, 10.0], **DRIVE)
+    columns = ["angular_frequency_rad_per_s", "energy_loss_j", "approach_max_m"]
+    return {name: cycles[name].tolist() for name in columns}, {"poisson_ratio": 0.45, "branches": 1, **DRIVE}
+
+
+def test_none_is_a_number_that_was_not_measured_and_its_column_stays() -> None:
+    data, options = measured()
+    data["energy_loss_j"][1] = None
+    found = cd.identify(data, cd.Sphere("2 mm"), **options)
+    assert len(found.fit["column"]) == 9 and set(found.fit["column"]) == {"energy_loss_j", "approach_max_m"}
+    assert found.prony.equilibrium == pytest.approx(10e6, rel=0.01)
+    assert found.fit.to_pandas().shape[0] == 9
+    data["energy_loss_j"][1] = float("nan")
+    assert cd.identify(pd.DataFrame(data), cd.Sphere("2 mm"), **options).fit == found.fit
+
+
+def test_what_is_no_number_is_an_error_and_an_unknown_column_is_named() -> None:
+    data, options = measured()
+    for wrong in ["-", object(), "3 N"]:
+        data["energy_loss_j"][1] = wrong
+        with pytest.raises(ValueError, match="energy_loss_j, entry 1"):
+            cd.identify(data, cd.Sphere("2 mm"), **options)
+    data["enery_loss_j"] = [1e-9] * 5
+    del data["energy_loss_j"]
+    with pytest.warns(cd.ContactDmaWarning, match="enery_loss_j"):
+        cd.identify(data, cd.Sphere("2 mm"), **options)
+
+
+def test_a_data_frame_is_a_record() -> None:
+    t = np.linspace(0.0, 20.0, 2001)
+    record = {"time": t, "load": 1 + 0.5 * np.sin(3 * t), "approach": 1e-5 + 2e-6 * np.sin(3 * t - 0.2)}
+    expected = cd.analyse(record)
+    frame = pd.DataFrame(record)
+    assert cd.analyse(frame) == expected == cd.analyse([frame.rename(columns={"time": "time_s", "load": "load_n", "approach": "approach_m"})])
 
 
 def test_a_bulk_modulus_is_known_in_place_of_the_poisson_ratio() -> None:

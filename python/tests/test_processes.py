@@ -81,6 +81,8 @@ CALLS = {
     " angular_frequency=np.logspace(-4, 0, 200), cells=256, method='march', hold='500 s')",
     "simulate": "cd.simulate(cd.Material.library('pmma'), cd.Ellipsoid(0.01, 0.02), cells=256, step=0.01,"
     " segments=[{'kind': 'ramp', 'to': 10.0, 'duration': '1000 s'}])",
+    "analyse": "t = np.linspace(0, 2000, 200_001); cd.analyse([{'time': t, 'load': 10 + 5 * np.sin(3 * t) + 0.01 * np.sin(17 * t**1.01),"
+    " 'approach': 1e-5 + 2e-6 * np.sin(3 * t - 0.2)}] * 10)",
 }
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import pickle
+import time
 import subprocess
 from pathlib import Path
 from typing import Any
@@ -153,12 +154,99 @@ def test_axes_vary_indenter_and_drive() -> None:
 
 
 def test_a_case_without_result_is_nan_and_says_why() -> None:
-    result = small_sweep(method="march", max_cycles=2, tolerance=1e-9, angular_frequency=[1e-2], error_bars=False)
+    with pytest.warns(cd.ContactDmaWarning, match="1 of 1 cases have no result") as seen:
+        result = small_sweep(method="march", max_cycles=2, tolerance=1e-9, angular_frequency=[1e-2], error_bars=False)
+    assert "not-converged" in str(seen[0].message) and seen[0].filename == small_sweep.__code__.co_filename
+    with pytest.raises(RuntimeError, match="case 0 is not-converged"):
+        result.raise_for_status()
     assert np.isnan(result["energy_loss_j"]).all() and result["energy_loss_j"].dtype == np.float64
     (status,) = result.status
     assert not status.converged and status.reason and str(status).startswith("not-converged: ")
     assert len(result.cycles[0].load) == 0 and result.peaks == ()
     assert "no case has a result" in result._repr_html_()
+
+
+def test_columns_cannot_be_changed(result: cd.SweepResult) -> None:
+    for column in result:
+        with pytest.raises(ValueError, match="read-only"):
+            result[column][0] = result[column][0]
+    frame = result.to_pandas()
+    frame.loc[0, "energy_loss_j"] = 99.0
+    assert result["energy_loss_j"][0] < 99.0
+
+
+def test_cycles_compare_and_are_shown_without_their_numbers(result: cd.SweepResult) -> None:
+    again = pickle.loads(pickle.dumps(result))
+    assert again.cycles[0] == result.cycles[0] != result.cycles[1]
+    assert len(repr(result.cycles[0])) < 400 and "5 cases" in repr(result.cycles)
+    result.raise_for_status()
+
+
+def test_keys_of_a_map_of_an_array_are_no_axis() -> None:
+    x = np.linspace(-1e-4, 1e-4, 17)
+    tip = cd.HeightMap(-np.add.outer(x**2, x**2) / 2e-3, spacing=x[1] - x[0])
+    for key, values in [("indenter.spacing", [1e-6, 2e-6]), ("indenter.radius", [1e-3]), ("indenter.material.elastic.modulus", [1e9])]:
+        with pytest.raises(ValueError, match="map of an array has no keys to vary"):
+            small_sweep_of(tip, axes={key: values})
+    both = small_sweep_of(tip, axes={"drive.amplitude": [0.01, 0.02]}, amplitude=None)
+    assert both["energy_loss_j"][1] > both["energy_loss_j"][0]
+
+
+def small_sweep_of(indenter: cd.Indenter, **changes: Any) -> cd.SweepResult:
+    options = {"mean": 0.05, "amplitude": 0.02, "angular_frequency": [0.01], "steps": 16, "error_bars": False}
+    return cd.sweep(cd.Material.library("pmma"), indenter, **{**options, **changes})
+
+
+LOOKS = [
+    'material.library = "pmma"\n',
+    'material = { library = "pmma" }\n',
+    '[ material ]\nlibrary = "pmma"\n',
+    '["material"]\n"library" = "pmma" # [material]\n',
+    '[material]\nname = """of two lines\n[material]\n[indenter]\n"""\nlibrary = "pmma"\n',
+]
+
+
+@pytest.mark.parametrize("text", LOOKS)
+def test_a_material_of_any_toml_is_one_of_several_an_axis_and_an_indenter(text: str) -> None:
+    pmma, material = cd.Material.library("pmma"), cd.Material.from_toml(text)
+    options: dict[str, Any] = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [0.01], "springs": 16, "steps": 16, "error_bars": False}
+    sphere = cd.Sphere("10 mm")
+    several = cd.sweep({"a": material, "b": pmma}, sphere, **options)
+    assert several["energy_loss_j"][0] == several["energy_loss_j"][1]
+    axis = {"material.poisson_ratio": [0.3, 0.38]}
+    losses = cd.sweep(material, sphere, axes=axis, **options)["energy_loss_j"]
+    assert losses.tolist() == cd.sweep(pmma, sphere, axes=axis, **options)["energy_loss_j"].tolist()
+    made_of = cd.sweep(pmma, sphere, indenter_material=material, **options)["energy_loss_j"]
+    assert made_of.tolist() == cd.sweep(pmma, sphere, indenter_material=pmma, **options)["energy_loss_j"].tolist()
+
+
+def test_titles_with_line_ends_and_headers_come_back_from_a_pickle(tmp_path: Path) -> None:
+    pmma, name = cd.Material.library("pmma"), "[indenter] [material] 'a' \"b\""
+    x = np.linspace(-1.2e-3, 1.2e-3, 17)
+    tip = cd.HeightMap(-np.add.outer(x**2, x**2) / 2e-2, spacing=x[1] - x[0])
+    options: dict[str, Any] = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [0.01], "steps": 16, "error_bars": False}
+    result = cd.sweep({name: pmma, "dry": pmma}, tip, title="a\n[indenter]\nb", **options)
+    assert result["energy_loss_j"][0] == result["energy_loss_j"][1]
+    again = pickle.loads(pickle.dumps(result))
+    assert again == result and again.title == result.title == "a\n[indenter]\nb"
+
+
+def test_a_thousand_named_materials_and_their_cycles_cost_what_so_many_cases_cost() -> None:
+    options: dict[str, Any] = {"mean": 10.0, "amplitude": 5.0, "angular_frequency": [0.01], "springs": 10, "steps": 8, "error_bars": False}
+
+    def elapsed(count: int) -> tuple[float, float]:
+        """Of the sweep, and of visiting its cycles (s of one processor)."""
+        materials = {f"m{k}": cd.Material.zener(1e6 + k, "2 MPa", "1 s", poisson_ratio=0.5) for k in range(count)}
+        started = time.process_time()
+        result = cd.sweep(materials, cd.Sphere("10 mm"), threads=1, **options)
+        between = time.process_time()
+        assert sum(len(cycle.load) > 0 for cycle in result.cycles) == count == len(set(result["material"]))
+        assert len(result.title) < 100 and len(repr(result)) < 200
+        return between - started, time.process_time() - between
+
+    (few, few_cycles), (many, many_cycles) = elapsed(250), elapsed(1000)
+    # Four times as much; if either loop were quadratic, sixteen times.
+    assert many < 8 * few and many_cycles < 8 * few_cycles, (few, many, few_cycles, many_cycles)
 
 
 def test_progress_is_told_and_an_exception_of_it_stops_the_sweep() -> None:

@@ -61,8 +61,22 @@ def test_a_material_pickles_and_compares_by_value(material: cd.Material) -> None
 def test_an_indenter_pickles(indenter: cd.Indenter) -> None:
     again = pickle.loads(pickle.dumps(indenter))
     assert type(again) is type(indenter) and repr(again) == repr(indenter)
+    assert again == indenter and hash(again) == hash(indenter) and [again == other for other in INDENTERS].count(True) == 1
     x, y = np.meshgrid(np.linspace(-3e-6, 3e-6, 5), np.linspace(-2e-6, 2e-6, 3))
     assert np.array_equal(again.gap(x, y), indenter.gap(x, y)) and indenter.gap(x, y).shape == (3, 5)
+
+
+def test_indenters_compare_by_value() -> None:
+    assert cd.Sphere("10 mm") == cd.Sphere(0.01) != cd.Sphere(0.02)
+    assert cd.FlatPunch(0.01) != cd.Sphere(0.01) and cd.Sphere(0.01) != "Sphere(0.01)"
+    heights = -np.add.outer(np.arange(-4, 5) ** 2, np.arange(-4, 5) ** 2) * 1e-9
+    one, other = cd.HeightMap(heights, spacing=1e-6), cd.HeightMap(2 * heights, spacing=1e-6)
+    assert one == cd.HeightMap(heights.tolist(), spacing="1 um") and one != other and one != cd.HeightMap(heights, spacing=2e-6)
+
+
+def test_a_material_shows_its_moduli() -> None:
+    assert repr(MATERIALS[1]) == "Material('rubber', instantaneous=1.5e+07, equilibrium=2e+06, poisson_ratio=0.5)"
+    assert "instantaneous=1e+07" in repr(MATERIALS[4]) or "bulk_modulus" in repr(MATERIALS[4])
 
 
 def test_an_array_in_any_memory_order_is_the_same_map() -> None:
