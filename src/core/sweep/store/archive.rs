@@ -60,6 +60,14 @@ impl<'a> Archive<'a> {
         Ok(())
     }
 
+    /// As [`Store::sync`]; of nothing in memory.
+    ///
+    /// # Errors
+    /// As [`Store::sync`].
+    pub(in crate::sweep) fn sync(self) -> Result<(), StoreError> {
+        self.store().map_or(Ok(()), Store::sync)
+    }
+
     /// As [`Store::load_case`], with the cycle where that is asked for; of a record in memory with it in any case.
     ///
     /// # Errors
@@ -172,6 +180,14 @@ impl Store {
     pub fn look(&self) -> Result<Vec<Unread>, StoreError> {
         self.records.look()?;
         Ok(self.records.unread())
+    }
+
+    /// Brings every record stored by this process to the disk.
+    ///
+    /// # Errors
+    /// [`StoreError::Write`] with the path, where the disk turns out to be full for one.
+    pub fn sync(&self) -> Result<(), StoreError> {
+        self.records.sync()
     }
 
     /// Stores the record of a finished case.
@@ -293,7 +309,7 @@ impl Store {
                 }
             }
         }
-        Ok(())
+        self.sync()
     }
 }
 

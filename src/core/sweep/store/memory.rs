@@ -57,7 +57,7 @@ impl MemoryArchive {
                 store.append(key.clone(), record)?;
             }
         }
-        Ok(())
+        store.sync()
     }
 
     /// Every record by its case.

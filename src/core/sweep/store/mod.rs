@@ -22,7 +22,8 @@ pub mod segment;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, LazyLock};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::time::SystemTime;
 
 use tempfile::NamedTempFile;
 
@@ -81,6 +82,33 @@ pub struct Store {
     pub(in crate::sweep) force: bool,
     pub(in crate::sweep) lock: Arc<FolderLock>,
     pub(in crate::sweep) records: Arc<Records>,
+    /// The resolved file as it was last found to be of this sweep.
+    pub(in crate::sweep) checked: Arc<Mutex<Option<FileVersion>>>,
+}
+
+/// What differs between a file and any that has taken its place: when it was written, its length, and where the file system has
+/// such numbers, its own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::sweep) struct FileVersion {
+    modified: Option<SystemTime>,
+    length: u64,
+    number: u64,
+}
+
+impl FileVersion {
+    /// `None` of a file that cannot be found.
+    fn of(path: &Path) -> Option<Self> {
+        let found = fs::metadata(path).ok()?;
+        #[cfg(unix)]
+        let number = std::os::unix::fs::MetadataExt::ino(&found);
+        #[cfg(not(unix))]
+        let number = 0;
+        Some(Self {
+            modified: found.modified().ok(),
+            length: found.len(),
+            number,
+        })
+    }
 }
 
 const VERSION: &str = env!("CARGO_PKG_VERSION");
@@ -169,6 +197,7 @@ impl Store {
             resolved: resolved.into(),
             force: false,
             lock: Arc::new(lock),
+            checked: Arc::default(),
         }
     }
 
@@ -255,11 +284,18 @@ impl Store {
         rename(file, &path)
     }
 
-    /// Whether the folder is of this sweep still.
+    /// Whether the folder is of this sweep still. The plan is read again only where its file is another one than was last read.
     pub(in crate::sweep) fn check_plan(&self) -> Result<(), StoreError> {
+        // What takes the file's place after this is seen at the next look.
+        let found = FileVersion::of(&self.folder.join(RESOLVED));
+        let mut checked = self.checked.lock().unwrap_or_else(PoisonError::into_inner);
+        if found.is_some() && *checked == found {
+            return Ok(());
+        }
         match read_plan(&self.folder) {
             // Most often it is as it was, which is sooner seen than hashed; the sweep is the same with other figures too.
             Ok(resolved) if *resolved == *self.resolved || hash(&resolved) == self.sweep_hash => {
+                *checked = found;
                 Ok(())
             }
             Ok(_) | Err(StoreError::NoSweep { .. }) => Err(StoreError::TakenOver {

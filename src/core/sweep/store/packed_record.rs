@@ -1,10 +1,11 @@
 //! A record as the content of a frame: its numbers as deflated JSON, and its cycle and profiles packed, which are read only where they
 //! are asked for.
 
-use std::io::{Read, Write};
+use std::cell::RefCell;
+use std::io::{self, Read, Write};
 
 use flate2::Compression;
-use flate2::read::DeflateDecoder;
+use flate2::bufread::DeflateDecoder;
 use flate2::write::DeflateEncoder;
 use serde::{Deserialize, Serialize};
 
@@ -21,11 +22,22 @@ const LONGEST: u64 = 64 << 20;
 /// Packs a record: its numbers, and its cycle where it has one.
 pub fn pack(record: &CaseRecord) -> Result<Vec<u8>, String> {
     let numbers = serde_json::to_vec(&record.without_cycle()).map_err(|error| error.to_string())?;
-    let mut deflate = DeflateEncoder::new(Vec::new(), Compression::default());
-    let deflated = deflate.write_all(&numbers).and_then(|()| deflate.finish());
-    let deflated = deflated.map_err(|error| error.to_string())?;
+    let deflated = deflated(&numbers).map_err(|error| error.to_string())?;
     let cycle = record.result.as_ref().and_then(|result| result.cycle());
     postcard::to_stdvec(&(deflated, cycle.map(packed_cycle))).map_err(|error| error.to_string())
+}
+
+thread_local! {
+    /// The state of an encoder takes 270 kB: a new one for every record would leave holes in the heap that nothing else fills.
+    static ENCODER: RefCell<DeflateEncoder<Vec<u8>>> =
+        RefCell::new(DeflateEncoder::new(Vec::new(), Compression::default()));
+}
+
+fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
+    ENCODER.with_borrow_mut(|encoder| {
+        encoder.write_all(bytes)?;
+        encoder.reset(Vec::new())
+    })
 }
 
 /// The numbers of a packed record; `None` of anything else.

@@ -56,8 +56,10 @@ pub(in crate::sweep) enum Origin {
 pub(in crate::sweep) struct Place {
     pub segment: Arc<Path>,
     pub origin: Origin,
+    /// The content of its frame, and how much of that is the heading (bytes).
     at: u64,
     length: usize,
+    heading: usize,
 }
 
 /// Something in the folder that is no record of this sweep.
@@ -136,13 +138,28 @@ impl Records {
     /// The record at a place, without its heading.
     ///
     /// # Errors
-    /// [`StoreError::Read`] with the path.
+    /// [`StoreError::Read`] with the path, also where it is no longer what was found there.
     pub(in crate::sweep) fn read(&self, place: &Place) -> Result<Vec<u8>, StoreError> {
-        segment::content(&place.segment, place.at, place.length).map_err(|source| {
-            StoreError::Read {
-                path: place.segment.to_path_buf(),
-                source,
-            }
+        let content = segment::content(&place.segment, place.at, place.length);
+        let mut content = content.map_err(|source| StoreError::Read {
+            path: place.segment.to_path_buf(),
+            source,
+        })?;
+        Ok(content.split_off(place.heading))
+    }
+
+    /// Brings all records appended to the disk.
+    ///
+    /// # Errors
+    /// [`StoreError::Write`] with the path.
+    pub(in crate::sweep) fn sync(&self) -> Result<(), StoreError> {
+        let state = self.state();
+        let Some(writer) = &state.own else {
+            return Ok(());
+        };
+        writer.finish().map_err(|source| StoreError::Write {
+            path: writer.path().to_path_buf(),
+            source,
         })
     }
 
@@ -162,7 +179,7 @@ impl Records {
             path: state.folder.clone(),
             reason: error.to_string(),
         })?;
-        let (key, begins) = (heading.key, content.len() as u64);
+        let (key, heading) = (heading.key, content.len());
         content.extend_from_slice(record);
         let writer = match state.own.take() {
             Some(writer) => writer,
@@ -181,8 +198,9 @@ impl Records {
         let place = Place {
             segment: Arc::clone(segment),
             origin: Origin::ThisBuild,
-            at: at + begins,
-            length: record.len(),
+            at,
+            length: content.len(),
+            heading,
         };
         state.places.insert(key, place);
         Ok(())
@@ -271,10 +289,20 @@ fn new_segment(folder: &Path) -> Result<SegmentWriter, StoreError> {
         // Systems number their processes from the beginning again and again.
         let path = folder.join(format!("{host}-{process}-{count}.{ENDING}"));
         match SegmentWriter::create(&path) {
-            Ok(writer) => return Ok(writer),
+            Ok(writer) => {
+                sync_names(folder);
+                return Ok(writer);
+            }
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => count += 1,
             Err(source) => return Err(StoreError::Create { path, source }),
         }
+    }
+}
+
+/// Brings the names of new files to the disk: a file that is there without its name is lost. Not every system can do so.
+fn sync_names(folder: &Path) {
+    for folder in [Some(folder), folder.parent()].into_iter().flatten() {
+        let _ = fs::File::open(folder).and_then(|folder| folder.sync_all());
     }
 }
 
@@ -300,8 +328,9 @@ fn place(
     let place = Place {
         segment: Arc::clone(segment),
         origin,
-        at: at + (content.len() - record.len()) as u64,
-        length: record.len(),
+        at,
+        length: content.len(),
+        heading: content.len() - record.len(),
     };
     Ok((heading.key, place))
 }

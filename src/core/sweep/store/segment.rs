@@ -6,14 +6,16 @@
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::Duration;
 
 use sha2::{Digest, Sha256};
 
 const MARK: &[u8; 8] = b"\xc7dma\r\n\x1a\x01";
 const HASH_BYTES: usize = 32;
 const HEAD_BYTES: usize = MARK.len() + 4 + HASH_BYTES;
-/// Appended records reach the disk at least this often; a process that is killed loses none of them, a machine that loses its power
+/// Appended records reach the disk within this time; a process that is killed loses none of them, a machine that loses its power
 /// those of this time.
 const SYNC: Duration = Duration::from_secs(1);
 /// Bytes read at once.
@@ -23,9 +25,28 @@ const CHUNK: usize = 1 << 20;
 #[derive(Debug)]
 pub struct SegmentWriter {
     path: PathBuf,
-    file: File,
     length: u64,
-    synced: Instant,
+    disk: Arc<Disk>,
+}
+
+/// A file, and what of it is on the disk.
+#[derive(Debug)]
+struct Disk {
+    file: File,
+    written: AtomicU64,
+    synced: AtomicU64,
+    /// Whether a thread is about to bring it there.
+    awaited: AtomicBool,
+}
+
+impl Disk {
+    fn sync(&self) -> io::Result<()> {
+        self.awaited.store(false, Ordering::SeqCst);
+        let written = self.written.load(Ordering::SeqCst);
+        self.file.sync_data()?;
+        self.synced.fetch_max(written, Ordering::SeqCst);
+        Ok(())
+    }
 }
 
 impl SegmentWriter {
@@ -34,16 +55,22 @@ impl SegmentWriter {
     /// # Errors
     /// Of the file system, and where there is a file of this name.
     pub fn create(path: &Path) -> io::Result<Self> {
-        let file = OpenOptions::new()
-            .append(true)
-            .create_new(true)
-            .open(path)?;
-        Ok(Self {
+        let mut options = OpenOptions::new();
+        let file = options.append(true).create_new(true).open(path)?;
+        Ok(Self::of(path, file))
+    }
+
+    fn of(path: &Path, file: File) -> Self {
+        Self {
             path: path.to_path_buf(),
-            file,
             length: 0,
-            synced: Instant::now(),
-        })
+            disk: Arc::new(Disk {
+                file,
+                written: AtomicU64::new(0),
+                synced: AtomicU64::new(0),
+                awaited: AtomicBool::new(false),
+            }),
+        }
     }
 
     /// The file.
@@ -57,18 +84,45 @@ impl SegmentWriter {
     /// Of the file system.
     pub fn append(&mut self, content: &[u8]) -> io::Result<u64> {
         let frame = sealed(content)?;
-        if let Err(error) = self.file.write_all(&frame) {
+        let mut file = &self.disk.file;
+        if let Err(error) = file.write_all(&frame) {
             // Should this fail too, the next reader finds a torn frame.
-            let _ = self.file.set_len(self.length);
+            let _ = file.set_len(self.length);
             return Err(error);
         }
         let content_at = self.length + HEAD_BYTES as u64;
         self.length += frame.len() as u64;
-        if self.synced.elapsed() >= SYNC {
-            self.file.sync_data()?;
-            self.synced = Instant::now();
-        }
+        self.disk.written.store(self.length, Ordering::SeqCst);
+        self.sync_soon()?;
         Ok(content_at)
+    }
+
+    /// Brings what was appended to the disk within a second, be the next record hours away.
+    fn sync_soon(&self) -> io::Result<()> {
+        if self.disk.awaited.swap(true, Ordering::SeqCst) {
+            return Ok(());
+        }
+        let disk = Arc::clone(&self.disk);
+        let timer = std::thread::Builder::new().spawn(move || {
+            std::thread::sleep(SYNC);
+            // Where it fails, the bytes stay behind what is synced, and `finish` fails too.
+            let _ = disk.sync();
+        });
+        match timer {
+            Ok(_) => Ok(()),
+            Err(_) => self.disk.sync(),
+        }
+    }
+
+    /// Brings all that was appended to the disk, where it is not there yet.
+    ///
+    /// # Errors
+    /// Of the file system, of a disk that turns out to be full for one.
+    pub fn finish(&self) -> io::Result<()> {
+        match self.disk.synced.load(Ordering::SeqCst) < self.length {
+            true => self.disk.sync(),
+            false => Ok(()),
+        }
     }
 
     /// Where the file ends.
@@ -79,8 +133,8 @@ impl SegmentWriter {
 
 impl Drop for SegmentWriter {
     fn drop(&mut self) {
-        // Records are in the system's hands by now, which most often is enough.
-        let _ = self.file.sync_data();
+        // Whoever wants to know of an error calls `finish` before.
+        let _ = self.finish();
     }
 }
 
@@ -164,16 +218,22 @@ pub fn read(path: &Path, from: u64, mut meet: impl FnMut(Met<'_>)) -> io::Result
     }
 }
 
-/// The content at a place that [`read`] or [`SegmentWriter::append`] has named.
+/// The content at a place that [`read`] or [`SegmentWriter::append`] has named, checked again.
 ///
 /// # Errors
-/// Of the file system.
+/// Of the file system, and where the bytes there are no longer what they were.
 pub fn content(path: &Path, at: u64, length: usize) -> io::Result<Vec<u8>> {
     let mut file = File::open(path)?;
-    file.seek(SeekFrom::Start(at))?;
-    let mut content = vec![0; length];
-    file.read_exact(&mut content)?;
-    Ok(content)
+    file.seek(SeekFrom::Start(at.saturating_sub(HEAD_BYTES as u64)))?;
+    let mut bytes = vec![0; HEAD_BYTES + length];
+    file.read_exact(&mut bytes)?;
+    match frame(&bytes) {
+        Frame::Whole(found) if found == length => Ok(bytes.split_off(HEAD_BYTES)),
+        _ => Err(io::Error::new(
+            io::ErrorKind::InvalidData,
+            "a record in it has changed since it was first read; run the command again, and the record counts as damaged",
+        )),
+    }
 }
 
 enum Frame {
@@ -289,6 +349,48 @@ mod tests {
         let mut later = Vec::new();
         let end = read(&path, last as u64, |met| later.push(format!("{met:?}"))).unwrap();
         assert_eq!((later.len(), end), (1, whole.len() as u64));
+    }
+
+    #[test]
+    fn records_reach_the_disk_within_a_second_though_no_other_follows() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut writer = SegmentWriter::create(&folder.path().join("a.segment")).unwrap();
+        // The second of two that end together, too.
+        writer.append(b"first").unwrap();
+        writer.append(b"second").unwrap();
+        let begun = std::time::Instant::now();
+        let synced = || writer.disk.synced.load(Ordering::SeqCst);
+        while synced() < writer.length() {
+            // A disk may be slow.
+            assert!(begun.elapsed() < 20 * SYNC, "{} bytes", synced());
+            std::thread::sleep(SYNC / 20);
+        }
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn what_cannot_be_brought_to_the_disk_is_an_error_in_the_end() {
+        // It takes everything and cannot be synchronised.
+        let path = Path::new("/dev/null");
+        let file = OpenOptions::new().write(true).open(path).unwrap();
+        let mut writer = SegmentWriter::of(path, file);
+        assert!(writer.finish().is_ok());
+        writer.append(b"first").unwrap();
+        assert!(writer.finish().is_err());
+    }
+
+    #[test]
+    fn content_that_has_changed_since_it_was_found_is_an_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.segment");
+        let whole = write(&path);
+        let at = whole.len() - 100;
+        for byte in [at - HEAD_BYTES, at - 1, at, whole.len() - 1] {
+            let mut changed = whole.clone();
+            changed[byte] ^= 0x41;
+            std::fs::write(&path, &changed).unwrap();
+            assert!(content(&path, at as u64, 100).is_err(), "byte {byte}");
+        }
     }
 
     #[test]
