@@ -14,7 +14,7 @@ use crate::sweep::search::run::Progress;
 
 /// Shows progress on standard error.
 pub(super) struct Shown {
-    total: usize,
+    total: AtomicUsize,
     unit: FrequencyUnit,
     done: AtomicUsize,
     found: AtomicUsize,
@@ -41,7 +41,7 @@ impl Shown {
             bar.enable_steady_tick(Duration::from_millis(200));
         }
         Self {
-            total,
+            total: AtomicUsize::new(total),
             unit: plan.figures.frequency_unit,
             done: AtomicUsize::new(0),
             found: AtomicUsize::new(0),
@@ -82,7 +82,7 @@ impl Progress for Shown {
             How::Bar(bar) => bar.inc(1),
             How::Lines => line(&format!(
                 "{done}/{} {}: {} after {} cycles",
-                self.total,
+                self.total.load(Ordering::Relaxed),
                 case(self.unit, record.angular_frequency_rad_per_s),
                 record.status.name(),
                 record.cycles
@@ -98,6 +98,16 @@ impl Progress for Shown {
             bar.set_position(done as u64);
         }
         self.told(&format!("{done} of {of} cases were already done"));
+    }
+
+    fn cases_added(&self, added: usize, found: usize) {
+        let total = self.total.fetch_add(added, Ordering::Relaxed) + added;
+        let done = self.done.fetch_add(found, Ordering::Relaxed) + found;
+        self.found.fetch_add(found, Ordering::Relaxed);
+        if let How::Bar(bar) = &self.how {
+            bar.set_length(total as u64);
+            bar.set_position(done as u64);
+        }
     }
 
     fn told(&self, what: &str) {

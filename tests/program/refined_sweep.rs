@@ -63,6 +63,25 @@ fn frequencies_are_added_about_the_peaks_and_stand_in_their_order() {
 }
 
 #[test]
+fn a_second_run_finds_the_frequencies_that_the_first_has_added() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "few.toml", &pmma_sweep(FEW));
+    let out = folder.path().join("out");
+    let run = || {
+        let mut command = program();
+        command.args(["sweep", &file, "--quiet", "--no-figures", "--out"]);
+        command.arg(&out).args(["--set", "sweep.refine=true"]);
+        command.assert().success();
+        let run = std::fs::read(out.join("run.json")).unwrap();
+        let run: serde_json::Value = serde_json::from_slice(&run).unwrap();
+        ["cases_computed", "cases_found"].map(|key| run[key].as_u64().unwrap())
+    };
+    let [computed, found] = run();
+    assert!(computed > 6 && found == 0, "{computed} {found}");
+    assert_eq!(run(), [0, computed]);
+}
+
+#[test]
 fn every_frequency_is_solved_under_every_amplitude() {
     let rows = rows(&["sweep.drive.amplitude=[\"1 N\", \"2 N\"]"]);
     assert_eq!(rows.len(), 12);

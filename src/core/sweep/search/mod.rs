@@ -66,6 +66,7 @@ impl<'a> Search<'a> {
             self.progress.cases_found(records.len(), cases.len());
         }
         records.extend(self.compute(Aim::PLAN, &lacking, false)?);
+        self.archive.sync()?;
         records.sort_by_key(|r| r.index);
         let missing = cases.len() - records.len();
         Ok((records, missing))
@@ -91,6 +92,7 @@ impl<'a> Search<'a> {
         if !outcome.interrupted {
             outcome.interrupted = !self.locate_peaks(&mut outcome)?;
         }
+        self.archive.sync()?;
         // Where nothing is solved, another process may be at work in the folder.
         if self.checkpoint_every.is_some()
             && !outcome.interrupted
@@ -119,8 +121,11 @@ impl<'a> Search<'a> {
             if added.is_empty() {
                 break;
             }
-            let more = self.records_of(Aim::PLAN, &added, false)?;
-            let interrupted = more.len() < added.len();
+            let (found, lacking) = self.known(Purpose::Sweep, &added)?;
+            self.progress.cases_added(added.len(), found.len());
+            let more = self.compute(Aim::PLAN, &lacking, false)?;
+            let interrupted = more.len() < lacking.len();
+            records.extend(found);
             records.extend(more);
             if interrupted {
                 return Ok(true);

@@ -48,6 +48,8 @@ pub trait Progress: Sync {
     fn locating_peaks(&self, _brackets: usize) {}
     /// So many of the cases to do have records already.
     fn cases_found(&self, _done: usize, _of: usize) {}
+    /// Refinement adds so many cases to those planned, of which `found` have records already.
+    fn cases_added(&self, _added: usize, _found: usize) {}
     /// Something a user should know, such as a record that is damaged and computed again.
     fn told(&self, _what: &str) {}
 }
