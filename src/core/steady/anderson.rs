@@ -8,6 +8,9 @@ const SMALLEST_SINGULAR_VALUE: f64 = 1e-10;
 /// Past updates that it looks back on.
 const DEPTH: usize = 8;
 
+/// Rows of the least squares that are taken together, which stay in cache.
+const BLOCK: usize = 1 << 14;
+
 /// Differences of the last iterates and updates.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Anderson {
@@ -32,18 +35,20 @@ impl Anderson {
 
     /// Moves `x` by the accelerated step, given its plain update `f`; `weights` are those of the entries in the least squares.
     pub fn advance(&mut self, x: &mut [f64], f: &[f64], weights: &[f64]) {
-        if !self.iterate.is_empty() {
-            let moved = difference(x, &self.iterate);
-            let changed = difference(f, &self.update);
-            if self.changes.len() == DEPTH {
-                self.changes.remove(0);
+        if self.iterate.is_empty() {
+            self.iterate.extend_from_slice(x);
+            self.update.extend_from_slice(f);
+        } else {
+            // The oldest gives way.
+            match self.changes.len() == DEPTH {
+                true => self.changes.rotate_left(1),
+                false => self.changes.push((vec![0.0; x.len()], vec![0.0; f.len()])),
             }
-            self.changes.push((moved, changed));
+            if let Some((moved, changed)) = self.changes.last_mut() {
+                replace(x, &mut self.iterate, moved);
+                replace(f, &mut self.update, changed);
+            }
         }
-        self.iterate.clear();
-        self.iterate.extend_from_slice(x);
-        self.update.clear();
-        self.update.extend_from_slice(f);
         let gamma = self.coefficients(f, weights);
         for (x, f) in x.iter_mut().zip(f) {
             *x += f;
@@ -62,23 +67,38 @@ impl Anderson {
         if count == 0 {
             return Vec::new();
         }
-        let rows = f.len();
-        let changes = self.changes.iter();
-        let weighted = changes.flat_map(|(_, changed)| changed.iter().zip(weights));
-        let mut matrix = DMatrix::from_iterator(rows, count, weighted.map(|(f, w)| w * f));
-        let mut right = DVector::from_iterator(rows, f.iter().zip(weights).map(|(f, w)| w * f));
-        let norms: Vec<f64> = matrix.column_iter().map(|c| c.norm()).collect();
+        let norm = |changed: &[f64]| {
+            let squares = changed.iter().zip(weights).map(|(f, w)| (w * f).powi(2));
+            squares.sum::<f64>().sqrt()
+        };
+        let norms: Vec<f64> = self.changes.iter().map(|(_, c)| norm(c)).collect();
         if norms.iter().any(|n| *n <= 0.0 || !n.is_finite()) {
             return vec![0.0; count];
         }
-        for (mut column, norm) in matrix.column_iter_mut().zip(&norms) {
-            column /= *norm;
+        // Few columns: their triangle has the same singular values, at far less cost. Rows enter it block by block, below the
+        // triangle of those before, so that no copy of the whole matrix is made; a matrix of products of columns would be as small,
+        // but has the squares of the singular values, of which rounding spares half the digits.
+        let (mut triangle, mut right) = (DMatrix::zeros(0, count), DVector::zeros(0));
+        for start in (0..f.len()).step_by(BLOCK) {
+            let end = f.len().min(start + BLOCK);
+            let (above, rows) = (triangle.nrows(), end - start);
+            let column = |k: usize, row: usize| self.changes[k].1[row] * weights[row] / norms[k];
+            let entry = |i: usize, k: usize| match i < above {
+                true => triangle[(i, k)],
+                false => column(k, start + i - above),
+            };
+            let block = DMatrix::from_fn(above + rows, count, entry);
+            let of_right = |i: usize, _| match i < above {
+                true => right[i],
+                false => f[start + i - above] * weights[start + i - above],
+            };
+            let mut product = DVector::from_fn(above + rows, of_right);
+            let qr = block.qr();
+            qr.q_tr_mul(&mut product);
+            right = product.rows(0, product.len().min(count)).into_owned();
+            triangle = qr.unpack_r();
         }
-        // Few columns: their triangle has the same singular values, at far less cost.
-        let qr = matrix.qr();
-        qr.q_tr_mul(&mut right);
-        let right = right.rows(0, rows.min(count));
-        let svd = qr.unpack_r().svd(true, true);
+        let svd = triangle.svd(true, true);
         match svd.solve(&right, SMALLEST_SINGULAR_VALUE * svd.singular_values.max()) {
             Ok(solution) => solution.iter().zip(&norms).map(|(g, n)| g / n).collect(),
             Err(_) => vec![0.0; count],
@@ -86,8 +106,12 @@ impl Anderson {
     }
 }
 
-fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
+/// Puts `new` in the place of `old`, and what that changes into `change`.
+fn replace(new: &[f64], old: &mut [f64], change: &mut [f64]) {
+    for ((new, old), change) in new.iter().zip(old).zip(change) {
+        *change = new - *old;
+        *old = *new;
+    }
 }
 
 #[cfg(test)]
@@ -117,6 +141,38 @@ mod tests {
         }
         // Like GMRES it ends after as many differences as there are dimensions; the rest is rounding, amplified by 3 a step.
         assert!(largest(&update(&x)) < 1e-10);
+    }
+
+    #[test]
+    fn any_number_of_entries_is_taken_as_one_matrix_of_them() {
+        // Modes of a diagonal map, each repeated over so many entries that they make several blocks: whatever their number, the
+        // steps are those of the few.
+        let factors = [0.3, -2.0, 0.9, 1.7];
+        let mut few = (Anderson::default(), vec![0.0; 4]);
+        let copies = BLOCK + 7;
+        let mut many = (Anderson::default(), vec![0.0; 4 * copies]);
+        let step = |(anderson, x): &mut (Anderson, Vec<f64>)| {
+            let copies = x.len() / 4;
+            let update = |(i, x): (usize, &f64)| 1.0 + (factors[i / copies] - 1.0) * x;
+            let f: Vec<f64> = x.iter().enumerate().map(update).collect();
+            let weights = vec![1.0; x.len()];
+            anderson.advance(x, &f, &weights);
+            largest(&f)
+        };
+        for cycle in 0..6 {
+            let distances = [step(&mut few), step(&mut many)];
+            for (i, x) in many.1.iter().enumerate() {
+                let expected = few.1[i / copies];
+                assert!(
+                    (x - expected).abs() < 1e-9 * (1.0 + expected.abs()),
+                    "{cycle} {i}"
+                );
+            }
+            assert!(
+                cycle < 5 || distances.iter().all(|d| *d < 1e-9),
+                "{distances:?}"
+            );
+        }
     }
 
     #[test]

@@ -123,7 +123,7 @@ pub(super) struct Correction {
     /// What the nodal pressure of each node is multiplied by to give its part of the load.
     loads: Vec<f64>,
     steps: usize,
-    /// Powers 0, 1, 2, ... of the answer to one step in contact. State: unknowns, load, D.
+    /// The answers to 1, 2, 4, 8, ... steps in contact, of which that to any number of them is a product. State: unknowns, load, D.
     touching: Vec<DMatrix<f64>>,
 }
 
@@ -141,7 +141,7 @@ impl Correction {
             roles,
             loads,
             steps,
-            touching: powers(&step_in_contact(&unknowns), steps),
+            touching: squares(step_in_contact(&unknowns), steps),
             unknowns,
         }
     }
@@ -227,7 +227,11 @@ impl Correction {
         let mut cycle = DMatrix::identity(count + 2, count + 2);
         for (run, &length) in runs.iter().enumerate() {
             if run % 2 == 1 {
-                cycle = self.touching.get(length)? * cycle;
+                for (bit, steps) in self.touching.iter().enumerate() {
+                    if length >> bit & 1 == 1 {
+                        cycle = steps * cycle;
+                    }
+                }
                 continue;
             }
             for (mut row, unknown) in cycle.row_iter_mut().zip(&self.unknowns) {
@@ -317,14 +321,13 @@ fn step_in_contact(unknowns: &[Unknown]) -> DMatrix<f64> {
     rates.exp()
 }
 
-/// Powers 0 to `last` of a matrix.
-fn powers(matrix: &DMatrix<f64>, last: usize) -> Vec<DMatrix<f64>> {
-    let mut powers = vec![DMatrix::identity(matrix.nrows(), matrix.ncols())];
-    for _ in 0..last {
-        let next = powers.last().map(|power| matrix * power);
-        powers.extend(next);
-    }
-    powers
+/// A matrix, its square, the square of that and so on, up to the power `last`.
+fn squares(matrix: DMatrix<f64>, last: usize) -> Vec<DMatrix<f64>> {
+    let next = |square: &DMatrix<f64>| Some(square * square);
+    let count = last.max(1).ilog2() as usize + 1;
+    std::iter::successors(Some(matrix), next)
+        .take(count)
+        .collect()
 }
 
 #[cfg(test)]
@@ -363,6 +366,26 @@ mod tests {
         assert_eq!(runs(0), [0, 20]);
         assert_eq!(runs(1), [7, 13]);
         assert_eq!(runs(2), [0, 5, 7, 8]);
+    }
+
+    #[test]
+    fn a_run_of_steps_in_contact_is_that_many_single_steps_and_takes_few_matrices() {
+        let correction = correction(1.0, &[(2.0, 0.7), (1.0, 0.2)]);
+        let one = correction.touching[0].clone();
+        assert!(correction.touching.len() <= 5, "20 steps");
+        let mut expected = DMatrix::identity(4, 4);
+        for length in 1..=STEPS {
+            expected = &one * expected;
+            // The whole cycle in contact, cut into runs that touch one another.
+            let bits = (0..5).filter(|bit| length >> bit & 1 == 1);
+            let found = bits.fold(DMatrix::identity(4, 4), |product, bit| {
+                &correction.touching[bit] * product
+            });
+            assert!(
+                (found - &expected).norm() < 1e-13 * expected.norm(),
+                "{length}"
+            );
+        }
     }
 
     #[test]
