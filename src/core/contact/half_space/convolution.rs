@@ -25,7 +25,7 @@ mod spectral;
 mod window;
 
 use std::fmt;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError, Weak};
 
 use realfft::FftError;
 use thiserror::Error;
@@ -74,23 +74,114 @@ pub enum ConvolutionError {
     Transform(#[from] FftError),
 }
 
-/// The half-space operator of one grid: plans and spectrum, to be built once and shared.
+/// The half-space operator of one grid. Its spectra are shared with every other operator of as many cells of the same shape that is in
+/// use: what a load on a half-space does is proportional to the size of the cells.
+#[derive(Clone)]
 pub struct Convolution {
+    grid: Grid,
+    /// Length (m) of a cell of this grid along x, per cell of the shared operators.
+    scale_m: f64,
+    operators: Arc<Operators>,
+}
+
+/// Plans and spectrum of a grid whose cells have the length 1 along x; of the grid itself, where that lies on a layer, whose
+/// thickness is a length of its own.
+struct Operators {
     grid: Grid,
     /// The layer that the grid lies on, where it is no half-space.
     layer: Option<Arc<LayerInfluence>>,
     product: SpectralProduct,
-    /// Operators of windows of this grid, by their cells along x and y, built when first asked for.
+    /// What windows of this grid need, by their cells along x and y, built when first asked for.
     windows: Mutex<Vec<Window>>,
-    /// The operator of cells twice as long, built when first asked for.
-    coarse: OnceLock<Arc<Convolution>>,
+    /// The operators of cells twice as long, built when first asked for.
+    coarse: OnceLock<Arc<Operators>>,
 }
 
-type Window = ((usize, usize), Arc<WindowOperators>);
+/// Operators of half-spaces in use.
+static IN_USE: Mutex<Vec<Weak<Operators>>> = Mutex::new(Vec::new());
+
+impl Operators {
+    fn on(grid: &Grid, layer: Option<Arc<LayerInfluence>>) -> Result<Arc<Self>, ConvolutionError> {
+        if layer.is_some() {
+            return Ok(Arc::new(Self::new(*grid, layer)?));
+        }
+        let unit = grid.in_cells();
+        let is_this = |operators: &Self| operators.grid == unit;
+        in_use(&IN_USE, is_this, || Self::new(unit, None))
+    }
+
+    fn new(grid: Grid, layer: Option<Arc<LayerInfluence>>) -> Result<Self, ConvolutionError> {
+        Ok(Self {
+            grid,
+            product: free_space(&grid, layer.clone())?,
+            layer,
+            windows: Mutex::default(),
+            coarse: OnceLock::new(),
+        })
+    }
+
+    fn window(&self, cells: (usize, usize)) -> Result<Window, ConvolutionError> {
+        let windows = || self.windows.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = |windows: &[Window]| windows.iter().find(|w| w.cells == cells).cloned();
+        if let Some(window) = known(&windows()) {
+            return Ok(window);
+        }
+        // On a layer this takes long: those who ask for other windows do not wait.
+        let grid = self.grid.part(cells.0, cells.1);
+        let layer = self.layer.as_ref().map(|influence| influence.layer());
+        let window = Window {
+            cells,
+            operators: match cells == (self.grid.cells_x(), self.grid.cells_y()) {
+                true => None,
+                false => Some(Self::on(&grid, self.layer.clone())?),
+            },
+            preconditioner: Arc::new(Preconditioner::on(&grid, layer)?),
+        };
+        let mut windows = windows();
+        // What another thread has built meanwhile is the same.
+        Ok(known(&windows).unwrap_or_else(|| {
+            windows.push(window.clone());
+            window
+        }))
+    }
+}
+
+/// What a window needs.
+#[derive(Clone)]
+struct Window {
+    cells: (usize, usize),
+    /// `None` of the whole grid, whose operators exist already.
+    operators: Option<Arc<Operators>>,
+    preconditioner: Arc<Preconditioner>,
+}
+
+/// The one of those in use that `is_this`; a new one, where there is none.
+fn in_use<T, E>(
+    all: &Mutex<Vec<Weak<T>>>,
+    is_this: impl Fn(&T) -> bool,
+    new: impl FnOnce() -> Result<T, E>,
+) -> Result<Arc<T>, E> {
+    let lock = || all.lock().unwrap_or_else(PoisonError::into_inner);
+    let find = |all: &[Weak<T>]| {
+        let mut in_use = all.iter().filter_map(Weak::upgrade);
+        in_use.find(|one| is_this(one))
+    };
+    if let Some(found) = find(&lock()) {
+        return Ok(found);
+    }
+    let new = Arc::new(new()?);
+    let mut all = lock();
+    // What another thread has built meanwhile is the same.
+    Ok(find(&all).unwrap_or_else(|| {
+        all.retain(|one| one.strong_count() > 0);
+        all.push(Arc::downgrade(&new));
+        new
+    }))
+}
 
 impl Convolution {
-    /// Plans the transforms of this grid and computes the spectrum of its influence coefficients. Takes about as long as
-    /// five applications.
+    /// Plans the transforms of this grid and computes the spectrum of its influence coefficients, unless an operator in use has
+    /// them. Takes about as long as five applications.
     ///
     /// # Errors
     /// [`ConvolutionError::Transform`] if a planned transform refuses its own buffers, which would be a defect.
@@ -103,13 +194,15 @@ impl Convolution {
     /// # Errors
     /// As [`Convolution::new`].
     pub fn on(grid: Grid, layer: Option<Arc<LayerInfluence>>) -> Result<Self, ConvolutionError> {
-        Ok(Self {
+        Ok(Self::of(grid, Operators::on(&grid, layer)?))
+    }
+
+    fn of(grid: Grid, operators: Arc<Operators>) -> Self {
+        Self {
             grid,
-            product: free_space(&grid, layer.clone())?,
-            layer,
-            windows: Mutex::new(Vec::new()),
-            coarse: OnceLock::new(),
-        })
+            scale_m: grid.spacing_x_m() / operators.grid.spacing_x_m(),
+            operators,
+        }
     }
 
     /// The grid this operator belongs to.
@@ -119,29 +212,20 @@ impl Convolution {
 
     /// The layer it is of, where the body is no half-space.
     pub fn layer(&self) -> Option<&Layer> {
-        self.layer.as_ref().map(|influence| influence.layer())
+        let layer = self.operators.layer.as_ref();
+        layer.map(|influence| influence.layer())
     }
 
     /// Cells per row and per column of the padded grid on which the transforms run.
     pub fn padded_cells(&self) -> (usize, usize) {
-        self.product.periods()
+        self.operators.product.periods()
     }
 
     /// Work space, for one thread that asks and those of its pool that help it.
     pub fn scratch(&self) -> Scratch {
         let mut scratch = Scratch::default();
-        self.product.fit(&mut scratch);
+        self.operators.product.fit(&mut scratch);
         scratch
-    }
-
-    /// Bytes of the spectra, those of windows and coarser grids included.
-    pub fn bytes(&self) -> usize {
-        let windows = self.windows.lock().unwrap_or_else(PoisonError::into_inner);
-        size_of_val(self.product.spectrum())
-            + windows
-                .iter()
-                .map(|(_, window)| window.bytes())
-                .sum::<usize>()
     }
 
     /// The operators of a window of this many cells of this grid, at most the grid itself. Built when first asked for, then
@@ -153,20 +237,14 @@ impl Convolution {
         &self,
         cells_x: usize,
         cells_y: usize,
-    ) -> Result<Arc<WindowOperators>, ConvolutionError> {
-        let whole = (self.grid.cells_x(), self.grid.cells_y());
-        let cells = (cells_x.clamp(1, whole.0), cells_y.clamp(1, whole.1));
-        let mut windows = self.windows.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, operators)) = windows.iter().find(|(size, _)| *size == cells) {
-            return Ok(Arc::clone(operators));
-        }
-        let operators = Arc::new(WindowOperators::new(
-            &self.grid.part(cells.0, cells.1),
-            cells == whole,
-            self.layer.as_ref(),
-        )?);
-        windows.push((cells, Arc::clone(&operators)));
-        Ok(operators)
+    ) -> Result<WindowOperators, ConvolutionError> {
+        let grid = self.grid.part(cells_x, cells_y);
+        let window = (self.operators).window((grid.cells_x(), grid.cells_y()))?;
+        let operators = window.operators.as_ref().unwrap_or(&self.operators);
+        Ok(WindowOperators {
+            convolution: Self::of(grid, Arc::clone(operators)),
+            preconditioner: window.preconditioner,
+        })
     }
 
     /// The operator of the grid whose cells are twice as long, so that each holds two by two of this one's. Built when first
@@ -175,11 +253,15 @@ impl Convolution {
     /// # Errors
     /// As [`Convolution::new`].
     pub fn coarse(&self) -> Result<Arc<Convolution>, ConvolutionError> {
-        if let Some(coarse) = self.coarse.get() {
-            return Ok(Arc::clone(coarse));
-        }
-        let coarse = Arc::new(Self::on(self.grid.coarse(), self.layer.clone())?);
-        Ok(Arc::clone(self.coarse.get_or_init(|| coarse)))
+        let operators = match self.operators.coarse.get() {
+            Some(coarse) => Arc::clone(coarse),
+            None => {
+                let grid = self.operators.grid.coarse();
+                let coarse = Operators::on(&grid, self.operators.layer.clone())?;
+                Arc::clone(self.operators.coarse.get_or_init(|| coarse))
+            }
+        };
+        Ok(Arc::new(Self::of(self.grid.coarse(), operators)))
     }
 
     /// Displacement of every cell's centre, in m per 1/Pa of contact compliance, by `pressure` (Pa), both row by row
@@ -198,7 +280,12 @@ impl Convolution {
         scratch: &mut Scratch,
     ) -> Result<(), ConvolutionError> {
         let rows = 0..self.grid.cells_y();
-        self.product.apply(pressure, displacement, rows, scratch)
+        let product = &self.operators.product;
+        product.apply(pressure, displacement, rows, scratch)?;
+        if self.scale_m != 1.0 {
+            displacement.iter_mut().for_each(|u| *u *= self.scale_m);
+        }
+        Ok(())
     }
 }
 
@@ -364,6 +451,33 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn cells_of_one_shape_have_one_operator_whatever_their_length_and_leave_nothing_behind() {
+        // Of a shape that no other test has.
+        let of = |spacing_m: f64| convolution((46, 27, 0.7 * spacing_m, spacing_m));
+        let unit = of(1.0);
+        let pressure = random(46 * 27, 3);
+        let expected = displacement(&unit, &pressure);
+        for spacing_m in [3.1e-7, 1.3e-5, 0.1, 2.9e3] {
+            let other = of(spacing_m);
+            assert!(
+                Arc::ptr_eq(&unit.operators, &other.operators),
+                "{spacing_m}"
+            );
+            for (u, expected) in displacement(&other, &pressure).iter().zip(&expected) {
+                // A few roundings.
+                let expected = spacing_m * expected;
+                assert!(
+                    (u - expected).abs() <= 1e-15 * expected.abs(),
+                    "{spacing_m}"
+                );
+            }
+        }
+        let left = Arc::downgrade(&unit.operators);
+        drop(unit);
+        assert!(left.upgrade().is_none());
     }
 
     #[test]

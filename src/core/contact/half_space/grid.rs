@@ -173,6 +173,18 @@ impl Grid {
         }
     }
 
+    /// As many cells of the same shape and of length 1 along x. Their ratio loses the last five bits, a few units in the last place of
+    /// what is made of it, so that grids of one shape have the same, however long their cells.
+    pub(super) fn in_cells(&self) -> Self {
+        const LOST: u64 = 1 << 5;
+        let ratio = (self.spacing_y_m / self.spacing_x_m).to_bits();
+        Self {
+            spacing_x_m: 1.0,
+            spacing_y_m: f64::from_bits((ratio + LOST / 2) / LOST * LOST),
+            ..*self
+        }
+    }
+
     /// Cells twice as long, each in place of two by two; the last ones reach beyond an odd grid.
     pub(super) fn coarse(&self) -> Self {
         Self {

@@ -1,6 +1,6 @@
 //! One case of a sweep: the stabilised cycle at the resolution asked for, and at coarser ones for its error bars.
 
-mod accuracy;
+pub(in crate::sweep) mod accuracy;
 pub mod checkpoint;
 mod edge_layer;
 mod levels;
@@ -13,6 +13,7 @@ mod stabilise;
 mod tangent_radius;
 
 use std::collections::HashMap;
+use std::hash::{Hash, Hasher};
 use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -29,6 +30,7 @@ pub use crate::sweep::engine::setup::SetupError;
 use crate::sweep::engine::{self, EngineBuilder, EngineError, LargestContact};
 use crate::sweep::plan::check::check_frequency;
 use crate::sweep::plan::instant_tolerance;
+use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::{Case, Condition, CyclePlan, EngineKind, SweepPlan};
 use crate::sweep::record::{CaseRecord, Status};
 use crate::sweep::store::archive::Purpose;
@@ -45,9 +47,31 @@ pub struct Setup {
 /// Solids by the address of their material, which is kept so that no other takes its place.
 type Solids = HashMap<usize, (Arc<Material>, Arc<Solid>)>;
 
-/// What engines differ in: the indenter by its address, the largest value of the drive, relaxed compliance, Poisson ratio and layer
-/// with every digit, and the number of springs or cells.
-type EngineKey = (usize, String, usize);
+/// What engines differ in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct EngineKey {
+    /// Its address.
+    indenter: usize,
+    /// Springs or cells.
+    nodes: usize,
+    /// The largest value of the drive.
+    largest: f64,
+    relaxed_per_pa: f64,
+    poisson_ratio: Option<f64>,
+    layer: Option<LayerPlan>,
+}
+
+/// Every number is one, as the plan was checked.
+impl Eq for EngineKey {}
+
+impl Hash for EngineKey {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.indenter, self.nodes).hash(state);
+        [self.largest, self.relaxed_per_pa]
+            .map(f64::to_bits)
+            .hash(state);
+    }
+}
 
 /// Steps per cycle, and springs or cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -156,11 +180,15 @@ impl Setup {
         nodes: usize,
     ) -> Result<Arc<EngineBuilder>, SetupError> {
         let relaxed_per_pa = self.solid(condition)?.relaxed_per_pa;
-        let indenter = Arc::as_ptr(&condition.indenter).addr();
-        let largest = condition.drive.maximum() + condition.drive.pull_off_n();
-        let (layer, poisson_ratio) = (condition.layer, condition.material.poisson_ratio());
-        let numbers = format!("{largest:?} {relaxed_per_pa:?} {poisson_ratio:?} {layer:?}");
-        let key = (indenter, numbers, nodes);
+        let key = EngineKey {
+            indenter: Arc::as_ptr(&condition.indenter).addr(),
+            nodes,
+            // Zero has a sign, of which a hash knows.
+            largest: condition.drive.maximum() + condition.drive.pull_off_n() + 0.0,
+            relaxed_per_pa,
+            poisson_ratio: condition.material.poisson_ratio(),
+            layer: condition.layer,
+        };
         let mut engines = whole(&self.engines);
         if let Some(builder) = engines.get(&key) {
             return Ok(Arc::clone(builder));

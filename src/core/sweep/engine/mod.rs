@@ -349,7 +349,7 @@ impl EngineBuilder {
 
     fn periodic(&self, grid: Grid) -> Periodic {
         let gaps = domain::gaps_m(self.indenter.as_ref(), &grid);
-        let built = || Arc::new(PeriodicOperator::new(grid));
+        let built = || PeriodicOperator::shared(grid);
         let operator = self.period.get_or_init(built);
         Periodic::new(Arc::clone(operator), gaps, self.settings())
     }

@@ -1,11 +1,13 @@
 //! The operator of one period of a half-space that repeats itself.
 
+use std::convert::Infallible;
 use std::f64::consts::TAU;
+use std::sync::{Arc, Mutex, Weak};
 
 use super::even_column::EvenColumn;
 use super::periodic_row::PeriodicRow;
 use super::spectral::SpectralProduct;
-use super::{ConvolutionError, Scratch};
+use super::{ConvolutionError, Scratch, in_use};
 use crate::contact::half_space::grid::Grid;
 
 /// Displacement of every cell per unit of compliance, its mean taken off, by the pressure on one period: 2/|q| at the wave number q.
@@ -14,7 +16,17 @@ pub struct PeriodicOperator {
     product: SpectralProduct,
 }
 
+/// Those in use.
+static IN_USE: Mutex<Vec<Weak<PeriodicOperator>>> = Mutex::new(Vec::new());
+
 impl PeriodicOperator {
+    /// That of a grid, which all share who use it at the same time.
+    pub fn shared(grid: Grid) -> Arc<Self> {
+        let new = || Ok::<_, Infallible>(Self::new(grid));
+        let Ok(operator) = in_use(&IN_USE, |operator: &Self| operator.grid == grid, new);
+        operator
+    }
+
     /// Of a grid that is one period.
     pub fn new(grid: Grid) -> Self {
         let (nx, ny) = (grid.cells_x(), grid.cells_y());

@@ -207,6 +207,7 @@ impl SpectralProduct {
         (self.row.period(), self.column.period())
     }
 
+    #[cfg(test)]
     pub(super) fn spectrum(&self) -> &[f64] {
         &self.spectrum
     }

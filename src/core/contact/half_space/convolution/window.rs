@@ -16,7 +16,7 @@ use super::periodic_row::PeriodicRow;
 use super::spectral::{Column, Row, SpectralProduct};
 use super::{Convolution, ConvolutionError, Influence, Scratch, even_column};
 use crate::contact::half_space::grid::Grid;
-use crate::contact::half_space::layer::{Layer, LayerInfluence};
+use crate::contact::half_space::layer::Layer;
 
 /// A symmetric positive product that nearly inverts the half-space operator on one window.
 pub struct Preconditioner {
@@ -93,41 +93,19 @@ impl<'a> Softening<'a> {
 
 /// What a window needs; from [`Convolution::window`].
 pub struct WindowOperators {
-    /// The half-space restricted to the window; `None` for the whole grid, whose operator exists already.
-    pub(super) convolution: Option<Convolution>,
-    pub(super) preconditioner: Preconditioner,
+    pub(super) convolution: Convolution,
+    pub(super) preconditioner: Arc<Preconditioner>,
 }
 
 impl WindowOperators {
-    pub(super) fn new(
-        grid: &Grid,
-        whole: bool,
-        layer: Option<&Arc<LayerInfluence>>,
-    ) -> Result<Self, ConvolutionError> {
-        let convolution = match whole {
-            true => None,
-            false => Some(Convolution::on(*grid, layer.cloned())?),
-        };
-        Ok(Self {
-            convolution,
-            preconditioner: Preconditioner::on(grid, layer.map(|influence| influence.layer()))?,
-        })
+    /// The half-space restricted to the window.
+    pub fn convolution(&self) -> &Convolution {
+        &self.convolution
     }
 
-    /// The operator of the window, given that of the whole grid.
-    pub fn convolution<'a>(&'a self, whole: &'a Convolution) -> &'a Convolution {
-        self.convolution.as_ref().unwrap_or(whole)
-    }
-
-    /// What nearly inverts it.
+    /// What nearly inverts it, but for a factor: conjugate gradients take the same steps whatever that is.
     pub fn preconditioner(&self) -> &Preconditioner {
         &self.preconditioner
-    }
-
-    /// Bytes of the spectra.
-    pub(super) fn bytes(&self) -> usize {
-        let own = self.convolution.as_ref().map_or(0, Convolution::bytes);
-        own + size_of_val(self.preconditioner.product.spectrum())
     }
 }
 
@@ -217,13 +195,12 @@ mod tests {
     fn a_window_is_built_once_and_never_larger_than_the_grid() {
         let grid = Grid::new(50, 40, 1.0, 1.0).unwrap();
         let whole = Convolution::new(grid).unwrap();
-        let window = whole.window(32, 28).unwrap();
-        assert_eq!(window.convolution(&whole).grid().cells(), 32 * 28);
-        assert!(std::sync::Arc::ptr_eq(
-            &window,
-            &whole.window(32, 28).unwrap()
-        ));
+        let [window, again] = [(); 2].map(|()| whole.window(32, 28).unwrap());
+        assert_eq!(window.convolution().grid().cells(), 32 * 28);
+        let operators = |window: &WindowOperators| Arc::as_ptr(&window.convolution.operators);
+        assert_eq!(operators(&window), operators(&again));
+        assert!(Arc::ptr_eq(&window.preconditioner, &again.preconditioner));
         let all = whole.window(80, 80).unwrap();
-        assert!(std::ptr::eq(all.convolution(&whole), &whole));
+        assert_eq!(operators(&all), Arc::as_ptr(&whole.operators));
     }
 }

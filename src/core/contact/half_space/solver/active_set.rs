@@ -484,6 +484,6 @@ fn convolve(
     image: &mut [f64],
     scratch: &mut Scratches,
 ) -> Result<(), ContactError> {
-    let convolution = problem.operators.convolution(problem.whole);
+    let convolution = problem.operators.convolution();
     Ok(convolution.apply(field, image, &mut scratch.convolution)?)
 }

@@ -150,7 +150,7 @@ impl HalfSpace {
         let Windows { contact, source } = windows;
         self.gather_source(windows, compliance_per_pa);
         let operators = self.operator.window(source.cells_x, source.cells_y)?;
-        let convolution = operators.convolution(&self.operator);
+        let convolution = operators.convolution();
         let scratch = &mut self.scratches.convolution;
         convolution.apply(&self.source, &mut self.lift_m, scratch)?;
         let largest_m = -sums::least_of(&self.lift_m, |u| -u.abs());
