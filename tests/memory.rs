@@ -1,29 +1,40 @@
-//! The memory a march takes, counted by the allocator, against what is predicted of it.
+//! Memory counted by the allocator: what a march takes, against what is predicted of it, and what a record takes.
 
 mod common;
 
 use std::alloc::{GlobalAlloc, Layout, System};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use common::{half_space, pmma};
 use contact_dma::contact::Prescribed;
 use contact_dma::contact::half_space::convolution::Convolution;
 use contact_dma::contact::half_space::grid::Grid;
 use contact_dma::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_bytes};
+use contact_dma::drive::HarmonicDrive;
 use contact_dma::history::{March, TimeRule};
-use contact_dma::indenter::{Indenter, Sphere};
+use contact_dma::indenter::{Indenter, Shifted, Sphere};
+use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch, library};
+use contact_dma::sweep::Sweep;
+use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
+use contact_dma::sweep::store::Store;
+use contact_dma::sweep::store::archive::Purpose;
 
-/// Counts the bytes held.
+/// Counts the bytes held, the most of them, and those ever taken.
 struct Counting;
 
 static HELD: AtomicUsize = AtomicUsize::new(0);
+static PEAK: AtomicUsize = AtomicUsize::new(0);
+static TAKEN: AtomicUsize = AtomicUsize::new(0);
 static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
 
 // SAFETY: every call is handed on to the system's allocator unchanged.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        HELD.fetch_add(layout.size(), Ordering::Relaxed);
+        let held = HELD.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
+        PEAK.fetch_max(held, Ordering::Relaxed);
+        TAKEN.fetch_add(layout.size(), Ordering::Relaxed);
         ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
         unsafe { System.alloc(layout) }
     }
@@ -47,9 +58,174 @@ fn on_quarter(sphere: &Sphere, grid: Grid) -> HalfSpace {
     HalfSpace::new(operator, gaps_m, true, SolverSettings::default())
 }
 
-/// One test, since what other threads hold would be counted too.
+/// Held by one test at a time, since what other threads take would be counted too.
+fn alone() -> MutexGuard<'static, ()> {
+    static ONE: Mutex<()> = Mutex::new(());
+    ONE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// The most bytes held at a time during some work, beyond those before it.
+fn peak(work: impl FnOnce()) -> usize {
+    let before = HELD.load(Ordering::Relaxed);
+    PEAK.store(before, Ordering::Relaxed);
+    work();
+    PEAK.load(Ordering::Relaxed) - before
+}
+
+/// Twelve branches over five decades.
+fn twelve_branches() -> Material {
+    let branch = |k: i32| RelaxationBranch {
+        modulus_pa: 1e8,
+        time_s: 10_f64.powf(0.5 * f64::from(k)),
+    };
+    let relaxation = Relaxation::new(1e9, (0..12).map(branch).collect()).unwrap();
+    Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.4).unwrap()
+}
+
+#[test]
+fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
+    let _alone = alone();
+    let sweep = |material, indenter: Arc<dyn Indenter>, mean: f64| {
+        let drive = HarmonicDrive::load(mean, 0.5 * mean).unwrap();
+        let mut plan = SweepPlan::new(material, indenter, drive);
+        plan.angular_frequencies_rad_per_s = vec![0.1];
+        plan.cycle.steps = 16;
+        plan.cycle.error_bars = false;
+        plan
+    };
+    let pmma = || library::find("pmma").unwrap().material().unwrap();
+    let sphere = || Arc::new(Sphere::new(0.01).unwrap()) as Arc<dyn Indenter>;
+    // Off the origin there is no quarter to take.
+    let offset = || Arc::new(Shifted::new(sphere(), 1.37e-5, 7.1e-6).unwrap()) as Arc<dyn Indenter>;
+    let cells = |mut plan: SweepPlan, cells| {
+        plan.contact.solver.engine = EngineKind::HalfSpace;
+        plan.contact.solver.cells = cells;
+        plan
+    };
+    let mut plans = vec![
+        cells(sweep(pmma(), sphere(), 10.0), 256),
+        cells(sweep(pmma(), offset(), 10.0), 128),
+        cells(sweep(twelve_branches(), offset(), 10.0), 128),
+        cells(sweep(twelve_branches(), sphere(), 10.0), 192),
+    ];
+    let mut marched = cells(sweep(twelve_branches(), sphere(), 10.0), 256);
+    (marched.cycle.method, marched.cycle.at_cycle) = (Method::March, Some(2));
+    plans.push(marched);
+    let mut with_bars = cells(sweep(pmma(), sphere(), 10.0), 256);
+    with_bars.cycle.error_bars = true;
+    plans.push(with_bars);
+    let mut springs = sweep(pmma(), sphere(), 10.0);
+    springs.contact.solver.springs = 2000;
+    plans.push(springs);
+    let mut failed = Vec::new();
+    for (k, plan) in plans.into_iter().enumerate() {
+        let setup = Setup::new(plan).unwrap();
+        let predicted = setup.predicted_case_bytes();
+        let case = setup.plan().cases().remove(0);
+        let mut cycles = 0;
+        let counted = peak(|| {
+            let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
+            assert!(record.result.is_some(), "{record:?}");
+            cycles = record.cycles;
+        });
+        let ratio = predicted as f64 / counted as f64;
+        println!("{k}: {counted} bytes, {cycles} cycles, predicted {ratio:.3} times that");
+        // Of springs it is a guess on the safe side: how many rows of their table are asked for depends on the cycle.
+        let highest = match setup.plan().contact.solver.engine {
+            EngineKind::Axisymmetric => f64::INFINITY,
+            EngineKind::HalfSpace => 1.2,
+        };
+        if !(0.8..highest).contains(&ratio) {
+            failed.push((k, ratio));
+        }
+    }
+    assert!(failed.is_empty(), "{failed:?}");
+}
+
+#[test]
+#[cfg(feature = "report")]
+fn large_pictures_are_drawn_one_after_another_in_the_memory_predicted() {
+    use contact_dma::report::chart::{Axis, Chart, Series};
+    use contact_dma::sweep::figures::figure_plan::{FigurePlan, Format};
+
+    let _alone = alone();
+    let plan = FigurePlan {
+        formats: vec![Format::Png],
+        dpi: Some(600),
+        ..FigurePlan::default()
+    };
+    let chart = Chart::new(Axis::linear("x"), Axis::linear("y"));
+    let drawing = chart.series(Series::line([(0.0, 0.0), (1.0, 1.0)]));
+    let drawing = drawing.draw().unwrap();
+    let counted = peak(|| {
+        std::thread::scope(|scope| {
+            for _ in 0..3 {
+                scope.spawn(|| drawing.to_png_at(600).unwrap());
+            }
+        });
+    });
+    let ratio = plan.drawing_bytes(3) as f64 / counted as f64;
+    println!("{counted} bytes, predicted {ratio:.3} times that");
+    assert!((ratio - 1.0).abs() < 0.2, "{ratio}");
+}
+
+#[test]
+fn a_record_takes_its_own_bytes_however_long_the_plan_and_however_many_there_are() {
+    let _alone = alone();
+    let material = library::find("pmma").unwrap().material().unwrap();
+    let drive = HarmonicDrive::load(5.0, 2.0).unwrap();
+    let sweep = Sweep::new(material, Sphere::new(0.01).unwrap(), drive);
+    let sweep = sweep.steps(16).unwrap().springs(16).unwrap();
+    let sweep = sweep.frequencies_hz([1e-3]).unwrap();
+    let setup = Setup::new(sweep.into_plan()).unwrap();
+    let mut case = setup.plan().cases().remove(0);
+    let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    // As of a sweep of some ten thousand frequencies.
+    let plan = format!("title = {:?}\n", "long".repeat(100_000));
+    let store = Store::open(folder.path(), &plan, false).unwrap();
+    let mut save = || {
+        store.save_case(Purpose::Sweep, &case, &record).unwrap();
+        case.angular_frequency_rad_per_s *= 1.1;
+    };
+    // The first takes what all share.
+    save();
+    let taken = TAKEN.load(Ordering::Relaxed);
+    let count = 20;
+    (0..count).for_each(|_| save());
+    let each = (TAKEN.load(Ordering::Relaxed) - taken) / count;
+    assert!(each < 100_000, "{each} bytes for a record");
+}
+
+#[test]
+fn another_amplitude_takes_no_operator_of_its_own() {
+    let _alone = alone();
+    let material = library::find("pmma").unwrap().material().unwrap();
+    let drive = HarmonicDrive::load(5.0, 1.0).unwrap();
+    let sweep = Sweep::new(material, Sphere::new(0.01).unwrap(), drive).cells(128);
+    let sweep = sweep.unwrap().frequencies_hz([1e-3]).unwrap();
+    let amplitudes = (0..9).map(|k| 1.0 + 0.4 * f64::from(k));
+    let plan = sweep.amplitudes(amplitudes).unwrap().into_plan();
+    let setup = Setup::new(plan).unwrap();
+    let mut held = Vec::new();
+    for condition in setup.plan().conditions().iter() {
+        let engines = setup.engines(condition, 128).unwrap();
+        let mut engine = engines.engine(0).unwrap();
+        let compliance = pmma();
+        let mut march = March::new(engine.as_mut(), compliance, TimeRule::Linear);
+        march.relax(Prescribed::LoadN(5.0)).unwrap();
+        drop(march);
+        drop(engine);
+        held.push(HELD.load(Ordering::Relaxed));
+    }
+    // A spectrum of 128 x 128 cells alone takes 130 kB; a contact of another size may ask for a window of its own.
+    let more = held[8].saturating_sub(held[0]) / 8;
+    assert!(more < 40_000, "{more} bytes for an amplitude");
+}
+
 #[test]
 fn a_march_holds_the_memory_predicted_and_takes_no_more_while_it_steps() {
+    let _alone = alone();
     let (radius_m, load_n) = (0.01, 10.0);
     let sphere = Sphere::new(radius_m).unwrap();
     let compliance = pmma();

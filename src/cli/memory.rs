@@ -3,6 +3,7 @@
 use sysinfo::{MemoryRefreshKind, RefreshKind, System};
 
 use super::plan::megabytes;
+use super::progress::line;
 
 /// Memory (bytes) that is free for a new program here, within the limits of a container or batch job; `None` where the system
 /// does not tell.
@@ -26,11 +27,21 @@ pub(super) fn free_here() -> String {
     }
 }
 
-/// Says on standard error, before a run starts, that its prediction exceeds what is free.
-pub(super) fn warn_if_short(bytes_per_thread: u64, threads: usize) {
-    if let Some(warning) = free_bytes().and_then(|free| warning(bytes_per_thread, threads, free)) {
-        anstream::eprintln!("{warning}");
-    }
+/// Says on standard error, before a run starts, that what it or its figures will take exceeds what is free.
+pub(super) fn warn_if_short(bytes_per_thread: u64, threads: usize, drawing_bytes: u64) {
+    let Some(free) = free_bytes() else { return };
+    let of_figures = (drawing_bytes > free).then(|| {
+        format!(
+            "warning: about {} of memory will be needed to draw the figures, and {} are free: take a smaller figures.dpi",
+            megabytes(drawing_bytes),
+            megabytes(free),
+        )
+    });
+    let of_cases = warning(bytes_per_thread, threads, free);
+    of_cases
+        .iter()
+        .chain(&of_figures)
+        .for_each(|text| line(text));
 }
 
 fn warning(bytes_per_thread: u64, threads: usize, free: u64) -> Option<String> {

@@ -22,6 +22,10 @@ pub(super) struct PlanFlags {
     /// Change one key of the sweep file; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
+    /// Choose steps and nodes so that the relative error of every loss is below this value; same as
+    /// --set cycle.accuracy=X
+    #[arg(long, value_name = "X")]
+    accuracy: Option<f64>,
 }
 
 /// Cases listed before the rest is counted.
@@ -29,10 +33,17 @@ const LISTED: usize = 100;
 
 /// Runs the command.
 pub(super) fn run(flags: &PlanFlags, format: OutputFormat) -> Result<Ended, Failure> {
-    let document = open_document(&flags.file, &flags.set)?;
+    let set = with_accuracy(&flags.set, flags.accuracy);
+    let document = open_document(&flags.file, &set)?;
     meant_for::sweep(&document, &flags.file)?;
     let plan = sweep_file::plan(&document)?;
     show(&Setup::new(plan).map_err(Failure::input)?, format)
+}
+
+/// Changes of keys, with that of `--accuracy`.
+pub(super) fn with_accuracy(set: &[String], accuracy: Option<f64>) -> Vec<String> {
+    let accuracy = accuracy.map(|a| format!("cycle.accuracy={a:?}"));
+    set.iter().cloned().chain(accuracy).collect()
 }
 
 /// Prints cases and cost of a sweep.

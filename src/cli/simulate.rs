@@ -98,8 +98,13 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     let state = found(&checkpoint, simulation.moments(), flags.quiet);
     let template = "{wide_bar} {pos}/{len} steps, {eta} left";
     let bar = bar(simulation.moments(), template, flags.quiet);
-    memory::warn_if_short(simulation.predicted_memory_bytes(), 1);
-    let pool = run::pool(run::useful_threads(flags.threads))?;
+    let threads = run::useful_threads(flags.threads);
+    let drawing_bytes = match flags.no_figures {
+        true => 0,
+        false => simulation.plan().figures.drawing_bytes(threads),
+    };
+    memory::warn_if_short(simulation.predicted_memory_bytes(), 1, drawing_bytes);
+    let pool = run::pool(threads)?;
     let told = |done, _| bar.set_position(done as u64);
     let (simulation, flag, told) = (&simulation, &interrupt, &told);
     let (outcome, checkpoint) = pool.install(move || {

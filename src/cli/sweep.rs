@@ -88,8 +88,7 @@ pub(super) struct SweepFlags {
 /// Runs the command.
 pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
-    let accuracy = flags.accuracy.map(|a| format!("cycle.accuracy={a:?}"));
-    let set: Vec<String> = flags.set.iter().cloned().chain(accuracy).collect();
+    let set = super::plan::with_accuracy(&flags.set, flags.accuracy);
     let document = open_document(&flags.file, &set)?;
     meant_for::sweep(&document, &flags.file)?;
     let plan = sweep_file::plan(&document)?;
@@ -105,7 +104,15 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
         threads: run::useful_threads(flags.threads),
         checkpoint_every: Duration::from_secs(flags.checkpoint_every),
     };
-    memory::warn_if_short(setup.predicted_memory_bytes(), options.threads);
+    let drawing_bytes = match flags.no_figures {
+        true => 0,
+        false => setup.plan().figures.drawing_bytes(options.threads),
+    };
+    memory::warn_if_short(
+        setup.predicted_memory_bytes(),
+        options.threads,
+        drawing_bytes,
+    );
     let mut job = Job {
         figures: !flags.no_figures,
         cycles: flags.cycles,

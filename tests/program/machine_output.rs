@@ -553,3 +553,22 @@ fn nothing_that_is_piped_or_asked_to_be_plain_is_coloured() {
         }
     }
 }
+
+#[test]
+fn a_plan_counts_what_an_accuracy_takes() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", &pmma_sweep(THREE));
+    let time_s = |accuracy: &str| {
+        let mut command = program();
+        command.args(["plan", &file, "--format", "json", "--accuracy", accuracy]);
+        let assert = command.assert().success();
+        let plan: Value = serde_json::from_slice(&assert.get_output().stdout).unwrap();
+        let cases = plan["cases"].as_array().unwrap().iter();
+        cases
+            .map(|case| case["time_s"].as_f64().unwrap())
+            .sum::<f64>()
+    };
+    // An error of second order: some five times as many steps, and springs.
+    let (coarse, fine) = (time_s("1e-2"), time_s("1e-5"));
+    assert!(fine > 5.0 * coarse, "{coarse} s, {fine} s");
+}

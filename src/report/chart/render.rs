@@ -2,15 +2,22 @@
 //!
 //! Nothing depends on the machine: the only font is the embedded one, and the same chart gives the same bytes.
 
+use std::sync::{Mutex, PoisonError};
+
 use resvg::{tiny_skia, usvg};
 
 use super::ChartError;
 use super::drawing::{Drawing, PROGRAM};
 use super::text::options;
+use crate::sweep::figures::figure_plan::MANY_PIXELS;
 
 /// CSS and SVG count so many px to an inch.
 const PX_PER_INCH: f32 = 96.0;
 const LARGEST_PIXELS: u32 = 32_768;
+const NO_PICTURE: &str = "the picture would have no pixel, or more than 32768 on a side";
+
+/// Held while a picture of [`MANY_PIXELS`] is drawn.
+static ONE_LARGE: Mutex<()> = Mutex::new(());
 
 impl Drawing {
     /// The picture as PNG on white; at `scale` 1 one pixel per px, at 2 two in each direction.
@@ -31,8 +38,12 @@ impl Drawing {
     }
 
     fn png(&self, scale: f32, pixels_per_metre: Option<u32>) -> Result<Vec<u8>, ChartError> {
-        let picture = pixels(&self.to_svg(), scale)?;
-        self.encode(&picture, pixels_per_metre)
+        let tree = usvg::Tree::from_str(&self.to_svg(), &options())?;
+        let size = size_in_pixels(&tree, scale)?;
+        let is_large = u64::from(size.0) * u64::from(size.1) > MANY_PIXELS;
+        let _alone = is_large.then(|| ONE_LARGE.lock().unwrap_or_else(PoisonError::into_inner));
+        let picture = pixels(&tree, size, scale)?;
+        self.encode(picture, pixels_per_metre)
             .map_err(|error| ChartError::Encode {
                 reason: error.to_string(),
             })
@@ -42,16 +53,19 @@ impl Drawing {
     /// thorough one, which used to be most of the time of a whole sweep.
     fn encode(
         &self,
-        picture: &tiny_skia::Pixmap,
+        picture: tiny_skia::Pixmap,
         pixels_per_metre: Option<u32>,
     ) -> Result<Vec<u8>, png::EncodingError> {
+        let (width, height) = (picture.width(), picture.height());
         let mut opaque = vec![0; picture.pixels().len() * 3];
         let pixels = picture.data().as_chunks::<4>().0;
         for (rgb, rgba) in opaque.as_chunks_mut::<3>().0.iter_mut().zip(pixels) {
             *rgb = [rgba[0], rgba[1], rgba[2]];
         }
+        // The encoder takes as much again.
+        drop(picture);
         let mut bytes = Vec::new();
-        let mut encoder = png::Encoder::new(&mut bytes, picture.width(), picture.height());
+        let mut encoder = png::Encoder::new(&mut bytes, width, height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_compression(png::Compression::Fast);
@@ -71,31 +85,37 @@ impl Drawing {
     }
 }
 
-fn pixels(svg: &str, scale: f32) -> Result<tiny_skia::Pixmap, ChartError> {
+/// Width and height.
+fn size_in_pixels(tree: &usvg::Tree, scale: f32) -> Result<(u32, u32), ChartError> {
+    let refused = |reason| ChartError::PixelScale { scale, reason };
     if !(scale.is_finite() && scale > 0.0) {
-        return Err(ChartError::PixelScale {
-            scale,
-            reason: "give a finite number above zero, such as 1 or 2",
-        });
+        return Err(refused("give a finite number above zero, such as 1 or 2"));
     }
-    let tree = usvg::Tree::from_str(svg, &options())?;
-    let size = tree.size();
     let pixels = |length: f32| (length * scale).round() as u32;
-    let (width, height) = (pixels(size.width()), pixels(size.height()));
-    let mut picture = Some((width, height))
-        .filter(|(width, height)| *width.max(height) <= LARGEST_PIXELS)
-        .and_then(|(width, height)| tiny_skia::Pixmap::new(width, height))
-        .ok_or(ChartError::PixelScale {
-            scale,
-            reason: "the picture would have no pixel, or more than 32768 on a side",
-        })?;
+    let size = (pixels(tree.size().width()), pixels(tree.size().height()));
+    match size.0.max(size.1) <= LARGEST_PIXELS {
+        true => Ok(size),
+        false => Err(refused(NO_PICTURE)),
+    }
+}
+
+fn pixels(
+    tree: &usvg::Tree,
+    (width, height): (u32, u32),
+    scale: f32,
+) -> Result<tiny_skia::Pixmap, ChartError> {
+    let mut picture = tiny_skia::Pixmap::new(width, height).ok_or(ChartError::PixelScale {
+        scale,
+        reason: NO_PICTURE,
+    })?;
     picture.fill(tiny_skia::Color::WHITE);
     // The picture fills its whole pixels even where the scale does not give a whole number.
+    let size = tree.size();
     let stretch = tiny_skia::Transform::from_scale(
         width as f32 / size.width(),
         height as f32 / size.height(),
     );
-    resvg::render(&tree, stretch, &mut picture.as_mut());
+    resvg::render(tree, stretch, &mut picture.as_mut());
     Ok(picture)
 }
 

@@ -1,6 +1,7 @@
 //! The resolution at which the error of a case's loss stays below what is asked for, at the least cost.
 
 use crate::history::Work;
+use crate::sweep::case::Resolution;
 use crate::sweep::case::levels::Levels;
 use crate::sweep::case::stabilise::CaseError;
 use crate::sweep::plan::EngineKind;
@@ -73,6 +74,17 @@ impl Levels<'_> {
         record.message = Some(why);
         Ok(())
     }
+}
+
+/// The resolution at which a case is predicted to have this accuracy, from its record on a coarser one; that one where it has it already,
+/// `None` where it has no result.
+pub(in crate::sweep) fn next_resolution(record: &CaseRecord, accuracy: f64) -> Option<Resolution> {
+    let (loss_j, bar) = loss_and_bar(record)?;
+    let share_j = 0.5 * accuracy * loss_j.abs();
+    Some(Resolution {
+        steps: finer(record.steps, bar.steps, share_j),
+        nodes: finer(record.nodes, bar.nodes, share_j),
+    })
 }
 
 /// The loss (J) of a record and its bar, where it has both.

@@ -78,6 +78,13 @@ const WIDTH_PX: f64 = 800.0;
 const TEXT_PX: f64 = 16.0;
 const POINT_M: f64 = 0.0254 / 72.0;
 
+/// Pictures of more pixels are drawn one after another, on however many threads.
+pub const MANY_PIXELS: u64 = 1 << 24;
+/// Memory (bytes) that drawing a picture takes, per pixel: its colours with transparency and without.
+const PIXEL_BYTES: f64 = 7.0;
+/// Height of a figure over its width, where none is given.
+const HEIGHT: f64 = 0.75;
+
 /// A figure on paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PaperSize {
@@ -122,6 +129,28 @@ impl FigurePlan {
     pub fn resolution(&self) -> Option<usize> {
         let of_paper = self.paper().map(|_| DPI);
         self.dpi.or(of_paper)
+    }
+
+    /// Memory (bytes) that drawing pictures takes on this number of threads.
+    pub fn drawing_bytes(&self, threads: usize) -> u64 {
+        let (paper, pictures) = (self.paper(), self.pictures());
+        let width_m = paper.map_or(WIDTH_PX * PX_M, |paper| paper.width_m);
+        let height_m = paper.and_then(|paper| paper.height_m);
+        let area_m2 = width_m * height_m.unwrap_or(HEIGHT * width_m);
+        let pixels = |form: &Form| match form {
+            Form::Svg | Form::Pdf => 0.0,
+            Form::PngOfDpi(dpi) => area_m2 * (*dpi as f64 / 0.0254).powi(2),
+            Form::PngOfScale(scale) => area_m2 * (f64::from(*scale) / PX_M).powi(2),
+        };
+        let largest = pictures
+            .iter()
+            .map(|(_, form)| pixels(form))
+            .fold(0.0, f64::max);
+        let at_once = match largest > MANY_PIXELS as f64 {
+            true => 1,
+            false => threads,
+        };
+        (PIXEL_BYTES * largest) as u64 * at_once as u64
     }
 
     /// The pictures of a figure: the ending of each, and how it is drawn.

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use crate::history::March;
 use crate::sweep::case::{Setup, SetupError};
-use crate::sweep::engine::prescribed;
+use crate::sweep::engine::{EngineBuilder, prescribed};
 use crate::sweep::plan::{Case, EngineKind, Method, SweepPlan};
 use crate::sweep::share::trial::{self, Trial};
 
@@ -65,6 +65,8 @@ impl Cost {
     /// # Errors
     /// [`SetupError`] where no engine can be made. Where no step can be taken, the measured time is that of the attempt.
     pub fn of(setup: &Setup) -> Result<Self, SetupError> {
+        let at_accuracy = trial::at_accuracy(setup)?;
+        let setup = at_accuracy.as_ref().unwrap_or(setup);
         let (step_s, foretold_s) = foretold(setup)?;
         let trial = Trial::of(setup, &foretold_s)?;
         let plan = setup.plan();
@@ -91,7 +93,7 @@ impl Cost {
             memory_bytes: setup.predicted_memory_bytes(),
             results_bytes: RESULT_BYTES * cases.len() as u64
                 + STEP_BYTES * steps_told
-                + DRAWING_BYTES,
+                + DRAWING_BYTES.max(plan.figures.drawing_bytes(1)),
             disk_bytes: FIGURES_BYTES + of_tables + of_records,
             cases,
             step_s,
@@ -250,30 +252,43 @@ fn step_s(setup: &Setup) -> Result<f64, SetupError> {
 const PROGRAM_BYTES: u64 = 25_000_000;
 
 impl Setup {
-    /// Memory (bytes) that a case under way takes: engine and march, what the search for the stabilised cycle looks back on, where
-    /// it was in contact at which step, and what is told of its surface. Within 20 % of what was measured on 512 x 512 and
-    /// 1024 x 1024 cells, for a contact that stays inside its domain.
+    /// Memory (bytes) of the program and a case under way.
     pub fn predicted_memory_bytes(&self) -> u64 {
-        /// Memories of the body that a search keeps after the usual number of cycles, those of the recorded cycle included.
-        const MEMORIES: usize = 20;
-        /// A value per cell of the surface in the record, as a number and as text, and in the picture made of it.
-        const TOLD_BYTES: usize = 40;
-        let plan = self.plan();
-        let conditions = plan.conditions();
-        let of_engine = |condition| {
+        PROGRAM_BYTES + self.predicted_case_bytes()
+    }
+
+    /// Memory (bytes) that a case under way takes: engine and march, what the search for the stabilised cycle looks back on, where
+    /// it was in contact at which step, and what is told of its surface. Within 20 % of what was counted, for a contact that stays
+    /// inside its domain.
+    pub fn predicted_case_bytes(&self) -> u64 {
+        let conditions = self.plan().conditions();
+        let of_case = |condition| {
             let branches = self.solid(condition).ok()?.compliance.branches().len();
-            let engines = self.engines(condition, plan.contact.solver.nodes()).ok()?;
-            let told = TOLD_BYTES * engines.surface_cells();
-            let engine = engines.predicted_memory_bytes(branches) + told as u64;
-            Some((engine, engines.nodes(), branches))
+            let nodes = self.plan().contact.solver.nodes();
+            let engines = self.engines(condition, nodes).ok()?;
+            Some(self.bytes_of_case(&engines, branches))
         };
-        let largest = conditions.iter().filter_map(of_engine).max();
-        let (engine, nodes, branches) = largest.unwrap_or_default();
-        let searched = match plan.cycle.method {
-            Method::Direct => nodes * plan.cycle.steps,
-            Method::March => 0,
+        conditions.iter().filter_map(of_case).max().unwrap_or(0)
+    }
+
+    fn bytes_of_case(&self, engines: &EngineBuilder, branches: usize) -> u64 {
+        /// Memories of the body that a search holds: start, best and its update, update and weights, iterate and update of the
+        /// acceleration, and what that looks back on after five cycles, the usual number.
+        const OF_SEARCH: usize = 5 + 2 + 2 * 3;
+        /// Those that a march holds beside its own: at the start of a cycle, its change over it, and copies of them.
+        const OF_MARCH: usize = 5;
+        /// The steps (bytes per node) at which a node came into contact and left it.
+        const CONTACT_BYTES: usize = 56;
+        /// What the record says of a cell of the surface (bytes).
+        const RECORD_BYTES: usize = 8;
+        let plan = self.plan();
+        let nodes = engines.nodes();
+        let (memories, contact) = match plan.cycle.method {
+            Method::Direct => (OF_SEARCH, CONTACT_BYTES * nodes),
+            Method::March => (OF_MARCH, 0),
         };
-        let memories = nodes * branches * MEMORIES * size_of::<f64>();
-        PROGRAM_BYTES + engine + (memories + searched) as u64
+        let searched = memories * nodes * branches * size_of::<f64>() + contact;
+        let recorded = RECORD_BYTES * engines.surface_cells();
+        engines.predicted_memory_bytes(branches) + (searched + recorded) as u64
     }
 }

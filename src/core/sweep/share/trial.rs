@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use crate::drive::Control;
-use crate::sweep::case::{Aim, Resolution, Setup, SetupError};
+use crate::sweep::case::{Aim, Resolution, Setup, SetupError, accuracy};
 use crate::sweep::plan::{Condition, EngineKind};
 use crate::sweep::share::cost;
 use crate::sweep::store::packed_record;
@@ -102,6 +102,35 @@ impl Trial {
         }
         trial
     }
+}
+
+/// The sweep at the resolution that its accuracy is predicted to take, from the errors of its middle case on few nodes; `None` where
+/// no accuracy is asked for.
+///
+/// # Errors
+/// As [`Setup::new`].
+pub(super) fn at_accuracy(setup: &Setup) -> Result<Option<Setup>, SetupError> {
+    /// Nodes on which the choice of a resolution begins.
+    const FIRST_NODES: usize = 64;
+    let mut plan = setup.plan().clone();
+    let Some(accuracy) = plan.cycle.accuracy.take() else {
+        return Ok(None);
+    };
+    plan.cycle.tolerance = plan.cycle.tolerance.min(0.1 * accuracy);
+    plan.cycle.error_bars = true;
+    let cases = plan.cases();
+    let middle = cases.get(cases.len() / 2);
+    let is_free = plan.contact.indenter.own_cells().is_none();
+    if let Some(case) = middle.filter(|_| is_free) {
+        plan.contact.solver = plan.contact.solver.with_nodes(FIRST_NODES);
+        let record = Setup::new(plan.clone())?.run(case, &AtomicBool::new(false));
+        let finer = record.and_then(|record| accuracy::next_resolution(&record, accuracy));
+        if let Some(finer) = finer {
+            plan.cycle.steps = finer.steps;
+            plan.contact.solver = plan.contact.solver.with_nodes(finer.nodes);
+        }
+    }
+    Setup::new(plan).map(Some)
 }
 
 /// Losses that locating all peaks takes: the loss follows the loss compliance, or under a prescribed approach the loss modulus, and
