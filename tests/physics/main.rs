@@ -22,6 +22,7 @@ mod numbered_cycles;
 mod periodic;
 mod pmma_baseline;
 mod pressure_profiles;
+mod punch_on_cells;
 mod quarter;
 mod random_solids;
 mod recontact;

@@ -5,8 +5,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use crate::common::{
-    first_touch, half_space, observed_order, pmma_material, relative, run_case, sweep_plan,
-    zener_material,
+    first_touch, observed_order, pmma_material, relative, run_case, sweep_plan, zener_material,
 };
 use contact_dma::contact::Prescribed;
 use contact_dma::drive::{Control, HarmonicDrive};
@@ -15,6 +14,7 @@ use contact_dma::indenter::{Cone, FlatPunch, Indenter, Sphere};
 use contact_dma::material::Material;
 use contact_dma::reference::elastic::flat_punch_approach_m;
 use contact_dma::reference::steady::HarmonicContact;
+use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
 use contact_dma::sweep::record::{CaseResult, Status};
 use contact_dma::sweep::search::peak;
@@ -115,12 +115,11 @@ fn a_flat_punch_on_cells_is_the_flat_punch_on_springs_times_the_stiffness_of_its
         plan.contact.solver.cells = cells;
         plan.contact.solver.tolerance = Some(1e-10);
         let record = run_case(&plan, omega);
-        let mut engine = half_space(
-            plan.contact.indenter.as_ref(),
-            record.domain_half_width_m,
-            cells,
-        );
-        let (elastic, _) = first_touch(&mut engine, 1e-10, Prescribed::LoadN(1.0)).unwrap();
+        let setup = Setup::new(plan.clone()).unwrap();
+        let engines = setup.engines(&plan.condition(), cells).unwrap();
+        let mut engine = engines.engine(record.domain_enlarged).unwrap();
+        let load = Prescribed::LoadN(1.0);
+        let (elastic, _) = first_touch(engine.as_mut(), 1e-10, load).unwrap();
         let staircase = elastic.approach_m / flat_punch_approach_m(PUNCH_RADIUS_M, 1.0, 1e-10);
         let found = record.result.unwrap().analysis;
         let amplitude = |analysis: &contact_dma::cycle::LoopAnalysis| {

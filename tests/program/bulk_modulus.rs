@@ -101,7 +101,7 @@ fn what_does_not_go_with_a_bulk_modulus_is_refused_with_the_reason() {
         (&small, &["too small", "bulk.toml"]),
         (
             &layer,
-            &["layer", "constant bulk modulus", "poisson_ratio in place"],
+            &["layer", "with a bulk modulus", "poisson_ratio in place"],
         ),
         (&format!("{bulk}\nlibrary = \"pmma\""), &["bulk_modulus"]),
         (

@@ -139,6 +139,14 @@ impl Domain {
     }
 }
 
+/// The sharp rim of a face: a circle at which indenter and contact end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rim {
+    pub center_x_m: f64,
+    pub center_y_m: f64,
+    pub radius_m: f64,
+}
+
 /// Why a shape is refused.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -232,6 +240,18 @@ pub trait Indenter: std::fmt::Debug + Send + Sync {
         match self.made_of() {
             Some(shape) => shape.not_axisymmetric_because(),
             None => "is not a body of revolution".to_owned(),
+        }
+    }
+
+    /// The rim at which the shape ends, where it has one.
+    fn rim(&self) -> Option<Rim> {
+        match self.made_of() {
+            Some(shape) => shape.rim(),
+            None => Some(Rim {
+                center_x_m: 0.0,
+                center_y_m: 0.0,
+                radius_m: self.axisymmetric()?.contact_limit_m()?,
+            }),
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Domain, Indenter, IndenterError, Parameter, Value, finite_position};
+use super::{Domain, Indenter, IndenterError, Parameter, Rim, Value, finite_position};
 use crate::quantity::Dimension;
 
 /// An indenter whose own origin lies at an offset.
@@ -65,6 +65,15 @@ impl Indenter for Shifted {
 
     fn made_of(&self) -> Option<&dyn Indenter> {
         Some(&*self.inner)
+    }
+
+    fn rim(&self) -> Option<Rim> {
+        let rim = self.inner.rim()?;
+        Some(Rim {
+            center_x_m: rim.center_x_m + self.offset_x_m,
+            center_y_m: rim.center_y_m + self.offset_y_m,
+            ..rim
+        })
     }
 
     fn elastic_half_width_m(&self, load_n: f64, compliance_per_pa: f64) -> f64 {

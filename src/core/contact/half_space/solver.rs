@@ -85,6 +85,8 @@ pub struct HalfSpace {
     bounded_pressure: bool,
     /// Whether every contact is a disc.
     round_contact: bool,
+    /// Radius of the indenter's face over that of the disc with the area of the cells under it, where it ends in a rim.
+    radius_ratio: f64,
     /// Steps of an instant after which the fast way is left for the safe one.
     fast_steps: usize,
     /// Cells inside the grid in which contact is an error, because the gap beside them is not known.
@@ -132,6 +134,7 @@ impl HalfSpace {
             settings,
             bounded_pressure,
             round_contact: false,
+            radius_ratio: 1.0,
             fast_steps: usize::MAX,
             end_of_data: Vec::new(),
             fields: ActiveSet::default(),
@@ -165,6 +168,15 @@ impl HalfSpace {
     /// The same engine for a convex body of revolution on a half-space, whose contact is always a disc.
     pub fn in_round_contact(mut self) -> Self {
         self.round_contact = true;
+        self
+    }
+
+    /// The same engine for a face that ends in a rim of this radius (m), outside of which the gap is infinite: contact radii are
+    /// those of the face, where the cells under it have another area.
+    pub fn ending_at_rim(mut self, radius_m: f64) -> Self {
+        let cells = self.gap_m.iter().filter(|gap| gap.is_finite()).count();
+        let area_m2 = cells as f64 * self.nodal_area_m2();
+        self.radius_ratio = radius_m / (area_m2 / std::f64::consts::PI).sqrt();
         self
     }
 
@@ -406,7 +418,7 @@ impl Engine for HalfSpace {
         Ok(Solution {
             load_n: found.pressure_sum * area_m2,
             approach_m: found.approach_m,
-            contact_radius_m: (contact_area_m2 / std::f64::consts::PI).sqrt(),
+            contact_radius_m: self.radius_ratio * (contact_area_m2 / std::f64::consts::PI).sqrt(),
             iterations: found.steps,
             convolutions: work.convolutions,
         })

@@ -9,7 +9,7 @@ use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::engine::{EngineError, MAX_GROWTHS};
 use crate::sweep::plan::{EngineKind, instant_tolerance};
-use crate::sweep::record::error_bars::{ErrorBars, InNodes, Ladder, Pair};
+use crate::sweep::record::error_bars::{Edge, ErrorBars, InNodes, Ladder, Pair};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 
 /// Fewest steps and nodes that a coarser resolution may have: below, a cycle has no shape, and its error says nothing.
@@ -168,7 +168,9 @@ impl Levels<'_> {
             EngineKind::Axisymmetric => (distance, InNodes::SPRINGS),
             EngineKind::HalfSpace => {
                 let cell_m = 2.0 * record.domain_half_width_m / record.nodes as f64;
-                (distance + of_instants, InNodes::cells(cell_m))
+                let condition = contact.condition;
+                let edge = Edge::of(condition.indenter.as_ref(), condition.layer.is_some());
+                (distance + of_instants, InNodes::cells(cell_m, edge))
             }
         };
         let bars = ErrorBars::estimate(
@@ -214,11 +216,15 @@ impl Levels<'_> {
 
     /// Whether a coarser resolution exists and means the same contact: an indenter on its own cells has no coarser one.
     fn can_be_coarsened(&self) -> Result<bool, SetupError> {
-        let nodes = self.record.nodes;
-        let engines = self.setup.engines(self.contact.condition, nodes)?;
         Ok(self.record.steps / 4 >= FEWEST_STEPS
-            && nodes / 2 >= FEWEST_NODES
-            && !engines.has_cells_of_its_own())
+            && self.record.nodes / 2 >= FEWEST_NODES
+            && !self.has_own_cells()?)
+    }
+
+    /// Whether the cells are those of the indenter.
+    pub fn has_own_cells(&self) -> Result<bool, SetupError> {
+        let engines = (self.setup).engines(self.contact.condition, self.record.nodes)?;
+        Ok(engines.has_cells_of_its_own())
     }
 
     /// The case on so many nodes, in each of the numbers of steps, every one started from the memory of the last, on ever larger

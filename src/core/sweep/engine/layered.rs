@@ -28,7 +28,9 @@ pub(super) fn contact_domain(
     on_half_space: Domain,
     largest: LargestContact,
 ) -> Result<Domain, EngineError> {
-    if matches!(on_half_space, Domain::Cells { .. }) || largest.maximum <= 0.0 {
+    // A contact does not leave a rim, on whatever body.
+    let is_known = matches!(on_half_space, Domain::Cells { .. }) || indenter.rim().is_some();
+    if is_known || largest.maximum <= 0.0 {
         return Ok(on_half_space);
     }
     let mut factor = 1.0;

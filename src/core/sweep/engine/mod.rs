@@ -39,7 +39,7 @@ pub enum EngineError {
     )]
     SpringsOnLayer,
     #[error(
-        "a layer is solved with a Poisson ratio that does not depend on time, and the material has a constant bulk modulus: write \
+        "a layer is solved with a Poisson ratio that does not depend on time, and that of a material with a bulk modulus does: write \
          poisson_ratio in place of bulk_modulus"
     )]
     LayerOfConstantBulkModulus,
@@ -299,7 +299,9 @@ impl EngineBuilder {
     /// # Errors
     /// [`EngineError::Grid`].
     pub fn field_grid(&self, cells: usize, growths: usize) -> Result<Grid, EngineError> {
-        domain::grid(&self.domain, cells, growths).map_err(|e| EngineError::Grid(e.to_string()))
+        let grid = domain::grid(&self.domain, cells, growths);
+        grid.and_then(|grid| domain::fitted_to_rim(grid, self.indenter.as_ref()))
+            .map_err(|e| EngineError::Grid(e.to_string()))
     }
 
     /// An engine on a domain enlarged `growths` times.
@@ -339,6 +341,9 @@ impl EngineBuilder {
         let mut engine = HalfSpace::new(operator, gaps, bounded, self.settings());
         if self.layer.is_none() && self.indenter.axisymmetric().is_some() {
             engine = engine.in_round_contact();
+        }
+        if let Some(rim) = self.indenter.rim() {
+            engine = engine.ending_at_rim(rim.radius_m);
         }
         Ok(if self.indenter.ends_in_data() {
             engine.ending_in_data()

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::indenter::{Axisymmetric, Indenter};
 use crate::sweep::record::CaseResult;
 
 /// The numbers of a case that have error bars.
@@ -112,15 +113,47 @@ impl Quantity {
     }
 }
 
+/// Where the contact ends on cells.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Edge {
+    /// Anywhere: it moves over the cells in the course of a cycle, and the pressure falls to zero there.
+    Smooth,
+    /// At a sharp edge of the indenter, which stays where it is: the pressure is singular there, and the cells a staircase.
+    Sharp,
+    /// At the rim of the indenter, to which the cells are fitted (`sweep::engine::domain`); the loss goes as this power of its
+    /// radius at most.
+    Rim { power: f64 },
+}
+
+impl Edge {
+    /// That of an indenter on the half-space or on a layer.
+    pub fn of(indenter: &dyn Indenter, on_layer: bool) -> Self {
+        let has_apex_alone = |body: &dyn Axisymmetric| {
+            body.contact_limit_m().is_none()
+                && body.singular_radii_m().iter().all(|r_m| *r_m == 0.0)
+        };
+        if indenter.rim().is_some() {
+            // A thin incompressible layer is as stiff as the fourth power of the radius, a half-space as the first.
+            let power = if on_layer { 4.0 } else { 1.0 };
+            return Self::Rim { power };
+        }
+        match indenter.pressure_is_bounded() || indenter.axisymmetric().is_some_and(has_apex_alone)
+        {
+            true => Self::Smooth,
+            false => Self::Sharp,
+        }
+    }
+}
+
 /// What is believed of an error in the nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InNodes {
     /// The highest order of what is smooth in them.
-    pub order: f64,
+    order: f64,
     /// By what the estimate for the loss is multiplied, and that for any other quantity.
-    pub safety: (f64, f64),
-    /// Width (m) of the cells, where the edge of the contact lies between two of them.
-    pub cell_m: Option<f64>,
+    safety: (f64, f64),
+    /// Width (m) of the cells, where the edge of the contact lies between two of them, and the kind of edge.
+    cells: Option<(f64, Edge)>,
 }
 
 impl InNodes {
@@ -128,17 +161,24 @@ impl InNodes {
     pub const SPRINGS: Self = Self {
         order: 2.0,
         safety: (SAFETY, SAFETY),
-        cell_m: None,
+        cells: None,
     };
+
     /// On cells of this width (m). Every quantity feels where the edge of the contact lies between two of them, least what a whole
-    /// cycle and the whole contact make; for the loss that is foretold (`InNodes::of_edge`), and the difference between grids,
-    /// most of which is the coarser one's own edge, tells the rest. Both factors are from random solids on 48 cells
-    /// (`tests/physics/random_solids.rs`), whose figures are in the guide on validation.
-    pub fn cells(width_m: f64) -> Self {
+    /// cycle and the whole contact make; for the loss that is predicted (`InNodes::of_edge`), and the difference between grids,
+    /// most of which is the coarser one's own edge, tells the rest. Both factors of smooth contacts are from random solids on 48
+    /// cells (`tests/physics/random_solids.rs`), whose figures are in the guide on validation; an edge that does not move has no
+    /// average over its places.
+    pub fn cells(width_m: f64, edge: Edge) -> Self {
+        let (order, of_loss) = match edge {
+            Edge::Smooth => (1.5, 0.2),
+            Edge::Rim { .. } => (1.5, 1.0),
+            Edge::Sharp => (1.0, SAFETY),
+        };
         Self {
-            order: 1.5,
-            safety: (0.2, 3.0),
-            cell_m: Some(width_m),
+            order,
+            safety: (of_loss, 3.0),
+            cells: Some((width_m, edge)),
         }
     }
 
@@ -148,18 +188,36 @@ impl InNodes {
     /// (root of the mean square: D. G. Kendall, Quart. J. Math. 19 (1948) 1); half of that, relative, is in the radius, and in the
     /// stiffness at this radius, of which loss and harmonics are made. An edge that moves over m cells in a cycle averages the
     /// stiffness over 1 + 2 m places. The factor of 3 holds the worst places of the edge, which all small amplitudes on the same
-    /// number of cells have in common.
+    /// number of cells have in common. At a rim the number of cells is right, and three times what their uneven staircase leaves
+    /// in the radius counts.
     fn of_edge(self, quantity: Quantity, result: &CaseResult) -> f64 {
-        let Some(cell_m) = self.cell_m else {
+        let Some((cell_m, edge)) = self.cells else {
             return 0.0;
         };
         let radius_m = result.contact_radius_m;
         // A contact of less than a cell has no edge that lies between two.
-        let relative = |radius_m: f64| 3.0 * 0.13 * (radius_m / cell_m).max(1.0).powf(-1.5);
+        let part = |radius_m: f64| (radius_m / cell_m).max(1.0).powf(-1.5);
+        if let Edge::Rim { power } = edge {
+            let relative = power * 3.0 * 0.024 * part(radius_m.maximum);
+            return match quantity {
+                Quantity::EnergyLoss
+                | Quantity::StorageModulus
+                | Quantity::LossModulus
+                | Quantity::ApproachMin
+                | Quantity::ApproachMax => relative * quantity.of(result).map_or(0.0, f64::abs),
+                _ => 0.0,
+            };
+        }
+        // A sharp edge, which averages over no places, has the whole width by which a staircase is less stiff than its area.
+        let staircase = match edge {
+            Edge::Sharp => 0.1155 * cell_m / radius_m.maximum.max(cell_m),
+            Edge::Smooth | Edge::Rim { .. } => 0.0,
+        };
+        let relative = |radius_m: f64| 3.0 * 0.13 * part(radius_m);
         let places = 1.0 + 2.0 * (radius_m.maximum - radius_m.minimum) / cell_m;
         let averaged = relative(0.5 * (radius_m.minimum + radius_m.maximum)) / places;
         match quantity {
-            Quantity::EnergyLoss => averaged * result.analysis.energy_loss_j.abs(),
+            Quantity::EnergyLoss => (averaged + staircase) * result.analysis.energy_loss_j.abs(),
             Quantity::Harmonic2 | Quantity::Harmonic3 => averaged,
             Quantity::ContactRadiusMin => relative(radius_m.minimum) * radius_m.minimum,
             Quantity::ContactRadiusMax => relative(radius_m.maximum) * radius_m.maximum,
