@@ -1,4 +1,5 @@
-//! Peaks of the curves that a sweep has sampled: bracketed by its cases, then located by solving between them.
+//! Peaks of the curves that a sweep has sampled: bracketed by its cases, then located by solving between them. A bracket of more
+//! than a decade may hold several, all of which are located.
 
 use rayon::prelude::*;
 
@@ -45,19 +46,25 @@ impl Search<'_> {
             .collect();
         self.progress.locating_peaks(brackets.len());
         let refine = |bracket: &Bracket, alone: bool| {
-            peak::refine(&bracket.points, &|omegas: &[f64]| {
-                self.losses_at(bracket, omegas, alone)
-            })
+            let losses = |omegas: &[f64]| self.losses_at(bracket, omegas, alone);
+            match peak::brackets_within(&bracket.points, &losses) {
+                Ok(within) => (within.iter())
+                    .map(|points| peak::refine(points, &losses))
+                    .collect(),
+                Err(error) => vec![Err(error)],
+            }
         };
-        // A thread for each peak, or all threads for each of a few.
-        let found: Vec<Result<Peak, LocateError>> =
+        // A thread for each bracket, or all threads for each of a few.
+        let found: Vec<Vec<Result<Peak, LocateError>>> =
             match brackets.len() < self.pool.current_num_threads() {
                 true => brackets.iter().map(|(b, _)| refine(b, false)).collect(),
                 false => (self.pool)
                     .install(|| brackets.par_iter().map(|(b, _)| refine(b, true)).collect()),
             };
         let mut whole = true;
-        for ((bracket, of_curve), found) in brackets.iter().zip(found) {
+        let found = brackets.iter().zip(found);
+        let found = found.flat_map(|(bracket, found)| found.into_iter().map(move |f| (bracket, f)));
+        for ((bracket, of_curve), found) in found {
             match found {
                 Ok(mut found) => {
                     let condition = &bracket.condition;

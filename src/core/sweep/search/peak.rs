@@ -73,6 +73,11 @@ const STENCIL: usize = 5;
 const HALF_WIDTH: f64 = 0.3;
 const ROUNDS: usize = 6;
 
+/// Width of a bracket, in decades, from which its losses may have several humps.
+const WIDEST: f64 = 1.0;
+/// Cases per decade that find them: a relaxation is as wide as a decade at half its height, and no closer ones are told apart.
+const PER_DECADE: f64 = 3.0;
+
 /// Triples of neighbours whose middle has the larger loss: each brackets a peak. The ends of a sweep are no peaks.
 pub fn brackets(curve: &[Point]) -> Vec<[Point; 3]> {
     curve
@@ -80,6 +85,33 @@ pub fn brackets(curve: &[Point]) -> Vec<[Point; 3]> {
         .filter(|w| w[1].1 > w[0].1 && w[1].1 >= w[2].1)
         .map(|w| [w[0], w[1], w[2]])
         .collect()
+}
+
+/// The brackets of every maximum inside a bracket. One that is wide is sampled anew, with losses of one resolution.
+///
+/// # Errors
+/// Those of `losses`.
+pub fn brackets_within<E>(
+    bracket: &[Point; 3],
+    losses: &Losses<'_, E>,
+) -> Result<Vec<[Point; 3]>, E> {
+    let decades = bracket.map(|(omega, _)| omega.log10());
+    if decades[2] - decades[0] <= WIDEST {
+        return Ok(vec![*bracket]);
+    }
+    let [first, middle, last] = bracket.map(|(omega, _)| omega);
+    let between = |from: f64, to: f64| {
+        let intervals = (PER_DECADE * (to / from).log10()).ceil().max(1.0) as usize;
+        (0..intervals).map(move |i| from * (to / from).powf(i as f64 / intervals as f64))
+    };
+    let omegas: Vec<f64> = between(first, middle)
+        .chain(between(middle, last))
+        .chain([last])
+        .collect();
+    let computed = losses(&omegas)?;
+    let points = omegas.into_iter().zip(computed);
+    let curve: Vec<Point> = points.map(|(omega, (loss, _))| (omega, loss)).collect();
+    Ok(brackets(&curve))
 }
 
 /// Locates the maximum inside a bracket.
@@ -227,6 +259,32 @@ mod tests {
                 assert!((peak.energy_loss_j / loss(low) - 1.0).abs() < 1e-5);
             }
         }
+    }
+
+    #[test]
+    fn every_hump_of_a_wide_bracket_is_bracketed_and_a_narrow_one_stays_as_it_is() {
+        // Four relaxations of which the bracket shows one hump.
+        let loss = |omega: f64| {
+            let debye = |x: f64| x / (1.0 + x * x);
+            let humps = [(1e-4, 0.5), (3e-2, 1.0), (2.0, 0.9), (1e3, 0.2)];
+            humps
+                .iter()
+                .map(|(at, height)| height * debye(omega / at))
+                .sum::<f64>()
+        };
+        let losses = |omegas: &[f64]| -> Result<Vec<Loss>, PeakError> {
+            Ok(omegas.iter().map(|&omega| (loss(omega), None)).collect())
+        };
+        let wide = [1e-6, 1.0, 1e5].map(|omega| (omega, loss(omega)));
+        let found = brackets_within(&wide, &losses).unwrap();
+        let mut peaks: Vec<Peak> = (found.iter())
+            .map(|bracket| refine(bracket, &losses).unwrap())
+            .collect();
+        assert_eq!(peaks.len(), 4);
+        peaks.sort_by(|a, b| b.energy_loss_j.total_cmp(&a.energy_loss_j));
+        assert!((peaks[0].angular_frequency_rad_per_s / 3e-2 - 1.0).abs() < 0.1);
+        let narrow = [0.01, 0.03, 0.09].map(|omega| (omega, loss(omega)));
+        assert_eq!(brackets_within(&narrow, &losses).unwrap(), vec![narrow]);
     }
 
     #[test]
