@@ -218,10 +218,13 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
         step
     }
 
-    /// One stage. Where it would ring, what the step leaves of the old pressure is kept below half of what the new one does at
-    /// once, which makes it of first order there.
+    /// One stage. Where the linear rule would ring, what the step leaves of the old pressure is kept below half of what the new one does at
+    /// once, which makes it of first order there. The constant rule does not ring, and stays as it is.
     fn stages(&self, step_s: f64, rule: TimeRule) -> Vec<Stage<DirectStep>> {
         let step = self.weights(step_s, rule);
+        if rule == TimeRule::Constant {
+            return vec![Stage::whole(step)];
+        }
         let old = self.compliance.compliance_per_pa(step_s) - step.compliance_per_pa;
         let allowed = 0.5 * self.compliance.compliance_per_pa(0.0);
         if old <= allowed {
@@ -379,6 +382,30 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn the_constant_rule_is_not_damped_on_a_body_that_relaxes_strongly() {
+        let branch = CreepBranch {
+            compliance_per_pa: 1e-7,
+            time_s: 0.3,
+        };
+        let creep = Creep::new(1e-9, vec![branch], None).unwrap();
+        let steps = [0.1; 60];
+        let direct = march_with(
+            DirectMemory::new(creep.clone(), 3),
+            |memory, step_s| {
+                let [stage] = memory
+                    .stages(step_s, TimeRule::Constant)
+                    .try_into()
+                    .unwrap();
+                stage.weights
+            },
+            &steps,
+        );
+        let recursive = march(Memory::new(creep, 3), TimeRule::Constant, &steps);
+        let difference = largest_difference(&direct, &recursive);
+        assert!(difference < 1e-13, "{difference:e}");
     }
 
     #[test]
