@@ -21,7 +21,7 @@ use crate::sweep::store::{Store, StoreError};
 /// The name of the file.
 pub const NAME: &str = "cycles.npz";
 
-/// A name, the numbers of one case that a row is made of, and whether these are profiles: instants by places.
+/// A name, the numbers of one case that a row is made of, and whether these are profiles: instants by places, as many of each.
 type Array = (&'static str, fn(&Case<'_>) -> Vec<f64>, bool);
 
 struct Case<'a> {
@@ -63,7 +63,7 @@ const ARRAYS: [Array; 15] = [
     (
         "profile_time_s",
         |c| c.cycle.pressures.iter().map(|p| p.time_s).collect(),
-        true,
+        false,
     ),
     (
         "profile_position_m",
@@ -160,19 +160,27 @@ fn write_array(
     to: &mut impl Write,
 ) -> io::Result<()> {
     let cases = outcome.records.len();
-    let shape = match (is_profile, width) {
-        (false, 0 | 1) => vec![cases],
-        (true, width) if width > INSTANTS => vec![cases, INSTANTS, width / INSTANTS],
-        _ => vec![cases, width],
+    // Each profile of a case is as long as the longest of all cases.
+    let (shape, instants, width) = match (is_profile, width) {
+        (true, width) => (
+            vec![cases, INSTANTS, width / INSTANTS],
+            INSTANTS,
+            width / INSTANTS,
+        ),
+        (false, 0 | 1) => (vec![cases], 1, 1),
+        (false, width) => (vec![cases, width], 1, width),
     };
     to.write_all(&npy::header(&shape))?;
-    let width: usize = shape.iter().skip(1).product();
     for record in &outcome.records {
         let mut row = Vec::new();
         with_cycle(store, plan, record, |case| row = row_of(case)).map_err(io::Error::other)?;
-        row.resize(width, f64::NAN);
-        let bytes: Vec<u8> = row.iter().flat_map(|value| value.to_le_bytes()).collect();
-        to.write_all(&bytes)?;
+        let length = row.len() / instants;
+        for instant in 0..instants {
+            let values = row.iter().skip(instant * length).take(length).copied();
+            let padded = values.chain(std::iter::repeat(f64::NAN)).take(width);
+            let bytes: Vec<u8> = padded.flat_map(f64::to_le_bytes).collect();
+            to.write_all(&bytes)?;
+        }
     }
     Ok(())
 }

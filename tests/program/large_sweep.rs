@@ -53,6 +53,57 @@ fn column(out: &Path, name: &str) -> Vec<f64> {
 }
 
 #[test]
+fn profiles_of_cases_on_different_grids_are_padded_each_by_itself() {
+    let folder = TempDir::new().unwrap();
+    // Two summits in a row along x, and in one along y: on many cells along x, and on few.
+    let summits = |name: &str, [first, second]: [&str; 2]| {
+        format!(
+            "[[sweep.indenter]]\nname = \"{name}\"\nshape = \"asperities\"\nasperities = [\n{{ center = {first}, radius = \"1 mm\" }},\n\
+             {{ center = {second}, radius = \"1 mm\" }},\n]\n"
+        )
+    };
+    let text = format!(
+        "title = \"rows\"\n[material]\nlibrary = \"pmma\"\n[drive]\nmean = \"1 N\"\namplitude = \"0.5 N\"\n[cycle]\nsteps = 32\n\
+         error_bars = false\n[solver]\nengine = \"half-space\"\ncells = 32\n[sweep]\nangular_frequency = [\"0.01 rad/s\"]\n{}{}",
+        summits(
+            "along y",
+            ["[\"0 m\", \"-0.2 mm\"]", "[\"0 m\", \"0.2 mm\"]"]
+        ),
+        summits(
+            "along x",
+            ["[\"-0.2 mm\", \"0 m\"]", "[\"0.2 mm\", \"0 m\"]"]
+        ),
+    );
+    let file = write(&folder, "rows.toml", &text);
+    let out = folder.path().join("out");
+    let mut command = program();
+    command.args(["sweep", &file, "--quiet", "--no-figures", "--out"]);
+    command.arg(&out).assert().success();
+    let bytes = fs::read(out.join("cycles.npz")).unwrap();
+    let (shape, pressures) = array(&bytes, "profile_pressure_pa");
+    assert_eq!(shape, [2, 4, 32]);
+    let (shape, times) = array(&bytes, "profile_time_s");
+    assert_eq!(shape, [2, 4]);
+    assert!(times.iter().all(|time| time.is_finite()));
+    let finite = |row: &[f64]| row.iter().take_while(|p| p.is_finite()).count();
+    let rows: Vec<&[f64]> = pressures.chunks_exact(32).collect();
+    let lengths: Vec<usize> = rows.iter().map(|row| finite(row)).collect();
+    assert_eq!(lengths[4..], [32; 4]);
+    assert!(
+        lengths[0] < 24 && lengths[..4] == [lengths[0]; 4],
+        "{lengths:?}"
+    );
+    assert!(
+        rows.iter()
+            .zip(lengths)
+            .all(|(row, n)| row[n..].iter().all(|p| p.is_nan()))
+    );
+    // The first instant is that of the greatest load, the third that of the least.
+    let highest = |row: &[f64]| row.iter().copied().fold(0.0, f64::max);
+    assert!(highest(rows[4]) > highest(rows[6]));
+}
+
+#[test]
 fn page_and_pictures_stay_small_where_the_curves_have_many_cases() {
     let folder = TempDir::new().unwrap();
     let many = LARGE
