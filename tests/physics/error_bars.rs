@@ -144,6 +144,19 @@ fn an_accuracy_asked_for_is_reached_and_not_much_exceeded() {
 }
 
 #[test]
+fn the_steps_of_the_plan_are_the_fewest_that_an_accuracy_takes() {
+    let sphere = Arc::new(Sphere::new(0.01).unwrap());
+    let mut plan = sweep_plan(crate::common::pmma_material(), sphere, 10.0, 5.0);
+    plan.cycle.accuracy = Some(1e-2);
+    for steps in [32, 500] {
+        plan.cycle.steps = steps;
+        let record = run_case(&plan, 0.0084);
+        assert_eq!(record.status, Status::Converged);
+        assert!(record.steps >= steps && record.steps < 200.max(2 * steps));
+    }
+}
+
+#[test]
 fn an_accuracy_out_of_reach_gives_no_number() {
     let mut plan = sweep_plan(
         crate::common::pmma_material(),

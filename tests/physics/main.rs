@@ -18,6 +18,7 @@ mod instant_tolerance;
 mod intermittent;
 mod layer;
 mod measured_loops;
+mod no_false_result;
 mod numbered_cycles;
 mod periodic;
 mod pmma_baseline;

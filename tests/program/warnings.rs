@@ -179,6 +179,58 @@ fn map() -> String {
 }
 
 const MAP: &str = "shape = \"height-map\"\nfile = \"map.csv\"\nspacing = \"40 um\"";
+/// The same with one point raised.
+fn map_with_a_spike() -> String {
+    let map = map();
+    let rows = map.lines().enumerate().map(|(y, row)| {
+        let points = row.split(',').enumerate();
+        let points = points.map(|(x, height)| match (x, y) {
+            (9, 7) => "3e-6",
+            _ => height,
+        });
+        points.collect::<Vec<_>>().join(",") + "\n"
+    });
+    rows.collect()
+}
+
+#[test]
+fn a_contact_on_one_cell_of_a_map_is_told() {
+    let sweep =
+        "[sweep]\nangular_frequency = [\"0.008 rad/s\"]\n[cycle]\nsteps = 32\nerror_bars = false\n";
+    let text = pmma_sweep(sweep)
+        .replace(SPHERE, MAP)
+        .replace("10 N", "1 mN")
+        .replace("5 N", "0.5 mN");
+    let left = run("sweep", &text, &[("map.csv", &map_with_a_spike())]);
+    assert!(left.codes().contains(&"few-cells"), "{:?}", left.codes());
+    left.says_them();
+    let step = "segments = [{ kind = \"step\", to = \"1 mN\", duration = \"10 s\" }]\n";
+    let text = format!(
+        "title = \"t\"\n[material]\nlibrary = \"pmma\"\n[indenter]\n{MAP}\n[drive]\n{step}"
+    );
+    let left = run("simulate", &text, &[("map.csv", &map_with_a_spike())]);
+    assert!(left.codes().contains(&"few-cells"), "{:?}", left.codes());
+}
+
+#[test]
+fn an_accuracy_on_the_cells_of_a_map_keeps_the_result_and_says_that_it_has_no_error_bars() {
+    let sweep = "[sweep]\nangular_frequency = [\"0.008 rad/s\"]\n[cycle]\nsteps = 32\n";
+    let losses = ["", "accuracy = 1e-3\n"].map(|accuracy| {
+        let text = pmma_sweep(&format!("{sweep}{accuracy}"))
+            .replace(SPHERE, MAP)
+            .replace("10 N", "1 N")
+            .replace("5 N", "0.5 N");
+        let left = run("sweep", &text, &[("map.csv", &map())]);
+        assert_eq!(left.codes(), ["no-error-bars"]);
+        let mut table = csv::Reader::from_path(left.folder.path().join("out/sweep.csv")).unwrap();
+        let place = (table.headers().unwrap().iter()).position(|c| c == "energy_loss_j");
+        let row = table.records().next().unwrap().unwrap();
+        row[place.unwrap()].parse::<f64>().unwrap()
+    });
+    // The tolerance of the cycle follows the accuracy.
+    assert!((losses[1] / losses[0] - 1.0).abs() < 1e-3, "{losses:?}");
+}
+
 const SPHERE: &str = "shape = \"sphere\"\nradius = \"10 mm\"";
 
 #[test]

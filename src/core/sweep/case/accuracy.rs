@@ -9,19 +9,26 @@ use crate::sweep::record::error_bars::{Bar, Quantity};
 use crate::sweep::record::{CaseRecord, Status};
 
 impl Levels<'_> {
-    /// Chooses steps and nodes such that the error of the loss stays below `accuracy` of it, at the least cost.
+    /// Chooses steps, no fewer than the plan's, and nodes such that the error of the loss stays below `accuracy` of it, at the least
+    /// cost. On the cells of a map, of which there are no coarser ones, an error is not known: the result is that of the plan's
+    /// steps, and says so.
     pub(super) fn within_accuracy(&mut self, accuracy: f64) -> Result<(), CaseError> {
-        /// Each refinement is foretold from the last one's error; where an error falls more slowly than foretold, it takes more.
+        /// Each refinement is predicted from the last one's error; where an error falls more slowly than predicted, it takes more.
         const ROUNDS: usize = 8;
-        // Where it begins, and beyond what an accuracy counts as out of reach.
-        let (first, finest) = match self.engine() {
-            EngineKind::Axisymmetric => ((64, 64), (20_000, 6_400)),
-            EngineKind::HalfSpace => ((48, 64), (4_000, 1_024)),
-        };
-        (self.record.steps, self.record.nodes) = first;
         self.contact.cycle.error_bars = true;
+        if self.has_own_cells()? {
+            return self.at_resolution();
+        }
+        // The nodes where it begins, and the steps and nodes beyond which an accuracy counts as out of reach.
+        let (nodes, finest) = match self.engine() {
+            EngineKind::Axisymmetric => (64, (20_000, 6_400)),
+            EngineKind::HalfSpace => (64, (4_000, 1_024)),
+        };
+        self.record.nodes = nodes;
+        let finest = (finest.0.max(self.record.steps), finest.1);
         let (mut work, mut failure) = (Work::default(), None);
         for _ in 0..ROUNDS {
+            self.record.work = Work::default();
             let ended = self.at_resolution();
             let record = &mut *self.record;
             work += record.work;
@@ -98,7 +105,7 @@ fn loss_and_bar(record: &CaseRecord) -> Option<(f64, Bar)> {
 /// coarser ones are halves and quarters.
 fn finer(now: usize, error: f64, allowed: f64) -> usize {
     const SPARE: f64 = 1.1;
-    /// One foretelling is not trusted further than this.
+    /// One prediction is not trusted further than this.
     const LARGEST: f64 = 8.0;
     let factor = SPARE * (error / allowed).sqrt();
     if factor <= 1.0 {

@@ -306,6 +306,7 @@ impl Setup {
         if aim.wanted != Wanted::Everything {
             (cycle.error_bars, cycle.accuracy) = (false, None);
         }
+        let wants_bars = cycle.error_bars || cycle.accuracy.is_some();
         let mut record = CaseRecord {
             index: case.index,
             angular_frequency_rad_per_s: case.angular_frequency_rad_per_s,
@@ -340,6 +341,7 @@ impl Setup {
                 record.message = Some(error.to_string());
             }
         }
+        record.refuse_what_is_not_finite();
         if let (Some(adhesion), Some(result)) = (&self.plan.contact.adhesion, &mut record.result)
             && let Ok(solid) = self.solid(&case.condition)
         {
@@ -349,8 +351,7 @@ impl Setup {
             result.tabor_parameter = Some(adhesion.tabor_parameter(pull_off_n, modulus_pa));
         }
         let solver = &self.plan.contact.solver;
-        record.warnings =
-            outside_model::warnings(solver, &case.condition, &record, cycle.error_bars);
+        record.warnings = outside_model::warnings(solver, &case.condition, &record, wants_bars);
         if let (Some(result), false) = (&mut record.result, self.plan.is_small()) {
             result.cycle.round_profiles();
         }

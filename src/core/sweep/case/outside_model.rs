@@ -30,6 +30,8 @@ pub(in crate::sweep) fn warnings(
         condition.layer,
         result.approach_m.maximum,
     ));
+    warnings.extend(Warning::of_cells(condition.indenter.as_ref(), radius_m));
+    warnings.extend(Warning::of_loss(result));
     if error_bars_wanted && result.errors.is_none() {
         let on_cells = solver.engine == EngineKind::HalfSpace;
         let because = match on_cells && condition.indenter.own_cells().is_some() {

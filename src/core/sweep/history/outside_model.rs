@@ -26,6 +26,9 @@ pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning
         let slope = slope_of_history(plan, outcome, (widest, approach_m));
         warnings.extend(of_slope(slope, widest.contact_radius_m, modulus_pa));
     }
+    let radius_m = widest.map_or(0.0, |row| row.contact_radius_m);
+    let indenter = plan.contact.indenter.as_ref();
+    warnings.extend(Warning::of_cells(indenter, radius_m));
     warnings.extend(Warning::of_depth(plan.contact.layer, approach_m));
     warnings.extend(tabor_parameter(plan));
     warnings

@@ -11,7 +11,7 @@ use crate::cycle::{ContactDuty, Extrema, Loop, LoopAnalysis};
 use crate::drive::Control;
 use crate::history::Work;
 use crate::sweep::plan::{AxisValues, Condition, Method};
-use crate::sweep::record::error_bars::ErrorBars;
+use crate::sweep::record::error_bars::{ErrorBars, Quantity};
 use crate::sweep::record::warning::Warning;
 
 /// How a case ended.
@@ -254,6 +254,23 @@ impl CaseRecord {
         material_error::of(result.analysis.energy_loss_j, &result.replica_losses_j)
     }
 
+    /// Takes a result back that is not made of finite numbers, and what else no record can hold.
+    pub(in crate::sweep) fn refuse_what_is_not_finite(&mut self) {
+        if self.result.as_ref().is_some_and(|r| !r.is_finite()) {
+            self.result = None;
+            self.status = Status::Failed;
+            self.message = Some(
+                "the result is not made of finite numbers: load, lengths, moduli or frequency are so large or small that what is computed \
+                 of them leaves the range of floating-point numbers"
+                    .to_owned(),
+            );
+        }
+        self.steady_distance = self.steady_distance.filter(|distance| distance.is_finite());
+        if !self.domain_half_width_m.is_finite() {
+            self.domain_half_width_m = 0.0;
+        }
+    }
+
     /// The same with its numbers alone.
     #[must_use]
     pub fn without_cycle(&self) -> Self {
@@ -282,6 +299,25 @@ impl CaseResult {
     /// The cycle, where it is held.
     pub fn cycle(&self) -> Option<&RecordedCycle> {
         self.cycle.is_held().then_some(&self.cycle)
+    }
+
+    /// Whether all its numbers are finite.
+    fn is_finite(&self) -> bool {
+        let numbers = Quantity::ALL.into_iter().filter_map(|quantity| {
+            let error = self.errors.as_ref().and_then(|errors| errors.of(quantity));
+            Some(quantity.of(self)? + error.unwrap_or(0.0))
+        });
+        let analysis = &self.analysis;
+        let means = [
+            analysis.polygon_loss_j,
+            analysis.load_mean_n,
+            analysis.approach_mean_m,
+            self.dissipated_j(),
+        ];
+        let samples = &self.cycle.samples;
+        let signals = [&samples.time_s, &samples.load_n, &samples.approach_m];
+        let samples = signals.into_iter().flatten().copied();
+        (numbers.chain(means).chain(samples)).all(f64::is_finite)
     }
 
     /// Energy (J) dissipated by all branches.

@@ -1,13 +1,16 @@
 //! What is said of a case, of a sweep or of a history that lies outside the model, or has no error bars: the kinds, and their words.
 //! The limits themselves are those of the guide on validity.
 
+use std::f64::consts::PI;
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use crate::indenter::{Domain, Indenter};
 use crate::quantity::{Dimension, FrequencyUnit, format_human};
 use crate::sweep::plan::layer::LayerPlan;
-use crate::sweep::record::CaseRecord;
+use crate::sweep::record::error_bars::Quantity;
+use crate::sweep::record::{CaseRecord, CaseResult};
 
 /// Slope of an indenter up to which slopes are small: a/R of a sphere, 11 degrees of a cone.
 pub const LARGEST_SLOPE: f64 = 0.2;
@@ -20,6 +23,10 @@ pub const LARGEST_DEPTH: f64 = 0.1;
 /// Tabor's parameter up to which attraction leaves the shape of the contact alone, and from which it decides it.
 pub const LARGEST_TABOR_PARAMETER: f64 = 0.1;
 pub const JKR_TABOR_PARAMETER: f64 = 5.0;
+/// Cells of a map in contact below which they are too few for a shape between them.
+pub const FEWEST_CELLS_IN_CONTACT: f64 = 20.0;
+/// A loss below zero by less than this part of load times approach is rounding, and what the instants' tolerance leaves.
+const NO_LOSS: f64 = 1e-9;
 /// Representative strain over slope.
 pub const STRAIN_PER_SLOPE: f64 = 0.2;
 
@@ -49,6 +56,10 @@ pub enum Warning {
     DeepInLayer { part: f64 },
     /// The attraction deforms the surfaces, which the theory of Derjaguin, Muller and Toporov neglects.
     TaborParameter { parameter: f64 },
+    /// The largest contact on a map has this many of its cells.
+    FewCells { cells: f64 },
+    /// The energy loss (J) of a passive body is below zero.
+    NegativeLoss { energy_loss_j: f64 },
     /// Error bars were wanted, and there are none.
     NoErrorBars { because: NoErrorBars },
 }
@@ -88,6 +99,32 @@ impl Warning {
         (parameter > LARGEST_TABOR_PARAMETER).then_some(Self::TaborParameter { parameter })
     }
 
+    /// What is to be said of the largest contact (m, its radius) under a map.
+    pub(in crate::sweep) fn of_cells(indenter: &dyn Indenter, radius_m: f64) -> Option<Self> {
+        indenter.own_cells()?;
+        // Where a map has its cells does not depend on the load.
+        let Domain::Cells {
+            spacing_x_m,
+            spacing_y_m,
+            ..
+        } = indenter.domain(1.0, 1.0)
+        else {
+            return None;
+        };
+        let cells = PI * radius_m * radius_m / (spacing_x_m * spacing_y_m);
+        (cells > 0.0 && cells < FEWEST_CELLS_IN_CONTACT).then_some(Self::FewCells { cells })
+    }
+
+    /// What is to be said of the loss of a body that dissipates.
+    pub(in crate::sweep) fn of_loss(result: &CaseResult) -> Option<Self> {
+        let energy_loss_j = result.analysis.energy_loss_j;
+        let bar_j = (result.errors.as_ref()).and_then(|errors| errors.of(Quantity::EnergyLoss));
+        let approach_m = result.approach_m.maximum - result.approach_m.minimum;
+        let rounding_j = NO_LOSS * result.analysis.load_mean_n.abs() * approach_m;
+        let is_negative = -energy_loss_j > bar_j.unwrap_or(0.0).max(rounding_j);
+        (is_negative && !result.branches.is_empty()).then_some(Self::NegativeLoss { energy_loss_j })
+    }
+
     /// A short name, for tables and programs.
     pub fn code(&self) -> &'static str {
         match self {
@@ -99,6 +136,8 @@ impl Warning {
             Self::SteepSlope { .. } => "steep-slope",
             Self::DeepInLayer { .. } => "deep-in-layer",
             Self::TaborParameter { .. } => "tabor-parameter",
+            Self::FewCells { .. } => "few-cells",
+            Self::NegativeLoss { .. } => "negative-loss",
             Self::NoErrorBars { .. } => "no-error-bars",
         }
     }
@@ -121,6 +160,8 @@ impl Warning {
             Self::SteepSlope { slope, .. } => slope,
             Self::DeepInLayer { part } => part,
             Self::TaborParameter { parameter } => parameter,
+            Self::FewCells { cells } => -cells,
+            Self::NegativeLoss { energy_loss_j } => -energy_loss_j,
             Self::NoErrorBars { .. } => 0.0,
         }
     }
@@ -198,6 +239,14 @@ impl Warning {
                 "Tabor's parameter is up to {}: DMT adhesion holds up to about {LARGEST_TABOR_PARAMETER}, and from about \
                  {JKR_TABOR_PARAMETER} on that of Johnson, Kendall and Roberts, which is not solved here",
                 two_digits(parameter)
+            ),
+            Self::FewCells { cells } => format!(
+                "the largest contact has {cells:.0} of the map's cells, too few for a shape (at least {FEWEST_CELLS_IN_CONTACT}): the map \
+                 needs more points there, or has a spike"
+            ),
+            Self::NegativeLoss { energy_loss_j } => format!(
+                "the energy loss, {}, is below zero, which it cannot be: more time steps, springs or cells are needed",
+                format_human(energy_loss_j, Dimension::Energy, 3)
             ),
             Self::NoErrorBars { because } => format!("no error bars: {}", because.words()),
         }
@@ -319,7 +368,7 @@ impl fmt::Display for OverCases {
 mod tests {
     use super::*;
 
-    const EVERY: [Warning; 9] = [
+    const EVERY: [Warning; 11] = [
         Warning::BelowMeasured {
             angular_frequency_rad_per_s: 1e-4,
             last_measured_s: 1000.0,
@@ -342,6 +391,10 @@ mod tests {
             contact_radius_m: 3.613e-6,
         },
         Warning::TaborParameter { parameter: 12.3 },
+        Warning::FewCells { cells: 1.0 },
+        Warning::NegativeLoss {
+            energy_loss_j: -4.9e-12,
+        },
         Warning::NoErrorBars {
             because: NoErrorBars::OwnCells,
         },
@@ -378,6 +431,8 @@ mod tests {
             "strains up to 7.3 %: a glassy material is linear up to about 1 %",
             "up to 361 at a contact radius of 3.61 µm: the model takes them as small, up to about 0.2",
             "is up to 12: DMT adhesion holds up to about 0.1, and from about 5 on",
+            "has 1 of the map's cells, too few for a shape (at least 20)",
+            "the energy loss, -4.90 pJ, is below zero",
             "own cells",
             "no coarser result",
         ]) {
