@@ -90,8 +90,8 @@ class Material:
         material._source = text if keep else material._core.text
         return material
 
-    def _looked_at(self, call: str) -> Material:
-        """Warns of what is to be known of the fit."""
+    def _with_warnings(self, call: str) -> Material:
+        """The material, after a warning of everything that limits the use of its fit."""
         if self._fit is not None:
             for warning in self._fit.warnings:
                 warn(f"{call}: {warning}")
@@ -341,7 +341,7 @@ class Material:
             "values": _toml.si(values, "1/Pa" if quantity == "creep" else "Pa", "values").reshape(-1),
         }
         made = cls._block("table", {"name": name, "poisson_ratio": poisson_ratio}, table=table)
-        return made._looked_at("Material.table(...)")
+        return made._with_warnings("Material.table(...)")
 
     @classmethod
     def from_dynamic(
@@ -436,7 +436,7 @@ class Material:
         else:
             files = [_toml.path(each) for each in file]  # type: ignore[union-attr]
             made = cls._block("from_dynamic", entries, dynamic={**table, "files": files})
-        return made._looked_at(call)
+        return made._with_warnings(call)
 
     @classmethod
     def _of_columns(cls, given: _toml.TableLike, entries: Mapping[str, Any], table: Mapping[str, Any]) -> Material:

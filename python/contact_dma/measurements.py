@@ -69,9 +69,9 @@ class AnalysisResult(Table):
 
     def raise_for_status(self) -> None:
         """Raises RuntimeError where a record has no result, with the reasons of the first."""
-        said = failures(self.status, "record")
-        if said is not None:
-            raise RuntimeError(said)
+        message = failures(self.status, "record")
+        if message is not None:
+            raise RuntimeError(message)
 
     @property
     def findings(self) -> tuple[tuple[Warning, ...], ...]:
@@ -141,9 +141,9 @@ def analyse(
     hertz = None if frequency is None else float(_toml.si(frequency, "Hz", "frequency"))
     given = [_record(record, k) for k, record in enumerate(each)]
     result = AnalysisResult(_core.analyse(given, hertz, _setup(setup), thread_count(threads)))
-    said = failures(result.status, "record")
-    if said is not None:
-        warn(f"analyse: {said}")
+    message = failures(result.status, "record")
+    if message is not None:
+        warn(f"analyse: {message}")
     return result
 
 

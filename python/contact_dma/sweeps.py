@@ -170,9 +170,9 @@ class SweepResult(Table):
 
     def raise_for_status(self) -> None:
         """Raises RuntimeError where a case has no result, with the reasons of the first."""
-        said = failures(self.status, "case")
-        if said is not None:
-            raise RuntimeError(said)
+        message = failures(self.status, "case")
+        if message is not None:
+            raise RuntimeError(message)
 
     @property
     def peaks(self) -> tuple[Peak, ...]:
@@ -374,7 +374,7 @@ def sweep(
         if options:
             raise ValueError(f"a sweep file says all; in place of {', '.join(options)} write overrides={{\"cycle.steps\": 48}}")
         result = SweepResult(_core.sweep(Source(file, None, _toml.overrides(overrides)), thread_count(threads), told))
-    said = failures(result.status, "case")
-    if said is not None:
-        warn(f"sweep: {said}")
+    message = failures(result.status, "case")
+    if message is not None:
+        warn(f"sweep: {message}")
     return result
