@@ -191,9 +191,8 @@ def simulate(
 ) -> HistoryResult: ...
 @overload
 def simulate(
-    file: str | os.PathLike[str],
+    material: str | os.PathLike[str],
     indenter: None = None,
-    /,
     *,
     overrides: Mapping[str, Any] | None = None,
     threads: int | None = None,

@@ -288,9 +288,8 @@ def sweep(
 ) -> SweepResult: ...
 @overload
 def sweep(
-    file: str | os.PathLike[str],
+    material: str | os.PathLike[str],
     indenter: None = None,
-    /,
     *,
     overrides: Mapping[str, Any] | None = None,
     threads: int | None = None,
