@@ -426,14 +426,26 @@ impl AxisOf {
             }
         };
         let is_long = name.chars().count() > NAME_LENGTH;
-        if name.trim() != name || name.is_empty() || is_long || name.contains(char::is_control) {
+        let is_formula = name.starts_with(['=', '+', '-', '@']);
+        if name.trim() != name
+            || name.is_empty()
+            || is_long
+            || name.contains(char::is_control)
+            || is_formula
+        {
             let place = given
                 .as_ref()
                 .map_or(&item.location, |entry| &entry.node.location);
             let problem = format!(
-                "`{path}.name` must have 1 to {NAME_LENGTH} characters, no blanks at its ends and no line ends"
+                "`{path}.name` must have 1 to {NAME_LENGTH} characters, no blanks at its ends, no line ends, and none of = + - @ at its beginning"
             );
-            return Err(Diagnostic::at(place, problem).into());
+            let mut diagnostic = Diagnostic::at(place, problem);
+            if is_formula {
+                diagnostic = diagnostic
+                    .because("a spreadsheet that opens the tables would take it for a formula")
+                    .help("begin the name with a letter or a digit");
+            }
+            return Err(diagnostic.into());
         }
         if self.block == Block::Material {
             let named = Entry {

@@ -24,6 +24,7 @@ use std::sync::Arc;
 
 use super::axis;
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems, Source};
+use super::file_kind;
 use tree::Table;
 
 use reader::TableReader;
@@ -218,6 +219,9 @@ fn too_long(name: &str) -> Diagnostic {
 
 /// Points at the first byte that is not UTF-8, and guesses the encoding.
 pub(super) fn not_utf8(name: &str, bytes: &[u8], offset: usize) -> Diagnostic {
+    if let Err(diagnostic) = file_kind::refuse_binary(name, bytes) {
+        return diagnostic;
+    }
     let message = format!("`{name}` is not UTF-8 text: stopped at byte {offset}");
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {
         return Diagnostic::new(message)

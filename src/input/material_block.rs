@@ -221,10 +221,9 @@ fn library_entry(block: &mut TableReader<'_>) -> Option<&'static LibraryEntry> {
     if entry.is_none() {
         let unknown = format!("no material \"{}\" in the library", name.value);
         let report = block.problems().at(&name, unknown);
-        match library::suggest(&name.value) {
-            Some(near) => report.help(format!("write \"{near}\"")),
-            None => report.help("`contact-dma material list` names all of them"),
-        };
+        let near = library::suggest(&name.value);
+        let near = near.map_or(String::new(), |near| format!("write \"{near}\"; "));
+        report.help(format!("{near}the library has {}", library::names()));
     }
     entry
 }

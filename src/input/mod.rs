@@ -41,6 +41,7 @@ mod drive_table;
 pub mod dynamic;
 pub mod field_file;
 pub(crate) mod figures_block;
+mod file_kind;
 pub mod given;
 mod harmonic_block;
 pub mod identify_file;

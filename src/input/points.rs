@@ -113,7 +113,15 @@ impl Points {
                 .help("for one point write a list with one entry");
             return None;
         }
-        Some(spaced(from.value, to.value, points.value, spacing?))
+        let spacing = spacing?;
+        if spacing == Spacing::Logarithmic && from.value <= 0.0 {
+            problems
+                .at(&from, "points on a logarithmic scale begin above zero")
+                .because("zero or below")
+                .help("begin above zero, or add spacing = \"linear\" to the range");
+            return None;
+        }
+        Some(spaced(from.value, to.value, points.value, spacing))
     }
 }
 

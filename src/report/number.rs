@@ -228,6 +228,7 @@ pub fn varied(varied: &Varied, value: f64) -> String {
         Some(Dimension::Temperature) => {
             format!("{} °C", (1e6 * (value - ZERO_CELSIUS_K)).round() / 1e6)
         }
+        Some(Dimension::Angle) => format!("{}°", scientific(value.to_degrees(), 4)),
         Some(dimension) => plain(value, dimension, 4),
         None => scientific(value, 4),
     }

@@ -193,6 +193,14 @@ test("a sweep of two axes lets its drive be chosen, and shows maps", () => open(
   assert.match(await page.locator("#surface .readout").innerText(), /work density = /);
 }));
 
+test("names stay names, and ticks tell one value from the next", () => open("names", {}, async (page) => {
+  assert.deepEqual((await page.locator("#drive option").allInnerTexts()).map((text) => text.trim()), ["1", "1.0"]);
+  for (const ticks of [[100000, 100500, 101000, 101500], [1.0001e-6, 1.0002e-6], [1e5, 2e5]]) {
+    const texts = await page.evaluate((ticks) => ticks.map((tick) => tickText(tick, ticks, false)), ticks);
+    assert.equal(new Set(texts).size, ticks.length, texts.join(" "));
+  }
+}));
+
 test("a large sweep shows its curves, turns the pages of its table and says which cycles it has", () => open("large", {}, async (page) => {
   const all = rows("large");
   assert.equal(all.length, 240);

@@ -207,6 +207,12 @@ pub fn find(name: &str) -> Option<&'static LibraryEntry> {
         .find(|entry| entry.name.eq_ignore_ascii_case(wanted))
 }
 
+/// The names of all entries, in a sentence.
+pub fn names() -> String {
+    let names: Vec<&str> = entries().iter().map(|entry| entry.name).collect();
+    names.join(", ")
+}
+
 /// The name nearest to one that [`find`] does not know, if it looks like a slip of the pen.
 pub fn suggest(name: &str) -> Option<&'static str> {
     let wanted = name.trim().to_lowercase();
@@ -214,7 +220,8 @@ pub fn suggest(name: &str) -> Option<&'static str> {
         .iter()
         .map(|entry| (strsim::damerau_levenshtein(entry.name, &wanted), entry.name))
         .min()
-        .filter(|(distance, known)| *distance <= 2 && *distance < known.chars().count())
+        // In a short name one letter makes another polymer: PVC is no slip for PVB.
+        .filter(|(distance, known)| 3 * distance < known.chars().count())
         .map(|(_, known)| known)
 }
 
@@ -258,6 +265,7 @@ mod tests {
         assert_eq!(suggest("pmam"), Some("pmma"));
         assert_eq!(suggest(" PMA "), Some("pmma"));
         assert_eq!(suggest("copper"), None);
+        assert_eq!(suggest("pvc"), None);
         assert_eq!(suggest(""), None);
     }
 

@@ -9,7 +9,7 @@ use super::text::{self, DELIMITERS};
 use crate::input::diagnostic::{Diagnostics, Location, Problems, Source};
 
 /// How instruments write that a number is missing, in lower case.
-const MISSING: [&str; 11] = [
+pub(super) const MISSING: [&str; 11] = [
     "", "-", "--", "---", "n/a", "na", "n.a.", "nan", "#n/a", "-nan", "null",
 ];
 

@@ -3,6 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use super::grid::MISSING;
 use super::header::Header;
 use super::text::{self, Lines};
 use crate::input::diagnostic::{Diagnostics, Location, Problems, Source};
@@ -132,10 +133,10 @@ impl<'a> Rows<'a> {
         if self.may_have_holes && is_hole(cell) {
             return Ok(f64::NAN);
         }
-        let why = if cell.is_empty() {
-            "empty"
-        } else {
-            "not a number"
+        let why = match cell {
+            "" => "empty",
+            _ if is_hole(cell) => "marked as missing: leave the row out",
+            _ => "not a number",
         };
         let number = plain_number(cell, delimiter).ok_or(why)?;
         if delimiter != ',' {
@@ -214,8 +215,7 @@ pub(super) fn plain_number(cell: &str, delimiter: char) -> Option<f64> {
 
 /// Whether a cell says that there is no number.
 fn is_hole(cell: &str) -> bool {
-    let words = ["nan", "na", "n/a", "-", "--", "---"];
-    cell.is_empty() || words.iter().any(|word| cell.eq_ignore_ascii_case(word))
+    MISSING.iter().any(|word| cell.eq_ignore_ascii_case(word))
 }
 
 /// Whether a number with a comma could be an integer with its thousands apart: `1,234`.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::input::diagnostic::Diagnostic;
 use crate::input::document::not_utf8;
+use crate::input::file_kind;
 
 /// Delimiters in the order in which one hides another, each with its name. A blank stands for any run of white space.
 pub(super) const DELIMITERS: [(char, &str); 5] = [
@@ -16,6 +17,7 @@ pub(super) const DELIMITERS: [(char, &str); 5] = [
 
 /// The text of a file: UTF-8, or UTF-16 in either byte order; without a byte order mark, lines ended by `\n` or `\r\n`.
 pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<String, Diagnostic> {
+    file_kind::refuse_binary(name, bytes)?;
     let text = match bytes {
         [0xff, 0xfe, rest @ ..] => utf_16(name, rest, u16::from_le_bytes)?,
         [0xfe, 0xff, rest @ ..] => utf_16(name, rest, u16::from_be_bytes)?,
@@ -37,6 +39,7 @@ pub(super) fn decode(name: &str, bytes: &[u8]) -> Result<String, Diagnostic> {
 /// The text of a file that an instrument wrote, and the number of bytes that are no UTF-8: those are taken as letters of Latin-1, one
 /// by one, so that a stray byte does not change how the others are read.
 pub(super) fn decode_instrument(name: &str, bytes: &[u8]) -> Result<(String, usize), Diagnostic> {
+    file_kind::refuse_binary(name, bytes)?;
     let is_utf_16 = matches!(bytes, [0xff, 0xfe, ..] | [0xfe, 0xff, ..])
         || matches!(bytes, [a, b, ..] if (*a == 0) != (*b == 0));
     if is_utf_16 || std::str::from_utf8(bytes).is_ok() {

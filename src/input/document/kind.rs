@@ -287,7 +287,7 @@ impl Kind for Text {
         let written = node.location.text();
         let is_word = !written.is_empty() && !written.contains(['"', '\'', '\\', '\n', '[', '{']);
         let help = match &node.value {
-            Value::Text(text) => return Ok(text.clone()),
+            Value::Text(text) => return without_control_characters(text, node, spot),
             _ if is_word && node.location.source().is_flag() => {
                 format!("write `--set '{}=\"{written}\"'`", spot.path)
             }
@@ -299,6 +299,26 @@ impl Kind for Text {
         };
         Err(self.wrong_type(node, spot).help(help).into())
     }
+}
+
+/// Text that can be printed and drawn: line ends and tabs are the only control characters, and it has no noncharacters, which no
+/// SVG or XML may hold.
+fn without_control_characters(
+    text: &str,
+    node: &Node,
+    spot: &Spot<'_>,
+) -> Result<String, Diagnostics> {
+    let is_unfit =
+        |c: &char| (c.is_control() && !"\n\t".contains(*c)) || matches!(c, '\u{fffe}' | '\u{ffff}');
+    let Some(unfit) = text.chars().find(is_unfit) else {
+        return Ok(text.to_owned());
+    };
+    let problem = must_be(spot, "text without control characters", node);
+    let because = format!("it has the character U+{:04X}", u32::from(unfit));
+    Err(problem
+        .because(because)
+        .help("leave that character out")
+        .into())
 }
 
 /// One of a few words, each standing for a value.

@@ -139,7 +139,9 @@ impl<'a> TableReader<'a> {
             Some(given) => problem
                 .because(format!("similar to `{meant}`"))
                 .label(&given.key, format!("`{meant}` is given here"))
-                .help("keep one of them"),
+                .help(format!(
+                    "remove `{key}`, or `{meant}` and write that in its place"
+                )),
             None => problem
                 .because(format!("did you mean `{meant}`?"))
                 .help(format!("write `{meant}` instead of `{key}`")),
@@ -583,7 +585,7 @@ mod tests {
         5 | amplitudes = "6 N"
           | ^^^^^^^^^^ similar to `amplitude`
           |
-          = help: keep one of them
+          = help: remove `amplitudes`, or `amplitude` and write that in its place
         "#);
     }
 
@@ -927,7 +929,7 @@ tolerance = 1e-400
          | --set cycle.steps=abc
          |             ----- `steps` is given here
          |
-         = help: keep one of them
+         = help: remove `stesp`, or `steps` and write that in its place
         "#);
     }
 

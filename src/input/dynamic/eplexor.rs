@@ -8,6 +8,7 @@
 //!
 //! The sheet is laid out as text with tabs, a line for every row, so that places in it are those of the workbook.
 
+use std::cell::Cell;
 use std::io::{Cursor, Read as _, copy, sink};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -16,6 +17,7 @@ use calamine::{Data, DataRef, Reader, Xls, Xlsx};
 use super::{Reading, generic, steps, units};
 use crate::input::data_file::grid::Grid;
 use crate::input::diagnostic::{Diagnostic, Diagnostics, Source};
+use crate::input::file_kind;
 use crate::quantity::celsius;
 
 /// Largest workbook, bytes: its contents may be a thousand times as large.
@@ -27,6 +29,8 @@ const MOST_CELLS: usize = 5_000_000;
 /// Rows and columns that are looked at.
 const MOST_ROWS: u32 = 200_000;
 const MOST_COLUMNS: u32 = 500;
+/// Most bytes of the text in a cell: Excel holds 32,767 characters.
+const MOST_BYTES_OF_CELL: usize = 4 * 32_767;
 /// The sheet of the data, and that of the shift factors.
 const DATA: &str = "Exported Data";
 const SHIFTS: &str = "Shiftlist";
@@ -34,6 +38,22 @@ const SHIFTS: &str = "Shiftlist";
 /// Whether bytes begin as a workbook does.
 pub(super) fn detect(bytes: &[u8]) -> bool {
     bytes.starts_with(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1") || bytes.starts_with(b"PK\x03\x04")
+}
+
+thread_local! {
+    /// Whether this thread is in the crate that reads workbooks, whose panics are caught.
+    static IS_READING: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Keeps panics that are caught from being printed; for programs, once at their start.
+#[cfg(feature = "cli")]
+pub(crate) fn silence_caught_panics() {
+    let print = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        if !IS_READING.get() {
+            print(panic);
+        }
+    }));
 }
 
 /// Reads the isotherms, or the master curve.
@@ -51,9 +71,16 @@ pub(super) fn read(name: &str, bytes: &[u8], reading: &mut Reading) -> Result<()
             .into());
     }
     // The crate that reads workbooks is not free of panics on broken ones.
-    let sheets = catch_unwind(AssertUnwindSafe(|| sheets(bytes)))
-        .unwrap_or_else(|_| Err("it is broken".into()));
+    IS_READING.set(true);
+    let sheets = catch_unwind(AssertUnwindSafe(|| sheets(bytes)));
+    IS_READING.set(false);
+    let sheets = sheets.unwrap_or_else(|_| Err("it is broken".into()));
     let sheets = sheets.map_err(|why| {
+        // A ZIP archive is a workbook only where Excel wrote it.
+        if let Some((what, help)) = file_kind::of(bytes).filter(|_| !is_workbook(bytes)) {
+            return Diagnostic::new(format!("`{name}` is {what}, not a table of dynamic data"))
+                .help(help);
+        }
         Diagnostic::new(format!("`{name}` cannot be read as a workbook: {why}"))
             .help("open it and save it again, or save the sheet as CSV")
     })?;
@@ -113,6 +140,10 @@ fn one_sheet(
         reading.add(&block)?;
     }
     Ok(())
+}
+
+fn is_workbook(bytes: &[u8]) -> bool {
+    file_kind::of(bytes).is_some_and(|(what, _)| what.contains("workbook"))
 }
 
 /// Why a workbook cannot be read.
@@ -203,7 +234,7 @@ fn sheets(bytes: &[u8]) -> Result<Vec<(String, String)>, Broken> {
                 top + u32::try_from(row).unwrap_or(u32::MAX / 2),
                 left + u32::try_from(column).unwrap_or(u32::MAX / 2),
                 &written(cell),
-            );
+            )?;
         }
         Ok((sheet, text.text))
     };
@@ -215,11 +246,15 @@ fn xlsx_sheet(book: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<String, Bro
     let mut text = Rows::default();
     while let Some(cell) = cells.next_cell()? {
         let (row, column) = cell.get_position();
-        let value = match cell.get_value() {
-            DataRef::SharedString(shared) => (*shared).to_owned(),
-            other => written(&Data::from(other.clone())),
-        };
-        text.push(row, column, &value);
+        match cell.get_value() {
+            // Many cells may name one long text: it is not copied for those that are not kept.
+            DataRef::SharedString(shared) => text.push(row, column, shared)?,
+            DataRef::String(own) => text.push(row, column, own)?,
+            other => text.push(row, column, &written(&Data::from(other.clone())))?,
+        }
+        if text.is_full() {
+            break;
+        }
     }
     Ok(text.text)
 }
@@ -233,14 +268,23 @@ struct Rows {
 }
 
 impl Rows {
-    fn push(&mut self, row: u32, column: u32, cell: &str) {
+    /// Whether nothing more is kept.
+    fn is_full(&self) -> bool {
+        self.text.len() > super::MAX_BYTES || self.row >= MOST_ROWS
+    }
+
+    fn push(&mut self, row: u32, column: u32, cell: &str) -> Result<(), Broken> {
+        if cell.len() > MOST_BYTES_OF_CELL {
+            return Err(format!(
+                "the cell in row {}, column {} is longer than Excel allows",
+                row + 1,
+                column + 1
+            )
+            .into());
+        }
         let is_before = (row, column) < (self.row, self.column);
-        if is_before
-            || row >= MOST_ROWS
-            || column >= MOST_COLUMNS
-            || self.text.len() > super::MAX_BYTES
-        {
-            return;
+        if is_before || row >= MOST_ROWS || column >= MOST_COLUMNS || self.is_full() {
+            return Ok(());
         }
         while self.row < row {
             self.text.push('\n');
@@ -252,6 +296,7 @@ impl Rows {
             self.column += 1;
         }
         self.text += &cell.replace(['\t', '\n', '\r'], " ");
+        Ok(())
     }
 }
 
@@ -279,6 +324,8 @@ fn reference(sheet: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::MOST_BYTES_OF_CELL;
+    use crate::input::diagnostic::Styling;
     use crate::input::dynamic::tests::{TAU, assert_points, read_bytes};
     use crate::input::dynamic::workbook::{Sheet, xls, xlsx};
     use crate::input::dynamic::{DynamicFormat, MAX_BYTES, from_bytes};
@@ -305,6 +352,16 @@ mod tests {
             vec!["-20", "5", ""],
         ];
         ("Shiftlist", rows)
+    }
+
+    #[test]
+    fn a_cell_longer_than_excel_allows_is_refused_before_it_is_copied() {
+        let long = "x".repeat(MOST_BYTES_OF_CELL + 1);
+        let (name, mut rows) = data();
+        rows.push(vec![&long]);
+        let refused = from_bytes("a.xlsx", &xlsx(&[(name, rows)]), None, ModulusKind::Shear);
+        let text = refused.unwrap_err().render(Styling::Plain);
+        assert!(text.contains("row 8, column 1 is longer"), "{text}");
     }
 
     #[test]

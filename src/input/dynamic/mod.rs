@@ -32,6 +32,8 @@ mod trios_lims;
 mod trios_text;
 mod units;
 
+#[cfg(feature = "cli")]
+pub(crate) use eplexor::silence_caught_panics;
 use std::path::PathBuf;
 use std::sync::Arc;
 

@@ -38,7 +38,7 @@ pub(super) const POISSON_RATIO_VALUE: Scalar = number("0.4")
 /// What to write where an element of a model with few of them has no strength or no time.
 const ELASTIC: &str =
     "for a body without this element write a [material.relaxation] block with the branches it has";
-const NO_BRANCH: &str = "leave out a branch that is not there";
+const NO_BRANCH: &str = "write a positive number, or leave the branch out";
 const WINDOW: &str =
     "write the first and the last time of the test, above zero: measured = [\"0.1 s\", \"1000 s\"]";
 

@@ -59,8 +59,8 @@ function withUnit(value, unit, digits = 4) {
   return significant(value * scale.factor, digits) + joint + scale.unit;
 }
 
-/** Rows of a CSV text as objects: numbers where a cell is one, null where it is empty. */
-function parseCsv(text) {
+/** Rows of a CSV text as objects: numbers where a cell is one, null where it is empty; in columns of names always text. */
+function parseCsv(text, named = new Set()) {
   const lines = [[]];
   const pattern = /("(?:[^"]|"")*"|[^,\n]*)(,|\n|$)/g;
   for (let match; (match = pattern.exec(text)) && match.index < text.length; ) {
@@ -71,7 +71,8 @@ function parseCsv(text) {
   const rows = lines.filter((line) => line.length > 1);
   const columns = rows.shift() || [];
   const value = (cell) => (cell === "" ? null : /^-?\d/.test(cell) && isFinite(cell) ? Number(cell) : cell);
-  return { columns, rows: rows.map((cells) => ({ cells, ...Object.fromEntries(columns.map((c, i) => [c, value(cells[i])])) })) };
+  const inColumn = (c, cell) => (named.has(c) ? cell : value(cell));
+  return { columns, rows: rows.map((cells) => ({ cells, ...Object.fromEntries(columns.map((c, i) => [c, inColumn(c, cells[i])])) })) };
 }
 
 function toCsv(columns, rows) {

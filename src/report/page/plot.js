@@ -38,8 +38,10 @@ function tickText(value, ticks, log) {
   if (value === 0) return "0";
   if (log) return trimmed(significant(value, 3));
   const size = Math.max(...ticks.map(Math.abs));
-  if (size >= 1e5 || size < 1e-2) return significant(value, 2).replace(/\.0(?= ×)/, "");
   const gap = ticks.length > 1 ? Math.min(...ticks.slice(1).map((t, i) => Math.abs(t - ticks[i]))) : Math.abs(value);
+  // As many digits as tell one tick from the next.
+  const digits = Math.max(2, 1 + Math.ceil(Math.log10(size / gap) - 1e-9));
+  if (size >= 1e5 || size < 1e-2) return significant(value, digits).replace(/\.?0*(?= ×)/, "");
   return minus(value.toFixed(Math.max(0, -Math.floor(Math.log10(gap) + 1e-9))));
 }
 

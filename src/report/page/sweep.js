@@ -3,16 +3,21 @@
 function start(data) {
   const { quantities, frequency } = data;
   const [, , , , degrees] = quantities.find(([column]) => column === "phase_lag_rad");
-  const { columns, rows } = parseCsv(data.csv);
+  const named = new Set(data.varied.filter((v) => v.named).map((v) => v.column));
+  const { columns, rows } = parseCsv(data.csv, named);
   const results = new Map(data.cases.map((c) => [c.index, c]));
   const omegaText = (row) => `${trimmed(significant(row[frequency.column]))} ${frequency.unit}`;
   const { varied } = data;
-  const key = (row) => varied.map(({ column }) => row[column]).join(" ");
+  const key = (row) => JSON.stringify(varied.map(({ column }) => row[column]));
   const drives = [...new Map(rows.map((row) => [key(row), row])).values()];
   const byKey = new Map(drives.map((row) => [key(row), []]));
   for (const row of rows) byKey.get(key(row)).push(row);
   const driveText = (row) => {
-    const one = ({ column, unit, zero, named }) => (named ? String(row[column]) : zero ? `${trimmed(significant(row[column] - zero))} ${unit}` : trimmed(withUnit(row[column], unit)));
+    const one = ({ column, unit, zero, factor, named }) => {
+      if (named) return row[column];
+      if (zero) return `${trimmed(significant(row[column] - zero))} ${unit}`;
+      return trimmed(factor === 1 ? withUnit(row[column], unit) : significant(factor * row[column]) + unit);
+    };
     return varied.map(one).join(", ");
   };
   const branchNames = Array.from({ length: data.branches }, (_, k) => {

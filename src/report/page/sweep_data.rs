@@ -48,21 +48,25 @@ struct VariedData {
     column: String,
     unit: &'static str,
     zero: f64,
+    /// From the SI unit to the one that is told.
+    factor: f64,
     /// Whether its cells are names.
     named: bool,
 }
 
 impl VariedData {
     fn of(varied: &Varied) -> Self {
-        let (unit, zero) = match varied.dimension {
-            Some(Dimension::Temperature) => ("°C", ZERO_CELSIUS_K),
-            Some(dimension) => (dimension.si_unit(), 0.0),
-            None => ("", 0.0),
+        let (unit, zero, factor) = match varied.dimension {
+            Some(Dimension::Temperature) => ("°C", ZERO_CELSIUS_K, 1.0),
+            Some(Dimension::Angle) => ("°", 0.0, 1_f64.to_degrees()),
+            Some(dimension) => (dimension.si_unit(), 0.0, 1.0),
+            None => ("", 0.0, 1.0),
         };
         Self {
             column: varied.column(),
             unit,
             zero,
+            factor,
             named: varied.is_whole(),
         }
     }

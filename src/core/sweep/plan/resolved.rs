@@ -126,7 +126,13 @@ pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
 
 /// The `[indenter.material]` block.
 pub(crate) fn counterbody_text(material: &Material) -> String {
-    material_text(material).replace("[material", "[indenter.material")
+    let moved = |line: &str| match line.split_once("[material") {
+        // A header, and not a name with these letters.
+        Some((brackets @ ("" | "["), rest)) => format!("{brackets}[indenter.material{rest}"),
+        _ => line.to_owned(),
+    };
+    let text = material_text(material);
+    text.split('\n').map(moved).collect::<Vec<_>>().join("\n")
 }
 
 /// The material of a block under these conditions: at each temperature, where that varies.
