@@ -72,7 +72,7 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
     let mut text = comparison.text();
     if let Some(out) = &flags.out {
         let left_out = write(out, &comparison, &tolerances, [&baseline, &new])?;
-        text.extend(left_out.map(|reason| format!("{reason}\n")));
+        text.extend(left_out.iter().map(|reason| format!("{reason}\n")));
     }
     text.push_str(&format!("\n{}\n", comparison.verdict()));
     if let Some(out) = &flags.out {
@@ -86,13 +86,13 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
     })
 }
 
-/// Writes figure, data and page. Returns why there is no figure, where there is none.
+/// Writes figure, data and page. Returns what was left out and why.
 fn write(
     out: &Path,
     comparison: &Comparison,
     tolerances: &Tolerances,
     [baseline, new]: [&Opened; 2],
-) -> Result<Option<String>, Failure> {
+) -> Result<Vec<String>, Failure> {
     let pictures = Pictures::default();
     let write = |name: &str, bytes: &[u8]| write_atomically(&out.join(name), bytes);
     let press = Press {
@@ -100,7 +100,10 @@ fn write(
         write: &write,
         pictures: &pictures,
     };
-    let left_out = figure::comparison::write(comparison, &press)?;
+    let mut left_out: Vec<String> = figure::comparison::write(comparison, &press)?
+        .into_iter()
+        .collect();
+    left_out.extend(pictures.not_drawn());
     let page = page::comparison::page(&Compared {
         comparison,
         tolerances,

@@ -102,6 +102,9 @@ pub(super) fn write_figures(
         pictures: &pictures,
     };
     press.figures(figures, setting).map_err(Failure::run)?;
+    for reason in pictures.not_drawn() {
+        super::warn(&reason);
+    }
     let Some(first) = figures.first() else {
         return Ok(());
     };
@@ -131,8 +134,9 @@ pub(super) fn load(name: &str) -> Result<(Material, String), Failure> {
     if !path.exists() && name != STANDARD_INPUT {
         let near = library::suggest(name).map(|near| format!("; did you mean \"{near}\"?"));
         return Err(Failure::input(format!(
-            "no material \"{name}\" in the library, and no file of that name{}",
-            near.unwrap_or_else(|| "; `contact-dma material list` names all materials".to_owned())
+            "no material \"{name}\" in the library, and no file of that name{}\nThe library has {}.",
+            near.unwrap_or_default(),
+            library::names()
         )));
     }
     let document = read_document(path)?;

@@ -52,9 +52,10 @@ fn fit_table(
     match format {
         OutputFormat::Json => json::print(&json::fit(&fit, &material)?)?,
         OutputFormat::Text => print(&format!(
-            "{}\n{}\n{block}",
+            "{}\n{}{}",
             report::fit::text(fit.report()),
-            report::fit::branches(&fit)
+            report::fit::branches(&fit),
+            unless_written(flags, &block)
         ))?,
     };
     let Some(folder) = &flags.out else {
@@ -78,6 +79,14 @@ fn fit_table(
         page::material::page(&material, &about)
     })?;
     print_place("Material and figures", folder, format)
+}
+
+/// The block to paste, where it does not go into a file.
+pub(super) fn unless_written(flags: &FitFlags, block: &str) -> String {
+    match flags.out {
+        Some(_) => String::new(),
+        None => format!("\n{block}"),
+    }
 }
 
 /// The material block of a sweep file, ready to paste, every number exact.

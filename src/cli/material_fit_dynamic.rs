@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::arguments::{Branches, FitFlags, OutputFormat};
 use super::material::{commented, print_place, write_figures, write_files};
+use super::material_fit::unless_written;
 use super::{Ended, Failure, json, print};
 use crate::input::dynamic::{self, DynamicFormat};
 use crate::material::dynamic::master_curve::ShiftChoice;
@@ -56,7 +57,8 @@ pub(super) fn run(
         OutputFormat::Text => {
             let (text, shifts) = (report.text(), report.shift_table());
             let branches = report.branches();
-            print(&format!("{text}\n{shifts}\n{branches}\n{block}"))?
+            let block = unless_written(flags, &block);
+            print(&format!("{text}\n{shifts}\n{branches}{block}"))?
         }
     };
     let Some(folder) = &flags.out else {

@@ -36,6 +36,7 @@ use arguments::{Arguments, Command, OutputFormat};
 
 use crate::input::diagnostic::{Diagnostics, Styling};
 use crate::input::document::{self, Document};
+use crate::input::dynamic::silence_caught_panics;
 use crate::report::ReportError;
 use crate::report::comparison::ComparisonError;
 use crate::sweep::search::run::RunError;
@@ -112,6 +113,7 @@ impl From<ComparisonError> for Failure {
 
 /// Runs the program with these arguments, the first being its name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    silence_caught_panics();
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -165,7 +167,18 @@ fn report(failure: Failure) -> ExitCode {
 }
 
 fn error_line(message: &str) -> io::Result<()> {
-    writeln!(anstream::stderr(), "error: {message}")
+    writeln!(anstream::stderr(), "error: {}", printable(message))
+}
+
+/// Prints a warning to standard error, where that can be written to.
+fn warn(message: &str) {
+    let _ = writeln!(anstream::stderr(), "warning: {}", printable(message));
+}
+
+/// The text without control characters, by which a title or a name from a file could command the terminal.
+fn printable(text: &str) -> String {
+    let is_command = |c: char| c.is_control() && c != '\n' && c != '\t';
+    text.replace(is_command, "\u{fffd}")
 }
 
 /// The name of standard input in the place of a file.
@@ -228,9 +241,10 @@ fn tell(
 
 /// Prints for people, no wider than their terminal.
 fn print(text: &str) -> Result<Ended, Failure> {
+    let text = printable(text);
     match width::of_terminal() {
-        Some(columns) => write_out(&width::fitted(text, columns)),
-        None => write_out(text),
+        Some(columns) => write_out(&width::fitted(&text, columns)),
+        None => write_out(&text),
     }
 }
 

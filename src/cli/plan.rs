@@ -33,7 +33,7 @@ const LISTED: usize = 100;
 
 /// Runs the command.
 pub(super) fn run(flags: &PlanFlags, format: OutputFormat) -> Result<Ended, Failure> {
-    let set = with_accuracy(&flags.set, flags.accuracy);
+    let set = with_accuracy(&flags.set, flags.accuracy)?;
     let document = open_document(&flags.file, &set)?;
     meant_for::sweep(&document, &flags.file)?;
     let plan = sweep_file::plan(&document)?;
@@ -41,9 +41,17 @@ pub(super) fn run(flags: &PlanFlags, format: OutputFormat) -> Result<Ended, Fail
 }
 
 /// Changes of keys, with that of `--accuracy`.
-pub(super) fn with_accuracy(set: &[String], accuracy: Option<f64>) -> Vec<String> {
+///
+/// # Errors
+/// The accuracy is given by both.
+pub(super) fn with_accuracy(set: &[String], accuracy: Option<f64>) -> Result<Vec<String>, Failure> {
+    let is_accuracy = |set: &String| set.trim_start().starts_with("cycle.accuracy=");
+    if accuracy.is_some() && set.iter().any(is_accuracy) {
+        let both = "--accuracy X is --set cycle.accuracy=X: give one of the two";
+        return Err(Failure::input(both));
+    }
     let accuracy = accuracy.map(|a| format!("cycle.accuracy={a:?}"));
-    set.iter().cloned().chain(accuracy).collect()
+    Ok(set.iter().cloned().chain(accuracy).collect())
 }
 
 /// Prints cases and cost of a sweep.

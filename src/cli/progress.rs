@@ -7,8 +7,9 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::quantity::FrequencyUnit;
+use crate::report::number;
 use crate::report::words::case;
-use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::{SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Progress;
 
@@ -16,6 +17,7 @@ use crate::sweep::search::run::Progress;
 pub(super) struct Shown {
     total: AtomicUsize,
     unit: FrequencyUnit,
+    axes: Vec<Varied>,
     done: AtomicUsize,
     found: AtomicUsize,
     how: How,
@@ -43,10 +45,23 @@ impl Shown {
         Self {
             total: AtomicUsize::new(total),
             unit: plan.figures.frequency_unit,
+            axes: plan
+                .axes
+                .as_ref()
+                .map_or(Vec::new(), |axes| axes.over.clone()),
             done: AtomicUsize::new(0),
             found: AtomicUsize::new(0),
             how,
         }
+    }
+
+    /// What the axes besides the frequency have in a case.
+    fn varied(&self, record: &CaseRecord) -> String {
+        let values = self.axes.iter().zip(record.varied.all());
+        let one = |(axis, value): (&Varied, &f64)| {
+            format!(", {} {}", axis.words(), number::varied(axis, *value))
+        };
+        values.map(one).collect()
     }
 
     /// Takes the bar away, so that the table stands alone. Returns how many cases had records before.
@@ -81,9 +96,10 @@ impl Progress for Shown {
         match &self.how {
             How::Bar(bar) => bar.inc(1),
             How::Lines => line(&format!(
-                "{done}/{} {}: {} after {} cycles",
+                "{done}/{} {}{}: {} after {} cycles",
                 self.total.load(Ordering::Relaxed),
                 case(self.unit, record.angular_frequency_rad_per_s),
+                self.varied(record),
                 record.status.name(),
                 record.cycles
             )),

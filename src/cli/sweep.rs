@@ -88,7 +88,7 @@ pub(super) struct SweepFlags {
 /// Runs the command.
 pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
-    let set = super::plan::with_accuracy(&flags.set, flags.accuracy);
+    let set = super::plan::with_accuracy(&flags.set, flags.accuracy)?;
     let document = open_document(&flags.file, &set)?;
     meant_for::sweep(&document, &flags.file)?;
     let plan = sweep_file::plan(&document)?;
@@ -229,7 +229,7 @@ impl<'a> Job<'a> {
         }
         if outcome.interrupted {
             text.push_str(&format!(
-                "\nInterrupted: {} of {} cases are done.\n",
+                "\nInterrupted: {} of {} cases are done. The same command continues with the others.\n",
                 outcome.records.len(),
                 plan.cases().len()
             ));

@@ -9,7 +9,7 @@ use crate::sweep::history::SimulationOutcome;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
-use crate::sweep::plan::{Block, EngineKind, SweepPlan, Varied};
+use crate::sweep::plan::{Block, EngineKind, Method, SweepPlan, Varied};
 use crate::sweep::search::run::Outcome;
 
 /// What a figure itself has to say.
@@ -71,7 +71,9 @@ pub struct Setting {
 impl Setting {
     /// The setting of a sweep.
     pub fn of_sweep(plan: &SweepPlan, outcome: &Outcome, units: Option<String>) -> Self {
-        let hold_s = Some(plan.drive.hold_s()).filter(|hold_s| *hold_s > 0.0);
+        // A cycle that is found directly has no beginning.
+        let is_marched = plan.cycle.method == Method::March;
+        let hold_s = Some(plan.drive.hold_s()).filter(|hold_s| *hold_s > 0.0 && is_marched);
         let rest = after_comma(hold_s.map(|hold_s| {
             let hold = plain(hold_s, Dimension::Time, 4);
             format!("after {hold} of rest under the mean")

@@ -23,13 +23,17 @@ pub fn write(
 ) -> Result<Vec<String>, ReportError> {
     scenario_tables::write(store, plan, outcome)?;
     let pictures = Pictures::default();
-    let left_out = figures(store, plan, outcome, &pictures)?;
+    let mut left_out = figures(store, plan, outcome, &pictures)?;
     if plan.figures.axes != AxisUnits::Si
         && let Ok(history) = figure::history::figure(outcome, &Units::default())
     {
         // The page shows SI units throughout, since its own script draws in them.
-        pictures.insert("history", &history.draw()?);
+        match history.picture.draw() {
+            Ok(drawing) => pictures.insert("history", &drawing),
+            Err(error) => pictures.insert_failure("history", &error),
+        }
     }
+    left_out.extend(pictures.not_drawn());
     let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
     store.write("index.html", page.as_bytes())?;
     Ok(left_out)

@@ -80,7 +80,7 @@ fn figures_of_sweep(
     plan: &SweepPlan,
     outcome: &Outcome,
 ) -> Result<Vec<String>, ReportError> {
-    let (figures, left_out) = figure::of_sweep::figures(plan, outcome)?;
+    let (figures, mut left_out) = figure::of_sweep::figures(plan, outcome)?;
     let units = Units::of_sweep(plan)?.sentence();
     let pictures = Pictures::of_sweep(store.sweep_hash());
     let press = Press {
@@ -92,6 +92,7 @@ fn figures_of_sweep(
     if plan.figures.axes != AxisUnits::Si {
         picture_in_si(plan, outcome, &pictures)?;
     }
+    left_out.extend(pictures.not_drawn());
     let page = page::sweep(plan, outcome, &pictures, store.sweep_hash())?;
     store.write("index.html", page.as_bytes())?;
     // An earlier run of the same sweep, which came further or was asked for other forms, may have left more than this one.
@@ -118,7 +119,10 @@ fn picture_in_si(
     in_si.figures.axes = AxisUnits::Si;
     let (figures, _) = figure::of_sweep::figures(&in_si, outcome)?;
     for figure in figures.iter().filter(|f| page::FIGURES.contains(&f.name)) {
-        pictures.insert(figure.name, &figure.draw()?);
+        match figure.picture.draw() {
+            Ok(drawing) => pictures.insert(figure.name, &drawing),
+            Err(error) => pictures.insert_failure(figure.name, &error),
+        }
     }
     Ok(())
 }

@@ -1,6 +1,7 @@
 //! A finished picture: shapes in the order in which they lie on one another, with what is said of them. SVG, PNG, PDF and the
 //! part of a page are all written from it, so that none has to be read again.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use resvg::tiny_skia::{Path, PathSegment, Point};
@@ -149,6 +150,17 @@ const FILE_STEPS: f32 = 100.0;
 const PAGE_STEPS: f32 = 1.0;
 
 impl Drawing {
+    /// Characters that the font does not have, in whose places it draws boxes.
+    pub fn missing_letters(&self) -> BTreeSet<char> {
+        let shapes = self.charts.iter().flat_map(|(_, shapes)| shapes);
+        let texts = shapes.filter_map(|shape| shape.text.as_ref());
+        let spans = texts.flat_map(|text| text.layouted());
+        let glyphs = spans.flat_map(|span| &span.positioned_glyphs);
+        // The first glyph of every font stands for those that it lacks.
+        let missing = glyphs.filter(|glyph| glyph.id.0 == 0);
+        missing.flat_map(|glyph| glyph.text.chars()).collect()
+    }
+
     /// On paper the picture is so wide, each px of it `px_mm` long; so high as asked for, or as it was drawn.
     #[must_use]
     pub fn on_paper(mut self, width_mm: f64, height_mm: Option<f64>, px_mm: f64) -> Self {

@@ -31,7 +31,6 @@ pub mod relaxation;
 pub mod units;
 pub mod van_gurp_palmen;
 
-use super::ReportError;
 use super::caption::Caption;
 use super::chart::{self, Axis, Chart, ChartError, Drawing, Scale};
 
@@ -51,20 +50,6 @@ pub struct Picture(pub Vec<Chart>);
 impl From<Chart> for Picture {
     fn from(chart: Chart) -> Self {
         Self(vec![chart])
-    }
-}
-
-impl Figure {
-    /// The picture in the size that it has by itself.
-    ///
-    /// # Errors
-    /// [`ReportError::Chart`] naming the figure.
-    pub(super) fn draw(&self) -> Result<Drawing, ReportError> {
-        let failed = |source| ReportError::Chart {
-            name: self.name,
-            source,
-        };
-        self.picture.draw().map_err(failed)
     }
 }
 

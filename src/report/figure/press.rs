@@ -37,10 +37,11 @@ impl Press<'_> {
         })
     }
 
-    /// Writes one picture and its caption. `file` is the name without its ending, `figure` what errors call it.
+    /// Writes one picture and its caption. `file` is the name without its ending, `figure` what errors call it. One that cannot be
+    /// drawn ends nothing: why is kept with the pictures ([`Pictures::not_drawn`]).
     ///
     /// # Errors
-    /// [`ReportError`] naming the figure.
+    /// [`ReportError`] naming the file that cannot be written.
     pub fn picture(
         &self,
         file: &str,
@@ -48,13 +49,19 @@ impl Press<'_> {
         picture: &Picture,
         caption: &str,
     ) -> Result<(), ReportError> {
-        self.picture_in(&self.plan.pictures(), (file, figure), picture, caption)
+        match self.picture_in(&self.plan.pictures(), (file, figure), picture, caption) {
+            Err(ReportError::Chart { source, .. }) => {
+                self.pictures.insert_failure(file, &source);
+                Ok(())
+            }
+            written => written,
+        }
     }
 
-    /// As [`Press::picture`], in these of the forms that the plan asks for.
+    /// As [`Press::picture`], in these of the forms that the plan asks for, where all must be drawn.
     ///
     /// # Errors
-    /// As [`Press::picture`].
+    /// As [`Press::picture`], and [`ReportError::Chart`] where the picture cannot be drawn.
     pub fn picture_in(
         &self,
         forms: &[(&str, Form)],

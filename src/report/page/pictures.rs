@@ -1,17 +1,19 @@
 //! Pictures on their way to their files, kept for the page: each is drawn once.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Mutex, PoisonError};
 
 use maud::{Markup, PreEscaped};
 
-use crate::report::chart::Drawing;
+use crate::report::chart::{ChartError, Drawing};
 
 /// The pictures of a result by name, as elements of a page.
 #[derive(Debug, Default)]
 pub struct Pictures {
     sweep_hash: Option<String>,
     by_name: Mutex<BTreeMap<String, String>>,
+    not_drawn: Mutex<BTreeMap<String, String>>,
+    missing_letters: Mutex<BTreeSet<char>>,
 }
 
 impl Pictures {
@@ -31,6 +33,36 @@ impl Pictures {
     pub fn insert(&self, name: &str, drawing: &Drawing) {
         let mut pictures = self.by_name.lock().unwrap_or_else(PoisonError::into_inner);
         pictures.insert(name.to_owned(), drawing.to_page_element());
+        let missing = drawing.missing_letters();
+        let letters = self.missing_letters.lock();
+        letters
+            .unwrap_or_else(PoisonError::into_inner)
+            .extend(missing);
+    }
+
+    /// Keeps why a picture could not be drawn.
+    pub fn insert_failure(&self, name: &str, error: &ChartError) {
+        let mut reasons = self
+            .not_drawn
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        reasons.insert(name.to_owned(), format!("no figure {name}: {error}"));
+    }
+
+    /// Why pictures could not be drawn, a sentence each, in the order of their names; and which letters are missing in those that were.
+    pub fn not_drawn(&self) -> Vec<String> {
+        let reasons = self
+            .not_drawn
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        let letters = self.missing_letters.lock();
+        let letters = letters.unwrap_or_else(PoisonError::into_inner);
+        let missing = (!letters.is_empty()).then(|| {
+            let letters: Vec<String> = letters.iter().map(char::to_string).collect();
+            let letters = letters.join(" ");
+            format!("the typeface of the figures does not have {letters}: boxes are drawn in their place")
+        });
+        reasons.values().cloned().chain(missing).collect()
     }
 
     /// The picture of this name as a part of a page.

@@ -1,0 +1,195 @@
+//! Names and titles that could command a terminal, a spreadsheet or an SVG are refused; figures that cannot be drawn, or lack letters,
+//! are warnings beside the finished result.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+
+use crate::program::{SVG_ALONE, pmma_sweep, program, refused, write};
+use predicates::prelude::PredicateBooleanExt;
+use predicates::str::contains;
+use tempfile::TempDir;
+
+/// A cheap sweep of one frequency.
+const ONE: &str = "[sweep]\nangular_frequency = \"0.01 rad/s\"\n[cycle]\nsteps = 16\nerror_bars = false\n[solver]\nsprings = 16\n";
+
+/// Two materials by these names under one indenter.
+fn two_materials(first: &str, second: &str) -> String {
+    format!(
+        r#"title = "two"
+indenter = {{ shape = "sphere", radius = "10 mm" }}
+drive = {{ mean = "10 N", amplitude = "5 N" }}
+cycle = {{ steps = 16, error_bars = false }}
+solver.springs = 16
+[sweep]
+angular_frequency = ["0.01 rad/s", "0.1 rad/s"]
+[[sweep.material]]
+library = "pmma"
+name = "{first}"
+[[sweep.material]]
+library = "pmma"
+name = "{second}"
+"#
+    )
+}
+
+#[test]
+fn a_name_or_title_with_control_characters_is_refused_at_its_place() {
+    let folder = TempDir::new().unwrap();
+    let title = pmma_sweep(ONE).replace("PMMA under", "\\u001b[2JPMMA under");
+    let name = pmma_sweep(ONE).replace(
+        "library = \"pmma\"",
+        "library = \"pmma\"\nname = \"a\\u0001b\"",
+    );
+    let name_alone = pmma_sweep(ONE).replace(
+        "library = \"pmma\"",
+        "name = \"a\\uffffb\"\npoisson_ratio = 0.3\nelastic.modulus = \"1 GPa\"",
+    );
+    refused(&folder, "sweep", &title, &["bad.toml:1:9", "U+001B"]);
+    refused(&folder, "sweep", &name_alone, &["bad.toml:3:8", "U+FFFF"]);
+    // A material of the library has its own name.
+    refused(&folder, "sweep", &name, &["bad.toml:4"]);
+}
+
+#[test]
+fn a_name_that_a_spreadsheet_takes_for_a_formula_is_refused() {
+    let folder = TempDir::new().unwrap();
+    for name in ["=1+1", "+1", "@SUM(A1)", "-1+1"] {
+        refused(
+            &folder,
+            "sweep",
+            &two_materials("a", name),
+            &["formula", "begin the name"],
+        );
+    }
+}
+
+#[test]
+fn letters_that_the_typeface_lacks_are_said() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "letters.toml", &two_materials("a", "材料"));
+    program()
+        .args(["sweep", &file, "--out"])
+        .arg(folder.path().join("out"))
+        .args(SVG_ALONE)
+        .assert()
+        .success()
+        .stdout(contains("does not have 料 材"));
+}
+
+#[test]
+fn a_name_with_the_letters_of_a_header_stays_as_it_is() {
+    let folder = TempDir::new().unwrap();
+    let body = "[indenter.material]\nname = \"steel [material 4]\"\nelastic = { modulus = \"210 GPa\", poisson_ratio = 0.3 }\n";
+    let text = pmma_sweep(ONE).replace("[drive]", &format!("{body}[drive]"));
+    let (file, out) = (
+        write(&folder, "name.toml", &text),
+        folder.path().join("out"),
+    );
+    program()
+        .args(["sweep", &file, "--no-figures", "--out"])
+        .arg(&out)
+        .assert()
+        .success();
+    let resolved = fs::read_to_string(out.join("resolved.toml")).unwrap();
+    assert!(
+        resolved.contains("[indenter.material]") && resolved.contains("\"steel [material 4]\""),
+        "{resolved}"
+    );
+}
+
+/// A strip too narrow for a map with labels.
+#[test]
+fn a_figure_that_cannot_be_drawn_is_a_warning_beside_a_finished_history() {
+    let folder = TempDir::new().unwrap();
+    let row: Vec<String> = (0..256)
+        .map(|x| format!("{:e}", 1e-8 * f64::from(x % 64)))
+        .collect();
+    let map = vec![row.join(","); 16].join("\n");
+    write(&folder, "map.csv", &map);
+    let text = r#"title = "strip"
+material.library = "pmma"
+indenter = { shape = "height-map", file = "map.csv", spacing = "1 um", edge = "periodic" }
+drive = { control = "pressure", segments = [{ kind = "ramp", to = "1 MPa", duration = "1 s" }] }
+time.step = "0.5 s"
+output.fields_at = ["1 s"]
+"#;
+    let (file, out) = (
+        write(&folder, "strip.toml", text),
+        folder.path().join("out"),
+    );
+    program()
+        .args(["simulate", &file, "--out"])
+        .arg(&out)
+        .args(SVG_ALONE)
+        .assert()
+        .success()
+        .stdout(contains("no figure pressure-map"));
+    for name in ["history.csv", "index.html", "history.svg"] {
+        assert!(out.join(name).exists(), "{name}");
+    }
+}
+
+#[test]
+fn a_logarithmic_range_that_begins_at_zero_is_refused_at_its_first_point() {
+    let folder = TempDir::new().unwrap();
+    let axis = "[sweep]\ndrive.phase = { from = \"0 rad\", to = \"1 rad\", points = 3 }";
+    let text = pmma_sweep(ONE).replace("[sweep]", axis);
+    refused(
+        &folder,
+        "sweep",
+        &text,
+        &["logarithmic scale", "0 rad", "spacing = \"linear\""],
+    );
+}
+
+#[test]
+fn an_angle_is_told_in_degrees_everywhere() {
+    let folder = TempDir::new().unwrap();
+    let axis = "[sweep]\ndrive.phase = { from = \"-30 deg\", to = \"10 deg\", points = 2, spacing = \"linear\" }";
+    let frequencies = "[\"0.005 rad/s\", \"0.008 rad/s\", \"0.02 rad/s\"]";
+    let text = pmma_sweep(ONE).replace("[sweep]", axis);
+    let text = text.replace("\"0.01 rad/s\"", frequencies);
+    let (file, out) = (
+        write(&folder, "angle.toml", &text),
+        folder.path().join("out"),
+    );
+    let assert = program()
+        .args(["sweep", &file, "--out"])
+        .arg(&out)
+        .args(SVG_ALONE)
+        .assert()
+        .success();
+    let printed = String::from_utf8_lossy(&assert.get_output().stdout).into_owned();
+    let caption = fs::read_to_string(out.join("energy-loss.caption.txt")).unwrap();
+    assert!(printed.contains("phase 10°"), "{printed}");
+    assert!(caption.contains("-30° to 10°"), "{caption}");
+    assert!(!(printed + &caption).contains("0.5236"));
+}
+
+#[test]
+fn a_file_that_is_no_table_is_called_what_it_is() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().join("creep.csv");
+    fs::write(&path, b"\x89HDF\r\n\x1a\n\0\0").unwrap();
+    program()
+        .args([
+            "material",
+            "fit",
+            "--quantity",
+            "creep",
+            "--modulus",
+            "shear",
+            "--poisson-ratio",
+            "0.4",
+        ])
+        .arg(&path)
+        .assert()
+        .code(2)
+        .stderr(contains("is an HDF5 file, not a text file"));
+    program()
+        .args(["material", "show", "pvc"])
+        .assert()
+        .code(2)
+        .stderr(contains("The library has ").and(contains("pvb")));
+}
