@@ -273,6 +273,9 @@ def identify(
         threads: how many.
         options: of the forward model, as in `sweep`: ``steps``, ``springs``, ``engine``...
 
+    Warns:
+        ContactDmaWarning: of everything that the report warns of, such as a solid that misses the data.
+
     Raises:
         ValueError: with the program's message, for data that no solid has, and bad input.
         KeyboardInterrupt: within a second of Ctrl-C.
@@ -291,7 +294,7 @@ def identify(
         if data is not None or indenter is not None:
             raise ValueError("identify takes a file, or data and indenter, not both")
         source = Source(_toml.existing(file), None, _toml.overrides(overrides))
-        return IdentifiedMaterial(*_core.identify_material(source, thread_count(threads)))
+        return _identified(source, threads)
     if data is None or not isinstance(indenter, Indenter):
         raise ValueError("identify(data, indenter, ...) needs measured cycles and the indenter, or file=...")
     if overrides is not None:
@@ -311,7 +314,15 @@ def identify(
         text += _toml.table("drive", drive)
         text += _toml.table("cycle", cycle) + engine + around
         source = Source("identify(...)", text, (), None, None if "[indenter]" in around else indenter._core)
-        return IdentifiedMaterial(*_core.identify_material(source, thread_count(threads)))
+        return _identified(source, threads)
+
+
+def _identified(source: Source, threads: int | None) -> IdentifiedMaterial:
+    found = IdentifiedMaterial(*_core.identify_material(source, thread_count(threads)))
+    for line in found.report:
+        if line.startswith("Warning: "):
+            warn(f"identify: {line.removeprefix('Warning: ')}")
+    return found
 
 
 _TEXTS = ("file", "indenter", "material", "message", "status", "warnings")

@@ -99,6 +99,16 @@ def test_what_is_no_number_is_an_error_and_an_unknown_column_is_named() -> None:
         cd.identify(data, cd.Sphere("2 mm"), **options)
 
 
+def test_an_identification_that_misses_its_data_warns() -> None:
+    data, options = measured()
+    data["energy_loss_j"][2] *= 1.2
+    data["energy_loss_error_j"] = [1e-3 * loss for loss in data["energy_loss_j"]]
+    data["approach_max_error_m"] = [1e-3 * approach for approach in data["approach_max_m"]]
+    with pytest.warns(cd.ContactDmaWarning, match="identify: .*the data") as seen:
+        cd.identify(data, cd.Sphere("2 mm"), **options)
+    assert seen[0].filename == __file__
+
+
 def test_a_data_frame_is_a_record() -> None:
     t = np.linspace(0.0, 20.0, 2001)
     record = {"time": t, "load": 1 + 0.5 * np.sin(3 * t), "approach": 1e-5 + 2e-6 * np.sin(3 * t - 0.2)}
