@@ -72,7 +72,7 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (map_of(np.outer(np.arange(8.0), np.ones(8)), spacing=1e-6), ["steeper", "level"]),
     (lambda: cd.Asperities([(0, 0)]), ["(x, y, radius)", "(0, 0)"]),
     (lambda: cd.Material.library("pmna"), ['"pmma"']),
-    (lambda: cd.Material.library("no such polymer"), ["library_materials()"]),
+    (lambda: cd.Material.library("no such polymer"), ["the library has", "pvb"]),
     (lambda: cd.Material.relaxation("1 MPa", {"1 MPa": "1 s"}, poisson_ratio=0.3), ["pairs of modulus and time"]),  # type: ignore[arg-type]
     (lambda: cd.Material.creep(1e-9, [1e-9], poisson_ratio=0.3), ["pairs of compliance and time"]),  # type: ignore[list-item]
     (lambda: cd.Material.relaxation("1 MPa", [("1 MPa", 0.0)], poisson_ratio=0.3), ["time"]),
