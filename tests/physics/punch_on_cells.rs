@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::common::{on_cells, pmma_material, run_case, sweep_plan};
 use contact_dma::contact::half_space::layer::Base;
-use contact_dma::indenter::{FlatPunch, Indenter, Shifted};
+use contact_dma::indenter::{FlatPunch, Indenter, Profile, Shifted};
 use contact_dma::reference::layer::LayerContact;
 use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::plan::layer::LayerPlan;
@@ -118,5 +118,26 @@ fn a_punch_beside_the_origin_is_inside_its_bar() {
             println!("{cells}: {off:.1e}, bar {bar:.1e}");
             assert!(off.abs() < bar, "{cells}: {off:e}, bar {bar:e}");
         }
+    });
+}
+
+#[test]
+fn an_edge_that_is_no_rim_but_nearly_as_sharp_is_inside_its_bar() {
+    // Flat, then steeply up, on which the contact hardly climbs.
+    let points = [
+        (0.0, 0.0),
+        (RADIUS_M, 0.0),
+        (3.0 * RADIUS_M, 2.0 * RADIUS_M),
+    ];
+    let chamfered: Arc<dyn Indenter> = Arc::new(Profile::new(&points).unwrap());
+    let springs = on_springs(Arc::clone(&chamfered));
+    [56, 101].par_iter().for_each(|&cells| {
+        let found = with_bars(Arc::clone(&chamfered), None, cells);
+        let [(off, bar), _] = deviations(&found, &springs, 1.0);
+        println!("{cells}: {off:.1e}, bar {bar:.1e}");
+        assert!(
+            off.abs() < bar && bar < 0.05,
+            "{cells}: {off:e}, bar {bar:e}"
+        );
     });
 }

@@ -169,7 +169,9 @@ impl Levels<'_> {
             EngineKind::HalfSpace => {
                 let cell_m = 2.0 * record.domain_half_width_m / record.nodes as f64;
                 let condition = contact.condition;
-                let edge = Edge::of(condition.indenter.as_ref(), condition.layer.is_some());
+                let (indenter, on_layer) = (condition.indenter.as_ref(), condition.layer.is_some());
+                let radius_m = result.contact_radius_m.maximum;
+                let edge = Edge::of(indenter, on_layer, radius_m, cell_m);
                 (distance + of_instants, InNodes::cells(cell_m, edge))
             }
         };

@@ -118,7 +118,8 @@ impl Quantity {
 pub enum Edge {
     /// Anywhere: it moves over the cells in the course of a cycle, and the pressure falls to zero there.
     Smooth,
-    /// At a sharp edge of the indenter, which stays where it is: the pressure is singular there, and the cells a staircase.
+    /// At an edge of the indenter that is sharp, or nearly so, and stays where it is: the pressure is singular there as far as cells can
+    /// tell, and the cells a staircase.
     Sharp,
     /// At the rim of the indenter, to which the cells are fitted (`sweep::engine::domain`); the loss goes as this power of its
     /// radius at most.
@@ -126,23 +127,34 @@ pub enum Edge {
 }
 
 impl Edge {
-    /// That of an indenter on the half-space or on a layer.
-    pub fn of(indenter: &dyn Indenter, on_layer: bool) -> Self {
-        let has_apex_alone = |body: &dyn Axisymmetric| {
-            body.contact_limit_m().is_none()
-                && body.singular_radii_m().iter().all(|r_m| *r_m == 0.0)
-        };
+    /// That of an indenter on the half-space or on a layer, at a contact of this radius on cells of this width (m).
+    pub fn of(indenter: &dyn Indenter, on_layer: bool, radius_m: f64, cell_m: f64) -> Self {
         if indenter.rim().is_some() {
             // A thin incompressible layer is as stiff as the fourth power of the radius, a half-space as the first.
             let power = if on_layer { 4.0 } else { 1.0 };
             return Self::Rim { power };
         }
-        match indenter.pressure_is_bounded() || indenter.axisymmetric().is_some_and(has_apex_alone)
-        {
-            true => Self::Smooth,
-            false => Self::Sharp,
+        let is_sharp = match indenter.axisymmetric() {
+            Some(body) => is_steep(body, radius_m + cell_m, cell_m),
+            None => !indenter.pressure_is_bounded(),
+        };
+        match is_sharp {
+            true => Self::Sharp,
+            false => Self::Smooth,
         }
     }
+}
+
+/// Whether the transformed gap at the edge of a contact, of this radius (m), grows from nothing within a few cells of this width (m), so
+/// that cells cannot tell the edge from a sharp one.
+fn is_steep(body: &dyn Axisymmetric, radius_m: f64, cell_m: f64) -> bool {
+    const FEW: f64 = 3.0;
+    /// Part of the radius over which the slope is taken.
+    const PART: f64 = 1e-3;
+    let end_m = radius_m.min(body.known_radius_m().unwrap_or(f64::INFINITY));
+    let gap_m = body.transformed_gap_m(end_m);
+    let rise_m = gap_m - body.transformed_gap_m((1.0 - PART) * end_m);
+    gap_m * PART * end_m < FEW * cell_m * rise_m
 }
 
 /// What is believed of an error in the nodes.
