@@ -222,6 +222,7 @@ fn open_store(
     force: bool,
 ) -> Result<Store, Failure> {
     let default = default_folder(file);
+    let _opening = progress::opening(out.unwrap_or(&default));
     Ok(Store::open(out.unwrap_or(&default), resolved, force)?)
 }
 

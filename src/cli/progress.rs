@@ -1,7 +1,9 @@
 //! Progress of a sweep: a bar with the time left on a terminal, plain lines elsewhere, nothing where asked to be quiet.
 
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -12,6 +14,9 @@ use crate::report::words::case;
 use crate::sweep::plan::{SweepPlan, Varied};
 use crate::sweep::record::CaseRecord;
 use crate::sweep::search::run::Progress;
+
+/// The file in a folder that those who work there lock.
+const LOCK: &str = ".contact-dma.lock";
 
 /// Shows progress on standard error.
 pub(super) struct Shown {
@@ -88,6 +93,21 @@ pub(super) fn bar(total: usize, template: &str, quiet: bool) -> ProgressBar {
 /// A line of progress; a closed standard error is no reason to stop.
 pub(super) fn line(text: &str) {
     let _ = writeln!(io::stderr(), "{text}");
+}
+
+/// Says after a second that a folder is not open yet, unless what it returns is dropped before.
+pub(super) fn opening(folder: &Path) -> mpsc::Sender<()> {
+    let (opening, is_open) = mpsc::channel();
+    let text = format!(
+        "waiting for {}: another process holds its lock ({LOCK})",
+        folder.display()
+    );
+    std::thread::spawn(move || {
+        if is_open.recv_timeout(Duration::from_secs(1)) == Err(RecvTimeoutError::Timeout) {
+            line(&text);
+        }
+    });
+    opening
 }
 
 impl Progress for Shown {

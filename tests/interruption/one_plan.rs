@@ -4,6 +4,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::io::Read;
 use std::path::Path;
 use std::process::{Child, Command as Process, Output, Stdio};
 
@@ -112,6 +113,27 @@ fn succeeded(ends: &[Output], out: &Path) -> Vec<bool> {
         other => panic!("{other:?}: {}", String::from_utf8_lossy(&end.stderr)),
     };
     ends.iter().map(of).collect()
+}
+
+#[test]
+fn who_waits_for_the_lock_of_a_folder_says_so_and_goes_on_when_it_is_free() {
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "small.toml", &pmma_sweep(SMALL));
+    let out = folder.path().join("out");
+    sweep(&file, &out, &[]).success();
+    let lock = fs::File::open(out.join(".contact-dma.lock")).unwrap();
+    lock.lock().unwrap();
+    let mut child = start(&["sweep", &file], &out);
+    let mut told = [0; 12];
+    child
+        .stderr
+        .as_mut()
+        .unwrap()
+        .read_exact(&mut told)
+        .unwrap();
+    assert_eq!(&told, b"waiting for ");
+    lock.unlock().unwrap();
+    assert!(child.wait().unwrap().success());
 }
 
 #[test]

@@ -235,6 +235,23 @@ fn every_source_file_opens_by_saying_what_it_is_for() {
 }
 
 #[test]
+fn nothing_is_printed_by_macros_that_panic_where_nobody_can_hear() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for path in sources(&src) {
+        if path.ends_with("core/build.rs") || path.ends_with("tests.rs") {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        let code = production(&text);
+        for line in code.lines() {
+            // With and without an e before, and a line's end.
+            let prints = line.contains("println!(") || line.contains("print!(");
+            assert!(!prints, "{}: {line}", path.display());
+        }
+    }
+}
+
+#[test]
 fn only_the_command_line_knows_flags() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     for path in sources(&src) {
