@@ -434,6 +434,13 @@ impl March<'_> {
         self.reset_predictor();
     }
 
+    /// Begins [`Memory::cycle_sums`] anew, of this branch, where one is given.
+    pub fn begin_cycle(&mut self, branch: Option<usize>) {
+        if let Some(branch) = branch {
+            self.memory.begin_cycle(branch);
+        }
+    }
+
     /// Lets the next instant start from the last pressure alone, as after [`March::restore`]: a march that forgets its course
     /// wherever it might be stopped goes on from there with the same bits.
     pub fn reset_predictor(&mut self) {

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use multiversion::multiversion;
 
+use super::cycle_sums::CycleSums;
 use super::hereditary::{Hereditary, Stage};
 use super::loaded::Loaded;
 use crate::contact::sums;
@@ -33,10 +34,10 @@ impl TimeRule {
 
 /// Weights of one branch over one step: m <- decay m + old p_old + new p_new.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct BranchWeights {
-    decay: f64,
-    old: f64,
-    new: f64,
+pub(super) struct BranchWeights {
+    pub decay: f64,
+    pub old: f64,
+    pub new: f64,
 }
 
 /// What a step of one length does to the memory; computed once per step length, used for every node.
@@ -277,6 +278,8 @@ pub struct Memory {
     branches: Vec<f64>,
     /// Integral of the pressure over time per node; empty without a flow term.
     flow: Vec<f64>,
+    /// Where asked for by [`Memory::begin_cycle`].
+    cycle: Option<CycleSums>,
 }
 
 impl Memory {
@@ -292,6 +295,7 @@ impl Memory {
             loaded: Loaded::default(),
             branches: vec![0.0; nodes * compliance.branches().len()],
             flow,
+            cycle: None,
             rings: rings(&compliance),
             compliance,
         }
@@ -305,6 +309,16 @@ impl Memory {
     /// Bytes held.
     pub fn bytes(&self) -> usize {
         (self.branches.len() + self.flow.len()) * size_of::<f64>()
+    }
+
+    /// Begins sums over a cycle, of this branch.
+    pub(crate) fn begin_cycle(&mut self, branch: usize) {
+        self.cycle = Some(CycleSums::new(branch, self.nodes));
+    }
+
+    /// The sums since [`March::begin_cycle`](super::March::begin_cycle), where it asked for any.
+    pub fn cycle_sums(&self) -> Option<&CycleSums> {
+        self.cycle.as_ref()
     }
 
     /// Memory variables, branch-major, in the unit of the nodal pressure.
@@ -382,6 +396,10 @@ impl Hereditary for Memory {
                 let weights = (w.decay, w.old, branch.compliance_per_pa);
                 fade(&mut memory[block.clone()], old_pressure, weights, history);
             }
+            if let Some(cycle) = &mut self.cycle {
+                let weights = (&weights.branches[..], weights.flow_old_s);
+                cycle.predict(&block, weights, old_pressure);
+            }
             if let Some(eta) = eta {
                 let nodes = self.flow[block].iter_mut().zip(old_pressure);
                 for ((m, &p), h) in nodes.zip(history.iter_mut()) {
@@ -401,6 +419,10 @@ impl Hereditary for Memory {
                 if w.new != 0.0 {
                     sums::add_scaled(&mut memory[block.clone()], w.new, new_pressure);
                 }
+            }
+            if let Some(cycle) = &mut self.cycle {
+                let weights = (&weights.branches[..], weights.flow_new_s);
+                cycle.commit(&block, weights, new_pressure);
             }
             if weights.flow_new_s != 0.0 && !self.flow.is_empty() {
                 for (m, &p) in self.flow[block].iter_mut().zip(new_pressure) {

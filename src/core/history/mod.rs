@@ -33,6 +33,7 @@
 //! # }
 //! ```
 
+mod cycle_sums;
 mod direct;
 mod dissipation;
 mod extrapolation;
@@ -42,6 +43,7 @@ mod march;
 mod memory;
 mod work;
 
+pub use cycle_sums::CycleSums;
 pub use direct::{ComplianceFunction, DirectMemory, DirectStep, Quadrature};
 pub use dissipation::Dissipation;
 pub use extrapolation::Extrapolation;

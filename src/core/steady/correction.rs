@@ -345,7 +345,7 @@ mod tests {
         };
         let branches = branches.iter().map(branch).collect();
         let creep = Creep::new(instantaneous, branches, None).unwrap();
-        let remaining = Remaining::new(&creep, 1.0);
+        let remaining = Remaining::new(&creep, 1.0, 3);
         Correction::new(&creep, (1.0, STEPS), &remaining, vec![2.0, 3.0, 1.0])
     }
 

@@ -2,8 +2,8 @@
 
 use super::anderson::Anderson;
 use super::correction::{ContactHistory, Correction};
-use super::remaining::{MeanPressure, Remaining};
-use crate::contact::{ContactError, Prescribed, Solution, sums};
+use super::remaining::Remaining;
+use crate::contact::{ContactError, Prescribed, Solution};
 use crate::cycle;
 use crate::history::{March, MarchState, Stage, StepWeights};
 
@@ -113,17 +113,13 @@ pub fn find_from(
     watch: &Watch<'_>,
 ) -> Result<Steady, ContactError> {
     let compliance = march.memory().compliance();
-    let remaining = Remaining::new(compliance, cycle.period_s);
-    let correction = Correction::new(
-        compliance,
-        (cycle.period_s, cycle.steps),
-        &remaining,
-        march.loads_per_nodal_pressure(),
-    );
+    let remaining = Remaining::new(compliance, cycle.period_s, march.pressure().len());
+    let loads = march.loads_per_nodal_pressure();
+    let correction = Correction::new(compliance, (cycle.period_s, cycle.steps), &remaining, loads);
     let mut search = SearchState::begin(march, cycle, begin)?;
     let mut converged = false;
     let nodes = march.pressure().len();
-    let mut run = Run::new(march, cycle, &remaining);
+    let mut run = Run::new(march, cycle);
     let mut update = vec![0.0; search.start.len()];
     let weights = correction.weights(nodes);
     let keep_mean_load = matches!(cycle.mean, Prescribed::LoadN(_));
@@ -135,13 +131,12 @@ pub fn find_from(
             });
         }
         march.recall(&search.start);
-        if !run.cycle(march, cycle, watch.stop)? {
+        if !run.cycle(march, cycle, &remaining, watch.stop)? {
             break;
         }
         search.cycles += 1;
-        let end = march.memory().variables();
-        remaining.change(&search.start, end, &run.mean, &mut update);
-        let memory = remaining.distance(&update, nodes) / run.scale;
+        remaining.change(&search.start, march.memory(), &mut update);
+        let memory = remaining.distance(&update) / run.scale;
         let closure = cycle::closure_error(&run.load_n, &run.approach_m);
         search.distance = match closure {
             Some(closure) if memory.is_finite() => memory.max(closure),
@@ -227,19 +222,17 @@ impl SearchState {
 struct Run {
     stages: Vec<Stage<StepWeights>>,
     contact: ContactHistory,
-    mean: MeanPressure,
-    /// Largest root of the sum of squares of the nodal pressures.
+    /// Largest size of the nodal pressures.
     scale: f64,
     load_n: Vec<f64>,
     approach_m: Vec<f64>,
 }
 
 impl Run {
-    fn new(march: &March<'_>, cycle: &Cycle<'_>, remaining: &Remaining) -> Self {
+    fn new(march: &March<'_>, cycle: &Cycle<'_>) -> Self {
         Self {
             stages: march.stages(cycle.period_s / cycle.steps as f64),
             contact: ContactHistory::new(march.pressure().len()),
-            mean: MeanPressure::new(remaining, march.pressure().len(), cycle.steps),
             scale: 0.0,
             load_n: Vec::with_capacity(cycle.steps + 1),
             approach_m: Vec::with_capacity(cycle.steps + 1),
@@ -252,6 +245,7 @@ impl Run {
         &mut self,
         march: &mut March<'_>,
         cycle: &Cycle<'_>,
+        remaining: &Remaining,
         stop: &dyn Fn() -> bool,
     ) -> Result<bool, ContactError> {
         self.contact.clear();
@@ -261,7 +255,7 @@ impl Run {
         let share = 1.0 / cycle.steps as f64;
         let first = march.jump((cycle.drive)(0.0))?;
         self.sample(&first);
-        self.mean.add(0, march.pressure());
+        march.begin_cycle(remaining.first_held());
         for step in 1..=cycle.steps {
             if stop() {
                 return Ok(false);
@@ -272,9 +266,7 @@ impl Run {
                 self.sample(&solution);
             }
             self.contact.push(march.pressure());
-            self.mean.add(step, march.pressure());
-            let squares = sums::dot(march.pressure(), march.pressure());
-            self.scale = self.scale.max(squares.sqrt());
+            self.scale = self.scale.max(remaining.size(march.pressure()));
         }
         Ok(true)
     }

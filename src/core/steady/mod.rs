@@ -44,4 +44,4 @@ mod remaining;
 
 pub use anderson::Anderson;
 pub use iteration::{Begin, Cycle, SearchState, Steady, SteadySettings, Watch, find, find_from};
-pub use remaining::{MeanPressure, Remaining};
+pub use remaining::Remaining;

@@ -6,11 +6,13 @@
 //! the pressure stays what it is.
 //!
 //! Where T/lambda is small beside the tolerance, rounding in the memory makes that quotient say nothing. Such a branch hardly moves
-//! within a period: in the stabilised cycle its memory is a mean of the pressure, m = mean of p exp(-(T-s)/lambda) (T/lambda)/(1 -
-//! exp(-T/lambda)), which is the plain mean and T/lambda times the first moment of p about the middle of the cycle, but for terms of
-//! order (T/lambda)^2; what is missing is the difference from that.
+//! within a period, and its memory in the stabilised cycle is told from the pressure of the cycle: m* = n/(1 - exp(-T/lambda)), with n
+//! what the cycle makes of no memory at all ([`CycleSums`](crate::history::CycleSums)), which is the mean of the pressure but for terms
+//! of order T/lambda. What is missing is the difference from that. Both ways are the same but for rounding, since the sums have
+//! the weights of the time rule.
 
 use crate::contact::sums;
+use crate::history::{CycleSums, Memory};
 use crate::material::Creep;
 
 /// A branch is held in periods shorter than this part of its retardation time: terms of second order are then 1e-10, and
@@ -20,129 +22,107 @@ const HELD: f64 = 1e-5;
 /// A branch over a period.
 #[derive(Debug, Clone, Copy)]
 struct Branch {
-    /// 1 - exp(-T/lambda), without cancellation; 1 where the branch is held, whose difference is whole at once.
+    /// 1 - exp(-T/lambda), without cancellation.
     forgotten: f64,
-    /// T/lambda, where the branch is held.
-    held: Option<f64>,
+    /// T/lambda.
+    part: f64,
+}
+
+impl Branch {
+    fn is_held(self) -> bool {
+        self.part < HELD
+    }
 }
 
 /// What a period does to each branch of a compliance.
 #[derive(Debug, Clone)]
-pub struct Remaining(Vec<Branch>);
+pub struct Remaining {
+    period_s: f64,
+    /// Sorted by time, as those of the compliance: the held ones come last.
+    branches: Vec<Branch>,
+    nodes: usize,
+}
 
 impl Remaining {
-    /// Over a period of `period_s` seconds, of this contact compliance.
-    pub fn new(compliance: &Creep, period_s: f64) -> Self {
-        let branch = |time_s: f64| {
-            let part = period_s / time_s;
-            let held = (part < HELD).then_some(part);
-            Branch {
-                forgotten: held.map_or_else(|| -(-part).exp_m1(), |_| 1.0),
-                held,
-            }
+    /// Over a period of `period_s` seconds, of this contact compliance on this number of nodes.
+    pub fn new(compliance: &Creep, period_s: f64, nodes: usize) -> Self {
+        let branch = |time_s: f64| Branch {
+            forgotten: -(-period_s / time_s).exp_m1(),
+            part: period_s / time_s,
         };
-        Self(
-            compliance
-                .branches()
-                .iter()
-                .map(|b| branch(b.time_s))
-                .collect(),
-        )
+        let branches = compliance.branches().iter();
+        Self {
+            period_s,
+            branches: branches.map(|b| branch(b.time_s)).collect(),
+            nodes,
+        }
     }
 
     /// Whether a branch does not move within the period.
     pub fn is_held(&self, branch: usize) -> bool {
-        self.0
-            .get(branch)
-            .is_some_and(|branch| branch.held.is_some())
+        self.branches.get(branch).is_some_and(|b| b.is_held())
     }
 
-    /// Whether any does: the mean pressure of the cycle is then needed.
-    fn holds_any(&self) -> bool {
-        self.0.iter().any(|branch| branch.held.is_some())
+    /// The fastest of the branches that do not, whose sums over the cycle are needed.
+    pub fn first_held(&self) -> Option<usize> {
+        self.branches.iter().position(|branch| branch.is_held())
     }
 
-    /// Into `change`: m' - m over the cycle per node, branch-major like the memory variables `start` and `end`; where the branch is
-    /// held, the mean of the pressure less m.
-    pub fn change(&self, start: &[f64], end: &[f64], pressure: &MeanPressure, change: &mut [f64]) {
-        let nodes = pressure.nodes;
-        let ends = start.chunks_exact(nodes).zip(end.chunks_exact(nodes));
-        let fields = change.chunks_exact_mut(nodes).zip(ends);
-        for (branch, (change, (start, end))) in self.0.iter().zip(fields) {
-            match branch.held {
-                None => {
-                    for ((change, after), before) in change.iter_mut().zip(end).zip(start) {
-                        *change = after - before;
-                    }
-                }
-                Some(part) => {
-                    let means = pressure.mean.iter().zip(&pressure.moment);
-                    for ((change, (mean, moment)), memory) in
-                        change.iter_mut().zip(means).zip(start)
-                    {
-                        *change = mean + part * moment - memory;
-                    }
-                }
+    /// Into `change`: m' - m over the cycle per node, branch-major like the memory variables `start` and those at the end; where
+    /// the branch is held, m* - m.
+    pub fn change(&self, start: &[f64], end: &Memory, change: &mut [f64]) {
+        let ends = end.variables().iter().zip(start);
+        for (change, (after, before)) in change.iter_mut().zip(ends) {
+            *change = after - before;
+        }
+        if let (Some(first), Some(sums)) = (self.first_held(), end.cycle_sums()) {
+            self.change_held(first, start, sums, change);
+        }
+    }
+
+    /// Of the first held branch m* follows from its own sums; of the slower ones it is linear in T/lambda between that and the mean
+    /// of the pressure.
+    fn change_held(&self, first: usize, start: &[f64], sums: &CycleSums, change: &mut [f64]) {
+        let nodes = self.nodes;
+        let Branch { forgotten, part } = self.branches[first];
+        let held = self.branches.iter().zip(change.chunks_exact_mut(nodes));
+        let held = held.zip(start.chunks_exact(nodes)).skip(first);
+        for ((branch, change), start) in held {
+            let share = branch.part / part;
+            let of_nodes = sums.integral_s().iter().zip(sums.memory()).zip(start);
+            for (change, ((integral_s, memory), start)) in change.iter_mut().zip(of_nodes) {
+                let of_first = memory / forgotten;
+                let mean = integral_s / self.period_s;
+                *change = share * of_first + (1.0 - share) * mean - start;
             }
         }
     }
 
-    /// The estimated distance of a change over a cycle: the largest over the branches of the root of the sum over the nodes of its
-    /// squares, over what a period forgets.
+    /// The estimated distance of a change over a cycle: the largest over the branches of the size of what is missing, in the unit of
+    /// [`Remaining::size`].
     ///
     /// Not the largest over the nodes: one at the edge of the contact may come and go with the discretisation for ever, without
     /// any weight in the loss.
-    pub fn distance(&self, change: &[f64], nodes: usize) -> f64 {
-        let norms = change.chunks_exact(nodes).zip(&self.0);
-        norms
-            .map(|(change, branch)| sums::dot(change, change).sqrt() / branch.forgotten)
+    pub fn distance(&self, change: &[f64]) -> f64 {
+        let fields = change.chunks_exact(self.nodes).zip(&self.branches);
+        fields
+            .map(|(change, branch)| match branch.is_held() {
+                true => self.size(change),
+                false => self.size(change) / branch.forgotten,
+            })
             .fold(0.0, f64::max)
     }
-}
 
-/// The mean over a cycle of the pressure per node, and its first moment about the middle of the cycle in parts of the period, by
-/// the trapezium rule over equal steps. Nothing is added up where no branch is held.
-#[derive(Debug, Clone)]
-pub struct MeanPressure {
-    nodes: usize,
-    mean: Vec<f64>,
-    moment: Vec<f64>,
-    steps: usize,
-}
-
-impl MeanPressure {
-    /// Over this many nodes and steps, as far as these branches need it.
-    pub fn new(remaining: &Remaining, nodes: usize, steps: usize) -> Self {
-        let sums = if remaining.holds_any() { nodes } else { 0 };
-        Self {
-            nodes,
-            mean: vec![0.0; sums],
-            moment: vec![0.0; sums],
-            steps,
-        }
-    }
-
-    /// Takes in the pressure at the end of a step, that at the start of the cycle as the end of step 0.
-    pub fn add(&mut self, step: usize, pressure: &[f64]) {
-        if step == 0 {
-            self.mean.fill(0.0);
-            self.moment.fill(0.0);
-        }
-        let steps = self.steps as f64;
-        let is_end = step == 0 || step == self.steps;
-        let weight = if is_end { 0.5 } else { 1.0 } / steps;
-        let moment_weight = weight * (step as f64 / steps - 0.5);
-        let sums = self.mean.iter_mut().zip(&mut self.moment);
-        for ((mean, moment), p) in sums.zip(pressure) {
-            *mean += weight * p;
-            *moment += moment_weight * p;
-        }
+    /// The size of a field over the nodes: the root of the sum of its squares.
+    pub fn size(&self, field: &[f64]) -> f64 {
+        sums::dot(field, field).sqrt()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::history::{Hereditary, TimeRule};
     use crate::material::CreepBranch;
 
     fn one_branch(time_s: f64) -> Creep {
@@ -158,34 +138,69 @@ mod tests {
         // m(n) = m* (1 - exp(-n T/lambda)): the change of any cycle tells the distance at its beginning.
         for period_over_lambda in [1e-4, 0.01, 1.0, 50.0] {
             let memory = |cycle: f64| -(-cycle * period_over_lambda).exp_m1();
-            let remaining = Remaining::new(&one_branch(3.0), 3.0 * period_over_lambda);
-            let mut change = [0.0];
-            let pressure = MeanPressure::new(&remaining, 1, 8);
-            remaining.change(&[memory(7.0)], &[memory(8.0)], &pressure, &mut change);
+            let remaining = Remaining::new(&one_branch(3.0), 3.0 * period_over_lambda, 1);
+            let change = memory(8.0) - memory(7.0);
             // The change is a difference of numbers near 1: 1e-16 over it.
-            assert!((remaining.distance(&change, 1) - (1.0 - memory(7.0))).abs() < 1e-11);
+            assert!((remaining.distance(&[change]) - (1.0 - memory(7.0))).abs() < 1e-11);
         }
     }
 
-    #[test]
-    fn a_branch_that_hardly_moves_within_a_period_misses_a_mean_of_the_pressure() {
-        // The periodic memory under p = 2 + sin(2 pi s/T) + s/T, at the start of the cycle.
-        for part in [1e-6_f64, 1e-12] {
-            let remaining = Remaining::new(&one_branch(part.recip()), 1.0);
-            assert!(remaining.is_held(0));
-            let steps = 400;
-            let mut pressure = MeanPressure::new(&remaining, 1, steps);
-            for step in 0..=steps {
-                let s = step as f64 / steps as f64;
-                pressure.add(step, &[2.0 + (std::f64::consts::TAU * s).sin() + s]);
+    /// m* - m over one cycle of a pressure that opens and closes the contact, of one node whose memory began at zero.
+    fn missing(creep: &Creep, steps: usize) -> Vec<f64> {
+        const PERIOD_S: f64 = 1.0;
+        let remaining = Remaining::new(creep, PERIOD_S, 1);
+        let mut memory = Memory::new(creep.clone(), 1);
+        if let Some(first) = remaining.first_held() {
+            memory.begin_cycle(first);
+        }
+        let stages = memory.stages(PERIOD_S / steps as f64, TimeRule::Linear);
+        let mut pressure = [0.0];
+        for step in 0..steps {
+            for stage in &stages {
+                let at = (step as f64 + stage.pressure_at) / steps as f64;
+                memory.predict(&stage.weights, &pressure, &mut [0.0]);
+                pressure = [(0.3 - (at - 0.4).abs()).max(0.0)];
+                memory.commit(&stage.weights, &pressure);
             }
-            // First moments about 1/2: of the sine -1/(2 pi), of s 1/12.
-            let exact = 2.5 + part * (1.0 / 12.0 - 1.0 / std::f64::consts::TAU);
-            let mut change = [0.0];
-            remaining.change(&[exact], &[exact], &pressure, &mut change);
-            // The trapezium rule, times T/lambda.
-            assert!(change[0].abs() < 1e-5 * part + 1e-14, "{}", change[0]);
-            assert_eq!(remaining.distance(&[-0.5], 1), 0.5);
+        }
+        let branches = creep.branches().len();
+        let mut change = vec![0.0; branches];
+        remaining.change(&vec![0.0; branches], &memory, &mut change);
+        let whole = change.iter().zip(&remaining.branches);
+        whole
+            .map(|(change, branch)| {
+                if branch.is_held() {
+                    *change
+                } else {
+                    change / branch.forgotten
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn nothing_jumps_where_a_branch_becomes_held() {
+        // Solids whose steps are in one stage and in two, on either side of the limit and far beyond it.
+        for compliance_per_pa in [0.1, 1e4] {
+            let of = |times_s: &[f64]| {
+                let branch = |&time_s| CreepBranch {
+                    compliance_per_pa,
+                    time_s,
+                };
+                let branches = times_s.iter().map(branch).collect();
+                missing(&Creep::new(1.0, branches, None).unwrap(), 17)
+            };
+            let limit_s = HELD.recip();
+            let (moving, held) = (
+                of(&[limit_s * (1.0 - 1e-9)])[0],
+                of(&[limit_s * (1.0 + 1e-9)])[0],
+            );
+            // A memory of 1e-5 grown in sums of a few tens of numbers.
+            assert!((moving / held - 1.0).abs() < 1e-12, "{moving} {held}");
+            // Of two held branches the slower is linear in T/lambda, the rest is of second order.
+            let alone = of(&[3.0 * limit_s])[0];
+            let second = of(&[1.1 * limit_s, 3.0 * limit_s])[1];
+            assert!((second / alone - 1.0).abs() < 1e-10, "{second} {alone}");
         }
     }
 }

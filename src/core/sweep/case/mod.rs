@@ -2,6 +2,7 @@
 
 pub(in crate::sweep) mod accuracy;
 pub mod checkpoint;
+mod cycles;
 mod edge_layer;
 mod levels;
 mod outside_model;

@@ -4,23 +4,26 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
 
-use crate::contact::{ContactError, Engine, Prescribed, Solution, sums};
-use crate::cycle::{self, LoopError};
-use crate::drive::Control;
-use crate::history::{March, Memory, Stage, StepWeights, TimeRule, Work};
+use crate::contact::{ContactError, Engine, Prescribed, Solution};
+use crate::cycle::LoopError;
+use crate::history::{March, Memory, TimeRule, Work};
 use crate::material::Creep;
-use crate::steady::{self, Begin, MeanPressure, Remaining, SteadySettings};
+use crate::steady::{self, Begin, SteadySettings};
 use crate::sweep::case::SetupError;
 use crate::sweep::case::checkpoint::{Checkpoints, Level, LevelState, Marching};
-use crate::sweep::case::recording::Recording;
+use crate::sweep::case::cycles::Cycles;
 use crate::sweep::case::solid::Solid;
-use crate::sweep::engine::{EngineError, missed_contact, prescribed};
+use crate::sweep::engine::{EngineError, prescribed};
 use crate::sweep::plan::{Condition, CyclePlan, Method};
 use crate::sweep::record::CaseResult;
 
 /// Cycles after which a direct search is given up for marching, which takes many more where a search takes long: cells that
 /// come and go at the edge of a strongly relaxing contact may take 140.
 const SEARCH_CYCLES: usize = 200;
+
+/// Parts of the oscillation whose cycles lead to that of the whole where it is not found at once, and the cycles that each may take.
+const SMALLER_OSCILLATIONS: [f64; 3] = [0.25, 0.5, 0.75];
+const PART_CYCLES: usize = 50;
 
 /// What a stabilised cycle is recorded for, least first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -99,15 +102,39 @@ impl Contact<'_> {
     }
 
     /// What the drive asks for at this fraction of a cycle.
-    fn prescribed(&self, cycle_fraction: f64) -> Prescribed {
+    pub(super) fn prescribed(&self, cycle_fraction: f64) -> Prescribed {
         let drive = &self.condition.drive;
         let value = drive.value(cycle_fraction) + drive.pull_off_n();
         prescribed(drive.control(), value)
     }
 
-    fn mean(&self) -> Prescribed {
+    /// What the drive asks for before the oscillation.
+    fn held(&self) -> Prescribed {
         let drive = &self.condition.drive;
         prescribed(drive.control(), drive.held() + drive.pull_off_n())
+    }
+
+    /// What it asks for on average over a cycle.
+    fn mean(&self) -> Prescribed {
+        let drive = &self.condition.drive;
+        prescribed(drive.control(), drive.true_mean() + drive.pull_off_n())
+    }
+
+    /// The drive with this part of its oscillation about the average.
+    fn in_part(&self, part: f64, cycle_fraction: f64) -> Prescribed {
+        if part == 1.0 {
+            return self.prescribed(cycle_fraction);
+        }
+        let between = |mean: f64, value: f64| mean + part * (value - mean);
+        match (self.mean(), self.prescribed(cycle_fraction)) {
+            (Prescribed::LoadN(mean), Prescribed::LoadN(value)) => {
+                Prescribed::LoadN(between(mean, value))
+            }
+            (Prescribed::ApproachM(mean), Prescribed::ApproachM(value)) => {
+                Prescribed::ApproachM(between(mean, value))
+            }
+            (_, whole) => whole,
+        }
     }
 
     /// Cycles of a march, at most.
@@ -125,7 +152,7 @@ impl Contact<'_> {
         }
     }
 
-    fn check_interrupted(&self) -> Result<(), ContactError> {
+    pub(super) fn check_interrupted(&self) -> Result<(), ContactError> {
         match self.interrupt.load(Ordering::Relaxed) {
             true => Err(ContactError::Interrupted),
             false => Ok(()),
@@ -209,7 +236,19 @@ impl Contact<'_> {
         if self.cycle.method == Method::March {
             return self.march(level, engine, steps, Marching::default());
         }
-        let (direct, why) = match self.search(level, engine, steps, begin) {
+        let mut searched = self.search(level, engine, steps, begin, &[]);
+        if let Ok(failed) = &searched
+            && failed.result.is_none()
+            && self.marches_at_last
+        {
+            let before = failed.cycles;
+            let begin = Begin::Memory(None);
+            searched = self.search(None, engine, steps, begin, &SMALLER_OSCILLATIONS);
+            if let Ok(searched) = &mut searched {
+                searched.cycles += before;
+            }
+        }
+        let (direct, why) = match searched {
             Ok(stabilised) if stabilised.result.is_some() || !self.marches_at_last => {
                 return Ok(stabilised);
             }
@@ -232,25 +271,17 @@ impl Contact<'_> {
         self.march(level, engine, steps, state)
     }
 
+    /// The cycle searched for, after those with these parts of the oscillation about the same mean, each of which starts the next.
+    /// That of none is the body relaxed under the mean.
     fn search(
         &self,
         level: Option<&Level<'_>>,
         engine: &mut dyn Engine,
         steps: usize,
-        begin: Begin,
+        mut begin: Begin,
+        parts: &[f64],
     ) -> Result<Stabilised, CaseError> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
-        let drive = |fraction| self.prescribed(fraction);
-        let cycle = steady::Cycle {
-            drive: &drive,
-            mean: self.mean(),
-            period_s: self.period_s(),
-            steps,
-        };
-        let settings = SteadySettings {
-            tolerance: self.cycle.tolerance,
-            max_cycles: SEARCH_CYCLES.min(self.cycle.max_cycles),
-        };
         let watch = steady::Watch {
             stop: &|| self.interrupt.load(Ordering::Relaxed),
             between_cycles: &|state| {
@@ -259,10 +290,33 @@ impl Contact<'_> {
                 }
             },
         };
-        let found = steady::find_from(&mut march, &cycle, begin, settings, &watch)?;
-        self.check_interrupted()?;
+        let most = SEARCH_CYCLES.min(self.cycle.max_cycles);
+        let mut find = |part: f64, begin: Begin, max_cycles: usize| {
+            let drive = |fraction| self.in_part(part, fraction);
+            let cycle = steady::Cycle {
+                drive: &drive,
+                mean: self.mean(),
+                period_s: self.period_s(),
+                steps,
+            };
+            let settings = SteadySettings {
+                tolerance: self.cycle.tolerance,
+                max_cycles,
+            };
+            let found = steady::find_from(&mut march, &cycle, begin, settings, &watch)?;
+            self.check_interrupted()?;
+            let memory = (found.converged).then(|| march.memory().variables().to_vec());
+            Ok::<_, CaseError>((found, memory))
+        };
+        let mut before = 0;
+        for &part in parts {
+            let (found, memory) = find(part, begin, most.min(PART_CYCLES))?;
+            before += found.cycles;
+            begin = Begin::Memory(memory);
+        }
+        let (found, _) = find(1.0, begin, most)?;
         let mut cycles = Cycles::new(self, &march, steps);
-        cycles.count = found.cycles;
+        cycles.count = before + found.cycles;
         cycles.distance = found.distance.is_finite().then_some(found.distance);
         if !found.converged {
             return Ok(cycles.ended(Method::Direct, &march, None));
@@ -288,9 +342,17 @@ impl Contact<'_> {
         }
         let after_search = state.after_search;
         if cycles.count == 0 {
-            march.jump(self.mean())?;
-            let hold_s = self.condition.drive.hold_s();
-            march.hold_in(self.hold_steps(steps), hold_s, self.mean())?;
+            match after_search {
+                // The stabilised cycle has forgotten the hold, and this is nearer to it.
+                Some(_) => {
+                    march.relax(self.mean())?;
+                }
+                None => {
+                    march.jump(self.held())?;
+                    let hold_s = self.condition.drive.hold_s();
+                    march.hold_in(self.hold_steps(steps), hold_s, self.held())?;
+                }
+            }
             march.jump(self.prescribed(0.0))?;
         }
         let mut result = None;
@@ -326,145 +388,5 @@ impl Contact<'_> {
             ));
         }
         Ok(marched)
-    }
-}
-
-/// Cycles of one case in one number of steps.
-struct Cycles<'a> {
-    contact: &'a Contact<'a>,
-    stages: Vec<Stage<StepWeights>>,
-    steps: usize,
-    /// Memory variables at the start of the cycle, what it left to do, and its mean pressure.
-    start: Vec<f64>,
-    remaining: Remaining,
-    change: Vec<f64>,
-    mean: MeanPressure,
-    load_n: Vec<f64>,
-    approach_m: Vec<f64>,
-    count: usize,
-    distance: Option<f64>,
-}
-
-impl<'a> Cycles<'a> {
-    fn new(contact: &'a Contact<'a>, march: &March<'_>, steps: usize) -> Self {
-        let remaining = Remaining::new(contact.compliance, contact.period_s());
-        Self {
-            contact,
-            stages: march.stages(contact.period_s() / steps as f64),
-            steps,
-            start: Vec::new(),
-            change: vec![0.0; march.memory().variables().len()],
-            mean: MeanPressure::new(&remaining, march.pressure().len(), steps),
-            remaining,
-            load_n: Vec::with_capacity(steps + 1),
-            approach_m: Vec::with_capacity(steps + 1),
-            count: 0,
-            distance: None,
-        }
-    }
-
-    fn is_within_tolerance(&self) -> bool {
-        self.distance
-            .is_some_and(|distance| distance <= self.contact.cycle.tolerance)
-    }
-
-    /// Solves one cycle, recorded where asked to, and estimates its distance to the stabilised one.
-    fn run(
-        &mut self,
-        march: &mut March<'_>,
-        mut recording: Option<&mut Recording>,
-    ) -> Result<(), CaseError> {
-        // A checkpoint may lie here.
-        march.reset_predictor();
-        self.start.clear();
-        self.start.extend_from_slice(march.memory().variables());
-        self.load_n.clear();
-        self.approach_m.clear();
-        self.see(march);
-        self.mean.add(0, march.pressure());
-        let mut scale = 0.0_f64;
-        if let Some(recording) = recording.as_deref_mut() {
-            recording.sample(march, 0.0)?;
-        }
-        for step in 1..=self.steps {
-            self.contact.check_interrupted()?;
-            let fraction = |end: f64| ((step - 1) as f64 + end) / self.steps as f64;
-            let drive = |end| self.contact.prescribed(fraction(end));
-            match recording.as_deref_mut() {
-                None => march.step_in_stages(&self.stages, drive)?,
-                Some(recording) => {
-                    march.step_dissipating(&self.stages, drive, &mut recording.dissipation)?;
-                    recording.see(march, step, fraction(1.0) * self.contact.period_s())?;
-                }
-            }
-            self.see(march);
-            self.mean.add(step, march.pressure());
-            scale = scale.max(sums::dot(march.pressure(), march.pressure()));
-        }
-        self.count += 1;
-        self.distance = self.estimate(march, scale.sqrt());
-        Ok(())
-    }
-
-    fn see(&mut self, march: &March<'_>) {
-        if let Some(solution) = march.solution() {
-            self.load_n.push(solution.load_n);
-            self.approach_m.push(solution.approach_m);
-        }
-    }
-
-    /// The distance of the memory relative to the pressure, or that of the loop to a closed one; `None` without a pressure.
-    fn estimate(&mut self, march: &March<'_>, scale: f64) -> Option<f64> {
-        let end = march.memory().variables();
-        let nodes = march.pressure().len();
-        (self.remaining).change(&self.start, end, &self.mean, &mut self.change);
-        let memory = self.remaining.distance(&self.change, nodes) / scale;
-        let closure = cycle::closure_error(&self.load_n, &self.approach_m)?;
-        (scale > 0.0 && memory.is_finite()).then_some(memory.max(closure))
-    }
-
-    /// Solves and records one more cycle; `None` where it turns out to be too far from the stabilised one after all.
-    fn record(&mut self, march: &mut March<'_>) -> Result<Option<CaseResult>, CaseError> {
-        let contact = self.contact;
-        let mut recording = Recording::new(contact, march.pressure().len(), self.steps);
-        self.run(march, Some(&mut recording))?;
-        if contact.cycle.at_cycle.is_none() && !self.is_within_tolerance() {
-            return Ok(None);
-        }
-        recording.result(contact, march).map(Some)
-    }
-
-    fn ended(self, method: Method, march: &March<'_>, result: Option<CaseResult>) -> Stabilised {
-        let Contact {
-            cycle, condition, ..
-        } = self.contact;
-        let drive = &condition.drive;
-        let message = match (&result, self.distance) {
-            (Some(_), _) => None,
-            (None, Some(distance)) => {
-                let instead = match cycle.method {
-                    Method::March => "; method = \"direct\" in [cycle] needs a few cycles alone",
-                    Method::Direct => "",
-                };
-                Some(format!(
-                    "after {} cycles the estimated distance to the stabilised cycle is {distance:.1e}, above the tolerance {:.1e}{instead}",
-                    self.count, cycle.tolerance
-                ))
-            }
-            (None, None) if drive.control() == Control::Approach && drive.maximum() > 0.0 => {
-                Some(missed_contact(drive.maximum()))
-            }
-            (None, None) => Some(format!("no pressure arose in {} cycles", self.count)),
-        };
-        Stabilised {
-            method,
-            cycles: self.count,
-            work: march.work(),
-            distance: self.distance,
-            message,
-            memory: self.start,
-            last: march.solution(),
-            result,
-        }
     }
 }
