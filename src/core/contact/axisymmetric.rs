@@ -134,15 +134,12 @@ impl Axisymmetric {
         load_n: f64,
         compliance_per_pa: f64,
         force: &mut [f64],
-    ) -> (f64, f64, usize) {
+    ) -> Result<(f64, f64, usize), ContactError> {
         let target = 0.5 * load_n * compliance_per_pa;
         if target <= 0.0 {
             let lowest_m = sums::least(&self.offset_m);
-            return (
-                lowest_m,
-                self.press_to(lowest_m, compliance_per_pa, force).0,
-                0,
-            );
+            let (load_n, _) = self.press_to(lowest_m, compliance_per_pa, force);
+            return Ok((lowest_m, load_n, 0));
         }
         let most = self.offset_m.len() + 2;
         let mut approach_m = self.approach_m;
@@ -156,9 +153,19 @@ impl Axisymmetric {
             let is_same = next_m == approach_m;
             // The first pass mostly finds that other springs are in contact than an instant ago.
             if is_same || pass > 1 {
-                let (load_n, pressed_m) = self.press_to(next_m, compliance_per_pa, force);
-                if pressed_m == width_m || pass >= most {
-                    return (next_m, load_n, pass + usize::from(!is_same));
+                let (carried_n, pressed_m) = self.press_to(next_m, compliance_per_pa, force);
+                let residual = (carried_n / load_n - 1.0).abs();
+                // A spring at the very edge may count as in contact in every other pass, by rounding.
+                let ends = pressed_m == width_m && next_m.is_finite();
+                if ends || (pass >= most && residual <= ROUNDING) {
+                    return Ok((next_m, carried_n, pass + usize::from(!is_same)));
+                }
+                if pass >= most {
+                    return Err(ContactError::NotConverged {
+                        iterations: pass,
+                        residual,
+                        tolerance: ROUNDING,
+                    });
                 }
             }
             approach_m = next_m;
@@ -218,6 +225,9 @@ fn place_of_mean(from_m: f64, to_m: f64, gap_m: impl Fn(f64) -> f64) -> (f64, f6
     (place_m, mean_m)
 }
 
+/// What rounding leaves of a load in a sum over springs, relative.
+const ROUNDING: f64 = 1e-10;
+
 impl Engine for Axisymmetric {
     fn nodes(&self) -> usize {
         self.gap_m.len()
@@ -234,7 +244,7 @@ impl Engine for Axisymmetric {
         }
         let compliance = instant.compliance_per_pa;
         let (approach_m, load_n, iterations) = match instant.prescribed.check()? {
-            Prescribed::LoadN(load_n) => self.press_by(load_n, compliance, force),
+            Prescribed::LoadN(load_n) => self.press_by(load_n, compliance, force)?,
             Prescribed::ApproachM(approach_m) => {
                 let (load_n, _) = self.press_to(approach_m, compliance, force);
                 (approach_m, load_n, 1)
@@ -317,6 +327,21 @@ fn in_contact(force: &[f64]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_load_that_no_approach_carries_is_an_error_and_no_value() {
+        let mut engine = Axisymmetric::new(1e-6, vec![0.0, 1e-6, 2e-6, 3e-6], Edge::Rim, true);
+        let instant = Instant {
+            history: &[f64::NAN; 4],
+            compliance_per_pa: 1e-9,
+            prescribed: Prescribed::LoadN(1.0),
+        };
+        let ended = engine.solve(&instant, &mut [0.0; 4]);
+        assert!(
+            matches!(ended, Err(ContactError::NotConverged { .. })),
+            "{ended:?}"
+        );
+    }
 
     #[test]
     fn springs_in_contact_carry_the_integral_of_their_forces_however_few_they_are() {
