@@ -17,6 +17,7 @@ mod identified_histories;
 mod instant_tolerance;
 mod intermittent;
 mod layer;
+mod lift_off;
 mod measured_loops;
 mod no_false_result;
 mod numbered_cycles;

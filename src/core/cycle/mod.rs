@@ -49,23 +49,90 @@ pub struct Extrema {
 }
 
 impl Extrema {
-    /// Extrema of uniform samples, each refined by the parabola through the extreme sample and its neighbours, since the
-    /// true extremum lies between samples. `None` for an empty signal.
+    /// Extrema of the uniform samples of a smooth and closed cycle, each refined by the parabola through the extreme sample and its
+    /// neighbours, since the true extremum lies between samples. `None` for an empty signal.
     pub fn of(samples: &[f64]) -> Option<Self> {
-        let at = |better: fn(&f64, &f64) -> bool| {
-            let mut best = 0;
-            for (i, value) in samples.iter().enumerate() {
-                if better(value, samples.get(best)?) {
-                    best = i;
-                }
-            }
-            samples.get(best)?;
-            Some(refined(samples, best))
+        let (extrema, _) = Smoothness::THROUGHOUT.extrema(samples)?;
+        Some(extrema)
+    }
+}
+
+/// Where the signals of a cycle are smooth, so that a parabola through three samples tells what lies between them.
+#[derive(Debug, Clone, Copy)]
+pub struct Smoothness<'a> {
+    /// Whether the cycle ends where it began.
+    pub is_closed: bool,
+    /// The load (N) at each sample, where the signals have kinks at which it leaves zero and comes back to it.
+    pub kinks_of_load_n: Option<&'a [f64]>,
+}
+
+impl Smoothness<'_> {
+    /// Of a cycle without a kink or an end.
+    pub const THROUGHOUT: Self = Self {
+        is_closed: true,
+        kinks_of_load_n: None,
+    };
+
+    /// Extrema of the samples of a signal, and by how much the true ones may lie beyond these: where a signal is not smooth an extremum
+    /// is the sample itself. `None` for an empty signal.
+    pub fn extrema(&self, samples: &[f64]) -> Option<(Extrema, Extrema)> {
+        let index_of = |better: fn(&f64, &f64) -> bool| {
+            let best = samples.iter().enumerate();
+            best.reduce(|best, next| if better(next.1, best.1) { next } else { best })
         };
-        Some(Self {
-            minimum: at(|a, b| a < b)?,
-            maximum: at(|a, b| a > b)?,
+        let (least, _) = index_of(|a, b| a < b)?;
+        let (greatest, _) = index_of(|a, b| a > b)?;
+        let at = |i: usize, rest: &dyn Fn(usize) -> f64| match self.is_smooth(samples.len(), i) {
+            true => (refined(samples, i), 0.0),
+            false => (samples[i], rest(i)),
+        };
+        let (minimum, below) = at(least, &|i| self.rest_below(samples, i));
+        let (maximum, above) = at(greatest, &|i| {
+            self.largest_step(samples, i, 1, false).unwrap_or(0.0)
+        });
+        let (extrema, rest) = ((minimum, maximum), (below, above));
+        let [extrema, rest] =
+            [extrema, rest].map(|(minimum, maximum)| Extrema { minimum, maximum });
+        Some((extrema, rest))
+    }
+
+    /// Whether a signal is smooth from the sample before `i` to the one after it.
+    fn is_smooth(&self, samples: usize, i: usize) -> bool {
+        let n = samples.saturating_sub(1).max(1);
+        if !self.is_closed && (i == 0 || i == n) {
+            return false;
+        }
+        self.kinks_of_load_n.is_none_or(|load_n| {
+            let touches = [i + n - 1, i, i + 1].map(|i| load_n[i % n] > 0.0);
+            touches[0] == touches[1] && touches[1] == touches[2]
         })
+    }
+
+    /// By how much a signal may fall below its least sample `i`. Out of contact the surface recovers ever more slowly until it is
+    /// touched again: by no more than in the last whole step before.
+    fn rest_below(&self, samples: &[f64], i: usize) -> f64 {
+        let free = self.largest_step(samples, i, 2, true);
+        free.or_else(|| self.largest_step(samples, i, 1, false))
+            .unwrap_or(0.0)
+    }
+
+    /// The largest difference between neighbours of at most `reach` steps from `i`, of those out of contact alone or of all. `None` where
+    /// there is none, as beyond the end of an open cycle, which is itself the extremum.
+    fn largest_step(
+        &self,
+        samples: &[f64],
+        i: usize,
+        reach: usize,
+        only_free: bool,
+    ) -> Option<f64> {
+        let load_n = self.kinks_of_load_n?;
+        let n = samples.len().saturating_sub(1).max(1);
+        let is_free = |i: usize| load_n[i] <= 0.0;
+        let starts = (0..2 * reach).map(|k| (i + reach * n + k - reach) % n);
+        let steps = starts.map(|start| (start, start + 1));
+        let steps = steps.filter(|(a, b)| !only_free || (is_free(*a) && is_free(*b)));
+        let differences = steps.map(|(a, b)| (samples[b] - samples[a]).abs());
+        differences.reduce(f64::max)
     }
 }
 
@@ -83,6 +150,11 @@ impl ContactDuty {
         part: 1.0,
         error: 0.0,
     };
+
+    /// Steps of a cycle in contact.
+    pub fn steps(self, of_cycle: usize) -> f64 {
+        self.part * of_cycle as f64
+    }
 
     /// Of uniform samples of the load of one period, both ends included; `None` without a whole step.
     pub fn of(load_n: &[f64]) -> Option<Self> {
@@ -135,6 +207,52 @@ mod tests {
         };
         let order = (error(64) / error(128)).log2();
         assert!((order - 4.0).abs() < 0.1, "order {order}");
+    }
+
+    #[test]
+    fn no_parabola_is_laid_through_a_kink_or_across_the_seam_of_an_open_cycle() {
+        // A surface that recovers while the load is zero, and is touched again between two samples.
+        let (steps, touch) = (40, 0.8137);
+        for phase in [0.0, 0.13, 0.29, 0.5, 0.81] {
+            let load = |t: f64| {
+                if t > touch {
+                    (t - touch) * 10.0
+                } else {
+                    (0.3 - t).max(0.0)
+                }
+            };
+            let signal = |t: f64| match t > touch {
+                true => (-touch / 0.4_f64).exp() + 3.0 * (t - touch),
+                false => (-t / 0.4).exp(),
+            };
+            let at = |i: usize| (i as f64 / steps as f64 + phase).fract();
+            let load_n: Vec<f64> = (0..=steps).map(|i| load(at(i))).collect();
+            let samples: Vec<f64> = (0..=steps).map(|i| signal(at(i))).collect();
+            let smooth = Smoothness {
+                is_closed: true,
+                kinks_of_load_n: Some(&load_n),
+            };
+            let (extrema, rest) = smooth.extrema(&samples).unwrap();
+            let least = samples.iter().copied().fold(f64::INFINITY, f64::min);
+            assert_eq!(extrema.minimum, least);
+            let exact = signal(touch);
+            assert!(
+                (least - rest.minimum..=least).contains(&exact),
+                "{phase}: {exact} {least} {rest:?}"
+            );
+            assert!(rest.minimum < 0.05 * extrema.maximum);
+        }
+        // A drift: both extrema are ends, and an end is exact.
+        let drift: Vec<f64> = (0..=steps)
+            .map(|i| (i as f64 / steps as f64).powi(2))
+            .collect();
+        let open = Smoothness {
+            is_closed: false,
+            kinks_of_load_n: None,
+        };
+        let (extrema, rest) = open.extrema(&drift).unwrap();
+        assert_eq!((extrema.minimum, extrema.maximum), (0.0, 1.0));
+        assert_eq!((rest.minimum, rest.maximum), (0.0, 0.0));
     }
 
     #[test]

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use crate::contact::{ContactError, Engine};
 use crate::history::{Work, order_of_steps};
 use crate::sweep::case::edge_layer::EdgeLayer;
+use crate::sweep::case::lift_off;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
 use crate::sweep::case::{Setup, SetupError};
 use crate::sweep::engine::{EngineError, MAX_GROWTHS};
 use crate::sweep::plan::{EngineKind, instant_tolerance};
-use crate::sweep::record::error_bars::{Edge, ErrorBars, InNodes, Ladder, Pair};
+use crate::sweep::record::error_bars::{Edge, ErrorBars, InNodes, Ladder, Pair, Quantity};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
 
 /// Fewest steps and nodes that a coarser resolution may have: below, a cycle has no shape, and its error says nothing.
@@ -54,7 +55,7 @@ impl Levels<'_> {
         }
         let errors = self.error_bars(&mut solved)?;
         if errors.is_none() {
-            self.note(|| "no error bars: no coarser resolution stabilised".to_owned());
+            self.note(|| "no error bars: no coarser resolution stabilised, or the contact is shorter than two time steps".to_owned());
         }
         if let Some(result) = &mut self.record.result {
             result.errors = errors;
@@ -126,7 +127,7 @@ impl Levels<'_> {
     }
 
     /// Error bars of the record's result, from results on all, half and a quarter of its nodes, in a middle number of steps, and from
-    /// those of other materials on half of them. `None` where one of the first two has no result.
+    /// those of other materials on half of them. `None` where one of the first two has no result, or the contact is too short.
     fn bars(
         &self,
         middle: usize,
@@ -182,11 +183,13 @@ impl Levels<'_> {
             distance,
             &others,
         );
+        let drive = &contact.condition.drive;
+        let bars = lift_off::widened(bars, (result, record.steps), drive, of_stabilised)?;
         let indenter = contact.condition.indenter.as_ref();
         let relaxation = contact.solid.relaxation.as_ref();
         let layer = relaxation.and_then(|relaxation| EdgeLayer::new(indenter, relaxation));
         Some(match layer {
-            Some(layer) => bars.with_higher_peak(layer.higher_peak_pa(result)),
+            Some(layer) => bars.wider(Quantity::PeakPressureMax, layer.higher_peak_pa(result)),
             None => bars,
         })
     }

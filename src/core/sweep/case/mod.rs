@@ -5,6 +5,7 @@ pub mod checkpoint;
 mod cycles;
 mod edge_layer;
 mod levels;
+mod lift_off;
 mod outside_model;
 mod pressure;
 mod recording;

@@ -1,5 +1,7 @@
 //! What of a case lies outside the model, or was not estimated.
 
+use crate::cycle::ContactDuty;
+use crate::sweep::case::lift_off::FEWEST_STEPS;
 use crate::sweep::engine::slope::{ROUNDING, of_slope, slope_of_case};
 use crate::sweep::plan::{Condition, EngineKind, SolverPlan};
 use crate::sweep::record::CaseRecord;
@@ -32,10 +34,20 @@ pub(in crate::sweep) fn warnings(
     ));
     warnings.extend(Warning::of_cells(condition.indenter.as_ref(), radius_m));
     warnings.extend(Warning::of_loss(result));
+    let steps_in_contact = result.contact_duty.steps(record.steps);
+    let lifts_off = result.contact_duty != ContactDuty::WHOLE;
+    if lifts_off {
+        warnings.extend(Warning::of_steps_in_contact(steps_in_contact));
+    }
+    let loss_j = result.analysis.energy_loss_j.abs();
+    let bar = record.energy_loss_error_j().map(|error_j| error_j / loss_j);
+    let imbalance = result.energy_imbalance();
+    warnings.extend(imbalance.and_then(|part| Warning::of_energy_imbalance(part, bar)));
     if error_bars_wanted && result.errors.is_none() {
         let on_cells = solver.engine == EngineKind::HalfSpace;
         let because = match on_cells && condition.indenter.own_cells().is_some() {
             true => NoErrorBars::OwnCells,
+            false if lifts_off && steps_in_contact < FEWEST_STEPS => NoErrorBars::ShortContact,
             false => NoErrorBars::NoCoarserResult,
         };
         warnings.push(Warning::NoErrorBars { because });

@@ -2,8 +2,9 @@
 
 use crate::contact::ContactError;
 use crate::contact::surface::Surface;
-use crate::cycle::{self, ContactDuty, Extrema, Loop, LoopAnalysis, LoopError};
+use crate::cycle::{self, ContactDuty, Extrema, Loop, LoopAnalysis, LoopError, Smoothness};
 use crate::history::{Dissipation, March};
+use crate::sweep::case::lift_off::{contact_duty, smoothness};
 use crate::sweep::case::pressure::Pressures;
 use crate::sweep::case::stabilise::{CaseError, Contact, Wanted};
 use crate::sweep::case::tangent_radius::TangentRadius;
@@ -75,17 +76,14 @@ impl Recording {
         }
         let is_transient = contact.cycle.at_cycle.is_some();
         let analysis = self.analysis(is_transient)?;
-        let contact_duty = match drive.loaded_part() {
-            Some(part) => Some(ContactDuty { part, error: 0.0 }),
-            None => ContactDuty::of(&self.samples.load_n),
-        };
-        let contact_duty = contact_duty.unwrap_or(ContactDuty::WHOLE);
+        let contact_duty = contact_duty(drive, &self.samples.load_n);
         // A loop that holds time out of contact is read as no modulus.
         let moduli = match contact_duty == ContactDuty::WHOLE {
             true => self.moduli_pa(contact, &analysis),
             false => None,
         };
         let samples = &self.samples;
+        let [of_approach, of_contact] = smoothness(drive, samples, !is_transient);
         let peaks: Option<Vec<f64>> = samples.peak_pressure_pa.iter().copied().collect();
         let largest_radius_m = samples.contact_radius_m.iter().copied().fold(0.0, f64::max);
         let surface_loss = match contact.wanted {
@@ -105,11 +103,13 @@ impl Recording {
         Ok(CaseResult {
             storage_modulus_pa: moduli.map(|m| m.0),
             loss_modulus_pa: moduli.map(|m| m.1),
-            approach_m: extrema(&samples.approach_m)?,
-            contact_radius_m: not_negative(extrema(&samples.contact_radius_m)?),
+            approach_m: extrema(of_approach, &samples.approach_m)?,
+            contact_radius_m: not_negative(extrema(of_contact, &samples.contact_radius_m)?),
             contact_duty,
             tabor_parameter: None,
-            peak_pressure_pa: peaks.as_deref().and_then(Extrema::of).map(not_negative),
+            peak_pressure_pa: (peaks.as_deref())
+                .and_then(|peaks| extrema(of_contact, peaks).ok())
+                .map(not_negative),
             errors: None,
             replica_losses_j: Vec::new(),
             branches: branches
@@ -163,11 +163,12 @@ impl Recording {
     }
 }
 
-fn extrema(signal: &[f64]) -> Result<Extrema, LoopError> {
-    Extrema::of(signal).ok_or(LoopError::TooFewSamples {
+fn extrema(smooth: Smoothness<'_>, signal: &[f64]) -> Result<Extrema, LoopError> {
+    let (extrema, _) = smooth.extrema(signal).ok_or(LoopError::TooFewSamples {
         samples: 0,
         needed: 1,
-    })
+    })?;
+    Ok(extrema)
 }
 
 /// Extrema of what cannot be negative: where a contact opens or closes, a parabola through samples may go below zero.

@@ -341,13 +341,20 @@ impl ErrorBars {
         Self { bars }
     }
 
-    /// The same for a largest pressure that may be this much (Pa) larger, which no difference between resolutions told.
+    /// The same for a quantity that may be this much more wrong, which no difference between resolutions told.
     #[must_use]
-    pub fn with_higher_peak(mut self, excess_pa: f64) -> Self {
-        if let Some(bar) = self.bars.get_mut(&Quantity::PeakPressureMax) {
-            bar.steps += excess_pa;
+    pub fn wider(mut self, quantity: Quantity, excess: f64) -> Self {
+        if let Some(bar) = self.bars.get_mut(&quantity) {
+            bar.steps += excess;
         }
         self
+    }
+
+    /// The same for a quantity that is known to be wrong by as much as this.
+    #[must_use]
+    pub fn at_least(self, quantity: Quantity, error: f64) -> Self {
+        let excess = error - self.of(quantity).unwrap_or(error);
+        self.wider(quantity, excess.max(0.0))
     }
 
     /// The error of a quantity.

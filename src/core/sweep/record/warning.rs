@@ -27,6 +27,12 @@ pub const JKR_TABOR_PARAMETER: f64 = 5.0;
 pub const FEWEST_CELLS_IN_CONTACT: f64 = 20.0;
 /// A loss below zero by less than this part of load times approach is rounding, and what the instants' tolerance leaves.
 const NO_LOSS: f64 = 1e-9;
+/// Difference between the dissipation and the loop's area, relative, from which the time steps or nodes are too few; and that from
+/// which they are whatever the error bar is.
+pub const LARGEST_IMBALANCE: f64 = 0.01;
+pub const LARGEST_IMBALANCE_IN_BAR: f64 = 0.1;
+/// Time steps in contact below which they are too few.
+pub const FEWEST_STEPS_IN_CONTACT: f64 = 10.0;
 /// Representative strain over slope.
 pub const STRAIN_PER_SLOPE: f64 = 0.2;
 
@@ -60,6 +66,10 @@ pub enum Warning {
     FewCells { cells: f64 },
     /// The energy loss (J) of a passive body is below zero.
     NegativeLoss { energy_loss_j: f64 },
+    /// The contact lasts a few of the cycle's time steps alone.
+    ShortContact { steps: f64 },
+    /// What the branches dissipate is not the area of the loop, by this part of it.
+    EnergyImbalance { part: f64 },
     /// Error bars were wanted, and there are none.
     NoErrorBars { because: NoErrorBars },
 }
@@ -72,6 +82,8 @@ pub enum NoErrorBars {
     OwnCells,
     /// There is no coarser resolution, or it has no result.
     NoCoarserResult,
+    /// What the time steps see of the contact is chance.
+    ShortContact,
 }
 
 impl NoErrorBars {
@@ -81,6 +93,7 @@ impl NoErrorBars {
                 "a map is solved on its own cells, and there are no coarser ones to compare with"
             }
             Self::NoCoarserResult => "there is no coarser result to compare with",
+            Self::ShortContact => "the contact is shorter than two time steps",
         }
     }
 }
@@ -125,6 +138,19 @@ impl Warning {
         (is_negative && !result.branches.is_empty()).then_some(Self::NegativeLoss { energy_loss_j })
     }
 
+    /// What is to be said of a contact that lasts so many time steps.
+    pub(in crate::sweep) fn of_steps_in_contact(steps: f64) -> Option<Self> {
+        (steps < FEWEST_STEPS_IN_CONTACT).then_some(Self::ShortContact { steps })
+    }
+
+    /// What is to be said of an energy imbalance, with the error bar of the loss relative to it, where there is one.
+    pub(in crate::sweep) fn of_energy_imbalance(part: f64, bar: Option<f64>) -> Option<Self> {
+        let allowed = bar.map_or(LARGEST_IMBALANCE, |bar| {
+            bar.clamp(LARGEST_IMBALANCE, LARGEST_IMBALANCE_IN_BAR)
+        });
+        (part.abs() > allowed).then_some(Self::EnergyImbalance { part })
+    }
+
     /// A short name, for tables and programs.
     pub fn code(&self) -> &'static str {
         match self {
@@ -138,6 +164,8 @@ impl Warning {
             Self::TaborParameter { .. } => "tabor-parameter",
             Self::FewCells { .. } => "few-cells",
             Self::NegativeLoss { .. } => "negative-loss",
+            Self::ShortContact { .. } => "short-contact",
+            Self::EnergyImbalance { .. } => "energy-imbalance",
             Self::NoErrorBars { .. } => "no-error-bars",
         }
     }
@@ -162,6 +190,8 @@ impl Warning {
             Self::TaborParameter { parameter } => parameter,
             Self::FewCells { cells } => -cells,
             Self::NegativeLoss { energy_loss_j } => -energy_loss_j,
+            Self::ShortContact { steps } => -steps,
+            Self::EnergyImbalance { part } => part.abs(),
             Self::NoErrorBars { .. } => 0.0,
         }
     }
@@ -247,6 +277,17 @@ impl Warning {
             Self::NegativeLoss { energy_loss_j } => format!(
                 "the energy loss, {}, is below zero, which it cannot be: more time steps, springs or cells are needed",
                 format_human(energy_loss_j, Dimension::Energy, 3)
+            ),
+            Self::ShortContact { steps } => format!(
+                "the indenter touches for only {} of the time steps of a cycle: at least {FEWEST_STEPS_IN_CONTACT} are needed, so cycle.steps \
+                 must be {} times as many",
+                two_digits(steps),
+                two_digits(FEWEST_STEPS_IN_CONTACT / steps)
+            ),
+            Self::EnergyImbalance { part } => format!(
+                "the branches dissipate {} % {} than the area of the loop: more time steps or nodes are needed",
+                two_digits(100.0 * part.abs()),
+                if part > 0.0 { "more" } else { "less" }
             ),
             Self::NoErrorBars { because } => format!("no error bars: {}", because.words()),
         }
@@ -368,7 +409,7 @@ impl fmt::Display for OverCases {
 mod tests {
     use super::*;
 
-    const EVERY: [Warning; 11] = [
+    const EVERY: [Warning; 13] = [
         Warning::BelowMeasured {
             angular_frequency_rad_per_s: 1e-4,
             last_measured_s: 1000.0,
@@ -395,6 +436,8 @@ mod tests {
         Warning::NegativeLoss {
             energy_loss_j: -4.9e-12,
         },
+        Warning::ShortContact { steps: 2.85 },
+        Warning::EnergyImbalance { part: -0.47 },
         Warning::NoErrorBars {
             because: NoErrorBars::OwnCells,
         },
@@ -433,10 +476,27 @@ mod tests {
             "is up to 12: DMT adhesion holds up to about 0.1, and from about 5 on",
             "has 1 of the map's cells, too few for a shape (at least 20)",
             "the energy loss, -4.90 pJ, is below zero",
+            "only 2.9 of the time steps of a cycle: at least 10 are needed, so cycle.steps must be 3.5 times as many",
+            "dissipate 47 % less than the area",
             "own cells",
             "no coarser result",
         ]) {
             assert!(line.contains(part), "{part:?} is missing in {line}");
+        }
+    }
+
+    #[test]
+    fn an_energy_imbalance_is_told_above_the_error_bar_and_never_where_it_is_small() {
+        for (part, bar, told) in [
+            (0.009, None, false),
+            (-0.47, None, true),
+            (0.009, Some(1e-4), false),
+            (0.02, Some(1e-4), true),
+            (0.02, Some(0.03), false),
+            (-0.47, Some(0.5), true),
+        ] {
+            let warning = Warning::of_energy_imbalance(part, bar);
+            assert_eq!(warning.is_some(), told, "{part} {bar:?}");
         }
     }
 
