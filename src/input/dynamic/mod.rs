@@ -2,8 +2,8 @@
 //!
 //! The format is found from the content, or given. Each format is one file of this folder, which opens with its specification; what
 //! they have in common is in `columns` (names and units), `block` (rows of numbers) and `isotherms` (which rows belong together).
-//! A number marked as missing takes its row out, which is counted. A modulus or frequency that is not positive is refused at its place
-//! in a table; in a file of an instrument, whose noise it is, it takes its row out, and a note says so.
+//! A number marked as missing takes its row out, which is counted. A loss that is not positive is noise, and takes its row out with a
+//! note; a storage modulus or frequency likewise in the file of an instrument, while in a table it is refused at its place.
 //!
 //! ```
 //! use contact_dma::input::dynamic::{DynamicFormat, from_bytes};
@@ -348,7 +348,7 @@ impl Reading {
         if let Some((first, count)) = self.noise.take() {
             let rows = if count == 1 { "row" } else { "rows" };
             self.note(format!(
-                "{count} {rows} passed over: a value is not positive, which is noise of the instrument (first in {})",
+                "{count} {rows} passed over: a value is not positive, which is noise (first in {})",
                 first.line()
             ));
         }

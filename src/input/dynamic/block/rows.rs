@@ -96,7 +96,8 @@ impl RowReader<'_, '_> {
         if number > 0.0 {
             return Ok(number);
         }
-        if self.block.by_instrument {
+        // A loss near zero is as often below it as above, in any table.
+        if self.block.by_instrument || column.place == self.columns.pair[1].place {
             return Err(Skipped::Noise);
         }
         let (cell, what) = (row.place(column.place), column.role.what());
