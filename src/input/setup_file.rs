@@ -44,6 +44,7 @@ pub fn setup(document: &Document) -> Result<Setup, Diagnostics> {
                     "add `[contact]` with the Poisson ratio of the specimen: poisson_ratio = 0.4",
                 );
         }
+        let counterbody = indenter_block::material(root);
         let contact = root.table_or(&CONTACT, None, |table| {
             contact(table, indenter.clone().flatten(), indenter_at.is_some()).map(Some)
         });
@@ -54,7 +55,10 @@ pub fn setup(document: &Document) -> Result<Setup, Diagnostics> {
             options: Options {
                 frequency_hz: None,
                 corrections: corrections?,
-                contact: contact?,
+                contact: contact?.zip(counterbody).map(|(contact, body)| Contact {
+                    counterbody: body.map(|body| body.value),
+                    ..contact
+                }),
             },
         })
     })
@@ -132,6 +136,7 @@ fn contact(
         poisson_ratio: poisson_ratio?,
         radius,
         indenter,
+        counterbody: None,
         bias: bias?,
     })
 }
@@ -204,6 +209,23 @@ radius = "10 um"
         assert_eq!(contact.radius, area);
         assert_eq!(contact.indenter.unwrap().shape(), "sphere");
         assert!(read("").unwrap().options.contact.is_none());
+    }
+
+    #[test]
+    fn an_indenter_may_be_made_of_something() {
+        let text = format!("{WHOLE}[indenter.material]\nlibrary = \"steel\"\n");
+        let contact = read(&text).unwrap().options.contact.unwrap();
+        let steel = contact.counterbody.unwrap();
+        assert!(steel.contact_complex_modulus(1.0).re > 1e11);
+        assert!(
+            read(WHOLE)
+                .unwrap()
+                .options
+                .contact
+                .unwrap()
+                .counterbody
+                .is_none()
+        );
     }
 
     #[test]

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use contact_dma::measured::moduli::{Contact, Radius};
 use contact_dma::measured::{Corrections, Options, Quantity, Signal, analyse};
 use contact_dma::prelude::*;
+use contact_dma::sweep::plan::SweepPlan;
 use num_complex::Complex;
 
 /// Random numbers from a seed: splitmix64, and Box and Muller.
@@ -57,9 +58,18 @@ impl Exact {
         amplitude_n: f64,
         hz: f64,
     ) -> Self {
+        Self::under_body(Arc::new(indenter), material, amplitude_n, hz)
+    }
+
+    fn under_body(
+        indenter: Arc<dyn Indenter>,
+        material: Material,
+        amplitude_n: f64,
+        hz: f64,
+    ) -> Self {
         let mean_n = 10.0;
         let drive = HarmonicDrive::load(mean_n, amplitude_n).unwrap();
-        let sweep = Sweep::new(material, indenter, drive);
+        let sweep = Sweep::from(SweepPlan::new(material, indenter, drive));
         let sweep = sweep.steps(200).unwrap().springs(200).unwrap();
         let record = sweep.without_error_bars().case_at_hz(hz).unwrap();
         let samples = &record.result.unwrap().cycle.samples.approach_m;
@@ -347,6 +357,17 @@ fn moduli(
     amplitude_n: f64,
     hz: f64,
 ) -> [(f64, f64); 2] {
+    moduli_with(None, indenter, material, amplitude_n, hz)
+}
+
+/// The same of a loop under a body that yields; `known` is what the setup says of it.
+fn moduli_with(
+    known: Option<Material>,
+    indenter: impl Indenter + Clone + 'static,
+    material: &Material,
+    amplitude_n: f64,
+    hz: f64,
+) -> [(f64, f64); 2] {
     let exact = Exact::under(indenter.clone(), material.clone(), amplitude_n, hz);
     let recording = Recording {
         hz,
@@ -364,6 +385,7 @@ fn moduli(
             poisson_ratio: material.poisson_ratio().unwrap(),
             radius: Radius::Geometry,
             indenter: Some(Arc::new(indenter)),
+            counterbody: known,
             bias: true,
         }),
         ..Options::default()
@@ -384,6 +406,27 @@ fn moduli(
             unbiased.loss_modulus_pa.value / own.im,
         ),
     ]
+}
+
+#[test]
+fn what_the_indenter_yields_is_taken_off_the_moduli() {
+    let solid = |equilibrium_pa: f64, branch_pa: f64| {
+        let branch = RelaxationBranch {
+            modulus_pa: branch_pa,
+            time_s: 1.0,
+        };
+        let relaxation = Relaxation::new(equilibrium_pa, vec![branch]).unwrap();
+        Material::from_relaxation(relaxation, ModulusKind::Longitudinal, 0.4).unwrap()
+    };
+    // A ball that yields a tenth as much as the specimen, and dissipates.
+    let (specimen, ball) = (solid(1e9, 3e9), solid(2e10, 1e10));
+    let pressed = specimen.clone().against(ball.clone());
+    let sphere = || Sphere::new(0.01).unwrap();
+    let [storage, loss] = moduli_with(Some(ball), sphere(), &pressed, 5.0, 0.2);
+    assert!((storage.1 - 1.0).abs() < 0.01, "{storage:?}");
+    assert!((loss.1 - 1.0).abs() < 0.01, "{loss:?}");
+    let [as_rigid, _] = moduli_with(None, sphere(), &pressed, 5.0, 0.2);
+    assert!(as_rigid.1 < 0.95, "{as_rigid:?}");
 }
 
 #[test]
@@ -422,5 +465,176 @@ fn the_bias_of_the_formula_is_computed_and_taken_out_at_half_the_mean_load() {
     let [storage, loss] = moduli(FlatPunch::new(1e-3).unwrap(), &zener, 5.0, 0.1);
     for (formula, unbiased) in [storage, loss] {
         assert!((formula - 1.0).abs() < 2e-3 && (unbiased - 1.0).abs() < 2e-3);
+    }
+}
+
+/// A solid of so many branches over four decades about 1 s, of any strengths.
+fn any_solid(random: &mut Random, branches: usize) -> Material {
+    let branch = |random: &mut Random| RelaxationBranch {
+        modulus_pa: random.between(2e8, 5e9),
+        time_s: random.between(1e-2, 1e2),
+    };
+    let branches = (0..branches).map(|_| branch(random)).collect();
+    let relaxation = Relaxation::new(random.between(2e8, 2e9), branches).unwrap();
+    let poisson_ratio = 0.2 + 0.3 * random.uniform();
+    Material::from_relaxation(relaxation, ModulusKind::Longitudinal, poisson_ratio).unwrap()
+}
+
+#[test]
+fn moduli_without_bias_lie_within_their_intervals_whatever_the_spectrum() {
+    const SOLIDS: usize = 60;
+    let (mut inside, mut known) = (0, 0);
+    for seed in 0..SOLIDS {
+        let mut random = Random(1000 + seed as u64);
+        let material = any_solid(&mut random, [1, 2, 5][seed % 3]);
+        let hz = random.between(0.01, 1.0);
+        let amplitude_n = 10.0 * random.between(0.05, 0.7);
+        let indenter: Arc<dyn Indenter> = match random.uniform() < 0.5 {
+            true => Arc::new(Sphere::new(0.01).unwrap()),
+            false => Arc::new(Cone::new(1.2).unwrap()),
+        };
+        let exact = Exact::under_body(indenter.clone(), material.clone(), amplitude_n, hz);
+        let recording = Recording {
+            hz,
+            points: 60.0,
+            cycles: 12.3,
+            noise: random.between(3e-4, 1e-2),
+            correlation: 0.0,
+            drift: Drift::None,
+            jitter: 0.0,
+            phase: TAU * random.uniform(),
+        };
+        let signal = recording.record(&exact, &mut random);
+        let options = Options {
+            contact: Some(Contact {
+                poisson_ratio: material.poisson_ratio().unwrap(),
+                radius: Radius::Geometry,
+                indenter: Some(indenter),
+                counterbody: None,
+                bias: true,
+            }),
+            ..Options::default()
+        };
+        let measured = analyse(&signal, &options).unwrap();
+        // A loss that the noise hides has no solid.
+        let Some(unbiased) = measured.unbiased else {
+            continue;
+        };
+        let own = material.relaxation().unwrap().complex_modulus(TAU * hz);
+        for (modulus, truth) in [
+            (unbiased.storage_modulus_pa, own.re),
+            (unbiased.loss_modulus_pa, own.im),
+        ] {
+            known += 1;
+            let off = (modulus.value - truth).abs() / modulus.error.unwrap();
+            inside += usize::from(off <= 1.0);
+            if off > 1.0 {
+                println!(
+                    "{seed} {off:.2} {:+.2e} {amplitude_n:.1} {recording:?}",
+                    modulus.value / truth - 1.0
+                );
+            }
+        }
+    }
+    println!("{inside} of {known}");
+    assert!(known >= 2 * SOLIDS - 12, "{known}");
+    assert!(100 * inside >= 93 * known, "{inside} of {known}");
+}
+
+#[test]
+fn harmonics_lie_within_their_intervals_and_none_is_made_of_noise() {
+    const RECORDS: u64 = 60;
+    let all = Exact::all();
+    let (mut inside, mut of) = (0, 0);
+    for (kind, (correlation, drift)) in [
+        (0.0, Drift::None),
+        (0.0, Drift::Exponential(1.0, 0.3)),
+        (0.8, Drift::None),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let mut own = 0;
+        for seed in 0..RECORDS {
+            let mut random = Random(5000 * kind as u64 + seed);
+            let exact = &all[seed as usize % all.len()];
+            let recording = Recording {
+                hz: 1.0,
+                points: 40.3,
+                cycles: 20.2,
+                noise: 0.01,
+                correlation,
+                drift,
+                jitter: 0.0,
+                phase: TAU * random.uniform(),
+            };
+            let measured = analyse(&recording.record(exact, &mut random), &Options::default());
+            let measured = measured.unwrap();
+            for (n, quantity) in [(1, Quantity::Harmonic2), (2, Quantity::Harmonic3)] {
+                let truth = exact.approach_m[n].norm() / exact.approach_m[0].norm();
+                let found = measured.mean(quantity).unwrap();
+                own += usize::from((found.value - truth).abs() <= found.error.unwrap());
+            }
+        }
+        println!("{own} of {} with kind {kind}", 2 * RECORDS);
+        assert!(own >= 2 * RECORDS as usize * 9 / 10, "kind {kind}: {own}");
+        inside += own;
+        of += 2 * RECORDS as usize;
+    }
+    assert!(100 * inside >= 93 * of, "{inside} of {of}");
+}
+
+#[test]
+fn the_steps_of_a_coarse_converter_are_in_the_interval() {
+    const RECORDS: u64 = 40;
+    let exact = &Exact::all()[0];
+    // Steps over the amplitude, samples a cycle.
+    for (size, points, is_locked) in [
+        (2e-3, 100.0, true),
+        (2e-2, 100.0, true),
+        (2e-3, 100.37, false),
+    ] {
+        let (mut inside, mut found) = (0, 0);
+        for seed in 0..RECORDS {
+            let mut random = Random(seed);
+            let recording = Recording {
+                hz: 1.0,
+                points,
+                cycles: 20.0,
+                noise: 0.1 * size,
+                correlation: 0.0,
+                drift: Drift::None,
+                jitter: 0.0,
+                phase: TAU * random.uniform(),
+            };
+            let mut signal = recording.record(exact, &mut random);
+            for (column, amplitude) in [
+                (&mut signal.load_n, exact.amplitude_n),
+                (&mut signal.approach_m, exact.approach_m[0].norm()),
+            ] {
+                let (step, offset) = (size * amplitude, random.uniform());
+                let rounded = |value: f64| ((value / step + offset).round() - offset) * step;
+                column.iter_mut().for_each(|value| *value = rounded(*value));
+            }
+            let measured = analyse(&signal, &Options::default()).unwrap();
+            let loss = measured.energy_loss_j().unwrap();
+            inside += usize::from((loss.value - exact.loss_j()).abs() <= loss.error.unwrap());
+            found += measured
+                .findings
+                .iter()
+                .filter(|f| f.code() == "quantised")
+                .count();
+        }
+        println!("step {size}, {points} samples a cycle: {inside} of {RECORDS}, {found} findings");
+        assert!(
+            100 * inside >= 93 * RECORDS as usize,
+            "{size} {points}: {inside}"
+        );
+        // Of both signals.
+        assert_eq!(
+            found,
+            if is_locked { 2 * RECORDS as usize } else { 0 },
+            "{size} {points}"
+        );
     }
 }

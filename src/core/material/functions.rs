@@ -127,8 +127,7 @@ impl Material {
         let nu = self.poisson_ratio().unwrap_or(0.0);
         let lateral = (1.0 - nu) * (1.0 + nu);
         let own = self.counterbody.as_ref().map(|indenter| {
-            let of_indenter = indenter.contact_complex_modulus(angular_frequency_rad_per_s);
-            lateral * (read.inv() * lateral - of_indenter.inv()).inv()
+            indenter.as_indenter_taken_off(read, lateral, angular_frequency_rad_per_s)
         });
         let own = match &self.compressibility {
             Compressibility::PoissonRatio(_) => own.unwrap_or(read),
@@ -139,6 +138,18 @@ impl Material {
             }
         };
         (own.re, own.im)
+    }
+
+    /// The modulus (Pa) of a body that this material presses as the indenter, from that which a loop gives as if it were rigid;
+    /// `lateral` is 1 - nu^2 of the body.
+    pub(crate) fn as_indenter_taken_off(
+        &self,
+        read: Complex<f64>,
+        lateral: f64,
+        angular_frequency_rad_per_s: f64,
+    ) -> Complex<f64> {
+        let own = self.contact_complex_modulus(angular_frequency_rad_per_s);
+        lateral * (read.inv() * lateral - own.inv()).inv()
     }
 
     /// Local maxima over frequency of loss modulus, loss compliance (of the kind asked for) and

@@ -4,7 +4,8 @@
 //! stiffer the material is at this frequency than at rest, and on its loss. So a solid is sought that gives the measured loop: one
 //! branch at the frequency, which carries the loss, a slow one between rest and the frequency, and an equilibrium modulus that
 //! gives the mean approach (the mean load where the approach is driven). Its exact stabilised cycle is read by the same formula, its
-//! own modulus is known, and the ratio of the two is the bias.
+//! own modulus is known, and the ratio of the two is the bias. A loop at one frequency does not say how its solid behaves at others,
+//! and the bias depends on it a little: what other splits of the modulus change is added to the interval.
 
 use std::sync::Arc;
 
@@ -13,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use super::corrections::Harmonics;
 use super::moduli::{Contact, Radius, radius_of_geometry};
-use super::statistics::Estimate;
+use super::statistics::{Estimate, NORMAL};
 use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::Indenter;
 use crate::material::{Material, MaterialError, ModulusKind, Relaxation, RelaxationBranch};
@@ -37,8 +38,6 @@ const SPRINGS: usize = 128;
 const ROUNDS: usize = 25;
 /// Relative change at which it ends.
 const SETTLED: f64 = 1e-5;
-/// How much slower than the oscillation the slow branch is.
-const SLOW: f64 = 300.0;
 /// Smallest product of frequency and time of the branch that carries the loss.
 const LEAST: f64 = 0.02;
 
@@ -48,7 +47,36 @@ struct Solid {
     storage_pa: f64,
     loss_pa: f64,
     equilibrium_pa: f64,
+    split: Split,
 }
+
+/// How the modulus is shared between the branch that carries the loss and a slow one.
+#[derive(Debug, Clone, Copy)]
+struct Split {
+    /// Largest product of frequency and time of the branch that carries the loss: the loss falls with frequency where it is large, and
+    /// rises where it is small.
+    fast: f64,
+    /// Product of frequency and time of the slow one.
+    slow: f64,
+}
+
+/// The split by which the bias is taken out.
+const SPLIT: Split = Split {
+    fast: 1.0,
+    slow: 300.0,
+};
+/// What else the spectrum may be, at its two ends: a single branch, as far as its loss allows; and a loss that rises with frequency. For
+/// random solids of one, two and five branches the bias is no further from the one by [`SPLIT`] than that by one of these.
+const OTHER_SPLITS: [Split; 2] = [
+    Split {
+        fast: f64::INFINITY,
+        slow: 300.0,
+    },
+    Split {
+        fast: 0.05,
+        slow: 300.0,
+    },
+];
 
 /// What the formula reads from the exact cycle of a solid.
 struct Reading {
@@ -58,6 +86,13 @@ struct Reading {
     mean: f64,
     /// The solid's own modulus (Pa).
     own: Complex<f64>,
+}
+
+impl Reading {
+    /// What the formula gives over what is there: of the storage and of the loss modulus.
+    fn bias(&self) -> (f64, f64) {
+        (self.storage_pa / self.own.re, self.loss_pa / self.own.im)
+    }
 }
 
 /// Why the bias is not known, as a part of a sentence.
@@ -77,44 +112,50 @@ pub(super) fn unbiased(
     if loss.value <= 0.0 || storage.value <= 0.0 {
         return Err("no passive solid has these moduli".into());
     }
-    let mut solid = Solid {
+    let read = Complex::new(storage.value, loss.value);
+    let first = Solid {
         storage_pa: storage.value,
         loss_pa: loss.value,
         equilibrium_pa: storage.value,
+        split: SPLIT,
     };
-    let mut change = f64::INFINITY;
-    for _ in 0..ROUNDS {
-        let read = model.read(&solid)?;
-        if change < SETTLED {
-            let storage_bias = read.storage_pa / read.own.re;
-            let loss_bias = read.loss_pa / read.own.im;
-            return Ok(Unbiased {
-                storage_modulus_pa: over(storage, storage_bias),
-                loss_modulus_pa: over(loss, loss_bias),
-                storage_bias,
-                loss_bias,
-            });
-        }
-        let up = storage.value / read.storage_pa;
-        let down = loss.value / read.loss_pa;
-        solid.storage_pa *= up;
-        solid.loss_pa *= down;
-        let before = solid.equilibrium_pa;
-        solid.equilibrium_pa = (before * model.softness(read.mean)).min(solid.storage_pa);
-        let of_mean = (solid.equilibrium_pa / before).ln().abs();
-        change = up.ln().abs().max(down.ln().abs()).max(of_mean);
-        if !change.is_finite() {
-            break;
+    let solid = model.solid(read, first)?;
+    let bias = model.read(&solid, STEPS, SPRINGS)?.bias();
+    // What coarser steps and springs change is more than what these leave.
+    let coarser = model.read(&solid, STEPS / 2, SPRINGS / 2)?.bias();
+    let mut uncertain = apart(coarser, bias);
+    // Another spectrum with the same modulus and the same mean has another bias. One that gives no such loop is none to be considered.
+    for split in OTHER_SPLITS {
+        let other = model.solid(read, Solid { split, ..solid });
+        let other = other.and_then(|solid| model.read(&solid, STEPS, SPRINGS));
+        if let Ok(other) = other {
+            let change = apart(other.bias(), bias);
+            uncertain.0 = uncertain.0.max(change.0);
+            uncertain.1 = uncertain.1.max(change.1);
         }
     }
-    Err("no solid is found whose exact loop is the measured one".into())
+    Ok(Unbiased {
+        storage_modulus_pa: over(storage, bias.0, uncertain.0),
+        loss_modulus_pa: over(loss, bias.1, uncertain.1),
+        storage_bias: bias.0,
+        loss_bias: bias.1,
+    })
 }
 
-fn over(estimate: Estimate, bias: f64) -> Estimate {
+/// By which parts two biases differ.
+fn apart(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
+    ((one.0 / other.0 - 1.0).abs(), (one.1 / other.1 - 1.0).abs())
+}
+
+/// An estimate without its bias, which is uncertain by a part of it: that widens the interval as a whole.
+fn over(estimate: Estimate, bias: f64, uncertain: f64) -> Estimate {
+    let value = estimate.value / bias;
+    let of_bias = uncertain * value.abs();
+    let standard = |error: f64| (error / bias).hypot(of_bias / NORMAL);
     Estimate {
-        value: estimate.value / bias,
-        standard_error: estimate.standard_error.map(|error| error / bias),
-        error: estimate.error.map(|error| error / bias),
+        value,
+        standard_error: estimate.standard_error.map(standard),
+        error: estimate.error.map(|error| error / bias + of_bias),
         freedom: estimate.freedom,
     }
 }
@@ -172,22 +213,51 @@ impl<'a> Model<'a> {
         }
     }
 
+    /// The solid, split in its way, of whose exact cycle the formula reads these moduli (Pa) and whose mean is the measured one.
+    fn solid(&self, modulus: Complex<f64>, first: Solid) -> Result<Solid, Failure> {
+        let mut solid = first;
+        for _ in 0..ROUNDS {
+            let read = self.read(&solid, STEPS, SPRINGS)?;
+            let up = modulus.re / read.storage_pa;
+            let down = modulus.im / read.loss_pa;
+            let before = solid;
+            solid.storage_pa *= up;
+            solid.loss_pa *= down;
+            let equilibrium_pa = before.equilibrium_pa * self.softness(read.mean);
+            solid.equilibrium_pa = equilibrium_pa.min(solid.storage_pa);
+            let of_mean = (solid.equilibrium_pa / before.equilibrium_pa).ln().abs();
+            let change = up.ln().abs().max(down.ln().abs()).max(of_mean);
+            if change < SETTLED {
+                return Ok(solid);
+            }
+            if !change.is_finite() {
+                break;
+            }
+        }
+        Err("no solid is found whose exact loop is the measured one".into())
+    }
+
     /// What the formula reads from the exact cycle of a solid.
-    fn read(&self, solid: &Solid) -> Result<Reading, Failure> {
+    fn read(&self, solid: &Solid, steps: usize, springs: usize) -> Result<Reading, Failure> {
         let relaxation = solid.relaxation(self.angular)?;
         let own = relaxation.complex_modulus(self.angular);
         let nu = self.contact.poisson_ratio;
         let material = Material::from_relaxation(relaxation, ModulusKind::Longitudinal, nu)?;
-        let plan = SweepPlan::new(material, self.indenter.clone(), self.drive);
+        let material = match &self.contact.counterbody {
+            Some(indenter) => material.against(indenter.clone()),
+            None => material,
+        };
+        let plan = SweepPlan::new(material.clone(), self.indenter.clone(), self.drive);
         let sweep = Sweep::from(plan).without_error_bars();
-        let sweep = sweep.steps(STEPS)?.springs(SPRINGS)?;
+        let sweep = sweep.steps(steps)?.springs(springs)?;
         let record = sweep.case_at_hz(self.angular / std::f64::consts::TAU)?;
         let result = record.result.ok_or("the exact cycle is not found")?;
         let analysis = &result.analysis;
         let radii_m = &result.cycle.samples.contact_radius_m;
         let moduli = self
             .radius_m(radii_m, analysis.approach_mean_m)
-            .and_then(|radius_m| analysis.equivalent_moduli_pa(radius_m, nu));
+            .and_then(|radius_m| analysis.equivalent_moduli_pa(radius_m, nu))
+            .map(|read| material.of_loop(read, self.angular));
         let (storage_pa, loss_pa) = moduli.ok_or("the exact cycle has no contact radius")?;
         Ok(Reading {
             storage_pa,
@@ -214,11 +284,12 @@ impl<'a> Model<'a> {
 impl Solid {
     /// A branch at the frequency with all of the loss, the rest of the stiffness slow.
     fn relaxation(&self, angular: f64) -> Result<Relaxation, MaterialError> {
-        // Of q = omega tau: the branch adds E'' q to the storage modulus, no more than half of that and no more than what the
-        // equilibrium leaves.
+        // Of q = omega tau: the branch adds E'' q to the storage modulus, no more than what the equilibrium leaves, and no more than
+        // nine tenths where that is all.
         let left = (self.storage_pa - self.equilibrium_pa) / self.loss_pa;
-        let q = (0.5 * self.storage_pa / self.loss_pa)
-            .min(1.0)
+        let most = if self.split.fast <= 1.0 { 0.5 } else { 0.9 };
+        let q = (most * self.storage_pa / self.loss_pa)
+            .min(self.split.fast)
             .min(left.max(LEAST));
         let fast_pa = self.loss_pa * (1.0 + q * q) / q;
         let rest_pa = self.storage_pa - self.loss_pa * q;
@@ -230,7 +301,7 @@ impl Solid {
         let mut branches = vec![branch(fast_pa, q)];
         let slow_pa = rest_pa - equilibrium_pa;
         if slow_pa > 1e-6 * rest_pa {
-            branches.push(branch(slow_pa, SLOW));
+            branches.push(branch(slow_pa, self.split.slow));
         }
         Relaxation::new(equilibrium_pa, branches)
     }

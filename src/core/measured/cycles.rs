@@ -82,7 +82,9 @@ impl Cut {
     ) -> (Vec<Cycle>, Vec<usize>) {
         let (mut cycles, mut incomplete) = (Vec::new(), Vec::new());
         for (number, range) in (1..).zip(&self.ranges) {
-            let whole = (!self.incomplete.contains(&number)).then(|| range.clone());
+            // In ascending order: a record of which most is missing has as many of them as cycles.
+            let is_whole = self.incomplete.binary_search(&number).is_err();
+            let whole = is_whole.then(|| range.clone());
             match whole.and_then(|range| fit(signal, range, of_model, drifts)) {
                 Some(cycle) => cycles.push(Cycle {
                     number,

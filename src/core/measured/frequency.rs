@@ -46,7 +46,10 @@ pub(super) fn of_spectrum(signal: &Signal, sampling: &Sampling) -> Result<f64, M
     let best = lines.max_by(|a, b| product(*a).total_cmp(&product(*b)));
     let best = best.filter(|k| product(*k) > 0.0);
     let Some(k) = best else {
-        return Err(MeasuredError::NoOscillation { signal: "load" });
+        return Err(MeasuredError::NoOscillation {
+            signal: "load",
+            given_hz: None,
+        });
     };
     Ok(refined_by_scan(signal, sampling, k as f64 * line_hz))
 }

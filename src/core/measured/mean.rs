@@ -9,7 +9,8 @@ use super::corrections::Harmonics;
 use super::frequency::{Fit, RecordModel};
 use super::noise::Noise;
 use super::quality::Finding;
-use super::quantities::{Quantity, Values};
+use super::quantities::{HARMONICS_OF_APPROACH, Quantity, Values};
+use super::signal::Sampling;
 use super::statistics::{Estimate, StandardError, upper_median};
 use super::{MeasuredLoop, Options, Signal};
 
@@ -17,6 +18,11 @@ use super::{MeasuredLoop, Options, Signal};
 const PARTS: usize = 100;
 /// An instrument that takes more than this many times the load of the contact is worth saying.
 const DOMINATES: f64 = 1.0;
+
+/// The radius of the circle that holds a complex number with normal errors 95 times in 100, over the half-width of one of its parts.
+const CIRCLE: f64 = 1.248_87;
+/// Of what is uncertain, the part from which on the steps of a converter are worth saying.
+const COARSE: f64 = 0.1;
 
 /// The mean over the cycles that count.
 pub(super) struct Mean<'a> {
@@ -34,6 +40,8 @@ struct Errors {
     of: [Option<StandardError>; Quantity::ALL.len()],
     /// Covariance of loss and phase lag (J rad).
     loss_with_phase: f64,
+    /// Signals whose steps count.
+    coarse: Vec<Finding>,
 }
 
 impl Errors {
@@ -55,8 +63,8 @@ impl Mean<'_> {
         let radii = cycles().filter_map(|cycle| cycle.contact_radius_m);
         let column_m = super::statistics::mean(&radii.collect::<Vec<f64>>());
         self.remarks(&mean, &corrected, column_m, &mut measured.findings);
-        let center = self.options.values(&corrected, column_m);
-        let errors = self.errors(&mean, column_m, &center);
+        let center = (self.options).values(&corrected, column_m, self.model.angular);
+        let errors = self.errors((&mean, column_m), &center, &measured.sampling);
         for (place, (quantity, ..)) in Quantity::ALL.iter().enumerate() {
             let values = self.used.iter().map(|used| measured.values[*used][place]);
             let Some(mut values) = values.collect::<Option<Vec<f64>>>() else {
@@ -70,10 +78,67 @@ impl Mean<'_> {
             let errors = errors.as_ref().and_then(|errors| errors.of[place]);
             measured.means[place] = Estimate::of(&values, errors);
         }
-        measured.loss_phase_correlation = errors.and_then(|errors| errors.loss_phase_correlation());
+        for (ratio, phase) in HARMONICS_OF_APPROACH {
+            let places = [ratio.place(), phase.place()];
+            let known = places.map(|place| errors.as_ref().and_then(|errors| errors.of[place]));
+            let found = self.harmonic(&measured.values, places, known);
+            places
+                .iter()
+                .zip(found)
+                .for_each(|(place, mean)| measured.means[*place] = mean);
+        }
+        if let Some(errors) = errors {
+            measured.loss_phase_correlation = errors.loss_phase_correlation();
+            measured.findings.extend(errors.coarse);
+        }
         measured.points = self.points(measured, &mean, &corrected);
         self.take_out_bias(measured, &corrected);
         measured.mean_cycle = corrected;
+    }
+
+    /// A harmonic of the approach over the first, and its phase. Its cycles are averaged as complex numbers: the magnitudes of what
+    /// is no larger than its noise would average to the noise.
+    fn harmonic(
+        &self,
+        values: &[Values],
+        [ratio, phase]: [usize; 2],
+        [of_ratio, of_phase]: [Option<StandardError>; 2],
+    ) -> [Option<Estimate>; 2] {
+        let of_cycle = |used: &usize| {
+            Some(Complex::from_polar(
+                values[*used][ratio]?,
+                values[*used][phase]?,
+            ))
+        };
+        let Some(cycles) = self.used.iter().map(of_cycle).collect::<Option<Vec<_>>>() else {
+            return [None; 2];
+        };
+        let mean = cycles.iter().sum::<Complex<f64>>() / cycles.len().max(1) as f64;
+        let turn = Complex::cis(-mean.arg());
+        let along: Vec<f64> = cycles.iter().map(|z| (z * turn).re).collect();
+        let across: Vec<f64> = cycles.iter().map(|z| (z * turn).im / mean.norm()).collect();
+        let mut ratio = Estimate::of(&along, of_ratio);
+        let mut phase = Estimate::of(&across, of_phase).map(|of| Estimate {
+            value: mean.arg(),
+            ..of
+        });
+        // Near zero the deviation from the truth may point anywhere, and adds to the magnitude more often than not: what holds the
+        // truth is a circle, of which the phase sees an angle.
+        if let Some((size, error)) = ratio
+            .as_mut()
+            .and_then(|of| Some((of.value, of.error.as_mut()?)))
+            && *error > 0.5 * size
+        {
+            *error *= CIRCLE;
+            if let Some(phase) = phase.as_mut() {
+                let seen = *error / size;
+                phase.error = Some(match seen < 1.0 {
+                    true => seen.asin(),
+                    false => std::f64::consts::PI,
+                });
+            }
+        }
+        [ratio, phase]
     }
 
     fn take_out_bias(&self, measured: &mut MeasuredLoop, cycle: &Harmonics) {
@@ -120,7 +185,12 @@ impl Mean<'_> {
 
     /// Standard errors from the noise of the samples, carried through every formula: of the mean cycle fitted at once to all
     /// samples that count, drift included, so that what a drift leaves uncertain counts too.
-    fn errors(&self, mean: &Harmonics, column_m: Option<f64>, center: &Values) -> Option<Errors> {
+    fn errors(
+        &self,
+        (mean, column_m): (&Harmonics, Option<f64>),
+        center: &Values,
+        sampling: &Sampling,
+    ) -> Option<Errors> {
         let signal = self.used_samples();
         let fits = self.model.fits(&signal)?;
         let intervals = self.signal.time_s.windows(2).map(|w| w[1] - w[0]);
@@ -128,6 +198,7 @@ impl Mean<'_> {
         let mut squares = [0.0; Quantity::ALL.len()];
         let mut loss_with_phase = 0.0;
         let mut freedom = f64::INFINITY;
+        let mut coarse = Vec::new();
         for (which, fit) in fits.iter().enumerate() {
             let noise = Noise::of(
                 &fit.residual,
@@ -137,7 +208,15 @@ impl Mean<'_> {
                 self.model.angular,
             );
             freedom = freedom.min(noise.freedom);
-            let covariance = self.covariance(fit, &noise);
+            let steps = self.steps(&signal.time_s, (which, sampling), fit, &noise);
+            if steps > COARSE * noise.variance * noise.power(self.model.angular, 1) {
+                let (name, step) = step_of(which, sampling);
+                coarse.extend(step.map(|step| Finding::Quantised {
+                    signal: name.to_owned(),
+                    step,
+                }));
+            }
+            let covariance = self.covariance(fit, &noise, steps);
             let slopes = self.slopes(which, mean, column_m, (center, &covariance));
             let p = slopes.len();
             let of_two = |a: usize, b: usize| {
@@ -159,6 +238,7 @@ impl Mean<'_> {
                 })
             }),
             loss_with_phase,
+            coarse,
         })
     }
 
@@ -174,18 +254,53 @@ impl Mean<'_> {
         }
     }
 
-    /// Covariance of mean and harmonics of one signal.
-    fn covariance(&self, fit: &Fit, noise: &Noise) -> nalgebra::DMatrix<f64> {
+    /// The variance of a sample that stands for what the steps of a converter leave in a mean over cycles. Where the noise does not
+    /// reach from step to step, the same phase of every cycle is rounded the same way, so that as many errors are independent as
+    /// there are phases that are rounded differently; white noise of this variance in all samples does as much. B. Widrow's theorem
+    /// says what noise leaves of it (B. Widrow, I. Kollar, M.-C. Liu, IEEE Trans. Instrum. Meas. 45, 1996, 353).
+    fn steps(
+        &self,
+        times_s: &[f64],
+        (which, sampling): (usize, &Sampling),
+        fit: &Fit,
+        noise: &Noise,
+    ) -> f64 {
+        use std::f64::consts::{PI, TAU};
+        /// More bins than these are not told apart.
+        const BINS: f64 = 1e6;
+        let Some(step) = step_of(which, sampling).1 else {
+            return 0.0;
+        };
+        let rounding = step * step / 12.0;
+        let noise_squared = (noise.variance - rounding).max(0.0) / (step * step);
+        let repeated = rounding * (-4.0 * PI * PI * noise_squared).exp();
+        // Phases within which the signal moves by a step at its steepest.
+        let bins = (TAU * fit.amplitude() / step).clamp(1.0, BINS);
+        let mut is_seen = vec![false; bins.ceil() as usize];
+        for time_s in times_s {
+            let turns = (time_s - self.model.span.first_s) * self.model.angular / TAU;
+            // A sample on a seam of bins stays on one side of it, whatever the last digit of its time.
+            let bin = (turns - turns.floor()) * bins + 1e-3;
+            let place = bin as usize % is_seen.len();
+            is_seen[place] = true;
+        }
+        let phases = is_seen.iter().filter(|seen| **seen).count().max(1);
+        repeated * (times_s.len() as f64 / phases as f64 - 1.0).max(0.0)
+    }
+
+    /// Covariance of mean and harmonics of one signal, with a further variance of every sample.
+    fn covariance(&self, fit: &Fit, noise: &Noise, steps: f64) -> nalgebra::DMatrix<f64> {
         let inverse = fit.normal.inverse();
         let harmonic = |column: usize| column.div_ceil(2);
         let scale = |column: usize| {
-            (noise.variance * noise.power(self.model.angular, harmonic(column))).sqrt()
+            (noise.variance * noise.power(self.model.angular, harmonic(column)) + steps).sqrt()
         };
         let p = self.model.common();
         nalgebra::DMatrix::from_fn(p, p, |i, j| inverse[(i, j)] * scale(i) * scale(j))
     }
 
-    /// Derivatives of every quantity by mean and harmonics of one signal, by central differences over the standard errors.
+    /// Derivatives of every quantity by mean and harmonics of one signal, by central differences over a part of the standard errors:
+    /// the size of a harmonic that is smaller than its error has a slope only close by.
     fn slopes(
         &self,
         which: usize,
@@ -208,10 +323,10 @@ impl Mean<'_> {
                 },
             }
             let corrected = (self.options.corrections).applied(self.model.angular, &moved);
-            self.options.values(&corrected, column_m)
+            (self.options).values(&corrected, column_m, self.model.angular)
         };
         let slope = |column: usize| {
-            let step = covariance[(column, column)].sqrt();
+            let step = 0.05 * covariance[(column, column)].sqrt();
             if !(step.is_finite() && step > 0.0) {
                 return [0.0; Quantity::ALL.len()];
             }
@@ -263,6 +378,14 @@ impl Mean<'_> {
                 (true_load[k] + w / count, true_approach[k] + d / count)
             })
             .collect()
+    }
+}
+
+/// A signal by name, and the step of its values.
+fn step_of(which: usize, sampling: &Sampling) -> (&'static str, Option<f64>) {
+    match which {
+        0 => ("load", sampling.load_step_n),
+        _ => ("approach", sampling.approach_step_m),
     }
 }
 

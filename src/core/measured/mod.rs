@@ -71,9 +71,32 @@ pub enum MeasuredError {
     #[error("the {signal} is the same in all samples")]
     Constant { signal: &'static str },
     #[error(
-        "no oscillation is found in the {signal}: what repeats in it is no larger than the noise; give the frequency if it is known"
+        "between samples {first} and {second} the time leaps by {leap_s} s, more than all the rest of the record lasts: correct their \
+         times, or leave out what stands alone"
     )]
-    NoOscillation { signal: &'static str },
+    TimeLeaps {
+        first: usize,
+        second: usize,
+        leap_s: f64,
+    },
+    #[error(
+        "no oscillation{} is found in the {signal}: what repeats in it is no larger than the noise; {}",
+        .given_hz.map_or(String::new(), |hz| format!(" of {hz} Hz")),
+        if .given_hz.is_some() { "leave the frequency out, for it to be looked for" } else { "give the frequency if it is known" }
+    )]
+    NoOscillation {
+        signal: &'static str,
+        /// The frequency, where it was given.
+        given_hz: Option<f64>,
+    },
+    #[error(
+        "{samples} samples over {cycles:.0} cycles of {hz} Hz are fewer than one a cycle; are times and frequency in their units?"
+    )]
+    FewerThanCycles {
+        samples: usize,
+        cycles: f64,
+        hz: f64,
+    },
     #[error(
         "{points:.2} samples in a cycle of {hz} Hz do not resolve it: what is seen of it may be another frequency (aliasing); at least 3 \
          are needed"

@@ -3,8 +3,11 @@
 
 use std::sync::Arc;
 
+use num_complex::Complex;
+
 use super::corrections::Harmonics;
 use crate::indenter::{Axisymmetric, Indenter};
+use crate::material::Material;
 
 /// Where the contact radius comes from.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,11 +31,29 @@ pub struct Contact {
     pub radius: Radius,
     /// The shape, where it is known: the geometry needs it, and the exact model.
     pub indenter: Option<Arc<dyn Indenter>>,
+    /// What the indenter is made of; `None` for a rigid one.
+    pub counterbody: Option<Material>,
     /// Whether the bias of the formula is computed and taken out.
     pub bias: bool,
 }
 
 impl Contact {
+    /// The modulus (Pa) that the formula reads from a cycle with this contact radius (m), without what the indenter yields.
+    pub(super) fn modulus_pa(
+        &self,
+        cycle: &Harmonics,
+        radius_m: f64,
+        angular_rad_per_s: f64,
+    ) -> Option<Complex<f64>> {
+        let stiffness = cycle.load_n.first()? / cycle.approach_m.first()?;
+        let lateral = (1.0 - self.poisson_ratio) * (1.0 + self.poisson_ratio);
+        let read = stiffness * lateral / (2.0 * radius_m);
+        Some(match &self.counterbody {
+            Some(indenter) => indenter.as_indenter_taken_off(read, lateral, angular_rad_per_s),
+            None => read,
+        })
+    }
+
     /// The contact radius (m) of a cycle, of which the record's column of radii has this mean.
     ///
     /// # Errors
@@ -110,7 +131,6 @@ fn area_radius(cycle: &Harmonics, coefficients: &[f64], epsilon: f64) -> Option<
 mod tests {
     use super::*;
     use crate::indenter::{Cone, FlatPunch, Sphere};
-    use num_complex::Complex;
 
     fn cycle(approach_mean_m: f64) -> Harmonics {
         Harmonics {
@@ -150,6 +170,7 @@ mod tests {
                 epsilon: 0.75,
             },
             indenter: None,
+            counterbody: None,
             bias: false,
         };
         // Stiffness 1e5 N/m: 15 nm of 500 are elastic.

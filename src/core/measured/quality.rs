@@ -13,6 +13,9 @@ pub enum Finding {
     /// Times that step back.
     #[error("times step back at {}; the samples are put in order", plural(.places, "place", "places"))]
     UnorderedTimes { places: usize },
+    /// Times that step back at every sample.
+    #[error("the times descend from the first sample to the last; the samples are put in order")]
+    DescendingTimes,
     /// Gaps in times that are regular otherwise.
     #[error(
         "{} missing between regular times; the largest gap is {largest_gap_s:.4e} s",
@@ -38,6 +41,12 @@ pub enum Finding {
         end: String,
         cycles: usize,
     },
+    /// A signal in steps, which cycles do not average out: its step in SI units.
+    #[error(
+        "the {signal} is read in steps of {step:.2e} (SI), its noise is smaller, and samples fall on the same phases in every cycle: more \
+         cycles do not take the rounding out; it is in the intervals"
+    )]
+    Quantised { signal: String, step: f64 },
     /// Not all harmonics are resolved.
     #[error("{points:.1} samples a cycle resolve {}", resolved(*.harmonics))]
     FewPoints { points: f64, harmonics: usize },
@@ -122,10 +131,12 @@ impl Finding {
         match self {
             Self::EmptyCells { .. } => "empty-cells",
             Self::UnorderedTimes { .. } => "unordered-times",
+            Self::DescendingTimes => "descending-times",
             Self::MissingSamples { .. } => "missing-samples",
             Self::Jitter { .. } => "jitter",
             Self::NotUniform { .. } => "not-uniform",
             Self::Clipped { .. } => "clipped",
+            Self::Quantised { .. } => "quantised",
             Self::FewPoints { .. } => "few-points",
             Self::FewCycles { .. } => "few-cycles",
             Self::Spikes { .. } => "spikes",

@@ -96,6 +96,14 @@ impl Quantity {
     }
 }
 
+/// Size and phase of the harmonics of the approach, from the second on.
+pub(super) const HARMONICS_OF_APPROACH: [(Quantity, Quantity); 4] = [
+    (Harmonic2, HarmonicPhase2),
+    (Harmonic3, HarmonicPhase3),
+    (Harmonic4, HarmonicPhase4),
+    (Harmonic5, HarmonicPhase5),
+];
+
 /// The value of every quantity; `None` where there is none.
 pub type Values = [Option<f64>; Quantity::ALL.len()];
 
@@ -127,8 +135,8 @@ impl Harmonics {
         )
     }
 
-    /// Everything that is read from the cycle, with this contact radius (m) and Poisson ratio.
-    pub(super) fn values(&self, contact: Option<(f64, f64)>) -> Values {
+    /// Everything that is read from the cycle, with this contact radius (m) and modulus (Pa).
+    pub(super) fn values(&self, contact: Option<(f64, Complex<f64>)>) -> Values {
         let mut values = [None; Quantity::ALL.len()];
         let (Some(load), Some(approach)) = (self.load_n.first(), self.approach_m.first()) else {
             return values;
@@ -147,25 +155,17 @@ impl Harmonics {
         set(ApproachAmplitude, Some(approach.norm()));
         set(ApproachMin, extrema.map(|e| e.minimum));
         set(ApproachMax, extrema.map(|e| e.maximum));
-        let others = [
-            (Harmonic2, HarmonicPhase2),
-            (Harmonic3, HarmonicPhase3),
-            (Harmonic4, HarmonicPhase4),
-            (Harmonic5, HarmonicPhase5),
-        ];
-        for (n, (ratio, phase)) in (2..).zip(others) {
+        for (n, (ratio, phase)) in (2..).zip(HARMONICS_OF_APPROACH) {
             let harmonic = self.approach_m.get(n - 1);
             set(ratio, harmonic.map(|a| a.norm() / approach.norm()));
             // From the instant at which the first harmonic of the load passes its mean upwards.
             let turned = |a: &Complex<f64>| (a * Complex::cis(-(n as f64) * load.arg())).arg();
             set(phase, harmonic.map(turned));
         }
-        if let Some((radius_m, poisson_ratio)) = contact {
-            let stiffness = load.norm() / approach.norm();
-            let modulus = (1.0 - poisson_ratio * poisson_ratio) * stiffness / (2.0 * radius_m);
+        if let Some((radius_m, modulus_pa)) = contact {
             set(ContactRadius, Some(radius_m));
-            set(StorageModulus, Some(modulus * lag.cos()));
-            set(LossModulus, Some(modulus * lag.sin()));
+            set(StorageModulus, Some(modulus_pa.re));
+            set(LossModulus, Some(modulus_pa.im));
         }
         values
     }
@@ -175,6 +175,7 @@ impl Harmonics {
 mod tests {
     use super::*;
     use crate::cycle;
+    use crate::measured::moduli::{Contact, Radius};
 
     fn cycle_of_harmonics() -> Harmonics {
         let polar = Complex::from_polar;
@@ -191,7 +192,15 @@ mod tests {
         let harmonics = cycle_of_harmonics();
         let (load, approach) = harmonics.sampled(64);
         let analysis = cycle::analyse(&load, &approach).unwrap();
-        let values = harmonics.values(Some((1e-4, 0.3)));
+        let contact = Contact {
+            poisson_ratio: 0.3,
+            radius: Radius::Column,
+            indenter: None,
+            counterbody: None,
+            bias: false,
+        };
+        let modulus_pa = contact.modulus_pa(&harmonics, 1e-4, 1.0).unwrap();
+        let values = harmonics.values(Some((1e-4, modulus_pa)));
         let near = |quantity: Quantity, expected: f64| {
             let value = values[quantity.place()].unwrap();
             assert!((value / expected - 1.0).abs() < 1e-11, "{quantity:?}");

@@ -89,7 +89,21 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
     let (model, frequency) = oscillation(&mut signal, &sampling, options, &mut findings)?;
     let period_s = frequency.hz.recip();
     signal.clipped(period_s, &mut findings);
-    let drifts = drifts(&model, &signal, &sampling, &mut findings)?;
+    let drifts = drifts(
+        &model,
+        (&signal, &sampling),
+        options.frequency_hz,
+        &mut findings,
+    )?;
+    let (samples, cycles) = (sampling.samples, sampling.duration_s / period_s);
+    if cycles > samples as f64 {
+        let hz = frequency.hz;
+        return Err(MeasuredError::FewerThanCycles {
+            samples,
+            cycles,
+            hz,
+        });
+    }
     let cut = cycles::cut(&signal, period_s, sampling.interval_s);
     if cut.ranges.is_empty() {
         return Err(MeasuredError::NoWholeCycle {
@@ -104,7 +118,7 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
     }
     let values: Vec<Values> = cycles
         .iter()
-        .map(|cycle| options.values(&cycle.corrected, cycle.contact_radius_m))
+        .map(|cycle| options.values(&cycle.corrected, cycle.contact_radius_m, model.angular))
         .collect();
     let numbers: Vec<usize> = cycles.iter().map(|cycle| cycle.number).collect();
     let judged = stabilisation::judge(&values, &numbers);
@@ -142,10 +156,10 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
 
 impl Options {
     /// Everything that is read from a corrected cycle, of which the record's column of radii has this mean.
-    pub(super) fn values(&self, cycle: &Harmonics, column_m: Option<f64>) -> Values {
+    pub(super) fn values(&self, cycle: &Harmonics, column_m: Option<f64>, angular: f64) -> Values {
         let contact = self.contact.as_ref().and_then(|contact| {
             let radius_m = contact.radius_m(cycle, column_m).ok()?;
-            Some((radius_m, contact.poisson_ratio))
+            Some((radius_m, contact.modulus_pa(cycle, radius_m, angular)?))
         });
         cycle.values(contact)
     }
@@ -253,8 +267,8 @@ fn leave_out_spikes(model: &RecordModel, signal: &mut Signal, findings: &mut Vec
 /// The drifts of both signals at the frequency of the model, and lines beside the oscillation; refuses signals without an oscillation.
 fn drifts(
     model: &RecordModel,
-    signal: &Signal,
-    sampling: &Sampling,
+    (signal, sampling): (&Signal, &Sampling),
+    given_hz: Option<f64>,
     findings: &mut Vec<Finding>,
 ) -> Result<[Drift; 2], MeasuredError> {
     let span = Span::of(signal);
@@ -266,7 +280,10 @@ fn drifts(
         let variance = fit.residual.iter().map(|r| r * r).sum::<f64>() / samples;
         // By chance once in 1e4, and more often where noise is correlated: then no loop can be read either.
         if fit.amplitude() < 4.5 * (2.0 * variance / samples).sqrt() {
-            return Err(MeasuredError::NoOscillation { signal: name });
+            return Err(MeasuredError::NoOscillation {
+                signal: name,
+                given_hz,
+            });
         }
         let rest = Rest {
             name,

@@ -25,6 +25,9 @@ pub struct Sampling {
     pub duration_s: f64,
     /// Median of the intervals (s).
     pub interval_s: f64,
+    /// Step between the values of the load (N) and of the approach (m), where all lie on a grid.
+    pub load_step_n: Option<f64>,
+    pub approach_step_m: Option<f64>,
 }
 
 /// Intervals that differ from the median by more than this part of it, as a standard deviation, are worth saying.
@@ -63,7 +66,10 @@ impl Signal {
         let later = |pair: &&[usize]| self.time_s[pair[1]] < self.time_s[pair[0]];
         let descending = order.windows(2).filter(later).count();
         if descending > 0 {
-            findings.push(Finding::UnorderedTimes { places: descending });
+            findings.push(match descending + 1 == order.len() {
+                true => Finding::DescendingTimes,
+                false => Finding::UnorderedTimes { places: descending },
+            });
             order.sort_by(|a, b| self.time_s[*a].total_cmp(&self.time_s[*b]));
         }
         let needed = 2 * HARMONICS;
@@ -86,6 +92,13 @@ impl Signal {
             if values.windows(2).all(|pair| pair[0] == pair[1]) {
                 return Err(MeasuredError::Constant { signal });
             }
+        }
+        if let Some(place) = leap(&prepared.time_s) {
+            return Err(MeasuredError::TimeLeaps {
+                first: order[place] + 1,
+                second: order[place + 1] + 1,
+                leap_s: prepared.time_s[place + 1] - prepared.time_s[place],
+            });
         }
         let sampling = prepared.sampling(&mut findings)?;
         Ok((prepared, sampling, findings))
@@ -139,6 +152,8 @@ impl Signal {
             samples: times.len(),
             duration_s,
             interval_s,
+            load_step_n: step(&self.load_n),
+            approach_step_m: step(&self.approach_m),
         })
     }
 
@@ -180,6 +195,35 @@ impl Signal {
         }
         found
     }
+}
+
+/// The place of a sample behind which the time leaps by more than all the rest lasts, with next to nothing on one side: no pause of
+/// a record, but a time that is wrong.
+fn leap(times_s: &[f64]) -> Option<usize> {
+    let last = times_s.len().checked_sub(2)?;
+    let gap = |i: usize| times_s[i + 1] - times_s[i];
+    let place = (0..=last).max_by(|a, b| gap(*a).total_cmp(&gap(*b)))?;
+    let rest_s = times_s[last + 1] - times_s[0] - gap(place);
+    let aside = (place + 1).min(last + 1 - place);
+    (gap(place) > rest_s && aside <= (times_s.len() / 100).max(1)).then_some(place)
+}
+
+/// The step of a converter: the smallest distance between values, where all others are multiples of it.
+fn step(values: &[f64]) -> Option<f64> {
+    /// Of the range: closer values differ by rounding.
+    const ROUNDING: f64 = 1e-9;
+    /// Of a step.
+    const TOLERANCE: f64 = 0.05;
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let range = sorted.last()? - sorted.first()?;
+    let gaps = || {
+        let gaps = sorted.windows(2).map(|pair| pair[1] - pair[0]);
+        gaps.filter(|gap| *gap > ROUNDING * range)
+    };
+    let step = gaps().min_by(f64::total_cmp)?;
+    let is_multiple = |gap: f64| (gap / step - (gap / step).round()).abs() < TOLERANCE;
+    (gaps().count() > 3 && gaps().all(is_multiple)).then_some(step)
 }
 
 #[cfg(test)]
@@ -236,6 +280,41 @@ mod tests {
         };
         // Two sines of 0.05 apart by a phase that varies little: between half and twice their root mean square.
         assert!((0.025..0.1).contains(&relative), "{relative}");
+    }
+
+    #[test]
+    fn a_time_stamp_that_is_wrong_is_named_and_a_pause_is_none() {
+        for (wrong, at, samples) in [(3e7, 199, [199, 200]), (-1e5, 120, [121, 1])] {
+            let mut signal = sine(200, 0.02);
+            signal.time_s[at] = wrong;
+            let refused = signal.prepared().unwrap_err();
+            let MeasuredError::TimeLeaps { first, second, .. } = refused else {
+                panic!("{refused}")
+            };
+            assert_eq!([first, second], samples);
+        }
+        let mut paused = sine(200, 0.02);
+        paused.time_s[100..].iter_mut().for_each(|t| *t += 60.0);
+        assert!(paused.prepared().is_ok());
+    }
+
+    #[test]
+    fn the_step_of_a_converter_is_found_and_a_smooth_signal_has_none() {
+        let signal = sine(2000, 5e-3);
+        assert_eq!(signal.prepared().unwrap().1.load_step_n, None);
+        for size in [0.002, 0.02, 0.5] {
+            // Written in another unit: the grid is no longer exact.
+            let coarse: Vec<f64> = signal
+                .load_n
+                .iter()
+                .map(|w| (w / size).round() * size * 1e-3)
+                .collect();
+            let found = step(&coarse).unwrap();
+            assert!(
+                (found / (1e-3 * size) - 1.0).abs() < 1e-6,
+                "{size}: {found}"
+            );
+        }
     }
 
     #[test]
