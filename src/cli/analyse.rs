@@ -1,25 +1,34 @@
 //! `contact-dma analyse`: measured loops to the table of a sweep.
 
+use std::collections::BTreeMap;
 use std::fs;
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
 
 use clap::Args;
 use rayon::prelude::*;
-use serde_json::{Value, json};
+use serde_json::json;
 
-use super::arguments::{OutputFormat, folder};
+use super::arguments::{OutputFormat, folder, threads};
 use super::material::{write_figures, write_files};
-use super::{Ended, Failure, json, print, read_document};
+use super::sweep::interrupt_flag;
+use super::{Ended, Failure, json, print, read_document, say_quietly};
 use crate::input::document::read_limited;
 use crate::input::loop_file;
 use crate::input::setup_file::{self, Setup};
 use crate::measured::Options;
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting as CaptionSetting;
-use crate::report::measured::{self, ANALYSIS, Analysis, Computed, MeasuredRow, ordered, text};
+use crate::report::measured::{
+    self, ANALYSIS, Analysis, Computed, MeasuredRow, columns, ordered, text,
+};
 use crate::report::words::wrapped;
-use crate::report::{figure, page};
+use crate::report::{figure, machine, page};
 use crate::sweep::record::Status;
+use crate::sweep::search::run;
 use crate::sweep::store::{RESOLVED, files};
 
 #[derive(Debug, Args)]
@@ -63,6 +72,9 @@ pub(super) struct AnalyseFlags {
     /// Folder of a computed sweep, whose loops and curves are drawn beside the measured ones
     #[arg(long, value_name = "DIR")]
     against: Option<PathBuf>,
+    /// Number of threads, which share the files [default: one per processor, at most four for each]; the results do not depend on it
+    #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
+    threads: Option<NonZeroUsize>,
     /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
@@ -114,20 +126,13 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
         ..setup.options
     };
     let computed = flags.against.as_deref().map(computed).transpose()?;
-    // One file a thread is in memory at a time; results come in the order of the files.
-    let row = |file: &PathBuf| {
-        let signal = loop_file::read(file)?;
-        Ok(MeasuredRow::of(
-            file.display().to_string(),
-            &signal,
-            &options,
-        ))
+    let Some(rows) = rows(flags.files.clone(), options, flags.threads)? else {
+        return Ok(Ended::Interrupted);
     };
-    let rows: Vec<Result<MeasuredRow, Failure>> = flags.files.par_iter().map(row).collect();
     let analysis = Analysis {
         title: setup.title.unwrap_or_else(|| "Measured loops".to_owned()),
         setup: setup_text,
-        rows: ordered(rows.into_iter().collect::<Result<_, _>>()?),
+        rows: ordered(rows),
         computed: computed.unwrap_or_default(),
     };
     finish(
@@ -135,6 +140,41 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
         &analysis,
         (!flags.no_figures, flags.quiet, format),
     )
+}
+
+/// What the files come to, in their order; `None` where Ctrl-C came first. Nothing is written until all are there, so that what is
+/// still at work then may end with the program.
+fn rows(
+    files: Vec<PathBuf>,
+    options: Options,
+    threads: Option<NonZeroUsize>,
+) -> Result<Option<Vec<MeasuredRow>>, Failure> {
+    /// How often Ctrl-C is looked for.
+    const EVERY: Duration = Duration::from_millis(50);
+    let interrupt = interrupt_flag()?;
+    let pool = run::pool(run::useful_threads(threads))?;
+    let (sender, receiver) = mpsc::channel();
+    std::thread::spawn(move || {
+        // One file a thread is in memory at a time.
+        let row = |file: &PathBuf| {
+            let signal = loop_file::read(file)?;
+            let name = file.display().to_string();
+            Ok(MeasuredRow::of(name, &signal, &options))
+        };
+        let rows: Vec<Result<_, Failure>> = pool.install(|| files.par_iter().map(row).collect());
+        // Nobody listens after Ctrl-C.
+        let _ = sender.send(rows);
+    });
+    while !interrupt.load(Ordering::Relaxed) {
+        match receiver.recv_timeout(EVERY) {
+            Ok(rows) => return rows.into_iter().collect::<Result<_, _>>().map(Some),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(Failure::run("the analysis of a file broke off"));
+            }
+        }
+    }
+    Ok(None)
 }
 
 /// What is written and printed: whether there are figures, whether nothing is printed, and how it is.
@@ -173,18 +213,18 @@ fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
         )));
     }
     let mut cases = Vec::new();
-    for row in json::rows_of(&table)? {
-        let number = |column: &str| row[column].as_f64();
+    for row in numbers(&table)? {
+        let number = |column: &str| row.get(column).copied();
         let place = number("angular_frequency_rad_per_s").zip(number("index"));
         let Some((angular_rad_per_s, index)) = place else {
             continue;
         };
         let cycle = folder.join(format!("loops/{}.csv", index as u64));
         let cycle = match cycle.exists() {
-            true => json::rows_of(&cycle)?,
+            true => numbers(&cycle)?,
             false => Vec::new(),
         };
-        let point = |row: &Value| Some((row["load_n"].as_f64()?, row["approach_m"].as_f64()?));
+        let point = |row: &Numbers| Some((*row.get("load_n")?, *row.get("approach_m")?));
         cases.push(Computed {
             angular_rad_per_s,
             energy_loss_j: number("energy_loss_j"),
@@ -194,6 +234,24 @@ fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
         });
     }
     Ok(cases)
+}
+
+/// The numbers in a row of a table, under their columns.
+type Numbers = BTreeMap<String, f64>;
+
+/// The rows of a table that a program wrote.
+fn numbers(file: &Path) -> Result<Vec<Numbers>, Failure> {
+    let failed = |error| Failure::run(format!("cannot read {}: {error}", file.display()));
+    let mut reader = csv::Reader::from_path(file).map_err(failed)?;
+    let columns = reader.headers().map_err(failed)?.clone();
+    let rows = reader.records().map(|row| {
+        let row = row.map_err(failed)?;
+        let cells = columns.iter().zip(&row);
+        let numbers =
+            cells.filter_map(|(column, cell)| Some((column.to_owned(), cell.parse().ok()?)));
+        Ok(numbers.collect())
+    });
+    rows.collect()
 }
 
 /// Writes and prints everything.
@@ -206,12 +264,13 @@ fn finish(
     match format {
         OutputFormat::Json => json::print(&json!({
             "folder": folder,
-            "rows": json::rows_of(&folder.join("sweep.csv"))?,
+            "rows": machine::rows(&columns::of_records(), &analysis.rows),
             "summary": json::file(&folder.join("summary.json"))?,
         }))?,
         OutputFormat::Text if !quiet => print(&printed(folder, &analysis.rows))?,
         OutputFormat::Text => Ended::Done,
     };
+    say_quietly(quiet, || text::without_mean(&analysis.rows));
     let mut rows = analysis.rows.iter();
     Ok(match rows.all(|row| row.status() == Status::Converged) {
         true => Ended::Done,

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::{Ended, Failure, write_out};
 use crate::material::Material;
@@ -18,32 +18,6 @@ use crate::sweep::share::cost::Cost;
 pub(super) fn print(value: &Value) -> Result<Ended, Failure> {
     let text = serde_json::to_string_pretty(value).map_err(Failure::run)?;
     write_out(&(text + "\n"))
-}
-
-/// The rows of a table that was written, as objects: numbers where a cell is one, text elsewhere, null where it is empty.
-pub(super) fn rows_of(file: &Path) -> Result<Vec<Value>, Failure> {
-    let name = file.display();
-    let failed = |error: csv::Error| Failure::run(format!("cannot read {name}: {error}"));
-    let mut reader = csv::Reader::from_path(file).map_err(failed)?;
-    let columns = reader.headers().map_err(failed)?.clone();
-    let rows = reader.records().map(|row| {
-        let row = row.map_err(failed)?;
-        Ok(row_of(columns.iter().zip(&row)))
-    });
-    rows.collect()
-}
-
-/// The cells of a row under the names of their columns.
-pub(super) fn row_of<'a>(cells: impl Iterator<Item = (&'a str, impl AsRef<str>)>) -> Value {
-    let value = |cell: &str| match cell.parse::<f64>() {
-        _ if cell.is_empty() => Value::Null,
-        Ok(number) if number.is_finite() => number.into(),
-        _ => cell.into(),
-    };
-    let object: Map<_, _> = cells
-        .map(|(column, cell)| (column.to_owned(), value(cell.as_ref())))
-        .collect();
-    object.into()
 }
 
 /// A JSON file that was written.

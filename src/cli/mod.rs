@@ -181,6 +181,14 @@ fn printable(text: &str) -> String {
     text.replace(is_command, "\u{fffd}")
 }
 
+/// Says on standard error what has no result, where a command that is to be quiet prints nothing else.
+fn say_quietly(quiet: bool, failures: impl FnOnce() -> String) {
+    if quiet {
+        // Where even standard error is closed, the exit code is all that is left to say.
+        let _ = write!(anstream::stderr(), "{}", failures());
+    }
+}
+
 /// The name of standard input in the place of a file.
 const STANDARD_INPUT: &str = "-";
 

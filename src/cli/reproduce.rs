@@ -8,11 +8,12 @@ use clap::Args;
 use super::arguments::{OutputFormat, folder, threads};
 use super::progress::line;
 use super::sweep::interrupt_flag;
-use super::{Ended, Failure, json, tell};
+use super::{Ended, Failure, tell};
 use crate::input::document::Document;
 use crate::input::figures_block::{self, Figures};
 use crate::input::keys;
 use crate::input::{scenario_file, sweep_file};
+use crate::report::machine::object;
 use crate::report::table::Cell;
 use crate::report::words::{wrapped, wrapped_line};
 use crate::reproduction::{
@@ -90,8 +91,7 @@ pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended,
     reproduction::write(&made, &figures, &flags.out).map_err(Failure::run)?;
     let found = || {
         let (columns, claims) = reproduction::claims(&made);
-        let row =
-            |row: &Vec<Cell>| json::row_of(columns.iter().copied().zip(row.iter().map(Cell::text)));
+        let row = |row: &Vec<Cell>| object(columns.iter().copied().zip(row.iter().cloned()));
         let numbers: Vec<u8> = made.iter().map(|figure| figure.number).collect();
         Ok(serde_json::json!({
             "figures": numbers,

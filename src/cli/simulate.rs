@@ -13,7 +13,8 @@ use super::progress::{bar, line};
 use super::sweep::interrupt_flag;
 use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, tell};
 use crate::input::scenario_file;
-use crate::report::{self, terminal_simulation};
+use crate::report::quantities::{self, Moment};
+use crate::report::{self, machine, terminal_simulation};
 use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::scenario;
@@ -140,14 +141,11 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
 
 /// What the folder holds, as one object.
 fn found_in(store: &Store, outcome: &SimulationOutcome) -> Result<serde_json::Value, Failure> {
-    let file = |name: &str| store.folder().join(name);
+    let moments: Vec<Moment> = Moment::all(outcome).collect();
     Ok(serde_json::json!({
-        "summary": json::file(&file("summary.json"))?,
-        "history": json::rows_of(&file("history.csv"))?,
-        "cycles": match outcome.cycles.is_empty() {
-            true => Vec::new(),
-            false => json::rows_of(&file("cycles.csv"))?,
-        },
+        "summary": json::file(&store.folder().join("summary.json"))?,
+        "history": machine::rows(&quantities::of_moments(), &moments),
+        "cycles": machine::rows(&quantities::of_cycles(), &outcome.cycles),
     }))
 }
 

@@ -11,7 +11,9 @@ use serde_json::json;
 
 use super::arguments::{OutputFormat, folder, threads};
 use super::progress::Shown;
-use super::{Ended, Failure, meant_for, memory, open_document, open_store, print, tell};
+use super::{
+    Ended, Failure, meant_for, memory, open_document, open_store, print, say_quietly, tell,
+};
 use crate::input::sweep_file;
 use crate::report::{self, terminal};
 use crate::sweep::case::Setup;
@@ -195,6 +197,7 @@ impl<'a> Job<'a> {
                 self.store.sweep_hash(),
             ))
         };
+        say_quietly(self.quiet, || terminal::problems(plan, outcome));
         let text = || self.text(outcome, &left_out);
         tell(self.format, self.quiet, found, text)?;
         if self.stats && self.format == OutputFormat::Text {

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::quantities;
+use super::quantities::{self, Named};
 use super::summary;
 use super::table::Cell;
 use crate::sweep::plan::SweepPlan;
@@ -13,12 +13,25 @@ pub fn sweep(plan: &SweepPlan, outcome: &Outcome, sweep_hash: &str) -> Value {
     let summary = summary::of(plan, outcome, sweep_hash);
     let branches = outcome.branches();
     let columns = quantities::of_cases(branches, plan.figures.frequency_unit, plan.axes.as_ref());
-    let cases = outcome.records.iter().map(|record| {
-        let cells = columns.iter();
-        let cells = cells.map(|column| (column.name.clone(), value((column.cell)(record))));
-        cells.collect::<Map<_, _>>()
-    });
-    json!({ "summary": summary, "cases": cases.collect::<Vec<_>>() })
+    json!({ "summary": summary, "cases": rows(&columns, &outcome.records) })
+}
+
+/// The rows of a table as objects: the type of a value is that of its column, whatever its text looks like.
+pub fn rows<R>(columns: &[Named<R>], rows: &[R]) -> Vec<Value> {
+    let cells = |row| {
+        columns
+            .iter()
+            .map(move |column| (&column.name[..], (column.cell)(row)))
+    };
+    rows.iter().map(|row| object(cells(row))).collect()
+}
+
+/// Cells under the names of their columns.
+pub fn object<'a>(cells: impl Iterator<Item = (&'a str, Cell)>) -> Value {
+    let object: Map<_, _> = cells
+        .map(|(column, cell)| (column.to_owned(), value(cell)))
+        .collect();
+    object.into()
 }
 
 fn value(cell: Cell) -> Value {

@@ -148,10 +148,7 @@ fn results_do_not_depend_on_threads_and_those_of_an_earlier_analysis_do_not_stay
     let run = |threads: &str, name: &str, files: &[PathBuf]| {
         let out = folder.path().join(name);
         let mut command = program();
-        command
-            .env("RAYON_NUM_THREADS", threads)
-            .arg("analyse")
-            .args(files);
+        command.args(["analyse", "--threads", threads]).args(files);
         command
             .arg("--out")
             .arg(&out)
@@ -408,4 +405,173 @@ fn a_folder_of_an_analysis_is_drawn_again_and_no_folder_of_a_sweep_is_overwritte
             .unwrap()
             .contains("computed result")
     );
+}
+
+/// A table of time (s), load (mN) and depth (nm) from the rows of a loop.
+fn write_rows(path: &Path, rows: &[[f64; 3]]) {
+    let rows = rows
+        .iter()
+        .map(|[t, w, d]| format!("{t:e},{:e},{:e}\n", 1e3 * w, 1e9 * d));
+    let rows: String = rows.collect();
+    fs::write(path, format!("Time (s),Load (mN),Depth (nm)\n{rows}")).unwrap();
+}
+
+fn one_hertz() -> Loop {
+    Loop {
+        hz: 1.0,
+        lag: 0.2,
+        cycles: 22.0,
+    }
+}
+
+#[test]
+fn a_quiet_command_still_says_what_has_no_result_and_why() {
+    let folder = TempDir::new().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    fs::write(at("empty.csv"), "Time (s),Load (mN),Depth (nm)\n").unwrap();
+    one_hertz().write(&at("good.csv"));
+    let run = |file: &str, arguments: &[&str]| {
+        let mut command = program();
+        command.arg("analyse").arg(at(file)).args(arguments);
+        let output = command.arg("--quiet").arg("--out").arg(at("out")).output();
+        let output = output.unwrap();
+        assert_eq!(String::from_utf8_lossy(&output.stdout), "");
+        let said = String::from_utf8(output.stderr).unwrap();
+        (output.status.code(), said)
+    };
+    let (code, said) = run("empty.csv", &[]);
+    assert_eq!(code, Some(3));
+    assert!(
+        said.contains("empty.csv: failed: 0 samples are too few"),
+        "{said}"
+    );
+    // The frequency was given, and is not asked for.
+    let (code, said) = run("good.csv", &["--frequency", "10 Hz"]);
+    assert_eq!(code, Some(3));
+    assert!(
+        said.contains("good.csv: failed: no oscillation of 10 Hz"),
+        "{said}"
+    );
+    assert!(!said.contains("give the frequency"), "{said}");
+    assert_eq!(run("good.csv", &[]), (Some(0), String::new()));
+    let mut command = program();
+    let example = concat!(env!("CARGO_MANIFEST_DIR"), "/sweeps/pmma.toml");
+    command.args(["sweep", example, "--quiet", "--no-figures"]);
+    command.args(["--set", "cycle.method=march", "--set", "cycle.max_cycles=2"]);
+    command.args([
+        "--set",
+        "sweep.frequency=[\"1 mHz\"]",
+        "--set",
+        "sweep.refine=false",
+        "--out",
+    ]);
+    let output = command.arg(at("sweep")).output().unwrap();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{said}");
+    assert!(said.contains("not-converged"), "{said}");
+    assert!(output.stdout.is_empty());
+}
+
+#[test]
+fn the_type_of_a_value_in_json_is_that_of_its_column() {
+    let folder = TempDir::new().unwrap();
+    one_hertz().write(&folder.path().join("1e3"));
+    let mut command = program();
+    command.current_dir(folder.path());
+    let output = command
+        .args(["analyse", "1e3", "--format", "json", "--out", "out"])
+        .output();
+    let output = output.unwrap();
+    let found: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let row = &found["rows"][0];
+    assert_eq!(row["file"], "1e3");
+    assert_eq!(row["cycles"], 22);
+    assert!(row["cycles"].is_u64() && row["points_per_cycle"].is_f64());
+    assert!(row["peak_pressure_max_pa"].is_null());
+}
+
+#[test]
+fn a_time_that_is_wrong_is_named_at_once() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("late.csv");
+    let mut rows = one_hertz().rows();
+    let last = rows.len();
+    rows[last - 1][0] = 3e7;
+    write_rows(&file, &rows);
+    let since = std::time::Instant::now();
+    let mut command = program();
+    command
+        .arg("analyse")
+        .arg(&file)
+        .args(["--frequency", "1 Hz", "--quiet", "--out"]);
+    let output = command.arg(folder.path().join("out")).output().unwrap();
+    assert_eq!(output.status.code(), Some(3));
+    let said = String::from_utf8(output.stderr).unwrap();
+    let samples = format!("between samples {} and {last} the time leaps", last - 1);
+    assert!(said.contains(&samples), "{said}");
+    assert!(since.elapsed().as_secs() < 20, "{:?}", since.elapsed());
+}
+
+#[test]
+fn a_record_whose_time_descends_is_put_in_order() {
+    let folder = TempDir::new().unwrap();
+    let file = folder.path().join("backwards.csv");
+    let mut rows = one_hertz().rows();
+    rows.reverse();
+    write_rows(&file, &rows);
+    let mut command = program();
+    command.arg("analyse").arg(&file).arg("--out");
+    let output = command.arg(folder.path().join("out")).output().unwrap();
+    let printed = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{printed}");
+    let words = printed.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        words.contains("the times descend from the first sample to the last"),
+        "{printed}"
+    );
+    let loss = numbers(&folder.path().join("out/sweep.csv"), "energy_loss_j");
+    assert!((loss[0] / one_hertz().loss_j() - 1.0).abs() < 2e-3);
+}
+
+#[test]
+fn interrupted_it_ends_at_once_and_writes_nothing() {
+    use std::process::{Command, Stdio};
+    let folder = TempDir::new().unwrap();
+    let (pipe, out) = (folder.path().join("pipe"), folder.path().join("out"));
+    assert!(
+        Command::new("mkfifo")
+            .arg(&pipe)
+            .status()
+            .unwrap()
+            .success()
+    );
+    let mut child = Command::new(assert_cmd::cargo::cargo_bin("contact-dma"))
+        .arg("analyse")
+        .arg(&pipe)
+        .arg("--out")
+        .arg(&out)
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    // Opens once the program reads, which then waits for the record.
+    let writer = fs::OpenOptions::new().write(true).open(&pipe).unwrap();
+    let pid = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &pid])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let ended = (0..600).find_map(|_| {
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        child.try_wait().unwrap()
+    });
+    drop(writer);
+    let ended = ended.unwrap_or_else(|| {
+        child.kill().unwrap();
+        child.wait().unwrap()
+    });
+    assert_eq!(ended.code(), Some(130));
+    assert!(!out.exists());
 }

@@ -363,6 +363,18 @@ pub enum Marker {
 }
 
 impl Marker {
+    /// In a caption.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Disc => "discs",
+            Self::Ring => "rings",
+            Self::Square => "squares",
+            Self::Triangle => "triangles",
+            Self::Diamond => "diamonds",
+            Self::Cross => "crosses",
+        }
+    }
+
     /// The markers in turn, for a family of curves: 0 is a disc, 6 is a disc again.
     pub fn nth(index: usize) -> Self {
         [

@@ -20,6 +20,9 @@ const WIDE: f64 = 8.0;
 /// What stands in the legend for what was measured, and for what was computed.
 const MEASURED: &str = "measured";
 const COMPUTED: &str = "computed";
+/// And for storage and loss modulus.
+const OF_FORMULA: [&str; 2] = ["E′ of the formula", "E″ of the formula"];
+const WITHOUT_BIAS: [&str; 2] = ["E′ without bias", "E″ without bias"];
 /// A computed frequency belongs to a measured one within this part of it.
 const SAME: f64 = 0.01;
 
@@ -233,22 +236,22 @@ fn energy_loss(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
 fn moduli(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
     let mut all = vec![
         Over::new(
-            ("E′ of the formula", Marker::Ring, 0),
+            (OF_FORMULA[0], Marker::Ring, 0),
             (rows, |row| row.mean(Quantity::StorageModulus)),
             (computed, |case| case.storage_modulus_pa),
         ),
         Over::new(
-            ("E″ of the formula", Marker::Diamond, 1),
+            (OF_FORMULA[1], Marker::Diamond, 1),
             (rows, |row| row.mean(Quantity::LossModulus)),
             (computed, |case| case.loss_modulus_pa),
         ),
         Over::new(
-            ("E′ without bias", Marker::Disc, 0),
+            (WITHOUT_BIAS[0], Marker::Disc, 0),
             (rows, |row| Some(row.unbiased()?.storage_modulus_pa)),
             (&[], |_| None),
         ),
         Over::new(
-            ("E″ without bias", Marker::Square, 1),
+            (WITHOUT_BIAS[1], Marker::Square, 1),
             (rows, |row| Some(row.unbiased()?.loss_modulus_pa)),
             (&[], |_| None),
         ),
@@ -260,11 +263,25 @@ fn moduli(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
         return None;
     }
     let (factor, unit) = units().modulus(highest);
+    let shown = |labels: [&str; 2]| -> Vec<String> {
+        let shown = all.iter().filter(|over| labels.contains(&over.label));
+        shown
+            .map(|over| format!("{} ({})", over.label, over.marker.name()))
+            .collect()
+    };
+    let of_formula = shown(OF_FORMULA);
+    let without = match &shown(WITHOUT_BIAS)[..] {
+        [] => String::new(),
+        shown => format!("; {}: what the exact model leaves of it", listed(shown)),
+    };
     Some(Figure {
         name: "moduli",
         picture: over_frequency(&all, factor, format!("modulus / {unit}")).into(),
         caption: Caption::new("Storage modulus E′ and loss modulus E″ read from the loops")
-            .say("Open symbols: the formula of small amplitudes; filled ones: the same without its bias, which the exact model gives.")
+            .say(format!(
+                "{}: the formula of small amplitudes{without}.",
+                listed(&of_formula)
+            ))
             .say("Bars are intervals of 95 %."),
         data: Vec::new(),
     })

@@ -6,10 +6,11 @@ use std::fmt::Write;
 use super::MeasuredRow;
 use super::columns::drift;
 use crate::measured::drift::DriftModel;
-use crate::measured::{Estimate, MeasuredLoop, Quantity};
+use crate::measured::{Estimate, Finding, MeasuredLoop, Quantity};
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::{Measured, four_digits};
 use crate::report::words::wrapped;
+use crate::sweep::record::Status;
 
 /// Files with the same finding that are named before the rest is counted.
 const NAMED: usize = 3;
@@ -146,6 +147,19 @@ pub fn findings(rows: &[MeasuredRow]) -> String {
         }
     }
     text
+}
+
+/// Of every file that has no mean its name, whole, and why.
+pub fn without_mean(rows: &[MeasuredRow]) -> String {
+    let without = rows.iter().filter(|row| row.status() != Status::Converged);
+    let lines = without.map(|row| {
+        let changes = |finding: &&Finding| matches!(finding, Finding::NotStabilised { .. });
+        let why = row.findings().find(changes).map(Finding::to_string);
+        let why = row.reason.clone().or(why);
+        let why = why.unwrap_or_else(|| "no cycle counts in a mean".to_owned());
+        format!("{}: {}: {why}\n", row.file, row.status().name())
+    });
+    lines.collect()
 }
 
 /// What was done with a single record, in sentences.
