@@ -217,6 +217,18 @@ impl DataFile {
         cells.into_iter().any(is_wanted)
     }
 
+    /// The headings that name one of these columns, and all others, each in the order of the table; without those that are empty.
+    pub(crate) fn headings(&self, wanted: &[Column]) -> (Vec<String>, Vec<String>) {
+        let header = self.header(wanted);
+        let cells = header.map(|header| header.texts()).unwrap_or_default();
+        let is_wanted = |cell: &str| wanted.iter().any(|column| column.unit_in(cell).is_some());
+        let named = cells
+            .into_iter()
+            .map(str::trim)
+            .filter(|cell| !cell.is_empty());
+        named.map(str::to_owned).partition(|cell| is_wanted(cell))
+    }
+
     /// Of each of these columns the first of its names that the header has, and that name alone; `None` where it has none.
     pub(crate) fn first_named(&self, columns: &[Column]) -> Vec<Option<Column>> {
         let header = self.header(columns);

@@ -20,7 +20,7 @@ use super::{
     bodies_block, harmonic_block, layer_block, material_block, measured_history, measured_table,
     segments_block,
 };
-use crate::identify::data::Measurements;
+use crate::identify::data::{Measurements, TableColumns};
 use crate::identify::{Driven, IdentifyPlan, Sought};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Relaxation};
@@ -56,7 +56,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
         let default = indenter.as_deref();
         let default = default.map(|indenter| IdentifyPlan::solver(indenter, layer));
         let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
-        let (data, measurements, branches) = measured?;
+        let (data, (measurements, columns), branches) = measured?;
         let bodies = bodies?;
         Some(IdentifyPlan {
             title: title?,
@@ -74,6 +74,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
             branches,
             measurements,
             data,
+            columns,
             cycle: cycle?,
         })
     })
@@ -125,7 +126,7 @@ fn known_material(mut table: TableReader<'_>) -> Option<Compressibility> {
 fn measured_block(
     mut table: TableReader<'_>,
     drive: Option<&Driven>,
-) -> Option<(String, Measurements, Option<usize>)> {
+) -> Option<(String, (Measurements, TableColumns), Option<usize>)> {
     let (folder, problems) = (table.folder(), table.problems());
     let data = table.read(&DATA);
     let branches = table.value(&IDENTIFY_BRANCHES);
@@ -137,18 +138,18 @@ fn measured_block(
     };
     let (name, bytes) = data_file::named(&file, folder, problems)?;
     // Without a drive, which was reported, rows without one of their own mean nothing.
-    let found = match drive? {
+    let (found, columns) = match drive? {
         Driven::Cycles(drive) => {
             let rows = measured_table::parse(&name, &bytes, *drive);
-            let (cycles, data) = data_file::accepted(rows, &file, problems)?;
-            Measurements::new(cycles, data)
+            let (cycles, data, columns) = data_file::accepted(rows, &file, problems)?;
+            (Measurements::new(cycles, data), columns)
         }
         Driven::History(drive) => {
             let rows = measured_history::parse(&name, &bytes, drive);
-            let rows = data_file::accepted(rows, &file, problems)?;
-            Measurements::of_history(drive, &rows)
+            let (rows, columns) = data_file::accepted(rows, &file, problems)?;
+            (Measurements::of_history(drive, &rows), columns)
         }
     };
     let measurements = problems.accept(&file, found.map_err(|error| format!("{name}: {error}")))?;
-    Some((name, measurements, branches?.flatten()))
+    Some((name, (measurements, columns), branches?.flatten()))
 }

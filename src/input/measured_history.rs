@@ -3,7 +3,7 @@
 use super::data_file::{Column, DataFile, TIME};
 use super::diagnostic::{Diagnostic, Diagnostics, Problems};
 use crate::drive::{Control, SegmentedDrive};
-use crate::identify::data::Reading;
+use crate::identify::data::{Reading, TableColumns};
 use crate::quantity::{Dimension, format_human};
 
 /// Rows of one table; more would take longer to read than to measure.
@@ -20,15 +20,19 @@ pub(super) fn parse(
     name: &str,
     bytes: &[u8],
     drive: &SegmentedDrive,
-) -> Result<Vec<Reading>, Diagnostics> {
+) -> Result<(Vec<Reading>, TableColumns), Diagnostics> {
     let (value, error) = match drive.control() {
         Control::Load => (
-            Column::new(&["approach"], Dimension::Length, "approaches"),
-            Column::new(&["approach_error"], Dimension::Length, "errors"),
+            Column::new(&["approach", "depth"], Dimension::Length, "approaches"),
+            Column::new(
+                &["approach_error", "depth_error"],
+                Dimension::Length,
+                "errors",
+            ),
         ),
         Control::Approach => (
-            Column::new(&["load"], Dimension::Force, "loads"),
-            Column::new(&["load_error"], Dimension::Force, "errors"),
+            Column::new(&["load", "force"], Dimension::Force, "loads"),
+            Column::new(&["load_error", "force_error"], Dimension::Force, "errors"),
         ),
     };
     let file = DataFile::from_bytes(name, bytes)?;
@@ -80,7 +84,13 @@ pub(super) fn parse(
             error,
         });
     }
-    problems.into_result(Some(readings))
+    let (read, unread) = file.headings(&wanted);
+    let columns = TableColumns {
+        read,
+        unread,
+        ..TableColumns::default()
+    };
+    problems.into_result(Some((readings, columns)))
 }
 
 #[cfg(test)]
@@ -94,7 +104,7 @@ mod tests {
             duration_s: 10.0,
         };
         let drive = SegmentedDrive::new(Control::Load, vec![held]).unwrap();
-        parse("creep.csv", text.as_bytes(), &drive)
+        Ok(parse("creep.csv", text.as_bytes(), &drive)?.0)
     }
 
     #[test]

@@ -3,9 +3,10 @@
 use super::data_file::{Column, DataFile, Table};
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use crate::drive::{Control, HarmonicDrive};
-use crate::identify::data::{Datum, MeasuredCycle, Number};
+use crate::identify::data::{Datum, MeasuredCycle, Number, TableColumns};
+use crate::measured::statistics::NORMAL;
 use crate::quantity::Dimension::{
-    self, Angle, AngularFrequency, Energy, Force, Frequency, Length, Stress,
+    Angle, AngularFrequency, Energy, Force, Frequency, Length, Stress,
 };
 use crate::sweep::record::error_bars::Quantity;
 
@@ -16,33 +17,63 @@ const ANGULAR: Column = Column::new(
 );
 const HERTZ: Column = Column::new(&["frequency"], Frequency, "frequencies");
 
-/// A quantity, the column of its values, and that of its errors.
-const fn measured(
-    quantity: Quantity,
-    value: &'static [&'static str],
-    error: &'static [&'static str],
-    dimension: Dimension,
-) -> (Quantity, Column, Column) {
-    (
-        quantity,
-        Column::new(value, dimension, value[0]),
-        Column::new(error, dimension, error[0]),
-    )
+/// A number, the column of its values, and those of its errors.
+struct Measured {
+    number: Number,
+    value: Column,
+    /// Standard deviations, or in a table of an analysis half widths of the interval of 95 %.
+    error: Column,
+    /// Standard deviations in every table.
+    standard_error: Column,
 }
 
+/// A number under its names.
+macro_rules! measured {
+    ($number:expr, $dimension:ident, $first:literal $(, $name:literal)*) => {
+        Measured {
+            number: $number,
+            value: Column::new(&[$first $(, $name)*], $dimension, $first),
+            error: Column::new(&[concat!($first, "_error") $(, concat!($name, "_error"))*], $dimension, concat!($first, "_error")),
+            standard_error: Column::new(
+                &[concat!($first, "_standard_error") $(, concat!($name, "_standard_error"))*],
+                $dimension,
+                concat!($first, "_standard_error"),
+            ),
+        }
+    };
+}
+
+const LOSS: Number = Number::OfCycle(Quantity::EnergyLoss);
+const PHASE: Number = Number::OfCycle(Quantity::PhaseLag);
+
 #[rustfmt::skip]
-const MEASURED: [(Quantity, Column, Column); 10] = [
-    measured(Quantity::EnergyLoss, &["energy_loss"], &["energy_loss_error"], Energy),
-    measured(Quantity::PhaseLag, &["phase_lag"], &["phase_lag_error"], Angle),
-    measured(Quantity::StorageModulus, &["storage_modulus"], &["storage_modulus_error"], Stress),
-    measured(Quantity::LossModulus, &["loss_modulus"], &["loss_modulus_error"], Stress),
-    measured(Quantity::ApproachMin, &["approach_min"], &["approach_min_error"], Length),
-    measured(Quantity::ApproachMax, &["approach_max"], &["approach_max_error"], Length),
-    measured(Quantity::ContactRadiusMin, &["contact_radius_min"], &["contact_radius_min_error"], Length),
-    measured(Quantity::ContactRadiusMax, &["contact_radius_max"], &["contact_radius_max_error"], Length),
-    measured(Quantity::PeakPressureMin, &["peak_pressure_min"], &["peak_pressure_min_error"], Stress),
-    measured(Quantity::PeakPressureMax, &["peak_pressure_max"], &["peak_pressure_max_error"], Stress),
+static MEASURED: [Measured; 12] = [
+    measured!(LOSS, Energy, "energy_loss", "loss", "loss_energy", "dissipated_energy", "energy_dissipation"),
+    measured!(PHASE, Angle, "phase_lag", "phase", "phase_angle", "loss_angle"),
+    measured!(Number::OfCycle(Quantity::StorageModulus), Stress, "storage_modulus"),
+    measured!(Number::OfCycle(Quantity::LossModulus), Stress, "loss_modulus"),
+    measured!(Number::OfCycle(Quantity::ApproachMin), Length, "approach_min", "min_approach", "depth_min", "min_depth", "minimum_depth"),
+    measured!(Number::OfCycle(Quantity::ApproachMax), Length, "approach_max", "max_approach", "depth_max", "max_depth", "maximum_depth"),
+    measured!(Number::ApproachAmplitude, Length, "approach_amplitude", "depth_amplitude"),
+    measured!(Number::LoadAmplitude, Force, "load_amplitude", "force_amplitude"),
+    measured!(Number::OfCycle(Quantity::ContactRadiusMin), Length, "contact_radius_min"),
+    measured!(Number::OfCycle(Quantity::ContactRadiusMax), Length, "contact_radius_max"),
+    measured!(Number::OfCycle(Quantity::PeakPressureMin), Stress, "peak_pressure_min"),
+    measured!(Number::OfCycle(Quantity::PeakPressureMax), Stress, "peak_pressure_max"),
 ];
+
+/// Columns that only the table of an analysis of records has.
+const OF_ANALYSIS: [Column; 2] = [
+    Column::new(&["cycles_measured"], Frequency, "counts"),
+    Column::new(&["points_per_cycle"], Frequency, "counts"),
+];
+
+const DERIVED: &str =
+    "a formula makes it from the amplitudes and the phase, which has a bias at every amplitude";
+const LOSS_TWICE: &str = "it follows from the amplitudes and the phase";
+const NO_ZERO: &str = "the zero of the approach is not known in a record, and drifts";
+const NO_QUANTITY: &str = "the table has not the quantity that these are the errors of";
+const PRESCRIBED: &str = "the drive prescribes it";
 
 /// By what factor the drive of a table may differ from the one of the file that names it.
 const ANOTHER_DRIVE: f64 = 2.0;
@@ -52,26 +83,27 @@ const SAME_FREQUENCY: f64 = 1e-3;
 
 const EMPTY: &str = "write a number, or leave the cell empty where nothing was measured";
 
-/// Cycles, and what was measured of them.
-type Measured = (Vec<MeasuredCycle>, Vec<Datum>);
+/// Cycles, what was measured of them, and what became of the columns.
+type Found = (Vec<MeasuredCycle>, Vec<Datum>, TableColumns);
 
 /// Reads a table; rows without a `drive_mean` and a `drive_amplitude` of their own are under this drive.
 ///
 /// # Errors
 /// What [`DataFile`] refuses; no frequency, no column that a material shows in; errors that are not above zero; frequencies or a
 /// drive that contradict others; each with its place.
-pub(super) fn parse(
-    name: &str,
-    bytes: &[u8],
-    drive: HarmonicDrive,
-) -> Result<Measured, Diagnostics> {
+pub(super) fn parse(name: &str, bytes: &[u8], drive: HarmonicDrive) -> Result<Found, Diagnostics> {
     let file = DataFile::from_bytes(name, bytes)?;
-    let wanted = wanted(&file, drive.control())?;
+    let is_analysis = OF_ANALYSIS.iter().all(|column| file.has_any(&[*column]));
+    let (data_columns, set_aside) = quantities(&file, drive.control(), is_analysis);
+    let (wanted, drive_columns) = wanted(&file, drive.control(), is_analysis, &data_columns)?;
     let problems = Problems::new();
     let rows = Rows {
         table: file.columns_with_holes(&wanted, EMPTY)?,
         wanted,
         drive,
+        drive_columns,
+        data_columns,
+        is_analysis,
         problems: &problems,
     };
     let (mut cycles, mut data) = (Vec::new(), Vec::new());
@@ -80,20 +112,80 @@ pub(super) fn parse(
         let Some((cycle, numbers)) = numbers.and_then(|all| Some((rows.cycle(row)?, all))) else {
             continue;
         };
-        data.extend(numbers.into_iter().map(|(quantity, value, error)| Datum {
+        data.extend(numbers.into_iter().map(|(number, value, error)| Datum {
             place: cycles.len(),
-            number: Number::OfCycle(quantity),
+            number,
             value,
             error,
         }));
         cycles.push(cycle);
     }
     rows.refuse_another_drive(&cycles);
-    problems.into_result(Some((cycles, data)))
+    let (read, _) = file.headings(&rows.wanted);
+    // Errors of what is set aside are set aside with it.
+    let known = MEASURED
+        .iter()
+        .flat_map(|own| [own.value, own.error, own.standard_error]);
+    let known: Vec<Column> = rows.wanted.iter().copied().chain(known).collect();
+    let (_, unread) = file.headings(&known);
+    let columns = TableColumns {
+        read,
+        set_aside,
+        unread,
+    };
+    problems.into_result(Some((cycles, data, columns)))
 }
 
-/// The columns that a table has: frequencies, mean and amplitude of the drive, quantities, and the errors of these.
-fn wanted(file: &DataFile, control: Control) -> Result<Vec<Column>, Diagnostic> {
+/// The quantities of a table that are its data, and the headings of those that are not beside them, with the reason.
+fn quantities(
+    file: &DataFile,
+    control: Control,
+    is_analysis: bool,
+) -> (Vec<&'static Measured>, Vec<(String, &'static str)>) {
+    let there = MEASURED.iter().filter(|own| file.has_any(&[own.value]));
+    let there: Vec<Number> = there.map(|own| own.number).collect();
+    let has = |number: Number| there.contains(&number);
+    let (response, prescribed) = match control {
+        Control::Load => (Number::ApproachAmplitude, Number::LoadAmplitude),
+        Control::Approach => (Number::LoadAmplitude, Number::ApproachAmplitude),
+    };
+    let why_not = |number: Number| match number {
+        number if number == prescribed => Some(PRESCRIBED),
+        Number::OfCycle(Quantity::StorageModulus | Quantity::LossModulus)
+            if has(LOSS) || has(PHASE) =>
+        {
+            Some(DERIVED)
+        }
+        LOSS if has(PHASE) && has(response) => Some(LOSS_TWICE),
+        Number::OfCycle(Quantity::ApproachMin | Quantity::ApproachMax) if is_analysis => {
+            Some(NO_ZERO)
+        }
+        _ => None,
+    };
+    let (mut data, mut set_aside) = (Vec::new(), Vec::new());
+    for own in &MEASURED {
+        let (columns, why) = match (has(own.number), why_not(own.number)) {
+            (true, None) => {
+                data.push(own);
+                continue;
+            }
+            (true, Some(why)) => (vec![own.value], why),
+            (false, _) => (vec![own.error, own.standard_error], NO_QUANTITY),
+        };
+        let (headings, _) = file.headings(&columns);
+        set_aside.extend(headings.into_iter().map(|heading| (heading, why)));
+    }
+    (data, set_aside)
+}
+
+/// The columns that a table has: frequencies, mean and amplitude of the drive, quantities, and the errors of these. Beside them mean
+/// and amplitude of the drive.
+fn wanted(
+    file: &DataFile,
+    control: Control,
+    is_analysis: bool,
+    data: &[&Measured],
+) -> Result<(Vec<Column>, [Column; 2]), Diagnostic> {
     let is_there = |column: &Column| file.has_any(&[*column]);
     let lacks = |what: &str| Diagnostic::at(&file.first_line(), what);
     let mut wanted = vec![ANGULAR, HERTZ];
@@ -102,20 +194,27 @@ fn wanted(file: &DataFile, control: Control) -> Result<Vec<Column>, Diagnostic> 
         return Err(lacks("no column of frequencies")
             .help("name it `angular_frequency_rad_per_s` or `frequency_hz`"));
     }
-    let of_drive = drive_columns(control);
+    let of_drive = drive_columns(control, is_analysis);
     if of_drive.iter().all(is_there) {
         wanted.extend(of_drive);
     }
-    let quantities = MEASURED.iter().filter(|(_, value, _)| is_there(value));
-    let quantities = quantities.flat_map(|(_, value, error)| [*value, *error]);
-    let quantities: Vec<Column> = quantities.filter(is_there).collect();
-    if quantities.is_empty() {
-        let names = MEASURED.map(|(_, value, _)| value.name_in_si()).join(", ");
+    if data.is_empty() {
+        let names = MEASURED
+            .each_ref()
+            .map(|own| own.value.name_in_si())
+            .join(", ");
         return Err(lacks("no column that shows the material")
+            .because(format!(
+                "the columns are {}",
+                file.headings(&[]).1.join(", ")
+            ))
             .help(format!("give at least one of {names}")));
     }
-    wanted.extend(quantities);
-    Ok(wanted)
+    let all = data
+        .iter()
+        .flat_map(|own| [own.value, own.error, own.standard_error]);
+    wanted.extend(all.filter(is_there));
+    Ok((wanted, of_drive))
 }
 
 /// The rows of a table.
@@ -123,6 +222,9 @@ struct Rows<'a> {
     table: Table,
     wanted: Vec<Column>,
     drive: HarmonicDrive,
+    drive_columns: [Column; 2],
+    data_columns: Vec<&'static Measured>,
+    is_analysis: bool,
     problems: &'a Problems,
 }
 
@@ -143,21 +245,31 @@ impl Rows<'_> {
         self.cell(row, column).map(|(value, _)| value)
     }
 
-    /// What was measured in a row, with its errors where they are known; `None` where a problem was reported.
-    fn numbers(&self, row: usize) -> Option<Vec<(Quantity, f64, Option<f64>)>> {
+    /// What was measured in a row, with its standard deviations where they are known; `None` where a problem was reported.
+    fn numbers(&self, row: usize) -> Option<Vec<(Number, f64, Option<f64>)>> {
         let mut found = Vec::new();
-        for (quantity, value, error) in &MEASURED {
-            let Some(value) = self.number(row, value) else {
+        for own in &self.data_columns {
+            let Some(value) = self.number(row, &own.value) else {
                 continue;
             };
-            let error = self.cell(row, error);
-            if let Some((_, place)) = error.as_ref().filter(|(error, _)| *error <= 0.0) {
+            let errors = [&own.error, &own.standard_error].map(|column| self.cell(row, column));
+            if let Some((_, place)) = errors.iter().flatten().find(|(error, _)| *error <= 0.0) {
                 self.problems
                     .at(place, "an error must be above zero")
                     .help("write a standard deviation, or leave the cell empty: the noise is then estimated");
                 return None;
             }
-            found.push((*quantity, value, error.map(|(error, _)| error)));
+            let [error, standard_error] = errors.map(|error| error.map(|(error, _)| error));
+            found.push((
+                own.number,
+                value,
+                match self.is_analysis {
+                    // Half the width of an interval of 95 % has Student's factor in it: over that of the normal distribution it is the
+                    // standard deviation that gives the same interval.
+                    true => error.map(|error| error / NORMAL).or(standard_error),
+                    false => standard_error.or(error),
+                },
+            ));
         }
         Some(found)
     }
@@ -165,7 +277,7 @@ impl Rows<'_> {
     /// The cycle of a row; `None` where a problem was reported.
     fn cycle(&self, row: usize) -> Option<MeasuredCycle> {
         let angular_frequency_rad_per_s = self.frequency(row)?;
-        let own = drive_columns(self.drive.control()).map(|column| self.number(row, &column));
+        let own = self.drive_columns.map(|column| self.number(row, &column));
         let drive = match own {
             [Some(mean), Some(amplitude)] => {
                 let (phase_rad, hold_s) = (self.drive.phase_rad(), self.drive.hold_s());
@@ -207,7 +319,7 @@ impl Rows<'_> {
 
     /// Refuses drives that are nothing like the one of the file.
     fn refuse_another_drive(&self, cycles: &[MeasuredCycle]) {
-        let [mean, _] = drive_columns(self.drive.control());
+        let [mean, _] = self.drive_columns;
         let is_like = |cycle: &MeasuredCycle| {
             let ratio = cycle.drive.mean() / self.drive.mean();
             (ANOTHER_DRIVE.recip()..=ANOTHER_DRIVE).contains(&ratio)
@@ -230,22 +342,21 @@ impl Rows<'_> {
     }
 }
 
-fn drive_columns(control: Control) -> [Column; 2] {
-    let dimension = match control {
-        Control::Load => Force,
-        Control::Approach => Length,
+/// Mean and amplitude of the drive; the table of an analysis has those of a prescribed approach under the names of the approach.
+fn drive_columns(control: Control, is_analysis: bool) -> [Column; 2] {
+    let (names, dimension): ([&'static [&'static str]; 2], _) = match (control, is_analysis) {
+        (Control::Load, _) => ([&["drive_mean"], &["drive_amplitude"]], Force),
+        (Control::Approach, false) => ([&["drive_mean"], &["drive_amplitude"]], Length),
+        (Control::Approach, true) => ([&["approach_mean"], &["approach_amplitude"]], Length),
     };
-    let column = |names, what| Column {
-        names,
+    let whats = ["means of the drive", "amplitudes of the drive"];
+    std::array::from_fn(|k| Column {
+        names: names[k],
         dimension,
-        what,
+        what: whats[k],
         // `sweep.csv` has them without, since the unit is that of the control.
         unit_may_be_absent: true,
-    };
-    [
-        column(&["drive_mean"], "means of the drive"),
-        column(&["drive_amplitude"], "amplitudes of the drive"),
-    ]
+    })
 }
 
 #[cfg(test)]
@@ -253,7 +364,7 @@ mod tests {
     use super::*;
     use crate::input::diagnostic::Styling;
 
-    fn under_load(text: &str) -> Result<Measured, Diagnostics> {
+    fn under_load(text: &str) -> Result<Found, Diagnostics> {
         let drive = HarmonicDrive::load(10.0, 5.0).unwrap();
         parse("measured.csv", text.as_bytes(), drive)
     }
@@ -262,7 +373,7 @@ mod tests {
     fn columns_are_read_in_their_units_with_errors_and_gaps() {
         let text = "frequency_hz,energy_loss_uJ,energy_loss_error_uJ,phase_lag_deg,status,drive_mean,drive_amplitude\n\
                     1,2,0.1,,converged,10,5\n2,,,,failed,10,5\n4,3,,9,converged,11,4\n";
-        let (cycles, data) = under_load(text).unwrap();
+        let (cycles, data, columns) = under_load(text).unwrap();
         assert_eq!(cycles.len(), 2);
         assert_eq!(cycles[0].angular_frequency_rad_per_s, std::f64::consts::TAU);
         assert_eq!((cycles[1].row, cycles[1].drive.mean()), (3, 11.0));
@@ -270,7 +381,58 @@ mod tests {
         assert!(near(data[0].value, 2e-6) && near(data[0].error.unwrap(), 1e-7));
         assert_eq!((data.len(), data[1].error), (3, None));
         assert!(near(data[2].value, std::f64::consts::PI / 20.0));
-        assert_eq!(data[2].number, Number::OfCycle(Quantity::PhaseLag));
+        assert_eq!(data[2].number, PHASE);
+        assert_eq!(
+            (columns.read.len(), &columns.unread[..]),
+            (6, &["status".to_owned()][..])
+        );
+    }
+
+    #[test]
+    fn common_words_are_read_and_every_other_heading_is_kept_for_the_report() {
+        let text = "Frequency (Hz);Loss (uJ);Phase (deg);Max depth (um);Fase fault (deg);Remark\n1;2;9;30;None;a\n2;2;None;31;1;b\n";
+        let (cycles, data, columns) = under_load(text).unwrap();
+        let approach = Number::OfCycle(Quantity::ApproachMax);
+        let numbers: Vec<Number> = data.iter().map(|datum| datum.number).collect();
+        assert_eq!(numbers, [LOSS, PHASE, approach, LOSS, approach]);
+        assert_eq!(cycles.len(), 2);
+        assert_eq!(columns.unread, ["Fase fault (deg)", "Remark"]);
+    }
+
+    #[test]
+    fn of_an_analysis_the_amplitude_and_the_phase_are_data_and_errors_are_half_widths() {
+        let text = "frequency_hz,drive_mean,drive_amplitude,energy_loss_j,energy_loss_error_j,phase_lag_rad,phase_lag_error_rad,\
+                    phase_lag_standard_error_rad,storage_modulus_pa,approach_max_m,approach_amplitude_m,approach_amplitude_error_m,\
+                    load_amplitude_n,cycles_measured,points_per_cycle,harmonic_2\n\
+                    1,10,5,1e-6,1e-8,0.2,2e-3,5e-4,1e7,1e-5,1e-6,1e-8,5,12,80,0.01\n";
+        let (_, data, columns) = under_load(text).unwrap();
+        assert_eq!(data.len(), 2, "{data:?}");
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
+        assert!(data[0].number == PHASE && near(data[0].error.unwrap(), 2e-3 / NORMAL));
+        assert_eq!(data[1].number, Number::ApproachAmplitude);
+        assert!(near(data[1].error.unwrap(), 1e-8 / NORMAL));
+        let aside: Vec<&str> = columns
+            .set_aside
+            .iter()
+            .map(|(name, _)| name.as_str())
+            .collect();
+        assert_eq!(
+            aside,
+            [
+                "energy_loss_j",
+                "storage_modulus_pa",
+                "approach_max_m",
+                "load_amplitude_n"
+            ]
+        );
+        // The same numbers in a table of one's own: standard deviations where they are named so.
+        let own = text.replace("points_per_cycle", "points");
+        let (_, data, _) = under_load(&own).unwrap();
+        assert!(data[0].number == PHASE && near(data[0].error.unwrap(), 5e-4));
+        assert!(
+            data.iter()
+                .any(|datum| datum.number == Number::OfCycle(Quantity::ApproachMax))
+        );
     }
 
     #[test]

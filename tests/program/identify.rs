@@ -290,6 +290,164 @@ fn data_that_say_nothing_or_contradict_themselves_are_refused_with_the_reason() 
     }
 }
 
+/// What `identify` prints of a table, and its summary.
+fn found(folder: &TempDir, set: &[&str]) -> (String, serde_json::Value) {
+    let printed = program()
+        .current_dir(folder.path())
+        .args(["identify", "solid.toml", "--out", "found", "--no-figures"])
+        .args(set)
+        .assert()
+        .success();
+    let printed = String::from_utf8(printed.get_output().stdout.clone()).unwrap();
+    let summary = fs::read_to_string(folder.path().join("found/summary.json")).unwrap();
+    (printed, serde_json::from_str(&summary).unwrap())
+}
+
+#[test]
+fn a_frequency_that_nobody_measures_is_refused_with_its_row() {
+    for frequency in ["5e-324", "1e300", "1e308"] {
+        let folder = folder(&example().replacen("\n1.00000e-2,", &format!("\n{frequency},"), 1));
+        program()
+            .current_dir(folder.path())
+            .args(["identify", "solid.toml"])
+            .assert()
+            .code(2)
+            .stderr(contains("measured.csv: the angular frequency of row 1 is"))
+            .stderr(contains("data = \"measured.csv\""));
+    }
+}
+
+#[test]
+fn a_column_that_is_not_understood_is_named_and_common_words_are_understood() {
+    let table = example();
+    let rows = table.lines().filter(|line| !line.starts_with('#'));
+    let head = "Frequency (Hz),Loss (J),Loss error (J),Phase (rad),Phase fault (rad),Max depth error (m),Operator";
+    let rows = rows
+        .skip(1)
+        .enumerate()
+        .map(|(k, row)| match (k, row.rsplit_once(',')) {
+            // A cell in which nothing was measured, as Python writes it.
+            (3, Some((row, _))) => format!("{row},None,1e-6,N.N."),
+            _ => format!("{row},1e-6,N.N."),
+        });
+    let rows: Vec<String> = rows.collect();
+    let folder = folder(&format!("{head}\n{}\n", rows.join("\n")));
+    let (printed, summary) = found(&folder, &["--set", "identify.branches=3"]);
+    let printed = printed.replace("\n  ", " ");
+    for expected in [
+        "Columns read: Frequency (Hz), Loss (J), Loss error (J) and Phase (rad).",
+        "Not taken as data: Max depth error (m): the table has not the quantity",
+        "Warning: columns not understood, and not read: Phase fault (rad) and Operator.",
+        "Moduli are Young's: E(t) = g_inf",
+    ] {
+        assert!(printed.contains(expected), "{expected}\n{printed}");
+    }
+    assert_eq!(
+        summary["columns_not_understood"],
+        serde_json::json!(["Phase fault (rad)", "Operator"])
+    );
+}
+
+/// A loss that is 30 % off, among data of 1 %.
+#[test]
+fn an_outlier_is_named_gets_no_branch_and_widens_the_intervals() {
+    let mut lines: Vec<String> = example().lines().map(str::to_owned).collect();
+    let first = lines
+        .iter()
+        .position(|line| line.starts_with("1.0000"))
+        .unwrap();
+    let row = &mut lines[first + 4];
+    let mut cells: Vec<String> = row.split(',').map(str::to_owned).collect();
+    let loss: f64 = cells[1].parse().unwrap();
+    cells[1] = format!("{:e}", 1.3 * loss);
+    *row = cells.join(",");
+    let folder = folder(&(lines.join("\n") + "\n"));
+    let (printed, summary) = found(&folder, &[]);
+    println!("{printed}");
+    assert_eq!(summary["branches"], 3);
+    let worst = &summary["worst"];
+    assert_eq!(
+        (&worst["column"], &worst["row"]),
+        (&"energy_loss_j".into(), &5.into())
+    );
+    let first = printed.lines().find(|line| line.contains(':')).unwrap();
+    assert!(
+        first.starts_with("Warning: the series misses the data: chi squared"),
+        "{first}"
+    );
+    assert!(
+        printed
+            .replace("\n  ", " ")
+            .contains("energy_loss_j of row 5")
+    );
+    let truth = [20e6, 150e6, 3e-3, 90e6, 0.1, 40e6, 4.0];
+    for (unknown, truth) in summary["unknowns"].as_array().unwrap().iter().zip(truth) {
+        let [low, high] = ["low", "high"].map(|end| unknown[end].as_f64().unwrap());
+        assert!(low < truth && truth < high, "{unknown} {truth}");
+    }
+}
+
+#[test]
+fn too_few_branches_are_among_the_causes_of_a_misfit() {
+    let folder = folder(&example());
+    program()
+        .current_dir(folder.path())
+        .args(["identify", "solid.toml", "--set", "identify.branches=1"])
+        .assert()
+        .code(2)
+        .stderr(contains("ask for more branches"));
+}
+
+/// A force curve: sphere of 2.5 um on E = 1 kPa (t/1 s)^-0.2, 0.5 um in 0.5 s and back. The contact of one branch ends before that of the
+/// data does, and a load of nothing has no place on a logarithmic axis.
+#[test]
+fn a_force_curve_whose_model_leaves_the_surface_before_the_data_is_drawn() {
+    let loads = [
+        (0.04, 4.78e-11),
+        (0.08, 1.17e-10),
+        (0.12, 1.97e-10),
+        (0.16, 2.95e-10),
+        (0.2, 3.93e-10),
+        (0.24, 4.89e-10),
+        (0.28, 6.19e-10),
+        (0.32, 7.46e-10),
+        (0.36, 8.49e-10),
+        (0.4, 9.81e-10),
+        (0.44, 1.11e-09),
+        (0.48, 1.24e-09),
+        (0.52, 1.09e-09),
+        (0.56, 8.41e-10),
+        (0.6, 6.50e-10),
+        (0.64, 4.78e-10),
+        (0.68, 3.29e-10),
+        (0.72, 2.35e-10),
+        (0.76, 1.42e-10),
+        (0.8, 6.95e-11),
+        (0.88, 1.43e-11),
+        (0.936, 8.00e-12),
+    ];
+    let rows = loads
+        .map(|(time_s, load_n)| format!("{time_s},{load_n:e},6.5e-12\n"))
+        .concat();
+    let folder = folder(&format!("time_s,load_n,load_error_n\n{rows}"));
+    let drive = "control = \"approach\"\nsegments = [{ kind = \"ramp\", to = \"0.5 um\", duration = \"0.5 s\" }, \
+                 { kind = \"ramp\", to = \"0 um\", duration = \"0.5 s\" }]";
+    let file = FILE
+        .replace("mean = \"0.2 N\"\namplitude = \"0.1 N\"", drive)
+        .replace("2 mm", "2.5 um")
+        .replace("0.45", "0.5")
+        .replace("[material]", "branches = 1\n[material]");
+    fs::write(folder.path().join("solid.toml"), file).unwrap();
+    program()
+        .current_dir(folder.path())
+        .args(["identify", "solid.toml", "--out", "found"])
+        .assert()
+        .success();
+    let page = fs::read_to_string(folder.path().join("found/index.html")).unwrap();
+    assert!(page.contains("which a logarithmic axis does not show"));
+    assert!(folder.path().join("found/data-and-model.svg").is_file());
+}
+
 #[test]
 fn the_gel_of_the_creep_example_is_found_and_its_tables_go_by_time() {
     let out = TempDir::new().unwrap();

@@ -34,6 +34,7 @@ mod layer;
 mod library;
 mod listed_blocks;
 mod machine_output;
+mod measured_material;
 mod names_and_figures;
 mod page;
 mod paths;

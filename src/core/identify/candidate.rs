@@ -1,8 +1,8 @@
 //! Which number of branches the data ask for.
 
-use crate::identify::least_squares::Problem;
-use crate::identify::noise::Knowledge;
-use crate::identify::selection::Linearised;
+use crate::identify::least_squares::{Problem, minimise};
+use crate::identify::noise::{Knowledge, is_missed};
+use crate::identify::selection::{CLOSELY, Linearised};
 use crate::identify::series::Point;
 
 /// By how much a criterion must fall for one branch more: odds of seven to one.
@@ -72,6 +72,54 @@ pub(super) fn candidates(linearised: &Linearised<'_>, series: &[Point]) -> Vec<C
         candidate.weight = if weight.is_finite() { weight } else { 0.0 };
     }
     candidates
+}
+
+/// A number that is missed by more than this many of its errors, and without which a series meets all others, is an outlier.
+const OUTLIER: f64 = 5.0;
+
+/// Leaves out a datum without which a series of at most the `chosen` number of branches meets the data, as the one with all of them does
+/// not: whether there is one. Only an error that was given tells.
+pub(super) fn leave_out_outlier(
+    linearised: &mut Linearised<'_>,
+    all: &[Candidate],
+    chosen: usize,
+) -> bool {
+    let data = linearised.plan.measurements.data();
+    let misses = |candidate: &Candidate, numbers: usize| {
+        let free = numbers.saturating_sub(candidate.point.0.len());
+        is_missed(candidate.chi_squared / free.max(1) as f64, free)
+    };
+    let is_known = linearised.noise.knowledge != Knowledge::None;
+    let is_first = linearised.noise.left_out().is_none();
+    if !(is_known && is_first && misses(&all[chosen], data.len())) {
+        return false;
+    }
+    let is_asked = linearised.plan.branches.is_some();
+    let fewest = if is_asked { chosen } else { 0 };
+    for (fewer, simple) in all.iter().enumerate().take(chosen + 1).skip(fewest) {
+        let relative = linearised.relative(&simple.point).into_iter();
+        let scaled = relative.zip(&linearised.noise.relative).zip(data);
+        let known = scaled.enumerate().filter(|(_, (_, d))| d.error.is_some());
+        let sizes = known.map(|(place, ((off, error), _))| (place, (off / error).abs()));
+        let Some((place, _)) = sizes
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .filter(|(_, size)| *size > OUTLIER)
+        else {
+            continue;
+        };
+        linearised.noise.leave_out(Some(place));
+        let refined = all.iter().map(|candidate| {
+            let found = minimise(linearised, &candidate.point, CLOSELY);
+            found.map_or_else(|| candidate.point.clone(), |found| found.unknowns.sorted())
+        });
+        let refined: Vec<Point> = refined.collect();
+        let without = candidates(linearised, &refined);
+        if (is_asked || choose(&without) <= fewer) && !misses(&without[fewer], data.len() - 1) {
+            return true;
+        }
+        linearised.noise.leave_out(None);
+    }
+    false
 }
 
 /// The smaller of the numbers that the two criteria ask for, among those whose times are apart.

@@ -10,6 +10,9 @@ use crate::sweep::record::error_bars::Quantity;
 pub enum Number {
     /// Of a stabilised cycle.
     OfCycle(Quantity),
+    /// Amplitude of the first harmonic of a cycle, of the approach (m) or of the load (N).
+    ApproachAmplitude,
+    LoadAmplitude,
     /// At an instant of a history.
     Approach,
     Load,
@@ -20,6 +23,8 @@ impl Number {
     pub fn column(self) -> &'static str {
         match self {
             Self::OfCycle(quantity) => column(quantity),
+            Self::ApproachAmplitude => "approach_amplitude_m",
+            Self::LoadAmplitude => "load_amplitude_n",
             Self::Approach => "approach_m",
             Self::Load => "load_n",
         }
@@ -73,6 +78,17 @@ pub struct Datum {
     pub error: Option<f64>,
 }
 
+/// What became of the columns of a table, by their headings.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TableColumns {
+    /// Those that hold frequencies, times, drives, data and errors.
+    pub read: Vec<String>,
+    /// Quantities that are no data beside those that were read, and why.
+    pub set_aside: Vec<(String, &'static str)>,
+    /// All others.
+    pub unread: Vec<String>,
+}
+
 /// All that was measured.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Measurements {
@@ -86,6 +102,9 @@ pub struct Measurements {
 
 /// Errors below this part of a value are raised to it: the forward model itself is no better.
 pub const LEAST_ERROR: f64 = 1e-3;
+
+/// Angular frequencies (rad/s), or one over times (1/s), of measurements: thirty decades, over which times of branches are tried.
+const RANGE_PER_S: (f64, f64) = (1e-15, 1e15);
 
 /// A column that varies by less than this over all frequencies is flat, whatever its errors.
 const LEAST_SPREAD: f64 = 0.01;
@@ -157,14 +176,7 @@ impl Measurements {
             ..Self::unchecked(Vec::new(), Vec::new())
         };
         for datum in all {
-            let of_cycle = measured.cycles.get(datum.place).map(|cycle| cycle.row);
-            let of_instant = || {
-                measured
-                    .instants
-                    .get(datum.place)
-                    .map(|instant| instant.row)
-            };
-            let row = of_cycle.or_else(of_instant).unwrap_or(0);
+            let row = measured.row_of(&datum);
             match usable(&datum, row)? {
                 None => measured.data.push(datum),
                 Some(why) => measured.notes.push(format!(
@@ -214,7 +226,12 @@ impl Measurements {
     pub fn numbers(&self) -> Vec<Number> {
         let measured = |n: &Number| self.data.iter().any(|datum| datum.number == *n);
         let of_cycle = Quantity::ALL.into_iter().map(Number::OfCycle);
-        let all = of_cycle.chain([Number::Approach, Number::Load]);
+        let all = of_cycle.chain([
+            Number::ApproachAmplitude,
+            Number::LoadAmplitude,
+            Number::Approach,
+            Number::Load,
+        ]);
         all.filter(measured).collect()
     }
 
@@ -226,6 +243,13 @@ impl Measurements {
             .map(|cycle| cycle.angular_frequency_rad_per_s)
             .or(instant.map(|instant| instant.time_s))
             .unwrap_or(f64::NAN)
+    }
+
+    /// The row of a datum in the table, from 1 below the header; of a history the first of the rows that are one instant.
+    pub fn row_of(&self, datum: &Datum) -> usize {
+        let of_cycle = self.cycles.get(datum.place).map(|cycle| cycle.row);
+        let of_instant = self.instants.get(datum.place).map(|instant| instant.row);
+        of_cycle.or(of_instant).unwrap_or(0)
     }
 
     /// The angular frequency (rad/s) that a datum speaks of: that of its cycle, or one over its time.
@@ -275,6 +299,23 @@ impl Measurements {
                 numbers: 0,
                 branches: 1,
                 needed: 4,
+            });
+        }
+        let (low, high) = RANGE_PER_S;
+        let is_outside = |datum: &&Datum| !(low..=high).contains(&self.angular_frequency(datum));
+        if let Some(datum) = self.data.iter().find(is_outside) {
+            let (what, unit) = match self.is_history() {
+                true => ("time", "s"),
+                false => ("angular frequency", "rad/s"),
+            };
+            let (row, value) = (self.row_of(datum), self.place_of(datum));
+            return Err(IdentifyError::OutOfRange {
+                row,
+                what,
+                value,
+                low,
+                high,
+                unit,
             });
         }
         let (lowest, highest) = self.window_rad_per_s();

@@ -5,8 +5,8 @@ use std::sync::atomic::AtomicBool;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::identify::candidate::{Candidate, candidates, choose};
-use crate::identify::data::{Measurements, Number};
+use crate::identify::candidate::{Candidate, candidates, choose, leave_out_outlier};
+use crate::identify::data::Number;
 use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
@@ -15,7 +15,6 @@ use crate::identify::series::{Point, name};
 use crate::identify::uncertainty::{Directions, moduli};
 use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES, UNDETERMINED};
 use crate::material::Relaxation;
-use crate::measured::statistics::{NORMAL, student};
 use crate::sweep::plan::EngineKind;
 
 /// Step of an unknown for derivatives of the exact model: wide beside what springs and steps leave of roughness in it.
@@ -81,6 +80,8 @@ pub struct ModulusBand {
 pub struct Compared {
     /// Angular frequency (rad/s) of the cycle, or time (s) of the instant of a history.
     pub place: f64,
+    /// Its row in the table, from 1 below the header.
+    pub row: usize,
     pub number: Number,
     pub measured: f64,
     /// Standard deviation: as given, or estimated.
@@ -102,11 +103,16 @@ pub struct Identified {
     /// Every number of branches tried, fewest first.
     pub candidates: Vec<Candidate>,
     pub compared: Vec<Compared>,
+    /// Which of these is an outlier: all others are met without it, and it does not count in the fit.
+    pub left_out: Option<usize>,
     /// What was known of the errors of the data.
     pub knowledge: Knowledge,
     pub degrees_of_freedom: usize,
     /// Sum of squares over degrees of freedom, with errors as given; where none is given, one by definition.
     pub reduced_chi_squared: f64,
+    /// By what factor all intervals are wider than the errors of the data say: 1, or where the series misses the data by more than
+    /// chance the root of the reduced chi squared.
+    pub inflation: f64,
     /// Lowest and highest angular frequency of the data.
     pub window_rad_per_s: (f64, f64),
     point: Point,
@@ -171,7 +177,7 @@ fn tried(
     let start = candidates[chosen].point.clone();
     let from = start.clone();
     let found = on_exact(model, linearised, (candidates, start), &from)?;
-    refuse_contradiction(&linearised.plan.measurements, &found)?;
+    refuse_contradiction(linearised.plan, &found)?;
     Ok(found)
 }
 
@@ -254,7 +260,11 @@ fn on_linearised(
         let exact = model.numbers_where_found(&point.relaxation()?);
         let exact = exact.map_err(|error| explained(linearised, point, error))?;
         let change = linearised.take_factors(point, &exact, part);
-        if change < SETTLED && last == Some(chosen) || round + 1 == ROUNDS {
+        let is_settled = change < SETTLED && last == Some(chosen);
+        // Of a series that is pulled by an outlier nothing is left as it is: once more without that.
+        let is_last = round + 1 == ROUNDS
+            || is_settled && !leave_out_outlier(linearised, &candidates, chosen);
+        if is_last {
             return Ok((candidates, chosen));
         }
         last = Some(chosen);
@@ -319,18 +329,10 @@ fn judged(
     let measured = &linearised.plan.measurements;
     let point = found.unknowns.clone();
     let degrees_of_freedom = measured.data().len().saturating_sub(point.0.len());
-    let free = degrees_of_freedom.max(1) as f64;
-    let knowledge = linearised.noise.knowledge;
-    // Standard deviation of the residuals, and the half width of the interval of 95 % in these: known where errors are known.
-    let (scatter, half_width) = match knowledge {
-        Knowledge::All | Knowledge::Some => (1.0, NORMAL),
-        Knowledge::None => {
-            let scatter = (found.squares() / free).sqrt();
-            let least = linearised.noise.least_scale();
-            (scatter.max(least), student(degrees_of_freedom as f64))
-        }
-    };
-    let directions = Directions::new(derivatives, scatter);
+    let noise = &linearised.noise;
+    let scatter = noise.scatter(&found.residuals, degrees_of_freedom);
+    let half_width = scatter.half_width;
+    let directions = Directions::new(derivatives, scatter.deviation);
     let directions = directions.ok_or(IdentifyError::NoFit("its derivatives are not finite"))?;
     let covariance = directions.covariance();
     let deviation = |k: usize| covariance[(k, k)].sqrt();
@@ -349,14 +351,16 @@ fn judged(
         let gradient = derivatives.row(k).transpose() * error;
         Compared {
             place: measured.place_of(datum),
+            row: measured.row_of(datum),
             number: datum.number,
             measured: datum.value,
-            error: error * scatter * datum.value,
+            error: noise.own(k) * scatter.of_data * datum.value,
             computed: datum.value * (found.residuals[k] * error).exp(),
             factor: factor(directions.variance(&gradient).sqrt()),
         }
     });
     Ok(Identified {
+        left_out: noise.left_out(),
         relaxation: point.relaxation()?,
         unknowns: unknowns.collect(),
         correlations: (0..count)
@@ -366,9 +370,10 @@ fn judged(
         undetermined: undetermined(&directions, half_width),
         candidates,
         compared: compared.collect(),
-        knowledge,
+        knowledge: noise.knowledge,
         degrees_of_freedom,
-        reduced_chi_squared: found.squares() / (free * scatter * scatter),
+        reduced_chi_squared: scatter.reduced_chi_squared,
+        inflation: scatter.deviation / scatter.of_data,
         window_rad_per_s: measured.window_rad_per_s(),
         point,
         directions,
@@ -398,11 +403,10 @@ fn undetermined(directions: &Directions, half_width: f64) -> Vec<Undetermined> {
 }
 
 /// Refuses what no solid explains.
-fn refuse_contradiction(measured: &Measurements, found: &Identified) -> Result<(), IdentifyError> {
+fn refuse_contradiction(plan: &IdentifyPlan, found: &Identified) -> Result<(), IdentifyError> {
     let within =
         found.knowledge == Knowledge::All && found.reduced_chi_squared.sqrt() < TIMES_ERRORS;
-    let branches = found.relaxation.branches().len();
-    match contradiction(measured, branches, &found.missed()) {
+    match contradiction(plan, found.relaxation.branches().len(), &found.missed()) {
         Some(error) if !within => Err(error),
         _ => Ok(()),
     }
@@ -413,26 +417,25 @@ fn explained(linearised: &Linearised<'_>, point: &Point, error: IdentifyError) -
     let (IdentifyError::NoCycle { .. } | IdentifyError::NoHistory(_)) = error else {
         return error;
     };
-    let measured = &linearised.plan.measurements;
-    contradiction(measured, point.branches(), &linearised.relative(point)).unwrap_or(error)
+    let missed = linearised.relative(point);
+    contradiction(linearised.plan, point.branches(), &missed).unwrap_or(error)
 }
 
 /// What is wrong with data that the best series misses by so much, as logarithms of computed over measured numbers; `None` where it
 /// is not much.
-fn contradiction(
-    measured: &Measurements,
-    branches: usize,
-    missed: &[f64],
-) -> Option<IdentifyError> {
+fn contradiction(plan: &IdentifyPlan, branches: usize, missed: &[f64]) -> Option<IdentifyError> {
     let squares: f64 = missed.iter().map(|off| off * off).sum();
     let rms = (squares / missed.len() as f64).sqrt();
     if rms < CONTRADICTION {
         return None;
     }
+    let measured = &plan.measurements;
     let data = measured.data().iter().zip(missed);
     let (datum, off) = data.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))?;
     Some(IdentifyError::Contradiction {
         branches,
+        may_have_more: plan.branches.is_some_and(|asked| asked < MOST_BRANCHES),
+        row: measured.row_of(datum),
         misfit_percent: format!("{:.0}", 100.0 * rms),
         place: measured.place_in_words(datum),
         column: datum.number.column(),
@@ -441,6 +444,14 @@ fn contradiction(
 }
 
 impl Identified {
+    /// The number that the series misses by the most of its errors, and by how many.
+    pub fn worst(&self) -> Option<(&Compared, f64)> {
+        let each = self.compared.iter();
+        let off = |c: &Compared| (c.computed / c.measured).ln() * c.measured / c.error;
+        each.map(|c| (c, off(c)))
+            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+    }
+
     /// Logarithms of computed over measured numbers.
     fn missed(&self) -> Vec<f64> {
         let compared = self.compared.iter();

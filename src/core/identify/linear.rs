@@ -11,7 +11,7 @@
 use num_complex::Complex;
 
 use crate::drive::Control;
-use crate::identify::data::MeasuredCycle;
+use crate::identify::data::{MeasuredCycle, Number};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Creep};
 use crate::sweep::record::error_bars::Quantity;
@@ -77,23 +77,19 @@ impl<'a> LinearCycle<'a> {
         }
     }
 
-    /// A number of the cycle, with the complex modulus (Pa) at its frequency.
-    pub(super) fn number(
-        &self,
-        quantity: Quantity,
-        equilibrium_pa: f64,
-        modulus: Complex<f64>,
-    ) -> f64 {
-        match quantity {
-            Quantity::StorageModulus => modulus.re,
-            Quantity::LossModulus => modulus.im,
-            Quantity::Harmonic2 | Quantity::Harmonic3 => 1.0,
-            _ => self.of_pair(quantity, equilibrium_pa, modulus),
+    /// A number of the cycle, with the complex modulus (Pa) at its frequency; `NaN` of a number of a history.
+    pub(super) fn number(&self, number: Number, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
+        match number {
+            Number::OfCycle(Quantity::StorageModulus) => modulus.re,
+            Number::OfCycle(Quantity::LossModulus) => modulus.im,
+            Number::OfCycle(Quantity::Harmonic2 | Quantity::Harmonic3) => 1.0,
+            Number::Approach | Number::Load => f64::NAN,
+            _ => self.of_pair(number, equilibrium_pa, modulus),
         }
     }
 
     /// The same of what depends on both bodies, as if the compliance of both were one's.
-    fn of_pair(&self, quantity: Quantity, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
+    fn of_pair(&self, number: Number, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
         let (at_frequency, at_rest) = self.counterbody;
         let of_contact = |tensile, counterbody| {
             let own = self.compressibility.contact_modulus(tensile);
@@ -101,13 +97,29 @@ impl<'a> LinearCycle<'a> {
         };
         let modulus = of_contact(modulus, at_frequency);
         let equilibrium_pa = of_contact(equilibrium_pa.into(), at_rest.into()).re;
-        match quantity {
-            Quantity::PhaseLag => modulus.arg(),
-            _ => match self.control {
-                Control::Load => self.under_load(quantity, equilibrium_pa, modulus),
-                Control::Approach => self.under_approach(quantity, equilibrium_pa, modulus),
-            },
+        match (number, self.control) {
+            (Number::OfCycle(Quantity::PhaseLag), _) => modulus.arg(),
+            (Number::OfCycle(quantity), Control::Load) => {
+                self.under_load(quantity, equilibrium_pa, modulus)
+            }
+            (Number::OfCycle(quantity), Control::Approach) => {
+                self.under_approach(quantity, equilibrium_pa, modulus)
+            }
+            (Number::ApproachAmplitude, Control::Load) => {
+                self.approach_amplitude_m(equilibrium_pa, modulus)
+            }
+            (Number::LoadAmplitude, Control::Approach) => {
+                2.0 * self.radius_m(1.0) * self.amplitude * modulus.norm()
+            }
+            // Given by the drive.
+            _ => self.amplitude,
         }
+    }
+
+    /// Amplitude (m) of the approach under a prescribed load, of a contact of these moduli (Pa).
+    fn approach_amplitude_m(&self, equilibrium_pa: f64, modulus: Complex<f64>) -> f64 {
+        let radius_m = self.radius_m(self.mean / equilibrium_pa);
+        self.amplitude / (2.0 * radius_m * modulus.norm())
     }
 
     /// The radius (m) of this product of load and compliance (m^2).
@@ -125,8 +137,8 @@ impl<'a> LinearCycle<'a> {
         let pressure = |sign: f64| load(sign) / self.radius_m(end(sign)).powi(2);
         match quantity {
             Quantity::EnergyLoss => {
-                let approach_1 = swing / (2.0 * self.radius_m(mean));
-                std::f64::consts::PI * self.amplitude * approach_1 * modulus.im / size
+                let approach_m = self.approach_amplitude_m(equilibrium_pa, modulus);
+                std::f64::consts::PI * self.amplitude * approach_m * modulus.im / size
             }
             Quantity::ApproachMin => approach(end(-1.0)),
             Quantity::ApproachMax => approach(end(1.0)),

@@ -30,10 +30,14 @@
 //! alone takes it too often, the first with many data and the second with few. Two times closer than a factor of three are
 //! one: times are kept that far apart.
 //!
+//! Where the errors are given and the series misses the data, the datum that it misses by the most is tried without: if all others are
+//! then met, by this number of branches or fewer, that datum is an outlier, which is named and does not count in the fit.
+//!
 //! # How certain
 //!
 //! The covariance is that of the linearised least squares at the solution, on the exact model. Where the data have errors,
-//! these are taken as standard deviations; where not, the noise is what the residuals say, and the band is wider by the
+//! these are taken as standard deviations; where the series misses the data by more than these allow, all intervals are wider by the
+//! root of chi squared per degree of freedom (R. T. Birge, Phys. Rev. 40 (1932) 207). Where there are none, the noise is what the residuals say, and the band is wider by the
 //! quantile of Student's distribution. Which number of branches is right is uncertain too: the band of E* holds the series of
 //! other numbers as well, each by its Akaike weight (K. P. Burnham and D. R. Anderson, *Model Selection and Multimodel
 //! Inference*, Springer 2002, section 4.3). Combinations of the unknowns along which they may move by more than a factor of two
@@ -61,7 +65,7 @@ pub use noise::Knowledge;
 use std::sync::Arc;
 
 use crate::drive::{HarmonicDrive, SegmentedDrive};
-use crate::identify::data::Measurements;
+use crate::identify::data::{Measurements, TableColumns};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Material, MaterialError, ModulusKind, Relaxation};
 use crate::sweep::case::SetupError;
@@ -90,6 +94,8 @@ pub struct IdentifyPlan {
     pub measurements: Measurements,
     /// The file that they come from, as the plan names it.
     pub data: String,
+    /// What became of its columns.
+    pub columns: TableColumns,
     pub cycle: CyclePlan,
 }
 
@@ -146,6 +152,7 @@ impl IdentifyPlan {
             branches: None,
             measurements,
             data: String::new(),
+            columns: TableColumns::default(),
             cycle: Self::CYCLE,
         }
     }
@@ -223,6 +230,18 @@ pub enum IdentifyError {
         "all measurements are at one frequency: the time of a relaxation cannot be told from one; measure at several"
     )]
     OneFrequency,
+    #[error(
+        "the {what} of row {row} is {value:e} {unit}, and one from {low:e} to {high:e} {unit} is needed; is its unit right? \
+         Otherwise leave the row out"
+    )]
+    OutOfRange {
+        row: usize,
+        what: &'static str,
+        value: f64,
+        low: f64,
+        high: f64,
+        unit: &'static str,
+    },
     #[error("the column {column} of row {row} is {value:e}: {why}")]
     Impossible {
         column: &'static str,
@@ -231,12 +250,16 @@ pub enum IdentifyError {
         why: &'static str,
     },
     #[error(
-        "the measurements contradict one another, or the drive and the indenter: the best solid of {branches} branches misses them by \
-         {misfit_percent} % (root mean square), most at {place}, where its {column} is {times} times the \
-         measured one; check units, drive, indenter and columns"
+        "the measurements contradict one another, or the drive and the indenter{few}: the best solid of {branches} branches misses them by \
+         {misfit_percent} % (root mean square), most at {place} (row {row}), where its {column} is {times} times the \
+         measured one; check units, drive, indenter and columns",
+        few = if *.may_have_more { ", or ask for more branches than the file allows (`identify.branches`)" } else { "" }
     )]
     Contradiction {
         branches: usize,
+        /// Whether the number of branches was asked for, and more can be.
+        may_have_more: bool,
+        row: usize,
         misfit_percent: String,
         place: String,
         column: &'static str,

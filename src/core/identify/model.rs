@@ -120,8 +120,12 @@ impl<'a> Model<'a> {
     fn of_cycles(&self, cycles: &[Option<CaseResult>]) -> Vec<Option<f64>> {
         let data = self.plan.measurements.data().iter().enumerate();
         let numbers = data.map(|(place, datum)| {
+            let cycle = cycles[datum.place].as_ref()?;
+            let first = cycle.analysis.harmonics.first();
             let number = match datum.number {
-                Number::OfCycle(quantity) => quantity.of(cycles[datum.place].as_ref()?)?,
+                Number::OfCycle(quantity) => quantity.of(cycle)?,
+                Number::ApproachAmplitude => first?.approach_amplitude_m,
+                Number::LoadAmplitude => first?.load_amplitude_n,
                 Number::Approach | Number::Load => return None,
             };
             Some(number * self.corrections.get(place).copied().unwrap_or(1.0))

@@ -1,6 +1,9 @@
 //! How exactly every number was measured: as the data say, or as the residuals do.
 
+use nalgebra::DVector;
+
 use crate::identify::data::{LEAST_ERROR, Measurements, Number};
+use crate::measured::statistics::{NORMAL, student};
 
 /// The relative error of a number whose error is not known, until the residuals say better.
 const FIRST: f64 = 0.01;
@@ -26,11 +29,35 @@ pub enum Knowledge {
     None,
 }
 
+/// By what the error of a datum that is left out is multiplied: it then counts for nothing, and what is computed in its place is known.
+const LEFT_OUT: f64 = 1e3;
+
+/// How residuals scatter.
+pub(super) struct Scatter {
+    /// Sum of squares over degrees of freedom; of errors that were estimated, one.
+    pub(super) reduced_chi_squared: f64,
+    /// Standard deviation of the residuals, by which intervals are made: known where errors are known and the series meets the data.
+    pub(super) deviation: f64,
+    /// That of the errors of the data, which stay as they were given.
+    pub(super) of_data: f64,
+    /// Half the width of the interval of 95 %, in standard deviations.
+    pub(super) half_width: f64,
+}
+
+/// Whether chi squared per degree of freedom is larger than chance makes it, by three of its standard deviations.
+pub(super) fn is_missed(reduced_chi_squared: f64, degrees_of_freedom: usize) -> bool {
+    let deviation = (2.0 / degrees_of_freedom.max(1) as f64).sqrt();
+    reduced_chi_squared > 1.0 + 3.0 * deviation
+}
+
 /// Relative standard deviations of the data.
 #[derive(Debug, Clone)]
 pub(super) struct Noise {
+    /// As a fit weighs them.
     pub(super) relative: Vec<f64>,
     pub(super) knowledge: Knowledge,
+    /// The datum that does not count.
+    left_out: Option<usize>,
 }
 
 impl Noise {
@@ -43,11 +70,58 @@ impl Noise {
         let known = data.filter(|datum| datum.error.is_some()).count();
         Self {
             relative: relative.collect(),
+            left_out: None,
             knowledge: match known {
                 0 => Knowledge::None,
                 all if all == measured.data().len() => Knowledge::All,
                 _ => Knowledge::Some,
             },
+        }
+    }
+
+    /// Lets this datum alone not count, or none.
+    pub(super) fn leave_out(&mut self, place: Option<usize>) {
+        if let Some(before) = std::mem::replace(&mut self.left_out, place) {
+            self.relative[before] /= LEFT_OUT;
+        }
+        if let Some(place) = place {
+            self.relative[place] *= LEFT_OUT;
+        }
+    }
+
+    pub(super) fn left_out(&self) -> Option<usize> {
+        self.left_out
+    }
+
+    /// The relative standard deviation of a datum, whether it counts or not.
+    pub(super) fn own(&self, place: usize) -> f64 {
+        match self.left_out == Some(place) {
+            true => self.relative[place] / LEFT_OUT,
+            false => self.relative[place],
+        }
+    }
+
+    /// How residuals scatter that are left with this number of degrees of freedom. A datum that is left out counts with its own error.
+    pub(super) fn scatter(&self, residuals: &DVector<f64>, degrees_of_freedom: usize) -> Scatter {
+        let left_out = self.left_out.map_or(0.0, |place| {
+            (residuals[place] * self.relative[place] / self.own(place)).powi(2)
+        });
+        let squares = residuals.norm_squared() + left_out;
+        let own = (squares / degrees_of_freedom.max(1) as f64).sqrt();
+        let wide = student(degrees_of_freedom as f64);
+        let (deviation, of_data, half_width) = match self.knowledge {
+            Knowledge::None => {
+                let estimated = own.max(self.least_scale());
+                (estimated, estimated, wide)
+            }
+            _ if is_missed(own * own, degrees_of_freedom) => (own, 1.0, wide),
+            _ => (1.0, 1.0, NORMAL),
+        };
+        Scatter {
+            reduced_chi_squared: (own / of_data).powi(2),
+            deviation,
+            of_data,
+            half_width,
         }
     }
 

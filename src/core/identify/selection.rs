@@ -35,7 +35,7 @@ const ROUGHLY: Ending = Ending {
     iterations: 12,
     enough: 1e-3,
 };
-const CLOSELY: Ending = Ending {
+pub(super) const CLOSELY: Ending = Ending {
     iterations: 80,
     enough: 1e-7,
 };
@@ -107,10 +107,7 @@ impl Linearised<'_> {
             .collect();
         let number = |datum: &Datum| {
             let (cycle, modulus) = (&self.cycles[datum.place], moduli[datum.place]);
-            ln(match datum.number {
-                Number::OfCycle(quantity) => cycle.number(quantity, equilibrium_pa, modulus),
-                Number::Approach | Number::Load => f64::NAN,
-            })
+            ln(cycle.number(datum.number, equilibrium_pa, modulus))
         };
         data.iter().map(number).collect()
     }
@@ -208,8 +205,8 @@ impl Linearised<'_> {
                     | Quantity::PeakPressureMin
                     | Quantity::PeakPressureMax
             ),
-            Number::Load => true,
-            Number::Approach => false,
+            Number::Load | Number::LoadAmplitude => true,
+            Number::Approach | Number::ApproachAmplitude => false,
         };
         let mut loads: Vec<(f64, &mut Option<f64>)> = (self.measured().data().iter())
             .zip(&mut exact)

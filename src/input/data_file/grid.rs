@@ -9,8 +9,8 @@ use super::text::{self, DELIMITERS};
 use crate::input::diagnostic::{Diagnostics, Location, Problems, Source};
 
 /// How instruments write that a number is missing, in lower case.
-pub(super) const MISSING: [&str; 11] = [
-    "", "-", "--", "---", "n/a", "na", "n.a.", "nan", "#n/a", "-nan", "null",
+pub(super) const MISSING: [&str; 12] = [
+    "", "-", "--", "---", "n/a", "na", "n.a.", "nan", "#n/a", "-nan", "none", "null",
 ];
 
 /// The text of an instrument's file, and how many of its bytes were no UTF-8.

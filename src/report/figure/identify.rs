@@ -4,10 +4,11 @@ use crate::identify::data::Number;
 use crate::identify::{Compared, ModulusBand};
 use crate::quantity::Dimension;
 use crate::report::caption::Caption;
-use crate::report::chart::{Axis, Chart, Color, LineStyle, Mark, Marker, Series};
+use crate::report::chart::{Axis, Chart, Color, LineStyle, Mark, Marker, Scale, Series};
 use crate::report::figure::{Figure, Picture, axis};
 use crate::report::identify::IdentifyReport;
 use crate::report::identify::tables;
+use crate::report::measured;
 use crate::report::number::{largest, prefix, range};
 use crate::report::quantities;
 
@@ -42,6 +43,12 @@ fn words(number: Number) -> (&'static str, Option<Dimension>) {
     let name = number.column();
     let known = match number {
         Number::OfCycle(_) => quantities::of_name(name).map(|c| (c.heading, c.dimension)),
+        Number::ApproachAmplitude | Number::LoadAmplitude => {
+            let mut columns = measured::columns::OWN.iter();
+            columns
+                .find(|c| c.name == name)
+                .map(|c| (c.heading, c.dimension))
+        }
         Number::Approach | Number::Load => {
             let mut columns = quantities::HISTORY.iter();
             columns
@@ -69,50 +76,72 @@ fn heading(number: Number, numbers: &[&Compared]) -> (String, f64) {
 fn data(report: &IdentifyReport<'_>) -> Figure {
     let numbers = report.plan.measurements.numbers();
     let frames = numbers.iter().enumerate();
-    let charts = frames.map(|(place, number)| frame(report, *number, place == 0));
+    let (charts, left_out): (Vec<Chart>, Vec<usize>) = frames
+        .map(|(place, number)| frame(report, *number, place == 0))
+        .unzip();
+    let left_out: usize = left_out.into_iter().sum();
+    let caption = Caption::new(match report.plan.measurements.is_history() {
+        true => "Measured history, and the history computed with the identified material",
+        false => "Measured cycles, and the cycles computed with the identified material",
+    })
+    .say("Bars: standard errors of the data. Shaded: 95 % band of the model.");
     Figure {
         name: "data-and-model",
-        picture: Picture(charts.collect()),
-        caption: Caption::new(match report.plan.measurements.is_history() {
-            true => "Measured history, and the history computed with the identified material",
-            false => "Measured cycles, and the cycles computed with the identified material",
-        })
-        .say("Bars: standard errors of the data. Shaded: 95 % band of the model."),
+        picture: Picture(charts),
+        caption: match left_out {
+            0 => caption,
+            n => caption.say(format!(
+                "The model is at or below zero at {n} points, which a logarithmic axis does not show."
+            )),
+        },
         data: tables::fit(report),
     }
 }
 
-fn frame(report: &IdentifyReport<'_>, number: Number, is_first: bool) -> Chart {
+/// The frame of one column, and how many points of the model its axis cannot show.
+fn frame(report: &IdentifyReport<'_>, number: Number, is_first: bool) -> (Chart, usize) {
     let numbers = of(report, number);
     let (label, factor) = heading(number, &numbers);
     let y = axis(range(numbers.iter().map(|c| c.measured)), WIDE, label);
-    let at = |value: fn(&Compared) -> f64| {
-        let places = numbers.iter().map(|c| (c.place, factor * value(c)));
-        Series::scatter(places.collect::<Vec<_>>())
+    let is_shown = |value: f64| y.scale == Scale::Linear || value > 0.0;
+    let mut left_out = 0;
+    let mut shown = |point: (f64, f64)| {
+        let is_shown = is_shown(point.1);
+        left_out += usize::from(!is_shown);
+        is_shown.then_some(point)
     };
     let named = |series: Series, label: &str| match is_first {
         true => series.label(label),
         false => series,
     };
-    let measured = at(|c| c.measured)
+    let measured = numbers.iter().map(|c| (c.place, factor * c.measured));
+    let measured = Series::scatter(measured)
         .error_bars(numbers.iter().map(|c| factor * c.error))
         .color(1);
     let curve = report.curves.iter().find(|curve| curve.number == number);
     let (band, model) = match curve {
         Some(curve) => {
             let points = curve.points.iter().map(|(x, v)| (*x, factor * v));
-            let band = points.clone().map(|(x, v)| {
+            let band = points.clone().filter_map(|(x, v)| {
                 let open = open_at(&numbers, x);
-                (x, v / open, v * open)
+                is_shown(v / open).then_some((x, v / open, v * open))
             });
-            (Some(Series::band(band)), Series::line(points))
+            (
+                Some(Series::band(band)),
+                Series::line(points.map(&mut shown)),
+            )
         }
-        None => (None, at(|c| c.computed).marker(Marker::Square)),
+        None => {
+            let computed = numbers.iter().map(|c| (c.place, factor * c.computed));
+            let computed = Series::scatter(computed.map(&mut shown));
+            (None, computed.marker(Marker::Square))
+        }
     };
-    Chart::new(places(report), y)
+    let chart = Chart::new(places(report), y)
         .all_series(band)
         .series(named(model, "model"))
-        .series(named(measured, "measured"))
+        .series(named(measured, "measured"));
+    (chart, left_out)
 }
 
 /// The factor of the band at a frequency, between those of the data on both sides.

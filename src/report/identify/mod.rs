@@ -5,10 +5,12 @@ pub mod tables;
 
 use crate::identify::data::Number;
 use crate::identify::resolved::resolved_text;
-use crate::identify::{Curve, Identified, IdentifyPlan, Knowledge, Unknown};
+use crate::identify::{Curve, Identified, IdentifyPlan, Knowledge, MOST_BRANCHES, Unknown};
 use crate::quantity::{Dimension, format_human};
 use crate::report::dynamic::tables::prony;
+use crate::report::measured::columns::of_records;
 use crate::report::number::scientific;
+use crate::report::quantities;
 use crate::report::words::{listed, wrapped};
 
 /// An identification and what it came to.
@@ -18,9 +20,6 @@ pub struct IdentifyReport<'a> {
     /// Of the model between the data, where there are any.
     pub curves: &'a [Curve],
 }
-
-/// How many times their errors the model may miss the data, on average, before that is said.
-const MISSED: f64 = 1.5;
 
 impl IdentifyReport<'_> {
     /// Every file of the folder but figures and page: name and bytes; `block` is the `[material]` block.
@@ -46,15 +45,61 @@ impl IdentifyReport<'_> {
     pub fn lines(&self) -> Vec<String> {
         let measured = &self.plan.measurements;
         let notes = measured.notes().iter().map(|note| format!("Note: {note}."));
-        let mut lines = vec![self.data()];
+        let mut lines: Vec<String> = self.missed().map(warned).into_iter().collect();
+        lines.push(self.data());
+        lines.extend(self.columns());
         lines.extend(notes);
         lines.push(self.noise());
         lines.push(self.series());
         lines.push(self.window());
         lines.extend(self.open());
-        let warnings = self.warnings().into_iter();
-        lines.extend(warnings.map(|warning| format!("Warning: {warning}.")));
+        lines.extend(self.beyond().map(warned));
+        lines.push(self.moduli().to_owned());
         lines
+    }
+
+    /// Which modulus the unknowns are of.
+    fn moduli(&self) -> &'static str {
+        match self.found.relaxation.branches().len() {
+            1 => "Moduli are Young's: E(t) = g_inf + g_1 exp(-t/tau_1).",
+            _ => "Moduli are Young's: E(t) = g_inf + sum of g_i exp(-t/tau_i).",
+        }
+    }
+
+    /// What became of the columns of the table, without those of this program's own tables that are no data.
+    fn columns(&self) -> Vec<String> {
+        let columns = &self.plan.columns;
+        let mut lines = Vec::new();
+        if !columns.read.is_empty() {
+            lines.push(format!("Columns read: {}.", listed(&columns.read)));
+        }
+        let mut aside: Vec<(&str, Vec<String>)> = Vec::new();
+        for (heading, why) in &columns.set_aside {
+            match aside.iter_mut().find(|(other, _)| other == why) {
+                Some((_, headings)) => headings.push(heading.clone()),
+                None => aside.push((why, vec![heading.clone()])),
+            }
+        }
+        let aside = aside.into_iter();
+        lines
+            .extend(aside.map(|(why, headings)| {
+                format!("Not taken as data: {}: {why}.", listed(&headings))
+            }));
+        let unknown = self.not_understood();
+        if !unknown.is_empty() {
+            let line = format!("columns not understood, and not read: {}", listed(&unknown));
+            lines.push(warned(line));
+        }
+        lines
+    }
+
+    /// Columns that were not read and are none of this program's own tables.
+    pub fn not_understood(&self) -> Vec<String> {
+        let own = own_columns();
+        let is_own =
+            |heading: &String| own.contains(heading) || quantities::of_name(heading).is_some();
+        let unread = self.plan.columns.unread.iter();
+        unread.filter(|heading| !is_own(heading)).cloned().collect()
     }
 
     fn data(&self) -> String {
@@ -148,30 +193,55 @@ impl IdentifyReport<'_> {
 
     /// What a reader should know before using the material.
     pub fn warnings(&self) -> Vec<String> {
-        let mut warnings = Vec::new();
-        let missed = self.found.reduced_chi_squared.sqrt();
-        if self.found.knowledge == Knowledge::All && missed > MISSED {
-            warnings.push(format!(
-                "the series misses the data by {} times their errors: the errors are too small, or the material or the contact is \
-                 not what the model takes it for",
-                scientific(missed, 2)
-            ));
+        self.missed().into_iter().chain(self.beyond()).collect()
+    }
+
+    /// That the series misses the data by more than their errors, and where most.
+    fn missed(&self) -> Option<String> {
+        let found = self.found;
+        if found.inflation <= 1.0 {
+            return None;
         }
+        let (worst, times) = found.worst()?;
+        let than = if times > 0.0 { "above" } else { "below" };
+        let off = percent((worst.computed / worst.measured - 1.0).abs());
+        let cause = match (found.left_out, self.plan.branches) {
+            (Some(_), _) => {
+                "All others are met without it: it does not count in the fit, and is to be checked"
+            }
+            (None, Some(asked)) if asked < MOST_BRANCHES => {
+                "More branches than were asked for may be needed, the errors may be too small, or the material or the contact is not \
+                 what the model takes it for"
+            }
+            _ => {
+                "The errors are too small, or the material or the contact is not what the model takes it for"
+            }
+        };
+        Some(format!(
+            "the series misses the data: chi squared per degree of freedom is {}, and all intervals are {} times as wide as the errors \
+             of the data say. The worst is {} of row {}: the series is {off} {than} it, {} times its error. {cause}",
+            scientific(found.reduced_chi_squared, 2),
+            scientific(found.inflation, 2),
+            worst.number.column(),
+            worst.row,
+            scientific(times.abs(), 2),
+        ))
+    }
+
+    /// That branches lie beyond the data.
+    fn beyond(&self) -> Option<String> {
         let (lowest, highest) = self.found.window_rad_per_s;
         let beyond = |time_s: f64| time_s * lowest > 1.0 || time_s * highest < 1.0;
         let branches = self.found.relaxation.branches().iter();
         let count = branches.filter(|branch| beyond(branch.time_s)).count();
-        if count > 0 {
-            let (has, its) = if count == 1 {
-                ("branch has its time", "it shows")
-            } else {
-                ("branches have their times", "they show")
-            };
-            warnings.push(format!(
-                "{count} {has} beyond one over the measured frequencies, where {its} as a slope alone"
-            ));
-        }
-        warnings
+        let (has, its) = match count {
+            0 => return None,
+            1 => ("branch has its time", "it shows"),
+            _ => ("branches have their times", "they show"),
+        };
+        Some(format!(
+            "{count} {has} beyond one over the measured frequencies, where {its} as a slope alone"
+        ))
     }
 
     /// The unknowns with their intervals, as a table of at most 80 columns.
@@ -202,6 +272,18 @@ impl IdentifyReport<'_> {
         }
         text
     }
+}
+
+fn warned(warning: String) -> String {
+    format!("Warning: {warning}.")
+}
+
+/// The columns of the tables that a sweep, a simulation and an analysis write.
+fn own_columns() -> Vec<String> {
+    let of_records = of_records().into_iter().map(|column| column.name);
+    let history = quantities::HISTORY.iter();
+    let history = history.flat_map(|column| [Some(column.name.to_owned()), column.error_name()]);
+    of_records.chain(history.flatten()).collect()
 }
 
 /// A part in two digits, as far as a hundredth of a per cent.

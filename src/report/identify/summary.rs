@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::{IdentifyReport, dimension, tables};
-use crate::identify::Knowledge;
+use crate::identify::{Identified, Knowledge};
 
 /// The summary as an object; what is undefined is null.
 pub fn summary(report: &IdentifyReport<'_>) -> Value {
@@ -39,11 +39,17 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
             .map(|(name, power)| json!({ "name": name, "power": power }));
         json!({ "factor": open.factor, "powers": powers.collect::<Vec<_>>() })
     });
+    let read = &report.plan.columns;
+    let set_aside = read.set_aside.iter();
+    let set_aside = set_aside.map(|(column, why)| json!({ "column": column, "reason": why }));
     json!({
         "title": report.plan.title,
         "of": if measured.is_history() { "history" } else { "cycles" },
         "numbers": found.compared.len(),
         "columns": columns.collect::<Vec<_>>(),
+        "columns_read": read.read,
+        "columns_set_aside": set_aside.collect::<Vec<_>>(),
+        "columns_not_understood": report.not_understood(),
         "errors": match found.knowledge {
             Knowledge::All => "given",
             Knowledge::Some => "given-in-part",
@@ -60,6 +66,8 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
         "undetermined": undetermined.collect::<Vec<_>>(),
         "candidates": candidates.collect::<Vec<_>>(),
         "reduced_chi_squared": found.reduced_chi_squared,
+        "intervals_widened_by": found.inflation,
+        "worst": worst(found),
         "degrees_of_freedom": found.degrees_of_freedom,
         "window_rad_per_s": found.window_rad_per_s,
         "moduli": moduli(report),
@@ -68,6 +76,17 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
         "program": env!("CARGO_PKG_NAME"),
         "program_version": env!("CARGO_PKG_VERSION"),
     })
+}
+
+/// The number that is missed by the most of its errors.
+fn worst(found: &Identified) -> Option<Value> {
+    let (worst, times) = found.worst()?;
+    Some(json!({
+        "column": worst.number.column(),
+        "row": worst.row,
+        "errors": times,
+        "left_out": found.left_out.is_some(),
+    }))
 }
 
 /// The moduli with their bands at every frequency of the data.

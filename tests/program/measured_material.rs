@@ -1,0 +1,169 @@
+//! From records of an instrument to a material: `analyse`, then `identify` of its folder, against the solid that the records were made of.
+//!
+//! `RECORDS=100 cargo test --test program measured_material -- --nocapture` makes as many sets of records as asked for and prints what the
+//! guide quotes; without it a few are made.
+
+#![cfg(feature = "cli")]
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+use std::fs;
+
+use contact_dma::prelude::*;
+use tempfile::TempDir;
+
+use crate::common::solids::Random;
+use crate::program::program;
+
+const POISSON: f64 = 0.45;
+const MEAN_N: f64 = 0.2;
+const AMPLITUDE_N: f64 = 0.1;
+const CYCLES: f64 = 8.3;
+const POINTS: f64 = 60.0;
+
+/// Noise of load and approach, in parts of their amplitudes.
+const NOISE: f64 = 0.03;
+
+fn frequencies_hz() -> Vec<f64> {
+    (0..9)
+        .map(|k| 10_f64.powf(0.6 * f64::from(k) - 2.0))
+        .collect()
+}
+
+fn truth() -> Relaxation {
+    let branches = [(150e6, 3e-3), (90e6, 0.1), (40e6, 4.0)];
+    let branches = branches.map(|(modulus_pa, time_s)| RelaxationBranch { modulus_pa, time_s });
+    Relaxation::new(20e6, branches.to_vec()).unwrap()
+}
+
+/// The approaches (m) of one stabilised cycle at each frequency, evenly spaced, the load being a sine from its mean on.
+fn cycles() -> Vec<Vec<f64>> {
+    let material = Material::from_relaxation(truth(), ModulusKind::Longitudinal, POISSON).unwrap();
+    let drive = HarmonicDrive::load(MEAN_N, AMPLITUDE_N).unwrap();
+    let sweep = Sweep::new(material, Sphere::new(2e-3).unwrap(), drive);
+    let sweep = sweep.steps(240).unwrap().springs(240).unwrap();
+    let sweep = sweep.without_error_bars();
+    let each = frequencies_hz().into_iter().map(|hz| {
+        let record = sweep.clone().case_at_hz(hz).unwrap();
+        record.result.unwrap().cycle.samples.approach_m
+    });
+    each.collect()
+}
+
+/// The value of an even spaced closed cycle at an angle.
+fn at(samples: &[f64], angle: f64) -> f64 {
+    let place = (angle / TAU).rem_euclid(1.0) * (samples.len() - 1) as f64;
+    let (before, part) = (place as usize, place.fract());
+    samples[before] + part * (samples[before + 1] - samples[before])
+}
+
+/// A record in the units of an instrument: of the approach neither the zero is known, nor does it stand still.
+fn record(samples: &[f64], hz: f64, random: &mut Random) -> String {
+    let range_m = samples.iter().fold(0.0_f64, |a, b| a.max(*b));
+    let (start, offset_m) = (TAU * random.unit(), 0.5 * range_m * random.normal());
+    let drift_m = 0.08 * range_m * random.normal();
+    let swing_m = 0.5 * (range_m - samples.iter().fold(range_m, |a, b| a.min(*b)));
+    let mut text = "Time (s),Load (mN),Depth (nm)\n".to_owned();
+    let count = (CYCLES * POINTS) as usize;
+    for k in 0..count {
+        let (turns, along) = (k as f64 / POINTS, k as f64 / count as f64);
+        let angle = TAU * turns + start;
+        let load_n = MEAN_N + AMPLITUDE_N * (angle.sin() + NOISE * random.normal());
+        let approach_m = at(samples, angle)
+            + offset_m
+            + drift_m * along * (1.5 - 0.5 * along)
+            + NOISE * swing_m * random.normal();
+        let _ = writeln!(
+            text,
+            "{:e},{:e},{:e}",
+            turns / hz,
+            1e3 * load_n,
+            1e9 * approach_m
+        );
+    }
+    text
+}
+
+const FILE: &str = "title = \"A measured solid\"\n[identify]\ndata = \"measured\"\n[material]\npoisson_ratio = 0.45\n[indenter]\n\
+                    shape = \"sphere\"\nradius = \"2 mm\"\n[drive]\nmean = \"0.2 N\"\namplitude = \"0.1 N\"\n";
+
+/// What the program makes of one set of records.
+fn identified(cycles: &[Vec<f64>], random: &mut Random) -> serde_json::Value {
+    let folder = TempDir::new().unwrap();
+    let mut analyse = program();
+    analyse.current_dir(folder.path()).args([
+        "analyse",
+        "--out",
+        "measured",
+        "--quiet",
+        "--no-figures",
+    ]);
+    for (place, (samples, hz)) in cycles.iter().zip(frequencies_hz()).enumerate() {
+        let name = format!("loop-{place}.csv");
+        fs::write(folder.path().join(&name), record(samples, hz, random)).unwrap();
+        analyse.arg(name);
+    }
+    analyse.assert().success();
+    fs::write(folder.path().join("solid.toml"), FILE).unwrap();
+    let mut identify = program();
+    identify.current_dir(folder.path()).args([
+        "identify",
+        "solid.toml",
+        "--format",
+        "json",
+        "--no-figures",
+    ]);
+    let printed = identify.assert().success();
+    serde_json::from_slice(&printed.get_output().stdout).unwrap()
+}
+
+#[test]
+fn records_with_noise_drift_and_an_unknown_zero_give_the_solid_within_its_bands() {
+    let asked = std::env::var("RECORDS").ok();
+    let sets: u64 = asked.map_or(4, |text| text.parse().expect("a whole number"));
+    let (cycles, truth) = (cycles(), truth());
+    let (mut inside, mut all, mut worst, mut chi, mut branches) =
+        (0_u32, 0_u32, 0.0_f64, 0.0, 0_u64);
+    for seed in 0..sets {
+        let found = identified(&cycles, &mut Random(7 + 1_000_003 * seed));
+        let columns: Vec<&str> = (found["columns"].as_array().unwrap().iter())
+            .map(|column| column["column"].as_str().unwrap())
+            .collect();
+        assert_eq!(columns, ["phase_lag_rad", "approach_amplitude_m"]);
+        assert_eq!(found["columns_not_understood"], serde_json::json!([]));
+        let own_chi = found["reduced_chi_squared"].as_f64().unwrap();
+        let (mut within, mut off) = (0, 0.0_f64);
+        for row in found["moduli"].as_array().unwrap() {
+            let of = |name: &str| row[name].as_f64().unwrap();
+            let exact = truth.complex_modulus(of("angular_frequency_rad_per_s"));
+            for (name, exact) in [("storage", exact.re), ("loss", exact.im)] {
+                let band = ["low", "high"].map(|end| of(&format!("{name}_modulus_{end}_pa")));
+                within += u32::from(band[0] <= exact && exact <= band[1]);
+                all += 1;
+            }
+            let apart = [
+                of("storage_modulus_pa") - exact.re,
+                of("loss_modulus_pa") - exact.im,
+            ];
+            off = off.max(apart[0].hypot(apart[1]) / exact.norm());
+        }
+        println!(
+            "{seed}: {} branches, chi squared {own_chi:.2}, {within} of 18 inside, off by {:.2} %",
+            found["branches"],
+            100.0 * off
+        );
+        (inside, worst, chi) = (inside + within, worst.max(off), chi + own_chi / sets as f64);
+        branches += found["branches"].as_u64().unwrap();
+    }
+    println!(
+        "{inside} of {all} inside, off by {:.2} % at most, chi squared {chi:.2} on average, {branches} branches of {}",
+        100.0 * worst,
+        3 * sets
+    );
+    assert!(
+        f64::from(inside) >= 0.85 * f64::from(all),
+        "{inside} of {all}"
+    );
+    assert!(worst < 0.05, "{worst}");
+    assert!((0.5..1.6).contains(&chi), "{chi}");
+}
