@@ -35,8 +35,10 @@ impl<'a> MaterialReport<'a> {
     /// Moduli at `per_decade` frequencies per decade, from two decades below to two above the reciprocal times.
     pub fn moduli(&self, per_decade: usize) -> Vec<ModulusPoint> {
         let (shortest, longest) = self.time_range_s();
-        let first = (longest.recip().log10() - 2.0).floor() as i32;
-        let last = (shortest.recip().log10() + 2.0).ceil() as i32;
+        // Powers of ten that are doubles.
+        let within = |power: f64| power.clamp(-307.0, 307.0) as i32;
+        let first = within((-longest.log10() - 2.0).floor());
+        let last = within((-shortest.log10() + 2.0).ceil());
         let count = (last - first).max(1) as usize * per_decade;
         (0..=count)
             .map(|i| {

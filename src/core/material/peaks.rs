@@ -51,7 +51,9 @@ pub(super) fn loss_peaks(creep: &Creep, relaxation: Option<&Relaxation>) -> Loss
     }) else {
         return LossPeaks::default();
     };
-    let range = (1.0 / longest / MARGIN, MARGIN / shortest);
+    // Where there are doubles: the reciprocal of a very short time is none.
+    let within = |omega: f64| omega.clamp(f64::MIN_POSITIVE, f64::MAX);
+    let range = (within(1.0 / longest / MARGIN), within(MARGIN / shortest));
     LossPeaks {
         loss_modulus: maxima(creep, range, loss_modulus),
         loss_compliance: maxima(creep, range, loss_compliance),
