@@ -4,6 +4,7 @@ use super::number::plain;
 use super::words::{self, adhesion_line, compressibility, drive_line, range, row, varied_line};
 use crate::indenter::{Indenter, Value};
 use crate::material::Material;
+use crate::material::dynamic::replicas::SIMULTANEOUS_DEVIATIONS;
 use crate::quantity::Dimension;
 use crate::sweep::history::SimulationOutcome;
 use crate::sweep::plan::contact::ContactPlan;
@@ -236,8 +237,14 @@ pub fn error_bars(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
             Some(_) => "",
             None => " and from the distance to the stabilised cycle",
         };
+        let mut materials = plan.each_of(Block::Material).into_iter();
+        let is_open = materials.any(|(_, condition)| !condition.material.alternatives().is_empty());
+        let open = match is_open {
+            true => ", plus the largest difference that other materials make which this one may be as well",
+            false => "",
+        };
         format!(
-            "Error bars: estimated numerical error, from half and a quarter of the time steps and {nodes}{distance}; bars shorter \
+            "Error bars: estimated numerical error, from half and a quarter of the time steps and {nodes}{distance}{open}; bars shorter \
              than their symbol are not drawn."
         )
     })
@@ -249,8 +256,9 @@ pub fn material_band(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
     let any = records.any(|record| record.energy_loss_material_error_j().is_some());
     any.then(|| {
         format!(
-            "Shaded: uncertainty of the material, apart from the numerical error: three times the root mean square difference that {} \
-             series make, fitted to the same data with other noise.",
+            "Shaded: simultaneous 95 % band of the curve from the uncertainty of the material, apart from the numerical error: \
+             {SIMULTANEOUS_DEVIATIONS} times the root mean square difference that {} bootstrap samples make, series fitted to the same \
+             data with other noise.",
             words::replicas(plan)
         )
     })

@@ -10,7 +10,7 @@ pub(super) use text::{arrhenius, wlf};
 use std::borrow::Cow;
 
 use super::number::scientific;
-use crate::material::dynamic::{Characterisation, DynamicData, DynamicPoint, replicas};
+use crate::material::dynamic::{Characterisation, DynamicData, DynamicPoint};
 use crate::material::{MaterialFunction, Relaxation};
 
 /// Where dynamic data come from.
@@ -119,15 +119,22 @@ pub struct Band {
 }
 
 impl Band {
-    /// The band at a frequency, as [`replicas::band`] has it; `None` without at least two replicas.
-    pub fn of(made: &Characterisation, angular_frequency_rad_per_s: f64) -> Option<Self> {
+    /// The half widths at a frequency, as [`replicas::error`] or [`replicas::band`] has them; `None` without at least two replicas.
+    ///
+    /// [`replicas::error`]: crate::material::dynamic::replicas::error
+    /// [`replicas::band`]: crate::material::dynamic::replicas::band
+    pub fn of(
+        made: &Characterisation,
+        angular_frequency_rad_per_s: f64,
+        half_width: fn(f64, &[f64]) -> Option<f64>,
+    ) -> Option<Self> {
         let at = |series: &Relaxation| series.complex_modulus(angular_frequency_rad_per_s);
         let own = at(&made.fit.relaxation);
         let moduli = made.replicas.iter().map(|replica| at(&replica.relaxation));
         let (storage, loss): (Vec<f64>, Vec<f64>) = moduli.map(|m| (m.re, m.im)).unzip();
         Some(Self {
-            storage_pa: replicas::band(own.re, &storage)?,
-            loss_pa: replicas::band(own.im, &loss)?,
+            storage_pa: half_width(own.re, &storage)?,
+            loss_pa: half_width(own.im, &loss)?,
         })
     }
 }
@@ -137,7 +144,7 @@ pub(crate) mod tests {
     use super::*;
     use crate::material::dynamic::master_curve::{MasterCurve, MasterCurveWarning, ShiftFactor};
     use crate::material::dynamic::prony::PronyFit;
-    use crate::material::dynamic::replicas::Replica;
+    use crate::material::dynamic::replicas::{Replica, band};
     use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
     use crate::material::{ModulusKind, RelaxationBranch};
 
@@ -284,14 +291,14 @@ pub(crate) mod tests {
     fn a_band_is_about_the_series_and_takes_replicas() {
         let (_, mut made) = measured();
         let exact = solid().complex_modulus(3.0);
-        let band = Band::of(&made, 3.0).unwrap();
+        let found = Band::of(&made, 3.0, band).unwrap();
         // Replicas are the series times 1 + 4e-4 (i - 25): the same share of both moduli.
-        let (storage, loss) = (band.storage_pa / exact.re, band.loss_pa / exact.im);
+        let (storage, loss) = (found.storage_pa / exact.re, found.loss_pa / exact.im);
         // Rounding of the differences, which are a hundredth of the values.
         assert!(storage > 0.0 && (storage / loss - 1.0).abs() < 1e-10);
         made.replicas.truncate(1);
-        assert_eq!(Band::of(&made, 3.0), None);
+        assert_eq!(Band::of(&made, 3.0, band), None);
         made.replicas.clear();
-        assert_eq!(Band::of(&made, 3.0), None);
+        assert_eq!(Band::of(&made, 3.0, band), None);
     }
 }

@@ -256,8 +256,9 @@ pub static SWEEP: &[OfCase] = &[
         "area of the closed loop, ∮ W dδ over one cycle, from its Fourier coefficients")
         .in_cases("loss per cycle"),
     OfCase::new("energy_loss_material_error_j", |r| r.energy_loss_material_error_j().into(),
-        "uncertainty of the loss that comes from the noise of the data which the material was fitted to, of 95 %: from the losses \
-         with the replicas of the material; no part of `energy_loss_error_j`, which is numerical; empty for a material without replicas")
+        "uncertainty (95 %, pointwise) of the loss that comes from the noise of the data which the material was fitted to: twice the root \
+         mean square difference of the losses with the bootstrap samples of the material (`replicas`); no part of \
+         `energy_loss_error_j`; empty for a material without them")
         .called("uncertainty of the loss from the material", Some(Energy))
         .in_cases("uncertainty from the material"),
     barred!("phase_lag_rad", PhaseLag, ("phase lag of the approach", Some(Angle)),

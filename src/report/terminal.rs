@@ -62,7 +62,7 @@ fn cases(unit: FrequencyUnit, records: &[CaseRecord]) -> String {
     }
     if has_material_error {
         text.push_str(
-            "Beside the loss: numerical error; material: uncertainty from its data's noise.\n",
+            "Beside the loss: numerical error; material: 95 % from the noise of its data.\n",
         );
     }
     text

@@ -92,7 +92,7 @@ impl DynamicReport<'_> {
         });
         if !self.made.replicas.is_empty() {
             lines.push(format!(
-                "{} replicas of the series carry the noise of the data on.",
+                "{} bootstrap samples of the series carry the noise of the data on.",
                 self.made.replicas.len()
             ));
         }

@@ -91,7 +91,7 @@ fn has_band(curve: &Curve<'_>) -> bool {
 fn band_of(curve: &Curve<'_>, (to_omega, factor): (f64, f64), log: bool) -> Option<Series> {
     let point = |record: &&CaseRecord| {
         let loss = record.energy_loss_j().filter(|loss| !log || *loss > 0.0)?;
-        let error = record.energy_loss_material_error_j()?;
+        let error = record.energy_loss_material_band_j()?;
         // No passive material gains energy; and on a logarithmic axis zero has no place.
         let lowest = if log { 1e-3 * loss } else { 0.0 };
         let lower = (loss - error).max(lowest);
@@ -155,6 +155,7 @@ fn data(sweep: &SweepCurves<'_>) -> Vec<u8> {
             record.energy_loss_j(),
             record.energy_loss_error_j(),
             record.energy_loss_material_error_j(),
+            record.energy_loss_material_band_j(),
         ];
         ("case", sweep.place_of(record), numbers)
     });
@@ -164,6 +165,7 @@ fn data(sweep: &SweepCurves<'_>) -> Vec<u8> {
             peak.energy_loss_j,
             peak.energy_loss_error_j,
             peak.energy_loss_material_error_j,
+            None::<f64>,
         ];
         ("peak", sweep.place_of_peak(peak), numbers)
     });
@@ -176,6 +178,7 @@ fn data(sweep: &SweepCurves<'_>) -> Vec<u8> {
         "energy_loss_j",
         "energy_loss_error_j",
         "energy_loss_material_error_j",
+        "energy_loss_material_band_j",
     ];
     sweep.table(&["kind"], &numbers, rows)
 }

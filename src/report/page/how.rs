@@ -52,7 +52,7 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
         let (range, replicas) = (known(of_material), words::replicas(plan));
         facts.add(
             "uncertainty of the loss from the material, relative",
-            format!("{range} ({replicas} replicas)"),
+            format!("{range} (95 %, {replicas} bootstrap samples)"),
         );
     }
     facts.add(

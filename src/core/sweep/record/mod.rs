@@ -247,11 +247,17 @@ impl CaseRecord {
         self.result.as_ref()?.errors.as_ref()?.of(EnergyLoss)
     }
 
-    /// The error (J) of the loss that comes from the noise of the data which the material was fitted to, where it has replicas: no
-    /// part of [`Self::energy_loss_error_j`].
+    /// The error (J, 95 %, of this loss on its own) that comes from the noise of the data which the material was fitted to, where it
+    /// has replicas: no part of [`Self::energy_loss_error_j`].
     pub fn energy_loss_material_error_j(&self) -> Option<f64> {
         let result = self.result.as_ref()?;
         material_error::of(result.analysis.energy_loss_j, &result.replica_losses_j)
+    }
+
+    /// The same as the half width (J) of the band that holds the whole curve of losses at once.
+    pub fn energy_loss_material_band_j(&self) -> Option<f64> {
+        let result = self.result.as_ref()?;
+        material_error::band(result.analysis.energy_loss_j, &result.replica_losses_j)
     }
 
     /// Takes a result back that is not made of finite numbers, and what else no record can hold.

@@ -1,6 +1,7 @@
 //! Storage and loss modulus over the reduced frequency, with the series fitted to them.
 
 use super::{LOSS, Part, STORAGE, caption, frequencies, frequency_title};
+use crate::material::dynamic::replicas;
 use crate::report::chart::{Axis, Chart, Series};
 use crate::report::dynamic::{Band, DynamicReport};
 use crate::report::figure::Figure;
@@ -52,7 +53,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
 fn data(report: &DynamicReport<'_>) -> Vec<u8> {
     let rows = frequencies(report).into_iter().map(|omega| {
         let modulus = report.relaxation().complex_modulus(omega);
-        let band = Band::of(report.made, omega);
+        let band = Band::of(report.made, omega, replicas::error);
         cells![
             omega,
             modulus.re,

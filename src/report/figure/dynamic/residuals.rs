@@ -1,5 +1,7 @@
 //! What the fitted series misses of each point, and the band of its replicas.
 
+use crate::material::dynamic::replicas::{self, SIMULTANEOUS_DEVIATIONS};
+
 use super::{LOSS, Part, STORAGE, caption, frequencies, frequency_title};
 use crate::report::chart::{Axis, Chart, Color, Series};
 use crate::report::dynamic::{Band, DynamicReport};
@@ -30,11 +32,12 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
         report,
         &format!("Relative difference of the fitted series from the data, {symbol}′ and {symbol}″"),
     );
-    let replicas = report.made.replicas.len();
-    if Band::of(report.made, lowest).is_some() {
+    let samples = report.made.replicas.len();
+    if Band::of(report.made, lowest, replicas::band).is_some() {
         chart.series.extend(bands(report));
         caption = caption.say(format!(
-            "Shaded: three times the root mean square difference that {replicas} series make, fitted to the same data with other noise."
+            "Shaded: simultaneous 95 % bands of the curves: {SIMULTANEOUS_DEVIATIONS} times the root mean square difference that \
+             {samples} bootstrap samples make, series fitted to the same data with other noise."
         ));
     }
     let rows = residuals()
@@ -57,7 +60,7 @@ fn bands(report: &DynamicReport<'_>) -> [Series; 2] {
     let [mut storage, mut loss] = [Vec::new(), Vec::new()];
     for omega in frequencies(report) {
         let own = report.relaxation().complex_modulus(omega);
-        let Some(band) = Band::of(report.made, omega) else {
+        let Some(band) = Band::of(report.made, omega, replicas::band) else {
             continue;
         };
         let relative = |half_pa: f64, own_pa: f64| {
