@@ -5,8 +5,8 @@ use super::document::reader::TableReader;
 use super::document::{Located, plain};
 use super::keys::material::{
     BRANCH_MODULUS, EQUILIBRIUM, ISOTHERM_ACTIVATION_ENERGY, ISOTHERM_TEMPERATURE, ISOTHERM_WLF,
-    ISOTHERMS, MODULUS, RELAXATION_BRANCHES, REPLICA_EQUILIBRIUM, REPLICA_MODULI, REPLICA_TIMES,
-    REPLICAS, TEMPERATURE,
+    ISOTHERMS, MEASURED_TEMPERATURES, MODULUS, RELAXATION_BRANCHES, REPLICA_EQUILIBRIUM,
+    REPLICA_MODULI, REPLICA_TIMES, REPLICAS, TEMPERATURE,
 };
 use super::material_block::{branches, measured_window};
 use crate::material::dynamic::shift_law::{Arrhenius, Wlf};
@@ -87,6 +87,7 @@ struct Isotherm {
     temperature_k: f64,
     law: Option<Wlf>,
     measured_window_s: Option<(f64, f64)>,
+    isotherms_k: Option<(f64, f64)>,
     kind: ModulusKind,
     relaxation: Relaxation,
     replicas: Vec<Relaxation>,
@@ -99,6 +100,7 @@ pub(super) fn isotherms(block: &mut TableReader<'_>) -> Option<AtTemperature> {
         let temperature = table.value(&ISOTHERM_TEMPERATURE);
         let law = law(&mut table, temperature);
         let measured = measured_window(&mut table);
+        let isotherms_k = measured_temperatures(&mut table);
         let (kind, equilibrium) = (table.value(&MODULUS), table.value(&EQUILIBRIUM));
         let branches = branches(&mut table, &RELAXATION_BRANCHES, &BRANCH_MODULUS);
         let replicas = replicas(&mut table);
@@ -108,6 +110,7 @@ pub(super) fn isotherms(block: &mut TableReader<'_>) -> Option<AtTemperature> {
             temperature_k: temperature?,
             law: law?,
             measured_window_s: measured?,
+            isotherms_k: isotherms_k?,
             kind: kind?,
             relaxation: relaxation?,
             replicas: replicas?,
@@ -130,6 +133,7 @@ pub(super) fn shifting(material: &Material) -> Option<AtTemperature> {
         temperature_k: material.temperature_k()?,
         law: Some(*material.shift()?),
         measured_window_s: material.measured_window_s(),
+        isotherms_k: material.isotherms_k(),
         kind: material.kind(),
         relaxation: material.relaxation()?.clone(),
         replicas: Vec::new(),
@@ -137,6 +141,22 @@ pub(super) fn shifting(material: &Material) -> Option<AtTemperature> {
     Some(Box::new(move |temperature_k, nu| {
         isotherm.material(temperature_k.unwrap_or(isotherm.temperature_k), nu)
     }))
+}
+
+/// The temperatures (K) of a `measured_temperatures`, where there is one; `None` where a problem was reported.
+fn measured_temperatures(table: &mut TableReader<'_>) -> Option<Option<(f64, f64)>> {
+    let Some(ends) = table.read(&MEASURED_TEMPERATURES)? else {
+        return Some(None);
+    };
+    if let [lowest, highest] = ends.value.as_slice()
+        && highest.value >= lowest.value
+    {
+        return Some(Some((lowest.value, highest.value)));
+    }
+    let what = "`measured_temperatures` takes the lowest and the highest temperature of the test";
+    let report = table.problems().at(&ends, what);
+    report.help("write the lowest first: measured_temperatures = [\"-10 °C\", \"80 °C\"]");
+    None
 }
 
 /// The law by which a series at this temperature (K) shifts.
@@ -200,6 +220,9 @@ impl Isotherm {
         let own = shifted(&self.relaxation).and_then(|own| Ok(own.with_replicas(replicas?)));
         let mut material = own.map_err(|error| error.to_string())?;
         material = material.at_temperature(temperature_k);
+        if let Some(isotherms_k) = self.isotherms_k {
+            material = material.measured_at_temperatures(isotherms_k);
+        }
         if let Some((_, law)) = law {
             material = material.shifting(law);
         }

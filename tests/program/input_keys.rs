@@ -256,7 +256,7 @@ fn files() -> Vec<(FileKind, String)> {
         ),
         of(&format!(
             "poisson_ratio = 0.4\ntemperature = \"20 °C\"\n[[indenter.material.isotherm]]\ntemperature = \"10 °C\"\nwlf = [8.86, 101.6]\n\
-             measured = [\"1 s\", \"9 s\"]\n{series}"
+             measured = [\"1 s\", \"9 s\"]\nmeasured_temperatures = [\"0 °C\", \"30 °C\"]\n{series}"
         )),
         of(&format!(
             "poisson_ratio = 0.4\ntemperature = \"20 °C\"\n[[indenter.material.isotherm]]\ntemperature = \"10 °C\"\n\
@@ -377,7 +377,7 @@ fn files() -> Vec<(FileKind, String)> {
         ),
         dynamic("files = [\"dma.csv\"]\nformat = \"table\"\nshift = { file = \"shift.csv\" }\nbranches = \"auto\""),
         isotherm(
-            "temperature = \"25 °C\"\nactivation_energy = 1e5\nmeasured = [1, 2]\nreplicas = [{ equilibrium = 1.1e6, moduli = 9e5, times = 1 }]",
+            "temperature = \"25 °C\"\nactivation_energy = 1e5\nmeasured = [1, 2]\nmeasured_temperatures = [\"0 °C\", \"30 °C\"]\nreplicas = [{ equilibrium = 1.1e6, moduli = 9e5, times = 1 }]",
         ),
         format!(
             "temperature = 300\n{}{}",

@@ -5,6 +5,7 @@
 use crate::program::{program, write};
 use std::fs;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use contact_dma::contact::Prescribed;
 use contact_dma::contact::axisymmetric::{Axisymmetric, Edge};
@@ -22,6 +23,7 @@ use contact_dma::material::{
 };
 use contact_dma::reference::transient::step_load_contact_radius_m;
 use contact_dma::sweep::Sweep;
+use contact_dma::sweep::case::Setup;
 use contact_dma::sweep::plan::SweepPlan;
 use contact_dma::sweep::plan::resolved::{self, resolved_text};
 use contact_dma::sweep::record::material_error;
@@ -748,6 +750,103 @@ fn a_file_of_dynamic_data_becomes_a_material_at_a_temperature_with_replicas() {
     let moved = format!("material.dynamic.file={}", moved.display());
     assert_eq!(identity(&[&moved]), hash);
     assert_eq!(identity(&["material.dynamic.branches=auto"]), hash);
+}
+
+#[test]
+fn a_temperature_beyond_the_isotherms_is_warned_of_in_a_resolved_file_too() {
+    let folder = TempDir::new().unwrap();
+    write(folder.path(), "dma.csv", &dynamic_csv());
+    let plan = |sets: &[&str]| dynamic_plan(folder.path(), sets).unwrap();
+    let codes = |plan: &SweepPlan| {
+        let setup = Setup::new(plan.clone()).unwrap();
+        let record = setup
+            .run(&plan.cases()[0], &AtomicBool::new(false))
+            .unwrap();
+        let warnings = record.warnings.iter();
+        let ours = warnings.filter(|warning| warning.code() == "outside-isotherms");
+        ours.map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let fast = ["material.dynamic.replicas=0", "cycle.error_bars=false"];
+    let at = |celsius: &str| {
+        let temperature = format!("material.temperature={celsius} °C");
+        plan(&[fast[0], fast[1], &temperature])
+    };
+    for inside in ["-20", "40.4", "10"] {
+        assert!(codes(&at(inside)).is_empty(), "{inside}");
+    }
+    let outside = at("60");
+    let said = codes(&outside);
+    assert!(said[0].contains("-20 °C to 40 °C: at 60 °C"), "{said:?}");
+    let text = resolved_text(&outside);
+    let again = sweep_file::plan(&Document::parse("resolved.toml", &text).unwrap()).unwrap();
+    assert_eq!(codes(&again), said);
+    let reversed = text.replace(
+        "measured_temperatures = [",
+        "measured_temperatures = [\"900 K\", \"800 K\"]#",
+    );
+    let refused = sweep_file::plan(&Document::parse("resolved.toml", &reversed).unwrap());
+    let refused = refused.unwrap_err().render(Styling::Plain);
+    assert!(refused.contains("lowest first"), "{refused}");
+}
+
+/// Isotherms of a simple solid from -30 to 90 °C, of which the coldest lie decades beyond one another, with loss moduli down to 1e-42 Pa.
+const ISOTHERMS_APART: &str = include_str!("isotherms_apart.csv");
+
+#[test]
+fn data_that_no_series_follows_are_refused_with_the_isotherms_that_are_apart() {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("dma.csv"), ISOTHERMS_APART).unwrap();
+    let refused = program()
+        .current_dir(&folder)
+        .args(FIT_DYNAMIC)
+        .args(["--out", "out"])
+        .assert()
+        .failure();
+    let text = String::from_utf8_lossy(&refused.get_output().stderr).into_owned();
+    let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for part in [
+        "misses the data by",
+        "-20 °C and -10 °C",
+        "have no moduli in common",
+        "leave out",
+    ] {
+        assert!(words.contains(part), "{part}\n{text}");
+    }
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
+fn a_frequency_of_nothing_is_refused_and_a_time_of_nothing_is_shown() {
+    let folder = TempDir::new().unwrap();
+    let table =
+        "frequency_hz,storage_modulus_pa,loss_modulus_pa\n1e-308,1e6,1e5\n1,2e6,1e5\n10,3e6,1e5\n";
+    fs::write(folder.path().join("dma.csv"), table).unwrap();
+    let mut fit = program();
+    fit.current_dir(&folder)
+        .args(FIT_DYNAMIC)
+        .assert()
+        .failure();
+    let refused = fit.output().unwrap().stderr;
+    let refused = String::from_utf8_lossy(&refused).into_owned();
+    let words = refused.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("span 309 decades"), "{refused}");
+    for time in ["1e-307", "5e-324", "1e307"] {
+        let series = format!(
+            "[material]\npoisson_ratio = 0.3\n[material.relaxation]\nmodulus = \"shear\"\nequilibrium = 1e6\n\
+             branches = [{{ modulus = 1e6, time = {time} }}, {{ modulus = 1e6, time = 1 }}]\n"
+        );
+        write(folder.path(), "series.toml", &series);
+        let mut show = program();
+        show.current_dir(&folder)
+            .args(["material", "show", "series.toml"]);
+        show.timeout(std::time::Duration::from_secs(20));
+        let shown = show.output().unwrap();
+        // Shown, or refused for what is beyond the range of a double.
+        assert!(
+            matches!(shown.status.code(), Some(0..=2)),
+            "{time}: {shown:?}"
+        );
+    }
 }
 
 #[test]

@@ -124,6 +124,7 @@ pub struct Material {
     shift: Option<dynamic::shift_law::Wlf>,
     measured_window_s: Option<(f64, f64)>,
     temperature_k: Option<f64>,
+    isotherms_k: Option<(f64, f64)>,
     alternatives: Vec<Material>,
     replicas: Vec<Material>,
     counterbody: Option<Box<Material>>,
@@ -199,6 +200,7 @@ impl Material {
             shift: None,
             measured_window_s: None,
             temperature_k: None,
+            isotherms_k: None,
             alternatives: Vec::new(),
             replicas: Vec::new(),
             counterbody: None,
@@ -251,15 +253,17 @@ impl Material {
         self.measured_window_s
     }
 
-    /// The same material, known to be told from these by no data.
+    /// The same material, known to be any of these for all that is known of it: what a result with one of them differs by is an
+    /// error of the result.
     pub fn with_alternatives(mut self, alternatives: Vec<Material>) -> Self {
         self.alternatives = alternatives;
         self
     }
 
-    /// Materials of the same kind that fit the data this one was fitted to about as well, and differ in what the data leave
-    /// open: the equilibrium modulus at its lowest and highest, and the instantaneous one. They have no alternatives of their
-    /// own. Empty where the data leave nothing open, and for a material that was not fitted.
+    /// Materials of the same kind that this one may be as well. Beside a series fitted to a table they fit the data about as well,
+    /// and differ in what the data leave open: the equilibrium modulus at its lowest and highest, and the instantaneous one. Beside the
+    /// series of a fractional model, one that is far closer to the model. They have no alternatives of their own. Empty where
+    /// nothing is open.
     pub fn alternatives(&self) -> &[Material] {
         &self.alternatives
     }
@@ -273,6 +277,18 @@ impl Material {
     /// The temperature (K) that the material is at, where that is known.
     pub fn temperature_k(&self) -> Option<f64> {
         self.temperature_k
+    }
+
+    /// The same material, known to come from isotherms between the first and the second of these temperatures (K).
+    pub fn measured_at_temperatures(mut self, isotherms_k: (f64, f64)) -> Self {
+        self.isotherms_k = Some(isotherms_k);
+        self
+    }
+
+    /// Lowest and highest temperature (K) of the isotherms that the material comes from, where that is known. What it does at a
+    /// temperature outside is an extrapolation of its shift.
+    pub fn isotherms_k(&self) -> Option<(f64, f64)> {
+        self.isotherms_k
     }
 
     /// The same material, known to be one of these but for the noise of the data that it was fitted to.

@@ -49,7 +49,8 @@ rows! { FRACTIONAL_KEYS:
     /// Lowest and highest angular frequency between which a series represents the model; outside, results are extrapolations.
     BAND: Row<Array<Scalar>, Required> =
         "band", pair(quantity(AngularFrequency).above_zero().or_else(BAND_PAIR), BAND_PAIR), Required;
-    /// Largest relative difference of E* between series and model over the band.
+    /// Largest relative difference between series and model over the band: of E*, and of the loss modulus and the loss compliance on their
+    /// own.
     FRACTIONAL_ACCURACY_KEY: Row<Scalar, Or<f64>> =
         "accuracy", number("1e-3").within(FRACTIONAL_ACCURACY), Or(1e-3);
 }

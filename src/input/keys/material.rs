@@ -45,7 +45,7 @@ const WINDOW: &str =
 /// More branches than any fit resolves are a mistake in the file.
 pub(crate) const MOST_BRANCHES: usize = 1000;
 /// Twice as many as a fit gives.
-const MOST_ALTERNATIVES: usize = 8;
+const MOST_ALTERNATIVES: usize = 64;
 /// More tell no more of a spread.
 pub(crate) const MOST_REPLICAS: usize = 1000;
 /// More curves than this are no sweep over temperature.
@@ -152,6 +152,7 @@ static INDENTER_ISOTHERM: Rows = super::table(
         &ISOTHERM_WLF,
         &ISOTHERM_ACTIVATION_ENERGY,
         &MEASURED,
+        &MEASURED_TEMPERATURES,
         &MODULUS,
         &EQUILIBRIUM,
         &RELAXATION_BRANCHES,
@@ -270,6 +271,16 @@ rows! { _:
     ISOTHERM_ACTIVATION_ENERGY: Row<Scalar, Optional> = "activation_energy", number("120e3").above_zero(), Optional;
 }
 
+const COLDEST_FIRST: &str =
+    "write the lowest temperature first: measured_temperatures = [\"-10 °C\", \"80 °C\"]";
+
+rows! { _:
+    /// Lowest and highest temperature of the isotherms that the series and its shift come from, if known; a sweep or history at a
+    /// temperature outside is warned of.
+    MEASURED_TEMPERATURES: Row<Array<Scalar>, Optional> =
+        "measured_temperatures", pair(quantity(Temperature).above_zero().or_else(COLDEST_FIRST), COLDEST_FIRST), Optional;
+}
+
 static ISOTHERM: Rows = super::table(
     " The series at one temperature.",
     &[
@@ -277,6 +288,7 @@ static ISOTHERM: Rows = super::table(
         &ISOTHERM_WLF,
         &ISOTHERM_ACTIVATION_ENERGY,
         &MEASURED,
+        &MEASURED_TEMPERATURES,
         &MODULUS,
         &EQUILIBRIUM,
         &RELAXATION_BRANCHES,

@@ -94,6 +94,20 @@ pub enum MasterCurveWarning {
         celsius(*lower_k), celsius(*upper_k)
     )]
     NoOverlap { lower_k: f64, upper_k: f64 },
+    /// The data do not determine the shift factor of an isotherm: its standard error (decades) is larger than a useful factor allows, or
+    /// there is none.
+    #[error(
+        "the shift factor at {} is not determined: {}",
+        celsius(*temperature_k),
+        match error {
+            Some(error) => format!("its standard error is {error:.1} decades"),
+            None => "the least squares problem has no single solution".to_owned(),
+        }
+    )]
+    Undetermined {
+        temperature_k: f64,
+        error: Option<f64>,
+    },
     /// Neither law describes the factors: the preferred one leaves so many times their errors (root mean square).
     #[error(
         "neither WLF nor Arrhenius describes the shift factors: the better one leaves {deviation:.1} times their errors"
@@ -103,6 +117,9 @@ pub enum MasterCurveWarning {
 
 /// Above this [`MasterCurve::simplicity`] the data are not simple.
 pub const SIMPLE: f64 = 1.5;
+
+/// Standard error (decades) from which a shift factor counts as not determined: a factor of three in time or frequency.
+pub const UNDETERMINED: f64 = 0.5;
 
 /// Why there is no master curve.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -164,6 +181,15 @@ pub fn refined_from(
 }
 
 impl MasterCurve {
+    /// Neighbouring isotherms (K) that share no range of moduli, or of reduced frequencies.
+    pub(super) fn apart(&self) -> Vec<(f64, f64)> {
+        let pairs = self.warnings.iter().filter_map(|warning| match *warning {
+            MasterCurveWarning::NoOverlap { lower_k, upper_k } => Some((lower_k, upper_k)),
+            _ => None,
+        });
+        pairs.collect()
+    }
+
     /// Shift factor at any temperature (log10 a_T): between isotherms by interpolation, outside the preferred law goes on from the
     /// last of them. `None` where neither says anything.
     pub fn log10_a_t(&self, temperature_k: f64) -> Option<f64> {

@@ -65,6 +65,15 @@ pub enum DynamicDataError {
     },
     #[error("some points have a temperature and others have none")]
     SomeTemperatures { point: usize },
+    #[error(
+        "the frequencies span {decades:.0} decades, from {lowest:e} to {highest:e} rad/s: more than {MOST_DECADES} are no measurement"
+    )]
+    Span {
+        point: usize,
+        decades: f64,
+        lowest: f64,
+        highest: f64,
+    },
 }
 
 /// Fewest points that a series can be fitted to.
@@ -92,6 +101,7 @@ impl DynamicData {
                 return Err(DynamicDataError::SomeTemperatures { point: index });
             }
         }
+        span(&all)?;
         let mut isotherms: Vec<Isotherm> = Vec::new();
         for points in sets.into_iter().filter(|points| !points.is_empty()) {
             let isotherm = Isotherm::new(points);
@@ -127,6 +137,29 @@ impl DynamicData {
     /// Every point, isotherm after isotherm.
     pub fn points(&self) -> impl Iterator<Item = &DynamicPoint> {
         self.isotherms.iter().flat_map(|isotherm| &isotherm.points)
+    }
+}
+
+/// Refuses frequencies that are too far apart for a grid of times over them.
+fn span(points: &[&DynamicPoint]) -> Result<(), DynamicDataError> {
+    let omega = |point: usize| points[point].angular_frequency_rad_per_s;
+    let by_frequency = |a: &usize, b: &usize| omega(*a).total_cmp(&omega(*b));
+    let ends = (0..points.len())
+        .min_by(by_frequency)
+        .zip((0..points.len()).max_by(by_frequency));
+    let Some((point, last)) = ends else {
+        return Ok(());
+    };
+    let (lowest, highest) = (omega(point), omega(last));
+    let decades = highest.log10() - lowest.log10();
+    match decades <= MOST_DECADES {
+        true => Ok(()),
+        false => Err(DynamicDataError::Span {
+            point,
+            decades,
+            lowest,
+            highest,
+        }),
     }
 }
 
@@ -210,6 +243,18 @@ pub enum DynamicError {
     Material(#[from] MaterialError),
     #[error("no replicas: {0}")]
     Replica(#[from] DynamicDataError),
+    /// The series is none of the data.
+    #[error(
+        "the best series misses the data by {:.0} % of the storage modulus and {:.0} % of the loss modulus (root mean square): there is no \
+         series of these data{}",
+        100.0 * storage_rms, 100.0 * loss_rms, advice(apart)
+    )]
+    Misfit {
+        storage_rms: f64,
+        loss_rms: f64,
+        /// Neighbouring isotherms (K) that share no moduli, or no reduced frequencies.
+        apart: Vec<(f64, f64)>,
+    },
     /// The data say nothing about this temperature.
     #[error("the data do not reach to {}{}", crate::quantity::celsius(*temperature_k), range(*range_k))]
     Temperature {
@@ -217,6 +262,23 @@ pub enum DynamicError {
         /// Of the isotherms, where they have temperatures.
         range_k: Option<(f64, f64)>,
     },
+}
+
+fn advice(apart: &[(f64, f64)]) -> String {
+    let between = |(lower_k, upper_k): &(f64, f64)| {
+        let [lower, upper] = [lower_k, upper_k].map(|k| crate::quantity::celsius(*k));
+        format!("{lower} and {upper}")
+    };
+    let all: Vec<String> = apart.iter().map(between).collect();
+    match all.as_slice() {
+        [] => "; look for a wrong unit or column, or for points that do not belong to the others"
+            .to_owned(),
+        all => format!(
+            ". The isotherms at {} have no moduli in common, so that nothing tells the shift between them: leave out those on the one \
+             side of the gap, measure another between them, or give the shift factors in a file",
+            all.join(", at ")
+        ),
+    }
 }
 
 fn range(range_k: Option<(f64, f64)>) -> String {
@@ -249,7 +311,13 @@ pub struct Characterisation {
 }
 
 /// Difference of temperatures (K) that counts as none where the data have one temperature alone.
-const SAME_TEMPERATURE_K: f64 = 0.5;
+pub const SAME_TEMPERATURE_K: f64 = 0.5;
+
+/// Misfit (root mean square, relative to the data) from which a series is none of the data.
+pub const LARGEST_MISFIT: f64 = 0.5;
+
+/// Most decades of frequency that data span: three times as many as the widest master curves have.
+const MOST_DECADES: f64 = 60.0;
 
 /// Makes master curve, series and replicas of the data.
 ///
@@ -269,6 +337,15 @@ pub fn characterise(
     };
     let points = master_points(data, master.as_ref());
     let fit = prony::fit(&points, choices.branches)?;
+    // A number of branches that is asked for may be too small on purpose.
+    let is_free = choices.branches.is_none() || fit.relaxation.branches().is_empty();
+    if is_free && fit.storage_rms.max(fit.loss_rms) >= LARGEST_MISFIT {
+        return Err(DynamicError::Misfit {
+            storage_rms: fit.storage_rms,
+            loss_rms: fit.loss_rms,
+            apart: master.as_ref().map(MasterCurve::apart).unwrap_or_default(),
+        });
+    }
     let replicas = replicas::draw(data, master.as_ref(), &fit, choices)?;
     let kind = data.kind();
     Ok(Characterisation {
@@ -321,7 +398,11 @@ impl Characterisation {
         let Some(temperature_k) = temperature_k.or(self.temperature_k) else {
             return Ok(material);
         };
-        let material = material.at_temperature(temperature_k);
+        let mut material = material.at_temperature(temperature_k);
+        let shifts = self.master.as_ref().map(|master| master.shifts.as_slice());
+        if let Some([first, .., last]) = shifts {
+            material = material.measured_at_temperatures((first.temperature_k, last.temperature_k));
+        }
         let law = self.master.as_ref().and_then(|master| master.preferred);
         let law = law.and_then(|law| Wlf::from(law).referred_to(temperature_k));
         Ok(match law {

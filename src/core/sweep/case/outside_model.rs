@@ -17,6 +17,7 @@ pub(in crate::sweep) fn warnings(
     let omega = record.angular_frequency_rad_per_s;
     let window = condition.material.measured_window_s();
     let mut warnings: Vec<Warning> = of_frequency(window, omega).into_iter().collect();
+    warnings.extend(Warning::of_temperature(&condition.material));
     let Some(result) = &record.result else {
         return warnings;
     };

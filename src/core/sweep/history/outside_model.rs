@@ -13,6 +13,8 @@ use crate::sweep::record::warning::Warning;
 pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning> {
     let window = plan.contact.material.measured_window_s();
     let mut warnings = of_times(window, &plan.drive);
+    let series = plan.contact.material.series();
+    warnings.extend(series.and_then(Warning::of_temperature));
     let widest =
         (outcome.rows.iter()).reduce(|a, b| match b.contact_radius_m > a.contact_radius_m {
             true => b,

@@ -19,8 +19,12 @@ pub fn material_text(material: &Material) -> String {
     let bulk = bulk.filter(|bulk| !bulk.branches().is_empty());
     let bulk = bulk.map(|bulk| format!("\n[material.bulk_modulus]\n{}", relaxation_text(bulk)));
     let alternatives = material.alternatives().iter();
-    let alternatives =
-        alternatives.map(|other| format!("\n[[material.alternative]]\n{}", series_text(other)));
+    // There may be dozens, so the branches of each are one line.
+    let alternatives = alternatives.map(|other| {
+        let series = series_text(other).replace("[\n    ", "[");
+        let series = series.replace(",\n    ", ", ").replace(",\n]", "]");
+        format!("\n[[material.alternative]]\n{series}")
+    });
     [
         head,
         measured_text(material),
@@ -96,6 +100,7 @@ fn isotherm_text(material: &Material) -> String {
             law.map(|law| format!("[{:?}, {:?}]", law.c1, law.c2_k)),
         ),
         measured_text(material),
+        isotherms_text(material),
         format!("modulus = \"{}\"\n", material.kind().name()),
         series_text(material),
         replicas_text(material),
@@ -109,6 +114,14 @@ fn measured_text(material: &Material) -> String {
         format!("[{first}, {last}]")
     });
     entry("measured", window)
+}
+
+fn isotherms_text(material: &Material) -> String {
+    let ends = material.isotherms_k().map(|(lowest_k, highest_k)| {
+        let ends = [lowest_k, highest_k].map(|k| quoted(k, Dimension::Temperature));
+        format!("[{}, {}]", ends[0], ends[1])
+    });
+    entry("measured_temperatures", ends)
 }
 
 /// The replicas, as bare numbers: there may be hundreds.

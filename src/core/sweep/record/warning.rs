@@ -7,7 +7,9 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use crate::indenter::{Domain, Indenter};
-use crate::quantity::{Dimension, FrequencyUnit, format_human};
+use crate::material::Material;
+use crate::material::dynamic::SAME_TEMPERATURE_K;
+use crate::quantity::{Dimension, FrequencyUnit, celsius, format_human};
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::record::{CaseRecord, CaseResult};
@@ -54,6 +56,12 @@ pub enum Warning {
     ShorterThanMeasured { time_s: f64, first_measured_s: f64 },
     /// A history lasts longer than the material was measured.
     LongerThanMeasured { time_s: f64, last_measured_s: f64 },
+    /// The material is taken at a temperature outside those of its isotherms.
+    OutsideIsotherms {
+        temperature_k: f64,
+        lowest_k: f64,
+        highest_k: f64,
+    },
     /// The representative strain is beyond what a glassy material takes linearly.
     LargeStrain { strain: f64 },
     /// The indenter's slope within the contact is not small.
@@ -99,6 +107,18 @@ impl NoErrorBars {
 }
 
 impl Warning {
+    /// What is to be said of the temperature of a material.
+    pub(in crate::sweep) fn of_temperature(material: &Material) -> Option<Self> {
+        let (temperature_k, (lowest_k, highest_k)) =
+            material.temperature_k().zip(material.isotherms_k())?;
+        let within = lowest_k - SAME_TEMPERATURE_K..=highest_k + SAME_TEMPERATURE_K;
+        (!within.contains(&temperature_k)).then_some(Self::OutsideIsotherms {
+            temperature_k,
+            lowest_k,
+            highest_k,
+        })
+    }
+
     /// What is to be said of an approach (m) into a layer on a rigid base, where the body is one: a base that yields takes its part of
     /// the approach.
     pub(in crate::sweep) fn of_depth(layer: Option<LayerPlan>, approach_m: f64) -> Option<Self> {
@@ -158,6 +178,7 @@ impl Warning {
             Self::AboveMeasured { .. } => "above-measured",
             Self::ShorterThanMeasured { .. } => "shorter-than-measured",
             Self::LongerThanMeasured { .. } => "longer-than-measured",
+            Self::OutsideIsotherms { .. } => "outside-isotherms",
             Self::LargeStrain { .. } => "large-strain",
             Self::SteepSlope { .. } => "steep-slope",
             Self::DeepInLayer { .. } => "deep-in-layer",
@@ -184,6 +205,11 @@ impl Warning {
             } => angular_frequency_rad_per_s * first_measured_s,
             Self::ShorterThanMeasured { time_s, .. } => -time_s,
             Self::LongerThanMeasured { time_s, .. } => time_s,
+            Self::OutsideIsotherms {
+                temperature_k,
+                lowest_k,
+                highest_k,
+            } => (lowest_k - temperature_k).max(temperature_k - highest_k),
             Self::LargeStrain { strain } => strain,
             Self::SteepSlope { slope, .. } => slope,
             Self::DeepInLayer { part } => part,
@@ -246,6 +272,16 @@ impl Warning {
                 "the material was measured up to {}, and the history lasts {}: beyond, it is an extrapolation",
                 time(last_measured_s),
                 time(time_s)
+            ),
+            Self::OutsideIsotherms {
+                temperature_k,
+                lowest_k,
+                highest_k,
+            } => format!(
+                "the material was measured from {} to {}: at {} its shift is an extrapolation",
+                celsius(lowest_k),
+                celsius(highest_k),
+                celsius(temperature_k)
             ),
             Self::LargeStrain { strain } => format!(
                 "strains up to {} %: a glassy material is linear up to about {} %",

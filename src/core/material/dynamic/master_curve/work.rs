@@ -4,7 +4,8 @@
 use nalgebra::DMatrix;
 
 use super::{
-    MasterCurve, MasterCurveError, MasterCurveWarning, SIMPLE, ShiftChoice, ShiftFactor, zero_of,
+    MasterCurve, MasterCurveError, MasterCurveWarning, SIMPLE, ShiftChoice, ShiftFactor,
+    UNDETERMINED, zero_of,
 };
 use crate::material::dynamic::interpolation::{Interpolation, monotone};
 use crate::material::dynamic::noise::Noise;
@@ -328,6 +329,10 @@ impl<'a> Work<'a> {
             Form::Arrhenius => arrhenius.map(ShiftLaw::Arrhenius),
         });
         let shifts = self.factors(&found.state, zero, errors.as_deref());
+        let mut warnings = found.warnings;
+        if self.is_searched() {
+            warnings.extend(shifts.iter().filter_map(undetermined));
+        }
         Ok(MasterCurve {
             reference_temperature_k: reference,
             points: self.reduced(&shifts),
@@ -336,8 +341,16 @@ impl<'a> Work<'a> {
             arrhenius,
             preferred,
             simplicity: found.simplicity,
-            warnings: found.warnings,
+            warnings,
         })
+    }
+
+    /// Whether the factors come from the data.
+    fn is_searched(&self) -> bool {
+        !matches!(
+            self.choices.shift,
+            ShiftChoice::None | ShiftChoice::Given(_)
+        )
     }
 
     /// Lowest and highest temperature of an isotherm.
@@ -400,6 +413,16 @@ impl Found {
             self.warnings.push(MasterCurveWarning::NoLaw { deviation });
         }
     }
+}
+
+/// What is to be said of a factor that the data leave open.
+fn undetermined(shift: &ShiftFactor) -> Option<MasterCurveWarning> {
+    let error = shift.log10_a_t_error;
+    let known = error.is_some_and(|error| error < UNDETERMINED);
+    (!known).then_some(MasterCurveWarning::Undetermined {
+        temperature_k: shift.temperature_k,
+        error,
+    })
 }
 
 fn one_curve(data: &DynamicData, choices: &Choices, noise: &Noise, fixed: usize) -> OneCurve {
