@@ -39,12 +39,7 @@ pub(super) fn read(
     let problems = table.problems();
     let (made, kind) = (problems.accept(&exponent, made)?, kind?);
     let represented = represent(&made, &band?, accuracy?, problems)?;
-    let (low, high) = represented.approximation.band_rad_per_s;
-    Some(move |nu| {
-        let material = Material::from_relaxation(represented.relaxation, kind, nu)?;
-        let material = material.measured((high.recip(), low.recip()));
-        Ok(material.approximated(represented.approximation))
-    })
+    Some(move |nu| represented.material(kind, nu))
 }
 
 fn represent(

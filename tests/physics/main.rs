@@ -10,6 +10,7 @@ mod direct_cycle;
 mod elastic_contact;
 mod energy_balance;
 mod error_bars;
+mod fractional;
 mod half_space_work;
 mod identification;
 mod identified_bodies;

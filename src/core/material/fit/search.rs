@@ -188,6 +188,17 @@ impl Search<'_> {
         self.strengths(&self.spectrum_times(further))
     }
 
+    /// The best series of any number of branches on a grid whose times lie this share of a step beyond those of the fine one.
+    pub(super) fn spectrum_on(&self, offset: f64) -> Result<Series, NnlsError> {
+        let step = 10_f64.powf((offset - 0.5) / FINE_GRID);
+        let times: Vec<f64> = self
+            .grid(FINE_GRID)
+            .iter()
+            .map(|time_s| time_s * step)
+            .collect();
+        self.strengths(&times)
+    }
+
     fn spectrum_times(&self, further: &[f64]) -> Vec<f64> {
         let mut times = self.grid(SPECTRUM);
         times.extend(self.within_limits(further));

@@ -53,8 +53,15 @@ impl Levels<'_> {
                     if bar.total() <= allowed_j {
                         return Ok(());
                     }
-                    // Half of what is allowed for each, of which the distance to the stabilised cycle takes its part from both.
-                    let share_j = (0.5 * (allowed_j - bar.steady)).max(0.1 * allowed_j);
+                    if bar.material > allowed_j {
+                        failure =
+                            Some(self.open_by_material(bar.material / loss_j.abs(), accuracy));
+                        break;
+                    }
+                    // Half of what is allowed for each, of which material and distance to the stabilised cycle take their part from
+                    // both.
+                    let left_j = allowed_j - bar.steady - bar.material;
+                    let share_j = (0.5 * left_j).max(0.1 * allowed_j);
                     (
                         finer(record.steps, bar.steps, share_j),
                         finer(record.nodes, bar.nodes, share_j),
@@ -80,6 +87,17 @@ impl Levels<'_> {
         record.status = Status::NotConverged;
         record.message = Some(why);
         Ok(())
+    }
+
+    /// Why no resolution reaches the accuracy: the material alone leaves this share of the loss open.
+    fn open_by_material(&self, share: f64, accuracy: f64) -> String {
+        let advice = match self.contact.condition.material.approximation() {
+            Some(_) => "; write a smaller `accuracy` in [material.fractional]",
+            None => "",
+        };
+        format!(
+            "the material alone leaves {share:.1e} of the loss open, above the accuracy {accuracy:.1e}, at any number of steps and nodes{advice}"
+        )
     }
 }
 

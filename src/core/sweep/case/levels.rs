@@ -105,7 +105,9 @@ impl Levels<'_> {
             false => None,
         };
         let mut others = Vec::new();
-        for compliance in &contact.solid.alternatives {
+        let omega = contact.angular_frequency_rad_per_s;
+        let control = contact.condition.drive.control();
+        for compliance in contact.solid.farthest_alternatives(omega, control) {
             let with_other = Contact {
                 compliance,
                 // Checkpoints are of the material itself.

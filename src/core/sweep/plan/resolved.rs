@@ -126,12 +126,14 @@ pub(crate) fn cycle_text(cycle: &CyclePlan) -> String {
 
 /// The `[indenter.material]` block.
 pub(crate) fn counterbody_text(material: &Material) -> String {
+    // Only the material of the body has alternatives in a file.
+    let own = material.clone().with_alternatives(Vec::new());
     let moved = |line: &str| match line.split_once("[material") {
         // A header, and not a name with these letters.
         Some((brackets @ ("" | "["), rest)) => format!("{brackets}[indenter.material{rest}"),
         _ => line.to_owned(),
     };
-    let text = material_text(material);
+    let text = material_text(&own);
     text.split('\n').map(moved).collect::<Vec<_>>().join("\n")
 }
 

@@ -299,6 +299,9 @@ pub struct Ladder<'a> {
 /// (`tests/error_bars.rs`), without making the bar useless.
 pub(in crate::sweep) const SAFETY: f64 = 1.5;
 
+/// By what the largest difference that another material makes is multiplied: that material is off, too, by a little.
+const MATERIAL_SAFETY: f64 = 1.25;
+
 /// What rounding leaves over the instants of a cycle, relative.
 pub(in crate::sweep) const ROUNDING: f64 = 1e-12;
 
@@ -331,7 +334,7 @@ impl ErrorBars {
                     * error(quantity, nodes, quantity.orders(believed.order))?
                     + believed.of_edge(quantity, result),
                 steady: (steady_distance + ROUNDING) * quantity.scale(result)?,
-                material: of_material(quantity),
+                material: MATERIAL_SAFETY * of_material(quantity),
             })
         };
         let bars = Quantity::ALL
