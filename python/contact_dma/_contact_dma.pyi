@@ -223,7 +223,7 @@ def sweep(source: "object", threads: SupportsIndex | None, progress: Any | None)
     Solves every case of a sweep and locates the peaks.
     """
 
-def write_files(folder: str | PathLike[str], files: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]]) -> None:
+def write_files(folder: str | PathLike[str], kind: str, files: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]], force: bool) -> None:
     """
     Writes files into a folder, each whole or not at all.
     """

@@ -111,7 +111,7 @@ class StoredHistory:
         tables = [path for name in names if (path := self._folder / name).is_file()]
         surfaces = sorted(path for kind in ("profiles", "fields") for path in self._folder.glob(f"{kind}/*"))
         files = [(path.relative_to(self._folder).as_posix(), path.read_bytes()) for path in tables + surfaces]
-        _core.write_files(folder, files)
+        _core.write_files(folder, "scenario", files, force)
 
 
 def _instant(index: dict[str, npt.NDArray[Any]], k: int) -> Instant:

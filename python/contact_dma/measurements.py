@@ -90,9 +90,14 @@ class AnalysisResult(Table):
         summary: dict[str, Any] = json.loads(dict(self._files)["summary.json"])
         return summary
 
-    def save(self, folder: str | os.PathLike[str]) -> None:
-        """Writes the tables that ``contact-dma analyse`` writes; ``contact-dma report FOLDER`` draws figures and page from them."""
-        _core.write_files(os.fspath(folder), self._files)
+    def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
+        """Writes the tables that ``contact-dma analyse`` writes; ``contact-dma report FOLDER`` draws figures and page from them.
+
+        Args:
+            folder: a new or empty folder, or one of an analysis.
+            overwrite: whether another result there is replaced; files of others stay.
+        """
+        _core.write_files(os.fspath(folder), "analysis", self._files, overwrite)
 
     def __repr__(self) -> str:
         done = sum(status.converged for status in self.status)
@@ -217,10 +222,15 @@ class IdentifiedMaterial:
         """E' and E'' with their bands over frequency, the columns of ``moduli.csv``."""
         return Columns(table(dict(self._files)["moduli.csv"].decode("utf-8")))
 
-    def save(self, folder: str | os.PathLike[str]) -> None:
+    def save(self, folder: str | os.PathLike[str], *, overwrite: bool = False) -> None:
         """Writes the tables that ``contact-dma identify`` writes: ``material.toml``, ``prony.csv``, ``fit.csv``, ``moduli.csv``,
-        ``summary.json``, ``resolved.toml``."""
-        _core.write_files(os.fspath(folder), self._files)
+        ``summary.json``, ``resolved.toml``.
+
+        Args:
+            folder: a new or empty folder, or one of an identification.
+            overwrite: whether another result there is replaced; files of others stay.
+        """
+        _core.write_files(os.fspath(folder), "identification", self._files, overwrite)
 
     def __repr__(self) -> str:
         return f"<IdentifiedMaterial of {len(self.prony.moduli)} branches>"

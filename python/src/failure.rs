@@ -3,27 +3,12 @@
 use contact_dma::input::diagnostic::{Diagnostics, Styling};
 use contact_dma::report::ReportError;
 use contact_dma::sweep::search::run::RunError;
-use contact_dma::sweep::store::StoreError;
+use contact_dma::sweep::store::{Remedy, StoreError};
 use pyo3::PyErr;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 
 /// What the program's messages advise that is written otherwise in Python.
-const IN_PYTHON: [(&str, &str); 9] = [
-    (
-        "choose another folder with --out, or replace them with --force",
-        "choose another folder, or replace them with overwrite=True",
-    ),
-    (
-        "and --force does not replace",
-        "and overwrite=True does not replace",
-    ),
-    ("another folder with --out", "another folder"),
-    ("with another folder (--out)", "with another folder"),
-    (
-        "or compute again with --force",
-        "or compute again with overwrite=True",
-    ),
-    ("--force", "overwrite=True"),
+const IN_PYTHON: [(&str, &str); 3] = [
     (
         "method = \"direct\" in [cycle] needs a few cycles alone",
         "method=\"direct\" needs a few cycles alone",
@@ -72,21 +57,23 @@ pub fn of_run(error: impl std::fmt::Display) -> PyErr {
 
 /// A folder that cannot be used, or not for this.
 pub fn of_store(error: &StoreError) -> PyErr {
-    match error {
-        StoreError::NewerProgram { .. }
-        | StoreError::OtherSweep { .. }
-        | StoreError::InUse { .. }
-        | StoreError::NoSweep { .. } => of_value(error),
-        error => {
-            let message = in_python(&error.to_string());
-            let source = std::error::Error::source(error);
-            let number = source.and_then(|s| s.downcast_ref::<std::io::Error>()?.raw_os_error());
-            // With its number Python knows the kind, such as FileNotFoundError.
-            match number {
-                Some(number) => PyOSError::new_err((number, message)),
-                None => PyOSError::new_err(message),
-            }
+    let text = error.advised(|remedy| match remedy {
+        Remedy::OtherFolder => "choose another folder",
+        Remedy::OtherFolderOrWait => "choose another folder, or wait until it has ended",
+        Remedy::OtherFolderOrForce => "choose another folder, or replace them with overwrite=True",
+        Remedy::OtherFolderOrAdd => {
+            "choose another folder, or add to this one with overwrite=True, which leaves every file that is there as it is"
         }
+    });
+    if error.is_of_input() {
+        return PyValueError::new_err(text);
+    }
+    let source = std::error::Error::source(error);
+    let number = source.and_then(|s| s.downcast_ref::<std::io::Error>()?.raw_os_error());
+    // With its number Python knows the kind, such as FileNotFoundError.
+    match number {
+        Some(number) => PyOSError::new_err((number, text)),
+        None => PyOSError::new_err(text),
     }
 }
 

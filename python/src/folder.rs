@@ -7,7 +7,7 @@ use contact_dma::indenter::{
 };
 use contact_dma::report::npy;
 use contact_dma::sweep::plan::resolved::hash_of_bytes;
-use contact_dma::sweep::store::{Store, StoreError};
+use contact_dma::sweep::store::{Store, StoreError, files};
 use pyo3::PyResult;
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use crate::failure;
 use crate::shape::spacing_m;
 
 /// The file of the map.
-const NAME: &str = "height-map.npy";
+const NAME: &str = files::HEIGHT_MAP;
 
 /// The file of a map, and the map as it is read from there.
 pub struct MapFile {

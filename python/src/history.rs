@@ -20,7 +20,7 @@ use contact_dma::sweep::history::{
 };
 use contact_dma::sweep::plan::scenario::{ScenarioPlan, resolved_text};
 use contact_dma::sweep::store::Store;
-use contact_dma::sweep::store::provenance::BUILD;
+use contact_dma::sweep::store::provenance::{BUILD, Circumstances, Stopwatch};
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt};
 use pyo3::prelude::*;
@@ -187,7 +187,18 @@ impl History {
                 map.write(&store).map_err(stored)?;
             }
             let written = scenario_tables::write(&store, &plan, &self.outcome);
-            written.map_err(|error| failure::of_report(&error))
+            written.map_err(|error| failure::of_report(&error))?;
+            store.remove_stale().map_err(stored)?;
+            let circumstances = Circumstances {
+                command: "python",
+                threads: 1,
+                shard: None,
+                cases_computed: None,
+                cases_found: None,
+                interrupted: false,
+            };
+            let signed = Stopwatch::start().write_scenario(&store, &plan, &circumstances);
+            signed.map_err(stored)
         })
     }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use contact_dma::identify::{IdentifyError, curves, identify};
@@ -15,7 +15,7 @@ use contact_dma::report::identify::IdentifyReport;
 use contact_dma::report::measured::{Analysis, MeasuredRow, columns, files, ordered};
 use contact_dma::sweep::plan::resolved::material_text;
 use contact_dma::sweep::search::run::{pool, useful_threads};
-use contact_dma::sweep::store::write_atomically;
+use contact_dma::sweep::store::manifest::{Kind, Target};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::{PyKeyboardInterrupt, PyValueError};
 use pyo3::prelude::*;
@@ -216,14 +216,26 @@ pub fn quantity(text: &str, si_unit: &str) -> PyResult<f64> {
     })
 }
 
-/// Writes files into a folder, each whole or not at all.
+/// Fills the folder of an `analysis`, an `identification` or a `scenario` with files; `force` replaces what else is there.
 #[pyfunction]
-pub fn write_files(py: Python<'_>, folder: PathBuf, files: Vec<(String, Vec<u8>)>) -> PyResult<()> {
-    py.detach(|| {
-        for (name, bytes) in &files {
-            let path: &Path = &folder.join(name);
-            write_atomically(path, bytes).map_err(|error| failure::of_store(&error))?;
-        }
-        Ok(())
-    })
+pub fn write_files(
+    py: Python<'_>,
+    folder: PathBuf,
+    kind: &str,
+    files: Vec<(String, Vec<u8>)>,
+    force: bool,
+) -> PyResult<()> {
+    let kind = match kind {
+        "analysis" => Kind::Analysis,
+        "identification" => Kind::Identification,
+        _ => Kind::Scenario,
+    };
+    let target = Target {
+        folder: &folder,
+        kind,
+        force,
+        reads: &[],
+    };
+    py.detach(|| target.write(files))
+        .map_err(|error| failure::of_store(&error))
 }

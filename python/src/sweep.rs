@@ -303,13 +303,14 @@ impl Sweep {
         if !plan.is_small() {
             cycles::write(&store, &store, &plan, &self.outcome).map_err(stored)?;
         }
+        store.remove_stale().map_err(stored)?;
         let count = self.outcome.records.len();
         let circumstances = Circumstances {
             command: "python",
             threads: self.threads,
             shard: None,
-            cases_computed: count,
-            cases_found: 0,
+            cases_computed: Some(count),
+            cases_found: Some(0),
             interrupted: false,
         };
         let signed = self.clock.write(&store, &plan, &circumstances);

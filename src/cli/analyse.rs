@@ -1,7 +1,6 @@
 //! `contact-dma analyse`: measured loops to the table of a sweep.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -13,7 +12,7 @@ use rayon::prelude::*;
 use serde_json::json;
 
 use super::arguments::{OutputFormat, folder, threads};
-use super::material::{write_figures, write_files};
+use super::material::draw;
 use super::sweep::interrupt_flag;
 use super::{Ended, Failure, json, print, read_document, say_quietly};
 use crate::input::document::read_limited;
@@ -22,6 +21,7 @@ use crate::input::setup_file::{self, Setup};
 use crate::measured::Options;
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting as CaptionSetting;
+use crate::report::figure::press::Files;
 use crate::report::measured::{
     self, ANALYSIS, Analysis, Computed, MeasuredRow, columns, ordered, text,
 };
@@ -29,7 +29,8 @@ use crate::report::words::wrapped;
 use crate::report::{figure, machine, page};
 use crate::sweep::record::Status;
 use crate::sweep::search::run;
-use crate::sweep::store::{RESOLVED, files};
+use crate::sweep::store::RESOLVED;
+use crate::sweep::store::manifest::{Kind, Target};
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -78,6 +79,9 @@ pub(super) struct AnalyseFlags {
     /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
+    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
+    #[arg(long)]
+    force: bool,
     /// Print nothing but errors
     #[arg(long, short)]
     quiet: bool,
@@ -107,12 +111,15 @@ const MAX_BYTES: usize = 1_000_000_000;
 
 /// Runs the command.
 pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, Failure> {
-    if flags.out.join(RESOLVED).exists() {
-        return Err(Failure::Input(format!(
-            "{} holds a computed result: name another folder",
-            flags.out.display()
-        )));
-    }
+    let reads = flags.files.iter().chain(&flags.setup).chain(&flags.against);
+    let reads: Vec<PathBuf> = reads.cloned().collect();
+    let target = Target {
+        folder: &flags.out,
+        kind: Kind::Analysis,
+        force: flags.force,
+        reads: &reads,
+    };
+    target.check()?;
     let (setup, setup_text) = match &flags.setup {
         None => (Setup::default(), None),
         Some(file) => {
@@ -135,11 +142,7 @@ pub(super) fn run(flags: &AnalyseFlags, format: OutputFormat) -> Result<Ended, F
         rows: ordered(rows),
         computed: computed.unwrap_or_default(),
     };
-    finish(
-        &flags.out,
-        &analysis,
-        (!flags.no_figures, flags.quiet, format),
-    )
+    finish(&target, &analysis, (!flags.no_figures, flags.quiet, format))
 }
 
 /// What the files come to, in their order; `None` where Ctrl-C came first. Nothing is written until all are there, so that what is
@@ -183,7 +186,7 @@ type Asked = (bool, bool, OutputFormat);
 /// Draws tables and figures of a folder again, where it holds an analysis; `None` where it holds none.
 pub(super) fn again(
     folder: &Path,
-    out: Option<&Path>,
+    (out, force): (Option<&Path>, bool),
     asked: Asked,
 ) -> Option<Result<Ended, Failure>> {
     let path = folder.join(ANALYSIS);
@@ -200,7 +203,13 @@ pub(super) fn again(
             ))
         })
     };
-    Some(read().and_then(|analysis| finish(out.unwrap_or(folder), &analysis, asked)))
+    let target = Target {
+        folder: out.unwrap_or(folder),
+        kind: Kind::Analysis,
+        force,
+        reads: &[],
+    };
+    Some(read().and_then(|analysis| finish(&target, &analysis, asked)))
 }
 
 /// The cases of a computed sweep, with their cycles.
@@ -256,11 +265,12 @@ fn numbers(file: &Path) -> Result<Vec<Numbers>, Failure> {
 
 /// Writes and prints everything.
 fn finish(
-    folder: &Path,
+    target: &Target<'_>,
     analysis: &Analysis,
     (figures, quiet, format): Asked,
 ) -> Result<Ended, Failure> {
-    write(folder, analysis, figures)?;
+    write(target, analysis, figures)?;
+    let folder = target.folder;
     match format {
         OutputFormat::Json => json::print(&json!({
             "folder": folder,
@@ -295,45 +305,18 @@ fn printed(folder: &Path, rows: &[MeasuredRow]) -> String {
     )
 }
 
-/// Writes everything; what an earlier analysis left beyond it is removed.
-fn write(folder: &Path, analysis: &Analysis, with_figures: bool) -> Result<(), Failure> {
-    for part in ["loops", "cycles"] {
-        let beyond = analysis.rows.len()..;
-        beyond
-            .map(|index| folder.join(format!("{part}/{index}.csv")))
-            .take_while(|path| path.exists())
-            .try_for_each(|path| remove(&path))?;
+/// Writes everything.
+fn write(target: &Target<'_>, analysis: &Analysis, with_figures: bool) -> Result<(), Failure> {
+    let files = Files::default();
+    for (name, bytes) in measured::files(analysis).map_err(Failure::run)? {
+        files.insert(name, bytes);
     }
-    write_files(folder, measured::files(analysis).map_err(Failure::run)?)?;
-    let figures = match with_figures {
-        true => figure::measured::figures(analysis),
-        false => Vec::new(),
-    };
-    for name in ["loops", "energy-loss", "moduli", "cycles"] {
-        if !figures.iter().any(|figure| figure.name == name) {
-            for file in files::of_figure(name) {
-                remove(&folder.join(file))?;
-            }
-        }
+    if with_figures {
+        let figures = figure::measured::figures(analysis);
+        let setting = CaptionSetting::default();
+        draw(&files, &figures, &setting, |pictures, _| {
+            page::measured::page(analysis, &figures, pictures)
+        })?;
     }
-    if figures.is_empty() {
-        return remove(&folder.join("index.html"));
-    }
-    write_figures(
-        folder,
-        &figures,
-        &CaptionSetting::default(),
-        |pictures, _| page::measured::page(analysis, &figures, pictures),
-    )
-}
-
-/// Removes a file where it is there.
-fn remove(path: &Path) -> Result<(), Failure> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(Failure::run(format!(
-            "cannot remove {}: {error}",
-            path.display()
-        ))),
-        _ => Ok(()),
-    }
+    Ok(target.write(files.into_vec())?)
 }

@@ -210,9 +210,12 @@ pub(super) struct ExportFlags {
     /// The program
     #[arg(long = "to", value_name = "PROGRAM", value_parser = program())]
     pub(super) program: Program,
-    /// The file to write [default: standard output]
+    /// The file to write; links are followed, and devices and pipes written to [default: standard output]
     #[arg(long, value_name = "FILE")]
     pub(super) out: Option<PathBuf>,
+    /// Replace a file that this command has not written
+    #[arg(long, requires = "out")]
+    pub(super) force: bool,
 }
 
 /// One of the programs that a material is written for.
@@ -254,6 +257,9 @@ pub(super) struct FitFlags {
     /// Folder for the material block, figures and their data
     #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
+    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
+    #[arg(long, requires = "out")]
+    pub(super) force: bool,
 }
 
 /// What is made of dynamic data, and how.
@@ -372,6 +378,9 @@ pub(super) struct ShowFlags {
     /// Folder for figures and their data
     #[arg(long, value_name = "DIR", value_parser = folder())]
     pub(super) out: Option<PathBuf>,
+    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
+    #[arg(long, requires = "out")]
+    pub(super) force: bool,
 }
 
 /// A folder for results, which need not be there.

@@ -8,11 +8,15 @@ use super::arguments::{OutputFormat, folder};
 use super::{Ended, Failure, json, tell};
 use crate::input::document::read_limited;
 use crate::report::comparison::{Comparison, RunFacts, Source, SweepTable, Tolerances};
-use crate::report::figure::{self, press::Press};
+use crate::report::figure::{
+    self,
+    press::{Files, Press},
+};
 use crate::report::page::comparison::Compared;
 use crate::report::page::{self, Pictures};
 use crate::sweep::figures::figure_plan::FigurePlan;
-use crate::sweep::store::{RESOLVED, write_atomically};
+use crate::sweep::store::RESOLVED;
+use crate::sweep::store::manifest::{Kind, Target};
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -50,6 +54,9 @@ pub(super) struct CompareFlags {
     /// Folder for figure and page of both
     #[arg(long, value_name = "DIR", value_parser = folder())]
     out: Option<PathBuf>,
+    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
+    #[arg(long, requires = "out")]
+    force: bool,
     /// Print nothing but errors
     #[arg(long, short)]
     quiet: bool,
@@ -66,12 +73,20 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
         columns: flags.tolerance.clone(),
         peaks: flags.peaks,
     };
+    let reads = [flags.baseline.clone(), flags.new.clone()];
+    let target = flags.out.as_deref().map(|folder| Target {
+        folder,
+        kind: Kind::Comparison,
+        force: flags.force,
+        reads: &reads,
+    });
+    target.map_or(Ok(()), |target| target.check())?;
     let baseline = open(&flags.baseline, None)?;
     let new = open(&flags.new, Some(&baseline.table))?;
     let comparison = Comparison::of(&baseline.table, &new.table, &tolerances)?;
     let mut text = comparison.text();
-    if let Some(out) = &flags.out {
-        let left_out = write(out, &comparison, &tolerances, [&baseline, &new])?;
+    if let Some(target) = &target {
+        let left_out = write(target, &comparison, &tolerances, [&baseline, &new])?;
         text.extend(left_out.iter().map(|reason| format!("{reason}\n")));
     }
     text.push_str(&format!("\n{}\n", comparison.verdict()));
@@ -88,13 +103,17 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
 
 /// Writes figure, data and page. Returns what was left out and why.
 fn write(
-    out: &Path,
+    target: &Target<'_>,
     comparison: &Comparison,
     tolerances: &Tolerances,
     [baseline, new]: [&Opened; 2],
 ) -> Result<Vec<String>, Failure> {
     let pictures = Pictures::default();
-    let write = |name: &str, bytes: &[u8]| write_atomically(&out.join(name), bytes);
+    let files = Files::default();
+    let write = |name: &str, bytes: &[u8]| {
+        files.insert(name, bytes);
+        Ok(())
+    };
     let press = Press {
         plan: &FigurePlan::default(),
         write: &write,
@@ -112,7 +131,8 @@ fn write(
         sources: [&baseline.source, &new.source],
         pictures: &pictures,
     })?;
-    write("index.html", page.as_bytes()).map_err(Failure::run)?;
+    files.insert("index.html", page);
+    target.write(files.into_vec())?;
     Ok(left_out)
 }
 

@@ -7,16 +7,18 @@ use std::sync::atomic::Ordering;
 use clap::Args;
 
 use super::arguments::{OutputFormat, folder, threads};
-use super::material::{commented, print_place, write_figures, write_files};
+use super::material::{commented, draw, print_place};
 use super::sweep::interrupt_flag;
 use super::{Ended, Failure, default_folder, json, meant_for, open_document, print};
 use crate::identify::{IdentifyError, curves, identify};
 use crate::input::identify_file;
 use crate::report::caption::Setting;
+use crate::report::figure::press::Files;
 use crate::report::identify::{IdentifyReport, summary};
 use crate::report::{figure, page};
 use crate::sweep::plan::resolved;
 use crate::sweep::search::run;
+use crate::sweep::store::manifest::{Kind, Target};
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -47,6 +49,9 @@ pub(super) struct IdentifyFlags {
     /// Write only tables, without figures and page
     #[arg(long)]
     pub(super) no_figures: bool,
+    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
+    #[arg(long)]
+    pub(super) force: bool,
     /// Print nothing but errors
     #[arg(long, short)]
     pub(super) quiet: bool,
@@ -57,6 +62,14 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
     let document = open_document(&flags.file, &flags.set)?;
     meant_for::identify(&document, &flags.file)?;
     let plan = identify_file::plan(&document)?;
+    let default = default_folder(&flags.file);
+    let target = Target {
+        folder: flags.out.as_deref().unwrap_or(&default),
+        kind: Kind::Identification,
+        force: flags.force,
+        reads: &document.files(),
+    };
+    target.check()?;
     let interrupt = interrupt_flag()?;
     let pool = run::pool(run::useful_threads(flags.threads)).map_err(Failure::run)?;
     let made = pool.install(|| {
@@ -76,15 +89,17 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
         curves: &curves,
     };
     let block = block(&report)?;
-    let default = default_folder(&flags.file);
-    let folder = flags.out.as_deref().unwrap_or(&default);
-    write_files(folder, report.files(&block))?;
+    let files = Files::default();
+    for (name, bytes) in report.files(&block) {
+        files.insert(name, bytes);
+    }
     if !flags.no_figures {
         let figures = figure::identify::figures(&report);
-        write_figures(folder, &figures, &Setting::default(), |pictures, _| {
+        draw(&files, &figures, &Setting::default(), |pictures, _| {
             page::identify::page(&report, &figures, &block, pictures)
         })?;
     }
+    target.write(files.into_vec())?;
     match format {
         OutputFormat::Json => {
             let mut value = summary::summary(&report);
@@ -95,7 +110,7 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
         OutputFormat::Text => {
             let (title, text, unknowns) = (&plan.title, report.text(), report.unknowns());
             print(&format!("{title}\n\n{text}\n{unknowns}"))?;
-            print_place("Material and figures", folder, format)
+            print_place("Material and figures", target.folder, format)
         }
     }
 }

@@ -1,6 +1,6 @@
 //! `contact-dma material`: the library, one material in full, fits, and other programs.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::arguments::{MaterialCommand, OutputFormat, ShowFlags};
 use super::{
@@ -12,13 +12,16 @@ use crate::input::material_block;
 use crate::input::material_table::DirectSum;
 use crate::material::{Material, library};
 use crate::report::caption::Setting;
-use crate::report::figure::{Figure, press::Press};
+use crate::report::figure::{
+    Figure,
+    press::{Files, Press},
+};
 use crate::report::page::{self, Pictures, material::About};
 use crate::report::words::wrapped;
 use crate::report::{self, ReportError, material::MaterialReport};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::resolved;
-use crate::sweep::store::write_atomically;
+use crate::sweep::store::manifest::{Kind, Target};
 
 /// Runs one of the subcommands.
 pub(super) fn run(
@@ -47,7 +50,14 @@ fn list(format: OutputFormat) -> Result<Ended, Failure> {
 }
 
 fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
-    let (material, head) = load(&flags.material)?;
+    let (material, head, reads) = load(&flags.material)?;
+    let target = flags.out.as_deref().map(|folder| Target {
+        folder,
+        kind: Kind::Material,
+        force: flags.force,
+        reads: &reads,
+    });
+    target.map_or(Ok(()), |target| target.check())?;
     let report = MaterialReport::new(&material);
     match format {
         OutputFormat::Json => json::print(&json::material(&material)?)?,
@@ -56,12 +66,13 @@ fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
             print(&format!("{head}{body}"))?
         }
     };
-    let Some(folder) = &flags.out else {
+    let Some(target) = target else {
         return Ok(Ended::Done);
     };
     let figures = report.figures();
     let setting = Setting::of_material(&material);
-    write_figures(folder, &figures, &setting, |pictures, figure| {
+    let files = Files::default();
+    draw(&files, &figures, &setting, |pictures, figure| {
         let about = About {
             title: material.name().unwrap_or("Material"),
             // The first line is the title, which stands above.
@@ -73,43 +84,35 @@ fn show(flags: &ShowFlags, format: OutputFormat) -> Result<Ended, Failure> {
         };
         page::material::page(&material, &about)
     })?;
-    print_place("Figures", folder, format)
+    target.write(files.into_vec())?;
+    print_place("Figures", target.folder, format)
 }
 
-/// Writes these files, by their names, into a folder.
-pub(super) fn write_files<N: AsRef<Path>>(
-    folder: &Path,
-    files: impl IntoIterator<Item = (N, Vec<u8>)>,
-) -> Result<(), Failure> {
-    let mut files = files.into_iter();
-    files
-        .try_for_each(|(name, bytes)| write_atomically(&folder.join(name), &bytes))
-        .map_err(Failure::run)
-}
-
-/// Writes figures into a folder, and the page that shows them, made of the pictures and the name of the first one.
-pub(super) fn write_figures(
-    folder: &Path,
+/// Draws figures among the files, and the page that shows them, made of the pictures and the name of the first one.
+pub(super) fn draw(
+    files: &Files,
     figures: &[Figure],
     setting: &Setting,
     page: impl FnOnce(&Pictures, &str) -> Result<String, ReportError>,
 ) -> Result<(), Failure> {
     let pictures = Pictures::default();
-    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
+    let write = |name: &str, bytes: &[u8]| {
+        files.insert(name, bytes);
+        Ok(())
+    };
     let press = Press {
         plan: &FigurePlan::default(),
         write: &write,
         pictures: &pictures,
     };
-    press.figures(figures, setting).map_err(Failure::run)?;
+    press.figures(figures, setting)?;
     for reason in pictures.not_drawn() {
         super::warn(&reason);
     }
-    let Some(first) = figures.first() else {
-        return Ok(());
-    };
-    let page = page(&pictures, first.name).map_err(Failure::run)?;
-    write("index.html", page.as_bytes()).map_err(Failure::run)
+    if let Some(first) = figures.first() {
+        files.insert("index.html", page(&pictures, first.name)?);
+    }
+    Ok(())
 }
 
 /// Tells people where the files are.
@@ -124,11 +127,12 @@ pub(super) fn print_place(
     }
 }
 
-/// A material by name or from a file, and the lines that introduce it.
-pub(super) fn load(name: &str) -> Result<(Material, String), Failure> {
+/// A material by name or from a file, the lines that introduce it, and the files that were read.
+pub(super) fn load(name: &str) -> Result<(Material, String, Vec<PathBuf>), Failure> {
     if let Some(entry) = library::find(name) {
         let material = entry.material().map_err(Failure::run)?;
-        return Ok((material, format!("{}\n{}", entry.title, about(entry))));
+        let head = format!("{}\n{}", entry.title, about(entry));
+        return Ok((material, head, Vec::new()));
     }
     let path = Path::new(name);
     if !path.exists() && name != STANDARD_INPUT {
@@ -147,7 +151,8 @@ pub(super) fn load(name: &str) -> Result<(Material, String), Failure> {
     let title = material.name().unwrap_or("Material").to_owned();
     let fit = material.fit().map(report::fit::text).unwrap_or_default();
     let model = report::fit::approximation(&material);
-    Ok((material, format!("{title} (from {name})\n{fit}{model}")))
+    let head = format!("{title} (from {name})\n{fit}{model}");
+    Ok((material, head, document.files()))
 }
 
 /// What the library says of a material, set in by four.

@@ -1,6 +1,8 @@
 //! `contact-dma material export`: a material as input of a finite element program.
 
-use std::io::Write;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
@@ -12,11 +14,11 @@ use crate::sweep::store::write_atomically;
 
 /// Runs the command.
 pub(super) fn run(flags: &ExportFlags, format: OutputFormat) -> Result<Ended, Failure> {
-    let (material, _) = material::load(&flags.material)?;
+    let (material, _, reads) = material::load(&flags.material)?;
     let program = flags.program;
     let export = export::export(&material, material.shift(), program).map_err(Failure::input)?;
     if let Some(file) = &flags.out {
-        write_atomically(file, export.text.as_bytes()).map_err(Failure::run)?;
+        write_to(file, &export.text, flags.force, &reads)?;
     }
     match (format, &flags.out) {
         (OutputFormat::Json, _) => json::print(&json!({
@@ -40,6 +42,53 @@ pub(super) fn run(flags: &ExportFlags, format: OutputFormat) -> Result<Ended, Fa
             write_out(&export.text)
         }
     }
+}
+
+/// Writes a file: into what a link names, and to a device or pipe as it is.
+fn write_to(path: &Path, text: &str, force: bool, reads: &[PathBuf]) -> Result<(), Failure> {
+    let name = path.display();
+    let Ok(target) = path.canonicalize() else {
+        // There is none yet; a link to nothing makes what it names.
+        return match path.is_symlink() {
+            true => written(path, fs::write(path, text)),
+            false => Ok(write_atomically(path, text.as_bytes())?),
+        };
+    };
+    if !target.is_file() {
+        let opened = File::options().write(true).open(&target);
+        return written(
+            path,
+            opened.and_then(|mut file| file.write_all(text.as_bytes())),
+        );
+    }
+    let is_read = |read: &&PathBuf| read.canonicalize().is_ok_and(|read| read == target);
+    if let Some(read) = reads.iter().find(is_read) {
+        return Err(Failure::Input(format!(
+            "{name} would be written over {}, which is read; name another file with --out",
+            read.display()
+        )));
+    }
+    if !force && !is_export(&target) {
+        return Err(Failure::Input(format!(
+            "{name} is there, and was not written by this command; name another file with --out, or replace it with --force"
+        )));
+    }
+    Ok(write_atomically(&target, text.as_bytes())?)
+}
+
+/// Whether a file is one that this command has written: it says so in a comment on one of its first lines.
+fn is_export(path: &Path) -> bool {
+    let text = fs::read(path).unwrap_or_default();
+    let text = String::from_utf8_lossy(&text);
+    text.is_empty()
+        || text
+            .lines()
+            .take(3)
+            .any(|line| line.contains("written by contact-dma"))
+}
+
+fn written(path: &Path, result: io::Result<()>) -> Result<(), Failure> {
+    result.map_err(|error| Failure::run(format!("cannot write {}: {error}", path.display())))
 }
 
 fn remarks(export: &Export) -> String {

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::arguments::{DynamicFlags, FitFlags, FitQuantity, OutputFormat};
-use super::material::{commented, print_place, write_figures, write_files};
+use super::material::{commented, draw, print_place};
 use super::{Ended, Failure, json, material_fit_dynamic, print};
 use crate::input::dynamic::DynamicFormat;
 use crate::input::table_file;
@@ -11,9 +11,11 @@ use crate::material::fit;
 use crate::material::{Material, MaterialFunction};
 use crate::report::caption::Setting;
 use crate::report::dynamic::tables;
+use crate::report::figure::press::Files;
 use crate::report::page::{self, material::About};
 use crate::report::{self, figure};
 use crate::sweep::plan::resolved;
+use crate::sweep::store::manifest::{Kind, Target};
 
 /// Runs the command; `data_format` is what `--format` says of the data.
 pub(super) fn run(
@@ -39,12 +41,24 @@ pub(super) fn run(
     fit_table(flags, (data, function, poisson_ratio), format)
 }
 
+/// The folder of a fit, where one is asked for.
+pub(super) fn target(flags: &FitFlags) -> Option<Target<'_>> {
+    flags.out.as_deref().map(|folder| Target {
+        folder,
+        kind: Kind::MaterialFit,
+        force: flags.force,
+        reads: &flags.data,
+    })
+}
+
 /// A creep compliance or relaxation modulus over time.
 fn fit_table(
     flags: &FitFlags,
     (data, function, poisson_ratio): (&Path, MaterialFunction, f64),
     format: OutputFormat,
 ) -> Result<Ended, Failure> {
+    let target = target(flags);
+    target.map_or(Ok(()), |target| target.check())?;
     let table = table_file::read(data, function, flags.modulus)?;
     let fit = fit::fit(&table, flags.flow).map_err(Failure::input)?;
     let material = fit.material(poisson_ratio).map_err(Failure::input)?;
@@ -58,15 +72,17 @@ fn fit_table(
             unless_written(flags, &block)
         ))?,
     };
-    let Some(folder) = &flags.out else {
+    let Some(target) = target else {
         return Ok(Ended::Done);
     };
-    write_files(folder, [("material.toml", block.clone().into_bytes())])?;
-    let series = material.relaxation().map(tables::prony);
-    write_files(folder, series.map(|series| ("prony.csv", series)))?;
+    let files = Files::default();
+    files.insert("material.toml", block.clone());
+    if let Some(series) = material.relaxation() {
+        files.insert("prony.csv", tables::prony(series));
+    }
     let figures = figure::fit::figures(&table, &fit);
     let setting = Setting::of_material(&material);
-    write_figures(folder, &figures, &setting, |pictures, figure| {
+    draw(&files, &figures, &setting, |pictures, figure| {
         let name = data.file_name().unwrap_or_default();
         let about = About {
             title: &format!("Fit to {}", name.display()),
@@ -78,7 +94,8 @@ fn fit_table(
         };
         page::material::page(&material, &about)
     })?;
-    print_place("Material and figures", folder, format)
+    target.write(files.into_vec())?;
+    print_place("Material and figures", target.folder, format)
 }
 
 /// The block to paste, where it does not go into a file.

@@ -1,20 +1,22 @@
 //! `contact-dma material fit --quantity dynamic`: from files of storage and loss modulus to a master curve and a material block.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
 use super::arguments::{Branches, FitFlags, OutputFormat};
-use super::material::{commented, print_place, write_figures, write_files};
+use super::material::{commented, draw, print_place};
 use super::material_fit::unless_written;
-use super::{Ended, Failure, json, print};
+use super::{Ended, Failure, json, material_fit, print};
 use crate::input::dynamic::{self, DynamicFormat};
 use crate::material::dynamic::master_curve::ShiftChoice;
 use crate::material::dynamic::{Choices, characterise};
 use crate::report::caption::Setting;
 use crate::report::dynamic::{DynamicReport, Source, summary, tables};
+use crate::report::figure::press::Files;
 use crate::report::{figure, page};
 use crate::sweep::plan::resolved;
+use crate::sweep::store::manifest::Target;
 
 /// Runs the command.
 pub(super) fn run(
@@ -27,6 +29,17 @@ pub(super) fn run(
             "--flow is for creep and relaxation: the equilibrium modulus of dynamic data is fitted freely, and may be zero",
         ));
     }
+    let reads: Vec<PathBuf> = flags
+        .data
+        .iter()
+        .chain(&flags.dynamic.shift)
+        .cloned()
+        .collect();
+    let target = material_fit::target(flags).map(|target| Target {
+        reads: &reads,
+        ..target
+    });
+    target.map_or(Ok(()), |target| target.check())?;
     let asked = data_format(flags.dynamic.data_format, named)?;
     let choices = choices(flags)?;
     let file = dynamic::read(&flags.data, asked, flags.modulus)?;
@@ -61,15 +74,19 @@ pub(super) fn run(
             print(&format!("{text}\n{shifts}\n{branches}{block}"))?
         }
     };
-    let Some(folder) = &flags.out else {
+    let Some(target) = target else {
         return Ok(Ended::Done);
     };
-    write_files(folder, report.files(&block, shifting))?;
+    let files = Files::default();
+    for (name, bytes) in report.files(&block, shifting) {
+        files.insert(name, bytes);
+    }
     let figures = figure::dynamic::figures(&report);
-    write_figures(folder, &figures, &Setting::default(), |pictures, _| {
+    draw(&files, &figures, &Setting::default(), |pictures, _| {
         page::dynamic::page(&report, &figures, &block, pictures)
     })?;
-    print_place("Material and figures", folder, format)
+    target.write(files.into_vec())?;
+    print_place("Material and figures", target.folder, format)
 }
 
 /// The format by `--data-format` or by `--format`, which may say the same.

@@ -40,7 +40,7 @@ use crate::input::dynamic::silence_caught_panics;
 use crate::report::ReportError;
 use crate::report::comparison::ComparisonError;
 use crate::sweep::search::run::RunError;
-use crate::sweep::store::{Store, StoreError};
+use crate::sweep::store::{Remedy, Store, StoreError};
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,12 +80,10 @@ impl From<Diagnostics> for Failure {
 impl From<StoreError> for Failure {
     /// A folder whose contents must not be used is an input that is wrong; anything else that stops a run is not.
     fn from(error: StoreError) -> Self {
-        match error {
-            StoreError::NewerProgram { .. }
-            | StoreError::OtherSweep { .. }
-            | StoreError::InUse { .. }
-            | StoreError::NoSweep { .. } => Self::input(error),
-            other => Self::run(other),
+        let text = error.advised(advice);
+        match error.is_of_input() {
+            true => Self::Input(text),
+            false => Self::Run(text),
         }
     }
 }
@@ -101,7 +99,10 @@ impl From<RunError> for Failure {
 
 impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
-        Self::run(error)
+        match error {
+            ReportError::Store(error) => error.into(),
+            other => Self::run(other),
+        }
     }
 }
 
@@ -224,14 +225,35 @@ fn default_folder(file: &Path) -> PathBuf {
 
 /// The folder for the results of a file: the one asked for, or the default one.
 fn open_store(
-    file: &Path,
-    out: Option<&Path>,
+    (file, document): (&Path, &Document),
+    (out, force): (Option<&Path>, bool),
     resolved: &str,
-    force: bool,
 ) -> Result<Store, Failure> {
     let default = default_folder(file);
-    let _opening = progress::opening(out.unwrap_or(&default));
-    Ok(Store::open(out.unwrap_or(&default), resolved, force)?)
+    let out = out.unwrap_or(&default);
+    let _opening = progress::opening(out);
+    Ok(Store::open_reading(
+        out,
+        resolved,
+        force,
+        &document.files(),
+    )?)
+}
+
+/// What to do about a folder, in the words of this command line.
+fn advice(remedy: Remedy) -> &'static str {
+    match remedy {
+        Remedy::OtherFolder => "choose another folder with --out",
+        Remedy::OtherFolderOrWait => {
+            "choose another folder with --out, or wait until it has ended (--force does not replace what runs)"
+        }
+        Remedy::OtherFolderOrForce => {
+            "choose another folder with --out, or replace them with --force"
+        }
+        Remedy::OtherFolderOrAdd => {
+            "choose another folder with --out, or add to this one with --force, which leaves every file that is there as it is"
+        }
+    }
 }
 
 /// Prints what a command has found: as one object for programs, as text for people, or nothing where it is to be quiet.

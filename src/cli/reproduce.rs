@@ -21,6 +21,7 @@ use crate::reproduction::{
 };
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::search::run::useful_threads;
+use crate::sweep::store::manifest::{Kind, Target};
 
 const DEFAULT_FOLDER: &str = "reports/spinu-2018";
 
@@ -49,6 +50,9 @@ pub(super) struct ReproduceFlags {
     /// Number of threads [default: one per processor, at most four for each]; the results do not depend on it
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     pub(super) threads: Option<NonZeroUsize>,
+    /// Replace another result in the output folder, or add to a folder that has files of others, of which none is touched
+    #[arg(long)]
+    pub(super) force: bool,
     /// Print nothing but errors
     #[arg(long, short)]
     pub(super) quiet: bool,
@@ -77,6 +81,13 @@ pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended,
         [] => &FIGURES,
         some => some,
     };
+    let target = Target {
+        folder: &flags.out,
+        kind: Kind::Reproduction,
+        force: flags.force,
+        reads: &[],
+    };
+    target.check()?;
     let threads = useful_threads(flags.threads);
     let interrupt = interrupt_flag()?;
     let finished = |number: u8| {
@@ -88,7 +99,7 @@ pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended,
         Err(ReproductionError::Interrupted) => return Ok(Ended::Interrupted),
         made => made.map_err(Failure::run)?,
     };
-    reproduction::write(&made, &figures, &flags.out).map_err(Failure::run)?;
+    target.write(reproduction::files(&made, &figures).map_err(Failure::run)?)?;
     let found = || {
         let (columns, claims) = reproduction::claims(&made);
         let row = |row: &Vec<Cell>| object(columns.iter().copied().zip(row.iter().cloned()));

@@ -19,6 +19,7 @@ use crate::sweep::history::checkpoint::{HistoryCheckpoint, HistoryState};
 use crate::sweep::history::{Simulation, SimulationEnd, SimulationOutcome};
 use crate::sweep::plan::scenario;
 use crate::sweep::search::run;
+use crate::sweep::store::provenance::{Circumstances, Stopwatch};
 use crate::sweep::store::{Store, checkpoint_file};
 
 #[derive(Debug, Args)]
@@ -60,7 +61,8 @@ pub(super) struct SimulateFlags {
     /// Seconds between checkpoints of a long history
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
     checkpoint_every: u64,
-    /// Replace the results of a different sweep or scenario in the output folder
+    /// Replace the results of a different sweep or scenario in the output folder, or add to a folder that has files of others,
+    /// of which none is touched
     #[arg(long)]
     force: bool,
     /// Print nothing but errors
@@ -70,6 +72,7 @@ pub(super) struct SimulateFlags {
 
 /// Runs the command.
 pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, Failure> {
+    let clock = Stopwatch::start();
     let mut set = flags.set.clone();
     if flags.no_error_bars {
         set.push("output.error_bars=false".to_owned());
@@ -92,7 +95,8 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
         return tell(format, false, found, || foretold(&simulation));
     }
     let resolved = scenario::resolved_text(simulation.plan());
-    let store = open_store(&flags.file, flags.out.as_deref(), &resolved, flags.force)?;
+    let out = (flags.out.as_deref(), flags.force);
+    let store = open_store((&flags.file, &document), out, &resolved)?;
     let interrupt = interrupt_flag()?;
     let simulation = simulation.interrupted_by(Arc::clone(&interrupt));
     let checkpoint = HistoryCheckpoint::of(&store, Duration::from_secs(flags.checkpoint_every));
@@ -121,6 +125,15 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     if outcome.ended != SimulationEnd::Interrupted {
         checkpoint.remove();
     }
+    let circumstances = Circumstances {
+        command: "simulate",
+        threads,
+        shard: None,
+        cases_computed: None,
+        cases_found: None,
+        interrupted: outcome.ended == SimulationEnd::Interrupted,
+    };
+    clock.write_scenario(&store, simulation.plan(), &circumstances)?;
     let folder = store.folder().display();
     if let SimulationEnd::Failed(message) = &outcome.ended {
         return Err(Failure::run(format!(

@@ -44,7 +44,8 @@ pub(super) struct MergeFlags {
     /// Number of threads [default: one per processor, at most four for each]
     #[arg(long, value_name = "N", env = "CONTACT_DMA_THREADS", value_parser = threads)]
     threads: Option<NonZeroUsize>,
-    /// Replace the results of a different sweep in the output folder
+    /// Replace the results of a different sweep in the output folder, or add to a folder that has files of others, of which none is
+    /// touched
     #[arg(long)]
     force: bool,
     /// Print nothing but errors
@@ -68,13 +69,14 @@ pub(super) struct ReportFlags {
     /// folder of the sweep
     #[arg(long, value_name = "DIR", value_parser = folder())]
     out: Option<PathBuf>,
-    /// Replace the results of a different sweep in the folder of --out
+    /// Replace the results of a different sweep in the folder of --out, or add to a folder that has files of others, of which
+    /// none is touched
     #[arg(long, requires = "out")]
     force: bool,
     /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
-    /// Write cycles.npz, all cycles for NumPy, also for more than 200 cases
+    /// Write cycles.npz, all cycles for NumPy, also for more than 200 cases; without this flag an earlier one is removed
     #[arg(long)]
     cycles: bool,
     /// Change one key of [figures], for example figures.width='85 mm'; may be repeated
@@ -130,7 +132,8 @@ pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, F
 /// Draws tables and figures of a folder again.
 pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let asked = (!flags.no_figures, flags.quiet, format);
-    if let Some(done) = super::analyse::again(&flags.folder, flags.out.as_deref(), asked) {
+    let to = (flags.out.as_deref(), flags.force);
+    if let Some(done) = super::analyse::again(&flags.folder, to, asked) {
         return done;
     }
     let clock = Stopwatch::start();

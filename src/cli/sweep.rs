@@ -64,7 +64,7 @@ pub(super) struct SweepFlags {
     /// Write only tables, without figures and page
     #[arg(long)]
     no_figures: bool,
-    /// Write cycles.npz, all cycles for NumPy, also for more than 200 cases
+    /// Write cycles.npz, all cycles for NumPy, also for more than 200 cases; without this flag an earlier one is removed
     #[arg(long)]
     cycles: bool,
     /// Compute only the part K of N; `merge` joins parts in separate folders
@@ -79,7 +79,8 @@ pub(super) struct SweepFlags {
     /// Seconds between checkpoints of a long case
     #[arg(long, value_name = "SECONDS", default_value_t = checkpoint_file::EVERY.as_secs())]
     checkpoint_every: u64,
-    /// Replace the results of a different sweep, or of a newer program, in the output folder
+    /// Replace the results of a different sweep, or of a newer program, in the output folder, or add to a folder that has files of
+    /// others, of which none is touched
     #[arg(long)]
     force: bool,
     /// Print nothing but errors
@@ -99,7 +100,8 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
         return super::plan::show(&setup, format);
     }
     let resolved = resolved::resolved_text(setup.plan());
-    let store = open_store(&flags.file, flags.out.as_deref(), &resolved, flags.force)?;
+    let out = (flags.out.as_deref(), flags.force);
+    let store = open_store((&flags.file, &document), out, &resolved)?;
     let interrupt = interrupt_flag()?;
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
     let options = Options {
@@ -186,8 +188,7 @@ impl<'a> Job<'a> {
             false => report::write_tables_of_sweep(self.store, plan, outcome)?,
         };
         if self.cycles && !plan.is_small() {
-            let written = report::cycles::write(self.store, self.records, plan, outcome);
-            written.map_err(Failure::run)?;
+            report::cycles::write(self.store, self.records, plan, outcome)?;
         }
         self.sign(outcome.records.len(), outcome.interrupted, None)?;
         let found = || {
@@ -247,13 +248,12 @@ impl<'a> Job<'a> {
             command: self.command,
             threads: self.threads,
             shard: shard.map(|shard| shard.to_string()),
-            cases_computed: records.saturating_sub(self.found),
-            cases_found: self.found,
+            cases_computed: Some(records.saturating_sub(self.found)),
+            cases_found: Some(self.found),
             interrupted,
         };
         let plan = self.setup.plan();
-        let written = self.clock.write(self.store, plan, &circumstances);
-        written.map_err(Failure::run)
+        Ok(self.clock.write(self.store, plan, &circumstances)?)
     }
 }
 

@@ -166,6 +166,25 @@ impl Document {
         }
     }
 
+    /// The files that there are by any name in the document, and the document itself: what a command that reads it must not write
+    /// over. Of a folder the table in it that is read.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let mut named = vec![PathBuf::from(self.source.name())];
+        self.root.for_each_text(&mut |text, location| {
+            let located = Located {
+                value: text.to_owned(),
+                path: String::new(),
+                location: location.clone(),
+            };
+            named.push(located.path_from(&self.folder));
+        });
+        let tables = named.iter().map(|path| path.join("sweep.csv"));
+        let tables: Vec<PathBuf> = tables.collect();
+        named.extend(tables);
+        named.retain(|path| path.is_file());
+        named
+    }
+
     /// Starts reading at the top of the file.
     pub(crate) fn root<'a>(&'a self, problems: &'a Problems) -> TableReader<'a> {
         let location = Location::whole(&self.source);

@@ -3,14 +3,14 @@
 use super::ReportError;
 use crate::report::caption::Setting;
 use crate::report::figure;
-use crate::report::figure::press::{self, Press};
+use crate::report::figure::press::Press;
 use crate::report::figure::units::Units;
 use crate::report::page::{self, Pictures};
-use crate::report::scenario_tables::{self, HISTORY};
+use crate::report::scenario_tables;
 use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::history::SimulationOutcome;
-use crate::sweep::plan::scenario::{self, ScenarioPlan};
-use crate::sweep::store::{Store, files};
+use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::store::Store;
 
 /// Writes everything, as far as the simulation came. Returns what was left out and why.
 ///
@@ -36,6 +36,7 @@ pub fn write(
     left_out.extend(pictures.not_drawn());
     let page = page::simulation(plan, outcome, &pictures, store.sweep_hash())?;
     store.write("index.html", page.as_bytes())?;
+    store.remove_stale()?;
     Ok(left_out)
 }
 
@@ -49,19 +50,8 @@ pub fn write_tables(
     outcome: &SimulationOutcome,
 ) -> Result<Vec<String>, ReportError> {
     scenario_tables::write(store, plan, outcome)?;
-    let drawn = names(outcome).flat_map(|name| files::of_figure(&name));
-    // The data of the figure of the history are the table itself.
-    for file in drawn.filter(|file| file != HISTORY) {
-        store.remove(&file)?;
-    }
-    store.remove("index.html")?;
+    store.remove_stale()?;
     Ok(Vec::new())
-}
-
-/// The names of all figures that there may be.
-fn names(outcome: &SimulationOutcome) -> impl Iterator<Item = String> {
-    let maps = (0..outcome.fields.len()).map(figure::pressure_map::file);
-    scenario::FIGURES.into_iter().map(str::to_owned).chain(maps)
 }
 
 fn figures(
@@ -89,8 +79,5 @@ fn figures(
     press.figures(&figures, &setting)?;
     let maps = figure::pressure_map::write(&outcome.fields, &press, (&units, &setting))?;
     left_out.extend(maps);
-    for file in names(outcome).flat_map(|name| press::not_asked(&plan.figures, &name)) {
-        store.remove(&file)?;
-    }
     Ok(left_out)
 }

@@ -32,9 +32,8 @@ pub fn write(
     outcome: &SimulationOutcome,
 ) -> Result<(), ReportError> {
     store.write(HISTORY, &quantities::history(outcome))?;
-    match outcome.cycles.is_empty() {
-        true => store.remove(CYCLES)?,
-        false => store.write(CYCLES, &quantities::cycles(outcome))?,
+    if !outcome.cycles.is_empty() {
+        store.write(CYCLES, &quantities::cycles(outcome))?;
     }
     store.write("summary.json", &summary(plan, outcome, store.sweep_hash())?)?;
     if !outcome.profiles.is_empty() {

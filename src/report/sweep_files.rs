@@ -3,7 +3,7 @@
 use super::ReportError;
 use super::caption::Setting;
 use super::figure;
-use super::figure::press::{self, Press};
+use super::figure::press::Press;
 use super::figure::units::Units;
 use super::page;
 use super::page::Pictures;
@@ -11,7 +11,7 @@ use super::sweep_tables;
 use crate::sweep::figures::figure_plan::AxisUnits;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::search::run::Outcome;
-use crate::sweep::store::{Store, files};
+use crate::sweep::store::Store;
 
 /// Reads the cycles of the cases that figures and page show, where the outcome does not hold them already.
 ///
@@ -35,8 +35,8 @@ pub fn load_drawn_cycles(
     Ok(())
 }
 
-/// Writes everything a sweep leaves behind: table, loops, pressures, work, summary, figures with their data. Returns what was left out and
-/// why.
+/// Writes everything a sweep leaves behind: table, loops, pressures, work, summary, figures with their data. What an earlier run has
+/// left beyond that is removed. Returns what was left out and why.
 ///
 /// # Errors
 /// [`ReportError`] naming the file that could not be made.
@@ -46,7 +46,9 @@ pub fn write_sweep(
     outcome: &Outcome,
 ) -> Result<Vec<String>, ReportError> {
     tables(store, plan, outcome)?;
-    figures_of_sweep(store, plan, outcome)
+    let left_out = figures_of_sweep(store, plan, outcome)?;
+    store.remove_stale()?;
+    Ok(left_out)
 }
 
 /// As [`write_sweep`], without figures and page; those of an earlier run, which may show less, are removed.
@@ -59,10 +61,7 @@ pub fn write_tables_of_sweep(
     outcome: &Outcome,
 ) -> Result<Vec<String>, ReportError> {
     tables(store, plan, outcome)?;
-    for file in files::FIGURES.into_iter().flat_map(files::of_figure) {
-        store.remove(&file)?;
-    }
-    store.remove("index.html")?;
+    store.remove_stale()?;
     Ok(Vec::new())
 }
 
@@ -95,17 +94,6 @@ fn figures_of_sweep(
     left_out.extend(pictures.not_drawn());
     let page = page::sweep(plan, outcome, &pictures, store.sweep_hash())?;
     store.write("index.html", page.as_bytes())?;
-    // An earlier run of the same sweep, which came further or was asked for other forms, may have left more than this one.
-    let has = |name: &str| figures.iter().any(|figure| figure.name == name);
-    for name in files::FIGURES {
-        let left = match has(name) {
-            true => press::not_asked(&plan.figures, name),
-            false => files::of_figure(name).into(),
-        };
-        for file in left {
-            store.remove(&file)?;
-        }
-    }
     Ok(left_out)
 }
 

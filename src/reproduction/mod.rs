@@ -29,7 +29,6 @@ mod step_load;
 mod wording;
 
 use std::collections::BTreeMap;
-use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use rayon::prelude::*;
@@ -46,7 +45,7 @@ use crate::material::{Material, MaterialError};
 use crate::report::ReportError;
 use crate::report::chart::Chart;
 use crate::report::figure::Picture;
-use crate::report::figure::press::Press;
+use crate::report::figure::press::{Files, Press};
 use crate::report::page::Pictures;
 use crate::sweep::case::SetupError;
 use crate::sweep::engine::EngineError;
@@ -55,7 +54,7 @@ use crate::sweep::plan::SweepPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::search::peak::PeakError;
 use crate::sweep::search::run::{self, RunError};
-use crate::sweep::store::{StoreError, write_atomically};
+use crate::sweep::store::StoreError;
 use number::Data;
 
 /// The figures of the paper that show computed results; 2 and 3 are flowcharts.
@@ -259,13 +258,17 @@ pub fn make(
     Ok(made)
 }
 
-/// Writes everything into a folder: pictures and data of each figure, the claims as table, and everything in one text for a
+/// All files by their names: pictures and data of each figure, the claims as table, and everything in one text for a
 /// repository and in one page for a browser.
 ///
 /// # Errors
-/// [`ReproductionError`] where a picture cannot be drawn or a file not be written.
-pub fn write(figures: &[Figure], plan: &FigurePlan, folder: &Path) -> Result<()> {
-    let write = |name: &str, bytes: &[u8]| write_atomically(&folder.join(name), bytes);
+/// [`ReproductionError`] where a picture cannot be drawn.
+pub fn files(figures: &[Figure], plan: &FigurePlan) -> Result<Vec<(String, Vec<u8>)>> {
+    let files = Files::default();
+    let write = |name: &str, bytes: &[u8]| {
+        files.insert(name, bytes);
+        Ok(())
+    };
     // The page shows every picture, in whatever forms they are written.
     let pictures = Pictures::default();
     let press = Press {
@@ -276,7 +279,7 @@ pub fn write(figures: &[Figure], plan: &FigurePlan, folder: &Path) -> Result<()>
     figures.par_iter().try_for_each(|figure| {
         let name = figure.name();
         let picture = Picture(figure.panels.clone());
-        write(&format!("{name}.csv"), &figure.data)?;
+        files.insert(format!("{name}.csv"), &figure.data[..]);
         // The page of the repository shows one resolution.
         let mut forms = plan.pictures();
         forms.retain(|(ending, _)| *ending != "@2x.png");
@@ -285,8 +288,8 @@ pub fn write(figures: &[Figure], plan: &FigurePlan, folder: &Path) -> Result<()>
         Ok::<(), ReproductionError>(())
     })?;
     let claims = claim::table(figures);
-    write("claims.csv", &claims)?;
-    write("README.md", readme::text(figures).as_bytes())?;
-    let page = page::page(figures, &pictures, &claims)?;
-    Ok(write("index.html", page.as_bytes())?)
+    files.insert("claims.csv", &claims[..]);
+    files.insert("README.md", readme::text(figures));
+    files.insert("index.html", page::page(figures, &pictures, &claims)?);
+    Ok(files.into_vec())
 }

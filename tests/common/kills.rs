@@ -13,7 +13,8 @@ pub fn results(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut files = every_file(folder);
     files.retain(|(path, _)| {
         let name = path.file_name().unwrap().to_str().unwrap();
-        !name.starts_with("run") && !path.starts_with("records")
+        // The lock file lists what was written last, where other processes were at work at the end.
+        !name.starts_with("run") && !path.starts_with("records") && name != ".contact-dma.lock"
     });
     // Records lie in segments in the order in which they were finished, and some of them twice.
     let mut records = segments::read(folder);

@@ -260,7 +260,10 @@ fn a_run_that_is_replaced_where_locks_reach_nobody_stops_and_leaves_the_folder_t
     });
     stop(&replaced);
     assert!(!out.join("records").exists(), "too quick");
-    fs::remove_file(out.join(".contact-dma.lock")).unwrap();
+    let lock = out.join(".contact-dma.lock");
+    let content = fs::read(&lock).unwrap();
+    fs::remove_file(&lock).unwrap();
+    fs::write(&lock, content).unwrap();
     sweep(&file, &out, &["--force"]).success();
     signal(&replaced, "-CONT");
     let end = replaced.wait_with_output().unwrap();

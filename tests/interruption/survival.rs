@@ -407,6 +407,29 @@ fn a_termination_is_heard_within_an_instant_of_the_finest_grid() {
     );
 }
 
+/// Of more than 200 cases only those that figures choose have files of their own, and a partial report chooses others.
+#[test]
+fn the_files_of_a_partial_report_of_a_large_sweep_do_not_outlast_it() {
+    let folder = TempDir::new().unwrap();
+    let many = CHEAP.replace("points = 60", "points = 240") + "[figures]\nformats = [\"svg\"]\n";
+    let file = write(&folder, "many.toml", &many);
+    let (whole, out) = (folder.path().join("whole"), folder.path().join("out"));
+    sweep(&file, &whole, &["--quiet"]).success();
+    let mut child = start(&file, &out, &["--threads", "1"]);
+    wait_for("no record was written", || out.join("records").exists());
+    signal(&child, "-INT");
+    if child.wait().unwrap().code() == Some(130) {
+        let chosen = |out: &Path| fs::read_dir(out.join("loops")).unwrap().count();
+        assert!(chosen(&out) > 0 && out.join("run.json").exists());
+    }
+    // A file of the user stays.
+    fs::write(out.join("work/notes.txt"), "mine").unwrap();
+    sweep(&file, &out, &["--quiet"]).success();
+    assert_eq!(fs::read(out.join("work/notes.txt")).unwrap(), b"mine");
+    fs::remove_file(out.join("work/notes.txt")).unwrap();
+    assert_same(&out, &whole);
+}
+
 #[test]
 fn a_second_interrupt_ends_the_program_at_once_and_the_next_run_goes_on() {
     let folder = TempDir::new().unwrap();
@@ -503,7 +526,7 @@ fn folders_that_cannot_be_written_or_are_not_there_are_named() {
     let blocked = folder.path().join("blocked");
     fs::create_dir(&blocked).unwrap();
     fs::write(blocked.join("records"), "").unwrap();
-    sweep(&file, &blocked, &["--quiet"])
+    sweep(&file, &blocked, &["--quiet", "--force"])
         .code(1)
         .stderr(contains("blocked/records"));
     let nowhere = folder.path().join("nowhere");

@@ -25,6 +25,7 @@ mod direct_sum;
 mod examples;
 mod fields;
 mod figures;
+mod folders;
 mod fuzz_inputs;
 mod guides;
 mod identify;

@@ -73,6 +73,13 @@ impl Table {
         Self { entries }
     }
 
+    /// Visits every text in the table, and in those below.
+    pub(in crate::input) fn for_each_text(&self, visit: &mut dyn FnMut(&str, &Location)) {
+        for entry in self.entries.values() {
+            entry.node.for_each_text(visit);
+        }
+    }
+
     /// The table below that stands under a key.
     pub(in crate::input) fn table(&self, key: &str) -> Option<&Table> {
         match &self.entries.get(key)?.node.value {
@@ -90,6 +97,15 @@ impl Table {
 }
 
 impl Node {
+    fn for_each_text(&self, visit: &mut dyn FnMut(&str, &Location)) {
+        match &self.value {
+            Value::Text(text) => visit(text, &self.location),
+            Value::Array(items) => items.iter().for_each(|item| item.for_each_text(visit)),
+            Value::Table(table) => table.for_each_text(visit),
+            _ => {}
+        }
+    }
+
     /// Takes over a value parsed by `toml` at `span` of the text that begins at `offset` in `source`.
     pub(crate) fn from_toml(
         span: Range<usize>,

@@ -1,5 +1,8 @@
 //! Pictures written as the `[figures]` table asks for: size, forms, resolution; each with its caption.
 
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
 use rayon::prelude::*;
 
 use super::{Figure, Picture};
@@ -13,6 +16,24 @@ use crate::sweep::store::files;
 
 /// Writes one file: its name, its bytes.
 pub type WriteFile<'a> = dyn Fn(&str, &[u8]) -> Result<(), StoreError> + Sync + 'a;
+
+/// Files that are made before any of them is written.
+#[derive(Debug, Default)]
+pub struct Files(Mutex<BTreeMap<String, Vec<u8>>>);
+
+impl Files {
+    /// Adds a file.
+    pub fn insert(&self, name: impl Into<String>, bytes: impl Into<Vec<u8>>) {
+        let mut files = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        files.insert(name.into(), bytes.into());
+    }
+
+    /// All of them, by their names.
+    pub fn into_vec(self) -> Vec<(String, Vec<u8>)> {
+        let files = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+        files.into_iter().collect()
+    }
+}
 
 /// What makes files of figures.
 pub struct Press<'a> {
@@ -93,16 +114,6 @@ impl Press<'_> {
             )?)
         })
     }
-}
-
-/// Files of a figure that the plan does not ask for: an earlier run may have left them.
-pub fn not_asked(plan: &FigurePlan, file: &str) -> Vec<String> {
-    let asked = plan.pictures();
-    files::PICTURES
-        .into_iter()
-        .filter(|ending| asked.iter().all(|(asked, _)| asked != ending))
-        .map(|ending| format!("{file}{ending}"))
-        .collect()
 }
 
 impl Picture {

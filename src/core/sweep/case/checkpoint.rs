@@ -9,7 +9,6 @@
 //! that does not belong or is damaged is passed over.
 
 use std::cell::{Cell, RefCell};
-use std::fs;
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
@@ -20,7 +19,7 @@ use crate::sweep::case::stabilise::Stabilised;
 use crate::sweep::plan::Case;
 use crate::sweep::store::Store;
 use crate::sweep::store::archive::Purpose;
-use crate::sweep::store::checkpoint_file::{self, CheckpointFile, Rhythm};
+use crate::sweep::store::checkpoint_file::{CheckpointFile, Rhythm};
 use crate::sweep::store::records::Key;
 
 /// The checkpoints of one case, in the hands of the thread that solves it.
@@ -118,9 +117,7 @@ impl Checkpoints {
 
     /// Removes them: the case is done.
     pub(in crate::sweep) fn remove(&self) {
-        let folder = self.store.folder().join(checkpoint_file::FOLDER);
-        // There is none, most often.
-        let _ = fs::remove_dir_all(folder.join(&self.case));
+        self.store.remove_checkpoints(&self.case);
     }
 }
 

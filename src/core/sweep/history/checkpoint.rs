@@ -4,7 +4,6 @@
 //! that comes next, before its instant is solved. One that cannot be written costs nothing but the time it would have saved.
 
 use std::borrow::Cow;
-use std::fs;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -114,10 +113,7 @@ impl HistoryCheckpoint {
 
     /// Removes it: the history is at its end, and its results are written.
     pub fn remove(&self) {
-        if let Some(folder) = self.file.path().parent() {
-            // There is none, most often.
-            let _ = fs::remove_dir_all(folder);
-        }
+        self.file.remove_all();
     }
 }
 
@@ -131,6 +127,7 @@ mod tests {
     use crate::history::Work;
     use crate::sweep::history::HistoryRow;
     use crate::sweep::store::checkpoint_file;
+    use std::fs;
 
     fn row(time_s: f64) -> HistoryRow {
         HistoryRow {

@@ -76,10 +76,6 @@ impl Default for OutputPlan {
     }
 }
 
-/// Every figure a scenario may have. Their files at the top of its folder are replaced by later runs, and summary.json, which a
-/// sweep has too.
-pub const FIGURES: [&str; 4] = ["history", "cycle-losses", "profiles", "pressure-map"];
-
 /// The plan as the text of a scenario file that gives the same plan again; tables are written out.
 pub fn resolved_text(plan: &ScenarioPlan) -> String {
     // By name, so that what is added to a plan and not written here, and so not hashed, does not compile.

@@ -99,7 +99,7 @@ impl<'a> Search<'a> {
             && !outcome.interrupted
             && let Some(store) = self.archive.store()
         {
-            store.remove_checkpoints();
+            store.remove_checkpoints("");
         }
         Ok(outcome)
     }

@@ -129,6 +129,11 @@ impl CheckpointFile {
         let _ = (self.store.check_plan()).and_then(|()| self.store.write(&self.name, bytes));
     }
 
+    /// Removes all checkpoints of the folder.
+    pub(in crate::sweep) fn remove_all(&self) {
+        self.store.remove_checkpoints("");
+    }
+
     pub(in crate::sweep) fn encode(&self, content: &impl Serialize) -> Option<Vec<u8>> {
         self.owner.encode(content)
     }

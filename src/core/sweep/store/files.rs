@@ -1,4 +1,8 @@
-//! What a sweep leaves at the top of its folder: known here, so that another sweep that takes the folder can clear it.
+//! The names of results in a folder. What the program has written is listed, see [`super::manifest`]; by their names are known
+//! the files of versions that wrote no list, and those that would be in the way of a computation.
+
+use super::listing::RUN;
+use super::{RESOLVED, checkpoint_file, records};
 
 /// Every figure a sweep may have; which of them it has depends on its axes, its material and its results.
 pub const FIGURES: [&str; 22] = [
@@ -25,33 +29,87 @@ pub const FIGURES: [&str; 22] = [
     "loss-map-4",
     "peaks-4",
 ];
+/// Those of scenarios and of measured loops besides.
+const MORE_FIGURES: [&str; 5] = [
+    "history",
+    "cycle-losses",
+    "profiles",
+    "pressure-map",
+    "cycles",
+];
 
-/// Where it comes from, table, summary and page.
-const TABLES: [&str; 5] = [
-    "run.json",
+/// Everything else at the top.
+const TABLES: [&str; 10] = [
+    RUN,
+    RESOLVED,
     "sweep.csv",
     "summary.json",
     "cycles.npz",
     "index.html",
+    "analysis.json",
+    "material.toml",
+    "prony.csv",
+    "fit.csv",
 ];
 
-/// What follows the name of a figure in those of its files: data, caption, and the picture in every form.
-const ENDINGS: [&str; 6] = {
-    let [svg, pdf, png, png_of_two] = PICTURES;
-    [".csv", CAPTION, svg, pdf, png, png_of_two]
-};
+/// Folders with files by number: of cases, and of instants asked for.
+pub(super) const NUMBERED: [&str; 6] =
+    ["loops", "pressures", "work", "cycles", "profiles", "fields"];
+
+/// The height map of a result that was saved from arrays: its plan names it.
+pub const HEIGHT_MAP: &str = "height-map.npy";
+
 /// The endings of a picture in every form.
 pub const PICTURES: [&str; 4] = [".svg", ".pdf", ".png", "@2x.png"];
 /// The ending of a caption.
 pub const CAPTION: &str = ".caption.txt";
 
-/// The files that a figure may have.
-pub fn of_figure(name: &str) -> [String; 6] {
-    ENDINGS.map(|ending| format!("{name}{ending}"))
+/// Whether a figure has files of this name: data, caption, picture.
+fn is_of_figure(name: &str) -> bool {
+    let endings = [".csv", CAPTION].into_iter().chain(PICTURES);
+    let mut stems = endings.filter_map(|ending| name.strip_suffix(ending));
+    stems.any(|stem| FIGURES.contains(&stem) || MORE_FIGURES.contains(&stem))
 }
 
-/// All files at the top of a sweep's folder that later runs replace.
-pub fn of_sweep() -> impl Iterator<Item = String> {
-    let tables = TABLES.into_iter().map(str::to_owned);
-    tables.chain(FIGURES.into_iter().flat_map(of_figure))
+/// Whether a name is that of `run.json` of a shard.
+pub(super) fn is_run_of_shard(name: &str) -> bool {
+    name.starts_with("run-") && name.ends_with(".json")
+}
+
+/// Whether a folder within the folder of a result has files of it.
+pub(super) fn is_folder_of_results(name: &str) -> bool {
+    match name.split_once('/') {
+        None => {
+            NUMBERED.contains(&name)
+                || [records::FOLDER, checkpoint_file::FOLDER, "peaks"].contains(&name)
+        }
+        Some((folder, _)) => folder == checkpoint_file::FOLDER,
+    }
+}
+
+/// Whether a result may have a file of this name.
+pub fn is_result(name: &str) -> bool {
+    let Some((folder, file)) = name.split_once('/') else {
+        return TABLES.contains(&name) || is_run_of_shard(name) || is_of_figure(name);
+    };
+    let is_numbered = file.starts_with(|c: char| c.is_ascii_digit()) || file == "index.csv";
+    match folder {
+        checkpoint_file::FOLDER => {
+            file == "history" || file.ends_with(".finished") || file.ends_with(".cycle")
+        }
+        records::FOLDER => file.ends_with(".segment") || is_numbered && file.ends_with(".json"),
+        "peaks" => file.ends_with(".json"),
+        folder => NUMBERED.contains(&folder) && is_numbered,
+    }
+}
+
+/// Whether a file is made anew of records and plan whenever tables and figures are.
+pub(super) fn is_drawn_again(name: &str) -> bool {
+    let is_state = [records::FOLDER, checkpoint_file::FOLDER]
+        .iter()
+        .any(|folder| {
+            name.strip_prefix(folder)
+                .is_some_and(|rest| rest.starts_with('/'))
+        });
+    !is_state && ![RUN, RESOLVED, HEIGHT_MAP].contains(&name) && !is_run_of_shard(name)
 }

@@ -3,13 +3,15 @@
 //! The system releases it when its process ends, however it ends: a killed process leaves no folder locked. A network file
 //! system may have no locks, or keep them to each machine. Work then goes on without, and the plan in the folder protects the
 //! results: it is published exclusively, compared before every write, and named by every record; see [`crate::sweep::store`].
+//!
+//! While commands work in the folder the file also holds the names of the files that they write, see [`super::manifest`].
 
-use std::fs::{File, TryLockError};
-use std::io::ErrorKind;
+use std::fs::{self, File, TryLockError};
+use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::Path;
 
-/// The file that is locked. It is empty and stays: were it removed, two processes could hold locks on two files of this name.
-const LOCK: &str = ".contact-dma.lock";
+/// The file that is locked. It stays: were it removed, two processes could hold locks on two files of this name.
+pub(super) const LOCK: &str = ".contact-dma.lock";
 
 /// Who else is at work in a folder.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,27 +27,65 @@ pub(in crate::sweep) enum Others {
 pub(in crate::sweep) struct FolderLock {
     /// `None` where the file can neither be created nor opened.
     file: Option<File>,
+    /// Not where it is another user's.
+    is_writable: bool,
 }
 
 impl FolderLock {
     /// The lock of a folder, not taken yet.
     pub(in crate::sweep) fn of(folder: &Path) -> Self {
         let path = folder.join(LOCK);
+        // Through a link, names would be written into a file that is somebody else's.
+        if fs::symlink_metadata(&path).is_ok_and(|file| !file.is_file()) {
+            return Self::none();
+        }
         // NFS asks for a file open for writing to lock it exclusively.
         let file = File::options()
             .read(true)
-            .write(true)
+            .append(true)
             .create(true)
-            .truncate(false)
             .open(&path);
+        let is_writable = file.is_ok();
         // Another user's, in a folder of several.
-        let file = file.or_else(|_| File::open(&path));
-        Self { file: file.ok() }
+        let file = file.or_else(|_| File::open(&path)).ok();
+        Self { file, is_writable }
     }
 
     /// A lock that protects nothing, for folders that are only read.
     pub(in crate::sweep) fn none() -> Self {
-        Self { file: None }
+        Self {
+            file: None,
+            is_writable: false,
+        }
+    }
+
+    /// What the file holds; nothing where it is absent.
+    pub(super) fn content(&self) -> String {
+        let mut text = Vec::new();
+        if let Some(mut file) = self.file.as_ref() {
+            // A file that cannot be read lists nothing: what is in the folder then stays as it is.
+            let _ = file.rewind().and_then(|()| file.read_to_end(&mut text));
+        }
+        String::from_utf8_lossy(&text).into_owned()
+    }
+
+    /// Appends text in one write, so that what several processes append does not mix.
+    ///
+    /// # Errors
+    /// Of the file system. To a file that may only be read nothing is appended.
+    pub(super) fn append(&self, text: &str) -> io::Result<()> {
+        match self.file.as_ref() {
+            Some(mut file) if self.is_writable => file.write_all(text.as_bytes()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Empties the file, for the one that holds the lock exclusively.
+    pub(super) fn empty(&self) {
+        if let Some(file) = &self.file {
+            // Names that stay listed are those of files that were written.
+            let _ = file.set_len(0);
+        }
     }
 
     /// Takes the lock exclusively where nobody else has it.

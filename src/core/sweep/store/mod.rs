@@ -5,12 +5,17 @@
 //! holds it alone replaces a plan (`--force`) or removes what killed processes have left. Machines that do not see
 //! one another's locks are safe all the same: a plan is compared before every file takes its name, so that a process whose folder
 //! was replaced stops, and a record names its plan and is never read under another.
+//!
+//! The program replaces and removes only what it has written itself, which `run.json` lists: see [`manifest`].
 
 pub mod archive;
 pub mod checkpoint_file;
 pub mod difference;
+mod error;
 pub mod files;
 pub(in crate::sweep) mod folder_lock;
+mod listing;
+pub mod manifest;
 pub mod memory;
 pub mod merge;
 pub mod packed;
@@ -19,6 +24,7 @@ pub mod provenance;
 pub mod records;
 pub mod segment;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -27,49 +33,12 @@ use std::time::SystemTime;
 
 use tempfile::NamedTempFile;
 
-use crate::sweep::plan::resolved::{hash, identity};
-use crate::sweep::plan::scenario;
-use crate::sweep::store::folder_lock::{FolderLock, Others};
-use crate::sweep::store::records::Records;
+pub use error::{Remedy, StoreError};
 
-/// Why the folder cannot be used.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum StoreError {
-    #[error("cannot create the folder {path}: {source}")]
-    Create { path: PathBuf, source: io::Error },
-    #[error("cannot write {path}: {source}")]
-    Write { path: PathBuf, source: io::Error },
-    #[error("cannot read {path}: {source}")]
-    Read { path: PathBuf, source: io::Error },
-    #[error("cannot encode {path}: {reason}")]
-    Encode { path: PathBuf, reason: String },
-    #[error("{path} {}\n{difference}", of_other(*.at_work))]
-    OtherSweep {
-        path: PathBuf,
-        /// Whether a process is at work there.
-        at_work: bool,
-        difference: String,
-    },
-    #[error(
-        "{path} is in use: {running} runs there, and --force does not replace what runs; wait until it has ended, stop it, or \
-         choose another folder with --out"
-    )]
-    InUse { path: PathBuf, running: String },
-    #[error(
-        "{path} was taken from this run: its {RESOLVED} was replaced or removed meanwhile, so nothing more is written there; run \
-         again with another folder (--out)"
-    )]
-    TakenOver { path: PathBuf },
-    #[error(
-        "{path} was written by version {version} of the program, newer than this one ({}): use that version, choose another \
-         folder with --out, or compute again with --force",
-        env!("CARGO_PKG_VERSION")
-    )]
-    NewerProgram { path: PathBuf, version: String },
-    #[error("{path} is no folder of a sweep: {reason}")]
-    NoSweep { path: PathBuf, reason: String },
-}
+use crate::sweep::plan::resolved::{hash, identity};
+use crate::sweep::store::folder_lock::{FolderLock, Others};
+use crate::sweep::store::manifest::{Kind, Manifest, Target};
+use crate::sweep::store::records::Records;
 
 /// A folder that holds the results of one sweep.
 #[derive(Debug, Clone)]
@@ -80,7 +49,7 @@ pub struct Store {
     pub(in crate::sweep) resolved: Arc<str>,
     /// Whether records of a newer program may be replaced.
     pub(in crate::sweep) force: bool,
-    pub(in crate::sweep) lock: Arc<FolderLock>,
+    manifest: Arc<Manifest>,
     pub(in crate::sweep) records: Arc<Records>,
     /// The resolved file as it was last found to be of this sweep.
     pub(in crate::sweep) checked: Arc<Mutex<Option<FileVersion>>>,
@@ -116,18 +85,6 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// The resolved sweep file inside the folder.
 pub const RESOLVED: &str = "resolved.toml";
 
-/// What a sweep leaves in its folder besides single files, folders with one file per case; and those of a scenario, with one file per
-/// requested time.
-const FOLDERS: [&str; 8] = [
-    "records",
-    "loops",
-    "pressures",
-    "work",
-    "peaks",
-    "checkpoints",
-    "profiles",
-    "fields",
-];
 /// How many changed lines of a resolved sweep a message shows.
 const LINES_SHOWN: usize = 12;
 /// How the names of files begin that have not taken their own name yet: with the machine, so that none removes those of another,
@@ -143,24 +100,54 @@ impl Store {
     ///
     /// # Errors
     /// [`StoreError::OtherSweep`] where the folder holds another sweep's results and `force` is not given,
-    /// [`StoreError::InUse`] where it is given and another process is at work there.
+    /// [`StoreError::InUse`] where it is given and another process is at work there; [`StoreError::Foreign`] where the folder
+    /// is somebody else's.
     pub fn open(folder: &Path, resolved: &str, force: bool) -> Result<Self, StoreError> {
+        Self::open_reading(folder, resolved, force, &[])
+    }
+
+    /// As [`Store::open`], for a sweep that is made of these files, of which none may be replaced.
+    ///
+    /// # Errors
+    /// As [`Store::open`]; [`StoreError::ReplacesInput`].
+    pub fn open_reading(
+        folder: &Path,
+        resolved: &str,
+        force: bool,
+        reads: &[PathBuf],
+    ) -> Result<Self, StoreError> {
+        let target = Target {
+            folder,
+            kind: Kind::of_plan(resolved),
+            force,
+            reads,
+        };
+        // Before anything is created.
+        target.check_plan(resolved)?;
         create_folder(folder)?;
+        let lock = FolderLock::of(folder);
+        let others = lock.try_exclusive();
+        let (found, reads) = target.check_plan(resolved)?;
+        let is_other_kind = found.kind.is_some_and(|kind| kind != target.kind);
+        let manifest = Manifest::new(folder, target.kind, lock, found.files).reading(reads);
         let store = Self {
             force,
-            ..Self::of(folder, resolved, FolderLock::of(folder))
+            ..Self::of(folder, resolved, manifest)
         };
-        let others = store.lock.try_exclusive();
         if others == Others::Absent {
-            store.remove_stale_temporaries();
+            store.manifest.remove_temporaries();
         }
         if force {
             if others == Others::AtWork {
-                return Err(store.in_use());
+                return Err(in_use(folder));
             }
-            store.replace(resolved)?;
+            store.replace(resolved, is_other_kind)?;
         }
-        store.lock.share();
+        store.manifest.lock.share();
+        if others == Others::AtWork {
+            // A command that has filled the folder meanwhile.
+            target.look(Some(resolved))?;
+        }
         store.publish(resolved)?;
         Ok(store)
     }
@@ -173,9 +160,16 @@ impl Store {
         // A folder of something else is left as it is, without a lock.
         read_plan(folder)?;
         let lock = FolderLock::of(folder);
-        lock.share();
+        let is_alone = lock.try_exclusive() == Others::Absent;
         let resolved = read_plan(folder)?;
-        Ok((Self::of(folder, &resolved, lock), resolved))
+        let listed = listing::look(folder, Some(&resolved))?;
+        let manifest = Manifest::new(folder, Kind::of_plan(&resolved), lock, listed.files());
+        if is_alone {
+            manifest.remove_temporaries();
+        }
+        manifest.lock.share();
+        manifest.begin()?;
+        Ok((Self::of(folder, &resolved, manifest), resolved))
     }
 
     /// As [`Store::reopen`], where nothing is to be written into the folder.
@@ -184,11 +178,12 @@ impl Store {
     /// As [`Store::reopen`].
     pub fn reopen_to_read(folder: &Path) -> Result<(Self, String), StoreError> {
         let resolved = read_plan(folder)?;
-        let store = Self::of(folder, &resolved, FolderLock::none());
-        Ok((store, resolved))
+        let (kind, lock) = (Kind::of_plan(&resolved), FolderLock::none());
+        let manifest = Manifest::new(folder, kind, lock, BTreeSet::new());
+        Ok((Self::of(folder, &resolved, manifest), resolved))
     }
 
-    fn of(folder: &Path, resolved: &str, lock: FolderLock) -> Self {
+    fn of(folder: &Path, resolved: &str, manifest: Manifest) -> Self {
         let sweep_hash = hash(resolved);
         Self {
             folder: folder.to_path_buf(),
@@ -196,58 +191,76 @@ impl Store {
             sweep_hash,
             resolved: resolved.into(),
             force: false,
-            lock: Arc::new(lock),
             checked: Arc::default(),
+            manifest: Arc::new(manifest),
         }
     }
 
     /// Replaces another sweep's plan and results, where there are any.
-    fn replace(&self, resolved: &str) -> Result<(), StoreError> {
+    fn replace(&self, resolved: &str, is_other_kind: bool) -> Result<(), StoreError> {
         let path = self.folder.join(RESOLVED);
         match fs::read(&path) {
-            Ok(existing) if is_same(&existing, resolved) => Ok(()),
-            Ok(_) => {
+            Ok(existing)
+                if is_same(&existing, resolved) || self.is_damaged(&existing, resolved) =>
+            {
+                Ok(())
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound && !is_other_kind => Ok(()),
+            Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                Err(StoreError::Read { path, source })
+            }
+            _ => {
                 // Killed between the two, it leaves the plan of what is gone, never results of another.
-                self.clear()?;
+                self.manifest.begin()?;
+                self.manifest.clear()?;
+                self.manifest.record(RESOLVED)?;
                 write_atomically(&path, resolved.as_bytes())
             }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-            Err(source) => Err(StoreError::Read { path, source }),
         }
+    }
+
+    /// Whether a plan is none, but was that of this sweep, of which there are records.
+    fn is_damaged(&self, existing: &[u8], resolved: &str) -> bool {
+        let existing = String::from_utf8_lossy(existing);
+        listing::has_records(&self.folder, resolved)
+            && !listing::has_records(&self.folder, &existing)
     }
 
     /// Makes this sweep the plan of the folder, unless it is, or another one is.
     fn publish(&self, resolved: &str) -> Result<(), StoreError> {
         let path = self.folder.join(RESOLVED);
-        if create_atomically(&path, resolved.as_bytes())? {
-            return Ok(());
+        if !path.exists() {
+            self.manifest.begin()?;
+            self.manifest.record(RESOLVED)?;
+            if create_atomically(&path, resolved.as_bytes())? {
+                return Ok(());
+            }
         }
-        let existing = fs::read(&path).map_err(|source| StoreError::Read { path, source })?;
+        let existing = fs::read(&path).map_err(|source| StoreError::Read {
+            path: path.clone(),
+            source,
+        })?;
         if !is_same(&existing, resolved) {
-            let existing = String::from_utf8_lossy(&existing);
-            let (existing, resolved) = (identity(&existing), identity(resolved));
-            self.lock.release();
-            return Err(StoreError::OtherSweep {
-                path: self.folder.clone(),
-                at_work: self.lock.try_exclusive() == Others::AtWork,
-                difference: difference::lines(&existing, &resolved, LINES_SHOWN),
-            });
+            let lock = &self.manifest.lock;
+            lock.release();
+            let at_work = lock.try_exclusive() == Others::AtWork;
+            if at_work || !self.is_damaged(&existing, resolved) {
+                let existing = String::from_utf8_lossy(&existing);
+                let (existing, resolved) = (identity(&existing), identity(resolved));
+                return Err(StoreError::OtherSweep {
+                    path: self.folder.clone(),
+                    at_work,
+                    difference: difference::lines(&existing, &resolved, LINES_SHOWN),
+                });
+            }
+            write_atomically(&path, resolved.as_bytes())?;
+            lock.share();
         }
+        self.manifest.begin()?;
         match existing == resolved.as_bytes() {
             true => Ok(()),
             // The same sweep, whose figures are to look otherwise or whose data lie elsewhere.
             false => self.write(RESOLVED, resolved.as_bytes()),
-        }
-    }
-
-    fn in_use(&self) -> StoreError {
-        let title = || {
-            let plan: toml::Table = read_plan(&self.folder).ok()?.parse().ok()?;
-            Some(plan.get("title")?.to_string())
-        };
-        StoreError::InUse {
-            path: self.folder.clone(),
-            running: title().unwrap_or_else(|| "a sweep or scenario".to_owned()),
         }
     }
 
@@ -278,6 +291,8 @@ impl Store {
         name: impl AsRef<Path>,
         write: impl FnOnce(&mut fs::File) -> io::Result<()>,
     ) -> Result<(), StoreError> {
+        let name = name.as_ref();
+        self.manifest.record(&name_of(name))?;
         let path = self.folder.join(name);
         let file = temporary(&path, write)?;
         self.check_plan()?;
@@ -305,83 +320,45 @@ impl Store {
         }
     }
 
-    /// Removes the checkpoints of all cases.
-    pub(in crate::sweep) fn remove_checkpoints(&self) {
-        // There are none, most often.
-        let _ = fs::remove_dir_all(self.folder.join(checkpoint_file::FOLDER));
+    /// Removes checkpoints: those of a case by its name, or all.
+    pub(in crate::sweep) fn remove_checkpoints(&self, case: &str) {
+        // Left behind, they cost nothing but their place.
+        let _ = self
+            .manifest
+            .remove_below(&Path::new(checkpoint_file::FOLDER).join(case));
     }
 
-    /// Removes what killed processes of this machine have left half-written; for the one that holds the lock alone.
-    fn remove_stale_temporaries(&self) {
-        let folders = FOLDERS.map(|name| self.folder.join(name));
-        for folder in std::iter::once(self.folder.clone()).chain(folders) {
-            let Ok(entries) = fs::read_dir(folder) else {
-                continue;
-            };
-            for entry in entries.flatten() {
-                let name = entry.file_name();
-                if name.to_string_lossy().starts_with(TEMPORARY.as_str()) {
-                    // Gone already, or not ours to remove: no reason to stop.
-                    let _ = fs::remove_file(entry.path());
-                }
-            }
-        }
-    }
-
-    /// Removes what an earlier sweep left, before another takes the folder.
-    fn clear(&self) -> Result<(), StoreError> {
-        let failed = |path: PathBuf| move |source| StoreError::Write { path, source };
-        for folder in FOLDERS {
-            let path = self.folder.join(folder);
-            if path.is_dir() {
-                fs::remove_dir_all(&path).map_err(failed(path.clone()))?;
-            }
-        }
-        let of_scenarios = scenario::FIGURES.into_iter().flat_map(files::of_figure);
-        for name in files::of_sweep().chain(of_scenarios) {
-            self.remove(&name)?;
-        }
-        let entries = fs::read_dir(&self.folder).map_err(failed(self.folder.clone()))?;
-        let names = entries.flatten().map(|entry| entry.file_name());
-        for name in names.filter_map(|name| name.into_string().ok()) {
-            // What shards leave beside their records.
-            if name.starts_with("run-") && name.ends_with(".json") {
-                self.remove(&name)?;
-            }
-        }
-        Ok(())
-    }
-
-    /// Removes a file of the folder, where there is one.
+    /// Removes what an earlier run has written and this one has not: it showed more, or something else. Records stay.
     ///
     /// # Errors
     /// [`StoreError::Write`] with the path.
-    pub fn remove(&self, name: &str) -> Result<(), StoreError> {
-        let path = self.folder.join(name);
-        match fs::remove_file(&path) {
-            Err(source) if source.kind() != io::ErrorKind::NotFound => {
-                Err(StoreError::Write { path, source })
-            }
-            _ => Ok(()),
-        }
+    pub fn remove_stale(&self) -> Result<(), StoreError> {
+        self.check_plan()?;
+        self.manifest.remove_stale()
+    }
+}
+
+/// A name with `/` between its parts, whatever the system.
+fn name_of(name: &Path) -> String {
+    let parts = name.iter().map(|part| part.to_string_lossy());
+    parts.collect::<Vec<_>>().join("/")
+}
+
+/// Another process is at work in the folder.
+fn in_use(folder: &Path) -> StoreError {
+    let title = || {
+        let plan: toml::Table = read_plan(folder).ok()?.parse().ok()?;
+        Some(plan.get("title")?.to_string())
+    };
+    StoreError::InUse {
+        path: folder.to_path_buf(),
+        running: title().unwrap_or_else(|| "another command".to_owned()),
     }
 }
 
 /// Whether a folder's resolved file is of the same sweep, however its figures look and wherever its data lie.
 fn is_same(existing: &[u8], resolved: &str) -> bool {
     std::str::from_utf8(existing).is_ok_and(|existing| identity(existing) == identity(resolved))
-}
-
-/// What is said of a folder that holds another sweep.
-fn of_other(at_work: bool) -> &'static str {
-    match at_work {
-        true => {
-            "is in use: a different sweep or scenario runs there; choose another folder with --out, or wait until it has ended"
-        }
-        false => {
-            "holds results of a different sweep or scenario; choose another folder with --out, or replace them with --force"
-        }
-    }
 }
 
 /// The resolved sweep of a folder.

@@ -1,12 +1,16 @@
 //! `run.json`: where and how the numbers in a folder came about. Times are here and nowhere else, so that every other file
 //! can be compared bit for bit.
 
+use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
 use serde::Serialize;
 
 use crate::sweep::plan::SweepPlan;
+use crate::sweep::plan::scenario::ScenarioPlan;
+use crate::sweep::store::listing::{Kind, PROGRAM, RUN};
 use crate::sweep::store::{Store, StoreError};
 
 /// What the numbers of this program come from: the SHA-256 of its sources as far as they make numbers; see `build.rs`. Records
@@ -27,15 +31,27 @@ pub struct Stopwatch {
 /// What only the command knows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Circumstances {
-    /// `sweep`, `merge` or `report`.
+    /// `sweep`, `merge`, `report`, `simulate` or `python`.
     pub command: &'static str,
     pub threads: usize,
     /// As in `--shard`.
     pub shard: Option<String>,
-    /// Cases of the sweep that were computed, and that had records before.
-    pub cases_computed: usize,
-    pub cases_found: usize,
+    /// Cases of the sweep that were computed, and that had records before; `None` of a scenario.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cases_computed: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cases_found: Option<usize>,
     pub interrupted: bool,
+}
+
+/// How the numbers were computed.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Computation {
+    engine: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    cycle_tolerance: Option<f64>,
+    /// `None`: for every case what its loss asks for.
+    solver_tolerance: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -45,10 +61,8 @@ struct Run<'a> {
     build: &'a str,
     commit: Option<&'a str>,
     sweep_hash: &'a str,
-    engine: &'a str,
-    cycle_tolerance: f64,
-    /// `None`: for every case what its loss asks for.
-    solver_tolerance: Option<f64>,
+    #[serde(flatten)]
+    computation: Computation,
     #[serde(flatten)]
     circumstances: &'a Circumstances,
     host: Option<String>,
@@ -58,6 +72,9 @@ struct Run<'a> {
     finished: String,
     wall_time_s: f64,
     cpu_time_s: Option<f64>,
+    kind: Kind,
+    /// Every file of the folder that the program has written.
+    files: &'a BTreeSet<String>,
 }
 
 impl Stopwatch {
@@ -79,35 +96,74 @@ impl Stopwatch {
         plan: &SweepPlan,
         circumstances: &Circumstances,
     ) -> Result<(), StoreError> {
-        let run = Run {
-            program: "contact-dma",
-            program_version: env!("CARGO_PKG_VERSION"),
-            build: BUILD,
-            commit: COMMIT,
-            sweep_hash: store.sweep_hash(),
+        let computation = Computation {
             engine: plan.contact.solver.engine.name(),
-            cycle_tolerance: plan.cycle.tolerance,
+            cycle_tolerance: Some(plan.cycle.tolerance),
             solver_tolerance: plan.contact.solver.tolerance,
-            circumstances,
-            host: host(),
-            processors: std::thread::available_parallelism().ok().map(usize::from),
-            processor: processor(),
-            started: utc(self.started),
-            finished: utc(SystemTime::now()),
-            wall_time_s: self.clock.elapsed().as_secs_f64(),
-            cpu_time_s: cpu_time_s(),
         };
+        self.write_of(store, computation, circumstances)
+    }
+
+    /// The same of a scenario.
+    ///
+    /// # Errors
+    /// [`StoreError`] with the path.
+    pub fn write_scenario(
+        &self,
+        store: &Store,
+        plan: &ScenarioPlan,
+        circumstances: &Circumstances,
+    ) -> Result<(), StoreError> {
+        let computation = Computation {
+            engine: plan.contact.solver.engine.name(),
+            cycle_tolerance: None,
+            solver_tolerance: plan.contact.solver.tolerance,
+        };
+        self.write_of(store, computation, circumstances)
+    }
+
+    fn write_of(
+        &self,
+        store: &Store,
+        computation: Computation,
+        circumstances: &Circumstances,
+    ) -> Result<(), StoreError> {
         let name = match &circumstances.shard {
             Some(shard) => format!("run-{}.json", shard.replace('/', "-of-")),
-            None => "run.json".to_owned(),
+            None => RUN.to_owned(),
         };
-        let mut bytes = serde_json::to_vec_pretty(&run).map_err(|error| StoreError::Encode {
-            path: store.folder().join(&name),
-            reason: error.to_string(),
-        })?;
-        bytes.push(b'\n');
-        store.write(name, &bytes)
+        store.manifest.close(&name, |files| {
+            let run = Run {
+                program: PROGRAM,
+                program_version: env!("CARGO_PKG_VERSION"),
+                build: BUILD,
+                commit: COMMIT,
+                sweep_hash: store.sweep_hash(),
+                computation,
+                circumstances,
+                host: host(),
+                processors: std::thread::available_parallelism().ok().map(usize::from),
+                processor: processor(),
+                started: utc(self.started),
+                finished: utc(SystemTime::now()),
+                wall_time_s: self.clock.elapsed().as_secs_f64(),
+                cpu_time_s: cpu_time_s(),
+                kind: store.manifest.kind(),
+                files,
+            };
+            store.write(&name, &json(&store.folder().join(&name), &run)?)
+        })
     }
+}
+
+/// A value as the content of this file.
+pub(super) fn json(path: &Path, value: &impl Serialize) -> Result<Vec<u8>, StoreError> {
+    let mut bytes = serde_json::to_vec_pretty(value).map_err(|error| StoreError::Encode {
+        path: path.to_path_buf(),
+        reason: error.to_string(),
+    })?;
+    bytes.push(b'\n');
+    Ok(bytes)
 }
 
 /// The name of this machine, where the system tells it as Linux does.

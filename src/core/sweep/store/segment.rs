@@ -153,6 +153,12 @@ pub fn sealed(content: &[u8]) -> io::Result<Vec<u8>> {
     Ok(frame)
 }
 
+/// Whether a file is one of records.
+pub(super) fn is_one(path: &Path) -> bool {
+    let mut mark = [0; MARK.len()];
+    File::open(path).is_ok_and(|mut file| file.read_exact(&mut mark).is_ok()) && mark == *MARK
+}
+
 /// What a reader meets in a file.
 #[derive(Debug, PartialEq, Eq)]
 pub enum Met<'a> {

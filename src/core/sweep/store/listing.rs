@@ -1,0 +1,292 @@
+//! What stands in a folder: files that the program has written, listed or known by their names, or files of somebody else.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::{self, ErrorKind};
+use std::path::{Component, Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::folder_lock::LOCK;
+use super::records::{self, Records};
+use super::{RESOLVED, StoreError, files, segment};
+use crate::sweep::plan::resolved::hash;
+
+/// The list, and where the results come from.
+pub const RUN: &str = "run.json";
+
+/// As files name the program.
+pub(super) const PROGRAM: &str = "contact-dma";
+
+/// How the names of all files begin that the program keeps for itself.
+const PRIVATE: &str = ".contact-dma";
+
+/// How the line of the lock file begins that names the kind of the folder.
+pub(super) const KIND_MARK: char = '=';
+
+/// What a folder holds: a folder belongs to one command, or to those that work on the same result.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    Sweep,
+    Scenario,
+    Analysis,
+    Identification,
+    Material,
+    MaterialFit,
+    Comparison,
+    Reproduction,
+}
+
+impl Kind {
+    /// Every kind.
+    const ALL: [Self; 8] = [
+        Self::Sweep,
+        Self::Scenario,
+        Self::Analysis,
+        Self::Identification,
+        Self::Material,
+        Self::MaterialFit,
+        Self::Comparison,
+        Self::Reproduction,
+    ];
+
+    /// What messages call it.
+    pub fn text(self) -> &'static str {
+        match self {
+            Self::Sweep => "a sweep",
+            Self::Scenario => "a scenario",
+            Self::Analysis => "an analysis of measured loops",
+            Self::Identification => "an identification",
+            Self::Material => "the figures of a material",
+            Self::MaterialFit => "a material fit",
+            Self::Comparison => "a comparison",
+            Self::Reproduction => "the figures of the base paper",
+        }
+    }
+
+    /// As it stands in the lock file.
+    pub(super) fn name(self) -> String {
+        format!("{self:?}")
+    }
+
+    /// That of a resolved file.
+    pub(super) fn of_plan(resolved: &str) -> Self {
+        let has = |table: &str| resolved.lines().any(|line| line == table);
+        match (has("[identify]"), has("[sweep]")) {
+            (true, _) => Self::Identification,
+            (_, true) => Self::Sweep,
+            _ => Self::Scenario,
+        }
+    }
+
+    /// Sweeps and scenarios are told apart by their plans.
+    pub(super) fn shares_a_folder_with(self, other: Self) -> bool {
+        let has_plan = |kind| matches!(kind, Self::Sweep | Self::Scenario);
+        self == other || has_plan(self) && has_plan(other)
+    }
+}
+
+/// The files of a folder that the program has written.
+#[derive(Debug, Default, Clone, PartialEq)]
+pub(super) struct Listed {
+    pub kind: Option<Kind>,
+    pub files: BTreeSet<String>,
+}
+
+/// What stands in a folder.
+#[derive(Debug, PartialEq)]
+pub(super) enum Found {
+    Nothing,
+    Listed(Listed),
+    /// Files of somebody else; the first of them.
+    Foreign(String),
+}
+
+impl Found {
+    /// The files that the program has written.
+    pub(super) fn files(self) -> BTreeSet<String> {
+        match self {
+            Self::Listed(listed) => listed.files,
+            Self::Nothing | Self::Foreign(_) => BTreeSet::new(),
+        }
+    }
+}
+
+/// As far as it is read from `run.json`.
+#[derive(Deserialize)]
+struct Run {
+    program: String,
+    kind: Option<Kind>,
+    files: Option<BTreeSet<String>>,
+}
+
+/// Looks at a folder without changing anything. `resolved` is the plan of the command, where it has one.
+///
+/// # Errors
+/// [`StoreError::Read`] with the path.
+pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Found, StoreError> {
+    let failed = |source| StoreError::Read {
+        path: folder.to_path_buf(),
+        source,
+    };
+    let entries = match fs::read_dir(folder) {
+        // A file in the place of a folder above is met when the folder is created.
+        Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => {
+            return Ok(Found::Nothing);
+        }
+        entries => entries.map_err(failed)?,
+    };
+    let name = |entry: fs::DirEntry| entry.file_name().to_string_lossy().into_owned();
+    let names: io::Result<Vec<String>> = entries.map(|entry| entry.map(name)).collect();
+    let mut names = names.map_err(failed)?;
+    names.sort();
+    let journal = fs::read(folder.join(LOCK)).unwrap_or_default();
+    let journal = String::from_utf8_lossy(&journal);
+    if !journal.trim_start().is_empty() && !journal.trim_start().starts_with(KIND_MARK) {
+        return Ok(Found::Foreign(LOCK.to_owned()));
+    }
+    let mut listed = journal_of(&journal);
+    let mut is_listed = !listed.files.is_empty();
+    let mut is_of_program = false;
+    for name in names.iter().filter(|name| may_be_signed(name)) {
+        let Some(run) = run_of(&folder.join(name)) else {
+            continue;
+        };
+        is_of_program = true;
+        is_listed |= run.files.is_some();
+        listed.kind = listed.kind.or(run.kind);
+        let files = run.files.into_iter().flatten();
+        listed.files.extend(files.filter(|name| is_inside(name)));
+    }
+    if is_listed {
+        listed.files.extend(segments(folder));
+        return Ok(Found::Listed(listed));
+    }
+    let Some(first) = names.iter().find(|name| !name.starts_with(PRIVATE)) else {
+        return Ok(Found::Nothing);
+    };
+    match is_of_program || has_plan(folder, resolved) {
+        true => Ok(Found::Listed(unlisted(folder))),
+        false => Ok(Found::Foreign(first.clone())),
+    }
+}
+
+/// Files that name the program: `run.json`, those of shards, and the summary.
+fn may_be_signed(name: &str) -> bool {
+    name == RUN || name == "summary.json" || files::is_run_of_shard(name)
+}
+
+fn run_of(path: &Path) -> Option<Run> {
+    let run: Run = serde_json::from_slice(&fs::read(path).ok()?).ok()?;
+    (run.program == PROGRAM).then_some(run)
+}
+
+/// The names and the kind in a lock file.
+pub(super) fn journal_of(text: &str) -> Listed {
+    let mut listed = Listed::default();
+    for line in text.lines() {
+        match line.strip_prefix(KIND_MARK) {
+            Some(name) => listed.kind = Kind::ALL.into_iter().find(|kind| kind.name() == name),
+            None if is_inside(line) => drop(listed.files.insert(line.to_owned())),
+            None => {}
+        }
+    }
+    listed
+}
+
+/// Whether a name stays in its folder.
+fn is_inside(name: &str) -> bool {
+    let mut parts = Path::new(name).components();
+    !name.is_empty() && parts.all(|part| matches!(part, Component::Normal(_)))
+}
+
+/// Files of records are known by their content.
+fn segments(folder: &Path) -> Vec<String> {
+    let Ok(entries) = fs::read_dir(folder.join(records::FOLDER)) else {
+        return Vec::new();
+    };
+    let paths = entries.flatten().map(|entry| entry.path());
+    let is_segment = |path: &PathBuf| {
+        path.extension()
+            .is_some_and(|ending| ending == records::ENDING)
+            && segment::is_one(path)
+    };
+    let name = |path: PathBuf| {
+        let name = path.file_name()?.to_str()?;
+        Some(format!("{}/{name}", records::FOLDER))
+    };
+    paths.filter(is_segment).filter_map(name).collect()
+}
+
+/// Whether the folder, which has no list, holds a plan of the program: that of this command, or one of which there are records.
+fn has_plan(folder: &Path, resolved: Option<&str>) -> bool {
+    let plan = fs::read(folder.join(RESOLVED)).unwrap_or_default();
+    let plan = String::from_utf8_lossy(&plan);
+    let is_own = |resolved: &str| hash(resolved) == hash(&plan) || has_records(folder, resolved);
+    resolved.is_some_and(is_own) || !plan.is_empty() && has_records(folder, &plan)
+}
+
+/// Whether there are whole records of a plan.
+pub(super) fn has_records(folder: &Path, resolved: &str) -> bool {
+    let records = Records::of(folder, &hash(resolved));
+    records.look().is_ok() && !records.places().is_empty()
+}
+
+/// The files of a version that wrote no list, by their names.
+fn unlisted(folder: &Path) -> Listed {
+    let has = |name: &str| folder.join(name).exists();
+    let kind = match fs::read(folder.join(RESOLVED)) {
+        Ok(plan) => Kind::of_plan(&String::from_utf8_lossy(&plan)),
+        Err(_) if has("analysis.json") => Kind::Analysis,
+        Err(_) if has("material.toml") => Kind::MaterialFit,
+        Err(_) => Kind::Sweep,
+    };
+    Listed {
+        kind: Some(kind),
+        files: named_like_results(folder),
+    }
+}
+
+/// The files in a folder that have names of results, whoever wrote them.
+pub(super) fn named_like_results(folder: &Path) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut folders = vec![String::new()];
+    while let Some(below) = folders.pop() {
+        let Ok(entries) = fs::read_dir(folder.join(&below)) else {
+            continue;
+        };
+        for entry in entries.flatten() {
+            let Ok(name) = entry.file_name().into_string() else {
+                continue;
+            };
+            let name = format!("{below}{name}");
+            let is_folder = entry.file_type().is_ok_and(|kind| kind.is_dir());
+            if is_folder && files::is_folder_of_results(&name) {
+                folders.push(format!("{name}/"));
+            } else if !is_folder && files::is_result(&name) {
+                found.insert(name);
+            }
+        }
+    }
+    found
+}
+
+/// The names that a file has as one of this folder, where it lies there.
+pub(super) fn names_in(folder: &Path, file: &Path) -> Vec<String> {
+    let Ok(folder) = folder.canonicalize() else {
+        return Vec::new();
+    };
+    let parent = file.parent().filter(|parent| *parent != Path::new(""));
+    let parent = parent.unwrap_or(Path::new(".")).canonicalize().ok();
+    // Where a link leads, and where it stands itself.
+    let link = parent
+        .zip(file.file_name())
+        .map(|(parent, name)| parent.join(name));
+    let paths = file.canonicalize().ok().into_iter().chain(link);
+    let name = |path: PathBuf| {
+        let below = path.strip_prefix(&folder).ok()?;
+        Some(super::name_of(below))
+    };
+    paths.filter_map(name).collect()
+}
