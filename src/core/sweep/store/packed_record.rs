@@ -2,11 +2,10 @@
 //! are asked for.
 
 use std::cell::RefCell;
-use std::io::{self, Read, Write};
+use std::io::{self, Write};
 
-use flate2::Compression;
-use flate2::bufread::DeflateDecoder;
 use flate2::write::DeflateEncoder;
+use flate2::{Compression, Decompress, FlushDecompress, Status};
 use serde::{Deserialize, Serialize};
 
 use super::packed;
@@ -17,7 +16,7 @@ use crate::sweep::record::{
 };
 
 /// The numbers of a record without its cycle, at most (bytes); what claims to be longer is damaged.
-const LONGEST: u64 = 64 << 20;
+const LONGEST: usize = 64 << 20;
 
 /// Packs a record: its numbers, and its cycle where it has one.
 pub fn pack(record: &CaseRecord) -> Result<Vec<u8>, String> {
@@ -28,9 +27,11 @@ pub fn pack(record: &CaseRecord) -> Result<Vec<u8>, String> {
 }
 
 thread_local! {
-    /// The state of an encoder takes 270 kB: a new one for every record would leave holes in the heap that nothing else fills.
+    /// The state of an encoder takes 270 kB, that of a decoder 50 kB: new ones for every record would leave holes in the heap that
+    /// nothing else fills.
     static ENCODER: RefCell<DeflateEncoder<Vec<u8>>> =
         RefCell::new(DeflateEncoder::new(Vec::new(), Compression::default()));
+    static DECODER: RefCell<Decompress> = RefCell::new(Decompress::new(false));
 }
 
 fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
@@ -40,13 +41,27 @@ fn deflated(bytes: &[u8]) -> io::Result<Vec<u8>> {
     })
 }
 
+/// `None` of bytes that are not deflated, or would be longer than any record.
+fn inflated(deflated: &[u8]) -> Option<Vec<u8>> {
+    DECODER.with_borrow_mut(|decoder| {
+        decoder.reset(false);
+        let mut bytes = Vec::with_capacity(8 * deflated.len() + 64);
+        loop {
+            let rest = deflated.get(decoder.total_in() as usize..)?;
+            let ended = decoder.decompress_vec(rest, &mut bytes, FlushDecompress::None);
+            match ended.ok()? {
+                Status::StreamEnd => return Some(bytes),
+                _ if bytes.len() < bytes.capacity() || bytes.len() > LONGEST => return None,
+                Status::Ok | Status::BufError => bytes.reserve(bytes.len()),
+            }
+        }
+    })
+}
+
 /// The numbers of a packed record; `None` of anything else.
 pub fn numbers(packed: &[u8]) -> Option<CaseRecord> {
     let (deflated, _) = postcard::take_from_bytes::<&[u8]>(packed).ok()?;
-    let mut json = Vec::new();
-    let mut inflate = DeflateDecoder::new(deflated).take(LONGEST);
-    inflate.read_to_end(&mut json).ok()?;
-    serde_json::from_slice(&json).ok()
+    serde_json::from_slice(&inflated(deflated)?).ok()
 }
 
 /// Gives the numbers of a packed record their cycle, where there is one.
