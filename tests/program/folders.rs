@@ -320,7 +320,9 @@ fn no_command_writes_over_a_file_that_it_reads() {
         "poisson_ratio = 0.3\n[material.table]\nfile = \"loops.csv\"\nquantity = \"creep\"\nmodulus = \"longitudinal\"",
     );
     let plan = pmma_sweep(SWEEP);
-    let cases: [(&str, &[(&str, &str)], &str, Vec<&str>); 5] = [
+    /// A folder, its files with their texts, the one that is read, the command.
+    type Case<'a> = (&'a str, &'a [(&'a str, &'a str)], &'a str, Vec<&'a str>);
+    let cases: [Case<'_>; 5] = [
         (
             "a",
             &[("loops/0.csv", &raw)],
