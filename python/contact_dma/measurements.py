@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import html
 import json
 import os
@@ -338,13 +337,6 @@ def _identified(source: Source, threads: int | None) -> IdentifiedMaterial:
 _TEXTS = ("file", "indenter", "material", "message", "status", "warnings")
 """Columns of results that hold text."""
 
-_MEASURED = {
-    *("energy_loss", "phase_lag", "storage_modulus", "loss_modulus", "approach", "load"),
-    *(f"{name}_{end}" for name in ("approach", "contact_radius", "peak_pressure") for end in ("min", "max")),
-}
-_READ = {"angular_frequency", "frequency", "drive_mean", "drive_amplitude", "time", *_MEASURED, *(f"{name}_error" for name in _MEASURED)}
-"""Columns that an identification reads, without their units."""
-
 
 def _data(data: str | os.PathLike[str] | _toml.TableLike, folder: Path) -> str:
     if not _toml.is_table(data):
@@ -353,12 +345,6 @@ def _data(data: str | os.PathLike[str] | _toml.TableLike, folder: Path) -> str:
     if isinstance(data, Table):
         # Of a result all that is text has no number in any row.
         columns = {name: values for name, values in columns.items() if np.asarray(values).dtype.kind in "iuf"}
-    else:
-        unknown = [name for name in columns if not any(name == known or name.startswith(f"{known}_") for known in _READ)]
-        if unknown:
-            near = {name: difflib.get_close_matches(name, sorted(_READ), 1) for name in unknown}
-            named = (f"{name!r}" + (f" (is {at[0]!r} with its unit meant?)" if at else "") for name, at in near.items())
-            warn(f"identify: these columns are not read: {', '.join(named)}")
     path = folder / "measured.csv"
     write_columns(path, columns)
     return _toml.path(path)
