@@ -54,7 +54,7 @@ fn of_the_peaks_in_a_bracket_of_ten_decades_the_highest_is_found() {
     let drive = HarmonicDrive::load(10.0, 5.0).unwrap();
     let sweep = |omegas: Vec<f64>| {
         let sphere = Sphere::new(0.01).unwrap();
-        let sweep = Sweep::new(pmma_material(), sphere, drive.clone());
+        let sweep = Sweep::new(pmma_material(), sphere, drive);
         let sweep = sweep.springs(100).unwrap().steps(64).unwrap();
         let sweep = sweep.angular_frequencies_rad_per_s(omegas).unwrap();
         sweep.solve().unwrap().peaks

@@ -238,7 +238,9 @@ fn every_source_file_opens_by_saying_what_it_is_for() {
 fn nothing_is_printed_by_macros_that_panic_where_nobody_can_hear() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     for path in sources(&src) {
-        if path.ends_with("core/build.rs") || path.ends_with("tests.rs") {
+        // The last two are modules of tests in files of their own.
+        let apart = ["core/build.rs", "tests.rs", "noisy.rs"];
+        if apart.iter().any(|file| path.ends_with(file)) {
             continue;
         }
         let text = fs::read_to_string(&path).unwrap();

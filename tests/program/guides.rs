@@ -229,7 +229,7 @@ fn measured_material() {
     for part in [
         "found from the content",
         "21 isotherms",
-        "[material.relaxation]",
+        "Material and figures in",
     ] {
         assert!(printed.contains(part), "{part}\n{printed}");
     }

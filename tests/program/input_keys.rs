@@ -485,7 +485,9 @@ fn over_every_number((of, text): &(FileKind, String)) -> Vec<(FileKind, String)>
 }
 
 /// Keys that cannot be changed alone, or that no file above shows, and why.
-const APART: [&str; 14] = [
+const APART: [&str; 15] = [
+    // What a sweep is called makes no other sweep.
+    "title",
     // What the files hold counts, and the hash of it, not what they are called.
     "indenter.file",
     "indenter.sha256",

@@ -273,6 +273,8 @@ fn materials_and_fits_have_pages_with_the_block_that_gives_them_again() {
         "0.4",
     ];
     for (arguments, curves) in [(&["material", "show", "pmma"][..], 1), (&fit[..], 2)] {
+        // A folder belongs to one command.
+        let _ = fs::remove_dir_all(&out);
         program()
             .args(arguments)
             .arg("--out")

@@ -138,6 +138,7 @@ fn one_figure_alone_is_the_same_figure() {
         "figure-01.png",
         "figure-01.svg",
         "index.html",
+        "run.json",
     ];
     assert_eq!(
         names(folder.path()),

@@ -117,7 +117,7 @@ pub const MOST_BRANCHES: usize = 200;
 pub const ACCURACY: (f64, f64) = (1e-8, 0.1);
 /// By how much closer the series is that tells the error of another, and its most branches, as many as a file may hold: it is solved
 /// on coarse levels alone.
-const CLOSER: f64 = 0.01;
+const CLOSER: [f64; 3] = [0.01, 0.03, 0.1];
 const MOST_BRANCHES_OF_CLOSER: usize = 1000;
 /// By which factor the model is followed beyond either end of the band: a cycle of a growing contact has harmonics.
 const BEYOND_BAND: f64 = 3.0;
@@ -278,7 +278,12 @@ impl Fractional {
         let relaxation = series(accuracy, MOST_BRANCHES)?;
         let closer = match self.is_classical() {
             true => None,
-            false => Some(series(CLOSER * accuracy, MOST_BRANCHES_OF_CLOSER)?),
+            // A spectrum that is all but one line takes more nodes than there are for the closest.
+            false => {
+                let closer = |factor: &f64| series(factor * accuracy, MOST_BRANCHES_OF_CLOSER);
+                let found = CLOSER.iter().find_map(|factor| closer(factor).ok());
+                Some(found.map_or_else(|| closer(&CLOSER[2]), Ok)?)
+            }
         };
         let within = Goal::new(self, band_rad_per_s);
         let residuals = within.residuals(relaxation.branches());

@@ -43,10 +43,13 @@ impl Comparison {
     }
 
     fn table_of_columns(&self) -> String {
-        let mut text =
-            "\n column                  largest difference     beyond the   of these within\n \
-                                                relative to the larger  tolerance   error bars\n"
-                .to_owned();
+        let row = |cells: [&str; 4]| {
+            let [name, largest, beyond, within] = cells;
+            format!(" {name:<23} {largest:<23} {beyond:>9}   {within:>10}\n")
+        };
+        let mut text = "\n".to_owned()
+            + &row(["column", "largest difference,", "beyond", "of these"])
+            + &row(["", "relative to the larger", "tolerance", "in bars"]);
         for column in &self.columns {
             let largest = match &column.largest {
                 Some((share, place)) => format!(
@@ -61,11 +64,8 @@ impl Comparison {
                 ),
                 None => "none".to_owned(),
             };
-            let _ = writeln!(
-                text,
-                " {:<23} {largest:<23} {:>9}   {:>10}",
-                column.name, column.beyond, column.within_bars
-            );
+            let counts = [column.beyond, column.within_bars].map(|n| n.to_string());
+            text.push_str(&row([&column.name, &largest, &counts[0], &counts[1]]));
             for (number, what) in [
                 (column.absent, "without a value in one of the two"),
                 (
@@ -170,7 +170,11 @@ pub(in crate::report) fn peak_words(unit: FrequencyUnit, peak: &PeakComparison) 
     };
     match (&peak.baseline, &peak.new) {
         (Some(old), Some(new)) => {
-            let ratio = |a: f64, b: f64| scientific(100.0 * (b / a - 1.0), 2);
+            let ratio = |a: f64, b: f64| {
+                let percent = 100.0 * (b / a - 1.0);
+                let sign = if percent > 0.0 { "+" } else { "" };
+                format!("{sign}{}", scientific(percent, 2))
+            };
             format!(
                 "peak at {}: moved by {} %, its loss by {} %{}",
                 omega(old),

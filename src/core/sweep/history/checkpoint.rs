@@ -194,7 +194,7 @@ mod tests {
     fn a_history_comes_back_with_every_bit_and_only_where_it_belongs() {
         let folder = tempfile::TempDir::new().unwrap();
         let store = |text: &str| Store::open(folder.path(), text, true).unwrap();
-        let one = store("title = \"a\"\n");
+        let one = store("steps = 8\n");
         let checkpoint = HistoryCheckpoint::of(&one, Duration::ZERO);
         assert_eq!(checkpoint.find().unwrap(), None);
         checkpoint.write(&state());
@@ -203,7 +203,7 @@ mod tests {
         let bytes = fs::read(&path).unwrap();
         // Both work in the folder, and so hold it.
         drop((one, checkpoint));
-        let other = HistoryCheckpoint::of(&store("title = \"b\"\n"), Duration::ZERO);
+        let other = HistoryCheckpoint::of(&store("steps = 16\n"), Duration::ZERO);
         // Another scenario has cleared the folder.
         assert_eq!(other.find().unwrap(), None);
         other.write(&state());

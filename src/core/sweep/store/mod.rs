@@ -437,8 +437,8 @@ fn rename(file: NamedTempFile, path: &Path) -> Result<(), StoreError> {
 mod tests {
     use super::*;
 
-    const PLAN: &str = "title = \"one\"\n";
-    const OTHER: &str = "title = \"other\"\n";
+    const PLAN: &str = "title = \"one\"\nsteps = 8\n";
+    const OTHER: &str = "title = \"other\"\nsteps = 16\n";
 
     #[test]
     fn a_file_half_written_is_removed_when_nobody_of_its_machine_can_be_writing_it() {
