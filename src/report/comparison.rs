@@ -234,7 +234,9 @@ impl Comparison {
             true if self.wants_peaks && self.peaks_not_compared.is_some() => {
                 "No peak was compared, though a tolerance for peaks was given."
             }
-            true if self.compared == 0 => "Nothing was compared: no case is in both results.",
+            true if self.compared == 0 => {
+                "The results differ: nothing was compared, no case is in both."
+            }
             true => "The results differ.",
             false if self.only_peaks => "The peaks are the same within the tolerances.",
             false => "The results are the same within the tolerances.",

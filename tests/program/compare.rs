@@ -110,7 +110,7 @@ fn what_was_not_compared_is_said_and_nothing_compared_is_no_agreement() {
         let (code, text) = compared(folder, &pair);
         assert_eq!(code, 4, "{pair:?}");
         assert!(
-            text.contains("Nothing was compared: no case is in both results."),
+            text.contains("nothing was compared, no case is in both."),
             "{text}"
         );
     }

@@ -393,6 +393,11 @@ impl Manifest {
     ) -> Result<(), StoreError> {
         self.record(name)?;
         let is_alone = self.lock.try_exclusive() == Others::Absent;
+        if !is_alone {
+            // What was asked for in vain took the shared lock away. Without it another process may find itself alone, empty the
+            // lock file, and have its list replaced by one that was made before.
+            self.lock.share();
+        }
         let mut state = self.state();
         self.look_again(&mut state)?;
         let is_there = |file: &&String| *file == name || self.folder.join(file).exists();
