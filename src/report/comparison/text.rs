@@ -45,7 +45,7 @@ impl Comparison {
     fn table_of_columns(&self) -> String {
         let row = |cells: [&str; 4]| {
             let [name, largest, beyond, within] = cells;
-            format!(" {name:<23} {largest:<23} {beyond:>9}   {within:>10}\n")
+            format!(" {name:<21} {largest:<30} {beyond:>9}   {within:>10}\n")
         };
         let mut text = "\n".to_owned()
             + &row(["column", "largest difference,", "beyond", "of these"])
@@ -54,11 +54,7 @@ impl Comparison {
             let largest = match &column.largest {
                 Some((share, place)) => format!(
                     "{share:.1e}{} at {} = {}",
-                    if column.is_absolute {
-                        " (absolute)"
-                    } else {
-                        ""
-                    },
+                    if column.is_absolute { " abs." } else { "" },
                     self.unit.symbol(),
                     four_digits(self.unit.of(place.angular_frequency_rad_per_s))
                 ),
