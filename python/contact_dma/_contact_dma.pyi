@@ -225,5 +225,5 @@ def sweep(source: "object", threads: SupportsIndex | None, progress: Any | None)
 
 def write_files(folder: str | PathLike[str], kind: str, files: SupportsGetItem[int, tuple[str, SupportsGetItem[int, SupportsIndex]]], force: bool) -> None:
     """
-    Writes files into a folder, each whole or not at all.
+    Fills the folder of an `analysis`, an `identification` or a `scenario` with files; `force` replaces what else is there.
     """
