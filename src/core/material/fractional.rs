@@ -64,7 +64,7 @@ pub struct Approximation {
 pub struct Represented {
     pub relaxation: Relaxation,
     pub approximation: Approximation,
-    /// A series that is a hundred times closer to the model: what a result with it differs by is the error of the result that the
+    /// A series that is a hundred times closer to the model, or at least ten times where that takes too many branches: what a result with it differs by is the error of the result that the
     /// series makes. `None` where the series is the model.
     pub closer: Option<Relaxation>,
 }
@@ -115,7 +115,7 @@ pub enum FractionalError {
 pub const MOST_BRANCHES: usize = 200;
 /// Accuracies that are asked for.
 pub const ACCURACY: (f64, f64) = (1e-8, 0.1);
-/// By how much closer the series is that tells the error of another, and its most branches, as many as a file may hold: it is solved
+/// By how much closer the series is that tells the error of another, the first that can be had, and its most branches, as many as a file may hold: it is solved
 /// on coarse levels alone.
 const CLOSER: [f64; 3] = [0.01, 0.03, 0.1];
 const MOST_BRANCHES_OF_CLOSER: usize = 1000;
