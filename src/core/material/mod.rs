@@ -1,7 +1,7 @@
 //! Linear viscoelastic materials: relaxation modulus, creep compliance, complex modulus.
 //!
 //! A [`Material`] holds both functions of one material, the [`Creep`] compliance and, where there is
-//! one, the [`Relaxation`] modulus, with a Poisson ratio or a bulk modulus that does not depend on time. SI units
+//! one, the [`Relaxation`] modulus, with a Poisson ratio that does not depend on time, or a bulk modulus that may relax. SI units
 //! throughout; harmonic quantities vary as `exp(+i omega t)`, so `E* = E' + i E''` and
 //! `D* = 1/E* = D' - i D''`.
 //!

@@ -42,7 +42,7 @@ pub enum EngineError {
         "a layer is solved with a Poisson ratio that does not depend on time, and that of a material with a bulk modulus does: write \
          poisson_ratio in place of bulk_modulus"
     )]
-    LayerOfConstantBulkModulus,
+    LayerOfBulkModulus,
     #[error(
         "a surface that repeats itself is solved on the half-space alone: leave out [layer], or edge = \"periodic\""
     )]
@@ -411,7 +411,7 @@ pub(in crate::sweep) fn layer(
     let Some(plan) = plan else {
         return Ok(None);
     };
-    let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfConstantBulkModulus)?;
+    let poisson_ratio = poisson_ratio.ok_or(EngineError::LayerOfBulkModulus)?;
     Ok(Some(plan.of_material(poisson_ratio)))
 }
 

@@ -10,7 +10,7 @@
 //! the cells are of either sign and differ from step to step, so that the root of that ratio was seen to be enough.
 //!
 //! Calibrated on one branch over equilibrium moduli lower by 1.3 to 1e6, under sphere, cone and ellipsoid, amplitudes of 1e-3, 0.1
-//! and 1 of the mean, three frequencies between the retardation and the relaxation time. `tests/instant_tolerance.rs` holds the
+//! and 1 of the mean, three frequencies between the retardation and the relaxation time. `tests/physics/instant_tolerance.rs` holds the
 //! result to [`SHARE`] of the cycle's tolerance, which the error bars count in.
 
 use crate::drive::HarmonicDrive;

@@ -296,7 +296,7 @@ pub struct Ladder<'a> {
 }
 
 /// By what the estimate is multiplied: of 200 random cases, this leaves the true error inside the bar in 95 of 100 and more
-/// (`tests/error_bars.rs`), without making the bar useless.
+/// (`tests/physics/error_bars.rs`), without making the bar useless.
 pub(in crate::sweep) const SAFETY: f64 = 1.5;
 
 /// By what the largest difference that another material makes is multiplied: that material is off, too, by a little.
