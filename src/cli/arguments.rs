@@ -23,8 +23,7 @@ use crate::quantity::{Dimension, parse};
 pub(super) struct Arguments {
     #[command(subcommand)]
     pub(super) command: Command,
-    /// Output format; json prints one object for other programs, also with --quiet. For `material fit`, also the format of its
-    /// data, as with --data-format
+    /// Output format; json prints one object for other programs, also with --quiet
     #[arg(
         long, value_name = "FORMAT", default_value = "text", global = true, value_parser = AnyFormat,
         action = ArgAction::Append
@@ -174,21 +173,24 @@ Examples:
 
 A table of creep or relaxation is text: a line of column names, then rows. Columns: time_s, and
 creep_compliance_per_pa or relaxation_modulus_pa, or in other units, as in time_min,
-`Creep compliance [1/GPa]`, or with a row of units. Commas, semicolons, tabs or blanks
-separate cells; numbers may have decimal commas where commas do not. Printed are the misfit, what had to be assumed,
-the branches, and a [material] block to paste into a sweep file. The same fit is made where
-a sweep file names the table:
+`Creep compliance [1/GPa]`, `J(t) (1/GPa)`, or with a row of units. Commas, semicolons, tabs or blanks
+separate cells; numbers may have decimal commas where commas do not. Rows without a number are
+passed over and counted. The command prints the misfit, what had to be assumed, the branches, and
+a [material] block to paste into a sweep file. The same fit is made where a sweep file names the
+table:
 
   [material.table]
   file = \"creep.csv\"          # from the folder of the sweep file
   quantity = \"creep\"
   modulus = \"shear\"
 
-With --out, that block, the series as prony.csv, figures of data, fit and difference, and index.html are written.
+With --out, that block, the series as prony.csv, figures of data, fit and difference, and
+index.html are written.
 
-Dynamic data are one file or several of one specimen, tables with named columns or exports of instruments; the format is found,
-or named by --data-format (`--format pyvisco` says the same). Isotherms are shifted to one temperature, which gives shift.csv and
-master.csv, and summary.json has every number of the fit.")]
+Dynamic data are one file or several of one specimen, tables with named columns or exports of
+instruments; the format is found, or named by --data-format (`--format pyvisco` says the same).
+Isotherms are shifted to one temperature, which gives shift.csv and master.csv, and summary.json
+has every number of the fit.")]
     Fit(FitFlags),
     /// Write a material as input of a finite element program
     #[command(after_help = "\

@@ -3,7 +3,10 @@
 //! - Text is UTF-8 or UTF-16, with or without a byte order mark, with the line ends of any system. Empty lines and lines that begin
 //!   with `#` are passed over.
 //! - Cells are separated by commas, semicolons, tabs, vertical bars or blanks, which is found out; quotation marks may enclose a cell.
-//! - Numbers have a decimal point, or a decimal comma where commas do not separate cells.
+//! - Numbers have a decimal point, or a decimal comma where commas do not separate cells. There, where one of them has both signs
+//!   (`1.000,5`) or one of them twice, the other sign or this one groups thousands in all.
+//! - A cell may say that its number is missing. In tables of what was measured its row is passed over or the cell left out; a table
+//!   that prescribes something is refused.
 //! - A column is asked for by its names and its dimension, and comes in SI units. The header gives the unit: `time_s`, `Time [s]`,
 //!   `time (ms)`, `Time / s`; or a row of units below it does. In names joined by `_` case does not matter: `mpa` is MPa.
 //!
@@ -22,7 +25,7 @@ use super::document::{Located, cannot_read, read_limited};
 use crate::quantity::{self, Dimension, QuantityError};
 use header::{Found, Header};
 pub(crate) use rows::Table;
-use rows::{Rows, line_at, plain_number};
+use rows::{Holes, Rows, line_at, plain_number};
 use text::{DELIMITERS, Lines};
 
 /// Largest file read, bytes: a map of 4096 x 4096 points with 30 characters each.
@@ -85,6 +88,14 @@ impl Column {
         format!("{}_{unit}", self.names.first().unwrap_or(&""))
     }
 
+    /// Whether a name of one letter stands for this column: with a unit, by its dimension, and `t` without one is no `T`.
+    fn is_symbol(&self, name: &str, unit: Option<&str>) -> bool {
+        match unit {
+            Some(unit) => factor(unit, self.dimension).is_ok(),
+            None => self.dimension != Dimension::Time || name == "t",
+        }
+    }
+
     /// The unit that a cell of the header gives this column, if any; `None` where it names another column.
     fn unit_in(&self, cell: &str) -> Option<Option<String>> {
         let (name, unit) = split_unit(cell);
@@ -95,6 +106,10 @@ impl Column {
                 return None;
             }
             match (rest.strip_prefix('_'), unit) {
+                // `T (°C)` and `D (mm)` are symbols of something else, and so is `T` alone.
+                (None, _) if rest.is_empty() && known.len() == 1 && !self.is_symbol(head, unit) => {
+                    None
+                }
                 (None, _) if rest.is_empty() => Some(unit.map(str::to_owned)),
                 (Some(suffix), None) => unit_of_suffix(suffix, self.dimension).map(Some),
                 _ => None,
@@ -103,11 +118,12 @@ impl Column {
     }
 }
 
-/// Name and unit in `Time [s]`, `Time (s)` and `Time / s`.
+/// Name and unit in `Time [s]`, `Time (s)` and `Time / s`; the argument of `E(t)` is no unit.
 pub(crate) fn split_unit(cell: &str) -> (&str, Option<&str>) {
     let bracketed = [('[', ']'), ('(', ')')]
         .into_iter()
-        .find_map(|(open, close)| cell.strip_suffix(close)?.rsplit_once(open));
+        .find_map(|(open, close)| cell.strip_suffix(close)?.rsplit_once(open))
+        .filter(|(_, unit)| *unit != "t");
     match bracketed.or_else(|| cell.rsplit_once(" / ")) {
         Some((name, unit)) => (name, Some(unit.trim())),
         None => (cell, None),
@@ -254,10 +270,22 @@ impl DataFile {
         wanted: &[Column],
         without_number: &str,
     ) -> Result<Table, Diagnostics> {
-        self.columns_read(wanted, without_number, false)
+        self.columns_read(wanted, without_number, Holes::Refused)
     }
 
-    /// The same, where a cell may say that there is no number (empty, `NaN`, `NA`, a dash): it is read as a NaN.
+    /// The same of what was measured: a row in which one of these numbers is missing (empty, `NaN`, `NA`, a dash) is passed over.
+    ///
+    /// # Errors
+    /// As [`DataFile::columns`].
+    pub(crate) fn columns_of_whole_rows(
+        &self,
+        wanted: &[Column],
+        without_number: &str,
+    ) -> Result<Table, Diagnostics> {
+        self.columns_read(wanted, without_number, Holes::PassedOver)
+    }
+
+    /// The same where the other numbers of such a row count: the missing one is read as a NaN.
     ///
     /// # Errors
     /// As [`DataFile::columns`].
@@ -266,14 +294,14 @@ impl DataFile {
         wanted: &[Column],
         without_number: &str,
     ) -> Result<Table, Diagnostics> {
-        self.columns_read(wanted, without_number, true)
+        self.columns_read(wanted, without_number, Holes::Kept)
     }
 
     fn columns_read(
         &self,
         wanted: &[Column],
         without_number: &str,
-        may_have_holes: bool,
+        holes: Holes,
     ) -> Result<Table, Diagnostics> {
         let Some(header) = self.header(wanted) else {
             let names: Vec<String> = wanted.iter().map(Column::name_in_si).collect();
@@ -286,8 +314,8 @@ impl DataFile {
         let found: Vec<Found> = found.collect::<Result<_, _>>()?;
         let mut lines = header.after.clone();
         let units = header.units_row(&mut lines, &found);
-        let mut rows = Rows::new(&header, found.iter().map(|found| found.place).collect());
-        rows.may_have_holes = may_have_holes;
+        let places = found.iter().map(|found| found.place).collect();
+        let mut rows = Rows::new(&header, places, holes);
         rows.read(lines, without_number)?;
         let mut table = rows.table;
         for (which, ((column, found), unit)) in wanted.iter().zip(&found).zip(&units).enumerate() {
@@ -314,7 +342,7 @@ impl DataFile {
             let help = "give one line of numbers per row, or per point";
             return Err(self.no_numbers(help).into());
         };
-        let mut rows = Rows::new(&first, (0..first.cells.len()).collect());
+        let mut rows = Rows::new(&first, (0..first.cells.len()).collect(), Holes::Refused);
         rows.read(self.lines(), without_number)?;
         Ok(rows.table)
     }
@@ -452,8 +480,12 @@ mod tests {
                 "2:3",
                 "may separate decimals or thousands",
             ),
-            ("f_hz;E' [Pa]\n1;1.234,5\n", "2:3", "not a number"),
-            ("f_hz;E' [Pa]\n1;1,234,567\n", "2:3", "not a number"),
+            ("f_hz;E' [Pa]\n1;1.23,4,5\n", "2:3", "not a number"),
+            (
+                "f_hz;E' [Pa]\n1;1.234,5\n2;2.5\n",
+                "3:3",
+                "not a number where thousands are grouped",
+            ),
             (
                 "f_hz,E' [Pa]\n1,2,5\n",
                 "2:1",
@@ -472,6 +504,11 @@ mod tests {
         }
         // Where one comma separates no thousands, none does.
         assert_eq!(read("f_hz;E' [Pa]\n0,25;2,500\n").unwrap(), [[0.25, 2.5]]);
+        // A number with both signs, or with one of them twice, tells which one groups thousands.
+        let grouped = read("f_hz;E' [Pa]\n0,25;1.234,5\n1.000;2.500\n").unwrap();
+        assert_eq!(grouped, [[0.25, 1234.5], [1000.0, 2500.0]]);
+        let grouped = read("f_hz;E' [Pa]\n0.25;1,234,567\n").unwrap();
+        assert_eq!(grouped, [[0.25, 1_234_567.0]]);
     }
 
     proptest! {

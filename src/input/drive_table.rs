@@ -51,6 +51,19 @@ mod tests {
     }
 
     #[test]
+    fn what_prescribes_has_no_holes() {
+        for hole in ["", "-", "NaN", "#N/A"] {
+            let refused = load(&format!("time_s,load_n\n0,1\n1,{hole}\n2,3\n"));
+            let refused = refused.unwrap_err().to_string();
+            assert!(refused.contains("load.csv:3:"), "{refused}");
+            assert!(
+                refused.contains("leave out the row where there is no value"),
+                "{refused}"
+            );
+        }
+    }
+
+    #[test]
     fn two_columns_are_found_among_others_in_any_order() {
         let expected = (vec![0.0, 0.5], vec![1.5, 2.0]);
         for text in [

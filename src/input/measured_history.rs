@@ -41,7 +41,8 @@ pub(super) fn parse(
     if has_errors {
         wanted.push(error);
     }
-    let table = file.columns(&wanted, "leave out the row where nothing was measured")?;
+    let without_number = "write a number, or leave the cell empty where nothing was measured";
+    let table = file.columns_of_whole_rows(&wanted, without_number)?;
     if table.len() > MAX_ROWS {
         let message = format!("a measured history has at most {MAX_ROWS} rows");
         let diagnostic = Diagnostic::at(&table.row(MAX_ROWS), message);
@@ -78,7 +79,7 @@ pub(super) fn parse(
             break;
         }
         readings.push(Reading {
-            row: row + 1,
+            row: table.number_of(row),
             time_s: time_s.min(end_s),
             value,
             error,
@@ -88,6 +89,7 @@ pub(super) fn parse(
     let columns = TableColumns {
         read,
         unread,
+        rows_passed_over: table.passed_over(),
         ..TableColumns::default()
     };
     problems.into_result(Some((readings, columns)))
@@ -105,6 +107,21 @@ mod tests {
         };
         let drive = SegmentedDrive::new(Control::Load, vec![held]).unwrap();
         Ok(parse("creep.csv", text.as_bytes(), &drive)?.0)
+    }
+
+    #[test]
+    fn rows_without_a_number_are_passed_over_and_counted() {
+        let held = Segment::Step {
+            to: 0.01,
+            duration_s: 10.0,
+        };
+        let drive = SegmentedDrive::new(Control::Load, vec![held]).unwrap();
+        let text = "time_s,approach_m\n1,1e-9\n2,\nn/a,2e-9\n4,3e-9\n";
+        let (found, columns) = parse("creep.csv", text.as_bytes(), &drive).unwrap();
+        let times: Vec<f64> = found.iter().map(|reading| reading.time_s).collect();
+        assert_eq!((times, columns.rows_passed_over), (vec![1.0, 4.0], 2));
+        // Messages count the rows of the file.
+        assert_eq!((found[0].row, found[1].row), (1, 4));
     }
 
     #[test]

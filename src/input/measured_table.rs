@@ -132,6 +132,7 @@ pub(super) fn parse(name: &str, bytes: &[u8], drive: HarmonicDrive) -> Result<Fo
         read,
         set_aside,
         unread,
+        rows_passed_over: 0,
     };
     problems.into_result(Some((cycles, data, columns)))
 }

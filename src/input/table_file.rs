@@ -1,5 +1,6 @@
 //! Tables of measured creep compliance or relaxation modulus: a [`DataFile`] with the columns `time_s` and
-//! `creep_compliance_per_pa` or `relaxation_modulus_pa`, or the same in other units. Times without a unit are in seconds.
+//! `creep_compliance_per_pa` or `relaxation_modulus_pa`, or the same in other units and by their symbols: `t`, `J(t)`, `D`, `E(t)`, `G`.
+//! Times without a unit are in seconds. Rows in which a number is missing are passed over.
 
 use std::path::Path;
 
@@ -18,16 +19,36 @@ pub(crate) const QUANTITIES: [(&str, MaterialFunction); 2] = [
     ),
 ];
 
-/// The column of a quantity.
-fn values_of(face: MaterialFunction) -> Column {
-    match face {
-        MaterialFunction::Creep => {
-            Column::new(&["creep_compliance"], Dimension::Compliance, "values")
-        }
-        MaterialFunction::Relaxation => {
-            Column::new(&["relaxation_modulus"], Dimension::Stress, "values")
-        }
-    }
+/// The column of times.
+const TIMES: Column = Column {
+    names: &["time", "test_time", "elapsed_time", "zeit", "t"],
+    ..TIME
+};
+
+/// The column of a quantity: `E` is no shear modulus, and `G` is nothing else.
+fn values_of(face: MaterialFunction, kind: ModulusKind) -> Column {
+    let (names, dimension): (&[&str], _) = match (face, kind) {
+        (MaterialFunction::Creep, _) => (
+            &[
+                "creep_compliance",
+                "kriechnachgiebigkeit",
+                "j(t)",
+                "d(t)",
+                "j",
+                "d",
+            ],
+            Dimension::Compliance,
+        ),
+        (MaterialFunction::Relaxation, ModulusKind::Longitudinal) => (
+            &["relaxation_modulus", "relaxationsmodul", "e(t)", "e"],
+            Dimension::Stress,
+        ),
+        (MaterialFunction::Relaxation, ModulusKind::Shear) => (
+            &["relaxation_modulus", "relaxationsmodul", "g(t)", "g"],
+            Dimension::Stress,
+        ),
+    };
+    Column::new(names, dimension, "values")
 }
 
 fn other(face: MaterialFunction) -> (&'static str, MaterialFunction) {
@@ -67,19 +88,28 @@ fn tabulated(
     face: MaterialFunction,
     kind: ModulusKind,
 ) -> Result<Tabulated, Diagnostics> {
-    let (values, (word, other)) = (values_of(face), other(face));
-    if !file.has_any(&[values]) && file.has_any(&[values_of(other)]) {
+    let values = values_of(face, kind);
+    if !file.has_any(&[values])
+        && let Some(help) = meant_for(file, face, kind)
+    {
         let message = format!("no column `{}`", values.name_in_si());
-        let help = format!("this table wants the quantity \"{word}\"");
         return Err(Diagnostic::at(&file.first_line(), message)
             .help(help)
             .into());
     }
-    let table = file.columns(
-        &[TIME, values],
-        "write it as `1.5e-9`, or leave the whole row out",
+    // Of several names of a column the first counts.
+    let named = file.first_named(&[TIMES, values]).into_iter();
+    let wanted = named
+        .zip([TIMES, values])
+        .map(|(named, any)| named.unwrap_or(any));
+    let table = file.columns_of_whole_rows(
+        &wanted.collect::<Vec<_>>(),
+        "write it as `1.5e-9`, or leave the cell empty where the number is missing",
     )?;
-    Tabulated::new(face, kind, table.column(0), table.column(1)).map_err(|error| {
+    let (times_s, numbers) = (table.column(0), table.column(1));
+    let made = Tabulated::new(face, kind, times_s, numbers);
+    let made = made.map(|data| data.with_rows_passed_over(table.passed_over()));
+    made.map_err(|error| {
         let place = error
             .place()
             .map(|(row, column)| table.cell(row - 1, usize::from(column == TableColumn::Value)));
@@ -87,7 +117,25 @@ fn tabulated(
     })
 }
 
-/// What the material room refuses, at its place in the file.
+/// What a table is for that has the column of the other quantity, or of the other modulus.
+fn meant_for(file: &DataFile, face: MaterialFunction, kind: ModulusKind) -> Option<String> {
+    let (word, other_face) = other(face);
+    let other_kind = match kind {
+        ModulusKind::Longitudinal => ModulusKind::Shear,
+        ModulusKind::Shear => ModulusKind::Longitudinal,
+    };
+    if file.has_any(&[values_of(face, other_kind)]) {
+        return Some(format!(
+            "its column is a {0} modulus: say \"{0}\"",
+            other_kind.name()
+        ));
+    }
+    let of_kind = [kind, other_kind].map(|kind| values_of(other_face, kind));
+    file.has_any(&of_kind)
+        .then(|| format!("the table holds the quantity \"{word}\": say so"))
+}
+
+/// What the material module refuses, at its place in the file.
 fn explain(place: &Location, error: &TableError, face: MaterialFunction) -> Diagnostic {
     let diagnostic = Diagnostic::at(place, error.to_string());
     match error {
@@ -108,6 +156,7 @@ fn explain(place: &Location, error: &TableError, face: MaterialFunction) -> Diag
 mod tests {
     use super::*;
     use crate::input::diagnostic::Styling;
+    use crate::material::tabulated::TableWarning;
     use proptest::prelude::*;
 
     fn read_creep(bytes: &[u8]) -> Result<Tabulated, Diagnostics> {
@@ -148,12 +197,12 @@ mod tests {
 
     #[test]
     fn a_missing_column_is_named_with_what_would_do() {
-        insta::assert_snapshot!(refusal(&GOOD.replace("time_s", "t")), @r"
+        insta::assert_snapshot!(refusal(&GOOD.replace("time_s", "when")), @r"
         error: no column `time_s`
          --> data.csv:1:1
           |
-        1 | t,creep_compliance_per_pa
-          | ^^^^^^^^^^^^^^^^^^^^^^^^^ 2 columns, separated by commas
+        1 | when,creep_compliance_per_pa
+          | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^ 2 columns, separated by commas
           |
           = help: name the column of times with its unit, such as `time_s` or
                   `time [s]`
@@ -165,7 +214,7 @@ mod tests {
         1 | time_s,relaxation_modulus_pa
           | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^
           |
-          = help: this table wants the quantity "relaxation"
+          = help: the table holds the quantity "relaxation": say so
         "#);
         insta::assert_snapshot!(refusal("0,4e-10\n1,4e-10\n"), @r"
         error: no column `time_s`
@@ -193,14 +242,6 @@ mod tests {
     fn every_bad_cell_and_ragged_row_is_shown_at_its_place() {
         let text = "# measured\ntime_s,creep_compliance_per_pa\n0,4e-10\n1, NaN\n\n2,4,1e-10\nten,4.2e-10\n100,\n1000,-inf\n";
         insta::assert_snapshot!(refusal(text), @r"
-        error: a cell of the column `creep_compliance_per_pa` must be a number
-         --> data.csv:4:4
-          |
-        4 | 1, NaN
-          |    ^^^ not a finite number
-          |
-          = help: write it as `1.5e-9`, or leave the whole row out
-
         error: a row of 3 cells in a table of 2 columns
          --> data.csv:6:1
           |
@@ -216,15 +257,8 @@ mod tests {
         7 | ten,4.2e-10
           | ^^^ not a number
           |
-          = help: write it as `1.5e-9`, or leave the whole row out
-
-        error: a cell of the column `creep_compliance_per_pa` must be a number
-         --> data.csv:8:5
-          |
-        8 | 100,
-          |     ^ empty
-          |
-          = help: write it as `1.5e-9`, or leave the whole row out
+          = help: write it as `1.5e-9`, or leave the cell empty where the number is
+                  missing
 
         error: a cell of the column `creep_compliance_per_pa` must be a number
          --> data.csv:9:6
@@ -232,8 +266,78 @@ mod tests {
         9 | 1000,-inf
           |      ^^^^ not a finite number
           |
-          = help: write it as `1.5e-9`, or leave the whole row out
+          = help: write it as `1.5e-9`, or leave the cell empty where the number is
+                  missing
         ");
+    }
+
+    #[test]
+    fn a_row_in_which_a_number_is_missing_is_passed_over_and_counted() {
+        let whole = read_creep(GOOD.as_bytes()).unwrap();
+        for missing in [
+            "2,",
+            "2,-",
+            ",4.15e-10",
+            "NaN,4.15e-10",
+            "n/a,n.a.",
+            "2,#N/A",
+            "2,NULL",
+            "2,none",
+        ] {
+            let text = GOOD.replace("\n10,", &format!("\n{missing}\n10,"));
+            let table = read_creep(text.as_bytes()).unwrap();
+            assert_eq!(table.values(), whole.values(), "{missing}");
+            assert_eq!(
+                table.warnings(),
+                [&[TableWarning::Missing { rows: 1 }], whole.warnings()].concat(),
+                "{missing}"
+            );
+        }
+    }
+
+    #[test]
+    fn columns_are_known_by_their_symbols_and_in_german() {
+        let (rows, inverse) = (
+            "0,1000;0,4\n1;0,41\n1.000,0;0,42\n10.000;0,43\n",
+            "0.1,2.5\n1,2.4\n10,2.3\n100,2.2\n",
+        );
+        for names in [
+            "t (s);J (1/GPa)",
+            "t;D(t) [1/GPa]",
+            "Zeit [s];Kriechnachgiebigkeit (1/GPa)",
+            // Symbols of a temperature and of a diameter.
+            "t (s);J (1/GPa);T (°C);D (mm)",
+        ] {
+            let others = ";1,5".repeat(names.matches(';').count() - 1);
+            let rows = rows.replace('\n', &format!("{others}\n"));
+            let table = read_creep(format!("{names}\n{rows}").as_bytes()).unwrap();
+            assert_eq!(table.times_s(), [0.1, 1.0, 1000.0, 10_000.0], "{names}");
+            assert!((table.values()[3] / 0.43e-9 - 1.0).abs() < 1e-12, "{names}");
+        }
+        let relaxation = |names: &str, kind| {
+            let text = format!("{names}\n{inverse}");
+            parse(
+                "data.csv",
+                text.as_bytes(),
+                MaterialFunction::Relaxation,
+                kind,
+            )
+            .map_err(|refused| refused.render(Styling::Plain))
+        };
+        for (kind, names) in [
+            (ModulusKind::Longitudinal, "t,E(t) (GPa)"),
+            (ModulusKind::Shear, "t (s),G (GPa)"),
+        ] {
+            let table = relaxation(names, kind).unwrap();
+            assert!((table.values()[0] / 2.5e9 - 1.0).abs() < 1e-12, "{names}");
+        }
+        let other = relaxation("t,E(t) (GPa)", ModulusKind::Shear).unwrap_err();
+        assert!(
+            other.contains("its column is a longitudinal modulus"),
+            "{other}"
+        );
+        // A unit is never guessed.
+        assert!(refusal("t,J\n0,1\n1,2\n2,3\n3,4\n").contains("the column of values has no unit"));
     }
 
     #[test]

@@ -17,7 +17,10 @@ pub fn text(sampled: &Sampled, duration_s: f64) -> String {
         "No fit: {count} samples of the {name} taken as they are, by the direct hereditary sum"
     )];
     let warnings = table.warnings().iter();
-    lines.extend(warnings.map(|warning| format!("Warning: {warning}")));
+    lines.extend(warnings.map(|warning| match warning.is_warning() {
+        true => format!("Warning: {warning}"),
+        false => format!("Note: {warning}"),
+    }));
     let time = |time_s: f64| format_human(time_s, Dimension::Time, 4);
     if let Some(&first_s) = table.times_s().first().filter(|first_s| **first_s > 0.0) {
         let first = time(first_s);

@@ -229,19 +229,23 @@ fn a_material_table_is_refused_the_same_way_whether_it_is_fitted_or_taken_direct
         ),
         (
             "time_s,J\n1,1e-9\n",
-            &["data.csv:1:", "no column `creep_compliance_per_pa`"],
+            &[
+                "data.csv:1:8",
+                "the column of values has no unit",
+                "write `J [1/Pa]`",
+            ],
         ),
         (
             "time_s,creep_compliance_per_pa\n1,1e-9\n3,2e-9\n2,3e-9\n4,4e-9\n",
             &["data.csv:4:1", "must increase", "sort the rows"],
         ),
         (
-            "time_s,creep_compliance_per_pa\n1,1e-9\n2,NaN\n3,3e-9\n4,4e-9\n",
+            "time_s,creep_compliance_per_pa\n1,1e-9\n2,inf\n3,3e-9\n4,4e-9\n",
             &["data.csv:3:3", "not a finite number"],
         ),
         (
-            "time_s,creep_compliance_per_pa\n1,1e-9\n2,\n3,3e-9\n4,4e-9\n",
-            &["data.csv:3:", "empty", "leave the whole row out"],
+            "time_s,creep_compliance_per_pa\n1,1e-9\n2,?\n3,3e-9\n4,4e-9\n",
+            &["data.csv:3:3", "not a number", "leave the cell empty"],
         ),
         (
             "time_s,creep_compliance_per_pa\n1,4e-9\n2,3e-9\n3,2e-9\n4,1e-9\n",

@@ -338,7 +338,7 @@ fn a_column_that_is_not_understood_is_named_and_common_words_are_understood() {
         "Columns read: Frequency (Hz), Loss (J), Loss error (J) and Phase (rad).",
         "Not taken as data: Max depth error (m): the table has not the quantity",
         "Warning: columns not understood, and not read: Phase fault (rad) and Operator.",
-        "Moduli are Young's: E(t) = g_inf",
+        "g_inf and g_i are Young's moduli: E(t) = g_inf",
     ] {
         assert!(printed.contains(expected), "{expected}\n{printed}");
     }

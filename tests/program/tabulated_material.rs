@@ -249,7 +249,7 @@ fn a_table_that_cannot_be_used_is_refused_at_its_place() {
         ),
         (
             "creep",
-            good.replace("\n1,", "\nNaN,"),
+            good.replace("\n1,", "\ninf,"),
             &["data.csv:12:1", "not a finite number"],
         ),
         (

@@ -87,6 +87,8 @@ pub struct TableColumns {
     pub set_aside: Vec<(String, &'static str)>,
     /// All others.
     pub unread: Vec<String>,
+    /// Rows of a history that were passed over, since a number is missing.
+    pub rows_passed_over: usize,
 }
 
 /// All that was measured.

@@ -156,6 +156,12 @@ pub enum TableWarning {
         largest_share: f64,
         row: usize,
     },
+    /// Rows of the table in which a number is missing.
+    #[error(
+        "{rows} {} passed over: a number is empty or marked as missing",
+        if *rows == 1 { "row" } else { "rows" }
+    )]
+    Missing { rows: usize },
     /// More than a decade without a sample.
     #[error(
         "no sample between {} and {}, {:.1} decades: branches with times in there are guessed",
@@ -168,6 +174,13 @@ pub enum TableWarning {
         (to_s / from_s).log10(), seconds(*from_s), seconds(*to_s)
     )]
     Short { from_s: f64, to_s: f64 },
+}
+
+impl TableWarning {
+    /// Whether this limits what the samples can be used for, rather than telling how they were read.
+    pub fn is_warning(&self) -> bool {
+        !matches!(self, Self::Missing { .. })
+    }
 }
 
 /// A time in four digits, as short as it can be written.
@@ -260,6 +273,15 @@ impl Tabulated {
             groups,
             warnings,
         })
+    }
+
+    /// The same samples, read from a table with this number of further rows in which a number is missing.
+    #[must_use]
+    pub fn with_rows_passed_over(mut self, rows: usize) -> Self {
+        if rows > 0 {
+            self.warnings.push(TableWarning::Missing { rows });
+        }
+        self
     }
 
     /// Whether the samples are a creep compliance or a relaxation modulus.

@@ -254,7 +254,7 @@ impl Numbers<'_> {
 }
 
 /// The sign that groups thousands, where a number tells.
-fn grouping_sign(text: &str) -> Option<char> {
+pub(super) fn grouping_sign(text: &str) -> Option<char> {
     let digits = text.trim_start_matches(['-', '+', '\u{2212}']);
     let is_numeric = digits.starts_with(|c: char| c.is_ascii_digit())
         && digits
@@ -287,7 +287,7 @@ fn are_groups(whole: &str, sign: char) -> bool {
 }
 
 /// A number whose thousands may be grouped by this sign.
-fn grouped_number(text: &str, sign: char) -> Cell {
+pub(super) fn grouped_number(text: &str, sign: char) -> Cell {
     let decimal = if sign == ',' { '.' } else { ',' };
     let whole = text.split([decimal, 'e', 'E']).next().unwrap_or_default();
     let digits = whole.trim_start_matches(['-', '+']);

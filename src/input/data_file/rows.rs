@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::grid::MISSING;
+use super::grid::{Cell, MISSING, grouped_number, grouping_sign};
 use super::header::Header;
 use super::text::{self, Lines};
 use crate::input::diagnostic::{Diagnostics, Location, Problems, Source};
@@ -18,6 +18,8 @@ pub(crate) struct Table {
     pub(crate) values: Vec<f64>,
     /// Where the lines begin.
     starts: Vec<usize>,
+    /// Of every row that was passed over, since one of its numbers is missing, how many rows were read before it.
+    passed_over: Vec<usize>,
 }
 
 impl Table {
@@ -29,6 +31,16 @@ impl Table {
     /// Rows.
     pub(crate) fn len(&self) -> usize {
         self.starts.len()
+    }
+
+    /// Rows that were passed over.
+    pub(crate) fn passed_over(&self) -> usize {
+        self.passed_over.len()
+    }
+
+    /// The number of a row in the file, from 1, those that were passed over included.
+    pub(crate) fn number_of(&self, row: usize) -> usize {
+        row + 1 + self.passed_over.partition_point(|before| *before <= row)
     }
 
     /// One column, by its place among those asked for.
@@ -68,31 +80,45 @@ pub(super) fn line_at(source: &Arc<Source>, start: usize) -> Location {
     Location::new(source, start..start + line.trim_end().len())
 }
 
+/// What is made of a cell that is empty or says that there is no number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Holes {
+    /// An error: what prescribes something has no holes.
+    Refused,
+    /// The row is passed over, and counted.
+    PassedOver,
+    /// A NaN.
+    Kept,
+}
+
 /// Reads rows, and remembers how their numbers separate decimals.
 pub(super) struct Rows<'a> {
     header: &'a Header<'a>,
     pub(super) table: Table,
     problems: Problems,
     signs: DecimalSigns,
-    /// Whether a cell without a number is read as a NaN.
-    pub(super) may_have_holes: bool,
+    holes: Holes,
+    /// The sign that groups thousands, where one does.
+    grouping: Option<char>,
 }
 
 impl<'a> Rows<'a> {
-    pub(super) fn new(header: &'a Header<'a>, places: Vec<usize>) -> Self {
+    pub(super) fn new(header: &'a Header<'a>, places: Vec<usize>, holes: Holes) -> Self {
         let table = Table {
             source: Arc::clone(header.source),
             delimiter: header.delimiter,
             places,
             values: Vec::new(),
             starts: Vec::new(),
+            passed_over: Vec::new(),
         };
         Self {
             header,
             table,
             problems: Problems::new(),
             signs: DecimalSigns::default(),
-            may_have_holes: false,
+            holes,
+            grouping: None,
         }
     }
 
@@ -103,6 +129,7 @@ impl<'a> Rows<'a> {
     ) -> Result<(), Diagnostics> {
         let (text, expected) = (lines.text, self.header.cells.len());
         let mut cells = Vec::with_capacity(expected);
+        self.grouping = self.grouping_in(lines.clone());
         while let Some(start) = lines.cells(self.header.delimiter, &mut cells) {
             if cells.len() != expected {
                 let found = cells.len();
@@ -112,6 +139,12 @@ impl<'a> Rows<'a> {
                 report.help(
                     "give every row one cell per column; where commas separate cells, numbers have a decimal point",
                 );
+                continue;
+            }
+            let is_passed_over = self.holes == Holes::PassedOver
+                && (self.table.places.iter()).any(|place| is_hole(&text[cells[*place].clone()]));
+            if is_passed_over {
+                self.table.passed_over.push(self.table.starts.len());
                 continue;
             }
             self.table.starts.push(start);
@@ -127,17 +160,48 @@ impl<'a> Rows<'a> {
         std::mem::take(&mut self.problems).into_result(Some(()))
     }
 
+    /// The sign that groups thousands in all numbers, where one of them tells, as `1.000,5` does: only where commas do not separate
+    /// cells.
+    fn grouping_in(&self, mut lines: Lines<'_>) -> Option<char> {
+        let (text, delimiter) = (lines.text, self.header.delimiter);
+        if delimiter == ',' || !text.contains(',') {
+            return None;
+        }
+        let mut cells = Vec::new();
+        while lines.cells(delimiter, &mut cells).is_some() {
+            let spans = self
+                .table
+                .places
+                .iter()
+                .filter_map(|place| cells.get(*place));
+            let mut with_comma = spans
+                .map(|span| &text[span.clone()])
+                .filter(|cell| cell.contains(','));
+            if let Some(sign) = with_comma.find_map(grouping_sign) {
+                return Some(sign);
+            }
+        }
+        None
+    }
+
     /// The number in a cell, or why there is none.
     fn number(&mut self, cell: &str, span: &Range<usize>) -> Result<f64, &'static str> {
         let delimiter = self.header.delimiter;
-        if self.may_have_holes && is_hole(cell) {
+        if self.holes == Holes::Kept && is_hole(cell) {
             return Ok(f64::NAN);
         }
         let why = match cell {
             "" => "empty",
-            _ if is_hole(cell) => "marked as missing: leave the row out",
+            _ if is_hole(cell) => "marked as missing",
             _ => "not a number",
         };
+        if let (Some(sign), false) = (self.grouping, is_hole(cell)) {
+            return match grouped_number(cell, sign) {
+                Cell::Number(number) => Ok(number),
+                Cell::Bad(why) => Err(why),
+                Cell::Missing => Err("empty"),
+            };
+        }
         let number = plain_number(cell, delimiter).ok_or(why)?;
         if delimiter != ',' {
             self.signs.see(cell, span);

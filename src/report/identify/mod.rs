@@ -61,8 +61,8 @@ impl IdentifyReport<'_> {
     /// Which modulus the unknowns are of.
     fn moduli(&self) -> &'static str {
         match self.found.relaxation.branches().len() {
-            1 => "Moduli are Young's: E(t) = g_inf + g_1 exp(-t/tau_1).",
-            _ => "Moduli are Young's: E(t) = g_inf + sum of g_i exp(-t/tau_i).",
+            1 => "g_inf and g_1 are Young's moduli: E(t) = g_inf + g_1 exp(-t/tau_1).",
+            _ => "g_inf and g_i are Young's moduli: E(t) = g_inf + sum of g_i exp(-t/tau_i).",
         }
     }
 
@@ -72,6 +72,13 @@ impl IdentifyReport<'_> {
         let mut lines = Vec::new();
         if !columns.read.is_empty() {
             lines.push(format!("Columns read: {}.", listed(&columns.read)));
+        }
+        if columns.rows_passed_over > 0 {
+            let rows = columns.rows_passed_over;
+            let s = if rows == 1 { "" } else { "s" };
+            lines.push(format!(
+                "Note: {rows} row{s} passed over: a number is empty or marked as missing."
+            ));
         }
         let mut aside: Vec<(&str, Vec<String>)> = Vec::new();
         for (heading, why) in &columns.set_aside {

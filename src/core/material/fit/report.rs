@@ -101,6 +101,7 @@ impl FitRemark {
         match self {
             Self::Instantaneous { share, .. } => *share > FAR_FROM_INSTANTANEOUS,
             Self::NoFlow { .. } => false,
+            Self::Table(warning) => warning.is_warning(),
             _ => true,
         }
     }
