@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::arguments::{OutputFormat, folder};
-use super::{Ended, Failure, json, tell};
+use super::{Ended, Failure, json, stored, tell};
 use crate::input::document::read_limited;
 use crate::report::comparison::{Comparison, RunFacts, Source, SweepTable, Tolerances};
 use crate::report::figure::{
@@ -16,7 +16,7 @@ use crate::report::page::comparison::Compared;
 use crate::report::page::{self, Pictures};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::store::RESOLVED;
-use crate::sweep::store::manifest::{Kind, Target};
+use crate::sweep::store::manifest::{Kind, Target, kind_of};
 
 #[derive(Debug, Args)]
 #[command(after_help = "\
@@ -81,6 +81,9 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
         reads: &reads,
     });
     target.map_or(Ok(()), |target| target.check())?;
+    for result in &reads {
+        refuse_other(result)?;
+    }
     let baseline = open(&flags.baseline, None)?;
     let new = open(&flags.new, Some(&baseline.table))?;
     let comparison = Comparison::of(&baseline.table, &new.table, &tolerances)?;
@@ -99,6 +102,15 @@ pub(super) fn run(flags: &CompareFlags, format: OutputFormat) -> Result<Ended, F
         true => Ended::Differs,
         false => Ended::Done,
     })
+}
+
+/// Refuses a folder without a table of cycles.
+fn refuse_other(result: &Path) -> Result<(), Failure> {
+    match kind_of(result) {
+        Ok(Some(Kind::Analysis)) => Ok(()),
+        _ if result.is_dir() => stored::refuse_other(result, "compare"),
+        _ => Ok(()),
+    }
 }
 
 /// Writes figure, data and page. Returns what was left out and why.

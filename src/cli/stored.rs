@@ -17,6 +17,7 @@ use crate::sweep::plan::resolved::{self, identity};
 use crate::sweep::plan::{Case, Condition};
 use crate::sweep::search::run::{self, Options, Progress};
 use crate::sweep::store::difference;
+use crate::sweep::store::manifest::{Kind, kind_of};
 use crate::sweep::store::merge;
 use crate::sweep::store::provenance::Stopwatch;
 use crate::sweep::store::{RESOLVED, Store};
@@ -90,6 +91,9 @@ pub(super) struct ReportFlags {
 /// Joins the parts and does what is left to do.
 pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, Failure> {
     let clock = Stopwatch::start();
+    for folder in &flags.parts {
+        refuse_other(folder, "merge")?;
+    }
     let parts = flags
         .parts
         .iter()
@@ -137,6 +141,7 @@ pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended,
         return done;
     }
     let clock = Stopwatch::start();
+    refuse_undrawn(flags)?;
     // A folder that is only read from may be one that nobody can write to.
     let (store, resolved) = match &flags.out {
         None => Store::reopen(&flags.folder)?,
@@ -173,6 +178,59 @@ pub(super) fn report(flags: &ReportFlags, format: OutputFormat) -> Result<Ended,
         Ended::Interrupted => Ended::SomeCasesWithoutResult,
         ended => ended,
     })
+}
+
+/// Refuses the folder of another command where a sweep is needed.
+pub(super) fn refuse_other(folder: &Path, command: &str) -> Result<(), Failure> {
+    match kind_of(folder)? {
+        None | Some(Kind::Sweep) => Ok(()),
+        Some(kind) => Err(Failure::Input(format!(
+            "{} holds {}; `{command}` takes folders of sweeps",
+            folder.display(),
+            kind.text()
+        ))),
+    }
+}
+
+/// Refuses a folder whose figures can be made again only by the command that made them: it says by which.
+fn refuse_undrawn(flags: &ReportFlags) -> Result<(), Failure> {
+    let folder = flags.folder.display();
+    let out = flags.out.as_deref().unwrap_or(&flags.folder).display();
+    let kind = kind_of(&flags.folder)?;
+    let set: String = flags
+        .set
+        .iter()
+        .map(|set| format!(" --set {set}"))
+        .collect();
+    let again = match kind {
+        None | Some(Kind::Sweep | Kind::Analysis) => return Ok(()),
+        Some(Kind::Scenario) => format!(
+            "`contact-dma simulate {folder}/{RESOLVED} --out {out}{set}` draws them, and computes the history again"
+        ),
+        Some(Kind::Identification) => {
+            format!(
+                "`contact-dma identify FILE --out {out}`, with the file of the identification, makes them again"
+            )
+        }
+        Some(Kind::Material) => format!(
+            "`contact-dma material show MATERIAL --out {out}`, with the name or file of the material, makes them again"
+        ),
+        Some(Kind::MaterialFit) => format!(
+            "`contact-dma material fit TABLE --out {out}`, with the flags of the fit, makes them again"
+        ),
+        Some(Kind::Comparison) => {
+            format!(
+                "`contact-dma compare BASELINE NEW --out {out}`, with both results, makes them again"
+            )
+        }
+        Some(Kind::Reproduction) => {
+            format!("`contact-dma reproduce --out {out}{set}` makes them again")
+        }
+    };
+    Err(Failure::Input(format!(
+        "{folder} holds {}; `report` draws sweeps and analyses alone, the results of which are stored whole\n= help: {again}",
+        kind.map_or("", Kind::text)
+    )))
 }
 
 /// The sweep that a folder says it holds, its figures changed as asked.

@@ -665,3 +665,74 @@ fn an_export_is_written_to_what_is_there() {
     ]);
     own.assert().code(2).stderr(contains("is read"));
 }
+
+#[test]
+fn report_names_the_command_that_makes_the_figures_of_a_folder_that_it_cannot_draw() {
+    let place = Place::new();
+    for (k, command, holds, again) in [
+        (
+            1,
+            "simulate",
+            "a scenario",
+            "contact-dma simulate out-1/resolved.toml --out out-1 --set figures.column=one`",
+        ),
+        (
+            5,
+            "identify",
+            "an identification",
+            "contact-dma identify FILE --out out-5`",
+        ),
+        (
+            6,
+            "show",
+            "the figures of a material",
+            "contact-dma material show MATERIAL --out out-6`",
+        ),
+        (
+            7,
+            "fit",
+            "a material fit",
+            "contact-dma material fit TABLE --out out-7`",
+        ),
+        (
+            8,
+            "compare",
+            "a comparison",
+            "contact-dma compare BASELINE NEW --out out-8`",
+        ),
+    ] {
+        let out = format!("out-{k}");
+        assert!(COMMANDS[k].contains(&command));
+        place.ends(&into(COMMANDS[k], &out, &[]), 0);
+        let before = files(&place.path(&out));
+        let said = place.ends(&["report", &out, "--set", "figures.column=one"], 2);
+        assert!(
+            said.contains(&format!("{out} holds {holds}")) && said.contains(again),
+            "{said}"
+        );
+        assert!(!said.contains("missing"), "{said}");
+        for other in [
+            &["compare", &out, "swept"][..],
+            &["merge", &out, "--out", "whole"],
+        ] {
+            let said = place.ends(other, 2);
+            assert!(said.contains(&format!("{out} holds {holds}")), "{said}");
+        }
+        assert_eq!(files(&place.path(&out)), before, "{command}");
+    }
+    // What is named for a history does what was asked.
+    let again = [
+        "simulate",
+        "out-1/resolved.toml",
+        "--out",
+        "out-1",
+        "--set",
+        "figures.column=one",
+    ];
+    place.ends(&again, 0);
+    let picture = fs::read_to_string(place.path("out-1/history.svg")).unwrap();
+    assert!(picture.contains("85mm"), "{}", &picture[..300]);
+    // An analysis is drawn.
+    place.ends(&into(COMMANDS[4], "measured", &[]), 0);
+    place.ends(&["report", "measured"], 0);
+}

@@ -172,6 +172,17 @@ pub(super) fn look(folder: &Path, resolved: Option<&str>) -> Result<Found, Store
     }
 }
 
+/// What the program has written into a folder; `None` where it has written nothing there.
+///
+/// # Errors
+/// [`StoreError::Read`] with the path.
+pub fn kind_of(folder: &Path) -> Result<Option<Kind>, StoreError> {
+    Ok(match look(folder, None)? {
+        Found::Listed(listed) => listed.kind,
+        Found::Nothing | Found::Foreign(_) => None,
+    })
+}
+
 /// Files that name the program: `run.json`, those of shards, and the summary.
 fn may_be_signed(name: &str) -> bool {
     name == RUN || name == "summary.json" || files::is_run_of_shard(name)

@@ -17,7 +17,7 @@ use super::folder_lock::{FolderLock, LOCK, Others};
 use super::listing::{
     Found, KIND_MARK, Listed, PROGRAM, journal_of, look, named_like_results, names_in,
 };
-pub use super::listing::{Kind, RUN};
+pub use super::listing::{Kind, RUN, kind_of};
 use super::{RESOLVED, StoreError, TEMPORARY, files, provenance};
 
 /// What a command is to do in a folder.
