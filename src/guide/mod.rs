@@ -21,58 +21,28 @@
 //! In the guides a block that follows a sentence with a file's name in it is that file; commands are for a shell in the folder
 //! that holds these files.
 
-pub mod first_sweep {
-    #![doc = include_str!("first_sweep.md")]
+/// The module of a guide. Where a guide names a page, its last lines have the file, for whoever reads it as a file; here they are
+/// preceded by what the page is in this documentation, and the first of two definitions counts.
+macro_rules! guide {
+    ($name:ident, $file:literal) => {
+        pub mod $name {
+            #![doc = include_str!("links.txt")]
+            #![doc = include_str!($file)]
+        }
+    };
 }
 
-pub mod input_files {
-    #![doc = include_str!("input_files.md")]
-}
-
-pub mod own_material {
-    #![doc = include_str!("own_material.md")]
-}
-
-pub mod measured_material {
-    #![doc = include_str!("measured_material.md")]
-}
-
-pub mod identify {
-    #![doc = include_str!("identify.md")]
-}
-
-pub mod measured_loop {
-    #![doc = include_str!("measured_loop.md")]
-}
-
-pub mod own_indenter {
-    #![doc = include_str!("own_indenter.md")]
-}
-
-pub mod own_loading {
-    #![doc = include_str!("own_loading.md")]
-}
-
-pub mod python {
-    #![doc = include_str!("python.md")]
-}
-
-pub mod cluster {
-    #![doc = include_str!("cluster.md")]
-}
-
-pub mod results {
-    #![doc = include_str!("results.md")]
-}
-
-pub mod figures {
-    #![doc = include_str!("figures.md")]
-}
-
-pub mod validation {
-    #![doc = include_str!("validation.md")]
-}
-
-pub mod validity {
-    #![doc = include_str!("validity.md")]
-}
+guide!(first_sweep, "first_sweep.md");
+guide!(input_files, "input_files.md");
+guide!(own_material, "own_material.md");
+guide!(measured_material, "measured_material.md");
+guide!(identify, "identify.md");
+guide!(measured_loop, "measured_loop.md");
+guide!(own_indenter, "own_indenter.md");
+guide!(own_loading, "own_loading.md");
+guide!(python, "python.md");
+guide!(cluster, "cluster.md");
+guide!(results, "results.md");
+guide!(figures, "figures.md");
+guide!(validation, "validation.md");
+guide!(validity, "validity.md");

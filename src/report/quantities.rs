@@ -328,7 +328,7 @@ pub static SWEEP: &[OfCase] = &[
     OfCase::new("iterations", |r| r.work.iterations.into(), "iterations of the contact solver"),
     OfCase::new("convolutions", |r| r.work.convolutions.into(), "convolutions on cells"),
     OfCase::new("warnings", |r| codes(r).into(),
-        "what lies outside the model, as [codes](super::validity) with blanks between them; empty where nothing does"),
+        "what lies outside the model, as [codes][validity] with blanks between them; empty where nothing does"),
     OfCase::new("status", |r| r.status.name().into(), "converged; transient: the cycle asked for by its number; not-converged or failed: no result"),
     OfCase::new("message", |r| r.message.clone().into(), "why there is no result, or what else is to be known"),
 ];

@@ -286,6 +286,66 @@ fn validity() {
     follow("validity");
 }
 
+/// The anchors that a code host and rustdoc make of headings.
+fn anchors(page: &Path) -> Vec<String> {
+    let text = fs::read_to_string(page).unwrap();
+    let headings = text.lines().filter_map(|line| line.strip_prefix('#'));
+    let anchor = |heading: &str| {
+        let heading = heading.trim_start_matches('#').trim().to_lowercase();
+        let kept = heading.replace(' ', "-");
+        kept.replace(|c: char| !(c.is_alphanumeric() || "-_".contains(c)), "")
+    };
+    headings.map(anchor).collect()
+}
+
+/// Whoever reads a guide as a file follows the definitions at its end, whoever reads the documentation those of `links.txt`, which rustdoc
+/// checks.
+#[test]
+fn links_between_guides_lead_somewhere_on_a_code_host_and_in_the_documentation() {
+    let definitions = |text: &str| -> Vec<(String, String)> {
+        let lines = text
+            .lines()
+            .filter_map(|line| line.strip_prefix('[')?.split_once("]: "));
+        lines
+            .map(|(label, to)| (label.to_owned(), to.to_owned()))
+            .collect()
+    };
+    let own = definitions(&fs::read_to_string(folder().join("links.txt")).unwrap());
+    let mut links = 0;
+    for entry in fs::read_dir(folder()).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|ending| ending != "md") {
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        let name = path.display();
+        for inline in ["](super::", "](crate::", ".md)"] {
+            assert!(!text.contains(inline), "{name}: {inline}");
+        }
+        let defined = definitions(&text);
+        for used in text.split("][").skip(1) {
+            let label = used.split(']').next().unwrap();
+            // Indices of Python are no links.
+            if !label.chars().all(|c| c.is_alphabetic() || c == ' ') {
+                continue;
+            }
+            let is_there = |all: &[(String, String)]| all.iter().any(|(other, _)| other == label);
+            assert!(is_there(&defined) && is_there(&own), "{name}: [{label}]");
+            links += 1;
+        }
+        for (label, to) in defined {
+            let (file, anchor) = to.split_once('#').unwrap_or((&to, ""));
+            let page = folder().join(file);
+            assert!(page.exists(), "{name}: [{label}]");
+            assert!(
+                anchor.is_empty() || anchors(&page).contains(&anchor.to_owned()),
+                "{name}: {to}"
+            );
+        }
+    }
+    assert!(links > 20, "{links}");
+}
+
 #[test]
 fn every_guide_is_followed_here_and_named_in_the_readme() {
     let source = fs::read_to_string(file!()).unwrap();

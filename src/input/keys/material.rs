@@ -102,8 +102,8 @@ rows! { _:
     /// Series of the relaxation modulus at one or several temperatures, as from a fit to dynamic data.
     ISOTHERMS: Row<Tables, Required> =
         "isotherm", Tables { rows: &ISOTHERM, most: MOST_ISOTHERMS, instead: "" }, Required;
-    /// Temperature of the body, for a material known at several; left out: the reference temperature of dynamic data, or that of
-    /// the only isotherm or of the library. A sweep over `material.temperature` uses its own.
+    /// Temperature of the body, for a material that is known at several temperatures. Left out: the reference temperature of the
+    /// dynamic data, or the temperature of the only isotherm or of the library's data.
     TEMPERATURE: Row<Scalar, Optional> = "temperature", quantity(Temperature).above_zero(), Optional;
     /// Measured creep compliance or relaxation modulus.
     MEASURED_TABLE: Row<Table, Required> = "table", Table(&TABLE), Required;
