@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::arguments::{ExportFlags, OutputFormat};
 use super::{Ended, Failure, json, material, print, write_out};
-use crate::material::export::{self, Export};
+use crate::material::export::{self, Export, Program};
 use crate::report::words::wrapped;
 use crate::sweep::store::write_atomically;
 
@@ -34,11 +34,11 @@ pub(super) fn run(flags: &ExportFlags, format: OutputFormat) -> Result<Ended, Fa
             "{}: {}\n{}",
             program.title(),
             file.display(),
-            remarks(&export)
+            unwritten(program, &export)
         )),
         (OutputFormat::Text, None) => {
             // The text may be on its way into a file; what is to be known of it is for the reader at the terminal.
-            let _ = write!(anstream::stderr(), "{}", remarks(&export));
+            let _ = write!(anstream::stderr(), "{}", unwritten(program, &export));
             write_out(&export.text)
         }
     }
@@ -91,8 +91,13 @@ fn written(path: &Path, result: io::Result<()>) -> Result<(), Failure> {
     result.map_err(|error| Failure::run(format!("cannot write {}: {error}", path.display())))
 }
 
-fn remarks(export: &Export) -> String {
-    let paragraphs = export.remarks.iter();
+/// What the text does not say itself: of CSV, which has no comments, all; of the others the last alone, how exact the digits are.
+fn unwritten(program: Program, export: &Export) -> String {
+    let said = match program {
+        Program::Csv => 0,
+        _ => export.remarks.len().saturating_sub(1),
+    };
+    let paragraphs = export.remarks.iter().skip(said);
     paragraphs
         .map(|remark| wrapped(remark, 76, "    ", "    "))
         .collect()

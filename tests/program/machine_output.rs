@@ -459,6 +459,14 @@ fn an_export_goes_into_a_file_or_alone_to_standard_output() {
     assert!(said.contains("Error of the conversion") && said.contains("Poisson ratio 0.38"));
     export(&["abaqus", "--out", "inp/pmma.inp"]).success();
     let text = std::fs::read_to_string(folder.path().join("inp/pmma.inp")).unwrap();
+    // What the comments of the file say is not printed too, but how exact its digits are.
+    let printed = export(&["abaqus", "--out", "inp/pmma.inp"]).success();
+    let printed = String::from_utf8_lossy(&printed.get_output().stdout).into_owned();
+    assert!(
+        text.contains("** Units: Pa, s, K.") && !printed.contains("Units"),
+        "{printed}"
+    );
+    assert!(printed.contains("Error of the conversion"), "{printed}");
     assert!(text.contains("*MATERIAL, NAME=PMMA\n"), "{text}");
     let folder_name = folder.path().to_str().unwrap();
     for wrong in [["nastran", "--out", "x"], ["csv", "--out", folder_name]] {

@@ -287,7 +287,12 @@ impl<'a> Series<'a> {
     fn ratios(&self) -> Vec<(Printed, Printed)> {
         let instantaneous = self.own.instantaneous_modulus();
         let branches = self.own.branches().iter();
-        let ratio = |b: &RelaxationBranch| Printed::free_downwards(b.modulus_pa / instantaneous);
+        // Beside an equilibrium modulus the last bits do not matter.
+        let round = match self.own.equilibrium_modulus() > 1e-9 * instantaneous {
+            true => Printed::free_downwards_but_for_rounding,
+            false => Printed::free_downwards,
+        };
+        let ratio = |b: &RelaxationBranch| round(b.modulus_pa / instantaneous);
         branches
             .map(|b| (ratio(b), Printed::free(b.time_s)))
             .collect()

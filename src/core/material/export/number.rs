@@ -13,6 +13,9 @@ pub(super) struct Printed {
 /// Significant digits where columns do not bound them. A number has 20 characters at most, as Abaqus asks.
 const DIGITS: usize = 13;
 
+/// Rounding of a quotient of sums of a few numbers, relative.
+const ROUNDING: f64 = 4.0 * f64::EPSILON;
+
 impl Printed {
     fn of(text: String, otherwise: f64) -> Self {
         let value = text.parse().unwrap_or(otherwise);
@@ -33,6 +36,16 @@ impl Printed {
         // One unit of the last digit less.
         let unit = 10_f64.powi(value.log10().floor() as i32 + 1 - DIGITS as i32);
         Self::free(nearest.value - unit)
+    }
+
+    /// The same, where what lies above the number by no more than the rounding of the number itself is the number: `0.2912` of
+    /// 0.29119999999999996.
+    pub(super) fn free_downwards_but_for_rounding(value: f64) -> Self {
+        let nearest = Self::free(value);
+        match nearest.value <= value * (1.0 + ROUNDING) {
+            true => nearest,
+            false => Self::free_downwards(value),
+        }
     }
 
     /// To as many digits as ten columns hold.
@@ -56,10 +69,12 @@ impl fmt::Display for Printed {
 }
 
 /// `1.973000E+09`: two digits of exponent at least, as every Fortran program reads it. Whole numbers of a few digits, which
-/// people write, stay as short as they are.
+/// people write, stay as short as they are, also where rounding has changed their last bits.
 fn scientific(value: f64, decimals: usize) -> String {
-    let short = format!("{value:?}");
-    if short.len() <= 8 && !short.contains('e') {
+    let rounded: f64 = format!("{value:.decimals$e}").parse().unwrap_or(value);
+    let is_rounding = (rounded - value).abs() <= ROUNDING * value.abs();
+    let short = format!("{:?}", if is_rounding { rounded } else { value });
+    if short.len() <= 9 && !short.contains('e') {
         return short;
     }
     let text = format!("{value:.decimals$e}");
@@ -101,6 +116,16 @@ mod tests {
             assert!(printed.value <= value, "{printed} of {value:e}");
             // One unit of thirteen digits.
             assert!(printed.value / value >= 1.0 - 1e-12, "{printed}");
+        }
+        // A ratio that a person wrote, as dividing its modulus gives it.
+        for (value, text) in [
+            (0.07877699999999999, "0.078777"),
+            (0.29119999999999996, "0.2912"),
+        ] {
+            assert_eq!(
+                Printed::free_downwards_but_for_rounding(value).to_string(),
+                text
+            );
         }
     }
 
