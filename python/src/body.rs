@@ -184,6 +184,7 @@ impl Body {
             files: dynamic.files.clone(),
             format: dynamic.file.format.name().to_owned(),
             how: how.to_owned(),
+            frequency_unit: dynamic.file.frequency_unit,
             notes: dynamic.file.notes.clone(),
         };
         let report = DynamicReport {

@@ -55,6 +55,7 @@ pub(super) fn run(
             Some(_) => "as named".to_owned(),
             None => "found from the content".to_owned(),
         },
+        frequency_unit: file.frequency_unit,
         notes: file.notes,
     };
     let report = DynamicReport {

@@ -78,7 +78,7 @@ fn text(setup: &Setup, cost: &Cost) -> String {
          Time: about {} on one thread, about {} on {processors}, peaks and figures included{refined};\n\
          from cases tried here, {} per step.\n\
          Memory: about {} on {processors}{free}. Disk: about {}.\n\
-         Shards: {} (below about ten minutes each, more of them gain little).\n",
+         Shards: {} (more would take less than about ten minutes each, and save little time).\n",
         plan.title,
         table(plan, cost),
         nodes(&plan.contact.solver, plan.contact.indenter.as_ref()),

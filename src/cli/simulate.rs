@@ -44,7 +44,7 @@ pub(super) struct SimulateFlags {
     /// Change one key of the scenario file, for example indenter.radius='5 mm'; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// Give no errors of the rows, which saves more than half of the time; the same as
+    /// Do not estimate the errors of the rows, which saves more than half of the time; the same as
     /// --set output.error_bars=false
     #[arg(long)]
     no_error_bars: bool,

@@ -12,6 +12,7 @@ use std::borrow::Cow;
 use super::number::scientific;
 use crate::material::dynamic::{Characterisation, DynamicData, DynamicPoint};
 use crate::material::{MaterialFunction, Relaxation};
+use crate::quantity::FrequencyUnit;
 
 /// Where dynamic data come from.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -22,6 +23,8 @@ pub struct Source {
     pub format: String,
     /// How it was found.
     pub how: String,
+    /// Hz where all data are in it; in this unit text and axes have frequencies.
+    pub frequency_unit: FrequencyUnit,
     /// What the reader had to assume or leave out.
     pub notes: Vec<String>,
 }
@@ -243,6 +246,7 @@ pub(crate) mod tests {
             files: vec!["solid.csv".to_owned()],
             format: "generic table".to_owned(),
             how: "columns named with their units".to_owned(),
+            frequency_unit: FrequencyUnit::RadPerS,
             notes: vec!["two points without a loss modulus were left out".to_owned()],
         }
     }

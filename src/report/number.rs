@@ -123,7 +123,7 @@ impl Measured {
         })
     }
 
-    /// The power of ten where it cannot be raised: `e-3`, or nothing.
+    /// The power of ten as in a table: `e-3`, or nothing.
     pub fn tens(&self) -> String {
         match self.power {
             0 => String::new(),
@@ -144,32 +144,14 @@ fn power_of_ten(number: f64) -> i32 {
 }
 
 /// Value and error to be read: `3.5090 ± 0.0003 µJ`, `(8.440 ± 0.003) × 10⁻³ rad/s`.
-pub(super) fn with_error(value: f64, error: Option<f64>, dimension: Dimension) -> String {
-    let tens = |power| format!(" × {}", scientific(10_f64.powi(power), 1));
-    written((value, error), dimension, tens)
-}
-
-/// The same where powers cannot be raised: `(8.440 ± 0.003)e-3 rad/s`.
-pub(super) fn with_error_on_terminal(
-    value: f64,
-    error: Option<f64>,
-    dimension: Dimension,
-) -> String {
-    written((value, error), dimension, |power| format!("e{power}"))
-}
-
-fn written(
-    (number, of): (f64, Option<f64>),
-    dimension: Dimension,
-    tens: fn(i32) -> String,
-) -> String {
+pub(super) fn with_error(number: f64, of: Option<f64>, dimension: Dimension) -> String {
     let Some(measured) = Measured::new(number, of, dimension) else {
         return format_human(number, dimension, 5);
     };
     let (value, error, unit) = (measured.value, measured.error, measured.unit);
     match measured.power {
         0 => format!("{value} ± {error} {unit}"),
-        power => format!("({value} ± {error}){} {unit}", tens(power)),
+        power => format!("({value} ± {error}) × 10{} {unit}", superscript(power)),
     }
 }
 
@@ -274,19 +256,10 @@ mod tests {
         assert_eq!(joule(3.6e-6, Some(1e-6)), "4 ± 1 µJ");
         // Further than nine decimals no error is followed.
         assert_eq!(joule(3.50901e-6, Some(2.8e-19)), "3.509010 ± 0.000001 µJ");
-        let omega = |value, error| {
-            let written = [with_error, with_error_on_terminal];
-            written.map(|text| text(value, Some(error), Dimension::AngularFrequency))
-        };
-        assert_eq!(
-            omega(8.4401e-3, 2.1e-6),
-            ["(8.440 ± 0.003) × 10⁻³ rad/s", "(8.440 ± 0.003)e-3 rad/s"]
-        );
-        assert_eq!(
-            omega(8.4e-7, 2.1e-9),
-            ["(8.40 ± 0.03) × 10⁻⁷ rad/s", "(8.40 ± 0.03)e-7 rad/s"]
-        );
-        assert_eq!(omega(0.075691, 2.1e-6)[1], "0.075691 ± 0.000003 rad/s");
+        let omega = |value, error| with_error(value, Some(error), Dimension::AngularFrequency);
+        assert_eq!(omega(8.4401e-3, 2.1e-6), "(8.440 ± 0.003) × 10⁻³ rad/s");
+        assert_eq!(omega(8.4e-7, 2.1e-9), "(8.40 ± 0.03) × 10⁻⁷ rad/s");
+        assert_eq!(omega(0.075691, 2.1e-6), "0.075691 ± 0.000003 rad/s");
         assert_eq!(with_error(2.0, None, Dimension::Force), "2.0000 N");
         assert_eq!(with_error(0.0, Some(1.0), Dimension::Force), "0 N");
     }

@@ -1,13 +1,10 @@
 //! The peaks of a sweep in words, for terminal, page and captions.
 
-use super::number::{self, plain};
+use super::number::{self, plain, with_error};
 use crate::quantity::Dimension;
 use crate::sweep::plan::SweepPlan;
 use crate::sweep::search::peak::Peak;
 use crate::sweep::search::run::Outcome;
-
-/// How a number with its error is written.
-pub type WithError = fn(f64, Option<f64>, Dimension) -> String;
 
 /// A peak in words.
 pub struct PeakWords {
@@ -17,7 +14,8 @@ pub struct PeakWords {
     pub symbol: char,
     /// `(8.440 ± 0.003) × 10⁻³ rad/s`.
     pub frequency: String,
-    /// What the noise of the data behind the material makes of both: `; from the material ± 0.2 µJ, ± 3 × 10⁻⁴ rad/s`.
+    /// Where the data behind the material are noisy, how much of both errors is numerical: `; of these errors ± 0.2 nJ and ± 10⁻⁶ rad/s
+    /// are numerical, the rest is that of the material`.
     pub material: String,
     /// Of several curves which: `, amplitude 5 N`.
     pub under: String,
@@ -46,19 +44,23 @@ impl PeakWords {
 const SHOWN: usize = 20;
 
 /// The highest peaks, the largest first.
-pub fn all(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<PeakWords> {
+pub fn all(plan: &SweepPlan, outcome: &Outcome) -> Vec<PeakWords> {
     let unit = plan.figures.frequency_unit;
     let words = |(rank, peak): (usize, &Peak)| PeakWords {
         is_largest: rank == 0,
         loss: with_error(
             peak.energy_loss_j,
-            peak.energy_loss_error_j,
+            with_material(peak.energy_loss_error_j, peak.energy_loss_material_error_j),
             Dimension::Energy,
         ),
         symbol: unit.symbol(),
         frequency: with_error(
             unit.of(peak.angular_frequency_rad_per_s),
-            Some(unit.of(peak.angular_frequency_uncertainty_rad_per_s)),
+            with_material(
+                Some(peak.angular_frequency_uncertainty_rad_per_s),
+                peak.angular_frequency_material_error_rad_per_s,
+            )
+            .map(|error| unit.of(error)),
             unit.dimension(),
         ),
         under: under(plan, peak).unwrap_or_default(),
@@ -74,12 +76,23 @@ pub fn rest(outcome: &Outcome) -> Option<String> {
     (rest > 0).then(|| format!("{rest} lower peaks more are in summary.json."))
 }
 
+/// The numerical error and that of the material together.
+fn with_material(numerical: Option<f64>, material: Option<f64>) -> Option<f64> {
+    match (numerical, material) {
+        (None, None) => None,
+        (numerical, material) => Some(numerical.unwrap_or(0.0) + material.unwrap_or(0.0)),
+    }
+}
+
 fn of_material(plan: &SweepPlan, peak: &Peak) -> Option<String> {
     let unit = plan.figures.frequency_unit;
-    let loss = plain(peak.energy_loss_material_error_j?, Dimension::Energy, 2);
-    let omega = peak.angular_frequency_material_error_rad_per_s?;
-    let frequency = plain(unit.of(omega), unit.dimension(), 2);
-    Some(format!("; from the material ± {loss} and ± {frequency}"))
+    peak.energy_loss_material_error_j?;
+    let loss = plain(peak.energy_loss_error_j?, Dimension::Energy, 1);
+    let omega = peak.angular_frequency_uncertainty_rad_per_s;
+    let frequency = plain(unit.of(omega), unit.dimension(), 1);
+    Some(format!(
+        "; of these errors ± {loss} and ± {frequency} are numerical, the rest is that of the material"
+    ))
 }
 
 fn under(plan: &SweepPlan, peak: &Peak) -> Option<String> {
@@ -92,8 +105,8 @@ fn under(plan: &SweepPlan, peak: &Peak) -> Option<String> {
 }
 
 /// The same; of a sweep of two axes the largest alone: each curve has its own.
-pub fn shown(plan: &SweepPlan, outcome: &Outcome, with_error: WithError) -> Vec<PeakWords> {
-    let mut peaks = all(plan, outcome, with_error);
+pub fn shown(plan: &SweepPlan, outcome: &Outcome) -> Vec<PeakWords> {
+    let mut peaks = all(plan, outcome);
     if plan.axes.is_some() {
         peaks.truncate(1);
     }

@@ -30,8 +30,8 @@ pub fn note(plan: &SweepPlan, outcome: &Outcome) -> Option<String> {
     let decimals = (1.0 - percent.log10().floor()).clamp(0.0, 9.0) as usize;
     (count > 0).then(|| {
         format!(
-            "the indenter is taken as rigid: one of steel would add up to {percent:.decimals$} % to the compliance, more than the \
-             error bars of {count} of {} cases; [indenter.material] says what it is made of",
+            "the indenter is taken as rigid: a steel one would add up to {percent:.decimals$} % to the compliance, which is more than \
+             the error bars of {count} of {} cases; to include it, give the indenter a material in [indenter.material]",
             outcome.records.len()
         )
     })

@@ -4,7 +4,7 @@ use std::fmt::{Display, Write};
 
 use super::figure;
 use super::figure::units::Units;
-use super::number::{Measured, four_digits, with_error_on_terminal};
+use super::number::{Measured, four_digits};
 use super::peaks;
 use super::rigid_indenter;
 use super::words::{without_result, wrapped_line};
@@ -129,8 +129,12 @@ fn loss(loss_j: Option<f64>, error_j: Option<f64>) -> String {
 /// Peaks, largest first; where there are none, why. Of a sweep of two axes the largest alone: each curve has its own.
 pub fn peaks(plan: &SweepPlan, outcome: &Outcome) -> String {
     let mut text = String::new();
-    for peak in peaks::shown(plan, outcome, with_error_on_terminal) {
-        let _ = writeln!(text, "{}: {}", peak.name(), peak.sentence());
+    for peak in peaks::shown(plan, outcome) {
+        text.push_str(&wrapped_line(&format!(
+            "{}: {}",
+            peak.name(),
+            peak.sentence()
+        )));
     }
     for problem in &outcome.peak_problems {
         text.push_str(&wrapped_line(&format!("Peak not located: {problem}")));

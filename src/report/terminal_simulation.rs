@@ -120,6 +120,6 @@ fn line(text: &mut String, name: &str, moment: &Moment, has_errors: bool) {
     let _ = writeln!(text, "{name:<8}{time:>14}{values}");
     if has_errors {
         let errors = cells(&|column| column.error(moment), 2);
-        let _ = writeln!(text, "{:<8}{:>14}{errors}", "", "+-");
+        let _ = writeln!(text, "{:<8}{:>14}{errors}", "", "±");
     }
 }

@@ -576,7 +576,7 @@ fn a_scenario_prints_its_end_and_leaves_every_file() {
         "time_s,load_n,approach_m,contact_radius_m,contact_area_m2,peak_pressure_pa,\
          load_error_n,approach_error_m,contact_radius_error_m,peak_pressure_error_pa\n0e0,1e1,"
     ));
-    assert!(stdout.contains("+-"), "{stdout}");
+    assert!(stdout.contains("± "), "{stdout}");
     // Of some load that is prescribed, rounding; none of the rest is empty.
     let empty = |line: &str| line.split(',').any(str::is_empty);
     assert!(!history.lines().any(empty), "{history}");

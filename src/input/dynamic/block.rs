@@ -3,6 +3,7 @@
 
 mod rows;
 
+use std::f64::consts::TAU;
 use std::ops::Range;
 
 use super::columns::{self, Named, Role};
@@ -50,6 +51,8 @@ pub(super) struct Content {
     pub(super) noise: Option<(Location, usize)>,
     /// The columns read, with their units.
     pub(super) columns: String,
+    /// Whether the frequencies are in Hz.
+    pub(super) is_in_hertz: bool,
     pub(super) assumed: Vec<String>,
 }
 
@@ -157,6 +160,7 @@ impl<'a> Block<'a> {
             missing: 0,
             noise: None,
             columns: self.described(&columns),
+            is_in_hertz: columns.frequency.scale.factor == TAU,
             assumed: self.assumed(&columns),
         };
         let mut reader = RowReader {

@@ -42,7 +42,7 @@ use super::diagnostic::{Diagnostic, Diagnostics, Location, Source};
 use super::document::{cannot_read, read_limited};
 use crate::material::ModulusKind;
 use crate::material::dynamic::{DynamicData, DynamicDataError};
-use crate::quantity::celsius;
+use crate::quantity::{FrequencyUnit, celsius};
 use block::{Block, Content, Measured};
 pub use shift_factors::{read_shift_factors, shift_factors_from_bytes};
 
@@ -91,6 +91,8 @@ pub struct DynamicFile {
     pub data: DynamicData,
     /// Of the first file.
     pub format: DynamicFormat,
+    /// Hz where all frequencies are in it.
+    pub frequency_unit: FrequencyUnit,
     /// What was found, read, assumed and passed over, a line each.
     pub notes: Vec<String>,
 }
@@ -153,10 +155,15 @@ pub fn from_files(
             .help("name at least one")
             .into());
     };
+    let frequency_unit = match reading.is_in_hertz {
+        true => FrequencyUnit::Hz,
+        false => FrequencyUnit::RadPerS,
+    };
     let (data, notes) = reading.finish(files)?;
     Ok(DynamicFile {
         data,
         format,
+        frequency_unit,
         notes,
     })
 }
@@ -280,6 +287,8 @@ struct Reading {
     kind: ModulusKind,
     isotherms: Vec<Vec<Measured>>,
     notes: Vec<String>,
+    /// Whether the frequencies of all blocks are.
+    is_in_hertz: bool,
     /// Before notes, where there are several files.
     prefix: String,
     missing: usize,
@@ -293,6 +302,7 @@ impl Reading {
             kind,
             isotherms: Vec::new(),
             notes: Vec::new(),
+            is_in_hertz: true,
             prefix: String::new(),
             missing: 0,
             noise: None,
@@ -319,6 +329,7 @@ impl Reading {
         for assumed in content.assumed {
             self.note(assumed);
         }
+        self.is_in_hertz &= content.is_in_hertz;
         self.count(content.missing, content.noise);
         self.isotherms
             .extend(isotherms::split(block, content.points)?);

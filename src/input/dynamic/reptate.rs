@@ -89,6 +89,7 @@ pub(super) fn read(source: &Arc<Source>, reading: &mut Reading) -> Result<(), Di
         }
     }
     numbers.check(&problems);
+    reading.is_in_hertz = false;
     reading.isotherms.push(problems.into_result(Some(points))?);
     Ok(())
 }

@@ -60,7 +60,8 @@ impl DynamicReport<'_> {
         let plural = if count == 1 { "" } else { "es" };
         let at = self.reference_temperature_k();
         let at = at.map_or(String::new(), |at| format!(" at {}", celsius(at)));
-        let omega = |value| format_human(value, Dimension::AngularFrequency, 4);
+        let unit = self.source.frequency_unit;
+        let frequency = |omega| format_human(unit.of(omega), unit.dimension(), 4);
         let (lowest, highest) = fit.window_rad_per_s;
         let mut lines = vec![
             format!(
@@ -69,26 +70,27 @@ impl DynamicReport<'_> {
                 percent(fit.loss_rms)
             ),
             format!(
-                "Measured from ω = {} to {}{at}; outside, the series is an extrapolation.",
-                omega(lowest),
-                omega(highest)
+                "Measured from {} = {} to {}{at}; outside, the series is an extrapolation.",
+                unit.symbol(),
+                frequency(lowest),
+                frequency(highest)
             ),
         ];
         let simple = self.made.master.as_ref().and_then(|m| m.simplicity);
         lines.extend(simple.map(|simplicity| {
             format!(
-                "Thermorheological simplicity: {} (distance of the isotherms from one curve over the noise; about 1 where one \
-                 curve holds them all).",
+                "Thermorheological simplicity: the isotherms lie {} times the noise from one common curve (about 1 where one curve \
+                 describes them all).",
                 scientific(simplicity, 2)
             )
         }));
         lines.push(match fit.kramers_kronig {
             Some(number) => format!(
-                "Kramers-Kronig: {} (what a passive material with both {symbol}′ and {symbol}″ misses, over the noise; about 1 \
-                 where they belong together).",
+                "Kramers-Kronig: no passive material comes closer to {symbol}′ and {symbol}″ together than {} times the noise (about 1 \
+                 where the two are consistent).",
                 scientific(number, 2)
             ),
-            None => "Kramers-Kronig: not known from so few points.".to_owned(),
+            None => "Kramers-Kronig: too few points to tell whether the two moduli are consistent.".to_owned(),
         });
         if !self.made.replicas.is_empty() {
             lines.push(format!(
@@ -105,9 +107,11 @@ impl DynamicReport<'_> {
             return String::new();
         };
         let vertical = master.shifts.iter().any(|shift| shift.b_t != 1.0);
+        let unit = self.source.frequency_unit;
+        let symbol = unit.symbol();
         let heading = if vertical { "   vertical b_T" } else { "" };
         let mut text = format!(
-            "Temperature    log10 a_T   std. error   points    ω from      ω to{heading}\n"
+            "Temperature    log10 a_T   std. error   points    {symbol} from      {symbol} to{heading}\n"
         );
         for shift in &master.shifts {
             let mut isotherms = self.data.isotherms().iter();
@@ -116,7 +120,7 @@ impl DynamicReport<'_> {
             let points = isotherm.map(|i| &i.points[..]).unwrap_or_default();
             let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
             let omega = |point: Option<&DynamicPoint>| {
-                or_dash(point.map(|p| four_digits(p.angular_frequency_rad_per_s)))
+                or_dash(point.map(|p| four_digits(unit.of(p.angular_frequency_rad_per_s))))
             };
             let error = or_dash(shift.log10_a_t_error.map(|error| format!("{error:.4}")));
             let b_t = vertical.then(|| format!("{:>14.4}", shift.b_t));
@@ -208,6 +212,8 @@ pub(in crate::report) fn percent(share: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::quantity::FrequencyUnit;
+    use crate::report::dynamic::Source;
     use crate::report::dynamic::tests::{measured, source};
 
     #[test]
@@ -244,5 +250,26 @@ mod tests {
         ] {
             assert!(words.contains(part), "{part}\n{text}");
         }
+        // Data that are all in Hz are spoken of in Hz.
+        let [in_hertz, in_radians] = [FrequencyUnit::Hz, FrequencyUnit::RadPerS].map(|unit| {
+            let source = Source {
+                frequency_unit: unit,
+                ..source.clone()
+            };
+            let report = DynamicReport {
+                source: &source,
+                ..report
+            };
+            report.text() + &report.shift_table()
+        });
+        let (low, high) = made.fit.window_rad_per_s;
+        let hertz = |omega| format_human(FrequencyUnit::Hz.of(omega), Dimension::Frequency, 4);
+        let measured = format!("Measured from f = {} to {}", hertz(low), hertz(high));
+        assert!(in_hertz.contains(&measured), "{in_hertz}");
+        assert!(in_radians.contains("Measured from ω = ") && in_radians.contains("ω from"));
+        assert!(
+            !in_hertz.contains("ω") && in_hertz.contains("f from"),
+            "{in_hertz}"
+        );
     }
 }

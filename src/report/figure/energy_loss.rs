@@ -4,7 +4,7 @@ use super::Figure;
 use super::curve::{Curve, SweepCurves, evenly};
 use crate::report::caption::{self, Caption};
 use crate::report::chart::{Axis, Chart, Color, Mark, Marker, Series};
-use crate::report::number::{largest, range, with_error};
+use crate::report::number::{largest, range};
 use crate::report::peaks;
 use crate::report::table::{Cell, cells};
 use crate::sweep::record::CaseRecord;
@@ -124,7 +124,7 @@ fn caption(sweep: &SweepCurves<'_>, shown: &[&Curve<'_>]) -> Caption {
         let varied = axes.varied().words();
         format!("{} curves, one per {varied}.", shown.len())
     });
-    let peaks = peaks::shown(plan, outcome, with_error);
+    let peaks = peaks::shown(plan, outcome);
     let peaks = peaks.iter().map(|peak| {
         let what = match peak.is_largest {
             true => "Largest peak",

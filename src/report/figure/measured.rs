@@ -4,12 +4,13 @@
 use super::curve::evenly;
 use super::units::Units;
 use super::{Figure, axis};
+use crate::measured::bias::Unbiased;
 use crate::measured::{Estimate, Quantity};
 use crate::quantity::{Dimension, FrequencyUnit};
 use crate::report::caption::Caption;
 use crate::report::chart::{Axis, Chart, Color, LineStyle, Marker, Series};
 use crate::report::measured::{Analysis, Computed, MeasuredRow};
-use crate::report::number::{largest, range, with_error};
+use crate::report::number::{largest, range, scientific, with_error};
 use crate::report::table::{cells, csv};
 use crate::report::words::listed;
 
@@ -270,9 +271,20 @@ fn moduli(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
             .collect()
     };
     let of_formula = shown(OF_FORMULA);
+    let correction = |bias: fn(&Unbiased) -> f64| {
+        let unbiased = rows.iter().filter_map(MeasuredRow::unbiased);
+        largest(unbiased.map(|unbiased| (bias(&unbiased) - 1.0).abs()))
+    };
+    let percent = |share: f64| format!("{} %", scientific(100.0 * share, 2));
+    let (storage, loss) = (correction(|u| u.storage_bias), correction(|u| u.loss_bias));
     let without = match &shown(WITHOUT_BIAS)[..] {
         [] => String::new(),
-        shown => format!("; {}: what the exact model leaves of it", listed(shown)),
+        shown => format!(
+            "; {}: without its bias, which is up to {} of E′ and {} of E″ and may be too small to be seen here",
+            listed(shown),
+            percent(storage),
+            percent(loss)
+        ),
     };
     Some(Figure {
         name: "moduli",
@@ -287,7 +299,7 @@ fn moduli(rows: &[MeasuredRow], computed: &[Computed]) -> Option<Figure> {
     })
 }
 
-/// The number of every cycle, and its loss over the mean, less 1 (%), where there are enough of them.
+/// The number of every cycle, and its relative deviation of its loss from the mean (%), where there are enough of them.
 fn relative_losses(row: &MeasuredRow) -> Option<Vec<(usize, f64)>> {
     let measured = row.measured.as_ref()?;
     let cycles = measured.cycles.iter().zip(&measured.values);
@@ -318,7 +330,7 @@ fn cycles(rows: &[MeasuredRow]) -> Option<Figure> {
     });
     let chart = Chart::new(
         Axis::linear("number of the cycle"),
-        Axis::linear("loss of the cycle over the mean, less 1 / %"),
+        Axis::linear("deviation of the loss from the mean / %"),
     )
     .all_series(series);
     let data = chosen.iter().flat_map(|(row, losses)| {

@@ -182,7 +182,10 @@ impl Units {
         }
         let unit = self.varied(varied, value.abs());
         let number = scientific(unit.of(value), 3);
-        format!("{number} {}", unit.unit).trim_end().to_owned()
+        let blank = if unit.unit == "°" { "" } else { " " };
+        format!("{number}{blank}{}", unit.unit)
+            .trim_end()
+            .to_owned()
     }
 
     fn time_s(&self) -> Option<f64> {
@@ -323,7 +326,7 @@ mod tests {
         let title = unit.title(&temperature, Control::Load);
         assert_eq!(title, "temperature of the material / °C");
         let angle = of(Block::Indenter, "half_angle", Some(Dimension::Angle));
-        assert_eq!(si.varied_value(&angle, 0.5 * std::f64::consts::PI), "90 °");
+        assert_eq!(si.varied_value(&angle, 0.5 * std::f64::consts::PI), "90°");
         assert_eq!(angle.column(), "indenter_half_angle_rad");
         let ratio = of(Block::Material, "poisson_ratio", None);
         assert_eq!(si.varied_value(&ratio, 0.4), "0.4");

@@ -36,8 +36,7 @@ pub fn table(rows: &[MeasuredRow]) -> String {
             short(&row.file),
         );
     }
-    let meaning =
-        "After ± stands half the interval of 95 %, from scatter of cycles and noise of samples.";
+    let meaning = "The number after ± is half the width of the 95 % interval, from the scatter of the cycles and the noise of the samples.";
     text + &wrapped(meaning, 80, "", "")
 }
 

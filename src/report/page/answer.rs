@@ -3,7 +3,6 @@
 use maud::{Markup, html};
 
 use super::question::list;
-use crate::report::number::with_error;
 use crate::report::peaks;
 use crate::report::words::without_result;
 use crate::sweep::plan::SweepPlan;
@@ -22,7 +21,7 @@ pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> Markup {
     }
     html! {
         ul class="peaks" {
-            @for peak in peaks::all(plan, outcome, with_error) {
+            @for peak in peaks::all(plan, outcome) {
                 li {
                     (peak.name()) ": "
                     strong { (peak.loss) } " per cycle at " (peak.symbol) " = " strong { (peak.frequency) } (peak.under) (peak.material)

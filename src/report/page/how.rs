@@ -56,7 +56,7 @@ pub(super) fn sweep(plan: &SweepPlan, outcome: &Outcome) -> Markup {
         );
     }
     facts.add(
-        "energy balance, branches over loop less one",
+        "error of the energy balance (dissipated by branches / area of loop − 1)",
         known(|r| r.result.as_ref()?.energy_imbalance().map(f64::abs)),
     );
     if let Some(accuracy) = plan.cycle.accuracy {

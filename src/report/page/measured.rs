@@ -32,7 +32,7 @@ pub fn page(
         (list(&lines))
         (plain::shown(figures, pictures))
         h3 { "Loss, phase and moduli" }
-        p { "After ± stands half the interval of 95 %; E′ and E″ are without the bias of the small-amplitude formula where the setup \
+        p { "The number after ± is half the width of the 95 % interval; E′ and E″ are without the bias of the small-amplitude formula where the setup \
              gives the shape." }
         (scroll("Records", table(rows)))
     };

@@ -210,7 +210,7 @@ function start(data) {
       const part = row[`branch_${k + 1}_loss_j`];
       lines.push(line(`dissipated by the ${name}`, `${withUnit(part, "J", 6)} (${significant((100 * part) / row.dissipated_j, 3)} %)`));
     });
-    const plain = [["energy balance: branches over loop, less one", "energy_imbalance"], ["distance to the stabilised cycle", "steady_distance"]];
+    const plain = [["error of the energy balance (dissipated by branches / area of loop − 1)", "energy_imbalance"], ["distance to the stabilised cycle", "steady_distance"]];
     for (const [name, column] of plain) lines.push(line(name, row[column] === null ? "undefined" : significant(row[column], 3)));
     lines.push(line("method", `${row.method}, ${row.cycles} cycles, ${row.steps} steps per cycle, ${row.nodes} ${data.node_name}`));
     if (row.warnings) lines.push(line("warnings", row.warnings));

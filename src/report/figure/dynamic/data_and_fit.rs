@@ -1,6 +1,6 @@
 //! Storage and loss modulus over the reduced frequency, with the series fitted to them.
 
-use super::{LOSS, Part, STORAGE, caption, frequencies, frequency_title};
+use super::{LOSS, Part, STORAGE, caption, frequencies, frequency, frequency_title};
 use crate::material::dynamic::replicas;
 use crate::report::chart::{Axis, Chart, Series};
 use crate::report::dynamic::{Band, DynamicReport};
@@ -17,7 +17,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     let measured = |part: Part| {
         let places = points
             .iter()
-            .map(|p| (p.angular_frequency_rad_per_s, factor * (part.of_point)(p)));
+            .map(|p| (frequency(report, p), factor * (part.of_point)(p)));
         Series::scatter(places)
             .spaced()
             .marker(part.marker)

@@ -1,6 +1,8 @@
 //! The isotherms as they were measured: storage modulus above, loss modulus below.
 
-use super::{LOSS, Part, STORAGE, caption, coloured, temperatures};
+use super::{
+    LOSS, Part, STORAGE, caption, coloured, frequency, measured_frequency_title, temperatures, unit,
+};
 use crate::material::dynamic::DynamicPoint;
 use crate::report::chart::{Axis, Chart, LineStyle, Marker};
 use crate::report::dynamic::DynamicReport;
@@ -17,7 +19,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
     let panel = |x_label: &str, part: Part| {
         let (factor, unit) = prefix(largest(points.iter().map(part.of_point)));
         let series = coloured(report, &points, Marker::Disc, |p| {
-            Some((p.angular_frequency_rad_per_s, factor * (part.of_point)(p)))
+            Some((frequency(report, p), factor * (part.of_point)(p)))
         });
         let lines = series
             .into_iter()
@@ -28,9 +30,11 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
             .color_scale(scale.clone())
             .size(800, 430)
     };
+    let unit = unit(report);
+    let words = format!("{} {}", unit.quantity(), unit.symbol());
     let panels = vec![
         panel("", STORAGE),
-        panel("angular frequency ω / rad·s⁻¹", LOSS),
+        panel(measured_frequency_title(report), LOSS),
     ];
     let rows = points.iter().map(|point| {
         cells![
@@ -52,7 +56,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
         caption: caption(
             report,
             &format!(
-                "Storage modulus {symbol}′ and loss modulus {symbol}″ as measured, over angular frequency ω"
+                "Storage modulus {symbol}′ and loss modulus {symbol}″ as measured, over {words}"
             ),
         ),
         data: csv(&columns, rows),

@@ -1,7 +1,8 @@
 //! The isotherms on one curve, each point in the colour of the temperature at which it was measured.
 
 use super::{
-    LOSS, Part, STORAGE, caption, coloured, frequency_title, legend_of_marker, temperatures,
+    LOSS, Part, STORAGE, caption, coloured, frequency, frequency_title, legend_of_marker,
+    temperatures,
 };
 use crate::report::chart::{Axis, Chart, Color};
 use crate::report::dynamic::DynamicReport;
@@ -16,7 +17,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Option<Figure> {
     let (factor, unit) = prefix(largest(points.iter().map(|p| p.storage_modulus_pa)));
     let symbols = |part: Part| {
         coloured(report, points, part.marker, |p| {
-            Some((p.angular_frequency_rad_per_s, factor * (part.of_point)(p)))
+            Some((frequency(report, p), factor * (part.of_point)(p)))
         })
     };
     let legend = |part: Part| legend_of_marker(part.label(report), part.marker);

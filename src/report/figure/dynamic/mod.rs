@@ -12,7 +12,7 @@ use num_complex::Complex;
 
 use super::Figure;
 use crate::material::dynamic::DynamicPoint;
-use crate::quantity::celsius;
+use crate::quantity::{FrequencyUnit, celsius};
 use crate::report::caption::Caption;
 use crate::report::chart::{Color, ColorScale, LineStyle, Marker, Series};
 use crate::report::dynamic::DynamicReport;
@@ -73,7 +73,7 @@ impl Part {
     fn curve(&self, report: &DynamicReport<'_>, factor: f64, called: &str) -> Series {
         let points = frequencies(report).into_iter().map(|omega| {
             let value = factor * (self.of_modulus)(report.relaxation().complex_modulus(omega));
-            (value > 0.0).then_some((omega, value))
+            (value > 0.0).then_some((unit(report).of(omega), value))
         });
         Series::line(points).style(self.style).label(format!(
             "{called} {}{}",
@@ -83,11 +83,30 @@ impl Part {
     }
 }
 
+/// The unit of frequencies on the axes.
+fn unit(report: &DynamicReport<'_>) -> FrequencyUnit {
+    report.source.frequency_unit
+}
+
+/// The frequency of a point in the unit of the axes.
+fn frequency(report: &DynamicReport<'_>, point: &DynamicPoint) -> f64 {
+    unit(report).of(point.angular_frequency_rad_per_s)
+}
+
+/// The axis of frequencies as measured.
+fn measured_frequency_title(report: &DynamicReport<'_>) -> &'static str {
+    match unit(report) {
+        FrequencyUnit::RadPerS => "angular frequency ω / rad·s⁻¹",
+        FrequencyUnit::Hz => "frequency f / Hz",
+    }
+}
+
 /// The axis of frequencies: reduced where isotherms were shifted.
 fn frequency_title(report: &DynamicReport<'_>) -> &'static str {
-    match report.made.master {
-        Some(_) => "reduced angular frequency a_T ω / rad·s⁻¹",
-        None => "angular frequency ω / rad·s⁻¹",
+    match (&report.made.master, unit(report)) {
+        (Some(_), FrequencyUnit::RadPerS) => "reduced angular frequency a_T ω / rad·s⁻¹",
+        (Some(_), FrequencyUnit::Hz) => "reduced frequency a_T f / Hz",
+        (None, _) => measured_frequency_title(report),
     }
 }
 

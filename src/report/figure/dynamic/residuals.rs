@@ -2,7 +2,7 @@
 
 use crate::material::dynamic::replicas::{self, SIMULTANEOUS_DEVIATIONS};
 
-use super::{LOSS, Part, STORAGE, caption, frequencies, frequency_title};
+use super::{LOSS, Part, STORAGE, caption, frequencies, frequency, frequency_title, unit};
 use crate::report::chart::{Axis, Chart, Color, Series};
 use crate::report::dynamic::{Band, DynamicReport};
 use crate::report::figure::Figure;
@@ -14,7 +14,7 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
     let points = report.points();
     let residuals = || points.iter().zip(&report.made.fit.residuals);
     let measured = |part: Part, value: fn(&(f64, f64)) -> f64| {
-        let places = residuals().map(|(p, r)| (p.angular_frequency_rad_per_s, 100.0 * value(r)));
+        let places = residuals().map(|(p, r)| (frequency(report, p), 100.0 * value(r)));
         Series::scatter(places)
             .marker(part.marker)
             .color(part.color)
@@ -25,7 +25,10 @@ pub(super) fn figure(report: &DynamicReport<'_>) -> Figure {
         Axis::log(frequency_title(report)),
         Axis::linear("difference fit − data / % of the data"),
     )
-    .series(Series::line([(lowest, 0.0), (highest, 0.0)]).color(Color::Rgb(0x40, 0x40, 0x40)))
+    .series(
+        Series::line([lowest, highest].map(|omega| (unit(report).of(omega), 0.0)))
+            .color(Color::Rgb(0x40, 0x40, 0x40)),
+    )
     .series(measured(STORAGE, |r| r.0))
     .series(measured(LOSS, |r| r.1));
     let mut caption = caption(
@@ -65,7 +68,8 @@ fn bands(report: &DynamicReport<'_>) -> [Series; 2] {
         };
         let relative = |half_pa: f64, own_pa: f64| {
             let half = 100.0 * half_pa / own_pa;
-            half.is_finite().then_some((omega, -half, half))
+            half.is_finite()
+                .then_some((unit(report).of(omega), -half, half))
         };
         storage.extend(relative(band.storage_pa, own.re));
         loss.extend(relative(band.loss_pa, own.im));
