@@ -156,7 +156,6 @@ fn over(estimate: Estimate, bias: f64, uncertain: f64) -> Estimate {
         value,
         standard_error: estimate.standard_error.map(standard),
         error: estimate.error.map(|error| error / bias + of_bias),
-        freedom: estimate.freedom,
     }
 }
 

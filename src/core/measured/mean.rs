@@ -38,20 +38,8 @@ pub(super) struct Mean<'a> {
 /// What the noise of the samples leaves uncertain.
 struct Errors {
     of: [Option<StandardError>; Quantity::ALL.len()],
-    /// Covariance of loss and phase lag (J rad).
-    loss_with_phase: f64,
     /// Signals whose steps count.
     coarse: Vec<Finding>,
-}
-
-impl Errors {
-    fn loss_phase_correlation(&self) -> Option<f64> {
-        let [loss, phase] = [Quantity::EnergyLoss, Quantity::PhaseLag].map(|q| self.of[q.place()]);
-        let correlation = self.loss_with_phase / (loss?.value * phase?.value);
-        correlation
-            .is_finite()
-            .then(|| correlation.clamp(-1.0, 1.0))
-    }
 }
 
 impl Mean<'_> {
@@ -88,7 +76,6 @@ impl Mean<'_> {
                 .for_each(|(place, mean)| measured.means[*place] = mean);
         }
         if let Some(errors) = errors {
-            measured.loss_phase_correlation = errors.loss_phase_correlation();
             measured.findings.extend(errors.coarse);
         }
         measured.points = self.points(measured, &mean, &corrected);
@@ -196,7 +183,6 @@ impl Mean<'_> {
         let intervals = self.signal.time_s.windows(2).map(|w| w[1] - w[0]);
         let interval_s = upper_median(intervals)?;
         let mut squares = [0.0; Quantity::ALL.len()];
-        let mut loss_with_phase = 0.0;
         let mut freedom = f64::INFINITY;
         let mut coarse = Vec::new();
         for (which, fit) in fits.iter().enumerate() {
@@ -219,16 +205,12 @@ impl Mean<'_> {
             let covariance = self.covariance(fit, &noise, steps);
             let slopes = self.slopes(which, mean, column_m, (center, &covariance));
             let p = slopes.len();
-            let of_two = |a: usize, b: usize| {
-                (0..p)
-                    .flat_map(|i| (0..p).map(move |j| (i, j)))
-                    .map(|(i, j)| slopes[i][a] * covariance[(i, j)] * slopes[j][b])
-                    .sum::<f64>()
-            };
             for (place, square) in squares.iter_mut().enumerate() {
-                *square += of_two(place, place);
+                let pairs = (0..p).flat_map(|i| (0..p).map(move |j| (i, j)));
+                *square += pairs
+                    .map(|(i, j)| slopes[i][place] * covariance[(i, j)] * slopes[j][place])
+                    .sum::<f64>();
             }
-            loss_with_phase += of_two(Quantity::EnergyLoss.place(), Quantity::PhaseLag.place());
         }
         Some(Errors {
             of: std::array::from_fn(|place| {
@@ -237,7 +219,6 @@ impl Mean<'_> {
                     freedom,
                 })
             }),
-            loss_with_phase,
             coarse,
         })
     }

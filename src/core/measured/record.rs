@@ -44,8 +44,6 @@ pub struct MeasuredLoop {
     pub used: Vec<usize>,
     /// Means over these, in the order of [`Quantity::ALL`].
     pub means: Vec<Option<Estimate>>,
-    /// Correlation of the errors of loss and phase.
-    pub loss_phase_correlation: Option<f64>,
     /// Moduli without the bias of the formula, where the setup gives the shape.
     pub unbiased: Option<Unbiased>,
     /// The mean cycle, corrected; empty where there is none.
@@ -142,7 +140,6 @@ pub fn analyse(signal: &Signal, options: &Options) -> Result<MeasuredLoop, Measu
         cycles,
         values,
         means: vec![None; Quantity::ALL.len()],
-        loss_phase_correlation: None,
         unbiased: None,
         mean_cycle: Harmonics::default(),
         points: Vec::new(),

@@ -10,8 +10,6 @@ pub struct Estimate {
     pub standard_error: Option<f64>,
     /// Half the width of the interval of 95 %, with Student's factor.
     pub error: Option<f64>,
-    /// Degrees of freedom of the standard error.
-    pub freedom: Option<f64>,
 }
 
 /// A standard error and its degrees of freedom.
@@ -43,7 +41,6 @@ impl Estimate {
             value,
             standard_error: larger.map(|error| error.value),
             error: half_widths.max_by(f64::total_cmp),
-            freedom: larger.map(|error| error.freedom),
         })
     }
 }

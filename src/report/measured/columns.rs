@@ -68,10 +68,6 @@ pub static OWN: &[Of] = &[
         .called("standard error of the loss", Some(Energy)),
     Of::new("phase_lag_standard_error_rad", |r| standard(r, Quantity::PhaseLag), "standard error of the mean phase lag")
         .called("standard error of the phase lag", Some(Angle)),
-    Of::new("loss_phase_correlation", |r| r.measured.as_ref().and_then(|m| m.loss_phase_correlation).into(),
-        "correlation of the errors of loss and phase lag, near 1 where the lag is small: both come from the same harmonic"),
-    Of::new("degrees_of_freedom", |r| r.mean(Quantity::EnergyLoss).and_then(|mean| mean.freedom).into(),
-        "degrees of freedom of the standard error of the loss"),
     mean!("load_mean_n", LoadMean, "mean load").called("mean load", Some(Force)),
     mean!("load_amplitude_n", LoadAmplitude, "amplitude of its first harmonic").called("amplitude of the load", Some(Force)),
     Of::new("load_amplitude_standard_error_n", |r| standard(r, Quantity::LoadAmplitude), "its standard error")
