@@ -1,6 +1,5 @@
 //! `contact-dma analyse`: measured loops to the table of a sweep.
 
-use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -21,6 +20,7 @@ use crate::input::setup_file::{self, Setup};
 use crate::measured::Options;
 use crate::quantity::{Dimension, parse};
 use crate::report::caption::Setting as CaptionSetting;
+use crate::report::comparison::SweepTable;
 use crate::report::figure::press::Files;
 use crate::report::measured::{
     self, ANALYSIS, Analysis, Computed, MeasuredRow, columns, ordered, text,
@@ -221,46 +221,39 @@ fn computed(folder: &Path) -> Result<Vec<Computed>, Failure> {
             "--against {folder}: the folder of a sweep has a sweep.csv"
         )));
     }
-    let mut cases = Vec::new();
-    for row in numbers(&table)? {
-        let number = |column: &str| row.get(column).copied();
-        let place = number("angular_frequency_rad_per_s").zip(number("index"));
-        let Some((angular_rad_per_s, index)) = place else {
-            continue;
-        };
-        let cycle = folder.join(format!("loops/{}.csv", index as u64));
-        let cycle = match cycle.exists() {
-            true => numbers(&cycle)?,
-            false => Vec::new(),
-        };
-        let point = |row: &Numbers| Some((*row.get("load_n")?, *row.get("approach_m")?));
-        cases.push(Computed {
-            angular_rad_per_s,
-            energy_loss_j: number("energy_loss_j"),
-            storage_modulus_pa: number("storage_modulus_pa"),
-            loss_modulus_pa: number("loss_modulus_pa"),
-            cycle: cycle.iter().filter_map(point).collect(),
+    let name = table.display().to_string();
+    let bytes = read_limited(&table, MAX_BYTES)
+        .map_err(|error| Failure::input(format!("cannot read {name}: {error}")))?;
+    let rows = SweepTable::parse(&name, &bytes, None)?.numbers_under([
+        "angular_frequency_rad_per_s",
+        "index",
+        "energy_loss_j",
+        "storage_modulus_pa",
+        "loss_modulus_pa",
+    ])?;
+    let cases = rows
+        .into_iter()
+        .filter_map(|[angular, index, loss, storage, of_loss]| {
+            let (angular_rad_per_s, index) = angular.zip(index)?;
+            let cycle = cycle(&folder.join(format!("loops/{}.csv", index as u64)));
+            Some(cycle.map(|cycle| Computed {
+                angular_rad_per_s,
+                energy_loss_j: loss,
+                storage_modulus_pa: storage,
+                loss_modulus_pa: of_loss,
+                cycle,
+            }))
         });
-    }
-    Ok(cases)
+    cases.collect()
 }
 
-/// The numbers in a row of a table, under their columns.
-type Numbers = BTreeMap<String, f64>;
-
-/// The rows of a table that a program wrote.
-fn numbers(file: &Path) -> Result<Vec<Numbers>, Failure> {
-    let failed = |error| Failure::run(format!("cannot read {}: {error}", file.display()));
-    let mut reader = csv::Reader::from_path(file).map_err(failed)?;
-    let columns = reader.headers().map_err(failed)?.clone();
-    let rows = reader.records().map(|row| {
-        let row = row.map_err(failed)?;
-        let cells = columns.iter().zip(&row);
-        let numbers =
-            cells.filter_map(|(column, cell)| Some((column.to_owned(), cell.parse().ok()?)));
-        Ok(numbers.collect())
-    });
-    rows.collect()
+/// Loads (N) and approaches (m) of a computed cycle; none where the sweep did not write it.
+fn cycle(file: &Path) -> Result<Vec<(f64, f64)>, Failure> {
+    if !file.exists() {
+        return Ok(Vec::new());
+    }
+    let signal = loop_file::read(file)?;
+    Ok(signal.load_n.into_iter().zip(signal.approach_m).collect())
 }
 
 /// Writes and prints everything.

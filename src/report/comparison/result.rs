@@ -271,6 +271,24 @@ impl SweepTable {
         }
     }
 
+    /// The numbers under these columns, row by row; `None` where a cell is empty or the column absent.
+    ///
+    /// # Errors
+    /// [`ComparisonError::Number`] at the first cell that is neither empty nor a number.
+    pub fn numbers_under<const N: usize>(
+        &self,
+        columns: [&str; N],
+    ) -> Result<Vec<[Option<f64>; N]>, ComparisonError> {
+        let in_row = |row| {
+            let mut numbers = [None; N];
+            for (number, column) in numbers.iter_mut().zip(columns) {
+                *number = self.number(row, column)?;
+            }
+            Ok(numbers)
+        };
+        self.rows.iter().map(in_row).collect()
+    }
+
     /// The case at this place of another result. Where one of the two was measured, the nearest in frequency, and among equal
     /// ones the nearest in load.
     pub(super) fn row(&self, place: Place, other: &Self) -> Option<&Row> {
