@@ -736,3 +736,27 @@ fn report_names_the_command_that_makes_the_figures_of_a_folder_that_it_cannot_dr
     place.ends(&into(COMMANDS[4], "measured", &[]), 0);
     place.ends(&["report", "measured"], 0);
 }
+
+#[test]
+fn a_title_that_is_the_name_of_the_folder_is_no_file_that_is_read() {
+    let folder = TempDir::new().unwrap();
+    let sweep = pmma_sweep(SWEEP).replacen("title = \"", "title = \"found\" # \"", 1);
+    assert!(sweep.contains("title = \"found\""), "{sweep}");
+    write(&folder, "small.toml", &sweep);
+    for loads in ["10 N", "12 N"] {
+        let set = format!("drive.mean={loads}");
+        let mut command = program();
+        command.current_dir(folder.path()).args([
+            "sweep",
+            "small.toml",
+            "--out",
+            "found",
+            "--force",
+            "--quiet",
+            "--no-figures",
+            "--set",
+            &set,
+        ]);
+        command.assert().success();
+    }
+}

@@ -73,9 +73,9 @@ impl Table {
         Self { entries }
     }
 
-    /// Visits every text in the table, and in those below.
+    /// Visits every text in the table, and in those below, but titles.
     pub(in crate::input) fn for_each_text(&self, visit: &mut dyn FnMut(&str, &Location)) {
-        for entry in self.entries.values() {
+        for (_, entry) in self.entries.iter().filter(|(key, _)| *key != "title") {
             entry.node.for_each_text(visit);
         }
     }
