@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 use contact_dma::contact::half_space::layer::Base;
 use contact_dma::drive::{Control, HarmonicDrive, Segment, SegmentedDrive};
 use contact_dma::identify::data::{Datum, MeasuredCycle, Measurements, Number, Reading};
-use contact_dma::identify::{Driven, Identified, IdentifyPlan, identify};
+use contact_dma::identify::{CellError, Driven, Identified, IdentifyPlan, identify};
 use contact_dma::indenter::{Indenter, Sphere};
 use contact_dma::material::{Compressibility, Material, ModulusKind, Relaxation, RelaxationBranch};
 use contact_dma::sweep::Sweep;
@@ -36,6 +36,8 @@ struct With {
     adhesion: Option<AdhesionPlan>,
     /// In place of the Poisson ratio (Pa).
     bulk_pa: Option<f64>,
+    /// Cells of what was measured, in place of those of the model.
+    measured_on_cells: Option<usize>,
 }
 
 impl With {
@@ -57,7 +59,7 @@ impl With {
         }
     }
 
-    /// Both sides of a comparison have the same cells, so that few do.
+    /// Few cells, for speed.
     fn solver(&self) -> SolverPlan {
         SolverPlan {
             cells: 16,
@@ -85,6 +87,7 @@ fn of_cycles(drive: HarmonicDrive, with: &With) -> IdentifyPlan {
     let mut sweep = SweepPlan::new(with.truth(), with.indenter(), drive);
     (sweep.contact.layer, sweep.contact.adhesion) = (with.layer, with.adhesion);
     (sweep.cycle, sweep.contact.solver) = (IdentifyPlan::CYCLE, with.solver());
+    sweep.contact.solver.cells = with.measured_on_cells.unwrap_or(with.solver().cells);
     let sweep = Sweep::from(sweep).angular_frequencies_rad_per_s(omegas);
     let records = sweep.unwrap().solve().unwrap().records;
     let quantities = [
@@ -257,8 +260,8 @@ fn a_bulk_modulus_that_hardly_allows_the_solid_is_no_end_of_the_search() {
     assert!(error < 2e-3, "{error:e}");
 }
 
-#[test]
-fn a_layer_is_taken_out() {
+/// Cycles of a bonded layer, measured on this number of cells.
+fn of_layer(cells: usize) -> IdentifyPlan {
     let layer = LayerPlan {
         thickness_m: 2e-4,
         base: Base::Bonded,
@@ -266,9 +269,43 @@ fn a_layer_is_taken_out() {
     };
     let with = With {
         layer: Some(layer),
+        measured_on_cells: Some(cells),
         ..With::default()
     };
-    let plan = of_cycles(HarmonicDrive::load(0.2, 0.05).unwrap(), &with);
-    let error = off(&found(&plan));
+    of_cycles(HarmonicDrive::load(0.2, 0.05).unwrap(), &with)
+}
+
+#[test]
+fn a_layer_is_taken_out() {
+    // As the model is corrected: by twice its 16 cells.
+    let found = found(&of_layer(32));
+    let error = off(&found);
     assert!(error < 2e-3, "{error:e}");
+    assert!(matches!(found.cell_error, Some(CellError::Included(change)) if change > 0.01));
+}
+
+#[test]
+fn intervals_from_few_cells_include_the_error_of_the_cells() {
+    let found = found(&of_layer(80));
+    let exact = truth();
+    let branches = exact.branches().iter();
+    let mut unknowns = vec![exact.equilibrium_modulus()];
+    unknowns.extend(branches.flat_map(|branch| [branch.modulus_pa, branch.time_s]));
+    for (unknown, exact) in found.unknowns.iter().zip(unknowns) {
+        let off = (unknown.value / exact).ln().abs();
+        println!("{}: {off:.2e} of {:.2e}", unknown.name, unknown.factor.ln());
+        assert!(off < unknown.factor.ln(), "{unknown:?}, exact {exact}");
+        // And not by including everything.
+        assert!(unknown.factor < 1.1, "{unknown:?}");
+    }
+    for k in 0..9 {
+        let omega = 10_f64.powf(0.5 * f64::from(k) - 2.0);
+        let (band, exact) = (found.band(omega), exact.complex_modulus(omega));
+        let [storage, loss] = [exact.re / band.storage_pa, exact.im / band.loss_pa];
+        assert!(
+            storage.ln().abs() < band.storage_factor.ln(),
+            "{omega}: {storage}"
+        );
+        assert!(loss.ln().abs() < band.loss_factor.ln(), "{omega}: {loss}");
+    }
 }

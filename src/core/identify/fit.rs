@@ -1,19 +1,17 @@
-//! From measurements to a material: the search on the linearised contact, the refinement on the exact one, and what is
-//! known of the result.
+//! From measurements to a material: the search on the linearised contact, and the refinement on the exact one.
 
 use std::sync::atomic::AtomicBool;
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::identify::candidate::{Candidate, candidates, choose, leave_out_outlier};
-use crate::identify::data::Number;
-use crate::identify::least_squares::{Ending, Problem, Solution, minimise};
+use crate::identify::identified::{CellError, Identified, judged};
+use crate::identify::least_squares::{Ending, Problem, minimise};
 use crate::identify::model::Model;
 use crate::identify::noise::Knowledge;
 use crate::identify::selection::{Linearised, residuals};
-use crate::identify::series::{Point, name};
-use crate::identify::uncertainty::{Directions, moduli};
-use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES, UNDETERMINED};
+use crate::identify::series::Point;
+use crate::identify::{IdentifyError, IdentifyPlan, MOST_BRANCHES};
 use crate::material::Relaxation;
 use crate::sweep::plan::EngineKind;
 
@@ -39,88 +37,6 @@ const EXACTLY: Ending = Ending {
 /// must be.
 const CONTRADICTION: f64 = 0.15;
 const TIMES_ERRORS: f64 = 5.0;
-
-/// The largest exponent of a confidence factor that is written as a number.
-const WIDEST: f64 = 60.0;
-
-/// An unknown with its 95 % interval.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Unknown {
-    /// `g_inf`, `g_1`, `tau_1` and so on.
-    pub name: String,
-    /// Pa or s.
-    pub value: f64,
-    /// The interval goes from `value / factor` to `value * factor`.
-    pub factor: f64,
-    /// Whether the factor is below [`UNDETERMINED`].
-    pub is_determined: bool,
-}
-
-/// A combination of the unknowns that the data leave open: the product of the powers of its parts.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Undetermined {
-    /// By what factor it may be off, at 95 %.
-    pub factor: f64,
-    /// Unknowns and their powers, the largest first.
-    pub parts: Vec<(String, f64)>,
-}
-
-/// Storage and loss modulus (Pa) at one frequency, with their 95 % bands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ModulusBand {
-    pub storage_pa: f64,
-    pub loss_pa: f64,
-    /// The bands go from the modulus over this factor to the modulus times it.
-    pub storage_factor: f64,
-    pub loss_factor: f64,
-}
-
-/// A number as measured and as computed.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Compared {
-    /// Angular frequency (rad/s) of the cycle, or time (s) of the instant of a history.
-    pub place: f64,
-    /// Its row in the table, from 1 below the header.
-    pub row: usize,
-    pub number: Number,
-    pub measured: f64,
-    /// Standard deviation: as given, or estimated.
-    pub error: f64,
-    pub computed: f64,
-    /// Factor of the 95 % band of the computed number.
-    pub factor: f64,
-}
-
-/// What was found.
-#[derive(Debug, Clone)]
-pub struct Identified {
-    pub relaxation: Relaxation,
-    pub unknowns: Vec<Unknown>,
-    /// Between the unknowns, row by row.
-    pub correlations: Vec<Vec<f64>>,
-    pub singular_values: Vec<f64>,
-    pub undetermined: Vec<Undetermined>,
-    /// Every number of branches tried, fewest first.
-    pub candidates: Vec<Candidate>,
-    pub compared: Vec<Compared>,
-    /// Which of these is an outlier: all others are met without it, and it does not count in the fit.
-    pub left_out: Option<usize>,
-    /// What was known of the errors of the data.
-    pub knowledge: Knowledge,
-    pub degrees_of_freedom: usize,
-    /// Sum of squares over degrees of freedom, with errors as given; where none is given, one by definition.
-    pub reduced_chi_squared: f64,
-    /// By what factor all intervals are wider than the errors of the data say: 1, or where the series misses the data by more than
-    /// chance the root of the reduced chi squared.
-    pub inflation: f64,
-    /// Lowest and highest angular frequency of the data.
-    pub window_rad_per_s: (f64, f64),
-    point: Point,
-    directions: Directions,
-    half_width: f64,
-    /// The series on the linearised contact, with which the candidates are compared.
-    linearised: Point,
-}
 
 /// Finds the material.
 ///
@@ -185,14 +101,18 @@ fn tried(
 fn at_full_resolution(
     model: &mut Model<'_>,
     linearised: &Linearised<'_>,
-    found: Identified,
+    mut found: Identified,
 ) -> Result<Identified, IdentifyError> {
     let noise = linearised.noise.relative.iter().copied();
     let noise = noise.fold(f64::INFINITY, f64::min);
     match model.learn_corrections(&found.relaxation) {
-        Ok(size) if size > SEEN * noise => {}
+        Ok(Some(change)) if change > SEEN * noise => {}
+        Ok(Some(change)) => {
+            found.cell_error = (found.cell_error).map(|_| CellError::Negligible(change));
+            return Ok(found);
+        }
         Err(IdentifyError::Interrupted) => return Err(IdentifyError::Interrupted),
-        _ => return Ok(found),
+        Ok(None) | Err(_) => return Ok(found),
     }
     let of_candidates = (found.candidates.clone(), found.linearised.clone());
     match on_exact(model, linearised, of_candidates, &found.point) {
@@ -217,7 +137,8 @@ fn on_exact(
     let derivatives = derivatives.ok_or(IdentifyError::NoFit(
         "the exact model has no derivatives there",
     ))?;
-    judged(linearised, (candidates, start), found, &derivatives)
+    let models = (model, linearised);
+    judged(models, (candidates, start), found, &derivatives)
 }
 
 /// How many branches the number of data allows.
@@ -319,89 +240,6 @@ impl Problem for Exact<'_> {
     }
 }
 
-/// The result with all that is known of it.
-fn judged(
-    linearised: &Linearised<'_>,
-    (candidates, start): (Vec<Candidate>, Point),
-    found: Solution,
-    derivatives: &DMatrix<f64>,
-) -> Result<Identified, IdentifyError> {
-    let measured = &linearised.plan.measurements;
-    let point = found.unknowns.clone();
-    let degrees_of_freedom = measured.data().len().saturating_sub(point.0.len());
-    let noise = &linearised.noise;
-    let scatter = noise.scatter(&found.residuals, degrees_of_freedom);
-    let half_width = scatter.half_width;
-    let directions = Directions::new(derivatives, scatter.deviation);
-    let directions = directions.ok_or(IdentifyError::NoFit("its derivatives are not finite"))?;
-    let covariance = directions.covariance();
-    let deviation = |k: usize| covariance[(k, k)].sqrt();
-    let factor = |deviation: f64| (half_width * deviation).min(WIDEST).exp();
-    let unknowns = point.0.iter().enumerate().map(|(k, ln)| Unknown {
-        name: name(k),
-        value: ln.exp(),
-        factor: factor(deviation(k)),
-        is_determined: factor(deviation(k)) < UNDETERMINED,
-    });
-    let count = point.0.len();
-    let correlation = |i: usize, j: usize| covariance[(i, j)] / (deviation(i) * deviation(j));
-    let compared = measured.data().iter().enumerate().map(|(k, datum)| {
-        let error = linearised.noise.relative[k];
-        // A row of derivatives is in standard deviations of its datum.
-        let gradient = derivatives.row(k).transpose() * error;
-        Compared {
-            place: measured.place_of(datum),
-            row: measured.row_of(datum),
-            number: datum.number,
-            measured: datum.value,
-            error: noise.own(k) * scatter.of_data * datum.value,
-            computed: datum.value * (found.residuals[k] * error).exp(),
-            factor: factor(directions.variance(&gradient).sqrt()),
-        }
-    });
-    Ok(Identified {
-        left_out: noise.left_out(),
-        relaxation: point.relaxation()?,
-        unknowns: unknowns.collect(),
-        correlations: (0..count)
-            .map(|i| (0..count).map(|j| correlation(i, j)).collect())
-            .collect(),
-        singular_values: directions.singular_values.clone(),
-        undetermined: undetermined(&directions, half_width),
-        candidates,
-        compared: compared.collect(),
-        knowledge: noise.knowledge,
-        degrees_of_freedom,
-        reduced_chi_squared: scatter.reduced_chi_squared,
-        inflation: scatter.deviation / scatter.of_data,
-        window_rad_per_s: measured.window_rad_per_s(),
-        point,
-        directions,
-        half_width,
-        linearised: start,
-    })
-}
-
-/// Directions along which the unknowns may move by more than the factor that counts as determined.
-fn undetermined(directions: &Directions, half_width: f64) -> Vec<Undetermined> {
-    let all = directions.deviations.iter().enumerate();
-    let open = all.filter(|(_, deviation)| half_width * **deviation > UNDETERMINED.ln());
-    open.map(|(place, deviation)| {
-        let row = directions.vectors.row(place);
-        let larger = |a: f64, v: &f64| if v.abs() > a.abs() { *v } else { a };
-        let largest = row.iter().fold(0.0, larger);
-        // The largest power is one; what hardly takes part is left out.
-        let powers = row.iter().enumerate().map(|(k, v)| (name(k), v / largest));
-        let mut parts: Vec<(String, f64)> = powers.filter(|(_, power)| power.abs() > 0.2).collect();
-        parts.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        Undetermined {
-            factor: (half_width * deviation).min(WIDEST).exp(),
-            parts,
-        }
-    })
-    .collect()
-}
-
 /// Refuses what no solid explains.
 fn refuse_contradiction(plan: &IdentifyPlan, found: &Identified) -> Result<(), IdentifyError> {
     let within =
@@ -441,51 +279,4 @@ fn contradiction(plan: &IdentifyPlan, branches: usize, missed: &[f64]) -> Option
         column: datum.number.column(),
         times: format!("{:.2e}", off.exp()),
     })
-}
-
-impl Identified {
-    /// The number that the series misses by the most of its errors, and by how many.
-    pub fn worst(&self) -> Option<(&Compared, f64)> {
-        let each = self.compared.iter();
-        let off = |c: &Compared| (c.computed / c.measured).ln() * c.measured / c.error;
-        each.map(|c| (c, off(c)))
-            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
-    }
-
-    /// Logarithms of computed over measured numbers.
-    fn missed(&self) -> Vec<f64> {
-        let compared = self.compared.iter();
-        compared.map(|c| (c.computed / c.measured).ln()).collect()
-    }
-
-    /// The root mean square of relative differences between measured and computed numbers, times what more unknowns gain by chance.
-    fn misfit(&self) -> f64 {
-        let squares: f64 = self.missed().iter().map(|off| off * off).sum();
-        (squares / self.degrees_of_freedom.max(1) as f64).sqrt()
-    }
-
-    /// The moduli at a frequency, with bands. Beyond the data they are an extrapolation.
-    pub fn band(&self, angular_frequency_rad_per_s: f64) -> ModulusBand {
-        let own = moduli(&self.point, angular_frequency_rad_per_s);
-        let compared = moduli(&self.linearised, angular_frequency_rad_per_s);
-        let mut variances = own
-            .each_ref()
-            .map(|(_, gradient)| self.directions.variance(gradient));
-        let chosen = self.point.branches();
-        let others = self.candidates.iter();
-        for other in others.filter(|c| c.branches != chosen && c.weight > 0.0) {
-            let theirs = moduli(&other.point, angular_frequency_rad_per_s);
-            for part in 0..2 {
-                let apart = theirs[part].0 - compared[part].0;
-                variances[part] += other.weight * apart * apart;
-            }
-        }
-        let factor = |variance: f64| (self.half_width * variance.sqrt()).min(WIDEST).exp();
-        ModulusBand {
-            storage_pa: own[0].0.exp(),
-            loss_pa: own[1].0.exp(),
-            storage_factor: factor(variances[0]),
-            loss_factor: factor(variances[1]),
-        }
-    }
 }

@@ -19,8 +19,8 @@
 //! 3. The series is refined on the exact model itself, with its own derivatives.
 //! 4. Where that ends far from the data, which contacts that open in every cycle may do, the search starts again with the factors of the
 //!    series of one branch that fits best by the exact model, and with smaller changes of them.
-//! 5. On springs the numbers are corrected by what twice the steps and springs change at the solution, and the series is refined
-//!    once more, where that is seen beside the noise.
+//! 5. The numbers are corrected by what twice the steps and springs or cells change at the solution, and the series is refined
+//!    once more, where that is seen beside the noise. On cells the intervals include this change.
 //!
 //! # How many branches
 //!
@@ -48,6 +48,7 @@ mod curve;
 pub mod data;
 mod fit;
 mod history;
+mod identified;
 mod least_squares;
 mod linear;
 mod model;
@@ -59,7 +60,8 @@ mod uncertainty;
 
 pub use candidate::Candidate;
 pub use curve::{Curve, curves};
-pub use fit::{Compared, Identified, ModulusBand, Undetermined, Unknown, identify};
+pub use fit::identify;
+pub use identified::{CellError, Compared, Identified, ModulusBand, Undetermined, Unknown};
 pub use noise::Knowledge;
 
 use std::sync::Arc;

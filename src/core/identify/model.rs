@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicBool;
 use rayon::prelude::*;
 
 use crate::identify::data::Number;
+use crate::identify::identified::CellError;
 use crate::identify::{Driven, IdentifyError, IdentifyPlan, history};
 use crate::material::{MaterialError, Relaxation};
 use crate::sweep::case::Setup;
@@ -29,18 +30,28 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Learns at a series what twice the time steps and springs change, and corrects all numbers by it from then on: the largest
-    /// relative correction. Time rule and springs are of second order where the contact is smooth, so that what is left falls fourfold.
-    /// Nothing is learnt of histories, whose steps are chosen by the solid, nor of cells, which cost too much.
-    pub(super) fn learn_corrections(&mut self, series: &Relaxation) -> Result<f64, IdentifyError> {
-        let is_springs = self.plan.contact.solver.engine == EngineKind::Axisymmetric;
-        if self.plan.drive.history().is_some() || !is_springs {
-            return Ok(0.0);
+    /// Learns at a series what twice the time steps and springs or cells change, and corrects all numbers by it from then on: the
+    /// largest relative correction. Time rule and springs are of second order where the contact is smooth, so that what is left falls
+    /// fourfold. Cells are of first order at a rim, and the edge of a contact lies between two of them at random: what is left may be
+    /// as large as the correction ([`Model::cell_error`]). `None` where nothing is learnt: of histories on springs, whose steps are
+    /// chosen by the solid, and of maps, which have a cell on every point.
+    pub(super) fn learn_corrections(
+        &mut self,
+        series: &Relaxation,
+    ) -> Result<Option<f64>, IdentifyError> {
+        let contact = &self.plan.contact;
+        let has_nothing_finer = match contact.solver.engine {
+            EngineKind::Axisymmetric => self.plan.drive.history().is_some(),
+            EngineKind::HalfSpace => contact.indenter.own_cells().is_some(),
+        };
+        if has_nothing_finer {
+            return Ok(None);
         }
         self.corrections.clear();
         let mut finer = self.plan.clone();
         finer.cycle.steps *= 2;
         finer.contact.solver.springs *= 2;
+        finer.contact.solver.cells *= 2;
         let finer = Model::new(&finer, self.interrupt).numbers_where_found(series)?;
         let own = self.numbers_where_found(series)?;
         let ratio = |(fine, own): (Option<f64>, Option<f64>)| {
@@ -49,8 +60,26 @@ impl<'a> Model<'a> {
         };
         let ratios = finer.into_iter().zip(own).map(ratio);
         self.corrections = ratios.map(|ratio| ratio.unwrap_or(1.0)).collect();
-        let sizes = self.corrections.iter().map(|ratio| (ratio - 1.0).abs());
-        Ok(sizes.fold(0.0, f64::max))
+        Ok(Some(self.largest_correction()))
+    }
+
+    fn largest_correction(&self) -> f64 {
+        let sizes = self.ln_corrections().map(f64::abs);
+        sizes.fold(0.0, f64::max)
+    }
+
+    /// Logarithms of the corrections; nothing before they are learnt.
+    pub(super) fn ln_corrections(&self) -> impl Iterator<Item = f64> {
+        self.corrections.iter().map(|ratio| ratio.ln())
+    }
+
+    /// What is known of the error of the cells; `None` on springs.
+    pub(super) fn cell_error(&self) -> Option<CellError> {
+        match (self.plan.contact.solver.engine, self.corrections.is_empty()) {
+            (EngineKind::Axisymmetric, _) => None,
+            (EngineKind::HalfSpace, true) => Some(CellError::Unknown),
+            (EngineKind::HalfSpace, false) => Some(CellError::Included(self.largest_correction())),
+        }
     }
 
     /// The computed number of every datum, in their order.
@@ -65,10 +94,13 @@ impl<'a> Model<'a> {
         all: &[Relaxation],
     ) -> Result<Vec<Vec<f64>>, IdentifyError> {
         if let Driven::History(drive) = &self.plan.drive {
-            let each = all.par_iter();
-            return each
-                .map(|series| history::numbers(self.plan, drive, series, self.interrupt))
-                .collect();
+            let numbers = |series| history::numbers(self.plan, drive, series, self.interrupt);
+            let corrected = |series| {
+                let numbers = numbers(series)?.into_iter().enumerate();
+                let corrected = numbers.map(|(place, number)| number * self.correction(place));
+                Ok(corrected.collect())
+            };
+            return all.par_iter().map(corrected).collect();
         }
         let setups: Vec<Setup> = all
             .iter()
@@ -128,9 +160,13 @@ impl<'a> Model<'a> {
                 Number::LoadAmplitude => first?.load_amplitude_n,
                 Number::Approach | Number::Load => return None,
             };
-            Some(number * self.corrections.get(place).copied().unwrap_or(1.0))
+            Some(number * self.correction(place))
         });
         numbers.collect()
+    }
+
+    fn correction(&self, place: usize) -> f64 {
+        self.corrections.get(place).copied().unwrap_or(1.0)
     }
 
     fn setup(&self, series: &Relaxation) -> Result<Setup, IdentifyError> {

@@ -19,6 +19,8 @@ pub(super) struct Directions {
     pub(super) vectors: DMatrix<f64>,
     /// Standard deviation along each, as a logarithm.
     pub(super) deviations: Vec<f64>,
+    /// By how much all unknowns may be off together for an error that the data have in common, beside their noise.
+    shift: Option<DVector<f64>>,
 }
 
 impl Directions {
@@ -44,24 +46,41 @@ impl Directions {
             deviations: deviations.collect(),
             vectors,
             singular_values,
+            shift: None,
         })
+    }
+
+    /// Includes an error that all computed numbers have together: `changes` of their residuals, to which the unknowns answer as least
+    /// squares do. All of the answer is within an interval of this half width, in standard deviations.
+    pub(super) fn include(&mut self, derivatives: &DMatrix<f64>, changes: &[f64], half_width: f64) {
+        let changes = DVector::from_column_slice(changes);
+        let of_data = derivatives.rows(0, changes.len());
+        let largest = self.singular_values.iter().fold(0.0_f64, |a, s| a.max(*s));
+        let mut along = &self.vectors * of_data.tr_mul(&changes);
+        for (along, singular) in along.iter_mut().zip(&self.singular_values) {
+            *along /= half_width * singular.max(NONE * largest).powi(2);
+        }
+        self.shift = Some(self.vectors.tr_mul(&along));
     }
 
     /// Covariance of the unknowns.
     pub(super) fn covariance(&self) -> DMatrix<f64> {
         let squares = self.deviations.iter().map(|d| d * d);
         let diagonal = DMatrix::from_diagonal(&DVector::from_vec(squares.collect()));
-        self.vectors.transpose() * diagonal * &self.vectors
+        let of_noise = self.vectors.transpose() * diagonal * &self.vectors;
+        match &self.shift {
+            Some(shift) => of_noise + shift * shift.transpose(),
+            None => of_noise,
+        }
     }
 
     /// Variance of a quantity with this gradient.
     pub(super) fn variance(&self, gradient: &DVector<f64>) -> f64 {
         let along = &self.vectors * gradient;
-        along
-            .iter()
-            .zip(&self.deviations)
-            .map(|(a, d)| (a * d).powi(2))
-            .sum()
+        let of_noise = along.iter().zip(&self.deviations);
+        let of_noise: f64 = of_noise.map(|(a, d)| (a * d).powi(2)).sum();
+        let common = self.shift.as_ref().map_or(0.0, |s| s.dot(gradient));
+        of_noise + common * common
     }
 }
 
@@ -98,6 +117,19 @@ mod tests {
         // Variance of a sum that is measured with weights 1, 4 and 4.
         assert!((directions.variance(&sum) / (0.01 / 9.0) - 1.0).abs() < 1e-9);
         assert!(directions.variance(&difference) > 1e6);
+    }
+
+    #[test]
+    fn an_error_in_common_moves_all_unknowns_and_averages_over_no_data() {
+        // A hundred data of one unknown: their noise averages to a tenth, an error that they all have does not.
+        let matrix = DMatrix::from_element(100, 1, 1.0);
+        let mut directions = Directions::new(&matrix, 1.0).unwrap();
+        let own = DVector::from_vec(vec![1.0]);
+        assert!((directions.variance(&own) - 0.01).abs() < 1e-12);
+        directions.include(&matrix, &[3.0; 100], 2.0);
+        let expected = 0.01 + 1.5_f64.powi(2);
+        assert!((directions.variance(&own) - expected).abs() < 1e-12);
+        assert!((directions.covariance()[(0, 0)] - expected).abs() < 1e-12);
     }
 
     #[test]

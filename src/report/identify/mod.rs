@@ -5,7 +5,9 @@ pub mod tables;
 
 use crate::identify::data::Number;
 use crate::identify::resolved::resolved_text;
-use crate::identify::{Curve, Identified, IdentifyPlan, Knowledge, MOST_BRANCHES, Unknown};
+use crate::identify::{
+    CellError, Curve, Identified, IdentifyPlan, Knowledge, MOST_BRANCHES, Unknown,
+};
 use crate::quantity::{Dimension, format_human};
 use crate::report::dynamic::tables::prony;
 use crate::report::measured::columns::of_records;
@@ -52,8 +54,10 @@ impl IdentifyReport<'_> {
         lines.push(self.noise());
         lines.push(self.series());
         lines.push(self.window());
+        lines.extend(self.cells());
         lines.extend(self.open());
         lines.extend(self.beyond().map(warned));
+        lines.extend(self.unknown_cell_error().map(warned));
         lines.push(self.moduli().to_owned());
         lines
     }
@@ -200,7 +204,37 @@ impl IdentifyReport<'_> {
 
     /// What a reader should know before using the material.
     pub fn warnings(&self) -> Vec<String> {
-        self.missed().into_iter().chain(self.beyond()).collect()
+        let warnings = [self.missed(), self.beyond(), self.unknown_cell_error()];
+        warnings.into_iter().flatten().collect()
+    }
+
+    /// What the number of cells changes, where that is known.
+    fn cells(&self) -> Option<String> {
+        let (change, follows) = match self.found.cell_error? {
+            CellError::Included(change) => (
+                change,
+                "they are corrected by this change, and all intervals include it",
+            ),
+            CellError::Negligible(change) => (change, "too little beside the noise to matter"),
+            CellError::Unknown => return None,
+        };
+        Some(format!(
+            "Cells: twice as many change the computed numbers by {} at most; {follows}.",
+            percent(change)
+        ))
+    }
+
+    /// That the error of the cells is not known.
+    fn unknown_cell_error(&self) -> Option<String> {
+        (self.found.cell_error == Some(CellError::Unknown)).then(|| {
+            let why = match self.plan.contact.indenter.own_cells() {
+                Some(_) => "a map is solved on its own points, of which there are no more",
+                None => {
+                    "the contact was not found on twice as many; set solver.cells to another number"
+                }
+            };
+            format!("the error of the cells is not known and not in the intervals: {why}")
+        })
     }
 
     /// That the series misses the data by more than their errors, and where most.

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 
 use super::{IdentifyReport, dimension, tables};
-use crate::identify::{Identified, Knowledge};
+use crate::identify::{CellError, Identified, Knowledge};
 
 /// The summary as an object; what is undefined is null.
 pub fn summary(report: &IdentifyReport<'_>) -> Value {
@@ -69,6 +69,10 @@ pub fn summary(report: &IdentifyReport<'_>) -> Value {
         "intervals_widened_by": found.inflation,
         "worst": worst(found),
         "degrees_of_freedom": found.degrees_of_freedom,
+        "change_with_twice_the_cells": match found.cell_error {
+            Some(CellError::Included(change) | CellError::Negligible(change)) => Some(change),
+            Some(CellError::Unknown) | None => None,
+        },
         "window_rad_per_s": found.window_rad_per_s,
         "moduli": moduli(report),
         "notes": measured.notes(),
