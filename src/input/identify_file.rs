@@ -12,7 +12,7 @@ use super::harmonic_block::Pressed;
 use super::keys;
 use super::keys::drive::SEGMENTS;
 use super::keys::identify::{
-    DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE,
+    APPROACH_ZERO, DATA, IDENTIFY, IDENTIFY_BRANCHES, KNOWN_MATERIAL, MEASURED_DRIVE, MODEL_CYCLE,
 };
 use super::keys::material::BULK_MODULUS;
 use super::sweep_file::cycle;
@@ -21,7 +21,7 @@ use super::{
     segments_block,
 };
 use crate::identify::data::{Measurements, TableColumns};
-use crate::identify::{Driven, IdentifyPlan, Sought};
+use crate::identify::{ApproachZero, Driven, IdentifyPlan, Sought};
 use crate::indenter::Indenter;
 use crate::material::{Compressibility, Relaxation};
 use crate::sweep::plan::contact::ContactPlan;
@@ -56,7 +56,7 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
         let default = indenter.as_deref();
         let default = default.map(|indenter| IdentifyPlan::solver(indenter, layer));
         let solver = layer_block::solver(root, layer.is_some(), default.unwrap_or_default());
-        let (data, (measurements, columns), branches) = measured?;
+        let measured = measured?;
         let bodies = bodies?;
         Some(IdentifyPlan {
             title: title?,
@@ -71,10 +71,11 @@ pub fn plan_with(document: &Document, given: &Given) -> Result<IdentifyPlan, Dia
                 },
             },
             drive: drive?,
-            branches,
-            measurements,
-            data,
-            columns,
+            branches: measured.branches,
+            measurements: measured.measurements,
+            data: measured.file,
+            approach_zero: measured.approach_zero,
+            columns: measured.columns,
             cycle: cycle?,
         })
     })
@@ -122,15 +123,35 @@ fn known_material(mut table: TableReader<'_>) -> Option<Compressibility> {
     }
 }
 
+/// What the `[identify]` block says.
+struct Measured {
+    /// The name of the table.
+    file: String,
+    measurements: Measurements,
+    columns: TableColumns,
+    approach_zero: Option<ApproachZero>,
+    branches: Option<usize>,
+}
+
 /// The `[identify]` block: measurements, and how many branches.
-fn measured_block(
-    mut table: TableReader<'_>,
-    drive: Option<&Driven>,
-) -> Option<(String, (Measurements, TableColumns), Option<usize>)> {
+fn measured_block(mut table: TableReader<'_>, drive: Option<&Driven>) -> Option<Measured> {
     let (folder, problems) = (table.folder(), table.problems());
     let data = table.read(&DATA);
     let branches = table.value(&IDENTIFY_BRANCHES);
+    let approach_zero = table.value(&APPROACH_ZERO);
+    let place_of_zero = table.key_location(&APPROACH_ZERO);
     table.finish();
+    let approach_zero = approach_zero?;
+    if let (Some(place), Some(ApproachZero::Unknown), Some(Driven::History(_))) =
+        (place_of_zero, approach_zero, drive)
+    {
+        let report = problems.at(
+            &place,
+            "the approach of a history is counted from first touch",
+        );
+        report.help("subtract its value at first touch, and leave this key out");
+        return None;
+    }
     let data = data?;
     let file = match data.path_from(folder).is_dir() {
         true => data.map(|folder| Path::new(&folder).join(TABLE).display().to_string()),
@@ -140,7 +161,7 @@ fn measured_block(
     // Without a drive, which was reported, rows without one of their own mean nothing.
     let (found, columns) = match drive? {
         Driven::Cycles(drive) => {
-            let rows = measured_table::parse(&name, &bytes, *drive);
+            let rows = measured_table::parse(&name, &bytes, (*drive, approach_zero));
             let (cycles, data, columns) = data_file::accepted(rows, &file, problems)?;
             (Measurements::new(cycles, data), columns)
         }
@@ -151,5 +172,11 @@ fn measured_block(
         }
     };
     let measurements = problems.accept(&file, found.map_err(|error| format!("{name}: {error}")))?;
-    Some((name, (measurements, columns), branches?.flatten()))
+    Some(Measured {
+        file: name,
+        measurements,
+        columns,
+        approach_zero,
+        branches: branches?.flatten(),
+    })
 }

@@ -3,6 +3,7 @@
 use super::data_file::{Column, DataFile, Table};
 use super::diagnostic::{Diagnostic, Diagnostics, Location, Problems};
 use crate::drive::{Control, HarmonicDrive};
+use crate::identify::ApproachZero;
 use crate::identify::data::{Datum, MeasuredCycle, Number, TableColumns};
 use crate::measured::statistics::NORMAL;
 use crate::quantity::Dimension::{
@@ -46,6 +47,19 @@ macro_rules! measured {
 const LOSS: Number = Number::OfCycle(Quantity::EnergyLoss);
 const PHASE: Number = Number::OfCycle(Quantity::PhaseLag);
 
+const APPROACH_AMPLITUDE: Measured = measured!(
+    Number::ApproachAmplitude,
+    Length,
+    "approach_amplitude",
+    "depth_amplitude"
+);
+const LOAD_AMPLITUDE: Measured = measured!(
+    Number::LoadAmplitude,
+    Force,
+    "load_amplitude",
+    "force_amplitude"
+);
+
 #[rustfmt::skip]
 static MEASURED: [Measured; 12] = [
     measured!(LOSS, Energy, "energy_loss", "loss", "loss_energy", "dissipated_energy", "energy_dissipation"),
@@ -54,8 +68,8 @@ static MEASURED: [Measured; 12] = [
     measured!(Number::OfCycle(Quantity::LossModulus), Stress, "loss_modulus"),
     measured!(Number::OfCycle(Quantity::ApproachMin), Length, "approach_min", "min_approach", "depth_min", "min_depth", "minimum_depth"),
     measured!(Number::OfCycle(Quantity::ApproachMax), Length, "approach_max", "max_approach", "depth_max", "max_depth", "maximum_depth"),
-    measured!(Number::ApproachAmplitude, Length, "approach_amplitude", "depth_amplitude"),
-    measured!(Number::LoadAmplitude, Force, "load_amplitude", "force_amplitude"),
+    APPROACH_AMPLITUDE,
+    LOAD_AMPLITUDE,
     measured!(Number::OfCycle(Quantity::ContactRadiusMin), Length, "contact_radius_min"),
     measured!(Number::OfCycle(Quantity::ContactRadiusMax), Length, "contact_radius_max"),
     measured!(Number::OfCycle(Quantity::PeakPressureMin), Stress, "peak_pressure_min"),
@@ -71,7 +85,7 @@ const OF_ANALYSIS: [Column; 2] = [
 const DERIVED: &str =
     "a formula makes it from the amplitudes and the phase, which has a bias at every amplitude";
 const LOSS_TWICE: &str = "it follows from the amplitudes and the phase";
-const NO_ZERO: &str = "the zero of the approach is not known in a record, and drifts";
+const NO_ZERO: &str = "the zero of the approach is not known";
 const NO_QUANTITY: &str = "the table has not the quantity that these are the errors of";
 const PRESCRIBED: &str = "the drive prescribes it";
 
@@ -91,10 +105,19 @@ type Found = (Vec<MeasuredCycle>, Vec<Datum>, TableColumns);
 /// # Errors
 /// What [`DataFile`] refuses; no frequency, no column that a material shows in; errors that are not above zero; frequencies or a
 /// drive that contradict others; each with its place.
-pub(super) fn parse(name: &str, bytes: &[u8], drive: HarmonicDrive) -> Result<Found, Diagnostics> {
+pub(super) fn parse(
+    name: &str,
+    bytes: &[u8],
+    (drive, approach_zero): (HarmonicDrive, Option<ApproachZero>),
+) -> Result<Found, Diagnostics> {
     let file = DataFile::from_bytes(name, bytes)?;
     let is_analysis = OF_ANALYSIS.iter().all(|column| file.has_any(&[*column]));
-    let (data_columns, set_aside) = quantities(&file, drive.control(), is_analysis);
+    // In a record the zero of the approach is not known, and drifts, unless the file says otherwise.
+    let has_zero = match approach_zero {
+        Some(zero) => zero == ApproachZero::FirstContact,
+        None => !is_analysis,
+    };
+    let (data_columns, set_aside) = quantities(&file, drive.control(), has_zero);
     let (wanted, drive_columns) = wanted(&file, drive.control(), is_analysis, &data_columns)?;
     let problems = Problems::new();
     let rows = Rows {
@@ -104,6 +127,7 @@ pub(super) fn parse(name: &str, bytes: &[u8], drive: HarmonicDrive) -> Result<Fo
         drive_columns,
         data_columns,
         is_analysis,
+        has_zero,
         problems: &problems,
     };
     let (mut cycles, mut data) = (Vec::new(), Vec::new());
@@ -137,19 +161,33 @@ pub(super) fn parse(name: &str, bytes: &[u8], drive: HarmonicDrive) -> Result<Fo
     problems.into_result(Some((cycles, data, columns)))
 }
 
+/// The amplitude of what is not prescribed.
+fn response(control: Control) -> Number {
+    match control {
+        Control::Load => Number::ApproachAmplitude,
+        Control::Approach => Number::LoadAmplitude,
+    }
+}
+
+/// The amplitude of what is prescribed.
+fn prescribed(control: Control) -> Measured {
+    match control {
+        Control::Load => LOAD_AMPLITUDE,
+        Control::Approach => APPROACH_AMPLITUDE,
+    }
+}
+
 /// The quantities of a table that are its data, and the headings of those that are not beside them, with the reason.
 fn quantities(
     file: &DataFile,
     control: Control,
-    is_analysis: bool,
+    has_zero: bool,
 ) -> (Vec<&'static Measured>, Vec<(String, &'static str)>) {
     let there = MEASURED.iter().filter(|own| file.has_any(&[own.value]));
     let there: Vec<Number> = there.map(|own| own.number).collect();
     let has = |number: Number| there.contains(&number);
-    let (response, prescribed) = match control {
-        Control::Load => (Number::ApproachAmplitude, Number::LoadAmplitude),
-        Control::Approach => (Number::LoadAmplitude, Number::ApproachAmplitude),
-    };
+    let response = response(control);
+    let prescribed = prescribed(control).number;
     let why_not = |number: Number| match number {
         number if number == prescribed => Some(PRESCRIBED),
         Number::OfCycle(Quantity::StorageModulus | Quantity::LossModulus)
@@ -158,7 +196,7 @@ fn quantities(
             Some(DERIVED)
         }
         LOSS if has(PHASE) && has(response) => Some(LOSS_TWICE),
-        Number::OfCycle(Quantity::ApproachMin | Quantity::ApproachMax) if is_analysis => {
+        Number::OfCycle(Quantity::ApproachMin | Quantity::ApproachMax) if !has_zero => {
             Some(NO_ZERO)
         }
         _ => None,
@@ -199,6 +237,11 @@ fn wanted(
     if of_drive.iter().all(is_there) {
         wanted.extend(of_drive);
     }
+    if is_analysis {
+        let of_drive = prescribed(control);
+        let errors = [of_drive.error, of_drive.standard_error];
+        wanted.extend(errors.into_iter().filter(is_there));
+    }
     if data.is_empty() {
         let names = MEASURED
             .each_ref()
@@ -226,6 +269,8 @@ struct Rows<'a> {
     drive_columns: [Column; 2],
     data_columns: Vec<&'static Measured>,
     is_analysis: bool,
+    /// Whether approaches are counted from first contact.
+    has_zero: bool,
     problems: &'a Problems,
 }
 
@@ -260,27 +305,45 @@ impl Rows<'_> {
                     .help("write a standard deviation, or leave the cell empty: the noise is then estimated");
                 return None;
             }
-            let [error, standard_error] = errors.map(|error| error.map(|(error, _)| error));
-            found.push((
-                own.number,
-                value,
-                match self.is_analysis {
-                    // Half the width of an interval of 95 % has Student's factor in it: over that of the normal distribution it is the
-                    // standard deviation that gives the same interval.
-                    true => error.map(|error| error / NORMAL).or(standard_error),
-                    false => standard_error.or(error),
-                },
-            ));
+            let of_drive = match own.number == response(self.drive.control()) {
+                true => self.relative_deviation_of_drive(row).unwrap_or(0.0),
+                false => 0.0,
+            };
+            let deviation = self.standard_deviation(row, own);
+            let deviation = deviation.map(|own| own.hypot(of_drive * value));
+            found.push((own.number, value, deviation));
         }
         Some(found)
+    }
+
+    /// The standard deviation of a number in a row, where it is known.
+    fn standard_deviation(&self, row: usize, own: &Measured) -> Option<f64> {
+        let error = self.number(row, &own.error);
+        let of_error = match self.is_analysis {
+            true => error.map(|half_width| half_width / NORMAL),
+            false => error,
+        };
+        self.number(row, &own.standard_error).or(of_error)
+    }
+
+    /// The relative standard deviation of the amplitude of the drive in a table of an analysis, where it is measured. The model is driven by
+    /// this amplitude exactly, and answers in proportion.
+    fn relative_deviation_of_drive(&self, row: usize) -> Option<f64> {
+        let prescribed = self.is_analysis.then(|| prescribed(self.drive.control()))?;
+        let [_, amplitude] = self.drive_columns;
+        Some(self.standard_deviation(row, &prescribed)? / self.number(row, &amplitude)?)
     }
 
     /// The cycle of a row; `None` where a problem was reported.
     fn cycle(&self, row: usize) -> Option<MeasuredCycle> {
         let angular_frequency_rad_per_s = self.frequency(row)?;
-        let own = self.drive_columns.map(|column| self.number(row, &column));
-        let drive = match own {
-            [Some(mean), Some(amplitude)] => {
+        let [mean, amplitude] = self.drive_columns.map(|column| self.number(row, &column));
+        let mean = match self.drive.control() {
+            Control::Approach if !self.has_zero => Some(self.drive.mean()),
+            Control::Approach | Control::Load => mean,
+        };
+        let drive = match (mean, amplitude) {
+            (Some(mean), Some(amplitude)) => {
                 let (phase_rad, hold_s) = (self.drive.phase_rad(), self.drive.hold_s());
                 let own = self.drive.with(mean, amplitude, phase_rad, hold_s);
                 self.problems.accept(&self.table.row(row), own)?
@@ -366,8 +429,12 @@ mod tests {
     use crate::input::diagnostic::Styling;
 
     fn under_load(text: &str) -> Result<Found, Diagnostics> {
+        parsed(text, None)
+    }
+
+    fn parsed(text: &str, zero: Option<ApproachZero>) -> Result<Found, Diagnostics> {
         let drive = HarmonicDrive::load(10.0, 5.0).unwrap();
-        parse("measured.csv", text.as_bytes(), drive)
+        parse("measured.csv", text.as_bytes(), (drive, zero))
     }
 
     #[test]
@@ -408,8 +475,19 @@ mod tests {
                     1,10,5,1e-6,1e-8,0.2,2e-3,5e-4,1e7,1e-5,1e-6,1e-8,5,12,80,0.01\n";
         let (_, data, columns) = under_load(text).unwrap();
         assert_eq!(data.len(), 2, "{data:?}");
+        // The model is driven by the amplitude as measured, with its error: that of the answer holds it too.
+        let with_drive = text
+            .replace(
+                "load_amplitude_n,",
+                "load_amplitude_n,load_amplitude_error_n,",
+            )
+            .replace(",5,12,", ",5,0.075,12,");
+        let (_, of_both, _) = under_load(&with_drive).unwrap();
+        let [own, both] = [data[1], of_both[1]].map(|datum| datum.error.unwrap() / datum.value);
+        assert!((both / own.hypot(0.015 / NORMAL) - 1.0).abs() < 1e-12);
+        assert_eq!(of_both[0], data[0]);
         let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
-        assert!(data[0].number == PHASE && near(data[0].error.unwrap(), 2e-3 / NORMAL));
+        assert!(data[0].number == PHASE && near(data[0].error.unwrap(), 5e-4));
         assert_eq!(data[1].number, Number::ApproachAmplitude);
         assert!(near(data[1].error.unwrap(), 1e-8 / NORMAL));
         let aside: Vec<&str> = columns
@@ -434,6 +512,19 @@ mod tests {
             data.iter()
                 .any(|datum| datum.number == Number::OfCycle(Quantity::ApproachMax))
         );
+    }
+
+    #[test]
+    fn approaches_whose_zero_is_unknown_are_set_aside_and_amplitudes_are_not() {
+        let text = "frequency_hz,phase_lag_rad,approach_amplitude_m,approach_max_m,approach_min_m\n1,0.2,1e-6,1e-5,8e-6\n";
+        let numbers = |zero| {
+            let (_, data, columns) = parsed(text, zero).unwrap();
+            (data.len(), columns.set_aside)
+        };
+        assert_eq!(numbers(None), (4, Vec::new()));
+        let (count, set_aside) = numbers(Some(ApproachZero::Unknown));
+        let expected = ["approach_min_m", "approach_max_m"].map(|name| (name.to_owned(), NO_ZERO));
+        assert_eq!((count, &set_aside[..]), (2, &expected[..]));
     }
 
     #[test]

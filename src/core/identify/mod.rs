@@ -85,6 +85,24 @@ pub const MOST_BRANCHES: usize = 6;
 /// An unknown whose 95 % interval is wider than this factor to either side is not determined.
 pub const UNDETERMINED: f64 = 2.0;
 
+/// What smallest, largest and mean approaches of measured cycles are counted from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ApproachZero {
+    FirstContact,
+    /// They are no data then, since all have the same unknown in them.
+    Unknown,
+}
+
+impl ApproachZero {
+    /// The name as written in an identification file.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::FirstContact => "first-contact",
+            Self::Unknown => "unknown",
+        }
+    }
+}
+
 /// Everything that an identification needs to know.
 #[derive(Debug, Clone)]
 pub struct IdentifyPlan {
@@ -96,6 +114,8 @@ pub struct IdentifyPlan {
     pub measurements: Measurements,
     /// The file that they come from, as the plan names it.
     pub data: String,
+    /// What the approaches of that file are counted from, where it was asked for.
+    pub approach_zero: Option<ApproachZero>,
     /// What became of its columns.
     pub columns: TableColumns,
     pub cycle: CyclePlan,
@@ -154,6 +174,7 @@ impl IdentifyPlan {
             branches: None,
             measurements,
             data: String::new(),
+            approach_zero: None,
             columns: TableColumns::default(),
             cycle: Self::CYCLE,
         }
@@ -252,10 +273,10 @@ pub enum IdentifyError {
         why: &'static str,
     },
     #[error(
-        "the measurements contradict one another, or the drive and the indenter{few}: the best solid of {branches} branches misses them by \
-         {misfit_percent} % (root mean square), most at {place} (row {row}), where its {column} is {times} times the \
-         measured one; check units, drive, indenter and columns",
-        few = if *.may_have_more { ", or ask for more branches than the file allows (`identify.branches`)" } else { "" }
+        "the best solid of {branches} branches misses the measurements by {misfit_percent} % (root mean square), most at {place} (row \
+         {row}), where its {column} is {times} times the measured one: {few}the measurements contradict one another, the drive or \
+         the indenter; check units, drive, indenter and columns",
+        few = if *.may_have_more { "the material may have more branches than `identify.branches` asks for, or " } else { "" }
     )]
     Contradiction {
         branches: usize,

@@ -17,12 +17,15 @@ pub fn resolved_text(plan: &IdentifyPlan) -> String {
         Some(number) => number.to_string(),
         None => "\"auto\"".to_owned(),
     };
+    let zero = plan.approach_zero.map_or(String::new(), |zero| {
+        format!("approach_zero = {}\n", toml_string(zero.name()))
+    });
     let driven = match &plan.drive {
         Driven::Cycles(drive) => drive_text(drive),
         Driven::History(drive) => history_text(drive).trim_end().to_owned(),
     };
     format!(
-        "{opening}{}\n{}\n[identify]\ndata = {}\nbranches = {branches}\n\n{}\n{}",
+        "{opening}{}\n{}\n[identify]\ndata = {}\nbranches = {branches}\n{zero}\n{}\n{}",
         driven,
         contact.adhesion,
         toml_string(&plan.data),

@@ -3,10 +3,18 @@
 use super::material::{BULK_MODULUS, POISSON_RATIO};
 use super::rows;
 use super::{ADHESION, INDENTER, LAYER, SOLVER, TITLE, drive, settings};
-use crate::identify::MOST_BRANCHES;
-use crate::input::document::kind::{Table, Text};
+use crate::identify::{ApproachZero, MOST_BRANCHES};
+use crate::input::document::kind::{Choice, Table, Text};
 use crate::input::document::row::{Optional, Others, Required, Row, Rows};
 use crate::input::material_dynamic::Branches;
+
+const APPROACH_ZEROS: [(&str, ApproachZero); 2] = [
+    (
+        ApproachZero::FirstContact.name(),
+        ApproachZero::FirstContact,
+    ),
+    (ApproachZero::Unknown.name(), ApproachZero::Unknown),
+];
 
 rows! { IDENTIFY_KEYS:
     /// A table with columns of `sweep.csv`, with error columns if known, or a folder that holds `sweep.csv`. For a history: `time_s` and
@@ -14,6 +22,10 @@ rows! { IDENTIFY_KEYS:
     DATA: Row<Text, Required> = "data", Text, Required;
     /// Branches of the series: a number, or `auto` (the default): as many as the data require.
     IDENTIFY_BRANCHES: Row<Branches, Optional> = "branches", Branches(1..=MOST_BRANCHES), Optional;
+    /// What smallest, largest and mean approaches of cycles are counted from; left out: unknown in a table of `analyse`, from first contact
+    /// in any other. Where it is unknown they are not data, and the mean of a prescribed approach is that of `[drive]`.
+    APPROACH_ZERO: Row<Choice<ApproachZero>, Optional> =
+        "approach_zero", Choice(&APPROACH_ZEROS), Optional;
 }
 
 static IDENTIFY_TABLE: Rows = super::table(" What was measured.", IDENTIFY_KEYS);
