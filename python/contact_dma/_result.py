@@ -123,6 +123,10 @@ class Table(Mapping[str, npt.NDArray[Any]]):
     def __len__(self) -> int:
         return len(self._columns)
 
+    def _ipython_key_completions_(self) -> list[str]:
+        """What a notebook offers after ``result["``."""
+        return list(self._columns)
+
     def __eq__(self, other: object) -> bool:
         """Whether all columns are the same, bit for bit."""
         if type(other) is not type(self) or not isinstance(other, Table):
@@ -134,7 +138,10 @@ class Table(Mapping[str, npt.NDArray[Any]]):
 
     def to_pandas(self) -> pd.DataFrame:
         """The columns as a data frame, one row a case; needs pandas."""
-        import pandas as pd
+        try:
+            import pandas as pd
+        except ModuleNotFoundError as error:
+            raise ModuleNotFoundError("to_pandas needs pandas: pip install pandas", name=error.name) from error
 
         return pd.DataFrame(dict(self._columns))
 
@@ -173,16 +180,35 @@ def heard(progress: Any) -> Progress | None:
     return progress  # type: ignore[no-any-return]
 
 
+COLORS = ("#1f5fa8", "#c0392b", "#2e8b57", "#b8860b", "#7d3c98", "#16828c")
+"""Of the curves of a picture, one after another."""
+
+
+def ticks(low: float, high: float) -> list[float]:
+    """About four round numbers from the lowest to the highest."""
+    if not high > low:
+        return [low]
+    decade = 10.0 ** math.floor(math.log10((high - low) / 4))
+    step = next(decade * k for k in (1, 2, 5, 10) if decade * k >= (high - low) / 4)
+    return [step * k for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+
+
 def svg(
-    curves: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]], labels: tuple[str, str], *, log_x: bool
+    curves: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]],
+    labels: tuple[str, str],
+    *,
+    log_x: bool,
+    names: Sequence[str] = (),
+    marks: Sequence[tuple[float, float]] = (),
 ) -> str:
-    """Curves as a small inline picture; points without a value are left out."""
+    """Curves as a small inline picture, with their names and with marked points; points without a value are left out."""
     width, height, left, top, right, bottom = 420, 240, 78, 14, 12, 44
-    kept = []
-    for x, y in curves:
+    kept, colors = [], []
+    for k, (x, y) in enumerate(curves):
         fine = np.isfinite(x) & np.isfinite(y) & ((x > 0) | (not log_x))
         if fine.any():
             kept.append((np.log10(x[fine]) if log_x else x[fine], y[fine]))
+            colors.append(COLORS[k % len(COLORS)])
     if not kept:
         return "<p>no case has a result</p>"
     x0, x1 = min(x.min() for x, _ in kept), max(x.max() for x, _ in kept)
@@ -193,20 +219,29 @@ def svg(
         up = (y - y0) / (y1 - y0) if y1 > y0 else 0.5
         return f"{left + across * (width - left - right):.1f},{height - bottom - up * (height - top - bottom):.1f}"
 
+    def circle(point: str, color: str) -> str:
+        cx, cy = point.split(",")
+        return f'<circle cx="{cx}" cy="{cy}" r="2.5" fill="{color}"/>'
+
     lines = []
-    for x, y in kept:
+    for (x, y), color in zip(kept, colors):
         points = " ".join(place(a, b) for a, b in zip(x.tolist(), y.tolist()))
-        lines.append(f'<polyline points="{points}" fill="none" stroke="#1f5fa8" stroke-width="1.6"/>')
+        lines.append(f'<polyline points="{points}" fill="none" stroke="{color}" stroke-width="1.6"/>')
         if len(x) == 1:
-            cx, cy = points.split(",")
-            lines.append(f'<circle cx="{cx}" cy="{cy}" r="2.5" fill="#1f5fa8"/>')
-    ends = [(10.0**end if log_x else end) for end in (x0, x1)]
+            lines.append(circle(points, color))
+    lines.extend(circle(place(math.log10(x) if log_x else x, y), "currentColor") for x, y in marks)
     base = height - bottom
-    texts = [
-        f'<text x="{left}" y="{base + 16}">{ends[0]:.3g}</text>',
-        f'<text x="{width - right}" y="{base + 16}" text-anchor="end">{ends[1]:.3g}</text>' if x1 > x0 else "",
-        f'<text x="{left - 5}" y="{top + 8}" text-anchor="end">{y1:.3g}</text>',
-        f'<text x="{left - 5}" y="{base}" text-anchor="end">{y0:.3g}</text>',
+    texts = []
+    for tick in ticks(x0, x1):
+        text = f"{10.0**tick if log_x else tick:.3g}"
+        texts.append(f'<text x="{place(tick, y0).split(",")[0]}" y="{base + 16}" text-anchor="middle">{text}</text>')
+    for tick in ticks(y0, y1):
+        texts.append(f'<text x="{left - 5}" y="{float(place(x0, tick).split(",")[1]) + 4}" text-anchor="end">{tick:.3g}</text>')
+    # As many names as there is room for.
+    for k, name in enumerate(names[:12] if len(curves) > 1 else ()):
+        color = COLORS[k % len(COLORS)]
+        texts.append(f'<text x="{left + 8}" y="{top + 10 + 14 * k}" fill="{color}">{html.escape(name)}</text>')
+    texts += [
         f'<text x="{(left + width - right) / 2}" y="{height - 8}" text-anchor="middle">{html.escape(labels[0])}</text>',
         f'<text transform="translate(12 {(top + base) / 2}) rotate(-90)" text-anchor="middle">{html.escape(labels[1])}</text>',
     ]

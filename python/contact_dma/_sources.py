@@ -191,9 +191,15 @@ def indenter_block(indenter: Indenter, made_of: Material | str | None, by_text: 
     return text
 
 
+THREADS = ("CONTACT_DMA_THREADS", "RAYON_NUM_THREADS", "OMP_NUM_THREADS")
+"""Variables of the environment that say how many threads there are to be, the first of them that is a number: that of the program, then
+those that job schedulers and joblib set for their workers."""
+
+
 def thread_count(threads: int | None) -> int | None:
     if threads is None:
-        return None
+        given = (os.environ.get(name, "").strip() for name in THREADS)
+        return next((int(text) for text in given if text.isdecimal() and 1 <= int(text) < 2**31), None)
     if isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 1 <= threads < 2**31:
         raise ValueError(f"threads is {threads!r}: give a number of at least 1, or leave it out for one per processor")
     return int(threads)

@@ -214,22 +214,23 @@ def simulate(
         indenter: what is pressed into it.
         segments: one after another, with the keys of the program: ``{"kind": "ramp", "to": "2 N", "duration": "5 s"}``, kinds
             ``step``, ``ramp``, ``polynomial``, ``sine``, and ``table`` with arrays ``times`` (s) and ``values`` (N or m).
-        control: whether the load is prescribed, the mean pressure on a surface that repeats itself, or the approach.
+        control: whether the load is prescribed (default), the mean pressure on a surface that repeats itself, or the approach.
         indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
         layer: of the material on a base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells.
         adhesion: work of adhesion (J/m^2) of a small, stiff sphere that is attracted, or ``{"work": ..., "equilibrium_distance": ...}``.
         step: time step (s); chosen from drive and material where it is left out.
         profiles_at: times (s) of profiles.
         fields_at: times (s) of fields.
-        field_cells: cells per side of the fields of the axisymmetric engine.
-        error_bars: whether coarser resolutions give the errors of all rows.
-        engine: the contact engine.
-        cells: of the half-space engine.
-        springs: of the axisymmetric engine.
-        solver_tolerance: of an instant of the half-space engine.
-        time_rule: rule of the hereditary integral.
-        title: for tables.
-        threads: how many.
+        field_cells: cells per side of the fields of the axisymmetric engine; 128 by default.
+        error_bars: whether coarser resolutions give the errors of all rows; True by default.
+        engine: the contact engine; the axisymmetric one by default if the indenter is a convex body of revolution.
+        cells: of the half-space engine, along the longer side; 128 by default, and a height map has its own.
+        springs: of the axisymmetric engine; 400 by default.
+        solver_tolerance: of an instant of the half-space engine, relative; chosen where it is left out.
+        time_rule: rule of the hereditary integral, ``"linear"`` by default.
+        title: of tables and figures; by default what the material and the indenter are.
+        threads: how many; where it is left out, as many as ``CONTACT_DMA_THREADS``, ``RAYON_NUM_THREADS`` or ``OMP_NUM_THREADS`` say, and otherwise one
+            per processor. Results do not depend on it, bit for bit.
         progress: a function of time steps done and in all, or a bar of tqdm.
 
     Warns:

@@ -121,7 +121,7 @@ def analyse(
         frequency: that of all records (Hz), where it is known.
         setup: what is known of instrument and contact: a file, or its tables, ``{"instrument": {"frame_compliance": "0.5 um/N"},
             "contact": {"poisson_ratio": 0.38}, "indenter": cd.Sphere("1 mm")}``.
-        threads: how many.
+        threads: how many, as in `sweep`.
 
     Warns:
         ContactDmaWarning: of records without a result; ``result.raise_for_status()`` makes an exception of them.
@@ -254,6 +254,7 @@ def identify(
     layer: Mapping[str, Any] | None = None,
     adhesion: Quantity | Mapping[str, Any] | None = None,
     branches: int | Literal["auto"] | None = None,
+    approach_zero: Literal["first-contact", "unknown"] | None = None,
     title: str | None = None,
     threads: int | None = None,
     **options: Any,
@@ -278,9 +279,11 @@ def identify(
         layer: where the body is one, as in `sweep`.
         adhesion: where the indenter is attracted, as in `sweep`.
         branches: how many branches; the data choose where it is left out.
-        title: for tables.
-        threads: how many.
-        options: of the forward model, as in `sweep`: ``steps``, ``springs``, ``engine``...
+        approach_zero: what smallest and largest approaches are counted from: ``"first-contact"`` (default), or ``"unknown"``, where
+            they are not data.
+        title: of tables and figures.
+        threads: how many, as in `sweep`.
+        options: of the forward model, as in `sweep`: ``engine``, ``steps`` (64 by default), ``springs`` (64), ``cells`` (32)...
 
     Warns:
         ContactDmaWarning: of everything that the report warns of, such as a solid that misses the data.
@@ -318,7 +321,7 @@ def identify(
     refuse("identify", options)
     with tempfile.TemporaryDirectory() as folder:
         text = f"title = {_toml.value(title or 'Measured cycles')}\n\n"
-        text += _toml.table("identify", {"data": _data(data, Path(folder)), "branches": branches})
+        text += _toml.table("identify", {"data": _data(data, Path(folder)), "branches": branches, "approach_zero": approach_zero})
         text += _toml.table("material", known) or "[material]\n"
         text += _toml.table("drive", drive)
         text += _toml.table("cycle", cycle) + engine + around

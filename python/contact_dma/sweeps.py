@@ -228,16 +228,23 @@ class SweepResult(Table):
         omega = float(self["angular_frequency_rad_per_s"][index])
         return Cycle(omega, *(samples or (none, none, none, none, none)), tuple(profiles))
 
-    def _curves(self) -> list[tuple[Floats, Floats]]:
+    def _curves(self) -> tuple[list[tuple[Floats, Floats]], list[str]]:
+        """Frequencies and losses of every curve, and what axes have there."""
         omega, loss = self["angular_frequency_rad_per_s"], self["energy_loss_j"]
         # A curve ends where frequencies begin anew.
         ends = [*(np.flatnonzero(np.diff(omega) <= 0) + 1).tolist(), len(omega)]
         starts = [0, *ends[:-1]]
-        return [(omega[a:b], loss[a:b]) for a, b in zip(starts, ends)]
+        axes = [axis["column"] for axis in self.summary.get("axes", [])]
+
+        def name(case: int) -> str:
+            values = (self[axis][case] for axis in axes)
+            return ", ".join(value if isinstance(value, str) else f"{axis} {value:.4g}" for axis, value in zip(axes, values))
+
+        return [(omega[a:b], loss[a:b]) for a, b in zip(starts, ends)], [name(a) for a in starts]
 
     def __repr__(self) -> str:
         done = sum(status.converged for status in self.status)
-        return f"<SweepResult {self.title!r}: {done} of {len(self.status)} cases converged, {len(self.peaks)} peaks>"
+        return f"<SweepResult {self.title!r}: {done} of {len(self.status)} cases converged, {len(self.peaks)} peak{'' if len(self.peaks) == 1 else 's'}>"
 
     def _repr_html_(self) -> str:
         labels = ("angular frequency ω / rad/s", "energy loss ΔW / J")
@@ -245,7 +252,9 @@ class SweepResult(Table):
             f"<li>peak of {shown(p.energy_loss, 'J')} at {shown(p.angular_frequency, 'rad/s')}</li>" for p in self.peaks[:5]
         )
         failed = [f"<li>case {k}: {html.escape(str(s))}</li>" for k, s in enumerate(self.status) if not s.converged]
-        picture = svg(self._curves(), labels, log_x=True)
+        curves, names = self._curves()
+        marks = [(peak.angular_frequency, peak.energy_loss) for peak in self.peaks]
+        picture = svg(curves, labels, log_x=True, names=names, marks=marks)
         return f"<figure><figcaption>{html.escape(self.title)}</figcaption>{picture}<ul>{rows}{''.join(failed[:5])}</ul></figure>"
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -316,30 +325,31 @@ def sweep(
         amplitude: amplitude of the load (N), or of the approach (m).
         angular_frequency: angular frequencies (rad/s), shape (n,), in any order; or a range ``{"from": ..., "to": ..., "points": ...}``.
         frequency: frequencies (Hz), in place of these.
-        control: whether the load is prescribed, the mean pressure on a surface that repeats itself, or the approach.
-        phase: at which the oscillation begins (rad).
-        hold: rest under the mean before it (s); for the march alone.
+        control: whether the load is prescribed (default), the mean pressure on a surface that repeats itself, or the approach.
+        phase: at which the oscillation begins (rad); 0 by default.
+        hold: rest under the mean before it (s); for the march alone, 0 by default.
         indenter_material: what the indenter is made of, as a material or a name of the library; rigid where it is left out.
         layer: of the material on a base in place of the half-space, ``{"thickness": "0.5 mm", "base": "bonded"}``; on cells. The base
             is rigid, or has ``base_modulus_ratio`` times the layer's shear modulus, and ``base_poisson_ratio``.
         adhesion: work of adhesion (J/m^2) of a small, stiff sphere that is attracted, or ``{"work": ..., "equilibrium_distance": ...}``.
         axes: other axes of the sweep, such as ``{"indenter.radius": ["5 mm", "10 mm"], "drive.amplitude": [1.0, 2.0]}``.
-        pairs: whether the values of axes go together one by one, in place of all combinations.
-        refine: whether frequencies are added where the curve is not resolved.
-        steps: time steps per cycle.
-        method: whether the stabilised cycle is found directly or by marching.
-        tolerance: distance to the stabilised cycle.
-        max_cycles: cycles of marching, at most.
+        pairs: whether the values of axes go together one by one, in place of all combinations (default).
+        refine: whether frequencies are added where the curve is not resolved; False by default.
+        steps: time steps per cycle; 200 by default.
+        method: whether the stabilised cycle is found directly (default) or by marching.
+        tolerance: distance to the stabilised cycle, relative; 1e-4 by default.
+        max_cycles: cycles of marching, at most; 1000 by default.
         at_cycle: the cycle of the march that is recorded as it is, in place of the stabilised one; with ``method="march"``.
-        error_bars: whether coarser resolutions give the errors of all results.
+        error_bars: whether coarser resolutions give the errors of all results; True by default.
         accuracy: largest relative error of every loss; steps and nodes are then chosen.
-        engine: the contact engine.
-        cells: of the half-space engine, along the longer side.
-        springs: of the axisymmetric engine.
-        solver_tolerance: of an instant of the half-space engine.
-        time_rule: rule of the hereditary integral.
-        title: for tables.
-        threads: how many; one per processor where it is left out. Results do not depend on it, bit for bit.
+        engine: the contact engine; the axisymmetric one by default if the indenter is a convex body of revolution.
+        cells: of the half-space engine, along the longer side; 128 by default, and a height map has its own.
+        springs: of the axisymmetric engine; 400 by default.
+        solver_tolerance: of an instant of the half-space engine, relative; by default a tenth of what ``tolerance`` allows in the loss.
+        time_rule: rule of the hereditary integral, ``"linear"`` by default.
+        title: of tables and figures; by default what the material and the indenter are.
+        threads: how many; where it is left out, as many as ``CONTACT_DMA_THREADS``, ``RAYON_NUM_THREADS`` or ``OMP_NUM_THREADS`` say, and otherwise one
+            per processor. Results do not depend on it, bit for bit.
         progress: a function of cases done and cases in all, or a bar of tqdm.
 
     Returns:

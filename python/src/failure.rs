@@ -8,11 +8,7 @@ use pyo3::PyErr;
 use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 
 /// What the program's messages advise that is written otherwise in Python.
-const IN_PYTHON: [(&str, &str); 3] = [
-    (
-        "method = \"direct\" in [cycle] needs a few cycles alone",
-        "method=\"direct\" needs a few cycles alone",
-    ),
+const IN_PYTHON: [(&str, &str); 2] = [
     (
         "follow one history with `contact-dma simulate`",
         "follow one history with contact_dma.simulate",

@@ -12,6 +12,7 @@ import pytest
 from conftest import ROOT, small_sweep
 
 import contact_dma as cd
+from contact_dma._sources import THREADS, thread_count
 
 PMMA = cd.Material.library("pmma")
 SPHERE = cd.Sphere("10 mm")
@@ -188,3 +189,15 @@ def test_a_folder_of_another_sweep_is_kept(tmp_path: Path, result: cd.SweepResul
         other.save(tmp_path)
     other.save(tmp_path, overwrite=True)
     assert cd.read(tmp_path) == other
+
+
+def test_threads_follow_the_environment_where_no_number_is_given(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in THREADS:
+        monkeypatch.delenv(name, raising=False)
+    assert thread_count(None) is None
+    monkeypatch.setenv("OMP_NUM_THREADS", "3,2")
+    assert thread_count(None) is None
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+    assert thread_count(None) == 3
+    monkeypatch.setenv("CONTACT_DMA_THREADS", "2")
+    assert thread_count(None) == 2 and thread_count(5) == 5

@@ -141,3 +141,11 @@ def test_an_identification_file_gives_what_the_program_writes(program: str, tmp_
     assert again.material == found.material and again.summary == found.summary
     assert cd.read(out).material == found.material  # type: ignore[union-attr]
     assert found.moduli["angular_frequency_rad_per_s"].dtype == float and found.fit["column"].dtype.kind == "U"
+
+
+def test_approaches_whose_zero_is_unknown_are_no_data() -> None:
+    data, options = measured()
+    data["approach_max_m"] = [3e-6 + approach for approach in data["approach_max_m"]]
+    found = cd.identify(data, cd.Sphere("2 mm"), approach_zero="unknown", **options)
+    assert set(found.fit["column"]) == {"energy_loss_j"}
+    assert found.prony.equilibrium == pytest.approx(10e6, rel=0.02)

@@ -6,6 +6,7 @@ import io
 import pickle
 import time
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -270,6 +271,23 @@ def test_pandas_and_notebooks_get_a_table_and_a_curve(result: cd.SweepResult) ->
     assert frame.shape == (5, len(result)) and frame["energy_loss_j"].tolist() == result["energy_loss_j"].tolist()
     page = result._repr_html_()
     assert page.count("<polyline") == 1 and "energy loss" in page and "peak of" in page
+    # Of frequencies every decade, and the peak.
+    assert all(f">{tick}</text>" in page for tick in ["0.001", "0.01", "0.1"]) and page.count("<circle") == len(result.peaks)
+    assert result._ipython_key_completions_() == list(result)
+
+
+def test_curves_of_a_notebook_have_colours_and_names() -> None:
+    several = small_sweep(axes={"drive.amplitude": [2.0, 5.0]})
+    page = several._repr_html_()
+    colours = {line.split('"')[0] for line in page.split('stroke="')[1:]} - {"#888"}
+    assert page.count("<polyline") == 2 and len(colours) == 2
+    assert "drive_amplitude 2</text>" in page and "drive_amplitude 5</text>" in page
+
+
+def test_without_pandas_it_is_said_what_to_install(result: cd.SweepResult, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(ModuleNotFoundError, match="pip install pandas"):
+        result.to_pandas()
 
 
 def test_a_map_of_an_array_is_used_saved_read_and_pickled(tmp_path: Path, program: str) -> None:
