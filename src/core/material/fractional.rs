@@ -20,10 +20,15 @@
 //! exponentially with the spacing, because the integrand is analytic in a strip (L. N. Trefethen, J. A. C. Weideman, SIAM Review 56
 //! (2014) 385).
 
+mod band;
+mod trapezoid;
+
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use num_complex::Complex;
 
+use self::band::Band;
+use self::trapezoid::trapezoidal;
 use super::error::{MaterialError, non_negative, positive, refused};
 use super::relaxation::{Relaxation, RelaxationBranch};
 use super::{Compressibility, Material, ModulusKind};
@@ -64,8 +69,8 @@ pub struct Approximation {
 pub struct Represented {
     pub relaxation: Relaxation,
     pub approximation: Approximation,
-    /// A series that is a hundred times closer to the model, or at least ten times where that takes too many branches: what a result with it differs by is the error of the result that the
-    /// series makes. `None` where the series is the model.
+    /// A series that is a hundred times closer to the model, or at least ten times where that takes too many branches: what a result with
+    /// it differs by is the error of the result that the series makes. `None` where the series is the model.
     pub closer: Option<Relaxation>,
 }
 
@@ -115,8 +120,8 @@ pub enum FractionalError {
 pub const MOST_BRANCHES: usize = 200;
 /// Accuracies that are asked for.
 pub const ACCURACY: (f64, f64) = (1e-8, 0.1);
-/// By how much closer the series is that tells the error of another, the first that can be had, and its most branches, as many as a file may hold: it is solved
-/// on coarse levels alone.
+/// By how much closer the series is that tells the error of another, the first that can be had, and its most branches, as many as a file
+/// may hold: it is solved on coarse levels alone.
 const CLOSER: [f64; 3] = [0.01, 0.03, 0.1];
 const MOST_BRANCHES_OF_CLOSER: usize = 1000;
 /// By which factor the model is followed beyond either end of the band: a cycle of a growing contact has harmonics.
@@ -127,8 +132,6 @@ const MOST_NODES: f64 = 4000.0;
 const WIDEST_SPACING: f64 = 1.6;
 /// Factor from one spacing to the next.
 const FINER: f64 = 0.85;
-/// Frequencies per decade at which the error is looked for.
-const PER_DECADE: f64 = 40.0;
 
 impl Fractional {
     /// A springpot of modulus E (Pa) at `omega tau = 1`, time tau (s) and exponent alpha.
@@ -255,14 +258,14 @@ impl Fractional {
             return Err(FractionalError::Accuracy(accuracy));
         }
         let beyond = (low / BEYOND_BAND, high * BEYOND_BAND);
-        let goal = Goal::new(self, beyond);
+        let whole_band = Band::new(self, beyond);
         let series = |accuracy: f64, most: usize| {
             let branches = match self.is_classical() {
                 true => Some(vec![RelaxationBranch {
                     modulus_pa: self.stiffness_pa,
                     time_s: self.time_s,
                 }]),
-                false => self.branches(&goal, beyond, accuracy),
+                false => self.branches(&whole_band, beyond, accuracy),
             };
             let too_many = FractionalError::TooManyBranches {
                 model: self.name,
@@ -285,7 +288,7 @@ impl Fractional {
                 Some(found.map_or_else(|| closer(&CLOSER[2]), Ok)?)
             }
         };
-        let within = Goal::new(self, band_rad_per_s);
+        let within = Band::new(self, band_rad_per_s);
         let residuals = within.residuals(relaxation.branches());
         let approximation = Approximation {
             model: self.name,
@@ -307,12 +310,12 @@ impl Fractional {
     /// nodes are needed.
     fn branches(
         &self,
-        goal: &Goal,
+        band: &Band,
         (low, high): (f64, f64),
         accuracy: f64,
     ) -> Option<Vec<RelaxationBranch>> {
         // Its loss modulus, which falls with the frequency, is a twentieth of the error allowed at the lowest.
-        let slowest = 0.05 * accuracy * goal.exact.first()?.im;
+        let slowest = 0.05 * accuracy * band.exact.first()?.im;
         // What is beyond the ends is represented but for the third power of omega theta, or of its reciprocal. The spectrum falls
         // towards long times; towards short ones it may rise, by no more than the first power. Farther out where that is not enough.
         [1.0, 0.1].into_iter().find_map(|part| {
@@ -320,209 +323,15 @@ impl Fractional {
             let ends = (1.0 / (high * shorter), longer / low);
             let mut spacing = WIDEST_SPACING;
             while (ends.1 / ends.0).ln() < MOST_NODES * spacing {
-                let branches = self.trapezoidal(spacing, ends, slowest * low);
-                let residuals = goal.residuals(&branches);
-                if goal.error(&residuals) < 0.5 * accuracy {
-                    return Some(goal.joined(branches, residuals, accuracy));
+                let branches = trapezoidal(|log| self.spectrum(log), spacing, ends, slowest * low);
+                let residuals = band.residuals(&branches);
+                if band.error(&residuals) < 0.5 * accuracy {
+                    return Some(band.joined(branches, residuals, accuracy));
                 }
                 spacing *= FINER;
             }
             None
         })
-    }
-
-    /// The trapezoidal rule with nodes at this spacing of ln theta, those outside of the ends (s) together in one branch at the
-    /// short end and two at the long one. `unseen` (Pa/s): modulus times frequency that does
-    /// not show.
-    fn trapezoidal(&self, spacing: f64, ends: (f64, f64), unseen: f64) -> Vec<RelaxationBranch> {
-        let centre = 0.5 * (ends.0.ln() + ends.1.ln());
-        let count = ((ends.1.ln() - centre) / spacing).floor();
-        let node = |k: f64| {
-            let log_time = centre + k * spacing;
-            (spacing * self.spectrum(log_time), log_time)
-        };
-        let inside = (0..=(2.0 * count) as usize).map(|k| node(k as f64 - count));
-        let mut branches: Vec<RelaxationBranch> = inside
-            .filter(|(modulus_pa, _)| *modulus_pa > 0.0)
-            .map(|(modulus_pa, log_time)| RelaxationBranch {
-                modulus_pa,
-                time_s: log_time.exp(),
-            })
-            .collect();
-        // Shorter times act as E* = i omega m1 + omega^2 m2, which one branch has too.
-        let fast = Tail::of(|k| node(-count - k), ends.0.ln(), 1.0);
-        branches.extend(fast.branch(ends.0, |ratio| ratio));
-        // Longer ones as E* = m0 - m1/(i omega) - m2/omega^2.
-        let slow = Tail::of(|k| node(count + k), ends.1.ln(), -1.0);
-        let branch = slow.branch(ends.1, f64::recip);
-        let rest = slow.zeroth - branch.map_or(0.0, |branch| branch.modulus_pa);
-        branches.extend(branch);
-        // So slow that it is elastic in the band to a twentieth of the accuracy.
-        let time_s = rest / unseen;
-        if rest > 0.0 && time_s > ends.1 && time_s.is_finite() {
-            branches.push(RelaxationBranch {
-                modulus_pa: rest,
-                time_s,
-            });
-        }
-        branches.retain(|b| b.modulus_pa > 0.0 && b.time_s > 0.0 && b.time_s.is_finite());
-        branches.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
-        branches
-    }
-}
-
-/// Sums over the nodes beyond an end: of their moduli, and these times the first and second power of time over end (or its reciprocal).
-#[derive(Debug, Clone, Copy, Default)]
-struct Tail {
-    zeroth: f64,
-    first: f64,
-    second: f64,
-}
-
-impl Tail {
-    /// Over `k = 1, 2, ...`, until nothing comes any more.
-    fn of(node: impl Fn(f64) -> (f64, f64), log_end: f64, power: f64) -> Self {
-        let mut sum = Self::default();
-        for k in 1..MOST_NODES as usize {
-            let (modulus, log_time) = node(k as f64);
-            let ratio = (power * (log_time - log_end)).exp();
-            // The zeroth of short times, which may have no limit, is not asked for.
-            let compared = if power > 0.0 {
-                modulus * ratio
-            } else {
-                modulus
-            };
-            let before = if power > 0.0 { sum.first } else { sum.zeroth };
-            if compared <= 1e-12 * before || !modulus.is_finite() {
-                break;
-            }
-            sum.zeroth += modulus;
-            sum.first += modulus * ratio;
-            sum.second += modulus * ratio * ratio;
-        }
-        sum
-    }
-
-    /// The branch of the same first and second sum.
-    fn branch(&self, end_s: f64, power: impl Fn(f64) -> f64) -> Option<RelaxationBranch> {
-        (self.second > 0.0).then(|| RelaxationBranch {
-            modulus_pa: self.first * self.first / self.second,
-            time_s: end_s * power(self.second / self.first),
-        })
-    }
-}
-
-/// The model over a band.
-struct Goal {
-    angular_frequencies: Vec<f64>,
-    equilibrium_pa: f64,
-    /// E*, equilibrium included.
-    exact: Vec<Complex<f64>>,
-}
-
-impl Goal {
-    fn new(model: &Fractional, (low, high): (f64, f64)) -> Self {
-        let logs = (low.ln(), high.ln());
-        let decades = (logs.1 - logs.0) / std::f64::consts::LN_10;
-        let count = (PER_DECADE * decades).ceil().clamp(8.0, 4000.0);
-        let omega = |k: usize| (logs.0 + (logs.1 - logs.0) * k as f64 / count).exp();
-        let angular_frequencies: Vec<f64> = (0..=count as usize).map(omega).collect();
-        let values = angular_frequencies.iter();
-        Self {
-            exact: values.map(|omega| model.complex_modulus(*omega)).collect(),
-            equilibrium_pa: model.equilibrium_pa,
-            angular_frequencies,
-        }
-    }
-
-    /// A branch at every frequency.
-    fn branch(&self, branch: &RelaxationBranch) -> impl Iterator<Item = Complex<f64>> {
-        let (modulus, time) = (branch.modulus_pa, branch.time_s);
-        let omegas = self.angular_frequencies.iter();
-        omegas.map(move |omega| {
-            let x = Complex::new(0.0, omega * time);
-            modulus * (1.0 - (1.0 + x).inv())
-        })
-    }
-
-    fn residuals(&self, branches: &[RelaxationBranch]) -> Vec<Complex<f64>> {
-        let exact = self.exact.iter();
-        let mut residuals: Vec<_> = exact.map(|value| self.equilibrium_pa - value).collect();
-        for branch in branches {
-            for (residual, value) in residuals.iter_mut().zip(self.branch(branch)) {
-                *residual += value;
-            }
-        }
-        residuals
-    }
-
-    /// Largest over the band of what is made of the relative differences of E*, E'' and D''.
-    fn largest(&self, residuals: &[Complex<f64>], of: fn([f64; 3]) -> f64) -> f64 {
-        let differences = residuals.iter().zip(&self.exact).map(|(residual, exact)| {
-            let series = exact + residual;
-            let loss = residual.im / exact.im;
-            // D'' = E''/|E*|^2.
-            let compliance = (1.0 + loss) * (exact.norm_sqr() / series.norm_sqr()) - 1.0;
-            let whole = residual.norm() / exact.norm();
-            of([whole, loss.abs(), compliance.abs()])
-        });
-        differences.fold(0.0, f64::max)
-    }
-
-    fn error(&self, residuals: &[Complex<f64>]) -> f64 {
-        self.largest(residuals, |[whole, loss, compliance]| {
-            whole.max(loss).max(compliance)
-        })
-    }
-
-    /// Neighbours joined in one branch where the error allows it, passing over them until none are.
-    fn joined(
-        &self,
-        mut branches: Vec<RelaxationBranch>,
-        mut residuals: Vec<Complex<f64>>,
-        accuracy: f64,
-    ) -> Vec<RelaxationBranch> {
-        loop {
-            let before = branches.len();
-            let mut kept: Vec<RelaxationBranch> = Vec::with_capacity(before);
-            // A branch is joined once in a pass, so that the error allowed is spent evenly.
-            let mut is_new = false;
-            for next in branches {
-                let joined = kept.last().filter(|_| is_new).and_then(|last| {
-                    let one = joint(last, &next);
-                    let change = self.branch(&one).zip(self.branch(last));
-                    let change = change.zip(self.branch(&next));
-                    let changed = residuals.iter().zip(change);
-                    let changed: Vec<_> = changed.map(|(r, ((j, a), b))| r + j - a - b).collect();
-                    (self.error(&changed) < accuracy).then_some((one, changed))
-                });
-                match (joined, kept.last_mut()) {
-                    (Some((one, changed)), Some(last)) => {
-                        *last = one;
-                        residuals = changed;
-                        is_new = false;
-                    }
-                    _ => {
-                        kept.push(next);
-                        is_new = true;
-                    }
-                }
-            }
-            branches = kept;
-            if branches.len() == before {
-                return branches;
-            }
-        }
-    }
-}
-
-/// Both moduli at the mean of the logarithms of the times.
-fn joint(one: &RelaxationBranch, other: &RelaxationBranch) -> RelaxationBranch {
-    let modulus_pa = one.modulus_pa + other.modulus_pa;
-    let share = other.modulus_pa / modulus_pa;
-    RelaxationBranch {
-        modulus_pa,
-        time_s: one.time_s * (other.time_s / one.time_s).powf(share),
     }
 }
 
