@@ -1,6 +1,7 @@
 //! Error columns of histories hold what they promise: over random materials, shapes and drives the true error of nearly every row
 //! lies inside.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
@@ -38,7 +39,35 @@ fn shape(random: &mut Random) -> Arc<dyn Indenter> {
     }
 }
 
-/// One to four ramps, holds and unloadings, from a hundredth of the shortest relaxation time to a thousand of it.
+/// A few cycles of a sine about any mean, which lifts off for a part of the cycle in half of them: an approach goes below zero, and a
+/// load is held at zero, by a table, since one that would pull is refused.
+fn sine(random: &mut Random, control: Control, scale: f64) -> Segment {
+    let amplitude = scale * random.between(0.2, 1.0);
+    let mean = amplitude * random.between(-0.5, 2.5);
+    let angular_frequency_rad_per_s = random.power_of_ten(-2.0, 2.0);
+    let phase_rad = random.between(0.0, TAU);
+    let cycles = random.between(0.5, 3.0);
+    if control == Control::Load {
+        const POINTS: usize = 60;
+        let at = |point: usize| cycles * TAU * point as f64 / POINTS as f64;
+        let value = |point| (mean + amplitude * (at(point) + phase_rad).sin()).max(0.0);
+        return Segment::Table {
+            times_s: (0..=POINTS)
+                .map(|p| at(p) / angular_frequency_rad_per_s)
+                .collect(),
+            values: (0..=POINTS).map(value).collect(),
+        };
+    }
+    Segment::Sine {
+        mean,
+        amplitude,
+        angular_frequency_rad_per_s,
+        phase_rad,
+        cycles,
+    }
+}
+
+/// One to four ramps, holds, sines and unloadings, from a hundredth of the shortest relaxation time to a thousand of it.
 fn drive(random: &mut Random) -> SegmentedDrive {
     let (control, scale) = match random.count(0, 1) {
         0 => (Control::Load, random.power_of_ten(-2.0, 1.0)),
@@ -52,12 +81,16 @@ fn drive(random: &mut Random) -> SegmentedDrive {
             1 => last * random.unit(),
             _ => scale * random.between(0.2, 1.0),
         };
-        match random.count(0, 2) {
+        match random.count(0, 3) {
             0 => {
                 last = to;
                 Segment::Step { to, duration_s }
             }
-            1 => Segment::Step {
+            1 => {
+                last = 0.0;
+                sine(random, control, scale)
+            }
+            2 => Segment::Step {
                 to: last,
                 duration_s,
             },

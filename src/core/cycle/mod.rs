@@ -96,6 +96,24 @@ impl Smoothness<'_> {
         Some((extrema, rest))
     }
 
+    /// By how much the amplitude of a harmonic of a signal may be wrong because kinks lie between its samples.
+    ///
+    /// A slope that jumps by s leaves up to s h^2/12 in the sum of a period's samples times the step h (Euler and Maclaurin), and an
+    /// amplitude is twice that sum over the period. The second differences at both ends of the step of a kink add up to s h.
+    pub fn harmonic_error(&self, samples: &[f64]) -> f64 {
+        let Some(load_n) = self.kinks_of_load_n else {
+            return 0.0;
+        };
+        let n = samples.len().saturating_sub(1).max(1);
+        let second =
+            |i: usize| samples[(i + n - 1) % n] - 2.0 * samples[i % n] + samples[(i + 1) % n];
+        let is_kink = |i: &usize| (load_n[*i] > 0.0) != (load_n[(i + 1) % n] > 0.0);
+        let jumps = (0..n)
+            .filter(is_kink)
+            .map(|i| (second(i) + second(i + 1)).abs());
+        jumps.sum::<f64>() / (6.0 * n as f64)
+    }
+
     /// Whether a signal is smooth from the sample before `i` to the one after it.
     fn is_smooth(&self, samples: usize, i: usize) -> bool {
         let n = samples.saturating_sub(1).max(1);
@@ -253,6 +271,35 @@ mod tests {
         let (extrema, rest) = open.extrema(&drift).unwrap();
         assert_eq!((extrema.minimum, extrema.maximum), (0.0, 1.0));
         assert_eq!((rest.minimum, rest.maximum), (0.0, 0.0));
+    }
+
+    #[test]
+    fn what_samples_miss_of_a_harmonic_of_a_kinked_signal_lies_within_its_error() {
+        // A sine that is cut off at zero: a0 + a1 sin + ..., by Fourier's integrals in many steps.
+        let amplitudes = |steps: usize, phase: f64| {
+            let load = |i: usize| (0.2 + (angle(i, steps) + phase).sin()).max(0.0);
+            let load_n: Vec<f64> = (0..=steps).map(load).collect();
+            let approach_m: Vec<f64> = load_n.iter().map(|load| load.powf(0.8)).collect();
+            let smooth = Smoothness {
+                is_closed: true,
+                kinks_of_load_n: Some(&load_n),
+            };
+            let error = smooth.harmonic_error(&load_n);
+            let analysis = analyse(&load_n, &approach_m).unwrap();
+            let amplitudes = [0, 1, 2].map(|n| analysis.harmonics[n].load_amplitude_n);
+            (amplitudes, error)
+        };
+        let (exact, _) = amplitudes(6000, 0.0);
+        let mut largest = 0.0_f64;
+        for k in 0..30 {
+            let (found, error) = amplitudes(60, 0.007 * f64::from(k));
+            for (found, exact) in found.into_iter().zip(exact) {
+                let off = (found - exact).abs();
+                assert!(off < 1.05 * error, "{k}: {off} {error}");
+                largest = largest.max(off / error);
+            }
+        }
+        assert!(largest > 0.5, "{largest}");
     }
 
     #[test]
