@@ -217,3 +217,18 @@ fn below_a_flat_end_the_pressure_is_finite_and_unbounded_at_its_edge_alone() {
         .remove(0);
     assert_eq!(line.pressure_pa[0], None);
 }
+
+#[test]
+fn a_contact_that_the_cells_across_it_are_too_few_for_says_how_many_would_do() {
+    let apart = |half_m: f64, cells: usize| {
+        let bumps = Asperities::new(vec![bump(-half_m), bump(half_m)]).unwrap();
+        let plan = sweep_plan(pmma_material(), Arc::new(bumps), 1.0, 0.5);
+        run_case(&on_cells(plan, cells, 32), 0.01)
+    };
+    let failed = apart(1e-2, 64).message.unwrap();
+    assert!(failed.contains("solver.cells"), "{failed}");
+    let needed = failed.split("give ").nth(1).unwrap();
+    let needed: usize = needed.split(' ').next().unwrap().parse().unwrap();
+    let found = apart(1e-2, needed);
+    assert!(needed > 64 && found.result.is_some(), "{:?}", found.message);
+}

@@ -8,7 +8,7 @@ use crate::sweep::case::edge_layer::EdgeLayer;
 use crate::sweep::case::lift_off;
 use crate::sweep::case::stabilise::{CaseError, Contact, Stabilised, Wanted};
 use crate::sweep::case::{Setup, SetupError};
-use crate::sweep::engine::{EngineError, MAX_GROWTHS};
+use crate::sweep::engine::MAX_GROWTHS;
 use crate::sweep::plan::{EngineKind, instant_tolerance};
 use crate::sweep::record::error_bars::{Edge, ErrorBars, InNodes, Ladder, Pair, Quantity};
 use crate::sweep::record::{CaseRecord, CaseResult, Status};
@@ -248,16 +248,14 @@ impl Levels<'_> {
         let mut growths = 0;
         loop {
             let mut engine = engines.engine(growths)?;
-            let (half_width_m, can_grow) = engines.enlarged_half_width_m(growths);
-            *domain = (half_width_m, growths);
+            *domain = (engines.enlarged_half_width_m(growths).0, growths);
             match self.on_engine(contact, engine.as_mut(), steps) {
-                Err(CaseError::Contact(ContactError::ReachedEdge { .. })) if !can_grow => {
-                    return Err(EngineError::EndOfData { half_width_m }.into());
-                }
-                Err(CaseError::Contact(ContactError::ReachedEdge { .. }))
-                    if growths < MAX_GROWTHS =>
-                {
-                    growths += 1;
+                Err(error @ CaseError::Contact(ContactError::ReachedEdge { .. })) => {
+                    match engines.not_enlarged(growths) {
+                        Some(why) => return Err(why.into()),
+                        None if growths < MAX_GROWTHS => growths += 1,
+                        None => return Err(error),
+                    }
                 }
                 ended => return ended.map(|cycles| Solved { nodes, cycles }),
             }

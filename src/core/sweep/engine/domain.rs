@@ -86,6 +86,24 @@ pub fn can_grow(domain: &Domain, growths: usize) -> bool {
     half_widths_m(domain, growths + 1) != half_widths_m(domain, growths)
 }
 
+/// Fewest cells along the shorter side of a domain: those on its border must stay empty.
+pub const FEWEST_ACROSS: usize = 4;
+
+/// Fewest cells along the longer side of a domain enlarged `growths` times that leave [`FEWEST_ACROSS`] along the shorter one; `None`
+/// where the indenter brings cells of its own.
+pub fn fewest_cells(domain: &Domain, growths: usize) -> Option<usize> {
+    let Domain::Around {
+        cell_aspect_ratio, ..
+    } = *domain
+    else {
+        return None;
+    };
+    let (x_m, y_m) = half_widths_m(domain, growths);
+    let (x, y) = (x_m / cell_aspect_ratio, y_m);
+    let slenderness = x.max(y) / x.min(y);
+    Some(((FEWEST_ACROSS - 1) as f64 * slenderness) as usize + 1)
+}
+
 /// The grid on a domain enlarged `growths` times: `cells` along the side that needs most of them, unless the indenter brings
 /// cells of its own.
 ///

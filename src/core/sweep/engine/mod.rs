@@ -19,7 +19,7 @@ use crate::contact::half_space::{HalfSpace, SolverSettings, predicted_memory_byt
 use crate::contact::{Engine, Prescribed};
 use crate::drive::{Control, HarmonicDrive};
 use crate::indenter::{self, Domain, Indenter};
-use crate::sweep::engine::domain::GROWTH;
+use crate::sweep::engine::domain::{FEWEST_ACROSS, GROWTH};
 use crate::sweep::engine::growing::Layout;
 use crate::sweep::plan::instant_tolerance;
 use crate::sweep::plan::layer::LayerPlan;
@@ -54,6 +54,11 @@ pub enum EngineError {
     PeriodicUnderApproach,
     #[error("the half-space grid cannot be built: {0}")]
     Grid(String),
+    #[error(
+        "the contact reached the edge of its domain, which is so narrow that of {cells} cells along it fewer than {FEWEST_ACROSS} lie across \
+         it: give {needed} cells or more (solver.cells), or solve parts of an indenter that lie far apart one by one"
+    )]
+    TooFewAcross { cells: usize, needed: usize },
     #[error(
         "the contact reached the edge of the computational domain (half width {half_width_m:.3e} m), beyond which the shape of \
          the indenter is not known: give a larger map or a longer profile, or a smaller load"
@@ -291,6 +296,18 @@ impl EngineBuilder {
             Some(known_m) => (known_m, false),
             None => (wanted_m, true),
         }
+    }
+
+    /// Why a domain enlarged `growths` times, whose edge the contact has reached, is not enlarged further.
+    pub(in crate::sweep) fn not_enlarged(&self, growths: usize) -> Option<EngineError> {
+        let (half_width_m, can_grow) = self.enlarged_half_width_m(growths);
+        if !can_grow {
+            return Some(EngineError::EndOfData { half_width_m });
+        }
+        let cells = self.solver.cells;
+        let needed = domain::fewest_cells(&self.domain, growths)?;
+        let is_narrow = self.solver.engine == EngineKind::HalfSpace && cells < needed;
+        is_narrow.then_some(EngineError::TooFewAcross { cells, needed })
     }
 
     /// The cells of fields: the grid that the half-space engine would have on a domain enlarged `growths` times, with this

@@ -96,8 +96,8 @@ impl Simulation {
         run: &Run<'_>,
     ) -> Result<(), MarchError> {
         let engines = self.domain(level, course.growths)?;
-        let (half_width_m, can_grow) = engines.enlarged_half_width_m(0);
-        let wider = match can_grow && course.growths < self.halvings + MAX_GROWTHS {
+        let not_enlarged = engines.not_enlarged(0);
+        let wider = match not_enlarged.is_none() && course.growths < self.halvings + MAX_GROWTHS {
             true => Some(self.domain(level, course.growths + 1)?.layout()),
             false => None,
         };
@@ -128,11 +128,11 @@ impl Simulation {
                 following.run(march, step.as_ref(), course)
             }
         };
-        match ended {
-            Err(MarchError::Contact(ContactError::ReachedEdge { .. })) if !can_grow => {
-                Err(EngineError::EndOfData { half_width_m }.into())
+        match (ended, not_enlarged) {
+            (Err(MarchError::Contact(ContactError::ReachedEdge { .. })), Some(why)) => {
+                Err(why.into())
             }
-            ended => ended,
+            (ended, _) => ended,
         }
     }
 
