@@ -265,7 +265,8 @@ pub static SWEEP: &[OfCase] = &[
         "by how much the first harmonic of the approach lags behind that of the load, θ₁ − φ₁")
         .in_cases("phase lag"),
     barred!("storage_modulus_pa", StorageModulus, ("storage modulus from the loop", Some(Stress)),
-        "what instrumented indentation reads from the loop, (1 − ν²) W₁ cos(θ₁ − φ₁)/(2 a₀ δ₁); empty where the indenter leaves the surface")
+        "what instrumented indentation reads from the loop, (1 − ν²) W₁ cos(θ₁ − φ₁)/(2 a₀ δ₁), less what a deformable indenter yields; with a \
+         bulk modulus K, Young's modulus 9KG/(3K + G) of the shear modulus G that belongs to W₁ exp(i(θ₁ − φ₁))/(2 a₀ δ₁); empty where the indenter leaves the surface")
         .in_cases("E′"),
     barred!("loss_modulus_pa", LossModulus, ("loss modulus from the loop", Some(Stress)),
         "the same with the sine")
@@ -301,7 +302,8 @@ pub static SWEEP: &[OfCase] = &[
         "what the dashpot of each branch of the creep compliance dissipates per cycle, from the memory alone, shortest \
          retardation time first (`summary.json` lists the times)")
         .called("dissipated by a branch", Some(Energy)).compared(Relatively),
-    OfCase::new("dissipated_j", |r| of_result(r, |c| Some(c.dissipated_j())), "the sum over the branches, which must be the loss")
+    OfCase::new("dissipated_j", |r| of_result(r, |c| Some(c.dissipated_j())), "the sum over the branches, which must be the loss: `energy_imbalance` says how far it is from it, and is a measure of its error \
+         and of that of its parts, which have no error column")
         .called("dissipated by all branches", Some(Energy)).compared(Relatively),
     OfCase::new("dissipated_in_indenter_j", |r| of_result(r, CaseResult::dissipated_in_indenter_j),
         "the part of `dissipated_j` that is dissipated in the indenter, the rest in the half-space; empty where the indenter is rigid")
