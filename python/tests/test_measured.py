@@ -145,7 +145,9 @@ def test_an_identification_file_gives_what_the_program_writes(program: str, tmp_
 
 def test_approaches_whose_zero_is_unknown_are_no_data() -> None:
     data, options = measured()
+    cycles = cd.sweep(SOLID, cd.Sphere("2 mm"), angular_frequency=data["angular_frequency_rad_per_s"], **DRIVE)
     data["approach_max_m"] = [3e-6 + approach for approach in data["approach_max_m"]]
+    data["phase_lag_rad"] = cycles["phase_lag_rad"].tolist()
     found = cd.identify(data, cd.Sphere("2 mm"), approach_zero="unknown", **options)
-    assert set(found.fit["column"]) == {"energy_loss_j"}
+    assert set(found.fit["column"]) == {"energy_loss_j", "phase_lag_rad"}
     assert found.prony.equilibrium == pytest.approx(10e6, rel=0.02)
