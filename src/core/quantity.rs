@@ -538,6 +538,8 @@ mod tests {
         assert_eq!(suggestions("5 GPas", Dimension::Viscosity)[0], "GPa s");
         assert_eq!(suggestions("5 seconds", Dimension::Time), ["s"]);
         assert_eq!(suggestions("5 dge", Dimension::Angle)[0], "deg");
+        // The letters of a force, but a length is expected.
+        assert_eq!(suggestions("10 mn", Dimension::Length), ["m", "mm", "nm"]);
         assert!(suggestions("5 furlong", Dimension::Length).is_empty());
         assert_eq!(
             message("5 mpa", Dimension::Stress),

@@ -358,7 +358,7 @@ fn plain_spelling(text: &str) -> String {
     plain
 }
 
-/// At most three units that look like an unknown one; those of the expected dimension first.
+/// At most three units that look like an unknown one; where some are of the expected dimension, only those.
 pub(super) fn suggestions(unknown: &str, expected: Exponents) -> Vec<String> {
     let lower = unknown.to_lowercase();
     let singular = lower.strip_suffix('s').unwrap_or(&lower);
@@ -368,15 +368,26 @@ pub(super) fn suggestions(unknown: &str, expected: Exponents) -> Vec<String> {
     if let Some((_, symbol)) = word {
         return vec![(*symbol).to_owned()];
     }
-    let mut ranked: Vec<(bool, bool, String)> = Vec::new();
+    let mut ranked: Vec<(bool, bool, usize, String)> = Vec::new();
     for symbol in &SYMBOLS {
         for (_, candidate) in symbol.spellings().filter(|(prefix, _)| *prefix != "u") {
             let distance = strsim::damerau_levenshtein(&candidate.to_lowercase(), &lower);
-            // One slip in three letters or more; in shorter words only the case may differ.
-            if distance <= usize::from(lower.chars().count() >= 3) {
-                ranked.push((distance > 0, symbol.unit.exponents != expected, candidate));
+            let is_other = symbol.unit.exponents != expected;
+            // One slip in three letters or more, of what was expected in two; in shorter words only the case may differ.
+            let letters = lower.chars().count();
+            if distance <= usize::from(letters >= 3 || letters == 2 && !is_other) {
+                // Of slips, those that leave the case as it is come first.
+                let in_its_case = match distance {
+                    0 => 0,
+                    _ => strsim::damerau_levenshtein(&candidate, unknown),
+                };
+                ranked.push((distance > 0, is_other, in_its_case, candidate));
             }
         }
+    }
+    // Where one is of what was expected, the others were not meant.
+    if ranked.iter().any(|(_, is_other, ..)| !is_other) {
+        ranked.retain(|(_, is_other, ..)| !is_other);
     }
     ranked.sort();
     // Where only the case is wrong, nothing else was meant.
