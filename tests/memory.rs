@@ -5,6 +5,7 @@ mod common;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Duration;
 
 use common::{half_space, pmma};
 use contact_dma::contact::Prescribed;
@@ -17,6 +18,7 @@ use contact_dma::indenter::{Indenter, Shifted, Sphere};
 use contact_dma::material::{Material, ModulusKind, Relaxation, RelaxationBranch, library};
 use contact_dma::sweep::Sweep;
 use contact_dma::sweep::case::Setup;
+use contact_dma::sweep::case::checkpoint::Checkpoints;
 use contact_dma::sweep::plan::{EngineKind, Method, SweepPlan};
 use contact_dma::sweep::store::Store;
 use contact_dma::sweep::store::archive::Purpose;
@@ -123,8 +125,13 @@ fn a_case_holds_the_memory_predicted_whatever_material_and_engine() {
         let predicted = setup.predicted_case_bytes();
         let case = setup.plan().cases().remove(0);
         let mut cycles = 0;
+        // With a checkpoint after every cycle, which takes no copy of what it holds.
+        let folder = tempfile::TempDir::new().unwrap();
+        let store = Store::open(folder.path(), "", false).unwrap();
+        let checkpoints = Checkpoints::of(&store, Purpose::Sweep, &case, Duration::ZERO);
         let counted = peak(|| {
-            let record = setup.run(&case, &AtomicBool::new(false)).unwrap();
+            let record = setup.run_from(&checkpoints, &case, &AtomicBool::new(false));
+            let record = record.unwrap();
             assert!(record.result.is_some(), "{record:?}");
             cycles = record.cycles;
         });

@@ -29,7 +29,13 @@ pub struct March<'a, M = Memory> {
 pub struct MarchState {
     /// As [`Memory::variables`].
     pub variables: Vec<f64>,
-    /// Nodal pressure of the instant, the guess for the next.
+    pub last: LastInstant,
+}
+
+/// The instant that a march stands at, but for the memory.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct LastInstant {
+    /// Nodal pressure, the guess for the next instant.
     pub pressure: Vec<f64>,
     pub solution: Option<Solution>,
     pub work: Work,
@@ -408,6 +414,13 @@ impl March<'_> {
     pub fn state(&self) -> MarchState {
         MarchState {
             variables: self.memory.variables().to_vec(),
+            last: self.last_instant(),
+        }
+    }
+
+    /// The instant it stands at, without the memory.
+    pub fn last_instant(&self) -> LastInstant {
+        LastInstant {
             pressure: self.pressure.clone(),
             solution: self.solution,
             work: self.work,
@@ -417,12 +430,16 @@ impl March<'_> {
     /// Goes back to where a march of the same engine and compliance stood. False, and nothing done, where the state is one
     /// of other nodes or branches.
     pub fn restore(&mut self, state: &MarchState) -> bool {
-        let fits = state.variables.len() == self.memory.variables().len()
-            && state.pressure.len() == self.pressure.len();
+        let fits = state.variables.len() == self.memory.variables().len();
+        fits && self.restore_with(&state.variables, &state.last)
+    }
+
+    /// The same with a memory that is known from elsewhere.
+    pub fn restore_with(&mut self, variables: &[f64], last: &LastInstant) -> bool {
+        let fits = last.pressure.len() == self.pressure.len();
         if fits {
-            self.memory.recall(&state.variables);
-            self.resume(&state.pressure, state.solution, state.work);
-            self.reset_predictor();
+            self.recall(variables);
+            self.resume(&last.pressure, last.solution, last.work);
         }
         fits
     }

@@ -48,6 +48,6 @@ pub use direct::{ComplianceFunction, DirectMemory, DirectStep, Quadrature};
 pub use dissipation::Dissipation;
 pub use extrapolation::Extrapolation;
 pub use hereditary::{Hereditary, Stage};
-pub use march::{March, MarchState, Observer, StepState};
+pub use march::{LastInstant, March, MarchState, Observer, StepState};
 pub use memory::{Memory, StepWeights, TimeRule, order_of_steps};
 pub use work::Work;

@@ -5,7 +5,7 @@ use super::correction::{ContactHistory, Correction};
 use super::remaining::Remaining;
 use crate::contact::{ContactError, Prescribed, Solution};
 use crate::cycle;
-use crate::history::{March, MarchState, Stage, StepWeights};
+use crate::history::{LastInstant, March, Stage, StepWeights};
 
 /// One cycle of the drive.
 pub struct Cycle<'a> {
@@ -55,7 +55,8 @@ pub enum Begin {
 pub struct SearchState {
     /// Memory from which the next cycle starts.
     pub start: Vec<f64>,
-    pub march: MarchState,
+    /// The instant before that cycle.
+    pub last: LastInstant,
     /// The best memory so far: its distance, itself, its update.
     pub best: (f64, Vec<f64>, Vec<f64>),
     /// What the acceleration looks back on.
@@ -70,8 +71,17 @@ pub struct SearchState {
 pub struct Watch<'a> {
     /// Asked before every time step whether to stop.
     pub stop: &'a dyn Fn() -> bool,
-    /// Told before every cycle but the first; what it is handed makes the state.
-    pub between_cycles: &'a dyn Fn(&dyn Fn() -> SearchState),
+    /// Told before every cycle but the first where the search stands, and once more where a cycle was given up.
+    pub between_cycles: &'a dyn Fn(&SearchState, Cause),
+}
+
+/// Why a state is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cause {
+    /// The next cycle begins.
+    NextCycle,
+    /// It was given up, and this is where it began.
+    Stopped,
 }
 
 /// Cycles that may pass without a better memory before the acceleration starts anew from the best: at the edge of a strongly
@@ -96,7 +106,7 @@ pub fn find(
 ) -> Result<Steady, ContactError> {
     let watch = Watch {
         stop,
-        between_cycles: &|_| {},
+        between_cycles: &|_, _| {},
     };
     find_from(march, cycle, Begin::Memory(start), settings, &watch)
 }
@@ -125,13 +135,15 @@ pub fn find_from(
     let keep_mean_load = matches!(cycle.mean, Prescribed::LoadN(_));
     while search.cycles < settings.max_cycles {
         if search.cycles > 0 {
-            (watch.between_cycles)(&|| SearchState {
-                march: march.state(),
-                ..search.clone()
-            });
+            search.last = march.last_instant();
+            (watch.between_cycles)(&search, Cause::NextCycle);
         }
         march.recall(&search.start);
-        if !run.cycle(march, cycle, &remaining, watch.stop)? {
+        let ended = run.cycle(march, cycle, &remaining, watch.stop);
+        if matches!(ended, Ok(false) | Err(ContactError::Interrupted)) && search.cycles > 0 {
+            (watch.between_cycles)(&search, Cause::Stopped);
+        }
+        if !ended? {
             break;
         }
         search.cycles += 1;
@@ -169,7 +181,9 @@ impl SearchState {
     fn begin(march: &mut March<'_>, cycle: &Cycle<'_>, begin: Begin) -> Result<Self, ContactError> {
         let variables = march.memory().variables().len();
         let memory = match begin {
-            Begin::State(state) if state.fits(variables) && march.restore(&state.march) => {
+            Begin::State(state)
+                if state.fits(variables) && march.restore_with(&state.start, &state.last) =>
+            {
                 return Ok(*state);
             }
             Begin::State(_) => None,
@@ -183,7 +197,7 @@ impl SearchState {
             }
         };
         Ok(Self {
-            march: MarchState::default(),
+            last: LastInstant::default(),
             best: (f64::INFINITY, start.clone(), vec![0.0; start.len()]),
             start,
             anderson: Anderson::default(),

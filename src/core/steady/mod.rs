@@ -43,5 +43,7 @@ mod iteration;
 mod remaining;
 
 pub use anderson::Anderson;
-pub use iteration::{Begin, Cycle, SearchState, Steady, SteadySettings, Watch, find, find_from};
+pub use iteration::{
+    Begin, Cause, Cycle, SearchState, Steady, SteadySettings, Watch, find, find_from,
+};
 pub use remaining::Remaining;

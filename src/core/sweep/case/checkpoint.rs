@@ -8,13 +8,14 @@
 //! interruption, and removed with the case. One that cannot be written costs nothing but the time it would have saved, and one
 //! that does not belong or is damaged is passed over.
 
+use std::borrow::Cow;
 use std::cell::{Cell, RefCell};
 use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
 use crate::history::MarchState;
-use crate::steady::SearchState;
+use crate::steady::{Cause, SearchState};
 use crate::sweep::case::stabilise::Stabilised;
 use crate::sweep::plan::Case;
 use crate::sweep::store::Store;
@@ -30,15 +31,8 @@ pub struct Checkpoints {
     frequency: u64,
     rhythm: Rhythm,
     levels: Cell<usize>,
-    unwritten: RefCell<Unwritten>,
-}
-
-/// What is not on disk yet.
-#[derive(Default)]
-struct Unwritten {
-    finished: Vec<(CheckpointFile, Vec<u8>)>,
-    /// The level under way at its last cycle, made into bytes only where it is written.
-    latest: Option<(CheckpointFile, LevelState)>,
+    /// Levels at their ends that are not on disk yet.
+    unwritten: RefCell<Vec<(CheckpointFile, Stabilised)>>,
 }
 
 /// One stabilised cycle to be found within a case, and its files.
@@ -50,9 +44,9 @@ pub(in crate::sweep) struct Level<'a> {
 
 /// The state of the level under way between two cycles.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(in crate::sweep) enum LevelState {
-    Searching(Box<SearchState>),
-    Marching(Marching),
+pub(in crate::sweep) enum LevelState<'a> {
+    Searching(Cow<'a, SearchState>),
+    Marching(Cow<'a, Marching>),
 }
 
 /// A march under way, or none that has begun.
@@ -80,7 +74,6 @@ impl Checkpoints {
 
     /// The next level, on this number of nodes and in this number of steps.
     pub(in crate::sweep) fn begin(&self, nodes: usize, steps: usize) -> Level<'_> {
-        self.unwritten.borrow_mut().latest = None;
         let level = self.levels.replace(self.levels.get() + 1);
         let file = |ending: &str| {
             let name = format!("{}/{level:02}.{ending}", self.case);
@@ -94,23 +87,20 @@ impl Checkpoints {
         }
     }
 
-    fn write_where_due(&self) {
-        if self.rhythm.is_due() {
-            self.flush();
-        }
+    /// Writes the levels that are not on disk yet.
+    pub(in crate::sweep) fn flush(&self) {
+        self.write(None);
     }
 
-    /// Writes what is not on disk yet.
-    pub(in crate::sweep) fn flush(&self) {
-        let Unwritten { finished, latest } = self.unwritten.take();
-        let encoded = |(file, state): (CheckpointFile, _)| Some((file.encode(&state)?, file));
-        let latest = latest.and_then(encoded);
+    /// The same, and where the level under way stands.
+    fn write(&self, under_way: Option<(&CheckpointFile, LevelState<'_>)>) {
+        let finished = self.unwritten.take();
         self.rhythm.written(|| {
-            for (file, bytes) in finished {
-                file.write(&bytes);
+            for (file, ended) in &finished {
+                file.write(ended);
             }
-            if let Some((bytes, file)) = latest {
-                file.write(&bytes);
+            if let Some((file, state)) = under_way {
+                file.write(&state);
             }
         });
     }
@@ -128,28 +118,31 @@ impl Level<'_> {
     }
 
     /// The state in which the level was left.
-    pub(in crate::sweep) fn state(&self) -> Option<LevelState> {
+    pub(in crate::sweep) fn state(&self) -> Option<LevelState<'static>> {
         self.cycle.read().ok().flatten()
     }
 
-    /// Takes in the state of the level between two cycles, where the case runs long enough for it to be worth keeping.
-    pub(in crate::sweep) fn keep(&self, state: impl FnOnce() -> LevelState) {
-        if self.of.rhythm.is_wanted() {
-            self.of.unwritten.borrow_mut().latest = Some((self.cycle.clone(), state()));
-            self.of.write_where_due();
+    /// Whether the case runs long enough for the states of its levels to be worth keeping.
+    pub(in crate::sweep) fn is_wanted(&self) -> bool {
+        self.of.rhythm.is_wanted()
+    }
+
+    /// Takes in the state of the level between two cycles: written where it is time, and where the case is stopped.
+    pub(in crate::sweep) fn keep(&self, state: LevelState<'_>, cause: Cause) {
+        let rhythm = &self.of.rhythm;
+        if rhythm.is_wanted() && (cause == Cause::Stopped || rhythm.is_due()) {
+            self.of.write(Some((&self.cycle, state)));
         }
     }
 
     /// Takes in its end.
     pub(in crate::sweep) fn finish(&self, ended: &Stabilised) {
-        if self.of.rhythm.is_wanted()
-            && let Some(bytes) = self.finished.encode(ended)
-        {
-            let mut unwritten = self.of.unwritten.borrow_mut();
-            unwritten.finished.push((self.finished.clone(), bytes));
-            unwritten.latest = None;
-            drop(unwritten);
-            self.of.write_where_due();
+        if self.is_wanted() {
+            let finished = (self.finished.clone(), ended.clone());
+            self.of.unwritten.borrow_mut().push(finished);
+            if self.of.rhythm.is_due() {
+                self.of.flush();
+            }
         }
     }
 }
@@ -158,24 +151,26 @@ impl Level<'_> {
 mod tests {
     use super::*;
     use crate::contact::Solution;
-    use crate::history::Work;
+    use crate::history::{LastInstant, Work};
     use crate::steady::Anderson;
 
     fn march() -> MarchState {
         MarchState {
             variables: vec![1.0 / 3.0, -0.0],
-            pressure: vec![2.0],
-            solution: Some(Solution {
-                load_n: 1.0,
-                approach_m: 2.0,
-                contact_radius_m: 3.0,
-                iterations: 4,
-                convolutions: 5,
-            }),
-            work: Work {
-                instants: 97,
-                iterations: 99,
-                convolutions: 98,
+            last: LastInstant {
+                pressure: vec![2.0],
+                solution: Some(Solution {
+                    load_n: 1.0,
+                    approach_m: 2.0,
+                    contact_radius_m: 3.0,
+                    iterations: 4,
+                    convolutions: 5,
+                }),
+                work: Work {
+                    instants: 97,
+                    iterations: 99,
+                    convolutions: 98,
+                },
             },
         }
     }
@@ -193,24 +188,24 @@ mod tests {
         let mut anderson = Anderson::default();
         anderson.advance(&mut [0.1, 0.2], &[1e-300, 5.0], &[1.0, 1.0]);
         anderson.advance(&mut [0.2, 0.4], &[0.3, 4.0], &[1.0, 1.0]);
-        let searching = LevelState::Searching(Box::new(SearchState {
+        let searching = LevelState::Searching(Cow::Owned(SearchState {
             start: vec![0.1, 0.2],
-            march: march(),
+            last: march().last,
             best: (f64::INFINITY, vec![1.0, 2.0], vec![3.0, 4.0]),
             anderson,
             since_best: (2, 1),
             cycles: 3,
             distance: f64::INFINITY,
         }));
-        let marching = LevelState::Marching(Marching {
+        let marching = LevelState::Marching(Cow::Owned(Marching {
             after_search: Some((40, "no".to_owned())),
             cycles: 17,
             distance: None,
             march: march(),
-        });
+        }));
         for state in [searching, marching] {
             let kept = checkpoints();
-            kept.begin(12, 34).keep(|| state.clone());
+            kept.begin(12, 34).keep(state.clone(), Cause::NextCycle);
             let found = checkpoints();
             let level = found.begin(12, 34);
             assert_eq!(level.state(), Some(state));

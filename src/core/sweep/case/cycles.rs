@@ -113,6 +113,21 @@ impl<'a> Cycles<'a> {
         recording.result(contact, march).map(Some)
     }
 
+    /// Solves the next cycle; that in which the march ends is recorded.
+    pub fn next(&mut self, march: &mut March<'_>) -> Result<Option<CaseResult>, CaseError> {
+        match self.contact.cycle.at_cycle {
+            Some(number) if self.count + 1 >= number => return self.record(march),
+            Some(_) => self.run(march, None)?,
+            None => {
+                self.run(march, None)?;
+                if self.is_within_tolerance() {
+                    return self.record(march);
+                }
+            }
+        }
+        Ok(None)
+    }
+
     pub fn ended(
         self,
         method: Method,

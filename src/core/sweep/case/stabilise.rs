@@ -1,5 +1,6 @@
 //! The stabilised cycle of one case on one engine, in one number of steps: searched directly or marched, then recorded.
 
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use serde::{Deserialize, Serialize};
@@ -8,7 +9,7 @@ use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::LoopError;
 use crate::history::{March, Memory, TimeRule, Work};
 use crate::material::Creep;
-use crate::steady::{self, Begin, SteadySettings};
+use crate::steady::{self, Begin, Cause, SteadySettings};
 use crate::sweep::case::SetupError;
 use crate::sweep::case::checkpoint::{Checkpoints, Level, LevelState, Marching};
 use crate::sweep::case::cycles::Cycles;
@@ -58,7 +59,7 @@ pub(in crate::sweep) struct Contact<'a> {
 }
 
 /// A cycle's end.
-#[derive(Serialize, Deserialize)]
+#[derive(Clone, Serialize, Deserialize)]
 pub(in crate::sweep) struct Stabilised {
     pub method: Method,
     pub cycles: usize,
@@ -229,8 +230,10 @@ impl Contact<'_> {
         start: Option<Vec<f64>>,
     ) -> Result<Stabilised, CaseError> {
         let begin = match level.and_then(Level::state) {
-            Some(LevelState::Marching(state)) => return self.march(level, engine, steps, state),
-            Some(LevelState::Searching(state)) => Begin::State(state),
+            Some(LevelState::Marching(state)) => {
+                return self.march(level, engine, steps, state.into_owned());
+            }
+            Some(LevelState::Searching(state)) => Begin::State(Box::new(state.into_owned())),
             None => Begin::Memory(start),
         };
         if self.cycle.method == Method::March {
@@ -284,9 +287,9 @@ impl Contact<'_> {
         let mut march = March::new(engine, self.compliance.clone(), self.time_rule);
         let watch = steady::Watch {
             stop: &|| self.interrupt.load(Ordering::Relaxed),
-            between_cycles: &|state| {
+            between_cycles: &|state, cause| {
                 if let Some(level) = level {
-                    level.keep(|| LevelState::Searching(Box::new(state())));
+                    level.keep(LevelState::Searching(Cow::Borrowed(state)), cause);
                 }
             },
         };
@@ -357,26 +360,29 @@ impl Contact<'_> {
         }
         let mut result = None;
         while result.is_none() && cycles.count < self.most_cycles() {
-            if let Some(level) = level.filter(|_| cycles.count > 0) {
-                level.keep(|| {
-                    LevelState::Marching(Marching {
-                        after_search: after_search.clone(),
-                        cycles: cycles.count,
-                        distance: cycles.distance,
-                        march: march.state(),
-                    })
-                });
-            }
-            match self.cycle.at_cycle {
-                Some(number) if cycles.count + 1 < number => cycles.run(&mut march, None)?,
-                Some(_) => result = cycles.record(&mut march)?,
-                None => {
-                    cycles.run(&mut march, None)?;
-                    if cycles.is_within_tolerance() {
-                        result = cycles.record(&mut march)?;
-                    }
+            let kept = level.filter(|level| cycles.count > 0 && level.is_wanted());
+            let kept = kept.map(|level| {
+                let state = Marching {
+                    after_search: after_search.clone(),
+                    cycles: cycles.count,
+                    distance: cycles.distance,
+                    march: march.state(),
+                };
+                (level, state)
+            });
+            let keep = |cause| {
+                if let Some((level, state)) = &kept {
+                    level.keep(LevelState::Marching(Cow::Borrowed(state)), cause);
                 }
-            }
+            };
+            keep(Cause::NextCycle);
+            result = match cycles.next(&mut march) {
+                Err(CaseError::Contact(ContactError::Interrupted)) => {
+                    keep(Cause::Stopped);
+                    return Err(ContactError::Interrupted.into());
+                }
+                ended => ended?,
+            };
         }
         let mut marched = cycles.ended(Method::March, &march, result);
         if let Some((direct, why)) = after_search {

@@ -103,11 +103,7 @@ impl HistoryCheckpoint {
     /// Writes the state, unless so little has been done that it is not worth it.
     pub(in crate::sweep) fn write(&self, state: &HistoryState<'_>) {
         if self.rhythm.is_wanted() {
-            self.rhythm.written(|| {
-                if let Some(bytes) = self.file.encode(state) {
-                    self.file.write(&bytes);
-                }
-            });
+            self.rhythm.written(|| self.file.write(state));
         }
     }
 

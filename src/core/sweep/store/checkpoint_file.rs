@@ -5,11 +5,10 @@
 
 use std::cell::Cell;
 use std::fs;
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use postcard::ser_flavors::Size;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use sha2::{Digest, Sha256};
@@ -123,33 +122,49 @@ impl CheckpointFile {
         }
     }
 
-    /// Writes what [`Self::encode`] has made. Where it cannot be written, more is computed again, and nothing else is lost; in a
-    /// folder that another sweep has taken, nothing is left behind.
-    pub(in crate::sweep) fn write(&self, bytes: &[u8]) {
-        let _ = (self.store.check_plan()).and_then(|()| self.store.write(&self.name, bytes));
+    /// Writes it. Where it cannot be written, more is computed again, and nothing else is lost; in a folder that another sweep has
+    /// taken, nothing is left behind.
+    pub(in crate::sweep) fn write(&self, content: &impl Serialize) {
+        let write = |file: &mut fs::File| self.owner.encode(content, file);
+        let _ = (self.store.check_plan()).and_then(|()| self.store.write_with(&self.name, write));
     }
 
     /// Removes all checkpoints of the folder.
     pub(in crate::sweep) fn remove_all(&self) {
         self.store.remove_checkpoints("");
     }
+}
 
-    pub(in crate::sweep) fn encode(&self, content: &impl Serialize) -> Option<Vec<u8>> {
-        self.owner.encode(content)
+/// A file and the SHA-256 of what has been written to it.
+struct Hashing<W> {
+    file: W,
+    hash: Sha256,
+}
+
+impl<W: Write> Write for Hashing<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let written = self.file.write(bytes)?;
+        self.hash.update(&bytes[..written]);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
     }
 }
 
 impl Owner {
-    fn encode(&self, content: &impl Serialize) -> Option<Vec<u8>> {
-        // The content may fill much of the memory: room for it is made once.
-        let size = postcard::serialize_with_flavor(content, Size::default()).ok()?;
-        let mut bytes = Vec::with_capacity(MARK.len() + 2 * HASH_BYTES + size);
-        bytes.extend_from_slice(MARK);
-        bytes.extend_from_slice(&self.0);
-        let mut bytes = postcard::to_extend(content, bytes).ok()?;
-        let hash = Sha256::digest(&bytes);
-        bytes.extend_from_slice(&hash);
-        Some(bytes)
+    /// The content may fill much of the memory: it is written as it is encoded, and no copy of it is made.
+    fn encode(&self, content: &impl Serialize, file: impl Write) -> io::Result<()> {
+        let mut file = io::BufWriter::new(Hashing {
+            file,
+            hash: Sha256::new(),
+        });
+        file.write_all(MARK)?;
+        file.write_all(&self.0)?;
+        postcard::to_io(content, &mut file).map_err(io::Error::other)?;
+        let Hashing { mut file, hash } = file.into_inner().map_err(io::Error::from)?;
+        file.write_all(&hash.finalize())
     }
 
     fn decode<T: DeserializeOwned>(&self, bytes: &[u8]) -> Result<T, Unusable> {
@@ -177,10 +192,16 @@ mod tests {
         Owner([byte; HASH_BYTES])
     }
 
+    fn encoded(byte: u8, content: &impl Serialize) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        owner(byte).encode(content, &mut bytes).unwrap();
+        bytes
+    }
+
     #[test]
     fn every_bit_comes_back_of_infinities_and_negative_zeros_too() {
         let content = (vec![1.0 / 3.0, -0.0, f64::INFINITY], None);
-        let bytes = owner(7).encode(&content).unwrap();
+        let bytes = encoded(7, &content);
         let found: Content = owner(7).decode(&bytes).unwrap();
         assert_eq!(found.1, content.1);
         let bits = |(values, _): Content| values.into_iter().map(f64::to_bits).collect::<Vec<_>>();
@@ -190,7 +211,7 @@ mod tests {
     #[test]
     fn a_damaged_or_foreign_checkpoint_is_known_for_what_it_is() {
         let content: Content = (vec![1.0, 2.0], Some(3.0));
-        let bytes = owner(7).encode(&content).unwrap();
+        let bytes = encoded(7, &content);
         let decode = |byte, bytes: &[u8]| owner(byte).decode::<Content>(bytes);
         assert_eq!(decode(7, &bytes), Ok(content));
         assert_eq!(decode(8, &bytes), Err(Unusable::Foreign));
@@ -204,7 +225,7 @@ mod tests {
 
     #[test]
     fn lengths_that_lie_are_refused_without_taking_memory() {
-        let lies = owner(7).encode(&u64::MAX).unwrap();
+        let lies = encoded(7, &u64::MAX);
         assert_eq!(owner(7).decode::<Content>(&lies), Err(Unusable::Damaged));
     }
 
