@@ -235,6 +235,35 @@ fn on_cells_every_cycle_that_lifts_off_is_found_directly() {
     });
 }
 
+/// Of the cases above by their seed and number, those of cells that come and go between one cycle and the next: what the acceleration
+/// has learned of some of them leads it in circles, in which a march ends too.
+const COME_AND_GO: [(u64, usize); 7] = [
+    (2, 172),
+    (2, 173),
+    (2, 174),
+    (2, 175),
+    (6, 582),
+    (6, 739),
+    (6, 1788),
+];
+
+#[test]
+fn cells_that_come_and_go_between_cycles_keep_none_from_being_found() {
+    let cases = COME_AND_GO.map(|(seed, index)| {
+        let (plan, omega) = lifted_cases(index as u64 / 8 + 1, seed).swap_remove(index);
+        (on_cells(plan, 32, 48), omega)
+    });
+    let records = cases.par_iter().map(|(plan, omega)| {
+        let mut plan = plan.clone();
+        plan.cycle.error_bars = false;
+        (run_case(&plan, *omega), described(&plan, *omega))
+    });
+    for (record, what) in records.collect::<Vec<_>>() {
+        assert!(record.result.is_some(), "{:?}: {what}", record.message);
+        assert_eq!(record.method, Method::Direct, "{what}");
+    }
+}
+
 #[test]
 fn nothing_jumps_where_a_branch_no_longer_moves_within_the_period() {
     // T/lambda passes 1e-5 between the frequencies; the loss times the frequency hardly depends on it so far above the spectrum.

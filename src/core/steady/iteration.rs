@@ -233,17 +233,17 @@ impl SearchState {
 }
 
 /// One cycle and what the search wants to know of it.
-struct Run {
+pub(super) struct Run {
     stages: Vec<Stage<StepWeights>>,
-    contact: ContactHistory,
+    pub(super) contact: ContactHistory,
     /// Largest size of the nodal pressures.
-    scale: f64,
-    load_n: Vec<f64>,
-    approach_m: Vec<f64>,
+    pub(super) scale: f64,
+    pub(super) load_n: Vec<f64>,
+    pub(super) approach_m: Vec<f64>,
 }
 
 impl Run {
-    fn new(march: &March<'_>, cycle: &Cycle<'_>) -> Self {
+    pub(super) fn new(march: &March<'_>, cycle: &Cycle<'_>) -> Self {
         Self {
             stages: march.stages(cycle.period_s / cycle.steps as f64),
             contact: ContactHistory::new(march.pressure().len()),
@@ -255,7 +255,7 @@ impl Run {
 
     /// Solves one cycle from the memory the march holds. Its first instant is a jump: the pressure that belongs to the
     /// memory and to the drive's value there. Says whether it came to its end.
-    fn cycle(
+    pub(super) fn cycle(
         &mut self,
         march: &mut March<'_>,
         cycle: &Cycle<'_>,

@@ -5,7 +5,8 @@
 //! periodic pressure the fixed point is known in closed form, m* = (m' - E m)/(1 - E) per branch with E = exp(-T/lambda);
 //! jumping there diverges where slow branches are strong, because the pressure answers them. Newton's method per node knows
 //! that answer, and Anderson acceleration (D. G. Anderson, J. ACM 12 (1965) 547) takes care of the rest: of nodes that enter
-//! and leave the contact, and of the elastic coupling between them.
+//! and leave the contact, and of the elastic coupling between them. Where cells come and go without end, what is left to do is done by
+//! Newton's method on the whole map, in the same memory.
 //!
 //! ```
 //! use std::f64::consts::TAU;
@@ -40,10 +41,12 @@
 mod anderson;
 mod correction;
 mod iteration;
+mod newton;
 mod remaining;
 
 pub use anderson::Anderson;
 pub use iteration::{
     Begin, Cause, Cycle, SearchState, Steady, SteadySettings, Watch, find, find_from,
 };
+pub(crate) use newton::find_by_newton;
 pub use remaining::Remaining;

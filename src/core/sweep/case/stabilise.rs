@@ -9,7 +9,7 @@ use crate::contact::{ContactError, Engine, Prescribed, Solution};
 use crate::cycle::LoopError;
 use crate::history::{March, Memory, TimeRule, Work};
 use crate::material::Creep;
-use crate::steady::{self, Begin, Cause, SteadySettings};
+use crate::steady::{self, Begin, Cause, Steady, SteadySettings};
 use crate::sweep::case::SetupError;
 use crate::sweep::case::checkpoint::{Checkpoints, Level, LevelState, Marching};
 use crate::sweep::case::cycles::Cycles;
@@ -275,7 +275,7 @@ impl Contact<'_> {
     }
 
     /// The cycle searched for, after those with these parts of the oscillation about the same mean, each of which starts the next.
-    /// That of none is the body relaxed under the mean.
+    /// That of none is the body relaxed under the mean. After such parts, what the acceleration does not find Newton's method may.
     fn search(
         &self,
         level: Option<&Level<'_>>,
@@ -317,7 +317,11 @@ impl Contact<'_> {
             before += found.cycles;
             begin = Begin::Memory(memory);
         }
-        let (found, _) = find(1.0, begin, most)?;
+        let (mut found, _) = find(1.0, begin, most)?;
+        if !found.converged && !parts.is_empty() {
+            before += found.cycles;
+            found = self.search_by_newton(&mut march, steps)?;
+        }
         let mut cycles = Cycles::new(self, &march, steps);
         cycles.count = before + found.cycles;
         cycles.distance = found.distance.is_finite().then_some(found.distance);
@@ -327,6 +331,24 @@ impl Contact<'_> {
         // The recorded cycle starts from where the search ended, and is nearer still.
         let recorded = cycles.record(&mut march)?;
         Ok(cycles.ended(Method::Direct, &march, recorded))
+    }
+
+    /// Searches on from where a search without success ended.
+    fn search_by_newton(&self, march: &mut March<'_>, steps: usize) -> Result<Steady, CaseError> {
+        let cycle = steady::Cycle {
+            drive: &|fraction| self.prescribed(fraction),
+            mean: self.mean(),
+            period_s: self.period_s(),
+            steps,
+        };
+        let settings = SteadySettings {
+            tolerance: self.cycle.tolerance,
+            max_cycles: self.cycle.max_cycles,
+        };
+        let stop = || self.interrupt.load(Ordering::Relaxed);
+        let found = steady::find_by_newton(march, &cycle, settings, &stop)?;
+        self.check_interrupted()?;
+        Ok(found)
     }
 
     /// Marches on from where the level stands, until a cycle is within the tolerance.
