@@ -306,6 +306,40 @@ fn a_history_outside_the_measured_times_and_of_a_steep_contact_is_warned_of() {
 }
 
 #[test]
+fn bars_of_a_history_are_said_to_leave_out_what_is_not_known_of_its_material() {
+    let hold = "{ kind = \"ramp\", to = \"1 N\", duration = \"20 s\" }";
+    let exact = history(SPHERE, "1 N", hold);
+    let noisy = exact.replace("4.5e-10", "4.15e-10");
+    let series = |alternative: &str| {
+        let start = exact.find("[material.table]").unwrap();
+        let end = exact.find("[indenter]").unwrap();
+        let relaxation =
+            "equilibrium = \"2 GPa\"\nbranches = [{ modulus = \"0.5 GPa\", time = \"10 s\" }]\n";
+        let block =
+            format!("[material.relaxation]\nmodulus = \"longitudinal\"\n{relaxation}{alternative}");
+        exact[..start].to_owned() + &block + &exact[end..]
+    };
+    let alternative = "[[material.alternative]]\nequilibrium = \"1.8 GPa\"\nbranches = [{ modulus = \"0.7 GPa\", time = \"12 s\" }]\n";
+    let without_bars = series(alternative) + "[output]\nerror_bars = false\n";
+    for (text, expected) in [
+        (noisy, Some("noisy samples")),
+        (series(alternative), Some("as well be another")),
+        (series(""), None),
+        (without_bars, None),
+    ] {
+        let left = run("simulate", &text, &[]);
+        let codes: Vec<&str> = expected.iter().map(|_| "no-material-error").collect();
+        assert_eq!(left.codes(), codes, "{text}");
+        left.says_them();
+        let message = left.summary["warnings"][0]["message"].as_str();
+        assert!(
+            expected.is_none_or(|words| message.unwrap().contains(words)),
+            "{message:?}"
+        );
+    }
+}
+
+#[test]
 fn a_history_on_a_map_is_judged_by_the_part_of_it_in_contact() {
     let hold = "{ kind = \"ramp\", to = \"1 N\", duration = \"5 s\" }";
     let gentle = run(

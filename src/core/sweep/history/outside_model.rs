@@ -2,6 +2,7 @@
 
 use crate::drive::{Segment, SegmentedDrive};
 use crate::material::ModulusKind;
+use crate::material::tabulated::TableWarning;
 use crate::sweep::engine::domain;
 use crate::sweep::engine::slope::{Patch, ROUNDING, of_slope, slope_of_body};
 use crate::sweep::history::{HistoryRow, SimulationOutcome};
@@ -33,7 +34,24 @@ pub fn warnings(plan: &ScenarioPlan, outcome: &SimulationOutcome) -> Vec<Warning
     warnings.extend(Warning::of_cells(indenter, radius_m));
     warnings.extend(Warning::of_depth(plan.contact.layer, approach_m));
     warnings.extend(tabor_parameter(plan));
+    warnings.extend(material_error(plan).filter(|_| plan.output.error_bars));
     warnings
+}
+
+/// That the materials of a history are known to within an error only, which its bars leave out.
+fn material_error(plan: &ScenarioPlan) -> Option<Warning> {
+    let material = &plan.contact.material;
+    let is_noisy = match material {
+        BodyMaterial::Series(_) => false,
+        BodyMaterial::Samples(sampled) => {
+            let mut findings = sampled.table().warnings().iter();
+            findings.any(|finding| matches!(finding, TableWarning::Noise { .. }))
+        }
+    };
+    let bodies = material.series().into_iter().chain(material.counterbody());
+    let others = bodies.map(|body| body.alternatives().len() + body.replicas().len());
+    let others = others.sum();
+    (is_noisy || others > 0).then_some(Warning::NoMaterialError { others })
 }
 
 /// Tabor's parameter of an indenter that is attracted, of the body as soft as it becomes.

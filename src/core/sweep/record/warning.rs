@@ -80,6 +80,9 @@ pub enum Warning {
     EnergyImbalance { part: f64 },
     /// Error bars were wanted, and there are none.
     NoErrorBars { because: NoErrorBars },
+    /// A history has error bars, and its material is not known exactly: it may be any of so many others, or, of none, comes from noisy
+    /// samples.
+    NoMaterialError { others: usize },
 }
 
 /// Why there are no error bars.
@@ -188,6 +191,7 @@ impl Warning {
             Self::ShortContact { .. } => "short-contact",
             Self::EnergyImbalance { .. } => "energy-imbalance",
             Self::NoErrorBars { .. } => "no-error-bars",
+            Self::NoMaterialError { .. } => "no-material-error",
         }
     }
 
@@ -219,6 +223,7 @@ impl Warning {
             Self::ShortContact { steps } => -steps,
             Self::EnergyImbalance { part } => part.abs(),
             Self::NoErrorBars { .. } => 0.0,
+            Self::NoMaterialError { others } => others as f64,
         }
     }
 }
@@ -326,6 +331,17 @@ impl Warning {
                 if part > 0.0 { "more" } else { "less" }
             ),
             Self::NoErrorBars { because } => format!("no error bars: {}", because.words()),
+            Self::NoMaterialError { others } => {
+                let why = match others {
+                    0 => "comes from noisy samples".to_owned(),
+                    1 => "may as well be another".to_owned(),
+                    _ => format!("may as well be any of {others} others"),
+                };
+                format!(
+                    "the error bars of a history are of steps, springs or cells alone: they leave out the error of the material, which \
+                     {why}; those of a sweep hold it"
+                )
+            }
         }
     }
 }
