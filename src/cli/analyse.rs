@@ -11,8 +11,8 @@ use rayon::prelude::*;
 use serde_json::json;
 
 use super::arguments::{OutputFormat, folder, threads};
+use super::interruption;
 use super::material::draw;
-use super::sweep::interrupt_flag;
 use super::{Ended, Failure, json, print, read_document, say_quietly};
 use crate::input::document::read_limited;
 use crate::input::loop_file;
@@ -154,7 +154,7 @@ fn rows(
 ) -> Result<Option<Vec<MeasuredRow>>, Failure> {
     /// How often Ctrl-C is looked for.
     const EVERY: Duration = Duration::from_millis(50);
-    let interrupt = interrupt_flag()?;
+    let interrupt = interruption::keep_finished();
     let pool = run::pool(run::useful_threads(threads))?;
     let (sender, receiver) = mpsc::channel();
     std::thread::spawn(move || {

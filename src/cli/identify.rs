@@ -7,8 +7,8 @@ use std::sync::atomic::Ordering;
 use clap::Args;
 
 use super::arguments::{OutputFormat, folder, threads};
+use super::interruption;
 use super::material::{commented, draw, print_place};
-use super::sweep::interrupt_flag;
 use super::{Ended, Failure, default_folder, json, meant_for, open_document, print};
 use crate::identify::{IdentifyError, curves, identify};
 use crate::input::identify_file;
@@ -70,7 +70,7 @@ pub(super) fn run(flags: &IdentifyFlags, format: OutputFormat) -> Result<Ended, 
         reads: &document.files(),
     };
     target.check()?;
-    let interrupt = interrupt_flag()?;
+    let interrupt = interruption::keep_finished();
     let pool = run::pool(run::useful_threads(flags.threads)).map_err(Failure::run)?;
     let made = pool.install(|| {
         let found = identify(&plan, &interrupt)?;

@@ -7,6 +7,7 @@ mod analyse;
 mod arguments;
 mod compare;
 mod identify;
+mod interruption;
 mod json;
 mod material;
 mod material_export;
@@ -115,6 +116,9 @@ impl From<ComparisonError> for Failure {
 /// Runs the program with these arguments, the first being its name.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     silence_caught_panics();
+    if let Err(error) = interruption::listen() {
+        return report(Failure::run(format!("cannot listen for Ctrl-C: {error}")));
+    }
     let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(error) => {
@@ -146,7 +150,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(Ended::Done) => ExitCode::SUCCESS,
         Ok(Ended::SomeCasesWithoutResult) => ExitCode::from(3),
         Ok(Ended::Differs) => ExitCode::from(4),
-        Ok(Ended::Interrupted) => ExitCode::from(130),
+        Ok(Ended::Interrupted) => ExitCode::from(interruption::EXIT_CODE),
         Err(failure) => report(failure),
     }
 }

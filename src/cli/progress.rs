@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use super::interruption;
 use crate::quantity::FrequencyUnit;
 use crate::report::number;
 use crate::report::words::case;
@@ -111,6 +112,10 @@ pub(super) fn opening(folder: &Path) -> mpsc::Sender<()> {
 }
 
 impl Progress for Shown {
+    fn solving(&self) {
+        interruption::keep_finished();
+    }
+
     fn case_finished(&self, record: &CaseRecord) {
         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
         match &self.how {

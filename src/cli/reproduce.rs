@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use super::arguments::{OutputFormat, folder, threads};
+use super::interruption;
 use super::progress::line;
-use super::sweep::interrupt_flag;
 use super::{Ended, Failure, tell};
 use crate::input::document::Document;
 use crate::input::figures_block::{self, Figures};
@@ -89,7 +89,7 @@ pub(super) fn run(flags: &ReproduceFlags, format: OutputFormat) -> Result<Ended,
     };
     target.check()?;
     let threads = useful_threads(flags.threads);
-    let interrupt = interrupt_flag()?;
+    let interrupt = interruption::keep_finished();
     let finished = |number: u8| {
         if !flags.quiet {
             line(&format!("figure {number}"));

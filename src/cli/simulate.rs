@@ -8,9 +8,9 @@ use std::time::Duration;
 use clap::Args;
 
 use super::arguments::{OutputFormat, folder, threads};
+use super::interruption;
 use super::plan::{megabytes, nodes};
 use super::progress::{bar, line};
-use super::sweep::interrupt_flag;
 use super::{Ended, Failure, json, meant_for, memory, open_document, open_store, tell};
 use crate::input::scenario_file;
 use crate::report::quantities::{self, Moment};
@@ -97,7 +97,7 @@ pub(super) fn run(flags: &SimulateFlags, format: OutputFormat) -> Result<Ended, 
     let resolved = scenario::resolved_text(simulation.plan());
     let out = (flags.out.as_deref(), flags.force);
     let store = open_store((&flags.file, &document), out, &resolved)?;
-    let interrupt = interrupt_flag()?;
+    let interrupt = interruption::keep_finished();
     let simulation = simulation.interrupted_by(Arc::clone(&interrupt));
     let checkpoint = HistoryCheckpoint::of(&store, Duration::from_secs(flags.checkpoint_every));
     let state = found(&checkpoint, simulation.moments(), flags.quiet);

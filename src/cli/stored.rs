@@ -7,8 +7,9 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::arguments::{OutputFormat, folder, threads};
+use super::interruption;
 use super::progress::Shown;
-use super::sweep::{Job, interrupt_flag};
+use super::sweep::Job;
 use super::{Ended, Failure};
 use crate::input::document::Document;
 use crate::input::sweep_file;
@@ -121,7 +122,7 @@ pub(super) fn merge(flags: &MergeFlags, format: OutputFormat) -> Result<Ended, F
     if !missing.is_empty() {
         return Err(Failure::Run(lacking(&missing, cases.len(), &out)));
     }
-    let interrupt = interrupt_flag()?;
+    let interrupt = interruption::flag();
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
     let options = Options::on_threads(run::useful_threads(flags.threads));
     let outcome = run::run_with(&setup, &out, &options, &interrupt, &progress);

@@ -3,13 +3,14 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use clap::Args;
 use serde_json::json;
 
 use super::arguments::{OutputFormat, folder, threads};
+use super::interruption;
 use super::progress::Shown;
 use super::{
     Ended, Failure, meant_for, memory, open_document, open_store, print, say_quietly, tell,
@@ -102,7 +103,7 @@ pub(super) fn run(flags: &SweepFlags, format: OutputFormat) -> Result<Ended, Fai
     let resolved = resolved::resolved_text(setup.plan());
     let out = (flags.out.as_deref(), flags.force);
     let store = open_store((&flags.file, &document), out, &resolved)?;
-    let interrupt = interrupt_flag()?;
+    let interrupt = interruption::flag();
     let setup = setup.interrupted_by(Arc::clone(&interrupt));
     let options = Options {
         threads: run::useful_threads(flags.threads),
@@ -180,6 +181,8 @@ impl<'a> Job<'a> {
 
     /// Writes tables, figures and where they come from, and prints the result.
     pub(super) fn finish(&self, mut outcome: Outcome) -> Result<Ended, Failure> {
+        // What is computed is in the folder, from which `report` makes what is not written yet.
+        interruption::at_once();
         let plan = self.setup.plan();
         report::load_drawn_cycles(self.records, plan, &mut outcome)?;
         let outcome = &outcome;
@@ -293,19 +296,6 @@ fn run_shard(
         format!("Shard {shard}: {done} of {own} cases are done. {next}\n\nRecords in {folder}\n");
     tell(job.format, job.quiet, || Ok(found), || text)?;
     Ok(ended(part.interrupted, &part.records))
-}
-
-/// A flag that Ctrl-C, SIGTERM and SIGHUP set. A second signal ends the program at once; every file is whole even then.
-pub(super) fn interrupt_flag() -> Result<Arc<AtomicBool>, Failure> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let shared = Arc::clone(&flag);
-    ctrlc::set_handler(move || {
-        if shared.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-    })
-    .map_err(|error| Failure::run(format!("cannot listen for Ctrl-C: {error}")))?;
-    Ok(flag)
 }
 
 fn ended(interrupted: bool, records: &[CaseRecord]) -> Ended {

@@ -4,7 +4,8 @@
 //! is shorter than the longest.
 
 use std::borrow::Cow;
-use std::io::{self, Write};
+use std::fs::File;
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -114,7 +115,8 @@ fn profiles(case: &Case<'_>, values: fn(&PressureLine) -> Vec<f64>) -> Vec<f64> 
     padded.flatten().collect()
 }
 
-/// Writes the file; cycles that the outcome does not hold are read from the folder of the records, one at a time.
+/// Writes the file; cycles that the outcome does not hold are read from the folder of the records, one at a time: once for the lengths
+/// of the rows and once for the rows.
 ///
 /// # Errors
 /// [`StoreError`] with the path.
@@ -126,17 +128,22 @@ pub fn write(
 ) -> Result<(), StoreError> {
     let widths = widths(records, plan, outcome)?;
     to.write_with(NAME, |file| {
-        let mut zip = ZipWriter::new(file);
-        let options = SimpleFileOptions::default()
-            .compression_method(CompressionMethod::Stored)
-            .large_file(true);
-        for (array, width) in ARRAYS.iter().zip(&widths) {
-            let name = format!("{}.npy", array.0);
-            zip.start_file(name, options).map_err(io::Error::other)?;
-            write_array((records, plan, outcome), array, *width, &mut zip)?;
+        let arrays = arrays((records, plan, outcome), &widths)?;
+        let mut file = FirstError { file, error: None };
+        {
+            let mut zip = ZipWriter::new(&mut file);
+            let options = SimpleFileOptions::default()
+                .compression_method(CompressionMethod::Stored)
+                .large_file(true);
+            for ((name, ..), mut array) in ARRAYS.iter().zip(arrays) {
+                zip.start_file(format!("{name}.npy"), options)
+                    .map_err(io::Error::other)?;
+                array.rewind()?;
+                io::copy(&mut array, &mut zip)?;
+            }
+            zip.finish().map_err(io::Error::other)?;
         }
-        zip.finish().map_err(io::Error::other)?;
-        Ok(())
+        file.error.map_or(Ok(()), Err)
     })
 }
 
@@ -153,36 +160,93 @@ fn widths(store: &Store, plan: &SweepPlan, outcome: &Outcome) -> Result<Vec<usiz
     Ok(widths)
 }
 
-fn write_array(
+/// Every array as the bytes of its file, on the disk: all cases may be more than the memory holds.
+fn arrays(
     (store, plan, outcome): (&Store, &SweepPlan, &Outcome),
-    (_, row_of, is_profile): &Array,
-    width: usize,
-    to: &mut impl Write,
-) -> io::Result<()> {
+    widths: &[usize],
+) -> io::Result<Vec<File>> {
     let cases = outcome.records.len();
     // Each profile of a case is as long as the longest of all cases.
-    let (shape, instants, width) = match (is_profile, width) {
-        (true, width) => (
-            vec![cases, INSTANTS, width / INSTANTS],
-            INSTANTS,
-            width / INSTANTS,
-        ),
-        (false, 0 | 1) => (vec![cases], 1, 1),
-        (false, width) => (vec![cases, width], 1, width),
-    };
-    to.write_all(&npy::header(&shape))?;
+    let layouts = ARRAYS.iter().zip(widths).map(|((.., is_profile), width)| {
+        let of_instant = width / INSTANTS;
+        match (is_profile, width) {
+            (true, _) => (vec![cases, INSTANTS, of_instant], INSTANTS, of_instant),
+            (false, 0 | 1) => (vec![cases], 1, 1),
+            (false, width) => (vec![cases, *width], 1, *width),
+        }
+    });
+    let mut arrays = Vec::new();
+    for (shape, instants, width) in layouts {
+        let mut file = BufWriter::new(tempfile::tempfile_in(store.folder())?);
+        file.write_all(&npy::header(&shape))?;
+        arrays.push((file, instants, width));
+    }
     for record in &outcome.records {
-        let mut row = Vec::new();
-        with_cycle(store, plan, record, |case| row = row_of(case)).map_err(io::Error::other)?;
-        let length = row.len() / instants;
-        for instant in 0..instants {
-            let values = row.iter().skip(instant * length).take(length).copied();
-            let padded = values.chain(std::iter::repeat(f64::NAN)).take(width);
-            let bytes: Vec<u8> = padded.flat_map(f64::to_le_bytes).collect();
-            to.write_all(&bytes)?;
+        let mut written = Ok(());
+        with_cycle(store, plan, record, |case| {
+            written = arrays.iter_mut().zip(&ARRAYS).try_for_each(
+                |((file, instants, width), (_, row_of, _))| {
+                    write_row(&row_of(case), (*instants, *width), file)
+                },
+            );
+        })
+        .map_err(io::Error::other)?;
+        written?;
+    }
+    let files = arrays.into_iter().map(|(file, ..)| Ok(file.into_inner()?));
+    files.collect()
+}
+
+/// The numbers of one case: of every instant as many as the array is wide.
+fn write_row(
+    row: &[f64],
+    (instants, width): (usize, usize),
+    to: &mut impl Write,
+) -> io::Result<()> {
+    let length = row.len() / instants;
+    for instant in 0..instants {
+        let values = row.iter().skip(instant * length).take(length).copied();
+        for value in values.chain(std::iter::repeat(f64::NAN)).take(width) {
+            to.write_all(&value.to_le_bytes())?;
         }
     }
     Ok(())
+}
+
+/// A file that takes everything after its first error, which is told in the end: an archive that is given up writes its directory
+/// all the same, and prints what that comes to.
+struct FirstError<'a> {
+    file: &'a mut File,
+    error: Option<io::Error>,
+}
+
+impl FirstError<'_> {
+    fn kept<T>(&mut self, done: impl FnOnce(&mut File) -> io::Result<T>, otherwise: T) -> T {
+        if self.error.is_some() {
+            return otherwise;
+        }
+        done(self.file).unwrap_or_else(|error| {
+            self.error = Some(error);
+            otherwise
+        })
+    }
+}
+
+impl Write for FirstError<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        Ok(self.kept(|file| file.write(bytes), bytes.len()))
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.kept(|file| file.flush(), ());
+        Ok(())
+    }
+}
+
+impl Seek for FirstError<'_> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        Ok(self.kept(|file| file.seek(to), 0))
+    }
 }
 
 /// A case with its cycle, from the outcome or the folder; without one where it has no result.

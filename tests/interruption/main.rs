@@ -8,5 +8,6 @@ mod program;
 mod segments;
 
 mod one_plan;
+mod signals;
 mod simulate_survival;
 mod survival;

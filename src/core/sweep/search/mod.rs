@@ -211,6 +211,7 @@ impl<'a> Search<'a> {
         let Some(checkpoint_every) = self.checkpoint_every else {
             return Ok(Vec::new());
         };
+        self.progress.solving();
         let mut order: Vec<&Case> = cases.iter().collect();
         let cost = |case: &Case| self.setup.predicted_cycles(case);
         order.sort_by(|a, b| cost(b).total_cmp(&cost(a)).then(a.index.cmp(&b.index)));

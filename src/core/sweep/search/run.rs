@@ -46,6 +46,8 @@ pub struct Outcome {
 pub trait Progress: Sync {
     fn case_finished(&self, _record: &CaseRecord) {}
     fn locating_peaks(&self, _brackets: usize) {}
+    /// What there is has been read; what is solved from now on would be lost if nobody waited for it.
+    fn solving(&self) {}
     /// So many of the cases to do have records already.
     fn cases_found(&self, _done: usize, _of: usize) {}
     /// Refinement adds so many cases to those planned, of which `found` have records already.

@@ -1,0 +1,112 @@
+//! Signals: every command ends at once with what is finished kept, unless whoever started it wants them ignored.
+
+#![cfg(all(unix, feature = "cli"))]
+
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Command as Process, Stdio};
+use std::time::{Duration, Instant};
+
+use tempfile::TempDir;
+
+use crate::kills::{signal, wait_for};
+use crate::program::write;
+use crate::segments;
+
+/// Cases of seconds each.
+const CELLS: &str = r#"title = "cells"
+[material]
+library = "pmma"
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+mean = "10 N"
+amplitude = "5 N"
+[sweep]
+angular_frequency = { from = "1e-3 rad/s", to = "1 rad/s", points = 60 }
+[solver]
+engine = "half-space"
+cells = 256
+"#;
+
+/// The program as a shell starts it after these words.
+fn after(words: &str, arguments: &[&str], folder: &Path) -> Child {
+    Process::new("sh")
+        .args(["-c", &format!("{words} exec \"$@\""), "sh"])
+        .arg(assert_cmd::cargo::cargo_bin("contact-dma"))
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+#[test]
+fn a_command_that_has_nothing_to_keep_ends_at_once() {
+    let folder = TempDir::new().unwrap();
+    for arguments in [["plan", "-"], ["material", "show"], ["sweep", "-"]] {
+        let arguments = match arguments {
+            ["material", _] => vec!["material", "show", "/dev/stdin"],
+            other => other.to_vec(),
+        };
+        for how in ["-TERM", "-INT", "-HUP"] {
+            // It waits for an input that does not come.
+            let mut child = after("", &arguments, folder.path());
+            std::thread::sleep(Duration::from_millis(300));
+            let sent = Instant::now();
+            signal(&child, how);
+            let status = child.wait().unwrap();
+            assert_eq!(status.code(), Some(130), "{arguments:?} {how}");
+            assert!(sent.elapsed() < Duration::from_secs(2), "{arguments:?}");
+        }
+    }
+}
+
+#[test]
+fn a_hangup_is_nothing_where_whoever_started_it_ignores_it() {
+    let folder = TempDir::new().unwrap();
+    write(&folder, "cells.toml", CELLS);
+    let out = folder.path().join("out");
+    let sweep = ["sweep", "cells.toml", "--no-figures", "--out", "out"];
+    let mut child = after("trap '' HUP;", &sweep, folder.path());
+    wait_for("no case was finished", || segments::count(&out) > 0);
+    signal(&child, "-HUP");
+    let before = segments::count(&out);
+    wait_for("it did not go on", || segments::count(&out) > before + 1);
+    signal(&child, "-TERM");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+}
+
+#[test]
+fn a_file_that_grows_beyond_its_limit_is_an_error_and_not_the_end() {
+    let folder = TempDir::new().unwrap();
+    let small = CELLS.replace("cells = 256", "cells = 16");
+    write(&folder, "cells.toml", &small);
+    let sweep = ["sweep", "cells.toml", "--quiet", "--out", "out"];
+    // Sixteen blocks of 512 bytes.
+    let child = after("ulimit -f 16;", &sweep, folder.path());
+    let ended = child.wait_with_output().unwrap();
+    let said = String::from_utf8(ended.stderr).unwrap();
+    assert_eq!(ended.status.code(), Some(1), "{said}");
+    assert!(said.contains("File too large"), "{said}");
+    // With more room it goes on from what is there.
+    let ended = after("", &sweep, folder.path()).wait_with_output().unwrap();
+    assert_eq!(ended.status.code(), Some(0));
+    let run = fs::read_to_string(folder.path().join("out/run.json")).unwrap();
+    assert!(!run.contains("\"cases_found\": 0,"), "{run}");
+    // Tables have room, the archive of all cycles has not: it is as large as each of its arrays once more.
+    let report = ["report", "out", "--no-figures", "--quiet"];
+    let whole = folder.path().join("out/cycles.npz");
+    let blocks = fs::metadata(&whole).unwrap().len() / 512 - 8;
+    let child = after(&format!("ulimit -f {blocks};"), &report, folder.path());
+    let ended = child.wait_with_output().unwrap();
+    let said = String::from_utf8(ended.stderr).unwrap();
+    assert_eq!(ended.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("cycles.npz") && said.lines().count() < 4,
+        "{said}"
+    );
+}
