@@ -19,6 +19,8 @@ pub struct PeakWords {
     pub material: String,
     /// Of several curves which: `, amplitude 5 N`.
     pub under: String,
+    /// Of the largest, how many of other curves are as large: `; those of 5 other curves are equal to it within their errors`.
+    equals: String,
 }
 
 impl PeakWords {
@@ -34,8 +36,8 @@ impl PeakWords {
     pub fn sentence(&self) -> String {
         let (loss, symbol, frequency) = (&self.loss, self.symbol, &self.frequency);
         format!(
-            "{loss} at {symbol} = {frequency}{}{}",
-            self.under, self.material
+            "{loss} at {symbol} = {frequency}{}{}{}",
+            self.under, self.material, self.equals
         )
     }
 }
@@ -65,6 +67,10 @@ pub fn all(plan: &SweepPlan, outcome: &Outcome) -> Vec<PeakWords> {
         ),
         under: under(plan, peak).unwrap_or_default(),
         material: of_material(plan, peak).unwrap_or_default(),
+        equals: match rank {
+            0 => equals(&outcome.peaks),
+            _ => String::new(),
+        },
     };
     let peaks = outcome.peaks.iter().take(SHOWN);
     peaks.enumerate().map(words).collect()
@@ -93,6 +99,24 @@ fn of_material(plan: &SweepPlan, peak: &Peak) -> Option<String> {
     Some(format!(
         "; of these errors ± {loss} and ± {frequency} are numerical, the rest is that of the material"
     ))
+}
+
+/// The error of the material moves all curves of it together, and tells none of them from another.
+fn equals(peaks: &[Peak]) -> String {
+    let Some((largest, others)) = peaks.split_first() else {
+        return String::new();
+    };
+    let error_j = |peak: &Peak| peak.energy_loss_error_j.unwrap_or(0.0);
+    let is_equal = |peak: &&Peak| {
+        peak.varied != largest.varied
+            && (largest.energy_loss_j - peak.energy_loss_j).abs()
+                <= error_j(largest) + error_j(peak)
+    };
+    match others.iter().filter(is_equal).count() {
+        0 => String::new(),
+        1 => "; that of another curve is equal to it within their errors".to_owned(),
+        many => format!("; those of {many} other curves are equal to it within their errors"),
+    }
 }
 
 fn under(plan: &SweepPlan, peak: &Peak) -> Option<String> {

@@ -247,6 +247,59 @@ fn an_isotherm_with_a_shift_law_is_a_material_at_other_temperatures() {
 }
 
 #[test]
+fn of_peaks_that_are_equal_none_is_named_alone() {
+    // At other temperatures the same curve lies elsewhere; at another load it is another one.
+    let text = r#"title = "shifted"
+[material]
+poisson_ratio = 0.4
+temperature = "20 °C"
+[[material.isotherm]]
+temperature = "20 °C"
+modulus = "shear"
+activation_energy = 80e3
+equilibrium = "1 MPa"
+branches = [{ modulus = "9 MPa", time = "1 s" }]
+[indenter]
+shape = "sphere"
+radius = "10 mm"
+[drive]
+mean = "1 N"
+amplitude = "0.5 N"
+[cycle]
+steps = 32
+[solver]
+springs = 48
+[sweep]
+angular_frequency = { from = "0.01 rad/s", to = "10 rad/s", points = 13 }
+"#;
+    let folder = TempDir::new().unwrap();
+    let file = write(&folder, "shifted.toml", text);
+    let said = |axis: &str| {
+        let output = (program().current_dir(&folder))
+            .args([
+                "sweep",
+                "--no-figures",
+                "--force",
+                "--out",
+                "out",
+                "--set",
+                axis,
+            ])
+            .arg(&file)
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{output:?}");
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let text = said("sweep.material.temperature=['20 °C','25 °C','30 °C']");
+    let expected = "; those of 2 other curves are equal to it within their errors";
+    let unwrapped: Vec<&str> = text.split_whitespace().collect();
+    assert!(unwrapped.join(" ").contains(expected), "{text}");
+    let text = said("sweep.drive.amplitude=['0.4 N','0.5 N']");
+    assert!(!text.contains("equal to it"), "{text}");
+}
+
+#[test]
 fn a_material_of_the_library_that_shifts_is_known_at_other_temperatures() {
     let rest = FILE.split_once("[indenter]").unwrap().1;
     let of = |material: &str, axis: &str| {
