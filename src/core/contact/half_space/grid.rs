@@ -35,7 +35,7 @@ pub enum GridError {
     },
     /// A spacing is not a positive finite length, or the cell's area leaves the range of floating-point numbers.
     #[error(
-        "cannot build a grid with a cell of {spacing_x_m} m x {spacing_y_m} m: give two positive, finite lengths \
+        "cannot build a grid with a cell of {spacing_x_m:?} m x {spacing_y_m:?} m: give two positive, finite lengths \
          whose product is neither zero nor infinite"
     )]
     Spacing {
@@ -46,7 +46,7 @@ pub enum GridError {
     },
     /// The cells are needles, with which no pressure field is resolved.
     #[error(
-        "cannot build a grid with a cell of {spacing_x_m} m x {spacing_y_m} m: give sides that differ by at most a \
+        "cannot build a grid with a cell of {spacing_x_m:?} m x {spacing_y_m:?} m: give sides that differ by at most a \
          factor of {MAX_ASPECT_RATIO}"
     )]
     AspectRatio {
