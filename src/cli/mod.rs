@@ -123,8 +123,12 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Ok(arguments) => arguments,
         Err(error) => {
             // Help and version come this way too, with exit code 0. A closed pipe is no reason to fail.
-            let _ = error.print();
-            return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2));
+            return match error.print() {
+                Err(why) if why.kind() != io::ErrorKind::BrokenPipe => {
+                    report(Failure::run(format!("cannot write the help: {why}")))
+                }
+                _ => ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2)),
+            };
         }
     };
     let (format, data_format) = (arguments.output_format(), arguments.data_format());
