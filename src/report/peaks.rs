@@ -20,7 +20,7 @@ pub struct PeakWords {
     /// Of several curves which: `, amplitude 5 N`.
     pub under: String,
     /// Of the largest, how many of other curves are as large: `; those of 5 other curves are equal to it within their errors`.
-    equals: String,
+    pub equals: String,
 }
 
 impl PeakWords {
