@@ -269,6 +269,24 @@ pub fn format_human(value: f64, dimension: Dimension, significant_digits: usize)
     }
 }
 
+/// The same within a sentence: `8.44 × 10⁻³ rad/s`.
+pub fn format_prose(value: f64, dimension: Dimension, significant_digits: usize) -> String {
+    let human = format_human(value, dimension, significant_digits);
+    let power = |(number, unit): (&str, &str)| {
+        let (mantissa, exponent) = number.split_once('e')?;
+        let exponent = superscript(exponent.parse().ok()?);
+        Some(format!("{mantissa} × 10{exponent} {unit}"))
+    };
+    human.split_once(' ').and_then(power).unwrap_or(human)
+}
+
+/// A whole number raised: `⁻³`.
+pub fn superscript(exponent: i32) -> String {
+    let digit = |c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10)? as usize);
+    let digits = exponent.to_string();
+    digits.chars().map(|c| digit(c).unwrap_or('⁻')).collect()
+}
+
 /// Absolute temperature of zero degrees Celsius (K).
 pub const ZERO_CELSIUS_K: f64 = 273.15;
 

@@ -1,5 +1,6 @@
 //! Numbers with their errors and units, to be read.
 
+pub(super) use crate::quantity::superscript;
 use crate::quantity::{Dimension, FrequencyUnit, ZERO_CELSIUS_K, format_human};
 use crate::sweep::plan::Varied;
 
@@ -68,13 +69,6 @@ fn trimmed(number: &str) -> &str {
         true => number.trim_end_matches('0').trim_end_matches('.'),
         false => number,
     }
-}
-
-/// A whole number raised: `⁻³`.
-pub(super) fn superscript(exponent: i32) -> String {
-    let digit = |c: char| "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().nth(c.to_digit(10)? as usize);
-    let digits = exponent.to_string();
-    digits.chars().map(|c| digit(c).unwrap_or('⁻')).collect()
 }
 
 /// A number in the unit, with the prefix, in which it reads well, and that unit.

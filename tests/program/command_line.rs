@@ -678,7 +678,11 @@ fn help_has_examples_and_completions_are_made() {
     for arguments in [&["--help"][..], &["material", "list"]] {
         let full = fs::OpenOptions::new().write(true).open("/dev/full");
         let mut command = std::process::Command::new(assert_cmd::cargo::cargo_bin("contact-dma"));
-        let ended = command.args(arguments).stdout(full.unwrap()).output().unwrap();
+        let ended = command
+            .args(arguments)
+            .stdout(full.unwrap())
+            .output()
+            .unwrap();
         assert_eq!(ended.status.code(), Some(1), "{arguments:?}");
         assert!(contains("No space left").eval(&String::from_utf8_lossy(&ended.stderr)));
     }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::indenter::{Domain, Indenter};
 use crate::material::Material;
 use crate::material::dynamic::SAME_TEMPERATURE_K;
-use crate::quantity::{Dimension, FrequencyUnit, celsius, format_human};
+use crate::quantity::{Dimension, FrequencyUnit, celsius, format_prose};
 use crate::sweep::plan::layer::LayerPlan;
 use crate::sweep::record::error_bars::Quantity;
 use crate::sweep::record::{CaseRecord, CaseResult};
@@ -238,8 +238,8 @@ impl fmt::Display for Warning {
 impl Warning {
     /// One line, with frequencies in a unit.
     fn message(&self, unit: FrequencyUnit) -> String {
-        let time = |time_s| format_human(time_s, Dimension::Time, 3);
-        let frequency = |time_s: f64| format_human(unit.of(time_s.recip()), unit.dimension(), 3);
+        let time = |time_s| format_prose(time_s, Dimension::Time, 3);
+        let frequency = |time_s: f64| format_prose(unit.of(time_s.recip()), unit.dimension(), 3);
         match *self {
             Self::BelowMeasured {
                 last_measured_s: last_s,
@@ -300,7 +300,7 @@ impl Warning {
                 "slopes of the indenter in the contact (a/R of a sphere) up to {} at a contact radius of {}: the model takes them \
                  as small, up to about {LARGEST_SLOPE}",
                 two_digits(slope),
-                format_human(contact_radius_m, Dimension::Length, 3)
+                format_prose(contact_radius_m, Dimension::Length, 3)
             ),
             Self::DeepInLayer { part } => format!(
                 "the approach is up to {} of the layer's thickness: the model takes strains as small, up to about {LARGEST_DEPTH} of it",
@@ -317,7 +317,7 @@ impl Warning {
             ),
             Self::NegativeLoss { energy_loss_j } => format!(
                 "the energy loss, {}, is below zero, which it cannot be: more time steps, springs or cells are needed",
-                format_human(energy_loss_j, Dimension::Energy, 3)
+                format_prose(energy_loss_j, Dimension::Energy, 3)
             ),
             Self::ShortContact { steps } => format!(
                 "the indenter touches for only {} of the time steps of a cycle: at least {FEWEST_STEPS_IN_CONTACT} are needed, so cycle.steps \
@@ -441,7 +441,7 @@ impl fmt::Display for OverCases {
             self.highest_angular_frequency_rad_per_s,
         );
         let symbol = self.unit.symbol();
-        let value = |omega| format_human(self.unit.of(omega), self.unit.dimension(), 4);
+        let value = |omega| format_prose(self.unit.of(omega), self.unit.dimension(), 4);
         f.write_str(&self.message)?;
         let cases = match (self.cases == self.of, low == high) {
             (true, true) => return Ok(()),
