@@ -25,7 +25,7 @@ use crate::report::figure::press::Files;
 use crate::report::measured::{
     self, ANALYSIS, Analysis, Computed, MeasuredRow, columns, ordered, text,
 };
-use crate::report::words::wrapped;
+use crate::report::words::wrapped_line;
 use crate::report::{figure, machine, page};
 use crate::sweep::record::Status;
 use crate::sweep::search::run;
@@ -287,7 +287,7 @@ fn printed(folder: &Path, rows: &[MeasuredRow]) -> String {
         && let Some(measured) = &row.measured
     {
         for line in text::record(measured) {
-            printed.push_str(&wrapped(&line, 80, "", "  "));
+            printed.push_str(&wrapped_line(&line));
         }
         printed.push('\n');
     }

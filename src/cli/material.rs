@@ -17,7 +17,7 @@ use crate::report::figure::{
     press::{Files, Press},
 };
 use crate::report::page::{self, Pictures, material::About};
-use crate::report::words::wrapped;
+use crate::report::words::{USUAL, wrapped};
 use crate::report::{self, ReportError, material::MaterialReport};
 use crate::sweep::figures::figure_plan::FigurePlan;
 use crate::sweep::plan::resolved;
@@ -158,7 +158,7 @@ pub(super) fn load(name: &str) -> Result<(Material, String, Vec<PathBuf>), Failu
 /// What the library says of a material, set in by four.
 fn about(entry: &library::LibraryEntry) -> String {
     let source = format!("Source: {}", entry.source);
-    let indented = |text: &str| wrapped(text, 76, "    ", "    ");
+    let indented = |text: &str| wrapped(text, USUAL, "    ", "    ");
     indented(entry.notes) + &indented(&source)
 }
 

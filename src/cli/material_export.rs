@@ -9,7 +9,7 @@ use serde_json::json;
 use super::arguments::{ExportFlags, OutputFormat};
 use super::{Ended, Failure, json, material, print, write_out};
 use crate::material::export::{self, Export, Program};
-use crate::report::words::wrapped;
+use crate::report::words::{USUAL, wrapped};
 use crate::sweep::store::write_atomically;
 
 /// Runs the command.
@@ -99,6 +99,6 @@ fn unwritten(program: Program, export: &Export) -> String {
     };
     let paragraphs = export.remarks.iter().skip(said);
     paragraphs
-        .map(|remark| wrapped(remark, 76, "    ", "    "))
+        .map(|remark| wrapped(remark, USUAL, "    ", "    "))
         .collect()
 }

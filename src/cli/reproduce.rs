@@ -15,7 +15,7 @@ use crate::input::keys;
 use crate::input::{scenario_file, sweep_file};
 use crate::report::machine::object;
 use crate::report::table::Cell;
-use crate::report::words::{wrapped, wrapped_line};
+use crate::report::words::{USUAL, wrapped, wrapped_line};
 use crate::reproduction::{
     self, Count, FIGURES, Figure, Plans, ReproductionError, SCENARIOS, SWEEPS, Verdict,
 };
@@ -152,7 +152,7 @@ fn text(made: &[Figure], folder: &Path) -> String {
             "disagrees: figure {}, {}; the paper: {}",
             statement.figure, statement.computed, statement.paper
         );
-        text.push_str(&wrapped(&line, 80, "  ", "    "));
+        text.push_str(&wrapped(&line, USUAL, "  ", "    "));
     }
     text.push_str(&format!("\nResults in {}\n", folder.display()));
     text

@@ -3,7 +3,7 @@
 use std::io::IsTerminal;
 
 use crate::report::terminal::{ALWAYS_SHOWN, LEAVES_FIRST};
-use crate::report::words::wrapped;
+use crate::report::words::{USUAL, wrapped};
 
 /// Narrower than this nothing can be read.
 const NARROWEST: usize = 20;
@@ -43,14 +43,38 @@ pub(super) fn fitted(text: &str, columns: usize) -> String {
                 below
             }
         };
-        for line in sentences {
-            let indent: String = line.chars().take_while(|c| *c == ' ').collect();
-            let next = format!("{indent}  ");
-            fitted.push_str(&wrapped(line, columns, &indent, &next));
+        for line in joined(sentences) {
+            let first = " ".repeat(indent(&line));
+            let next = format!("{first}  ");
+            fitted.push_str(&wrapped(&line, columns, &first, &next));
         }
         fitted.push_str(end.get(1..).unwrap_or(""));
     }
     fitted
+}
+
+fn indent(line: &str) -> usize {
+    line.chars().take_while(|c| *c == ' ').count()
+}
+
+/// Lines as they were before they were broken at the usual width: one that is set in, as far as the line before or further, goes on
+/// where that ended, if its first word had no room there.
+fn joined(lines: &[&str]) -> Vec<String> {
+    let mut whole: Vec<String> = Vec::new();
+    let mut before = 0;
+    for line in lines {
+        let word = line.split_whitespace().next().unwrap_or_default();
+        let had_no_room = before + 1 + word.chars().count() > USUAL;
+        match whole.last_mut() {
+            Some(last) if had_no_room && indent(line) >= indent(last).max(2) => {
+                last.push(' ');
+                last.push_str(line.trim_start());
+            }
+            _ => whole.push((*line).to_owned()),
+        }
+        before = line.chars().count();
+    }
+    whole
 }
 
 /// Where the columns of a table begin: behind at least two blanks in every line. A block of one line is no table.
@@ -140,6 +164,23 @@ mod tests {
         assert_eq!(shown(20), " case   omega");
         let sentence = "  left out in 38 columns: memory\nAs long as it takes on this machine.\n";
         assert!(narrow(38).ends_with(sentence), "{}", narrow(38));
+    }
+
+    #[test]
+    fn what_was_broken_at_the_usual_width_is_broken_once() {
+        let warnings =
+            ["warning: ", "note: "].map(|kind| kind.to_owned() + &"a few words ".repeat(15));
+        let usual: String = warnings
+            .iter()
+            .map(|line| wrapped(line, USUAL, "", "  "))
+            .collect();
+        let narrow: String = warnings
+            .iter()
+            .map(|line| wrapped(line, 60, "", "  "))
+            .collect();
+        assert!(usual.lines().count() > 4);
+        assert_eq!(fitted(&usual, USUAL), usual);
+        assert_eq!(fitted(&usual, 60), narrow);
     }
 
     #[test]

@@ -200,9 +200,12 @@ pub fn wrapped(text: &str, columns: usize, first: &str, next: &str) -> String {
     lines.join("\n") + "\n"
 }
 
-/// One line of at most 80 columns broken between words, what follows the first set in by two.
+/// The columns of a terminal that text is written for.
+pub const USUAL: usize = 80;
+
+/// One line of at most so many columns broken between words, what follows the first set in by two.
 pub fn wrapped_line(line: &str) -> String {
-    wrapped(line, 80, "", "  ")
+    wrapped(line, USUAL, "", "  ")
 }
 
 #[cfg(test)]

@@ -8,14 +8,14 @@ use crate::material::dynamic::master_curve::MasterCurve;
 use crate::material::dynamic::shift_law::{Arrhenius, ShiftLaw, Wlf};
 use crate::quantity::{Dimension, celsius, format_human};
 use crate::report::number::{four_digits, scientific};
-use crate::report::words::{listed, wrapped};
+use crate::report::words::{listed, wrapped_line};
 
 impl DynamicReport<'_> {
     /// What was read, how well it fits and what to know of it, in lines of at most 80 columns; ends with a line end.
     pub fn text(&self) -> String {
         self.lines()
             .iter()
-            .map(|line| wrapped(line, 80, "", "  "))
+            .map(|line| wrapped_line(&line))
             .collect()
     }
 

@@ -13,7 +13,7 @@ use crate::report::dynamic::tables::prony;
 use crate::report::measured::columns::of_records;
 use crate::report::number::scientific;
 use crate::report::quantities;
-use crate::report::words::{listed, wrapped};
+use crate::report::words::{listed, wrapped_line};
 
 /// An identification and what it came to.
 pub struct IdentifyReport<'a> {
@@ -40,7 +40,7 @@ impl IdentifyReport<'_> {
     /// What was found, in lines of at most 80 columns; ends with a line end.
     pub fn text(&self) -> String {
         let lines = self.lines().into_iter();
-        lines.map(|line| wrapped(&line, 80, "", "  ")).collect()
+        lines.map(|line| wrapped_line(&line)).collect()
     }
 
     /// The same, one fact a line.

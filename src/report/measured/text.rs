@@ -9,7 +9,7 @@ use crate::measured::drift::DriftModel;
 use crate::measured::{Estimate, Finding, MeasuredLoop, Quantity};
 use crate::quantity::{Dimension, format_human};
 use crate::report::number::{Measured, four_digits};
-use crate::report::words::wrapped;
+use crate::report::words::wrapped_line;
 use crate::sweep::record::Status;
 
 /// Files with the same finding that are named before the rest is counted.
@@ -37,7 +37,7 @@ pub fn table(rows: &[MeasuredRow]) -> String {
         );
     }
     let meaning = "The number after ± is half the width of the 95 % interval, from the scatter of the cycles and the noise of the samples.";
-    text + &wrapped(meaning, 80, "", "")
+    text + &wrapped_line(meaning)
 }
 
 /// Phase lag and half its interval in degrees.
@@ -139,7 +139,7 @@ pub fn findings(rows: &[MeasuredRow]) -> String {
     for files in kinds.values() {
         for (file, sentence) in files.iter().take(NAMED) {
             let warning = format!("warning: {}: {sentence}", short(file));
-            text.push_str(&wrapped(&warning, 80, "", "  "));
+            text.push_str(&wrapped_line(&warning));
         }
         if files.len() > NAMED {
             let _ = writeln!(text, "  the like of {} more files", files.len() - NAMED);
