@@ -18,7 +18,8 @@ Numbers are those of the program ``contact-dma``, bit for bit, on any number of 
 """
 
 from ._contact_dma import VERSION as __version__
-from ._result import ContactDmaWarning, Status, Table, Warning
+from ._result import ContactDmaWarning, Status, Table
+from ._result import Warning as Warning  # Not in __all__: a star would put it in the place of Python's own.
 from .fits import MaterialFit
 from .folders import read
 from .histories import Field, HistoryResult, SurfaceLine, SurfaceProfile, simulate
@@ -69,7 +70,6 @@ __all__ = [
     "SurfaceProfile",
     "SweepResult",
     "Table",
-    "Warning",
     "__version__",
     "analyse",
     "identify",

@@ -106,7 +106,8 @@ def _brief(value: Any) -> str:
 
 class Table(Mapping[str, npt.NDArray[Any]]):
     """Columns by name, as in the CSV files of the program: the last part of a name is its SI unit, NaN stands where a value is
-    undefined, texts are arrays of strings. Errors stand beside values: ``energy_loss_j`` and ``energy_loss_error_j``."""
+    undefined, texts are arrays of strings. Errors stand beside values: ``energy_loss_j`` and ``energy_loss_error_j``. Only ``drive_mean``
+    and ``drive_amplitude`` have no unit in their names: they are in N, Pa or m, as the control of the drive is load, pressure or approach."""
 
     _columns: dict[str, npt.NDArray[Any]]
 
@@ -122,6 +123,9 @@ class Table(Mapping[str, npt.NDArray[Any]]):
 
     def __len__(self) -> int:
         return len(self._columns)
+
+    def __array__(self, *_: Any, **__: Any) -> npt.NDArray[Any]:
+        raise TypeError("a result is columns by name, not an array: write result[\"...\"] for a column, or result.to_pandas()")
 
     def _ipython_key_completions_(self) -> list[str]:
         """What a notebook offers after ``result["``."""

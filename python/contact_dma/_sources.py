@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -35,6 +36,15 @@ class Source:
 
 def chosen(options: dict[str, Any], keys: Sequence[str]) -> dict[str, Any]:
     return {key: options.pop(key, None) for key in keys}
+
+
+def with_signature(function: Callable[..., Any], options: Sequence[str]) -> None:
+    """Lets help and notebooks offer the options by name that the function takes as `**options`."""
+    plain = inspect.signature(function)
+    own = [parameter for parameter in plain.parameters.values() if parameter.kind is not parameter.VAR_KEYWORD]
+    defaults = {"control": "load"}
+    named = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=defaults.get(name)) for name in options]
+    function.__signature__ = plain.replace(parameters=[*own, *named])  # type: ignore[attr-defined]
 
 
 def refuse(call: str, options: Mapping[str, Any]) -> None:
@@ -111,6 +121,9 @@ def source_of_values(
     material: Material | Mapping[str, Material], indenter: Indenter | Mapping[str, Indenter], options: dict[str, Any]
 ) -> Source:
     axes = axes_of(options.pop("axes", None))
+    for what, named in (("material", material), ("indenter", indenter)):
+        if isinstance(named, Mapping) and not named:
+            raise ValueError(f"there is no {what} in {named!r}: give one, or several by their names")
     one_each(options)
     names = [together(material) if isinstance(material, Mapping) else material.name or "sweep"]
     names.append(together(indenter) if isinstance(indenter, Mapping) else repr(indenter))

@@ -147,8 +147,16 @@ def key(name: str) -> str:
 
 def table(header: str, entries: Mapping[str, Any], *, even_empty: bool = False) -> str:
     """A table of a file; entries that are None are left out, and a table without entries is none unless `even_empty`."""
-    lines = [f"{key(name)} = {value(item)}\n" for name, item in entries.items() if item is not None]
+    lines = [f"{key(name)} = {_named(name, item)}\n" for name, item in entries.items() if item is not None]
     return f"[{header}]\n" + "".join(lines) + "\n" if lines or even_empty else ""
+
+
+def _named(name: str, item: Any) -> str:
+    """A value as TOML; what is none is refused by its name."""
+    try:
+        return value(item)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from error
 
 
 def existing(file: str | os.PathLike[str]) -> str:

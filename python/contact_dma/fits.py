@@ -72,6 +72,14 @@ class MaterialFit(Record):
         return f"<pre>{html.escape(chr(10).join(self.report))}</pre>"
 
 
+def warn_of_unread(call: str, columns: Mapping[str, Any], fit: MaterialFit | None) -> None:
+    """Warns of columns that the reader passed over, such as one whose name is misspelt."""
+    read = next((note for note in fit.notes if note.startswith("columns read: ")), "") if fit is not None else ""
+    unread = [name for name in columns if f"`{name}`" not in read]
+    if read and unread:
+        warn(f"{call}: columns that are not read: {', '.join(unread)}")
+
+
 POOR_FIT = 0.2
 """Relative misfit above which a fit warns."""
 
@@ -93,7 +101,10 @@ def dynamic_columns(given: _toml.TableLike) -> dict[str, Any]:
     _refuse_lengths(numbers)
     tan_delta = numbers.pop("tan_delta", None)
     if tan_delta is not None:
-        numbers.setdefault("loss_modulus", numbers["storage_modulus"] * tan_delta)
+        of_tangent = numbers["storage_modulus"] * tan_delta
+        if not np.allclose(numbers.get("loss_modulus", of_tangent), of_tangent, rtol=0.05, atol=0.0, equal_nan=True):
+            warn("Material.from_dynamic(...): tan_delta is not loss_modulus / storage_modulus: the loss modulus is taken")
+        numbers.setdefault("loss_modulus", of_tangent)
     omega = numbers.get("angular_frequency", numbers.get("frequency", np.empty(0)))
     if "temperature" not in numbers and len(np.unique(omega)) < len(omega):
         warn(

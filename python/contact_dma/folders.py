@@ -37,7 +37,8 @@ def read(folder: str | os.PathLike[str]) -> SweepResult | HistoryResult | Analys
         ...     cd.read(folder) == result
         True
     """
-    path = Path(_toml.existing(folder))
+    # Absolute, so that a pickle of what is read is found from another working directory.
+    path = Path(_toml.path(folder))
     if not path.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(folder))
     analysis, block = path / "analysis.json", path / "material.toml"

@@ -11,7 +11,7 @@ from typing import Any, Literal, overload
 from . import _contact_dma as _core
 from . import _toml
 from ._result import Columns, Floats, Progress, Record, Table, Warning, arrays, heard, svg, warn
-from ._sources import Source, bodies, file_of, one_each, refuse, solver, thread_count, warn_without_effect
+from ._sources import SOLVER_KEYS, Source, bodies, file_of, one_each, refuse, solver, thread_count, warn_without_effect, with_signature
 from ._stored import StoredHistory
 from .indenters import Indenter
 from .materials import Material, Quantity
@@ -194,6 +194,7 @@ def simulate(
     material: str | os.PathLike[str],
     indenter: None = None,
     *,
+    segments: None = None,
     overrides: Mapping[str, Any] | None = None,
     threads: int | None = None,
     progress: Progress | Any | None = None,
@@ -268,7 +269,7 @@ def simulate(
         source = Source("simulate(...)", text + block, (), material._core, shape)
     else:
         file, given = file_of("simulate", material, indenter), {}
-        if options:
+        if any(option is not None for option in options.values()):
             raise ValueError("a scenario file says all; write overrides={\"solver.springs\": 48} to change it")
         source = Source(file, None, _toml.overrides(overrides))
     result = HistoryResult(_core.simulate(source, thread_count(threads), told))
@@ -276,3 +277,8 @@ def simulate(
     if result.failure is not None:
         warn(f"simulate: the history ended before its time: {result.failure}")
     return result
+
+
+_DRIVE_KEYS = ("segments", "control", "indenter_material", "layer", "adhesion", "step")
+_OUTPUT_KEYS = ("profiles_at", "fields_at", "field_cells", "error_bars")
+with_signature(simulate, (*_DRIVE_KEYS, *_OUTPUT_KEYS, *SOLVER_KEYS, "solver_tolerance", "title"))

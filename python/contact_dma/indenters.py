@@ -174,8 +174,10 @@ class Asperities(Indenter):
 
     def __init__(self, asperities: Sequence[Sequence[Quantity]]) -> None:
         rows = []
+        if not hasattr(asperities, "__iter__") or isinstance(asperities, str):
+            raise ValueError(f"asperities are {asperities!r}: give a list of (x, y, radius) or (x, y, radius, height)")
         for given in asperities:
-            if len(given) not in (3, 4):
+            if not _toml.is_list(given) or len(given) not in (3, 4):
                 raise ValueError(f"an asperity is (x, y, radius) or (x, y, radius, height), and one is {given!r}")
             x, y, radius, *height = given
             rows.append({"center": [x, y], "radius": radius, "height": height[0] if height else None})

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _contact_dma as _core
 from . import _toml
 from ._result import Floats, warn
-from .fits import POOR_FIT, MaterialFit, dynamic_columns, warn_of_celsius, write_columns
+from .fits import POOR_FIT, MaterialFit, dynamic_columns, warn_of_celsius, warn_of_unread, write_columns
 
 Quantity: TypeAlias = Union[float, str]
 """A number in SI units, or a string with a unit: ``0.01`` or ``"10 mm"``."""
@@ -30,8 +30,10 @@ BulkModulus: TypeAlias = Union[Quantity, tuple[Quantity, Sequence[tuple[Quantity
 def _bulk(given: BulkModulus | None) -> Quantity | dict[str, object] | None:
     if not isinstance(given, tuple):
         return given
+    if len(given) != 2:
+        raise ValueError(f"bulk_modulus is {given!r}: give a modulus, or a pair of that at rest and a list of branches")
     equilibrium, branches = given
-    return {"equilibrium": equilibrium, "branches": [{"modulus": m, "time": t} for m, t in branches]}
+    return {"equilibrium": equilibrium, "branches": [{"modulus": m, "time": t} for m, t in _pairs(branches, "modulus")]}
 
 
 def _pairs(branches: Any, what: str) -> list[tuple[Any, Any]]:
@@ -445,10 +447,12 @@ class Material:
             path = Path(folder) / "arrays.csv"
             write_columns(path, columns)
             try:
-                return cls._block("from_dynamic", entries, keep=False, dynamic={**table, "file": _toml.path(path)})
+                made = cls._block("from_dynamic", entries, keep=False, dynamic={**table, "file": _toml.path(path)})
             except ValueError as error:
                 # The file is gone when this is read; its line 1 has the names of the columns.
                 raise ValueError(str(error).replace(_toml.path(path), "the arrays")) from None
+        warn_of_unread("Material.from_dynamic(...)", columns, made._fit)
+        return made
 
     @classmethod
     def from_toml(cls, text: str) -> Material:

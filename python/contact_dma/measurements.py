@@ -16,7 +16,7 @@ import numpy as np
 from . import _contact_dma as _core
 from . import _toml
 from ._result import Columns, Floats, Record as ValueRecord, Status, Table, Warning, arrays, failures, svg, warn
-from ._sources import CYCLE_KEYS, DRIVE_KEYS, Source, bodies, chosen, one_each, refuse, solver, thread_count
+from ._sources import CYCLE_KEYS, DRIVE_KEYS, Source, bodies, chosen, one_each, refuse, solver, thread_count, warn_without_effect
 from ._stored import table
 from .fits import write_columns
 from .indenters import Indenter
@@ -142,6 +142,8 @@ def analyse(
     """
     several = not isinstance(records, (str, os.PathLike)) and not _toml.is_table(records)
     each: list[Record] = list(records) if several else [records]  # type: ignore[arg-type,list-item]
+    if _toml.is_list(frequency):
+        raise ValueError("frequency is that of all records, one number: analyse records of other frequencies apart")
     hertz = None if frequency is None else float(_toml.si(frequency, "Hz", "frequency"))
     given = [_record(record, k) for k, record in enumerate(each)]
     result = AnalysisResult(_core.analyse(given, hertz, _setup(setup), thread_count(threads)))
@@ -155,11 +157,17 @@ def _record(record: Record, index: int) -> Any:
     if not _toml.is_table(record):
         return _toml.existing(record)  # type: ignore[arg-type]
     units = {"time": "s", "load": "N", "approach": "m"}
-    names = {str(name).removesuffix(f"_{unit.lower()}"): name for name in record.keys() for unit in units.values()}
-    missing = [name for name in units if name not in names]
+    names = {name: [own for own in record.keys() if str(own) in (name, f"{name}_{unit.lower()}")] for name, unit in units.items()}
+    missing = [name for name, own in names.items() if not own]
     if missing:
         raise ValueError(f"record {index} has no {' and no '.join(missing)}: give time (s), load (N) and approach (m)")
-    columns = {name: _toml.si(record[names[name]], unit, f"record {index}, {name}").reshape(-1) for name, unit in units.items()}
+    twice = [own for own in names.values() if len(own) > 1]
+    if twice:
+        raise ValueError(f"record {index} has both {' and '.join(map(str, twice[0]))}: give one of them")
+    columns = {name: _toml.si(record[names[name][0]], unit, f"record {index}, {name}") for name, unit in units.items()}
+    for name, column in columns.items():
+        if column.ndim != 1:
+            raise ValueError(f"record {index}, {name} has shape {column.shape}: give an array of shape (n,), and several records as a list")
     time = columns["time"]
     if len({len(column) for column in columns.values()}) > 1:
         counts = ", ".join(f"{name} {len(column)}" for name, column in columns.items())
@@ -314,6 +322,7 @@ def identify(
     options.update(control=control, mean=mean, amplitude=amplitude)
     options.update(indenter_material=indenter_material, layer=layer, adhesion=adhesion)
     one_each(options)
+    given = dict(options)
     drive, cycle, engine = chosen(options, DRIVE_KEYS), chosen(options, CYCLE_KEYS), solver(options)
     drive["segments"] = segments
     known = {"poisson_ratio": poisson_ratio, "bulk_modulus": bulk_modulus}
@@ -326,7 +335,9 @@ def identify(
         text += _toml.table("drive", drive)
         text += _toml.table("cycle", cycle) + engine + around
         source = Source("identify(...)", text, (), None, None if "[indenter]" in around else indenter._core)
-        return _identified(source, threads)
+        found = _identified(source, threads)
+    warn_without_effect("identify", given, dict(found._files)["resolved.toml"].decode("utf-8"))
+    return found
 
 
 def _identified(source: Source, threads: int | None) -> IdentifiedMaterial:

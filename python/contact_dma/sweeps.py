@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _contact_dma as _core
 from . import _toml
 from ._result import Floats, Progress, Record, Status, Table, Warning, arrays, failures, heard, shown, svg, warn
-from ._sources import Source, file_of, source_of_values, thread_count, warn_without_effect
+from ._sources import CYCLE_KEYS, DRIVE_KEYS, SOLVER_KEYS, SWEEP_KEYS, Source, file_of, source_of_values, thread_count, warn_without_effect, with_signature
 from .indenters import Indenter
 from .materials import Material, Quantity
 
@@ -30,8 +30,9 @@ class Peak:
         angular_frequency_uncertainty: numerical uncertainty of the frequency (rad/s).
         energy_loss_error: numerical error of the loss (J); None without error bars.
         varied: SI values of the axes besides the frequency, names of materials or indenters, empty where there are none.
-        drive_mean: mean of the drive (N or m), where there are several.
-        drive_amplitude: amplitude of the drive (N or m), where there are several.
+        drive_mean: mean of the drive (N, Pa or m by its control), where there are several.
+        drive_amplitude: amplitude of the drive (N, Pa or m), where there are several.
+        varied_columns: the column of the result that each value of `varied` belongs to.
     """
 
     angular_frequency: float
@@ -41,6 +42,7 @@ class Peak:
     varied: tuple[float | str, ...] = ()
     drive_mean: float | None = None
     drive_amplitude: float | None = None
+    varied_columns: tuple[str, ...] = ()
 
     @property
     def frequency(self) -> float:
@@ -178,7 +180,8 @@ class SweepResult(Table):
     def peaks(self) -> tuple[Peak, ...]:
         """Local maxima of the loss over frequency, largest first."""
         peaks = self._core.peaks()
-        return tuple(Peak(*p[:4], varied=tuple(p[4]), drive_mean=p[5], drive_amplitude=p[6]) for p in peaks)
+        columns = self._axes() if any(p[4] for p in peaks) else ()
+        return tuple(Peak(*p[:4], varied=tuple(p[4]), drive_mean=p[5], drive_amplitude=p[6], varied_columns=columns) for p in peaks)
 
     @property
     def peak_problems(self) -> tuple[str, ...]:
@@ -228,13 +231,17 @@ class SweepResult(Table):
         omega = float(self["angular_frequency_rad_per_s"][index])
         return Cycle(omega, *(samples or (none, none, none, none, none)), tuple(profiles))
 
+    def _axes(self) -> tuple[str, ...]:
+        """The columns of the axes besides the frequency."""
+        return tuple(axis["column"] for axis in self.summary.get("axes", []))
+
     def _curves(self) -> tuple[list[tuple[Floats, Floats]], list[str]]:
         """Frequencies and losses of every curve, and what axes have there."""
         omega, loss = self["angular_frequency_rad_per_s"], self["energy_loss_j"]
         # A curve ends where frequencies begin anew.
         ends = [*(np.flatnonzero(np.diff(omega) <= 0) + 1).tolist(), len(omega)]
         starts = [0, *ends[:-1]]
-        axes = [axis["column"] for axis in self.summary.get("axes", [])]
+        axes = self._axes()
 
         def name(case: int) -> str:
             values = (self[axis][case] for axis in axes)
@@ -244,7 +251,9 @@ class SweepResult(Table):
 
     def __repr__(self) -> str:
         done = sum(status.converged for status in self.status)
-        return f"<SweepResult {self.title!r}: {done} of {len(self.status)} cases converged, {len(self.peaks)} peak{'' if len(self.peaks) == 1 else 's'}>"
+        peaks, warned = len(self.peaks), sum(map(bool, self.warnings))
+        text = f"{done} of {len(self.status)} cases converged, {peaks} peak{'' if peaks == 1 else 's'}"
+        return f"<SweepResult {self.title!r}: {text}{f', {warned} with warnings' if warned else ''}>"
 
     def _repr_html_(self) -> str:
         labels = ("angular frequency ω / rad/s", "energy loss ΔW / J")
@@ -252,10 +261,12 @@ class SweepResult(Table):
             f"<li>peak of {shown(p.energy_loss, 'J')} at {shown(p.angular_frequency, 'rad/s')}</li>" for p in self.peaks[:5]
         )
         failed = [f"<li>case {k}: {html.escape(str(s))}</li>" for k, s in enumerate(self.status) if not s.converged]
+        said = dict.fromkeys(warning.message for of_case in self.warnings for warning in of_case)
+        failed = failed[:5] + [f"<li>Warning: {html.escape(message)}</li>" for message in list(said)[:5]]
         curves, names = self._curves()
         marks = [(peak.angular_frequency, peak.energy_loss) for peak in self.peaks]
         picture = svg(curves, labels, log_x=True, names=names, marks=marks)
-        return f"<figure><figcaption>{html.escape(self.title)}</figcaption>{picture}<ul>{rows}{''.join(failed[:5])}</ul></figure>"
+        return f"<figure><figcaption>{html.escape(self.title)}</figcaption>{picture}<ul>{rows}{''.join(failed)}</ul></figure>"
 
     def __reduce__(self) -> tuple[Any, ...]:
         return (SweepResult, (self._core,))
@@ -276,7 +287,7 @@ def sweep(
     indenter_material: Material | str | None = None,
     layer: Mapping[str, Any] | None = None,
     adhesion: Quantity | Mapping[str, Any] | None = None,
-    axes: Mapping[str, Sequence[Quantity]] | None = None,
+    axes: Mapping[str, Sequence[Quantity] | npt.NDArray[Any]] | None = None,
     pairs: bool | None = None,
     refine: bool | None = None,
     steps: int | None = None,
@@ -300,6 +311,8 @@ def sweep(
     material: str | os.PathLike[str],
     indenter: None = None,
     *,
+    mean: None = None,
+    amplitude: None = None,
     overrides: Mapping[str, Any] | None = None,
     threads: int | None = None,
     progress: Progress | Any | None = None,
@@ -380,10 +393,15 @@ def sweep(
         warn_without_effect("sweep", options, result.resolved)
     else:
         file = file_of("sweep", material, indenter)
-        if options:
-            raise ValueError(f"a sweep file says all; in place of {', '.join(options)} write overrides={{\"cycle.steps\": 48}}")
+        given = [name for name, option in options.items() if option is not None]
+        if given:
+            raise ValueError(f"a sweep file says all; in place of {', '.join(given)} write overrides={{\"cycle.steps\": 48}}")
         result = SweepResult(_core.sweep(Source(file, None, _toml.overrides(overrides)), thread_count(threads), told))
     message = failures(result.status, "case")
     if message is not None:
         warn(f"sweep: {message}")
     return result
+
+
+_OTHER_KEYS = ("indenter_material", "layer", "adhesion", "axes", "solver_tolerance", "title")
+with_signature(sweep, (*DRIVE_KEYS, *SWEEP_KEYS, *CYCLE_KEYS, *SOLVER_KEYS, *_OTHER_KEYS))

@@ -12,7 +12,7 @@ import numpy as np
 
 import contact_dma as cd
 
-data = next(folder / "sweeps/pyvisco-freq-user-raw.csv" for folder in Path(__file__).resolve().parents if (folder / "sweeps").is_dir())
+data = next(folder / "sweeps/pyvisco-freq-user-raw.csv" for folder in Path(globals().get("__file__", "notebook")).resolve().parents if (folder / "sweeps").is_dir())
 temperatures = ["25 °C", "60 °C"]
 materials = [cd.Material.from_dynamic(data, poisson_ratio=0.38, temperature_of_sweep=t) for t in temperatures]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import inspect
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -72,6 +73,13 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (map_of(-np.outer((np.arange(9.0) - 4) ** 2, np.ones(9)), spacing=1e-6), ["steeper", "height_unit"]),
     (map_of(np.outer(np.arange(8.0), np.ones(8)), spacing=1e-6), ["steeper", "level"]),
     (lambda: cd.Asperities([(0, 0)]), ["(x, y, radius)", "(0, 0)"]),
+    (lambda: cd.Asperities([1e-3]), ["(x, y, radius)", "0.001"]),  # type: ignore[list-item]
+    (lambda: cd.Asperities(3), ["asperities are 3"]),  # type: ignore[arg-type]
+    (lambda: cd.sweep({}, SPHERE, mean=1.0, amplitude=0.5, angular_frequency=[1.0]), ["no material in {}"]),
+    (lambda: cd.sweep(PMMA, {}, mean=1.0, amplitude=0.5, angular_frequency=[1.0]), ["no indenter in {}"]),
+    (lambda: small_sweep(angular_frequency=[1.0, None]), ["angular_frequency: None"]),
+    (lambda: cd.Material.relaxation(1e6, [(1e6, 1.0)], bulk_modulus=(1e9,)), ["bulk_modulus is (1000000000.0,)"]),  # type: ignore[arg-type]
+    (lambda: cd.Material.relaxation(1e6, [(1e6, 1.0)], bulk_modulus=(1e9, [1.0])), ["pairs of modulus and time"]),  # type: ignore[list-item]
     (lambda: cd.Material.library("pmna"), ['"pmma"']),
     (lambda: cd.Material.library("no such polymer"), ["the library has", "pvb"]),
     (lambda: cd.Material.relaxation("1 MPa", {"1 MPa": "1 s"}, poisson_ratio=0.3), ["pairs of modulus and time"]),  # type: ignore[arg-type]
@@ -94,6 +102,11 @@ WRONG: list[tuple[Callable[[], object], list[str]]] = [
     (lambda: cd.analyse({"time": [0.0]}), ["no load and no approach"]),
     (lambda: cd.analyse({"time": [0.0, 1.0], "load": [0.0], "approach": [0.0, 1.0]}), ["record 0", "load 1"]),
     (lambda: cd.analyse({"time": [1.0, 0.0], "load": [0.0, 1.0], "approach": [0.0, 1.0]}), ["record 0", "times descend"]),
+    # A unit of another quantity is not that of a load, and of two columns of one name neither is chosen.
+    (lambda: cd.analyse({"time": [0.0], "load_m": [0.0], "approach_n": [0.0]}), ["no load and no approach"]),
+    (lambda: cd.analyse({"time": [0.0], "time_s": [0.0], "load": [0.0], "approach": [0.0]}), ["both time and time_s"]),
+    (lambda: cd.analyse({name: [[0.0, 1.0]] * 2 for name in ("time", "load", "approach")}), ["record 0, time has shape (2, 2)"]),
+    (lambda: cd.analyse([], frequency=[1.0, 2.0]), ["one number"]),  # type: ignore[arg-type]
     (lambda: cd.analyse([], frequency="3 m"), ["3 m"]),
     (lambda: cd.analyse([], setup={"instrment": {}, "instrument": {"mas": 1.0}}), ["mas"]),
     (lambda: cd.identify(), ["measured cycles and the indenter"]),
@@ -169,6 +182,30 @@ def test_options_without_effect_warn() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         small_sweep(angular_frequency=[0.01], steps=16, hold="1 s", method="march")
+
+
+def test_an_identification_warns_of_options_without_effect() -> None:
+    solid = cd.Material.relaxation("10 MPa", [("30 MPa", "1 s")], poisson_ratio=0.45)
+    cycles = cd.sweep(
+        solid, SPHERE, mean=0.2, amplitude=0.1, angular_frequency=[0.1, 0.3, 1.0, 3.0, 10.0], springs=64, steps=64, error_bars=False
+    )
+    data = {name: cycles[name] for name in ("angular_frequency_rad_per_s", "energy_loss_j", "approach_max_m")}
+    with pytest.warns(cd.ContactDmaWarning, match="identify: cells has no effect"):
+        cd.identify(data, SPHERE, poisson_ratio=0.45, mean=0.2, amplitude=0.1, cells=32)
+
+
+def test_options_are_in_the_signatures_that_notebooks_complete() -> None:
+    for call, overloaded in ((cd.sweep, small_sweep), (cd.simulate, lambda **given: cd.simulate(PMMA, SPHERE, segments=[], **given))):
+        named = [name for name, each in inspect.signature(call).parameters.items() if each.kind is each.KEYWORD_ONLY]
+        assert {"overrides", "cells", "layer", "title", "progress"} <= set(named)
+        with pytest.raises(ValueError):  # and not the TypeError of an argument that does not exist
+            overloaded(**{name: object() for name in named if name not in ("overrides", "segments", "threads", "progress")})
+
+
+def test_a_star_leaves_the_warning_of_python_where_it_is() -> None:
+    shared: dict[str, object] = {}
+    exec("from contact_dma import *", shared)
+    assert "Warning" not in shared and "ContactDmaWarning" in shared
 
 
 def test_material_and_indenter_may_be_given_by_name() -> None:

@@ -112,3 +112,17 @@ def test_degrees_that_were_taken_for_kelvin_warn() -> None:
     # Isotherms taken for one are no data of any series.
     with pytest.warns(cd.ContactDmaWarning, match="given more than once"), pytest.raises(ValueError, match="no series of these data"):
         cd.Material.from_dynamic(**data, poisson_ratio=0.45)
+
+
+def test_a_column_that_is_not_read_and_a_loss_factor_that_contradicts_warn() -> None:
+    omega = np.logspace(-2, 2, 25)
+    solid = cd.Material.relaxation("10 MPa", [("90 MPa", "1 s")], poisson_ratio=0.45)
+    e = solid.complex_modulus(omega)
+    data = {"angular_frequency": omega, "storage_modulus": e.real, "loss_modulus": e.imag}
+    with pytest.warns(cd.ContactDmaWarning, match="not read: temprature"):
+        cd.Material.from_dynamic({**data, "temprature": np.full(25, 300.0)}, poisson_ratio=0.45)
+    with pytest.warns(cd.ContactDmaWarning, match="the loss modulus is taken"):
+        cd.Material.from_dynamic(**data, tan_delta=2 * e.imag / e.real, poisson_ratio=0.45)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cd.Material.from_dynamic({**data, "tan_delta": e.imag / e.real, "temperature": np.full(25, 300.0)}, poisson_ratio=0.45)

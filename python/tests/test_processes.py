@@ -43,6 +43,16 @@ def test_a_result_read_from_a_folder_pickles(tmp_path: Path, result: cd.SweepRes
     assert pickle.loads(pickle.dumps(cd.read(tmp_path))) == result
 
 
+def test_what_was_read_by_a_relative_path_pickles_for_another_folder(
+    tmp_path: Path, result: cd.SweepResult, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    result.save(tmp_path / "out")
+    monkeypatch.chdir(tmp_path)
+    packed = pickle.dumps(cd.read("out"))
+    monkeypatch.chdir("/")
+    assert pickle.loads(packed) == result
+
+
 def test_a_study_runs_over_spawned_processes() -> None:
     radii = [0.005, 0.01]
     with multiprocessing.get_context("spawn").Pool(2) as pool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import io
 import pickle
 import time
@@ -174,6 +175,25 @@ def test_columns_cannot_be_changed(result: cd.SweepResult) -> None:
     frame = result.to_pandas()
     frame.loc[0, "energy_loss_j"] = 99.0
     assert result["energy_loss_j"][0] < 99.0
+
+
+def test_a_result_is_no_array(result: cd.SweepResult) -> None:
+    with pytest.raises(TypeError, match="to_pandas"):
+        np.asarray(result)
+
+
+def test_peaks_say_which_columns_vary() -> None:
+    study = small_sweep(axes={"indenter.radius": ["5 mm", "10 mm"]}, error_bars=False)
+    peak = study.peaks[0]
+    assert peak.varied_columns == ("indenter_radius_m",) and peak.varied[0] in study["indenter_radius_m"]
+    assert small_sweep(error_bars=False).peaks[0].varied_columns == ()
+
+
+def test_warnings_of_cases_are_seen_where_a_result_is_shown(result: cd.SweepResult) -> None:
+    steep = small_sweep(mean="100 kN", amplitude="1 kN", angular_frequency=[0.01], error_bars=False)
+    (warning,) = (each for each in steep.warnings[0] if each.code == "steep-slope")
+    assert "1 with warnings" in repr(steep) and html.escape(warning.message) in steep._repr_html_()
+    assert "warning" not in repr(result).lower()
 
 
 def test_cycles_compare_and_are_shown_without_their_numbers(result: cd.SweepResult) -> None:
