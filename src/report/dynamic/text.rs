@@ -13,10 +13,7 @@ use crate::report::words::{listed, wrapped_line};
 impl DynamicReport<'_> {
     /// What was read, how well it fits and what to know of it, in lines of at most 80 columns; ends with a line end.
     pub fn text(&self) -> String {
-        self.lines()
-            .iter()
-            .map(|line| wrapped_line(&line))
-            .collect()
+        self.lines().iter().map(|line| wrapped_line(line)).collect()
     }
 
     /// The same, one fact a line.
