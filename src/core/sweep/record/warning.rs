@@ -519,7 +519,7 @@ mod tests {
                 .all(|line| !line.contains('\n') && line.len() < 200)
         );
         for (line, part) in lines.iter().zip([
-            "measured up to 1000 s: below 1.00e-3 rad/s",
+            "measured up to 1000 s: below 1.00 × 10⁻³ rad/s",
             "measured from 100 ms on: above 10.0 rad/s",
             "up to then after a jump",
             "lasts 2000 s",
