@@ -569,6 +569,10 @@ mod tests {
             message("1 kgf", Dimension::Force),
             "'1 kgf' has the unknown unit 'kgf' (1 kgf is 9.80665 N); a force is written for example \"10 N\""
         );
+        assert!(
+            message("10 %", Dimension::Force)
+                .contains("(1 % is a hundredth of another quantity: write what it comes to)")
+        );
         // Words before numbers do not confuse the parts of a compound unit.
         assert!(
             message("5 rad/S", Dimension::AngularFrequency).contains("'S' (did you mean \"s\"?)")

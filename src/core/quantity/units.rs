@@ -161,7 +161,11 @@ const WORDS: [(&str, &str); 18] = [
 ];
 
 /// Units that are not read, and what one of them is in units that are.
-const FOREIGN: [(&str, &str); 9] = [
+const FOREIGN: [(&str, &str); 10] = [
+    (
+        "%",
+        "a hundredth of another quantity: write what it comes to",
+    ),
     ("kgf", "9.80665 N"),
     ("kp", "9.80665 N"),
     ("gf", "9.80665 mN"),
