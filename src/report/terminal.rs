@@ -116,8 +116,10 @@ fn loss(loss_j: Option<f64>, error_j: Option<f64>) -> String {
     let energy = Dimension::Energy;
     match loss_j.and_then(|loss_j| Measured::new(loss_j, error_j, energy)) {
         Some(measured) => {
-            let value = format!("{}{} {}", measured.value, measured.tens(), measured.unit);
-            format!("{value:>12} ± {:<8}", measured.error)
+            let tens = measured.tens();
+            let value = format!("{}{tens} {}", measured.value, measured.unit);
+            let error = measured.error + &tens;
+            format!("{value:>12} ± {error:<8}")
         }
         None => {
             let value = loss_j.map(|loss_j| format_human(loss_j, energy, 4));
@@ -200,5 +202,7 @@ mod tests {
         // Beyond six decimals an error is not followed.
         assert_eq!(joule(3.50901e-6, Some(2.8e-15)), "3.509010 µJ ± 0.000001");
         assert_eq!(joule(3.4e-6, Some(5e-6)), "3 µJ ± 5");
+        // Where no prefix reaches, the power of ten is that of both.
+        assert_eq!(joule(5.1442e-40, Some(2.8e-43)), "5.144e-40 J ± 0.003e-40");
     }
 }

@@ -109,7 +109,13 @@ fn short(file: &str) -> String {
 
 fn with_error(mean: Estimate, dimension: Dimension) -> String {
     match Measured::new(mean.value, mean.error, dimension) {
-        Some(m) => format!("{} ± {}{} {}", m.value, m.error, m.tens(), m.unit),
+        Some(m) => format!(
+            "{}{tens} ± {}{tens} {}",
+            m.value,
+            m.error,
+            m.unit,
+            tens = m.tens()
+        ),
         None => format_human(mean.value, dimension, 4),
     }
 }
