@@ -52,6 +52,7 @@
 //!
 //! | module | what it knows |
 //! |---|---|
+//! | [`numerics`] | roots, extremes, polynomials, medians, non-negative least squares; nothing of the field |
 //! | [`quantity`] | quantities with units |
 //! | [`material`] | relaxation modulus, creep compliance, complex modulus; models, conversion, library |
 //! | [`indenter`] | gap functions |
@@ -81,8 +82,8 @@
 
 #[doc(inline)]
 pub use contact_dma_core::{
-    contact, cycle, drive, history, identify, indenter, material, measured, prelude, quantity,
-    reference, steady, sweep,
+    contact, cycle, drive, history, identify, indenter, material, measured, numerics, prelude,
+    quantity, reference, steady, sweep,
 };
 
 #[cfg(feature = "cli")]

@@ -11,6 +11,7 @@ pub mod identify;
 pub mod indenter;
 pub mod material;
 pub mod measured;
+pub mod numerics;
 pub mod quantity;
 pub mod reference;
 pub mod steady;

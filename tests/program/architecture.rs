@@ -4,7 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Modules from top to bottom: those of the package in `src/core`, then those of the program.
-const MODULES: [&str; 17] = [
+const MODULES: [&str; 18] = [
+    "numerics",
     "quantity",
     "material",
     "indenter",

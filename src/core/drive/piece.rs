@@ -2,6 +2,8 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
+use crate::numerics::roots::{ALL_DIGITS, bisect};
+
 /// The form of the drive within a piece; times count from where the piece begins.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Form {
@@ -174,20 +176,12 @@ fn sign_changes(coefficients: &[f64]) -> Vec<f64> {
     let value = |x| horner(coefficients, x);
     let mut found = Vec::new();
     for pair in ends.windows(2) {
-        let (mut low, mut high) = (pair[0], pair[1]);
+        let (low, high) = (pair[0], pair[1]);
         let rises = value(high) > 0.0;
         if (value(low) > 0.0) == rises {
             continue;
         }
-        // As many halvings as a double has bits.
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if (value(middle) > 0.0) == rises {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
+        let (low, high) = bisect(low, high, ALL_DIGITS, |x| (value(x) > 0.0) != rises);
         found.push(0.5 * (low + high));
     }
     found

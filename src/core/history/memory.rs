@@ -9,6 +9,7 @@ use super::hereditary::{Hereditary, Stage};
 use super::loaded::Loaded;
 use crate::contact::sums;
 use crate::material::Creep;
+use crate::numerics::roots::bisect;
 
 /// How the pressure is taken to vary within a time step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -192,7 +193,7 @@ const FIRST_NODE: f64 = 1.0 / 3.0;
 /// the constant one.
 fn first_stage_end(compliance: &Creep, step_s: f64) -> f64 {
     /// Halvings of the interval; the order of the rule feels no more.
-    const HALVINGS: usize = 24;
+    const HALVINGS: u32 = 24;
     let place = |end: f64| {
         let (mut old, mut all) = (0.0, compliance.instantaneous_compliance());
         for branch in compliance.branches() {
@@ -207,15 +208,8 @@ fn first_stage_end(compliance: &Creep, step_s: f64) -> f64 {
         }
         end * (1.0 - old / all)
     };
-    let (mut low, mut high) = (FIRST_NODE, 2.0 * FIRST_NODE);
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if place(middle) > FIRST_NODE {
-            high = middle;
-        } else {
-            low = middle;
-        }
-    }
+    let is_before = |end: f64| place(end) <= FIRST_NODE;
+    let (low, high) = bisect(FIRST_NODE, 2.0 * FIRST_NODE, HALVINGS, is_before);
     0.5 * (low + high)
 }
 

@@ -16,6 +16,7 @@ use super::{
     Axisymmetric, DataFile, Domain, Indenter, IndenterError, Parameter, radius_under_approach_m,
     reach,
 };
+use crate::numerics::roots::{ALL_DIGITS, bisect};
 
 /// A slope that falls by no more than this share of the largest one is rounding of the table, not a profile that is not convex.
 const CONVEXITY_TOLERANCE: f64 = 1e-4;
@@ -137,17 +138,8 @@ impl Profile {
         if self.elastic_load_m2(self.end_m) <= load_times_compliance_m2 {
             return self.end_m;
         }
-        let (mut inside, mut outside) = (0.0, self.end_m);
-        // 60 halvings exhaust the digits of a double.
-        for _ in 0..60 {
-            let middle = 0.5 * (inside + outside);
-            if self.elastic_load_m2(middle) <= load_times_compliance_m2 {
-                inside = middle;
-            } else {
-                outside = middle;
-            }
-        }
-        outside
+        let is_inside = |a_m| self.elastic_load_m2(a_m) <= load_times_compliance_m2;
+        bisect(0.0, self.end_m, ALL_DIGITS, is_inside).1
     }
 
     /// A radius that holds the elastic contact of any profile.

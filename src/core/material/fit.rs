@@ -51,13 +51,13 @@ mod search;
 
 use rayon::prelude::*;
 
-use super::nnls::NnlsError;
 use super::random::Noise;
 use super::tabulated::Tabulated;
 use super::{
     Compressibility, Creep, CreepBranch, Material, MaterialError, MaterialFunction, Relaxation,
     RelaxationBranch,
 };
+use crate::numerics::nnls::NnlsError;
 use report::FAR_FROM_EQUILIBRIUM;
 pub use report::{FitRemark, FitReport, Misfit};
 use search::{Open, Search, Series};

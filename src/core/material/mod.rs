@@ -38,7 +38,6 @@ pub mod fit;
 pub mod fractional;
 pub mod interpolant;
 pub mod library;
-pub mod nnls;
 pub mod sampled;
 pub mod tabulated;
 

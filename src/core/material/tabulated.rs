@@ -26,6 +26,7 @@ mod course;
 
 use super::interpolant::Interpolant;
 use super::{MaterialError, MaterialFunction, ModulusKind};
+use crate::numerics::order;
 use crate::quantity::{Dimension, format_si};
 
 pub use course::{NOISE_LIMIT, REVERSAL_LIMIT, REVERSAL_SCATTER, TREND_FLOOR, TREND_SCATTER};
@@ -429,28 +430,10 @@ fn written(value: f64) -> (i32, i32) {
 
 /// The monotone sequence nearest to the values, each of this weight: rising for a creep compliance, falling for a relaxation modulus.
 fn isotonic(face: MaterialFunction, values: &[f64], weights: &[f64]) -> Vec<f64> {
-    let out_of_order = |before: f64, after: f64| match face {
+    order::isotonic(values, weights, |before, after| match face {
         MaterialFunction::Creep => before > after,
         MaterialFunction::Relaxation => before < after,
-    };
-    // Mean, weight and number of the values of every pool.
-    let mut pools: Vec<(f64, f64, usize)> = Vec::new();
-    for (&value, &weight) in values.iter().zip(weights) {
-        let mut pool = (value, weight, 1);
-        while let Some(&(mean, weight, count)) = pools.last()
-            && out_of_order(mean, pool.0)
-        {
-            let both = weight + pool.1;
-            let mean = mean + (pool.0 - mean) * (pool.1 / both);
-            pool = (mean, both, count + pool.2);
-            pools.pop();
-        }
-        pools.push(pool);
-    }
-    let values = pools
-        .iter()
-        .flat_map(|&(mean, _, count)| std::iter::repeat_n(mean, count));
-    values.collect()
+    })
 }
 
 /// Gaps and shortness.

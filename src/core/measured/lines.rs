@@ -3,7 +3,7 @@
 use super::frequency::{LINES_A_FREQUENCY, power, uniform};
 use super::quality::Finding;
 use super::signal::Sampling;
-use super::statistics::upper_median;
+use crate::numerics::order::upper_median;
 
 /// By how much a line stands above the median of its neighbours: of noise alone less than one in ten thousand records has such.
 const ABOVE: f64 = 45.0;

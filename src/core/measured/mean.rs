@@ -11,8 +11,9 @@ use super::noise::Noise;
 use super::quality::Finding;
 use super::quantities::{HARMONICS_OF_APPROACH, Quantity, Values};
 use super::signal::Sampling;
-use super::statistics::{Estimate, StandardError, upper_median};
+use super::statistics::{Estimate, StandardError};
 use super::{MeasuredLoop, Options, Signal};
+use crate::numerics::order::upper_median;
 
 /// Parts of a cycle over which samples are averaged to be drawn.
 const PARTS: usize = 100;

@@ -14,8 +14,9 @@ use super::quality::Finding;
 use super::quantities::{Quantity, Values};
 use super::signal::Sampling;
 use super::stabilisation;
-use super::statistics::{Estimate, upper_median};
+use super::statistics::Estimate;
 use super::{Corrections, HARMONICS, MeasuredError, Signal};
+use crate::numerics::order::upper_median;
 
 /// What is known beside the record.
 #[derive(Debug, Clone, Default)]

@@ -3,6 +3,7 @@
 use super::quality::{Finding, Outlier};
 use super::quantities::{Quantity, Values};
 use super::statistics::{mean, student_of_trend};
+use crate::numerics::order::median;
 
 /// What is judged.
 const JUDGED: [Quantity; 4] = [
@@ -140,11 +141,11 @@ fn outliers(values: &[Values], numbers: &[usize]) -> Vec<Outlier> {
         let Some(column) = column(values, quantity) else {
             continue;
         };
-        let center = median(column.clone());
+        let center = median(&column);
         let deviations: Vec<f64> = column.iter().map(|value| (value - center).abs()).collect();
         let scale = scale(quantity, center);
         // Of a normal distribution; what rounding leaves of equal cycles is no scatter.
-        let deviation = (1.4826 * median(deviations)).max(1e-4 * NOTICEABLE * scale);
+        let deviation = (1.4826 * median(&deviations)).max(1e-4 * NOTICEABLE * scale);
         // The median of few deviations is itself uncertain.
         let limit = APART * (1.0 + 4.0 / values.len() as f64);
         for (place, value) in column.iter().enumerate() {
@@ -163,13 +164,6 @@ fn outliers(values: &[Values], numbers: &[usize]) -> Vec<Outlier> {
     let noticeable = |outlier: &Outlier| outlier.relative.abs() > NOTICEABLE;
     let found = apart.into_iter().flatten().map(|(_, outlier)| outlier);
     found.filter(noticeable).collect()
-}
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    let at = |k: usize| values.get(k).copied().unwrap_or(0.0);
-    let n = values.len();
-    0.5 * (at(n / 2) + at(n.saturating_sub(1) / 2))
 }
 
 #[cfg(test)]

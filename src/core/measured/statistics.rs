@@ -50,13 +50,6 @@ pub fn mean(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-/// The median, of an even number of values the upper one of the two in the middle; `None` of nothing.
-pub(super) fn upper_median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut values: Vec<f64> = values.collect();
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied()
-}
-
 /// Standard error of a mean from the scatter of the values, in their order: neighbours that are alike count for less than one each.
 /// `None` of fewer than two.
 pub fn scatter(values: &[f64]) -> Option<StandardError> {

@@ -19,6 +19,7 @@ use std::f64::consts::{FRAC_2_PI, FRAC_PI_2};
 use super::elastic::Hertz;
 use super::transient::step_load_contact_radius_m;
 use crate::material::{Creep, MaterialError, Relaxation};
+use crate::numerics::roots::{ALL_DIGITS, bisect};
 
 /// A sphere of this radius (m) under this load (N) from time 0 on.
 #[derive(Debug, Clone)]
@@ -135,26 +136,8 @@ impl StepLoad {
         if self.contact_radius_m(0.0) >= r_m {
             return 0.0;
         }
-        // Halving 60 times exhausts the digits.
-        bisection(0.0, time_s, 60, |s| self.contact_radius_m(s) < r_m).1
+        bisect(0.0, time_s, ALL_DIGITS, |s| self.contact_radius_m(s) < r_m).1
     }
-}
-
-/// Where a condition that holds at `low` ceases to hold on the way to `high`, by so many halvings.
-fn bisection(
-    mut low: f64,
-    mut high: f64,
-    halvings: u32,
-    holds: impl Fn(f64) -> bool,
-) -> (f64, f64) {
-    for _ in 0..halvings {
-        let middle = 0.5 * (low + high);
-        match holds(middle) {
-            true => low = middle,
-            false => high = middle,
-        }
-    }
-    (low, high)
 }
 
 /// Integral by Simpson's rule.
@@ -185,7 +168,9 @@ pub fn maxwell_falling_ramp_cubed_radius(s: f64) -> f64 {
     if relaxed(s) <= 1.0 {
         return relaxed(s).max(0.0);
     }
-    let (low, high) = bisection(0.0, 1.0, 60, |earlier| relaxed(earlier) < relaxed(s));
+    let (low, high) = bisect(0.0, 1.0, ALL_DIGITS, |earlier| {
+        relaxed(earlier) < relaxed(s)
+    });
     growing(0.5 * (low + high))
 }
 

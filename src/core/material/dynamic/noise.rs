@@ -6,7 +6,7 @@
 
 use super::one_curve::OneCurve;
 use super::{DynamicData, DynamicPoint, Isotherm};
-use crate::material::nnls::least_squares;
+use crate::numerics::nnls::least_squares;
 use nalgebra::{DMatrix, DVector};
 
 /// Relative standard deviation of storage and loss modulus.

@@ -1,5 +1,5 @@
 //! Non-negative least squares from the normal equations, for problems that are solved again and again with little change: the
-//! method of [`crate::material::nnls`] (Lawson and Hanson 1974, chapter 23; on the normal equations R. Bro and S. de Jong,
+//! method of [`crate::numerics::nnls`] (Lawson and Hanson 1974, chapter 23; on the normal equations R. Bro and S. de Jong,
 //! J. Chemometrics 11 (1997) 393), started from the columns that were in use the last time.
 //!
 //! The normal equations square the condition of the columns. What is lost by that is far below the noise of a measurement, and

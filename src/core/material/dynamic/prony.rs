@@ -25,8 +25,8 @@ mod selection;
 
 use super::DynamicPoint;
 use crate::material::branches::Branch;
-use crate::material::nnls::NnlsError;
 use crate::material::{MaterialError, Relaxation, RelaxationBranch};
+use crate::numerics::nnls::NnlsError;
 pub(super) use rows::errors_known;
 use rows::{Part, Rows, SPECTRUM, Series};
 use selection::Selection;

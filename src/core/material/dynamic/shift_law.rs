@@ -4,6 +4,8 @@ use std::f64::consts::LN_10;
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn, Matrix2, Vector2};
 
+use crate::numerics::roots::golden_section;
+
 /// `log10 a_T = -c1 (T - Tr) / (c2 + T - Tr)` (M. L. Williams, R. F. Landel, J. D. Ferry, J. Am. Chem. Soc. 77 (1955) 3701).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wlf {
@@ -350,20 +352,6 @@ impl Factors<'_> {
 /// In the search for the pole: nearest place to the temperatures, as a share of their half width, and places.
 const NEAREST_POLE: f64 = 0.995;
 const SEARCHED: usize = 100;
-
-/// Where a function of one minimum has it.
-fn golden_section(mut from: f64, mut to: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let share = 0.5 * (5.0_f64.sqrt() - 1.0);
-    for _ in 0..60 {
-        let (left, right) = (to - share * (to - from), from + share * (to - from));
-        if value(left) < value(right) {
-            to = right;
-        } else {
-            from = left;
-        }
-    }
-    0.5 * (from + to)
-}
 
 #[cfg(test)]
 mod tests {

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{NOTICEABLE, PRICE};
 use crate::material::MaterialFunction;
 use crate::material::branches::{Branch, MANY, TRIED, fewer, halved, merge_runs};
-use crate::material::nnls::{NnlsError, least_squares, nnls};
+use crate::numerics::nnls::{NnlsError, least_squares, nnls};
 
 /// Times per decade of the grid on which two times next to one another mean one between them, and of the grids that are
 /// tried where the spectrum is broad.

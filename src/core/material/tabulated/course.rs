@@ -2,6 +2,7 @@
 
 use super::{Groups, TableError, TableWarning, rounding};
 use crate::material::MaterialFunction;
+use crate::numerics::order::median;
 
 /// Share by which one value may be on the wrong side of an earlier one, however small the scatter.
 pub const NOISE_LIMIT: f64 = 0.10;
@@ -147,15 +148,4 @@ fn scatter(times_s: &[f64], values: &[f64]) -> (f64, bool) {
     }
     // The median of the magnitude of a normal variable is 0.6745 of its standard deviation.
     (median(&deviations) / 0.6745, false)
-}
-
-fn median(values: &[f64]) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len() / 2;
-    match sorted.len() {
-        0 => 0.0,
-        even if even % 2 == 0 => 0.5 * (sorted[middle - 1] + sorted[middle]),
-        _ => sorted[middle],
-    }
 }

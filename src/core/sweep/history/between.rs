@@ -1,6 +1,7 @@
 //! A history between its rows: values at any time, of rows that no joint of the drive parts.
 
 use crate::drive::SegmentedDrive;
+use crate::numerics::polynomial::lagrange;
 use crate::sweep::history::HistoryRow;
 
 /// Times closer than this part of what they lie in are the same.
@@ -44,17 +45,6 @@ pub(super) fn cubic(times: &[f64], values: &[f64], time: f64) -> f64 {
     let first = after.saturating_sub(2).min(times.len().saturating_sub(4));
     let near = first..(first + 4).min(times.len());
     lagrange(&times[near.clone()], &values[near], time)
-}
-
-/// Lagrange's polynomial through all samples.
-pub(in crate::sweep) fn lagrange(places: &[f64], values: &[f64], at: f64) -> f64 {
-    let weight = |i: usize| -> f64 {
-        let others = places.iter().enumerate().filter(|(j, _)| *j != i);
-        others
-            .map(|(_, other)| (at - other) / (places[i] - other))
-            .product()
-    };
-    (0..places.len()).map(|i| values[i] * weight(i)).sum()
 }
 
 #[cfg(test)]

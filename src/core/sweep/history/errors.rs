@@ -7,9 +7,10 @@
 //! jump of the drive parts from it.
 
 use crate::drive::Fineness;
+use crate::numerics::polynomial::richardson;
 use crate::sweep::history::HistoryRow;
 use crate::sweep::plan::{EngineKind, SolverPlan};
-use crate::sweep::record::error_bars::{ROUNDING, SAFETY, richardson};
+use crate::sweep::record::error_bars::{ROUNDING, SAFETY};
 
 /// Estimated errors of a row, absolute; `None` where the value is undefined or the estimate is missing.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

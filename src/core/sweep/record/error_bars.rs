@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use crate::indenter::{Axisymmetric, Indenter};
+use crate::numerics::polynomial::richardson;
 use crate::sweep::record::CaseResult;
 
 /// The numbers of a case that have error bars.
@@ -383,26 +384,6 @@ fn error(quantity: Quantity, ladder: &Ladder<'_>, orders: (f64, f64)) -> Option<
         None => None,
     };
     Some(richardson(first, ladder.first.ratio, second, orders))
-}
-
-/// What is left of an error of which refining `ratio` times took `first` away, and `second.1` times `second.0` before. Without the
-/// latter the order is not seen, and the lowest counts.
-pub(in crate::sweep) fn richardson(
-    first: f64,
-    ratio: f64,
-    second: Option<(f64, f64)>,
-    (lowest, highest): (f64, f64),
-) -> f64 {
-    let Some((second, second_ratio)) = second else {
-        return first / (ratio.powf(lowest) - 1.0);
-    };
-    if first == 0.0 && second == 0.0 {
-        return 0.0;
-    }
-    let order = ((second / first).ln() / second_ratio.ln()).clamp(lowest, highest);
-    // Where the finer difference vanishes by accident, the coarser one says what to expect.
-    let expected = second / (second_ratio.powf(highest) - 1.0) / ratio.powf(highest);
-    (first / (ratio.powf(order) - 1.0)).max(expected)
 }
 
 #[cfg(test)]

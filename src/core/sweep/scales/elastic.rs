@@ -4,6 +4,7 @@
 use crate::drive::Control;
 use crate::indenter::Indenter;
 use crate::material::{Material, ModulusKind};
+use crate::numerics::roots::bisect;
 use crate::sweep::plan::contact::ContactPlan;
 use crate::sweep::plan::scenario::ScenarioPlan;
 use crate::sweep::plan::{SweepPlan, Varied};
@@ -41,7 +42,7 @@ pub enum NoScale {
 
 /// Panels of the quadrature of the transformed gap, and halvings of an interval.
 const PANELS: usize = 4000;
-const HALVINGS: usize = 200;
+const HALVINGS: u32 = 200;
 
 impl ElasticScale {
     /// The scale of a sweep: under the mean of its `[drive]`.
@@ -144,16 +145,7 @@ fn contact(
             while high_m < limit_m && gap(high_m) < value {
                 high_m = (2.0 * high_m).min(limit_m);
             }
-            let mut low_m = 0.0;
-            for _ in 0..HALVINGS {
-                let middle_m = 0.5 * (low_m + high_m);
-                if gap(middle_m) < value {
-                    low_m = middle_m;
-                } else {
-                    high_m = middle_m;
-                }
-            }
-            let radius_m = low_m;
+            let (radius_m, _) = bisect(0.0, high_m, HALVINGS, |r_m| gap(r_m) < value);
             let load_n = 2.0 / compliance_per_pa * (value * radius_m - integral(radius_m));
             Ok((load_n, value, radius_m))
         }

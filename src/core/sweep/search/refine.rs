@@ -4,7 +4,7 @@
 //! logarithms of frequency and loss. Where the computed value differs, the curve has a detail that the samples around it
 //! only just show, and the two intervals beside the point are halved.
 
-use crate::sweep::history::between::lagrange;
+use crate::numerics::polynomial::lagrange;
 use crate::sweep::search::peak::Point;
 
 /// Error of the curve between its points, relative, above which a neighbourhood is refined: well above the error of a loss,

@@ -6,7 +6,7 @@ use super::PronyFit;
 use crate::material::branches::Branch;
 use crate::material::dynamic::DynamicPoint;
 use crate::material::harmonic::Debye;
-use crate::material::nnls::{NnlsError, nnls};
+use crate::numerics::nnls::{NnlsError, nnls};
 
 /// Least relative noise: smaller misfits count as none, however clean the data are.
 pub(super) const NOTICEABLE: f64 = 1e-4;

@@ -112,7 +112,7 @@ fn exchange(
 }
 
 /// The unconstrained least squares solution; `None` where the columns do not determine one.
-pub(super) fn least_squares(matrix: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
+pub fn least_squares(matrix: &DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
     if matrix.ncols() == 0 || matrix.ncols() > matrix.nrows() {
         return None;
     }
