@@ -54,20 +54,19 @@ pub(super) fn at_once() {
 fn ending() -> Vec<i32> {
     let mut signals = vec![SIGINT, SIGTERM];
     #[cfg(unix)]
-    signals.push(signal_hook::consts::SIGHUP);
-    let ignored = ignored();
-    signals.retain(|signal| ignored & (1 << (signal - 1)) == 0);
+    if !is_ignored(signal_hook::consts::SIGHUP) {
+        signals.push(signal_hook::consts::SIGHUP);
+    }
     signals
 }
 
-/// Signals that whoever started the program wants to be ignored, as `nohup` does, the lowest bit for number one; none where the
-/// system does not say.
-fn ignored() -> u64 {
+/// Whether whoever started the program wants a signal to be ignored, as `nohup` does with SIGHUP; false where the system does not say.
+/// SIGINT is not asked about: shells ignore it for whatever they start in the background, where `kill -INT` is still meant.
+#[cfg(unix)]
+fn is_ignored(signal: i32) -> bool {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let mask = status
-        .lines()
-        .find_map(|line| line.strip_prefix("SigIgn:"))
-        .map(str::trim);
-    mask.and_then(|mask| u64::from_str_radix(mask, 16).ok())
-        .unwrap_or_default()
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    // The lowest bit stands for signal number one.
+    mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok())
+        .is_some_and(|mask| mask & (1 << (signal - 1)) != 0)
 }

@@ -20,7 +20,7 @@ pub struct PeakWords {
     /// Of several curves which: `, amplitude 5 N`.
     pub under: String,
     /// Of the largest, how many of other curves are as large: `; those of 5 other curves are equal to it within their errors`.
-    pub equals: String,
+    equals: String,
 }
 
 impl PeakWords {
@@ -35,10 +35,12 @@ impl PeakWords {
     /// `3.5090 ± 0.0003 µJ at ω = (8.440 ± 0.003) × 10⁻³ rad/s, amplitude 5 N`.
     pub fn sentence(&self) -> String {
         let (loss, symbol, frequency) = (&self.loss, self.symbol, &self.frequency);
-        format!(
-            "{loss} at {symbol} = {frequency}{}{}{}",
-            self.under, self.material, self.equals
-        )
+        format!("{loss} at {symbol} = {frequency}{}", self.circumstances())
+    }
+
+    /// What follows the numbers: which curve it is, what its errors are made of, and which others are as high.
+    pub fn circumstances(&self) -> String {
+        format!("{}{}{}", self.under, self.material, self.equals)
     }
 }
 

@@ -10,25 +10,20 @@ use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
 use crate::kills::{signal, wait_for};
-use crate::program::write;
+use crate::program::{pmma_sweep, write};
 use crate::segments;
 
-/// Cases of seconds each.
-const CELLS: &str = r#"title = "cells"
-[material]
-library = "pmma"
-[indenter]
-shape = "sphere"
-radius = "10 mm"
-[drive]
-mean = "10 N"
-amplitude = "5 N"
-[sweep]
-angular_frequency = { from = "1e-3 rad/s", to = "1 rad/s", points = 60 }
+/// Sixty cases on so many cells along the longer side: of seconds each on 256.
+fn on_cells(cells: usize) -> String {
+    pmma_sweep(&format!(
+        r#"[sweep]
+angular_frequency = {{ from = "1e-3 rad/s", to = "1 rad/s", points = 60 }}
 [solver]
 engine = "half-space"
-cells = 256
-"#;
+cells = {cells}
+"#
+    ))
+}
 
 /// The program as a shell starts it after these words.
 fn after(words: &str, arguments: &[&str], folder: &Path) -> Child {
@@ -47,14 +42,20 @@ fn after(words: &str, arguments: &[&str], folder: &Path) -> Child {
 #[test]
 fn a_command_that_has_nothing_to_keep_ends_at_once() {
     let folder = TempDir::new().unwrap();
-    for arguments in [["plan", "-"], ["material", "show"], ["sweep", "-"]] {
-        let arguments = match arguments {
-            ["material", _] => vec!["material", "show", "/dev/stdin"],
-            other => other.to_vec(),
-        };
+    // Whoever runs the tests may ignore them.
+    let listening = match cfg!(target_os = "linux") {
+        true => "set -- env --default-signal=HUP \"$@\";",
+        false => "",
+    };
+    let commands = [
+        &["plan", "-"][..],
+        &["material", "show", "/dev/stdin"],
+        &["sweep", "-"],
+    ];
+    for arguments in commands {
         for how in ["-TERM", "-INT", "-HUP"] {
             // It waits for an input that does not come.
-            let mut child = after("", &arguments, folder.path());
+            let mut child = after(listening, arguments, folder.path());
             std::thread::sleep(Duration::from_millis(300));
             let sent = Instant::now();
             signal(&child, how);
@@ -68,7 +69,7 @@ fn a_command_that_has_nothing_to_keep_ends_at_once() {
 #[test]
 fn a_hangup_is_nothing_where_whoever_started_it_ignores_it() {
     let folder = TempDir::new().unwrap();
-    write(&folder, "cells.toml", CELLS);
+    write(&folder, "cells.toml", &on_cells(256));
     let out = folder.path().join("out");
     let sweep = ["sweep", "cells.toml", "--no-figures", "--out", "out"];
     let mut child = after("trap '' HUP;", &sweep, folder.path());
@@ -83,8 +84,7 @@ fn a_hangup_is_nothing_where_whoever_started_it_ignores_it() {
 #[test]
 fn a_file_that_grows_beyond_its_limit_is_an_error_and_not_the_end() {
     let folder = TempDir::new().unwrap();
-    let small = CELLS.replace("cells = 256", "cells = 16");
-    write(&folder, "cells.toml", &small);
+    write(&folder, "cells.toml", &on_cells(16));
     let sweep = ["sweep", "cells.toml", "--quiet", "--out", "out"];
     // Sixteen blocks of 512 bytes.
     let child = after("ulimit -f 16;", &sweep, folder.path());

@@ -149,11 +149,7 @@ pub fn find_from(
         search.cycles += 1;
         remaining.change(&search.start, march.memory(), &mut update);
         let memory = remaining.distance(&update) / run.scale;
-        let closure = cycle::closure_error(&run.load_n, &run.approach_m);
-        search.distance = match closure {
-            Some(closure) if memory.is_finite() => memory.max(closure),
-            _ => f64::INFINITY,
-        };
+        search.distance = run.distance(memory);
         converged = search.distance <= settings.tolerance;
         if converged {
             break;
@@ -238,8 +234,8 @@ pub(super) struct Run {
     pub(super) contact: ContactHistory,
     /// Largest size of the nodal pressures.
     pub(super) scale: f64,
-    pub(super) load_n: Vec<f64>,
-    pub(super) approach_m: Vec<f64>,
+    load_n: Vec<f64>,
+    approach_m: Vec<f64>,
 }
 
 impl Run {
@@ -283,6 +279,15 @@ impl Run {
             self.scale = self.scale.max(remaining.size(march.pressure()));
         }
         Ok(true)
+    }
+
+    /// The distance to the stabilised cycle: of the memory, given relative to the pressure, or of the loop to a closed one; infinite
+    /// where no pressure arose.
+    pub(super) fn distance(&self, memory: f64) -> f64 {
+        match cycle::closure_error(&self.load_n, &self.approach_m) {
+            Some(closure) if memory.is_finite() => memory.max(closure),
+            _ => f64::INFINITY,
+        }
     }
 
     fn sample(&mut self, solution: &Solution) {

@@ -16,7 +16,6 @@ use super::correction::Correction;
 use super::iteration::{Cycle, Run, Steady, SteadySettings};
 use super::remaining::Remaining;
 use crate::contact::{ContactError, Prescribed};
-use crate::cycle;
 use crate::history::March;
 
 /// How far beside a memory the map is looked at, as a part of its size: far enough for the tolerance of an instant.
@@ -129,12 +128,7 @@ impl<'a> Newton<'a> {
         self.cycles += 1;
         remaining.change(start, march.memory(), &mut self.tried_change);
         let missing = remaining.distance(&self.tried_change);
-        let closure = cycle::closure_error(&run.load_n, &run.approach_m);
-        let relative = missing / run.scale;
-        let distance = match closure {
-            Some(closure) if relative.is_finite() => relative.max(closure),
-            _ => f64::INFINITY,
-        };
+        let distance = run.distance(missing / run.scale);
         Ok(Some(Reached { missing, distance }))
     }
 

@@ -24,7 +24,7 @@ pub(super) fn peaks(plan: &SweepPlan, outcome: &Outcome) -> Markup {
             @for peak in peaks::all(plan, outcome) {
                 li {
                     (peak.name()) ": "
-                    strong { (peak.loss) } " per cycle at " (peak.symbol) " = " strong { (peak.frequency) } (peak.under) (peak.material) (peak.equals)
+                    strong { (peak.loss) } " per cycle at " (peak.symbol) " = " strong { (peak.frequency) } (peak.circumstances())
                 }
             }
             @if let Some(rest) = peaks::rest(outcome) { li { (rest) } }
