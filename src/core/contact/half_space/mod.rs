@@ -6,9 +6,12 @@
 pub mod convolution;
 pub mod grid;
 pub mod influence;
+mod instant;
 pub mod layer;
 pub mod periodic;
+mod polonsky_keer;
 mod solver;
 
 pub use convolution::predicted_memory_bytes;
-pub use solver::{HalfSpace, SolverSettings};
+pub use instant::SolverSettings;
+pub use solver::HalfSpace;

@@ -3,7 +3,7 @@
 //! An instant is solved in a window about the contact ([`active_set`]), to which the starting pressure and the history show the
 //! way; that nothing touches the indenter beyond it is proved ([`outside`]) or, failing that, checked by a convolution on the
 //! whole grid, and the window grows until it holds the contact. Where the fast way makes too little progress, a slower one on
-//! the whole grid goes on from there ([`polonsky_keer`]). The answer is a function of gap, instant and starting pressure alone:
+//! the whole grid goes on from there ([`PolonskyKeer`]). The answer is a function of gap, instant and starting pressure alone:
 //! nothing is carried from one instant to the next but memory already allocated. Everything that decides when to stop is a
 //! ratio: the answer does not change with the user's units.
 
@@ -12,7 +12,6 @@ mod area;
 mod coarse;
 mod frame;
 mod outside;
-mod polonsky_keer;
 mod spans;
 mod tangent;
 mod windows;
@@ -23,59 +22,15 @@ use std::sync::atomic::AtomicBool;
 use active_set::{ActiveSet, Scratches, Work};
 use frame::Frame;
 use outside::OutsideGapBound;
-use polonsky_keer::{Given, PolonskyKeer};
 use windows::Windows;
 
 use super::convolution::{Convolution, ConvolutionError};
+use super::instant::{Imposed, SolverSettings};
+use super::polonsky_keer::{Given, PolonskyKeer};
 use crate::contact::surface::{PressureLine, Response, Surface};
 use crate::contact::{
     ContactError, Engine, Instant, Prescribed, Solution, highest, sums, surface_of_cells,
 };
-
-/// When the iteration stops.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SolverSettings {
-    /// Largest allowed pressure-weighted mean |gap| inside the contact, and largest penetration outside, both relative to
-    /// the pressure-weighted mean displacement that the instant's own pressure causes (or to a lower bound of it). Where that
-    /// displacement is tiny beside what earlier pressures have left (a load about to vanish), rounding of the latter is allowed
-    /// on top.
-    pub tolerance: f64,
-    /// Iterations after which an instant counts as not converged.
-    pub max_iterations: usize,
-}
-
-impl Default for SolverSettings {
-    fn default() -> Self {
-        Self {
-            tolerance: 1e-8,
-            max_iterations: 2000,
-        }
-    }
-}
-
-/// What the drive imposes, in the engine's terms.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Imposed {
-    /// Sum of the cells' pressures (Pa).
-    PressureSum(f64),
-    ApproachM(f64),
-}
-
-impl Imposed {
-    fn target_sum(self) -> Option<f64> {
-        match self {
-            Self::PressureSum(sum) => Some(sum),
-            Self::ApproachM(_) => None,
-        }
-    }
-
-    fn approach_m(self) -> Option<f64> {
-        match self {
-            Self::PressureSum(_) => None,
-            Self::ApproachM(approach_m) => Some(approach_m),
-        }
-    }
-}
 
 /// The half-space engine of one gap field.
 pub struct HalfSpace {
@@ -113,10 +68,6 @@ struct Found {
     pressure_sum: f64,
     steps: usize,
 }
-
-/// Rounding of a convolution and of the gaps made from it, as a part of the largest displacement: some units in the last
-/// place.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 impl HalfSpace {
     /// An engine for this gap field (m, one value per cell of the operator's grid; infinite where there is no indenter).
@@ -242,12 +193,12 @@ impl HalfSpace {
         let safeguard = self.safeguard.get_or_insert_with(new);
         safeguard.convolutions = 0;
         let given = Given {
-            operator: &self.operator,
+            operator: &*self.operator,
             settings: self.settings,
             gap_m: &self.gap_m,
             compliance: instant.compliance_per_pa,
             imposed,
-            work,
+            interrupt: work.interrupt.as_deref(),
         };
         let solved = safeguard.solve(&given, instant.history, pressure, work.steps);
         work.convolutions += safeguard.convolutions;
@@ -261,10 +212,9 @@ impl HalfSpace {
                 }
             }
             Some((residual, steps)) => Found {
-                // Weighted by the pressure, the mean gap left by the iteration counts only in second order.
                 approach_m: imposed
                     .approach_m()
-                    .unwrap_or_else(|| residual.lifted / residual.pressure_sum),
+                    .unwrap_or_else(|| residual.mean_approach_m()),
                 pressure_sum: residual.pressure_sum,
                 steps,
             },
@@ -346,26 +296,6 @@ impl HalfSpace {
             return Ok(found);
         }
         self.solve_safely(instant, imposed, pressure, work)
-    }
-}
-
-/// The starting pressure: the guess made non-negative and scaled to the load, or, without a guess, the load spread evenly
-/// over the indenter.
-fn start(target_sum: Option<f64>, gap_m: &[f64], pressure: &mut [f64]) {
-    for (p, gap) in pressure.iter_mut().zip(gap_m) {
-        *p = if gap.is_finite() { p.max(0.0) } else { 0.0 };
-    }
-    let Some(target) = target_sum else { return };
-    let sum = sums::sum(pressure);
-    if sum > 0.0 {
-        let scale = target / sum;
-        pressure.iter_mut().for_each(|p| *p *= scale);
-        return;
-    }
-    let count = gap_m.iter().filter(|g| g.is_finite()).count().max(1);
-    let value = target / count as f64;
-    for (p, gap) in pressure.iter_mut().zip(gap_m) {
-        *p = if gap.is_finite() { value } else { 0.0 };
     }
 }
 

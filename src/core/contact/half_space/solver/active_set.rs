@@ -14,6 +14,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use super::super::convolution::{Convolution, Scratch, WindowOperators};
+use super::super::instant::STANDING_OFF;
 use super::frame::Frame;
 use super::outside::{Moments, first_centre};
 use super::spans::Spans;
@@ -92,10 +93,6 @@ const STEPS_PER_CONTACT: usize = 50;
 const SHARE_BEFORE_JOINING: f64 = 0.2;
 /// Cells join that penetrate by this share of what the tolerance allows.
 const JOINING: f64 = 0.3;
-/// A cell under pressure may stand off by this many times what the tolerance allows on average, no more: a tiny pressure hardly
-/// weighs in the average, wherever it is, but it says that there is contact. Cells at the edge settle last and are that far off.
-pub(super) const STANDING_OFF: f64 = 30.0;
-
 /// Fields of a window.
 #[derive(Debug, Default)]
 pub(super) struct ActiveSet {

@@ -2,8 +2,9 @@
 
 use std::sync::Arc;
 
+use super::super::instant::{Imposed, SolverSettings};
+use super::HalfSpace;
 use super::active_set::Work;
-use super::{HalfSpace, Imposed, SolverSettings};
 use crate::contact::{ContactError, Instant};
 
 /// Cells per side below which a guess is not worth its while.

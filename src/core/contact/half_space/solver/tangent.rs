@@ -6,7 +6,8 @@
 
 use std::sync::Arc;
 
-use super::{HalfSpace, SolverSettings};
+use super::super::instant::SolverSettings;
+use super::HalfSpace;
 use crate::contact::{ContactError, Engine, Instant, Prescribed};
 
 /// The load of the punch is right to about this part of it, far below what the cells leave in it.

@@ -3,10 +3,11 @@
 use std::sync::Arc;
 
 use super::super::influence::Influence;
+use super::super::instant::{Imposed, ROUNDING, start};
 use super::active_set::{Ending, Problem, State, Work};
 use super::frame::Frame;
 use super::outside::{Moments, OutsideGapBound, first_centre};
-use super::{Found, HalfSpace, Imposed, ROUNDING, start, sums};
+use super::{Found, HalfSpace, sums};
 use crate::contact::{ContactError, Instant};
 
 /// Where an instant is solved, and where its sources of displacement are.

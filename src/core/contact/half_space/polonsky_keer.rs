@@ -1,4 +1,4 @@
-//! The safe way to solve an instant, on the whole grid: conjugate gradients with contact-set updates (I. A. Polonsky and
+//! An instant on the whole grid, whatever the elastic operator: conjugate gradients with contact-set updates (I. A. Polonsky and
 //! L. M. Keer, Wear 231 (1999) 206; the approach-controlled variant without mean-gap correction and load rescaling is that of
 //! S. Spinu, Advances in Tribology 2018, 9432894, figure 2).
 //!
@@ -6,16 +6,62 @@
 //! follows the pressure by the product already computed for the search direction, so that an iteration costs one convolution;
 //! where the contact changes, it costs two.
 
-use super::super::convolution::{Convolution, Scratch};
-use super::active_set::{STANDING_OFF, Work};
-use super::{Imposed, ROUNDING, SolverSettings, start};
-use crate::contact::ContactError;
+use std::sync::atomic::AtomicBool;
+
+use super::convolution::{Convolution, ConvolutionError, PeriodicOperator, Scratch};
+use super::instant::{Imposed, ROUNDING, STANDING_OFF, SolverSettings, start};
+use crate::contact::{ContactError, go_on};
+
+/// The elastic operator B of a surface in cells.
+pub(super) trait Operator {
+    /// Displacement (m per 1/Pa) of every cell by these pressures (Pa).
+    fn apply(
+        &self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+        scratch: &mut Scratch,
+    ) -> Result<(), ConvolutionError>;
+
+    /// The displacement (m) of which the tolerance is a part; `None` while nothing is in contact.
+    fn reference_m(&self, residual: &Residual) -> Option<f64>;
+}
+
+impl Operator for Convolution {
+    fn apply(
+        &self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+        scratch: &mut Scratch,
+    ) -> Result<(), ConvolutionError> {
+        self.apply(pressure, displacement, scratch)
+    }
+
+    fn reference_m(&self, residual: &Residual) -> Option<f64> {
+        (residual.work > 0.0).then(|| residual.work / residual.pressure_sum)
+    }
+}
+
+impl Operator for PeriodicOperator {
+    fn apply(
+        &self,
+        pressure: &[f64],
+        displacement: &mut [f64],
+        scratch: &mut Scratch,
+    ) -> Result<(), ConvolutionError> {
+        self.apply(pressure, displacement, scratch)
+    }
+
+    /// Without its mean, a displacement is as large as the distance between its extremes.
+    fn reference_m(&self, residual: &Residual) -> Option<f64> {
+        Some(residual.elastic_range_m)
+    }
+}
 
 /// Fields of the whole grid.
 pub(super) struct PolonskyKeer {
-    scratch: Scratch,
+    pub(super) scratch: Scratch,
     /// g + B H: the gap under no pressure, before the approach is taken off.
-    free_gap_m: Vec<f64>,
+    pub(super) free_gap_m: Vec<f64>,
     /// B p, without the compliance.
     displacement: Vec<f64>,
     /// B t.
@@ -28,14 +74,14 @@ pub(super) struct PolonskyKeer {
 }
 
 /// What does not change during an instant.
-#[derive(Clone, Copy)]
-pub(super) struct Given<'a> {
-    pub(super) operator: &'a Convolution,
+pub(super) struct Given<'a, B> {
+    pub(super) operator: &'a B,
     pub(super) settings: SolverSettings,
     pub(super) gap_m: &'a [f64],
     pub(super) compliance: f64,
     pub(super) imposed: Imposed,
-    pub(super) work: &'a Work,
+    /// Set from outside to end the instant.
+    pub(super) interrupt: Option<&'a AtomicBool>,
 }
 
 /// The state of the iteration between two passes.
@@ -64,7 +110,7 @@ impl PolonskyKeer {
     /// iterations; `None` where no pressure at all is the solution.
     pub(super) fn solve(
         &mut self,
-        given: &Given<'_>,
+        given: &Given<'_, impl Operator>,
         history: &[f64],
         pressure: &mut [f64],
         taken: usize,
@@ -80,10 +126,18 @@ impl PolonskyKeer {
     }
 
     /// free gap = g + B H.
-    fn prepare_free_gap(&mut self, given: &Given<'_>, history: &[f64]) -> Result<(), ContactError> {
-        given
-            .operator
-            .apply(history, &mut self.free_gap_m, &mut self.scratch)?;
+    pub(super) fn prepare_free_gap(
+        &mut self,
+        given: &Given<'_, impl Operator>,
+        history: &[f64],
+    ) -> Result<(), ContactError> {
+        if history.iter().all(|h| *h == 0.0) {
+            self.free_gap_m.copy_from_slice(given.gap_m);
+            self.noise_m = 0.0;
+            return Ok(());
+        }
+        let operator = given.operator;
+        operator.apply(history, &mut self.free_gap_m, &mut self.scratch)?;
         self.convolutions += 1;
         let mut largest_m = 0.0_f64;
         for (free, gap) in self.free_gap_m.iter_mut().zip(given.gap_m) {
@@ -96,7 +150,7 @@ impl PolonskyKeer {
 
     fn refresh_displacement(
         &mut self,
-        operator: &Convolution,
+        operator: &impl Operator,
         pressure: &[f64],
     ) -> Result<(), ContactError> {
         operator.apply(pressure, &mut self.displacement, &mut self.scratch)?;
@@ -151,7 +205,7 @@ impl PolonskyKeer {
     /// contact. `None` where there is no curvature.
     fn step_length(
         &mut self,
-        given: &Given<'_>,
+        given: &Given<'_, impl Operator>,
         product: f64,
         load_controlled: bool,
         pressure: &[f64],
@@ -208,7 +262,7 @@ impl PolonskyKeer {
     /// One pass: direction, step, projection, load. False where the direction has no curvature, and nothing moved.
     fn advance(
         &mut self,
-        given: &Given<'_>,
+        given: &Given<'_, impl Operator>,
         residual: &Residual,
         state: &mut IterationState,
         pressure: &mut [f64],
@@ -247,7 +301,7 @@ impl PolonskyKeer {
     }
 
     /// Gap sums; the approach is prescribed or, under load control, found here.
-    fn residual(&self, given: &Given<'_>, pressure: &[f64]) -> Residual {
+    fn residual(&self, given: &Given<'_, impl Operator>, pressure: &[f64]) -> Residual {
         let compliance = given.compliance;
         let cells = || {
             let fields = self.free_gap_m.iter().zip(&self.displacement);
@@ -268,8 +322,11 @@ impl PolonskyKeer {
         let prescribed_m = given.imposed.approach_m();
         total.approach_m = prescribed_m.unwrap_or(lifted_sum / total.cells.max(1) as f64);
         let mut lowest = 0.0_f64;
+        let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
         for (&p, (free, u)) in cells() {
-            let gap = free + compliance * u - total.approach_m;
+            let elastic = compliance * u;
+            (least, largest) = (least.min(elastic), largest.max(elastic));
+            let gap = free + elastic - total.approach_m;
             if p > 0.0 {
                 total.squared_gap += gap * gap;
                 total.misfit += p * gap.abs();
@@ -279,13 +336,14 @@ impl PolonskyKeer {
             }
         }
         total.penetration_m = -lowest;
+        total.elastic_range_m = largest - least;
         total
     }
 
     /// The iteration. Returns the residual at the end and the iterations taken.
-    fn iterate(
+    pub(super) fn iterate(
         &mut self,
-        given: &Given<'_>,
+        given: &Given<'_, impl Operator>,
         pressure: &mut [f64],
         taken: usize,
     ) -> Result<(Residual, usize), ContactError> {
@@ -301,7 +359,7 @@ impl PolonskyKeer {
         let tolerance = given.settings.tolerance;
         let (mut relative, mut iterations) = (f64::INFINITY, taken);
         for iteration in taken..given.settings.max_iterations {
-            given.work.go_on()?;
+            go_on(given.interrupt)?;
             let residual = self.residual(given, pressure);
             if residual.cells == 0 && given.imposed.target_sum().is_some() {
                 // A step has emptied the contact, which has a load to carry: begin again.
@@ -311,7 +369,7 @@ impl PolonskyKeer {
                 continue;
             }
             let noise_m = self.noise_m + ROUNDING * residual.approach_m.abs();
-            relative = residual.relative(tolerance, noise_m);
+            relative = residual.relative(operator.reference_m(&residual), tolerance, noise_m);
             if relative <= tolerance {
                 if state.exact {
                     return Ok((residual, iteration));
@@ -358,8 +416,10 @@ pub(super) struct Residual {
     /// Sums over the contact of p |gap|, of p u, of p (free gap + u), and of p.
     misfit: f64,
     work: f64,
-    pub(super) lifted: f64,
+    lifted: f64,
     pub(super) pressure_sum: f64,
+    /// Largest displacement by the instant's own pressure less the least (m).
+    elastic_range_m: f64,
     /// Deepest penetration outside the contact, as a positive number (m).
     penetration_m: f64,
     /// Highest gap under pressure, at least 0 (m).
@@ -367,16 +427,22 @@ pub(super) struct Residual {
 }
 
 impl Residual {
+    /// The approach (m) under load control. Weighted by the pressure, the mean gap left by the iteration counts only in second
+    /// order.
+    pub(super) fn mean_approach_m(&self) -> f64 {
+        self.lifted / self.pressure_sum
+    }
+
     /// What the tolerance bounds, gaps below `noise_m` counting as none; 0 out of contact, infinite where nothing is in
     /// contact yet but something penetrates.
-    fn relative(&self, tolerance: f64, noise_m: f64) -> f64 {
+    fn relative(&self, reference_m: Option<f64>, tolerance: f64, noise_m: f64) -> f64 {
         if self.penetration_m <= 0.0 && self.misfit == 0.0 {
             return 0.0;
         }
-        if self.work <= 0.0 {
+        let Some(reference_m) = reference_m else {
             return f64::INFINITY;
-        }
-        let reference_m = self.work / self.pressure_sum + noise_m / tolerance;
+        };
+        let reference_m = reference_m + noise_m / tolerance;
         let standing_off_m = self.standing_off_m / STANDING_OFF;
         (self.misfit / self.pressure_sum)
             .max(standing_off_m)
