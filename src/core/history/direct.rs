@@ -72,50 +72,6 @@ impl ComplianceFunction for Interpolant {
     }
 }
 
-/// Any function of the lag (s), in 1/Pa, with means by quadrature: smooth on the scale of `shortest_time_s` near lag zero,
-/// and on that of the lag itself beyond.
-#[derive(Debug, Clone, Copy)]
-pub struct Quadrature<F> {
-    pub compliance_per_pa: F,
-    pub shortest_time_s: f64,
-}
-
-/// Nodes on (0, 1) and weights of the Gauss-Legendre rule of five points, exact for polynomials of degree nine.
-const GAUSS: [(f64, f64); 5] = [
-    (0.046_910_077_030_668_004, 0.118_463_442_528_094_54),
-    (0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
-    (0.5, 0.284_444_444_444_444_44),
-    (0.769_234_655_052_841_6, 0.239_314_335_249_683_23),
-    (0.953_089_922_969_332, 0.118_463_442_528_094_54),
-];
-
-impl<F: Fn(f64) -> f64 + Send> ComplianceFunction for Quadrature<F> {
-    fn compliance_per_pa(&self, lag_s: f64) -> f64 {
-        (self.compliance_per_pa)(lag_s)
-    }
-
-    fn mean_per_pa(&self, from_s: f64, to_s: f64) -> f64 {
-        if to_s <= from_s {
-            return (self.compliance_per_pa)(from_s);
-        }
-        // Pieces that double in length, the first as long as the function is smooth.
-        let (mut sum, mut from) = (0.0, from_s);
-        while from < to_s {
-            let length = from.max(self.shortest_time_s).min(to_s - from);
-            let value =
-                |&(x, weight): &(f64, f64)| weight * (self.compliance_per_pa)(from + x * length);
-            sum += length * GAUSS.iter().map(value).sum::<f64>();
-            let next = from + length;
-            from = if next > from { next } else { to_s };
-        }
-        sum / (to_s - from_s)
-    }
-
-    fn shortest_time_s(&self) -> Option<f64> {
-        Some(self.shortest_time_s)
-    }
-}
-
 /// A step of the direct sum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DirectStep {
@@ -311,6 +267,51 @@ mod tests {
     use crate::material::{
         CreepBranch, MaterialFunction, ModulusKind, library, tabulated::Tabulated,
     };
+
+    /// Any function of the lag (s), in 1/Pa, with means by quadrature: smooth on the scale of `shortest_time_s` near lag zero,
+    /// and on that of the lag itself beyond.
+    #[derive(Debug, Clone, Copy)]
+    struct Quadrature<F> {
+        compliance_per_pa: F,
+        shortest_time_s: f64,
+    }
+
+    /// Nodes on (0, 1) and weights of the Gauss-Legendre rule of five points, exact for polynomials of degree nine.
+    const GAUSS: [(f64, f64); 5] = [
+        (0.046_910_077_030_668_004, 0.118_463_442_528_094_54),
+        (0.230_765_344_947_158_45, 0.239_314_335_249_683_23),
+        (0.5, 0.284_444_444_444_444_44),
+        (0.769_234_655_052_841_6, 0.239_314_335_249_683_23),
+        (0.953_089_922_969_332, 0.118_463_442_528_094_54),
+    ];
+
+    impl<F: Fn(f64) -> f64 + Send> ComplianceFunction for Quadrature<F> {
+        fn compliance_per_pa(&self, lag_s: f64) -> f64 {
+            (self.compliance_per_pa)(lag_s)
+        }
+
+        fn mean_per_pa(&self, from_s: f64, to_s: f64) -> f64 {
+            if to_s <= from_s {
+                return (self.compliance_per_pa)(from_s);
+            }
+            // Pieces that double in length, the first as long as the function is smooth.
+            let (mut sum, mut from) = (0.0, from_s);
+            while from < to_s {
+                let length = from.max(self.shortest_time_s).min(to_s - from);
+                let value = |&(x, weight): &(f64, f64)| {
+                    weight * (self.compliance_per_pa)(from + x * length)
+                };
+                sum += length * GAUSS.iter().map(value).sum::<f64>();
+                let next = from + length;
+                from = if next > from { next } else { to_s };
+            }
+            sum / (to_s - from_s)
+        }
+
+        fn shortest_time_s(&self) -> Option<f64> {
+            Some(self.shortest_time_s)
+        }
+    }
 
     fn pmma() -> Creep {
         let material = library::find("pmma").unwrap().material().unwrap();

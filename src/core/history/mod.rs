@@ -44,7 +44,7 @@ mod memory;
 mod work;
 
 pub use cycle_sums::CycleSums;
-pub use direct::{ComplianceFunction, DirectMemory, DirectStep, Quadrature};
+pub use direct::{ComplianceFunction, DirectMemory, DirectStep};
 pub use dissipation::Dissipation;
 pub use extrapolation::Extrapolation;
 pub use hereditary::{Hereditary, Stage};
