@@ -2,15 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::loaded::Loaded;
-
 /// Pressures of the last instants, and the steps between them.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Extrapolation {
     /// The pressures one and two instants before the last.
     before: [Vec<f64>; 2],
-    /// Where any of them is not zero.
-    loaded: Loaded,
     /// How many of them belong to the present course of the drive.
     known: usize,
     /// The step (s) that led to the last pressure, and the one before it.
@@ -33,11 +29,9 @@ impl Extrapolation {
         std::mem::swap(one, two);
         one.resize(pressure.len(), 0.0);
         two.resize(pressure.len(), 0.0);
-        self.loaded.extend(pressure);
-        let loaded = self.loaded.range();
         // `one` is now the older of the two, and makes room for the last pressure once it has been used.
-        let older = one[loaded.clone()].iter_mut().zip(&two[loaded.clone()]);
-        for (p, (older, old)) in pressure[loaded].iter_mut().zip(older) {
+        let older = one.iter_mut().zip(&*two);
+        for (p, (older, old)) in pressure.iter_mut().zip(older) {
             let last = *p;
             let guess = weights[0] * last + weights[1] * old + weights[2] * *older;
             *p = if last > 0.0 { guess.max(0.0) } else { last };
@@ -50,9 +44,7 @@ impl Extrapolation {
     /// Whether it can look back on this number of nodes.
     pub(super) fn fits(&self, nodes: usize) -> bool {
         let mut before = self.before.iter();
-        before.all(|pressure| [0, nodes].contains(&pressure.len()))
-            && self.loaded.range().end <= nodes
-            && self.known <= 2
+        before.all(|pressure| [0, nodes].contains(&pressure.len())) && self.known <= 2
     }
 
     /// The past says nothing of what comes.

@@ -6,7 +6,6 @@ use multiversion::multiversion;
 
 use super::cycle_sums::CycleSums;
 use super::hereditary::{Hereditary, Stage};
-use super::loaded::Loaded;
 use crate::contact::sums;
 use crate::material::Creep;
 use crate::numerics::roots::bisect;
@@ -266,8 +265,6 @@ pub struct Memory {
     compliance: Creep,
     /// Whether steps are to be taken in two stages.
     rings: bool,
-    /// Beyond these nodes there is nothing to remember.
-    loaded: Loaded,
     /// Branch-major: the memory of branch j fills `nodes` values from `j * nodes`.
     branches: Vec<f64>,
     /// Integral of the pressure over time per node; empty without a flow term.
@@ -286,7 +283,6 @@ impl Memory {
         };
         Self {
             nodes,
-            loaded: Loaded::default(),
             branches: vec![0.0; nodes * compliance.branches().len()],
             flow,
             cycle: None,
@@ -332,22 +328,11 @@ impl Memory {
         for memory in self.branches.chunks_exact_mut(self.nodes) {
             memory.copy_from_slice(pressure);
         }
-        self.find_loaded();
     }
 
     /// Takes over variables as [`Memory::variables`] gave them.
     pub(super) fn recall(&mut self, variables: &[f64]) {
         self.branches.copy_from_slice(variables);
-        self.find_loaded();
-    }
-
-    /// After the variables were written from outside.
-    fn find_loaded(&mut self) {
-        self.loaded = Loaded::default();
-        for memory in self.branches.chunks_exact(self.nodes) {
-            self.loaded.extend(memory);
-        }
-        self.loaded.extend(&self.flow);
     }
 }
 
@@ -375,12 +360,8 @@ impl Hereditary for Memory {
 
     /// Ages the memory by everything that is known before the new pressure is.
     fn predict(&mut self, weights: &StepWeights, old_pressure: &[f64], history: &mut [f64]) {
-        self.loaded.extend(old_pressure);
-        let loaded = self.loaded.range();
-        history[..loaded.start].fill(0.0);
-        history[loaded.end..].fill(0.0);
         let eta = self.compliance.viscosity_pa_s();
-        for block in blocks(loaded) {
+        for block in blocks(self.nodes) {
             let (old_pressure, history) =
                 (&old_pressure[block.clone()], &mut history[block.clone()]);
             history.fill(0.0);
@@ -405,8 +386,7 @@ impl Hereditary for Memory {
     }
 
     fn commit(&mut self, weights: &StepWeights, new_pressure: &[f64]) {
-        self.loaded.extend(new_pressure);
-        for block in blocks(self.loaded.range()) {
+        for block in blocks(self.nodes) {
             let new_pressure = &new_pressure[block.clone()];
             let chunks = self.branches.chunks_exact_mut(self.nodes);
             for (memory, w) in chunks.zip(&weights.branches) {
@@ -465,12 +445,10 @@ fn fade(
 }
 
 /// The nodes in blocks of which several fields stay in the fastest cache while all branches pass over them.
-fn blocks(nodes: Range<usize>) -> impl Iterator<Item = Range<usize>> {
+fn blocks(nodes: usize) -> impl Iterator<Item = Range<usize>> {
     const BLOCK: usize = 1024;
-    let end = nodes.end;
-    nodes
-        .step_by(BLOCK)
-        .map(move |start| start..(start + BLOCK).min(end))
+    let starts = (0..nodes).step_by(BLOCK);
+    starts.map(move |start| start..(start + BLOCK).min(nodes))
 }
 
 #[cfg(test)]

@@ -38,7 +38,6 @@ mod direct;
 mod dissipation;
 mod extrapolation;
 mod hereditary;
-mod loaded;
 mod march;
 mod memory;
 mod work;
