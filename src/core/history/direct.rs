@@ -13,8 +13,7 @@
 //! S. Spinu, Advances in Tribology 2018, 9432894, and of first order. A jump of the drive is a step of length zero. In a
 //! damped step ([`Hereditary::stages`]) part of the increment comes at the step's begin, where it counts with C(t_n - t_(k-1)).
 
-use super::hereditary::{Hereditary, Stage};
-use super::memory::TimeRule;
+use super::hereditary::{DirectStep, Hereditary, PastState, Stage, TimeRule};
 use crate::material::Creep;
 use crate::material::interpolant::Interpolant;
 
@@ -72,16 +71,6 @@ impl ComplianceFunction for Interpolant {
     }
 }
 
-/// A step of the direct sum.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DirectStep {
-    step_s: f64,
-    rule: TimeRule,
-    compliance_per_pa: f64,
-    /// The part of the increment that comes at the step's begin.
-    at_once: f64,
-}
-
 impl DirectStep {
     /// What a unit increment of this step has become (1/Pa) when `lag_s` have passed since the step's end.
     fn weight_per_pa(&self, compliance: &impl ComplianceFunction, lag_s: f64) -> f64 {
@@ -94,28 +83,6 @@ impl DirectStep {
             return by_rule;
         }
         by_rule + self.at_once * (compliance.compliance_per_pa(begun_s) - by_rule)
-    }
-
-    fn numbers(&self) -> [f64; 4] {
-        let is_constant = f64::from(self.rule == TimeRule::Constant);
-        [
-            self.step_s,
-            is_constant,
-            self.compliance_per_pa,
-            self.at_once,
-        ]
-    }
-
-    fn from_numbers(&[step_s, is_constant, compliance_per_pa, at_once]: &[f64; 4]) -> Self {
-        Self {
-            step_s,
-            rule: match is_constant == 1.0 {
-                true => TimeRule::Constant,
-                false => TimeRule::Linear,
-            },
-            compliance_per_pa,
-            at_once,
-        }
     }
 }
 
@@ -231,28 +198,20 @@ impl<C: ComplianceFunction> Hereditary for DirectMemory<C> {
         self.compliance.shortest_time_s()
     }
 
-    fn state(&self) -> Vec<Vec<f64>> {
-        let steps = self.steps.iter().flat_map(|step| step.numbers());
-        vec![steps.collect(), self.increments.clone(), self.last.clone()]
+    fn state(&self) -> PastState {
+        PastState {
+            nodal: vec![self.increments.clone(), self.last.clone()],
+            steps: self.steps.clone(),
+        }
     }
 
-    fn nodal_parts(state: &mut [Vec<f64>]) -> &mut [Vec<f64>] {
-        // The first part is of the steps.
-        state.get_mut(1..).unwrap_or_default()
-    }
-
-    fn restore(&mut self, state: &[Vec<f64>]) -> bool {
-        let [steps, increments, last] = state else {
+    fn restore(&mut self, state: &PastState) -> bool {
+        let [increments, last] = &state.nodal[..] else {
             return false;
         };
-        let (steps, rest) = steps.as_chunks();
-        let fits = rest.is_empty()
-            && increments.len() == steps.len() * self.nodes
-            && last.len() == self.nodes;
+        let fits = increments.len() == state.steps.len() * self.nodes && last.len() == self.nodes;
         if fits {
-            self.steps.clear();
-            self.steps
-                .extend(steps.iter().map(DirectStep::from_numbers));
+            self.steps.clone_from(&state.steps);
             self.increments.clone_from(increments);
             self.last.copy_from_slice(last);
         }

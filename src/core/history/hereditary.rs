@@ -1,7 +1,30 @@
 //! What time marching asks of the body's past, however it is kept.
 
-use super::memory::TimeRule;
+use serde::{Deserialize, Serialize};
+
 use crate::contact::Prescribed;
+
+/// How the pressure is taken to vary within a time step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum TimeRule {
+    /// Linear within a step: second order, exact for the kernel at any step length. Between the two instants for bodies in
+    /// which that does not ring; for the others in two stages, see [`StepWeights::damped_stages`](super::StepWeights::damped_stages).
+    #[default]
+    Linear,
+    /// Held at its old value, then jumping to the new one: first order. The rule of S. Spinu, Advances in Tribology 2018,
+    /// 9432894, equation (24).
+    Constant,
+}
+
+impl TimeRule {
+    /// As files call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Linear => "linear",
+            Self::Constant => "constant",
+        }
+    }
+}
 
 /// A stage of a step: one instant is solved for each.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +53,25 @@ impl<S> Stage<S> {
             approach => approach,
         }
     }
+}
+
+/// A step of the direct sum.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DirectStep {
+    pub(super) step_s: f64,
+    pub(super) rule: TimeRule,
+    pub(super) compliance_per_pa: f64,
+    /// The part of the increment that comes at the step's begin.
+    pub(super) at_once: f64,
+}
+
+/// Everything that the past of a body keeps.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PastState {
+    /// Values per node, in every part any number of fields one after another.
+    pub nodal: Vec<Vec<f64>>,
+    /// The steps taken, where the past is kept in full.
+    pub steps: Vec<DirectStep>,
 }
 
 /// The past of a body: gives the hereditary part of the next instant, and takes in its pressure.
@@ -63,14 +105,9 @@ pub trait Hereditary {
     fn shortest_time_s(&self) -> Option<f64>;
 
     /// Everything it keeps, for [`Hereditary::restore`].
-    fn state(&self) -> Vec<Vec<f64>>;
-
-    /// Those parts of a state that hold values per node, any number of fields one after another.
-    fn nodal_parts(state: &mut [Vec<f64>]) -> &mut [Vec<f64>] {
-        state
-    }
+    fn state(&self) -> PastState;
 
     /// Goes back to what a past of the same compliance kept. False, and nothing done, where the state is none of this
     /// compliance on this number of nodes.
-    fn restore(&mut self, state: &[Vec<f64>]) -> bool;
+    fn restore(&mut self, state: &PastState) -> bool;
 }

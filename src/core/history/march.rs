@@ -6,7 +6,9 @@ use crate::contact::half_space::grid::Grid;
 use crate::contact::surface::{Response, Surface};
 use crate::contact::{ContactError, Engine, Instant, Prescribed, Solution};
 use crate::history::extrapolation::Extrapolation;
-use crate::history::{Dissipation, Hereditary, Memory, Stage, StepWeights, TimeRule, Work};
+use crate::history::{
+    Dissipation, Hereditary, Memory, PastState, Stage, StepWeights, TimeRule, Work,
+};
 use crate::material::Creep;
 
 /// A contact moving through time, its past kept as memory variables or, as [`DirectMemory`](super::DirectMemory), in full.
@@ -47,7 +49,7 @@ pub struct StepState {
     /// The stage of the step, from 0.
     pub stage: usize,
     /// As [`Hereditary::state`].
-    pub memory: Vec<Vec<f64>>,
+    pub memory: PastState,
     /// The pressure from which the instant is solved.
     pub guess: Vec<f64>,
     /// The hereditary part of the instant.

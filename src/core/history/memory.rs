@@ -5,32 +5,10 @@ use std::ops::Range;
 use multiversion::multiversion;
 
 use super::cycle_sums::CycleSums;
-use super::hereditary::{Hereditary, Stage};
+use super::hereditary::{Hereditary, PastState, Stage, TimeRule};
 use crate::contact::sums;
 use crate::material::Creep;
 use crate::numerics::roots::bisect;
-
-/// How the pressure is taken to vary within a time step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum TimeRule {
-    /// Linear within a step: second order, exact for the kernel at any step length. Between the two instants for bodies in
-    /// which that does not ring; for the others in two stages, see [`StepWeights::damped_stages`].
-    #[default]
-    Linear,
-    /// Held at its old value, then jumping to the new one: first order. The rule of S. Spinu, Advances in Tribology 2018,
-    /// 9432894, equation (24).
-    Constant,
-}
-
-impl TimeRule {
-    /// As files call it.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Linear => "linear",
-            Self::Constant => "constant",
-        }
-    }
-}
 
 /// Weights of one branch over one step: m <- decay m + old p_old + new p_new.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -412,15 +390,20 @@ impl Hereditary for Memory {
     }
 
     /// Memory variables, then what has flowed.
-    fn state(&self) -> Vec<Vec<f64>> {
-        vec![self.branches.clone(), self.flow.clone()]
+    fn state(&self) -> PastState {
+        PastState {
+            nodal: vec![self.branches.clone(), self.flow.clone()],
+            steps: Vec::new(),
+        }
     }
 
-    fn restore(&mut self, state: &[Vec<f64>]) -> bool {
-        let [branches, flow] = state else {
+    fn restore(&mut self, state: &PastState) -> bool {
+        let [branches, flow] = &state.nodal[..] else {
             return false;
         };
-        let fits = branches.len() == self.branches.len() && flow.len() == self.flow.len();
+        let fits = state.steps.is_empty()
+            && branches.len() == self.branches.len()
+            && flow.len() == self.flow.len();
         if fits {
             self.flow.copy_from_slice(flow);
             self.recall(branches);

@@ -43,10 +43,10 @@ mod memory;
 mod work;
 
 pub use cycle_sums::CycleSums;
-pub use direct::{ComplianceFunction, DirectMemory, DirectStep};
+pub use direct::{ComplianceFunction, DirectMemory};
 pub use dissipation::Dissipation;
 pub use extrapolation::Extrapolation;
-pub use hereditary::{Hereditary, Stage};
+pub use hereditary::{DirectStep, Hereditary, PastState, Stage, TimeRule};
 pub use march::{LastInstant, March, MarchState, Observer, StepState};
-pub use memory::{Memory, StepWeights, TimeRule, order_of_steps};
+pub use memory::{Memory, StepWeights, order_of_steps};
 pub use work::Work;

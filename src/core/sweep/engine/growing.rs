@@ -7,7 +7,7 @@
 //! transforms are linear; the instant under way is then solved on the wider domain.
 
 use crate::contact::half_space::grid::Grid;
-use crate::history::{Extrapolation, Hereditary, StepState};
+use crate::history::{Extrapolation, StepState};
 use crate::indenter::Indenter;
 
 /// Where the nodes of an engine are.
@@ -120,19 +120,15 @@ impl Moving {
     }
 }
 
-/// The state within a step of a march with memory `M` on the nodes of `from`, as a march on those of `to` goes on from it.
-pub(in crate::sweep) fn moved<M: Hereditary>(
-    state: StepState,
-    from: &Layout,
-    to: &Layout,
-) -> StepState {
+/// The state within a step of a march on the nodes of `from`, as a march on those of `to` goes on from it.
+pub(in crate::sweep) fn moved(state: StepState, from: &Layout, to: &Layout) -> StepState {
     let moving = Moving::new(from, to);
     let fields = |fields: &[f64]| -> Vec<f64> {
         let each = fields.chunks_exact(from.nodes());
         each.flat_map(|field| moving.field(field)).collect()
     };
     let mut memory = state.memory;
-    for part in M::nodal_parts(&mut memory) {
+    for part in &mut memory.nodal {
         *part = fields(part);
     }
     StepState {

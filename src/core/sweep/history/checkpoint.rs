@@ -119,8 +119,7 @@ mod tests {
     use crate::contact::Solution;
     use crate::contact::half_space::grid::Grid;
     use crate::contact::surface::{CellSurface, RadialSurface};
-    use crate::history::Extrapolation;
-    use crate::history::Work;
+    use crate::history::{Extrapolation, PastState, Work};
     use crate::sweep::history::HistoryRow;
     use crate::sweep::store::checkpoint_file;
     use std::fs;
@@ -170,7 +169,10 @@ mod tests {
             }),
             step: StepState {
                 stage: 1,
-                memory: vec![vec![1.0, 2.0], Vec::new()],
+                memory: PastState {
+                    nodal: vec![vec![1.0, 2.0], Vec::new()],
+                    steps: Vec::new(),
+                },
                 guess: vec![3.0],
                 history: vec![4.0],
                 course: Some(looking_back),

@@ -257,7 +257,7 @@ impl Following<'_> {
         match (march.end_step(weights, prescribed), &self.wider) {
             (Err(ContactError::ReachedEdge { .. }), Some(wider)) => {
                 let state = march.step_state(at.0, at.1);
-                let state = growing::moved::<M>(state, &self.layout, wider);
+                let state = growing::moved(state, &self.layout, wider);
                 return Err(MarchError::Outgrown(Box::new(state)));
             }
             (Err(ContactError::Interrupted), _) => {
